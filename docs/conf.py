@@ -37,7 +37,13 @@ extensions = [
     "plain_types",
     "root_pages",
 ]
-exclude_patterns = ["_*", "api/generated/README*", "gallery", "**/cache"]
+exclude_patterns = [
+    "_*",
+    "api/generated/README*",
+    "gallery",
+    "gallery-pages/index.rst",  # the page Gallery has it within
+    "**/cache",
+]
 templates_path = ["_templates"]
 language = "en_GB"
 
@@ -65,12 +71,13 @@ html_title = f"optipath {version}"
 html_math_renderer = "mathml"
 html_show_sphinx = False
 html_copy_source = False
+html_show_search_summary = False  # its script fetches pages, which browsers refuse of files
 
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "gallery-pages",
     "image_scrapers": ("shown_figure.scraper",),
-    "reset_modules": (),
+    "reset_modules": ("gallery_lines.use",),
     "capture_repr": (),
     "subsection_order": ExplicitOrder(
         [f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")]

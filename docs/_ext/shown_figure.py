@@ -18,4 +18,13 @@ def scraper(_block, block_vars, gallery_conf):
         return ""
     path = next(block_vars["image_path_iterator"])
     figure.savefig(path, dpi=DOTS_PER_INCH)
-    return figure_rst([path], gallery_conf["src_dir"])
+    return figure_rst([path], gallery_conf["src_dir"], _described(figure))
+
+
+def _described(figure):
+    """Return what stands at the axes of a figure, for those who do not see it."""
+    told = [figure.get_suptitle()]
+    for ax in figure.axes:
+        x, y = ax.get_xlabel(), ax.get_ylabel()
+        told += [ax.get_title(), f"{y} over {x}" if x and y else x or y]
+    return "; ".join(dict.fromkeys(" ".join(text.split()) for text in told if text))

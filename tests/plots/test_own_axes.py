@@ -1,12 +1,15 @@
 """Axes to draw into."""
 
+import matplotlib as mpl
 import numpy as np
 import pytest
+from cycler import cycler
+from matplotlib import figure as figures
 
 import optipath as op
-
-figures = pytest.importorskip("matplotlib.figure")
-own_axes = pytest.importorskip("optipath.plots.own_axes")
+from optipath.plots import own_axes
+from optipath.plots.own_axes import own_panel
+from optipath.plots.states.poincare_sphere import sphere_axes
 
 LIGHT = op.Light([1.0, 0.6, 0.0, 0.8])
 DRAWN = {
@@ -37,3 +40,20 @@ def test_a_panel_with_axes_in_space_is_refused():
     with pytest.raises(op.OptipathError, match="give 1 x 2 Axes of Matplotlib"):
         own_axes.own_panel(panel, (1, 2), (1.0, 1.0))
     assert np.shape(own_axes.own_panel(panel[:1], (1, 1), (1.0, 1.0))) == (1, 1)
+
+
+SIZE = (3.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda: own_axes.own_axes(None, SIZE),
+        lambda: own_panel(None, (1, 2), SIZE)[0, 1],
+        lambda: sphere_axes(None, SIZE),
+    ],
+)
+def test_lines_are_solid_where_matplotlib_is_told_to_dash_them(made):
+    with mpl.rc_context({"axes.prop_cycle": cycler(color=["k"], linestyle=[":"])}):
+        (line,) = made().plot([0, 1], [0, 1], color="r")
+    assert line.get_linestyle() == "-"

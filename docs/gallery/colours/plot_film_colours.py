@@ -34,7 +34,7 @@ def film(incidence):
 
 
 def colours(incidence, axis=None):
-    """Return the colours of the film, in daylight, beside a white that reflects a tenth."""
+    """Return the colours of the film, in daylight, beside a white that reflects 12 %."""
     path = op.Source(spectrum=daylight) >> film(incidence)
     if axis is not None:
         path = path >> op.Polarizer(axis)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 import optipath as op
 
-angles = np.linspace(42, 89, 300)
+angles = np.linspace(38, 89, 300)
 
 figure = Figure(figsize=(6.4, 4), layout="constrained")
 ax = figure.subplots()

@@ -5,7 +5,7 @@ What glass and metals reflect
 Glass has an angle at which light along p is not reflected at all. Metals reflect much of
 everything: p goes through a shallow minimum, and its phase changes against that of s, so that
 linear light becomes elliptical. Materials are asked for by name (``pip install
-"optipath[materials]"``).
+".[materials,plot]"``, in a clone of optipath).
 """
 
 import numpy as np

@@ -10,6 +10,7 @@ colours are lines of equal stress.
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 import optipath as op
 
@@ -27,13 +28,18 @@ def stress(x, y):
 
 
 def disc(pixels):
-    """Return the disc, a wave plate in each pixel, and which pixels are beside it."""
-    x, y = np.meshgrid(*2 * [np.linspace(-1, 1, pixels)])
-    beside = x**2 + y**2 > 0.999
-    difference, axis = stress(np.where(beside, 0, x), np.where(beside, 0, y))
+    """Return the disc, a wave plate in each pixel, an even number of them."""
+    difference, axis = stress(*np.meshgrid(*2 * [np.linspace(-1, 1, pixels)]))
     # Behind rows and columns there is an axis for wavelengths.
     birefringence, axis = MIDDLE * difference[..., np.newaxis], axis[..., np.newaxis]
-    return op.Waveplate(THICKNESS, birefringence, op.Wavelength(), axis), beside
+    return op.Waveplate(THICKNESS, birefringence, op.Wavelength(), axis)
+
+
+def show(ax, image, **how):
+    """Draw pixels of the disc, and none beside it."""
+    drawn = ax.imshow(image, origin="lower", extent=(-1, 1, -1, 1), **how)
+    drawn.set_clip_path(Circle((0, 0), 1, transform=ax.transData))
+    ax.set_axis_off()
 
 
 # %%
@@ -41,7 +47,7 @@ def disc(pixels):
 # retards by whole waves, and a dark cross where the axes of the stress lie along those of the
 # polarisers. Between quarter-wave plates, in circular light, the cross is gone.
 
-plate, beside = disc(300)
+plate = disc(300)
 crossed = op.Source() >> op.Polarizer("0 deg") >> plate >> op.Polarizer("90 deg") >> op.Detector()
 circular = (
     op.Source()
@@ -57,10 +63,8 @@ figure = Figure(figsize=(7, 3.8), layout="constrained")
 names = "crossed polarisers", "quarter-wave plates besides"
 for ax, path, name in zip(figure.subplots(1, 2), (crossed, circular), names, strict=True):
     intensity = path.trace(wavelength=["589 nm"]).intensity[..., 0]
-    seen = np.where(beside, np.nan, intensity)
-    ax.imshow(seen, cmap="gray", vmin=0, vmax=0.5, origin="lower")
+    show(ax, intensity, cmap="gray", vmin=0, vmax=0.5)
     ax.set_title(name)
-    ax.set_axis_off()
 figure
 
 # %%
@@ -69,14 +73,12 @@ figure
 
 daylight = op.Spectrum.illuminant("D65")
 wavelength = op.wavelengths("380 nm", "780 nm", "10 nm")
-plate, beside = disc(160)
+plate = disc(160)
 lamp = op.Source(spectrum=daylight) >> op.Polarizer("0 deg")
 light = (lamp >> plate >> op.Polarizer("90 deg") >> op.Detector()).trace(wavelength=wavelength)
 white = (lamp >> op.Detector()).trace(wavelength=wavelength)
 colours = light.to_srgb(white=white, out_of_gamut="clip").values
 
 figure = Figure(figsize=(4.4, 4.4), layout="constrained")
-ax = figure.subplots()
-ax.imshow(np.where(beside[..., np.newaxis], 1, colours), origin="lower", interpolation="bicubic")
-ax.set_axis_off()
+show(figure.subplots(), colours, interpolation="bicubic")
 figure

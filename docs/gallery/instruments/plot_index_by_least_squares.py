@@ -9,6 +9,7 @@ SciPy's least squares finds them.
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import Normal, Stroke
 from scipy.optimize import least_squares
 
 import optipath as op
@@ -60,7 +61,8 @@ figure = Figure(figsize=(5, 4), layout="constrained")
 ax = figure.subplots()
 drawn = ax.contourf(n, k, squares / spread**2, levels=20, cmap="viridis_r")
 figure.colorbar(drawn, label="sum of squares, over the variance")
-ax.errorbar(*found.x, *errors[::-1], "o", color="white", label="found")
+rim = [Stroke(linewidth=4, foreground="white"), Normal()]
+ax.errorbar(*found.x, *errors[::-1], "o", color="black", label="found", path_effects=rim)
 ax.plot(*TRUE.values(), "+", color="#D55E00", markersize=12, label="true")
 ax.set(xlabel="n", ylabel="k")
 ax.legend()

@@ -46,7 +46,8 @@ class Interface(BoundaryElement, kind="interface"):
     Either medium may absorb. Light in an absorbing medium has come in by a smooth face that is
     parallel to this one: its planes of constant amplitude are parallel to the face. What is
     reflected and let through, each over what arrives, need not add up to 1 there
-    (docs/absorbing.md). A wave that fades along the normal faster than it goes on is refused.
+    ("Light in and out of media that absorb", in the documentation). A wave that fades along the
+    normal faster than it goes on is refused.
 
     Parameters
     ----------

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from optipath.errors import OptipathError, shown
+from optipath.plots.line_colours import LINES
 
 if TYPE_CHECKING:
     Panel: TypeAlias = np.ndarray[Any, Any]
+
+Drawn = TypeVar("Drawn", bound=Axes)
 
 
 def own_axes(given: Any, size: tuple[float, float]) -> Axes:
@@ -34,7 +37,7 @@ def own_axes(given: Any, size: tuple[float, float]) -> Axes:
         If what is given is something else, or axes in space or of angles.
     """
     if given is None:
-        return Figure(figsize=size, layout="constrained").add_subplot()
+        return own_lines(Figure(figsize=size, layout="constrained").add_subplot())
     if not isinstance(given, Axes):
         raise OptipathError(f"ax is {shown(given)}; give Axes of Matplotlib, or leave it out")
     if not _is_flat(given):
@@ -67,7 +70,10 @@ def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> 
         If what is given is something else, or of another shape, or axes in space.
     """
     if given is None:
-        return Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
+        panel = Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
+        for ax in panel.flat:
+            own_lines(ax)
+        return panel
     panel = np.array(given, object)
     if panel.size != shape[0] * shape[1] or not all(map(_is_flat, panel.flat)):
         rows, columns = shape
@@ -76,6 +82,23 @@ def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> 
             f"figure.subplots({rows}, {columns}) makes them, or leave them out"
         )
     return panel.reshape(shape)
+
+
+def own_lines(ax: Drawn) -> Drawn:
+    """Return axes whose lines are solid unless said otherwise, whatever Matplotlib's settings are.
+
+    Parameters
+    ----------
+    ax : Axes
+        New ones.
+
+    Returns
+    -------
+    Axes
+        The same.
+    """
+    ax.set_prop_cycle(color=LINES)
+    return ax
 
 
 def _is_flat(ax: Any) -> bool:

@@ -11,6 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from optipath.errors import OptipathError, shown
 from optipath.plots.line_colours import FAINT, INK
+from optipath.plots.own_axes import own_lines
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -61,6 +62,7 @@ def sphere_axes(given: Any, size: tuple[float, float]) -> Axes3D:
     """
     if given is None:
         given = Figure(figsize=size, layout="constrained").add_subplot(projection="3d")
+        own_lines(given)
     if not isinstance(given, Axes3D):
         raise OptipathError(
             f"ax is {shown(given)}, and a sphere needs axes of three dimensions; give "
