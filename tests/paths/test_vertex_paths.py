@@ -408,7 +408,7 @@ def test_a_path_goes_to_toml_and_back_with_its_points(tmp_path):
 
 def test_a_large_array_of_vertices_is_described_by_its_shape():
     path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
-    assert "vertices=array(1000, 4, 3)" in draw(path)
+    assert "vertices=array of shape (1000, 4, 3)" in draw(path)
     assert len(path.compose().explain()) < 2000
 
 
