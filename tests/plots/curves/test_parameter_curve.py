@@ -186,6 +186,21 @@ def test_what_changes_too_fast_is_told_and_values_that_are_given_stay():
     assert (ax.get_title(), len(lines(ax)["S0"])) == ("", 50)
 
 
+def test_rounding_about_nothing_is_no_fast_change():
+    # Light that is linear at every angle, whose S3 is nothing but rounding.
+    ax = curve(op.load_preset("double-pass-waveplate"), "angle", "S3")
+    assert (ax.get_title(), len(lines(ax)["S3"])) == ("", 1441)
+
+
+def test_what_is_not_read_is_told_apart_from_what_light_does_not_have():
+    path = op.Source(op.Parameter("power", 1.0)) >> op.Detector(reads="linear")
+    ax = curve(path, "power", ("S0", "S3", "DoLP"))
+    assert "S3: not read" in [text.get_text() for text in ax.texts]
+    ax = curve(path, "power", ("AoP", "delta"))
+    told = "AoP: the light has none\ndelta: not read"
+    assert told in [text.get_text() for text in ax.texts]
+
+
 def test_the_legend_is_above_every_curve():
     ax = curve(op.load_preset("glass-slab"), "theta", ("S0", "S1", "DoP"))
     ax.figure.draw_without_rendering()

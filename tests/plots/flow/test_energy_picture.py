@@ -115,3 +115,26 @@ def test_many_values_and_what_is_no_path_are_told():
         energy(op.Polarizer())
     with pytest.raises(OptipathError, match="ax is 3"):
         energy(op.load_preset("malus"), 3)
+
+
+@pytest.mark.parametrize("power", [1e-300, 1e300])
+def test_faint_and_bright_light_is_drawn_as_any_other(power):
+    plain = energy(op.load_preset("npgr026"))
+    ax = energy(op.load_preset("npgr026"), intensity=power)
+    assert widths(ax) == pytest.approx(widths(plain), rel=1e-9)
+    assert max(widths(ax).values()) == pytest.approx(1.0)
+    assert f"gives {power:.3g}" in rows(ax).values()
+    assert faults_of(ax.figure) == []
+
+
+def test_ribbons_do_not_cross_what_is_taken():
+    ax = energy(op.load_preset("absorbing-pile"))
+    spikes = [each for each in ax.patches if isinstance(each, Polygon) and not each.get_gid()]
+    ribbons = [each for each in ax.patches if isinstance(each, Polygon) and each.get_gid()]
+    assert spikes
+    for spike in spikes:
+        (left, top), *_, (right, _) = spike.get_xy()[:5]
+        tip = (left + right) / 2.0, spike.get_xy()[:, 1].min() + 0.01
+        within = [(left + share * (right - left), top - 0.1) for share in (0.05, 0.5, 0.95)]
+        for point in (*within, tip):
+            assert not any(ribbon.get_path().contains_point(point) for ribbon in ribbons)

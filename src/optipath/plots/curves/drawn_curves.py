@@ -53,7 +53,9 @@ def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
     return [*groups.values()]
 
 
-def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
+def draw_curves(
+    ax: Axes, along: AlongAxis, curves: Sequence[Drawn], *, reads: str = "stokes"
+) -> None:
     """Draw curves, their axes, and a legend where there are several.
 
     Points are marked where they are few, or stand alone between gaps.
@@ -66,6 +68,8 @@ def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
         What goes along x.
     curves : sequence of (DrawnQuantity, ndarray)
         What goes up, each of the shape of `along.numbers`.
+    reads : str, optional
+        What the detector reads.
 
     Raises
     ------
@@ -90,7 +94,7 @@ def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
         label_axes(side, along.labels, texts)
     ax.grid(visible=True, alpha=0.3)
     mark_default(ax, along)
-    tell_missing(ax, [(q.name, values) for q, values in curves])
+    tell_missing(ax, curves, reads)
     if len(curves) > 1:
         legend_above(sides, lines)
 
@@ -158,18 +162,23 @@ def mark_default(ax: Axes, along: AlongAxis) -> None:
     top.tick_params(length=3.0, color=FAINT, labelcolor=INK, labelsize="small")
 
 
-def tell_missing(ax: Axes, curves: Sequence[tuple[str, npt.NDArray[np.float64]]]) -> None:
-    """Say which quantities have no value anywhere, where curves are missing.
+def tell_missing(ax: Axes, curves: Sequence[Drawn], reads: str) -> None:
+    """Say which quantities have no value anywhere, or are not read, where curves are missing.
 
     Parameters
     ----------
     ax : Axes
         Where.
-    curves : sequence of (str, ndarray)
-        The names of quantities, and their numbers.
+    curves : sequence of (DrawnQuantity, ndarray)
+        Quantities, and their numbers.
+    reads : str
+        What the detector reads.
     """
-    missing = [name for name, values in curves if not np.isfinite(values).any()]
+    missing = [quantity for quantity, values in curves if not np.isfinite(values).any()]
     if not missing:
         return
-    told = f"{listed(missing)}: the light has none"
+    read = [each.name for each in missing if each.is_read(reads)]
+    unread = [each.name for each in missing if not each.is_read(reads)]
+    lines = [f"{listed(unread)}: not read"] if unread else []
+    told = "\n".join([f"{listed(read)}: the light has none", *lines] if read else lines)
     ax.text(0.5, 0.5, told, transform=ax.transAxes, ha="center", va="center", color=INK, fontsize=9)

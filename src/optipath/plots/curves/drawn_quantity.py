@@ -29,6 +29,11 @@ _PERIODS = {"AoP": 180.0, "delta": 360.0}
 """Of angles whose ends are one."""
 
 
+_READ = {"intensity": {"S0", "log10_intensity"}}
+_READ["linear"] = {*_READ["intensity"], "S1", "S2", "DoLP", "AoP"}
+"""What there is of light of which a detector does not read all."""
+
+
 class DrawnQuantity(NamedTuple):
     """A quantity of light as it is drawn.
 
@@ -72,6 +77,10 @@ class DrawnQuantity(NamedTuple):
     def period(self) -> float | None:
         """After how many degrees an angle is the same again."""
         return _PERIODS.get(self.name)
+
+    def is_read(self, reads: str) -> bool:
+        """Return whether a detector reads enough, ``"stokes"``, ``"linear"`` or ``"intensity"``."""
+        return self.name in _READ.get(reads, {self.name})
 
     def of(self, numbers: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return numbers of the light, in radians where they are angles, as they are drawn."""

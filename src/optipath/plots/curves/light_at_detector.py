@@ -236,6 +236,30 @@ def _fill(
             found[place] = quantity.of(quantity.light.of(light))
 
 
+def reads_of(path: PathGraph, end: str) -> str:
+    """Return what an end of a path reads.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    end : str
+        A detector or a dump.
+
+    Returns
+    -------
+    str
+        ``"stokes"``, ``"linear"`` or ``"intensity"``.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> reads_of(op.Source() >> op.Detector(reads="linear"), "detector")
+    'linear'
+    """
+    return str(path.graph.nodes[end]["element"].reads)
+
+
 def _end(path: PathGraph, detector: Any) -> str:
     """Return the detector that is meant."""
     ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]

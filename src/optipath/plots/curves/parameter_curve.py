@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import ParameterError
 from optipath.plots.curves.drawn_curves import draw_curves, units_of
 from optipath.plots.curves.drawn_quantity import drawn_quantities
-from optipath.plots.curves.light_at_detector import axis_of, quantities_at, varied
+from optipath.plots.curves.light_at_detector import axis_of, quantities_at, reads_of, varied
 from optipath.plots.fine_steps import START, fine_steps
 from optipath.plots.own_axes import own_axes
 from optipath.plots.states.fitting_words import head
@@ -92,7 +92,7 @@ def curve(
     along, given = axis_of(path, parameter, values, START)
     told, chosen = "", values is None
     asked = [*quantities, *drawn_quantities("S0")]
-    _, found = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
+    end, found = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
     numbers = found[:-1]
     if chosen:
         at = partial(_at, path, detector, x, parameters, quantities)
@@ -102,7 +102,8 @@ def curve(
     ax = own_axes(ax, _SIZE)
     if told:
         head(ax, told)
-    draw_curves(ax, along, [*zip(quantities, numbers, strict=True)])
+    drawn = [*zip(quantities, numbers, strict=True)]
+    draw_curves(ax, along, drawn, reads=reads_of(path, end))
     return ax
 
 

@@ -28,6 +28,8 @@ def draw_map(
     up: AlongAxis,
     quantity: DrawnQuantity,
     numbers: npt.NDArray[np.float64],
+    *,
+    reads: str = "stokes",
 ) -> None:
     """Draw a map, its colour bar, and a cross where both values are those by default.
 
@@ -41,6 +43,8 @@ def draw_map(
         What the colours show.
     numbers : ndarray, shape (along, up)
         Of it.
+    reads : str, optional
+        What the detector reads.
     """
     columns, rows = np.argsort(along.numbers), np.argsort(up.numbers)
     sorted_numbers = numbers[np.ix_(columns, rows)].T
@@ -65,7 +69,7 @@ def draw_map(
     if np.isnan(numbers).any():
         texts = [f"{text} (grey: none)" for text in texts] + texts[1:]
     fitting_text(bar.ax.yaxis.label, texts, room)
-    tell_missing(ax, [(quantity.name, numbers)])
+    tell_missing(ax, [(quantity, numbers)], reads)
     _mark_default(ax, along, up)
 
 

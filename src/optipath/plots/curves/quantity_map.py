@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.plots.curves.drawn_quantity import drawn_quantity
-from optipath.plots.curves.light_at_detector import axis_of, quantities_at, varied
+from optipath.plots.curves.light_at_detector import axis_of, quantities_at, reads_of, varied
 from optipath.plots.curves.quantity_colours import draw_map
 from optipath.plots.own_axes import own_axes
 
@@ -77,7 +77,7 @@ def quantity_map(
     up, second = axis_of(path, other, y_values, _COUNT)
     given = {x: first, y: second}
     chosen = x_values is None and y_values is None
-    _, (numbers,) = quantities_at(path, detector, [drawn], given, parameters, chosen=chosen)
+    end, (numbers,) = quantities_at(path, detector, [drawn], given, parameters, chosen=chosen)
     ax = own_axes(ax, _SIZE)
-    draw_map(ax, along, up, drawn, numbers)
+    draw_map(ax, along, up, drawn, numbers, reads=reads_of(path, end))
     return ax

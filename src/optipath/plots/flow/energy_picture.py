@@ -78,13 +78,14 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
         )
     if not all(np.isfinite(link.power) for link in found.links):
         raise OptipathError("the light is not a number on some links; give values that there are")
-    places = EnergyPlaces(energy_rows(found))
-    count = len(places.drawn.rows) + len(found.notes)
+    drawn = energy_rows(found)
+    places = EnergyPlaces(drawn.over_largest())
+    count = len(drawn.rows) + len(found.notes)
     ax = own_axes(ax, (_WIDE, _AROUND + _ROW * count))
     ax.set_axis_off()
     ax.set_ylim(0.55 - count, 0.55)
     _draw(ax, places)
-    _write(ax, places, found)
+    _write(ax, places, drawn.rows, found)
     return ax
 
 
@@ -101,15 +102,14 @@ def _draw(ax: Axes, places: EnergyPlaces) -> None:
     for row in places.drawn.rows:
         if (spike := places.taken(row)) is not None:
             ax.add_patch(Polygon(spike, closed=True, color=_TAKEN, linewidth=0.6, alpha=0.8))
-        width, y = max(places.bar(row), 0.02 * places.largest), places.level[row.name]
+        width, y = max(places.bar(row), 0.02), places.level[row.name]
         left = places.left[row.lane]
         ax.add_patch(Rectangle((left, y - BAR), width, 2 * BAR, color=INK, linewidth=0.6))
 
 
-def _write(ax: Axes, places: EnergyPlaces, found: EnergyAlong) -> None:
+def _write(ax: Axes, places: EnergyPlaces, rows: Sequence[EnergyRow], found: EnergyAlong) -> None:
     """Write names on the left, and what becomes of light on the right, as large as they fit."""
     total = float(sum(found.given.values()))
-    rows = places.drawn.rows
     texts: list[tuple[Any, Any]] = []
     for row in rows:
         y = places.level[row.name]

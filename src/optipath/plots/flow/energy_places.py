@@ -1,4 +1,4 @@
-"""Where the bars and the ribbons of a picture of energy are, in units of power along x."""
+"""Where the bars and the ribbons of a picture of energy are, in units of the largest power."""
 
 from __future__ import annotations
 
@@ -31,9 +31,7 @@ class EnergyPlaces:
     Attributes
     ----------
     drawn : EnergyRows
-        The rows and links.
-    largest : float
-        The largest power at all, or 1.
+        The rows and links, with powers of 1 at most.
     level : dict of str to float
         The y of each row.
     left : dict of int to float
@@ -43,14 +41,12 @@ class EnergyPlaces:
     """
 
     drawn: EnergyRows
-    largest: float = field(init=False)
     level: dict[str, float] = field(init=False)
     left: dict[int, float] = field(init=False)
     width: float = field(init=False)
 
     def __post_init__(self) -> None:
         rows, links = self.drawn
-        largest = max([link.power for link in links], default=0.0) or 1.0
         widths: dict[int, float] = {}
         for row in rows:
             widths[row.lane] = max(widths.get(row.lane, 0.0), self.bar(row))
@@ -60,12 +56,11 @@ class EnergyPlaces:
         left, edge = {}, 0.0
         for lane in sorted(widths):
             left[lane] = edge
-            edge += max(widths[lane], _LEAST * largest) + _GAP * largest
+            edge += max(widths[lane], _LEAST) + _GAP
         vars(self).update(
-            largest=largest,
             level={row.name: -float(at) for at, row in enumerate(rows)},
             left=left,
-            width=edge - _GAP * largest,
+            width=edge - _GAP,
         )
 
     def bar(self, row: EnergyRow) -> float:
@@ -76,11 +71,16 @@ class EnergyPlaces:
         return max(arriving, leaving)
 
     def taken(self, row: EnergyRow) -> npt.NDArray[np.float64] | None:
-        """Return the outline of what an element takes: a spike on the right of what goes on."""
+        """Return the outline of what an element takes: a spike on the right of what goes on.
+
+        What leaves to the right begins on the right of it, and does not cross it.
+        """
         if row.told != "takes":
             return None
-        right = self.left[row.lane] + self.bar(row)
-        left, y = right - row.power, self.level[row.name] - BAR
+        leaving = [link for link in self.drawn.links if link.start == row.name and not link.tap]
+        before = sum(link.power for link in leaving if link.lane <= row.lane)
+        left, y = self.left[row.lane] + before, self.level[row.name] - BAR
+        right = left + row.power
         tip = (left + right) / 2, y - _SPIKE
         return np.array(
             [(left, y), (left, y - _SPIKE / 2), tip, (right, y - _SPIKE / 2), (right, y)]
@@ -93,7 +93,7 @@ class EnergyPlaces:
         end = self._at(link, link.end, BAR), self.level[link.end] + BAR
         lane = self.left[link.lane] + width / 2
         if link.back:
-            return turned_back(begin, lane, end, width, width / self.largest)
+            return turned_back(begin, lane, end, width, width)
         stations = [begin, end]
         if begin[1] - end[1] > 1.0:
             stations[1:1] = [(lane, begin[1] - 1.0 + 2 * BAR), (lane, end[1] + 1.0 - 2 * BAR)]
@@ -110,7 +110,10 @@ class EnergyPlaces:
             if (each.start if leaves else each.end) == name and not each.tap
         ]
         beside.sort(key=lambda each: each.lane)
-        x = self.left[next(row.lane for row in self.drawn.rows if row.name == name)]
+        row = next(row for row in self.drawn.rows if row.name == name)
+        x = self.left[row.lane]
+        if leaves and row.told == "takes" and link.lane > row.lane:
+            x += row.power
         for each in beside:
             if each is link:
                 return x + link.power / 2

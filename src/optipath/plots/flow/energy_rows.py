@@ -73,6 +73,14 @@ class EnergyRows(NamedTuple):
     rows: list[EnergyRow]
     links: list[EnergyLink]
 
+    def over_largest(self) -> EnergyRows:
+        """Return the same with all powers over the largest on a link."""
+        largest = max([link.power for link in self.links], default=0.0) or 1.0
+        return EnergyRows(
+            [row._replace(power=row.power / largest) for row in self.rows],
+            [link._replace(power=link.power / largest) for link in self.links],
+        )
+
 
 def energy_rows(found: EnergyAlong) -> EnergyRows:
     """Return the rows of a path, each element in one of its own, and the lanes of its links.
