@@ -32,7 +32,7 @@ def screenshot(file):
             )
             page = browser.new_page(viewport=SIZE)
             page.goto(f"{server.address}#{STATE}")
-            page.wait_for_selector("#stokes td")
+            page.wait_for_selector("#pictures[aria-busy=false]")
             page.screenshot(path=file)
             browser.close()
         server.shutdown()

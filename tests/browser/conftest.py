@@ -97,16 +97,18 @@ def visit(browser, address, **options):
     assert not outside
 
 
-@pytest.fixture
-def visited(browser, address):
-    """A visit of its own, that asks nothing of another place and ends without a complaint."""
-    yield from visit(browser, address)
-
-
 @pytest.fixture(scope="module")
 def stayed(browser, address):
     """A visit that all tests of a file share."""
     yield from visit(browser, address)
+
+
+@pytest.fixture
+def visited(stayed):
+    """The visit of the file, of which nothing is remembered, and which ends without a complaint."""
+    yield stayed
+    assert not stayed.complaints
+    stayed.page.evaluate("localStorage.clear()")
 
 
 @pytest.fixture

@@ -77,6 +77,11 @@ def test_texts_are_cut_into_number_and_unit(it):
     assert it("units.js", "it.taken('gold')") is None
 
 
+def test_what_is_written_for_the_eye_is_read_back(it):
+    assert it("units.js", "it.plainText(it.typeset('-24.91 deg'))") == "-24.91 deg"
+    assert it("units.js", "it.plainText(it.typeset('1e-9 - 2i'))") == "1e-9 - 2i"
+
+
 def test_steps_of_a_slider_have_no_dust(it):
     assert it("units.js", "it.stepped(0.1 + 0.2, 0, 0.1)") == "0.3"
     assert it("units.js", "it.stepped(516.4, 380, 1)") == "516"
@@ -135,6 +140,16 @@ def test_heights_are_spread_in_their_order(it):
     assert sorted(found) == [found[2], found[0], found[1]]
     assert found[1] - found[0] >= 15
     assert max(found) <= 60
+
+
+def test_a_curve_between_whose_points_there_may_be_more_is_told(it):
+    sampled = "{{ x: [0, 1], lines: [{{ values: Array.from({{ length: 2001 }}, {}) }}] }}"
+    slow = sampled.format("(_, i) => Math.sin(i / 8)")
+    fast = sampled.format("(_, i) => Math.sin(i * i / 1000)")
+    rounding = sampled.format("(_, i) => i + 1e-9 * (-1) ** i")
+    found = it("curve_faults.js", f"[{slow}, {fast}, {rounding}].map(it.isTooFast)")
+    assert found == [False, True, False]
+    assert "itself" in it("curve_faults.js", "it.flat({ x: [30, 30, 30] })")[0]
 
 
 def test_power_that_goes_round_leads_back_once(it):

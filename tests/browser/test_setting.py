@@ -28,6 +28,17 @@ def test_a_number_in_another_unit_is_converted(visited):
     expect(page.locator("#parameter-delta")).to_have_value(f"{np.radians(48.0):.10g}")
     page.locator("#parameter-delta").fill("0.5")
     visited.shows(printed(op.load_preset("npgr026", case="8").trace(delta=0.5)))
+    page.get_by_label("delta, slider").press("ArrowRight")
+    degrees = round(float(np.degrees(0.5)), 1) + 0.1
+    visited.shows(printed(op.load_preset("npgr026", case="8").trace(delta=f"{degrees:.1f} deg")))
+    written = float(page.locator("#parameter-delta").input_value())
+    assert written == pytest.approx(np.radians(degrees), rel=1e-9)
+
+
+def test_signs_that_the_page_prints_are_read(visited):
+    page = visited.open("preset=npgr026&case=8")
+    page.locator("#parameter-rho").fill("\N{MINUS SIGN}24.91\N{DEGREE SIGN}")
+    visited.shows(printed(op.load_preset("npgr026", case="8").trace(rho="-24.91 deg")))
 
 
 def test_words_and_places_and_cases_are_chosen(visited):
@@ -40,7 +51,11 @@ def test_words_and_places_and_cases_are_chosen(visited):
     moved = op.load_preset("npgr026", case="8", place="eye")
     visited.shows(printed(moved.trace(filter="vertical")))
     page.locator("#case").select_option("7")
-    visited.shows(printed(op.load_preset("npgr026", case="7", place="eye").trace()))
+    visited.shows(printed(op.load_preset("npgr026", case="7").trace()))
+    expect(page.get_by_label("place")).to_have_value("light")
+    expect(page.locator("#stokes th[scope=col]")).to_have_text(
+        ["", "computed", "published", "difference"]
+    )
 
 
 def test_a_material_asks_for_a_wavelength_and_gets_it(visited):
@@ -146,6 +161,17 @@ def test_a_curve_is_chosen_and_its_value_pointed_at(visited):
     angle = float(page.locator("#parameter-angle").input_value())
     assert 30.0 < angle < 60.0
     visited.shows(printed(op.load_preset("malus").trace(angle=np.radians(angle))))
+
+
+def test_pointing_at_a_curve_with_ends_in_another_unit_means_what_it_shows(visited):
+    page = visited.open("preset=npgr026&case=8&x=delta&from=0.2+rad&to=1.2+rad")
+    page.locator("#curve-canvas").scroll_into_view_if_needed()
+    box = page.locator("#curve-canvas svg").bounding_box()
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
+    expect(page.locator("#parameter-delta")).not_to_have_value("48")
+    degrees = float(page.locator("#parameter-delta").input_value())
+    assert np.degrees(0.6) < degrees < np.degrees(0.8)
+    visited.shows(printed(op.load_preset("npgr026", case="8").trace(delta=np.radians(degrees))))
 
 
 def test_wrong_ends_of_a_curve_are_told_beside_it(visited):
