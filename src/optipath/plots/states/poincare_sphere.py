@@ -12,6 +12,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from optipath.errors import OptipathError, shown
 from optipath.plots.line_colours import FAINT, INK
 from optipath.plots.own_axes import own_lines
+from optipath.plots.states.named_points import HALO
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -152,6 +153,7 @@ def _draw_circle(
 
 def _draw_axes(ax: Axes3D) -> None:
     style: dict[str, Any] = {"color": INK, "zorder": 8, "transform": ax.transData}
+    style["path_effects"] = [*HALO]
     for name, place in _NAMES:
         point = np.array(place, float)
         (where,) = on_paper(ax, 1.13 * point[np.newaxis])
