@@ -33,6 +33,14 @@ def test_an_address_without_a_preset_is_no_state(it):
     assert it("state.js", "it.fromHash('#case=8')") is None
 
 
+def test_a_wavelength_that_is_offered_is_left_out_and_one_of_the_path_is_kept(it):
+    made = """[true, false].map((offered) => it.withoutIdle(
+      it.withEntry(it.newState("a"), "values", "wavelength", "500 nm"),
+      { parameters: [{ name: "wavelength", default: "", offered }] },
+    ).values)"""
+    assert it("state.js", made) == [{}, {"wavelength": "500 nm"}]
+
+
 def test_changes_of_one_drag_are_one_step(it):
     steps = """(() => {
       const history = new it.History(1);

@@ -38,7 +38,7 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]
     if explored.offers_wavelength:
         light = [in_unit(end, WAVELENGTH.unit) for end in VISIBLE]
-        parameters.append(_told(WAVELENGTH, "") | {"slider": [*light, 1.0]})
+        parameters.append(_told(WAVELENGTH, "") | {"slider": [*light, 1.0], "offered": True})
     choices = [
         {
             "name": name,
@@ -92,6 +92,7 @@ def _told(parameter: Parameter, default: str) -> dict[str, Any]:
         "materials": False,
         "bound": False,
         "array": False,
+        "offered": False,
     }
 
 

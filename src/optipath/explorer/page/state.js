@@ -38,15 +38,14 @@ function asksWavelength(state, about) {
   return given.some((each) => !/^[\s(]*[-+]?\.?\d/.test(state.values[each.name]));
 }
 
-/** Whether a parameter has a part: a wavelength without a default has it with materials. */
+/** Whether a parameter has a part: a wavelength that is only offered has it with materials. */
 export function takesPart(parameter, state, about) {
-  const own = parameter.name !== WAVELENGTH || parameter.default !== "";
-  return own || asksWavelength(state, about);
+  return !parameter.offered || asksWavelength(state, about);
 }
 
 /** A state without a wavelength that nothing asks for. */
 export function withoutIdle(state, about) {
-  const idle = about.parameters.some((each) => each.name === WAVELENGTH && each.default === "");
+  const idle = about.parameters.some((each) => each.offered);
   return idle && !asksWavelength(state, about)
     ? withEntry(state, "values", WAVELENGTH, null)
     : state;
