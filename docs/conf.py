@@ -45,7 +45,7 @@ exclude_patterns = [
     "**/cache",
 ]
 templates_path = ["_templates"]
-language = "en_GB"
+language = "en"  # Sphinx's own texts in en_GB break the search page
 
 nitpicky = True
 # The words of numpydoc for types ("array_like", "shape (..., 4)") and other libraries' names are

@@ -1,5 +1,7 @@
 """The pictures of the gallery: a block shows the figure that it ends with, as in a notebook."""
 
+from pathlib import Path
+
 from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
@@ -18,12 +20,13 @@ def scraper(_block, block_vars, gallery_conf):
         return ""
     path = next(block_vars["image_path_iterator"])
     figure.savefig(path, dpi=DOTS_PER_INCH)
-    return figure_rst([path], gallery_conf["src_dir"], _described(figure))
+    return figure_rst([path], gallery_conf["src_dir"], _described(figure, path))
 
 
-def _described(figure):
+def _described(figure, path):
     """Return what stands at the axes of a figure, for those who do not see it."""
-    told = [figure.get_suptitle()]
+    about = Path(path).stem.removeprefix("sphx_glr_plot_").rpartition("_")[0].replace("_", " ")
+    told = [about, figure.get_suptitle()]
     for ax in figure.axes:
         x, y = ax.get_xlabel(), ax.get_ylabel()
         told += [ax.get_title(), f"{y} over {x}" if x and y else x or y]

@@ -63,7 +63,7 @@ drawn = ax.contourf(n, k, squares / spread**2, levels=20, cmap="viridis_r")
 figure.colorbar(drawn, label="sum of squares, over the variance")
 rim = [Stroke(linewidth=4, foreground="white"), Normal()]
 ax.errorbar(*found.x, *errors[::-1], "o", color="black", label="found", path_effects=rim)
-ax.plot(*TRUE.values(), "+", color="#D55E00", markersize=12, label="true")
+ax.plot(*TRUE.values(), "+", color="#D55E00", markersize=12, zorder=4, label="true")
 ax.set(xlabel="n", ylabel="k")
 ax.legend()
 figure
