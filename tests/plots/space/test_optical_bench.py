@@ -164,6 +164,34 @@ def test_no_angle_is_told_with_the_sign_of_nothing():
     assert "X1\ndelta = 53 deg\nazimuth -rho = 0 deg" in texts
 
 
+@pytest.mark.parametrize(
+    ("preset", "folded"),
+    [
+        ("fresnel-rhomb", {"incidence": "10 deg"}),
+        ("npgr026", {"delta": "89.99 deg", "phi": "0.01 deg"}),
+    ],
+)
+def test_where_symbols_lie_over_one_another_that_is_said_with_the_cure(preset, folded):
+    said = "symbols lie over one another: op.plots.geometry(path) draws this path in space"
+    for values, expected in ((folded, True), ({}, False)):
+        ax = op.plots.bench(op.load_preset(preset), **values)
+        texts = " ".join(texts_in(ax)).replace("\n", " ")
+        assert (said in texts) is expected
+        assert faults_of(ax.figure) == []
+
+
+@pytest.mark.parametrize("preset", ["ellipsometer-rough", "ellipsometer-pcsa"])
+def test_no_name_lies_over_a_ray(preset):
+    ax = op.plots.bench(op.load_preset(preset))
+    beams = [line for line in ax.lines if line.get_zorder() == 3.0]
+    assert "--" in {line.get_linestyle() for line in beams}
+    rays = [Path(ax.transData.transform(line.get_xydata())) for line in beams]
+    for text in ax.texts:
+        if text.get_text():
+            box = text.get_window_extent()
+            assert not any(ray.intersects_bbox(box, filled=False) for ray in rays), text
+
+
 def test_given_axes_are_drawn_into_and_returned():
     given = Figure().add_subplot()
     assert op.plots.bench(op.load_preset("malus"), given) is given

@@ -110,3 +110,12 @@ def test_axes_in_space_and_odd_views_are_refused_with_the_cure():
 def test_several_paths_are_refused():
     with pytest.raises(op.PathError, match="geometry draws one path"):
         op.plots.geometry(op.load_preset("malus"), angle=[0.1, 0.2])
+
+
+@pytest.mark.parametrize("preset", ["npgr026", "npgr026-3d", "copper-gold-spectrum"])
+def test_what_is_left_out_has_its_name_at_its_plate(preset):
+    ax = op.plots.geometry(op.load_preset(preset))
+    boxes = {text.get_text(): text.get_window_extent() for text in ax.texts}
+    plate, absent = boxes["P"], boxes["filter = none"]
+    apart = np.maximum(absent.min - plate.max, plate.min - absent.max)
+    assert apart.max() < 3.0 * plate.height

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -181,3 +182,26 @@ def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
     rays = [ray for ray in scene.rays if ray.end == node.name]
     rays += [ray for ray in scene.rays if ray.start == node.name]
     return np.asarray(flat.sheet @ rays[0].axes[2] if rays else np.array([1.0, 0.0]))
+
+
+def nearest_symbols(scene: Scene, flat: FlatSheet) -> float:
+    """Return how near two symbols are whose middles are nearest, dials of light included.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is drawn.
+    flat : FlatSheet
+        Where.
+
+    Returns
+    -------
+    float
+        In lengths of a link; infinite where there are not two.
+    """
+    rays = zip(scene.rays, flat.rays, strict=True)
+    dials = [drawn.middle for ray, drawn in rays if not (ray.leaves or ray.is_dark)]
+    return min(
+        (float(np.linalg.norm(a - b)) for a, b in combinations([*flat.at.values(), *dials], 2)),
+        default=np.inf,
+    )

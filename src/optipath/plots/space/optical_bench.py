@@ -10,14 +10,15 @@ from matplotlib.transforms import Bbox
 
 from optipath.plots.line_colours import FAINT, INK
 from optipath.plots.own_axes import own_axes
-from optipath.plots.space.bench_symbols import ELLIPSE, dial, draw_symbol
+from optipath.plots.space.bench_symbols import DIAL, ELLIPSE, dial, draw_symbol
 from optipath.plots.space.bench_texts import values_below
 from optipath.plots.space.drawn_scene import draw_head, draw_turn
-from optipath.plots.space.flat_sheet import direction_at, flat_sheet, in_rows
+from optipath.plots.space.flat_sheet import direction_at, flat_sheet, in_rows, nearest_symbols
 from optipath.plots.space.placed_labels import Label, place_labels
 from optipath.plots.space.scene_of import LARGEST_ELLIPSE, scene_with
 from optipath.plots.space.solids import outline
 from optipath.plots.space.told_values import ToldPath
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -94,7 +95,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.
     whole, inch = ax.get_window_extent(), figure.dpi
     size = _POINTS * float(np.clip(whole.width / inch / _WIDTH, 0.66, 1.1))
-    below = _note(ax, scene, size)
+    below = _note(ax, scene, flat, size)
     room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
     if flat.straight:
         lines = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
@@ -118,12 +119,16 @@ def _most(widest: int, inches: float, points: float) -> int:
     return max(int(inches * 72.0 / ((widest + 1.5) * _LETTER * points)), 2)
 
 
-def _note(ax: Axes, scene: Scene, size: float) -> float:
+def _note(ax: Axes, scene: Scene, flat: FlatSheet, size: float) -> float:
     """Write at the lower edge what was chosen, and return how high that reaches in pixels."""
     figure: Any = ax.figure.figure
     whole = ax.get_window_extent()
     columns = int(whole.width / (0.52 * 0.85 * size * figure.dpi / 72.0))
-    said = textwrap.fill("; ".join([_DIALS, *scene.notes]), max(columns, 20))
+    notes = [_DIALS, *scene.notes]
+    if not flat.straight and nearest_symbols(scene, flat) < 2.0 * DIAL:
+        way = cure("op.plots.geometry(path)", "--kind geometry")
+        notes.append(f"symbols lie over one another: {way} draws this path in space")
+    said = textwrap.fill("; ".join(notes), max(columns, 20))
     style: Any = {"fontsize": 0.85 * size, "color": FAINT, "ha": "center", "va": "bottom"}
     text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
     return float(text.get_window_extent().y1)
