@@ -1,10 +1,10 @@
 import json
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-import optipath as op
 from optipath.cli import main
 from optipath.lab.accuracy import chart, critical_chart
 
@@ -70,16 +70,30 @@ def test_nothing_is_written_where_nothing_was_measured_yet(monkeypatch):
     assert list(Path().iterdir()) == []
 
 
-def test_a_chart_is_drawn_again_without_mpmath(monkeypatch, capsys):
-    hidden = [name for name in sys.modules if name.startswith(("optipath.lab", "optipath.plots"))]
-    for name in [*hidden, *(name for name in sys.modules if name.startswith("mpmath"))]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "mpmath", None)
-    monkeypatch.delattr(op, "plots", raising=False)
-    assert main(["chart", "--from", str(DOCS / "chart.json"), "--out", "a.png"]) == 0
+WITHOUT_MPMATH = """
+import subprocess
+import sys
+sys.modules["mpmath"] = None
+from optipath.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def without_mpmath(*arguments):
+    command = [sys.executable, "-c", WITHOUT_MPMATH, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_a_chart_is_drawn_again_without_mpmath():
+    done = without_mpmath("chart", "--from", str(DOCS / "chart.json"), "--out", "a.png")
+    assert done.returncode == 0, done.stderr
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
-    assert main(QUICK) == 2
-    assert "pip install 'optipath[chart]'" in capsys.readouterr().err
+
+
+def test_what_measures_says_that_it_needs_mpmath():
+    done = without_mpmath(*QUICK)
+    assert done.returncode == 2
+    assert "pip install 'optipath[chart]'" in done.stderr
 
 
 def test_errors_near_a_place_are_measured_drawn_and_drawn_again(monkeypatch):
