@@ -5,7 +5,7 @@ import { takesPart } from "./state.js";
 import { plainText } from "./units.js";
 
 /** How many points a curve has while something is moved, and at rest. */
-const COARSE = 361;
+const COARSE = 181;
 export const FINE = 2001;
 
 const field = (words, made) => element("label", { className: "named" }, `${words} `, made);
