@@ -61,6 +61,7 @@ def test_links_of_a_relative_path_are_1_long_and_that_is_said():
 
 @settings(max_examples=25, deadline=None)
 @given(DEGREES, st.floats(0.1, 90.0), st.floats(-180.0, 180.0))
+@example(0.0, 9.0, 0.0)
 @example(0.0, 20.0, 34.0)
 @example(90.0, 90.0, 0.0)
 @example(48.0, 20.0, 180.0)

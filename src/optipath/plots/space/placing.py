@@ -126,10 +126,11 @@ class Placing:
         )
         while left:
             forwards = [link for link in left if link[0] in self.at]
-            backwards = [link for link in left if link[1] in self.at]
-            if forwards:
-                # What comes back goes where there is room, and so comes last.
-                link = min(forwards, key=lambda link: (link[0], link[2][0]) in self._returning)
+            backwards = [each for each in left if each[0] not in self.at and each[1] in self.at]
+            # What comes back goes where there is room, and so comes last.
+            onwards = [link for link in forwards if (link[0], link[2][0]) not in self._returning]
+            if onwards or (forwards and not backwards):
+                link = (onwards or forwards)[0]
                 self.links[link] = self._forwards(link)
             elif backwards:
                 link = backwards[0]
