@@ -119,7 +119,7 @@ def _laid_out(path: PathGraph) -> tuple[GraphLayers, dict[str, NodeBox], dict[Li
 
 def _order(wiring: Wiring) -> list[str]:
     """Return the nodes so that links lead onwards, but for those with which light goes round."""
-    travelled = [name for stretch in wiring.stretches for name, _ in stretch.ports]
+    travelled = [name for name, _ in wiring.order]
     place = {one: at for at, one in enumerate(dict.fromkeys([*travelled, *wiring.elements]))}
     rounds = nx.condensation(wiring.graph)
     members = {one: sorted(rounds.nodes[one]["members"], key=place.__getitem__) for one in rounds}

@@ -176,6 +176,12 @@ class Wiring:
         return stretches(among(self.ports, wanted))
 
     @cached_property
+    def order(self) -> dict[Port, int]:
+        """The place of each port in the order of travel."""
+        travelled = (port for stretch in self.stretches for port in stretch.ports)
+        return {port: place for place, port in enumerate(travelled)}
+
+    @cached_property
     def dark_links(self) -> list[Link]:
         """The links from out-ports that no coupling gives light to."""
         lit = {(name, c.leaves) for name, ways in self.couplings.items() for c in ways}

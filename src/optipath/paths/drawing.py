@@ -37,7 +37,7 @@ def draw(path: PathGraph) -> str:
     """
     graph = path.graph
     wiring = Wiring(graph)
-    travelled = [name for stretch in wiring.stretches for name, _ in stretch.ports]
+    travelled = [name for name, _ in wiring.order]
     order = list(dict.fromkeys([*travelled, *wiring.elements]))
     name_width = max(map(len, order))
     kind_width = max(len(path.element(name).kind) for name in order)

@@ -87,11 +87,8 @@ def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
 
 def _order(wiring: Wiring) -> dict[Port, tuple[int, int]]:
     """Return where in the order of travel light leaves each port, by where it has come in."""
-    travelled = [port for stretch in wiring.stretches for port in stretch.ports]
-    place = {port: number for number, port in enumerate(travelled)}
-    found = {}
-    for name, port in travelled:
-        own = place[name, port]
+    place, found = wiring.order, {}
+    for (name, port), own in place.items():
         ways = [c.enters for c in wiring.couplings[name] if c.leaves == port]
         fed = [place.get((name, enters), own) for enters in ways if enters is not None]
         # That which comes round in a loop comes in behind the port.

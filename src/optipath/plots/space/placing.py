@@ -80,7 +80,6 @@ class Placing:
 
     def __init__(self, told: ToldPath) -> None:
         self.wiring = told.wiring
-        self.order = told.order
         self.at: dict[str, Array] = {}
         self.postures: dict[str, Posture] = {}
         self.links: dict[Link, DrawnLink] = {}
@@ -122,7 +121,7 @@ class Placing:
         """Draw link after link, forwards where that can be, else backwards to other sources."""
         left = sorted(
             self.wiring.graph.edges(keys=True),
-            key=lambda link: (self.order.get((link[0], link[2][0]), 0), link in self._taps),
+            key=lambda link: (self.wiring.order.get((link[0], link[2][0]), 0), link in self._taps),
         )
         while left:
             forwards = [link for link in left if link[0] in self.at]

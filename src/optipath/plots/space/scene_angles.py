@@ -52,7 +52,7 @@ def scene_angles(told: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
     tuple of SceneAngle
     """
     found: list[SceneAngle] = []
-    names = dict.fromkeys(name for name, _ in told.order)
+    names = dict.fromkeys(name for name, _ in told.wiring.order)
     for name in names:
         for link in placing.links:
             if link[1] == name:

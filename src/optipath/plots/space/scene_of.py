@@ -105,7 +105,7 @@ def scene_with(told: ToldPath) -> Scene:
 
 def _nodes(told: ToldPath, placing: Placing) -> list[SceneNode]:
     found = []
-    order = dict.fromkeys([*(name for name, _ in told.order), *placing.at])
+    order = dict.fromkeys([*(name for name, _ in told.wiring.order), *placing.at])
     for name in order:
         posture, kind = placing.postures[name], placing.wiring.elements[name].kind
         stands = placing.at[name], posture.normal, posture.across

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -97,12 +96,6 @@ class ToldPath:
                 "number; give values that there are"
             )
         self.wiring = Wiring(with_followed(graph)[0], keep="all")
-
-    @cached_property
-    def order(self) -> dict[tuple[str, str], int]:
-        """The place of each port in the order of travel."""
-        ports = [port for stretch in self.wiring.stretches for port in stretch.ports]
-        return {port: place for place, port in enumerate(ports)}
 
 
 def number(value: Any) -> float:
