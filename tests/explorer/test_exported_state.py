@@ -54,11 +54,6 @@ to = "E.in"
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 5, "y": ["S0"]}
 
 
-@pytest.fixture(scope="module")
-def answers():
-    return PageAnswers(ExploredPresets())
-
-
 def printed(answers, state):
     ends = answers.trace(state)["detectors"]
     return "".join(f"{name} {' '.join(end['texts'])}\n" for name, end in ends.items())

@@ -44,11 +44,6 @@ to = "E.in"
 """
 
 
-@pytest.fixture(scope="module")
-def answers():
-    return PageAnswers(ExploredPresets())
-
-
 @pytest.fixture
 def own(tmp_path):
     file = tmp_path / "own.toml"

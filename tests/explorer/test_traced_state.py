@@ -33,11 +33,6 @@ to = "E.in"
 """
 
 
-@pytest.fixture(scope="module")
-def answers():
-    return PageAnswers(ExploredPresets())
-
-
 def trace(answers, preset="npgr026", **asked):
     found = answers.trace({"preset": preset, **asked})
     json.dumps(found, allow_nan=False)

@@ -148,9 +148,7 @@ def _lines(
     light = plan.run_all(**grid.given())[detector]
     lines = []
     for quantity in (_NAMES[name] for name in names):
-        unit = quantity.shown_unit
-        numbers = np.broadcast_to(np.asarray(quantity.of(light), float), grid.shape)
-        found = plain(np.degrees(numbers) if unit == "deg" else numbers)
-        told = {"name": quantity.variable, "label": quantity.name, "unit": unit}
-        lines.append({**told, "values": found})
+        numbers = np.broadcast_to(np.asarray(quantity.shown_of(light), float), grid.shape)
+        told = {"name": quantity.variable, "label": quantity.name, "unit": quantity.shown_unit}
+        lines.append({**told, "values": plain(numbers)})
     return lines

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.values.plain_json import plain
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -211,8 +213,8 @@ def _ray(ray: SceneRay) -> dict[str, Any]:
         "to": _list(ray.head),
         "frame": _axes(ray.axes),
         "ellipse": None if ray.ellipse is None else _list(ray.ellipse),
-        "intensity": _number(ray.light.intensity),
-        "dop": _number(ray.light.dop),
+        "intensity": plain(float(ray.light.intensity)),
+        "dop": plain(float(ray.light.dop)),
         "leaves": ray.leaves,
         "tap": ray.tap,
     }
@@ -230,7 +232,3 @@ def _axes(axes: Vector) -> dict[str, Any]:
 
 def _list(numbers: Vector) -> Any:
     return (np.asarray(numbers, float) + 0.0).tolist()
-
-
-def _number(value: Any) -> float | None:
-    return float(value) if np.isfinite(value) else None

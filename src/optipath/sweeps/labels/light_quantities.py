@@ -43,6 +43,11 @@ class LightQuantity(NamedTuple):
             return np.asarray(light.stokes)[..., int(self.attribute)]
         return getattr(light, self.attribute)  # type: ignore[no-any-return]
 
+    def shown_of(self, light: Light) -> npt.NDArray[np.float64]:
+        """Return the same numbers in the `shown_unit`."""
+        numbers = self.of(light)
+        return np.degrees(numbers) if self.unit == "rad" else numbers
+
 
 COMPONENTS = tuple(
     LightQuantity(f"S{place}", str(place), "", name)

@@ -127,8 +127,7 @@ def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Itera
     lights = plan.run_all(**grid.given(region))
     for end in detectors_of(plan):
         for quantity in QUANTITIES:
-            numbers = quantity.of(lights[end])
-            numbers = np.degrees(numbers) if quantity.unit == "rad" else numbers
+            numbers = quantity.shown_of(lights[end])
             each = np.broadcast_to(numbers + 0.0, shape)  # It may be the same along an axis.
             yield [repr(number) for number in each.ravel().tolist()]
 
