@@ -29,7 +29,7 @@ def draw_title(figure: Figure, title: str) -> None:
 
 def _lines(title: str, inches: float) -> list[str]:
     """Return lines that hold each name with its value, unless these alone are wider."""
-    from optipath.plots.charts.fitted_text import broken, width_of  # noqa: PLC0415 - an extra
+    from optipath.plots.text_width import broken, width_of  # noqa: PLC0415 - an extra
 
     *parts, last = title.split(", ")
     words: list[str] = []
@@ -44,7 +44,7 @@ def _lines(title: str, inches: float) -> list[str]:
 
 def _count(text: str, inches: float) -> int:
     """Return how many letters of a text that is too wide fit into a line, one at least."""
-    from optipath.plots.charts.fitted_text import width_of  # noqa: PLC0415 - an extra
+    from optipath.plots.text_width import width_of  # noqa: PLC0415 - an extra
 
     cuts = range(1, len(text))
     return max(1, bisect(cuts, inches, key=lambda cut: width_of(text[:cut], _POINTS)))

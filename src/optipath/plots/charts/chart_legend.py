@@ -10,8 +10,8 @@ from matplotlib.patches import Patch
 from optipath.plots.charts.chart_frame import LINE, WIDTH
 from optipath.plots.charts.chart_marks import POINTS
 from optipath.plots.charts.chart_panel import FAILING
-from optipath.plots.charts.fitted_text import broken, shortened, width_of
 from optipath.plots.line_colours import FAINT, INK
+from optipath.plots.text_width import broken, shortened, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,8 +9,8 @@ from matplotlib.patches import Rectangle
 from optipath.lab.bench.timing import duration
 from optipath.plots.charts.chart_frame import LINE, ROW, panel_width
 from optipath.plots.charts.chart_marks import POINTS
-from optipath.plots.charts.fitted_text import shortened, width_of
 from optipath.plots.line_colours import FAINT, INK
+from optipath.plots.text_width import shortened, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

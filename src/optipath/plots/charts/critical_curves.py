@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from optipath.plots.charts.chart_frame import LINE, WIDTH
 from optipath.plots.charts.chart_legend import EDGE, draw_legend, flowing
 from optipath.plots.charts.chart_marks import POINTS
-from optipath.plots.charts.fitted_text import broken, shortened
 from optipath.plots.line_colours import FAINT, INK, LINES
+from optipath.plots.text_width import broken, shortened
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -10,8 +10,8 @@ from matplotlib.ticker import LogLocator
 from optipath.lab.bench.timing import duration
 from optipath.plots.charts.chart_frame import LEFT, LINE, RIGHT, WIDTH
 from optipath.plots.charts.chart_marks import POINTS
-from optipath.plots.charts.fitted_text import shortened, width_of
 from optipath.plots.line_colours import FAINT, INK, LINES
+from optipath.plots.text_width import shortened, width_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

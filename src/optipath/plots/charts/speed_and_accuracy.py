@@ -11,9 +11,9 @@ from optipath.plots.charts.chart_frame import GAP, LEFT, LINE, RIGHT, WIDTH, Cha
 from optipath.plots.charts.chart_legend import EDGE, draw_legend, failing_lines, legend_rows
 from optipath.plots.charts.chart_marks import POINTS, Looks, marks_of
 from optipath.plots.charts.chart_panel import draw_panel, name_rows
-from optipath.plots.charts.fitted_text import broken, shortened
 from optipath.plots.charts.peer_panel import PeerFrame, draw_peers, told_of_peers
 from optipath.plots.line_colours import INK
+from optipath.plots.text_width import broken, shortened
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, listed
+from optipath.plots.axis_labels import label_axes
 from optipath.plots.curves.open_at_jumps import open_at_jumps
-from optipath.plots.fitting_text import label_axes
 from optipath.plots.legend_above import legend_above
 from optipath.plots.line_colours import DASHES, FAINT, INK, LINES
 

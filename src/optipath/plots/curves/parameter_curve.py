@@ -13,7 +13,7 @@ from optipath.plots.curves.drawn_quantity import drawn_quantities
 from optipath.plots.curves.light_at_detector import axis_of, quantities_at, reads_of, varied
 from optipath.plots.fine_steps import START, fine_steps
 from optipath.plots.own_axes import own_axes
-from optipath.plots.states.fitting_words import head
+from optipath.plots.titles_and_keys import head
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import matplotlib as mpl
 import numpy as np
 
+from optipath.plots.axis_labels import fitting_text, label_axes
 from optipath.plots.curves.drawn_curves import tell_missing
-from optipath.plots.fitting_text import fitting_text, label_axes
 from optipath.plots.line_colours import INK
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ import numpy as np
 
 from optipath.elements.single_boundary import given_index
 from optipath.errors import OptipathError, shown
+from optipath.plots.axis_labels import fitting_text, label_axes
 from optipath.plots.curves.marked_angles import CLEAR, marked_angles, reflected
-from optipath.plots.fitting_text import fitting_text, label_axes
 from optipath.plots.legend_above import legend_above
 from optipath.plots.line_colours import DASHES, FAINT, INK, LINES
 from optipath.plots.own_axes import own_axes

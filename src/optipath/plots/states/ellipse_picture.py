@@ -14,9 +14,9 @@ from optipath.plots.states.drawn_ellipse import (
     draw_unpolarised,
     unpolarised_share,
 )
-from optipath.plots.states.fitting_words import fitting, head, key_below
 from optipath.plots.states.lights_to_draw import lights_to_draw
 from optipath.plots.states.state_words import digits, figures_text, no_ellipse, state_text
+from optipath.plots.titles_and_keys import fitting, head, key_below
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

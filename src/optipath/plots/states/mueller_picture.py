@@ -12,8 +12,8 @@ from optipath.light.mueller.matrix import Mueller
 from optipath.plots.colour_scale import ColourScale
 from optipath.plots.line_colours import FAINT, INK
 from optipath.plots.own_axes import own_axes
-from optipath.plots.states.fitting_words import head, inches_wide, key_below
 from optipath.plots.states.state_words import digits
+from optipath.plots.titles_and_keys import head, inches_wide, key_below
 from optipath.values.arrays.jax_values import check_known, known
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ import numpy as np
 
 from optipath.plots.curves.light_at_detector import axis_of, varied
 from optipath.plots.fine_steps import START, fine_steps
-from optipath.plots.states.fitting_words import head
 from optipath.plots.states.sphere_picture import poincare
 from optipath.plots.states.sphere_points import sphere_point
+from optipath.plots.titles_and_keys import head
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -12,12 +12,12 @@ from matplotlib.colors import to_rgba
 from optipath.errors import OptipathError, shown
 from optipath.plots.colour_scale import ColourScale
 from optipath.plots.line_colours import LINES
-from optipath.plots.states.fitting_words import head, key_below
 from optipath.plots.states.lights_to_draw import known_light
 from optipath.plots.states.named_points import name_points
 from optipath.plots.states.poincare_sphere import on_paper, sphere_axes
 from optipath.plots.states.sphere_points import draw_points, draw_steps, side_keys, sphere_point
 from optipath.plots.states.state_words import figures_text, state_text
+from optipath.plots.titles_and_keys import head, key_below
 from optipath.values.arrays.array_likes import array_of
 
 if TYPE_CHECKING:

@@ -12,12 +12,12 @@ from optipath.errors import OptipathError, shown
 from optipath.paths.lights_along import lights_along
 from optipath.paths.path_graph import PathGraph
 from optipath.plots.line_colours import FAINT, LINES
-from optipath.plots.states.fitting_words import fitting, key_below
 from optipath.plots.states.lights_to_draw import known_light
 from optipath.plots.states.named_points import name_points
 from optipath.plots.states.poincare_sphere import on_paper, sphere_axes
 from optipath.plots.states.sphere_points import draw_points, draw_steps, side_keys, sphere_point
 from optipath.plots.states.state_words import no_ellipse
+from optipath.plots.titles_and_keys import fitting, key_below
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,11 +10,11 @@ from matplotlib.patches import Patch
 
 from optipath.plots.line_colours import INK, LINES
 from optipath.plots.own_axes import own_axes
-from optipath.plots.states.fitting_words import fitting, inches_wide, key_above
 from optipath.plots.states.lights_to_draw import lights_to_draw
 from optipath.plots.states.published_stokes import published_for
 from optipath.plots.states.scaled_stokes import power_of_ten, scaled_to, without_noise
 from optipath.plots.states.state_words import digits
+from optipath.plots.titles_and_keys import fitting, inches_wide, key_above
 from optipath.values.arrays.jax_values import known
 
 if TYPE_CHECKING:
