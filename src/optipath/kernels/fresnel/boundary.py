@@ -54,6 +54,11 @@ class Boundary(NamedTuple):
     n: Any
     k: Any
 
+    @property
+    def squares(self) -> tuple[Any, Any]:
+        """p^2 + |g|^2 and 2 Re(p conj g)."""
+        return self.p * self.p + self.squared, 2.0 * self.p * self.a
+
 
 def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     """Make ``(n1, n, k, [n0,] cos, sin) -> Boundary``.
@@ -64,15 +69,15 @@ def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     wave, root = absorbing_wave(xp), complex_root(xp)
 
     def boundary(n1: Any, n: Any, k: Any, *angle: Any) -> Boundary:
-        n1, n, k, c, s, p, contrast, u = wave(n1, n, k, *angle)
+        n1, n, k, c, s, p, D, u = wave(n1, n, k, *angle)
         a, b, squared = root(u, n, k)
-        return Boundary(p, a, b, squared, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
+        return Boundary(p, a, b, squared, D, 2.0 * n * k, s, c, n1, n, k)
 
     return boundary
 
 
 def absorbing_wave(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, n, k, [n0,] cos, sin) -> (n1, n, k, cos, sin, p, n^2 - n1^2, Re g^2)``.
+    """Make ``(n1, n, k, [n0,] cos, sin) -> (n1, n, k, cos, sin, p, D, Re g^2)``.
 
     The indices come out divided; the angle is that in the medium n1.
     """
@@ -96,12 +101,12 @@ def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
     def boundary(n1: Any, n: Any, *angle: Any) -> Boundary:
-        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
+        n1, n, c, s, p, D, u = wave(n1, n, *angle)
         squared = absolute(u)
         size = sqrt(squared)
         forward = u >= 0.0
         a, b = where(forward, size, 0.0), where(forward, 0.0, size)
-        return Boundary(p, a, b, squared, contrast, 0.0, s, c, n1, n, 0.0)
+        return Boundary(p, a, b, squared, D, 0.0, s, c, n1, n, 0.0)
 
     return boundary
 
@@ -117,8 +122,8 @@ def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
         if len(angle) > 2:
             # All may have been reflected before.
             return lossless(n1, n, *angle)
-        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
-        return Boundary(p, sqrt(u), 0.0, u, contrast, 0.0, s, c, n1, n, 0.0)
+        n1, n, c, s, p, D, u = wave(n1, n, *angle)
+        return Boundary(p, sqrt(u), 0.0, u, D, 0.0, s, c, n1, n, 0.0)
 
     return boundary
 
@@ -138,19 +143,38 @@ def _wave(xp: Primitives) -> KernelFunction:
     where, behind, inside = xp.where, refracted_wave(xp), from_within(xp)
 
     def wave(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
-        """Return the cosine and sine in n1, p, n^2 - n1^2, and Re g^2."""
-        contrast = (n - n1) * (n + n1)
+        """Return the cosine and sine in n1, p, D = n^2 - k^2 - n1^2, and Re g^2."""
+        k2 = k * k
+        D = contrast(where, n1, n, k2)
         if len(angle) > 2:
             c, s, p, squared = behind(n1, n, *angle)
-            return c, s, p, contrast, squared - k * k
+            return c, s, p, D, squared - k2
         c, s = inside(angle[0]), angle[1]
         p = n1 * c
         y = n1 * s
-        # Re g^2, from whichever of cos and sin is small: that one carries the digits.
-        u = where(c < s, contrast + p * p, (n - y) * (n + y)) - k * k
-        return c, s, p, contrast, u
+        # From whichever of cos and sin is small: that one carries the digits.
+        return c, s, p, D, where(c < s, D + p * p, n * n - (y * y + k2))
 
     return wave
+
+
+def contrast(where: Callable[..., Any], n1: Any, n: Any, loss: Any) -> Any:
+    """Return n^2 - n1^2 - loss, with few roundings.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    n1, n, loss : float or array_like
+        Real parts of two indices, and the difference of the squares of the imaginary ones.
+
+    Returns
+    -------
+    float or array_like
+    """
+    # Up to 2 n1, d is exact, and so is its product with n1 in front of vacuum.
+    d = n - n1
+    return where(n > 2.0 * n1, n * n - (n1 * n1 + loss), 2.0 * n1 * d + (d * d - loss))
 
 
 def refracted_wave(xp: Primitives) -> KernelFunction:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.fresnel.inhomogeneous import InhomogeneousBoundary, inhomogeneous_boundary
-from optipath.kernels.fresnel.stable import Slant, is_there
+from optipath.kernels.fresnel.stable import Slant, in_plane, is_there, through_and_back
 from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:
@@ -31,18 +31,9 @@ def inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
 
     def reflect(*given: Any) -> tuple[Any, ...]:
         at = boundary(*given)
-        P, entering = _powers(where, at)
-        small = _small(at, P)
+        _, entering, small = _powers(where, at)
         Fs = where(entering < 0.6, 1.0 - entering, small)
-        along = slant_of(where, at)
-        there, q = is_there(where, along.q)
-        f = Fs / q
-        parted = 2.0 * f * (at.s * at.s)
-        B = (parted * at.c * at.a - parted * at.e * at.b) * at.n1
-        S = (parted * at.c * at.b + parted * at.e * at.a) * at.n1
-        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
-        C = where(there & (at.c > 0.0), f * (along.z2 - along.g2), where(at.c < along.z, Fs, -Fs))
-        return Fs, Fp, B, C, S
+        return in_plane(where, Fs, slant_of(where, at), at.c)
 
     return reflect
 
@@ -68,25 +59,9 @@ def transmission_from_behind(xp: Primitives) -> KernelFunction:
     return lambda *given: transmitted(boundary(*given).from_behind(xp.where))
 
 
-def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any]:
-    """Return P = |g1 + g2|^2, 1 in place of 0, and 1 - Fs = 4 Re(g1 conj g2) / P."""
-    p, fades, P = at.p, at.fades, sum_squared(at)
-    # It vanishes only at grazing incidence on an equal medium, which is no interface.
-    there = P > 0.0
-    P = where(there, P, 1.0)
-    return P, where(there, 4.0 * p / P * at.a + 4.0 * fades / P * at.b, 1.0)
-
-
-def sum_squared(at: InhomogeneousBoundary) -> Any:
-    """Return P = |g1 + g2|^2."""
-    P = at.p * at.p + (2.0 * at.p * at.a + at.squared)
-    return P + at.fades * (at.fades + 2.0 * at.b)
-
-
-def _small(at: InhomogeneousBoundary, P: Any) -> Any:
-    """Return Fs, which has its digits where it is small."""
-    re, im = at.D / P, at.v / P
-    return re * re + im * im
+def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any, Any]:
+    """Return P = |g1 + g2|^2, 1 in place of 0, 1 - Fs, and Fs where it is small."""
+    return through_and_back(where, *at.squares, at.D, at.v)
 
 
 def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
@@ -107,7 +82,7 @@ def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
     re, im = at.c * at.a - at.e * at.b, at.c * at.b + at.e * at.a
     z2, g2 = z * z, (at.c * at.c + at.e * at.e) * at.squared
     # Where it cancels, next to a surface plasmon, it is a sum of squares.
-    q = where(re < 0.0, (z + re) * (z + re) + im * im, z2 + (2.0 * z * re + g2))
+    q = where(re < 0.0, (z + re) * (z + re) + im * im, (z2 + g2) + 2.0 * z * re)
     return Slant(z, re, im, z2, g2, q)
 
 
@@ -115,14 +90,13 @@ def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any,
     where, sqrt, length = xp.where, xp.sqrt, hypotenuse(xp)
 
     def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
-        P, entering = _powers(where, at)
-        small = _small(at, P)
+        P, entering, small = _powers(where, at)
         Fs = where(entering < 0.6, 1.0 - entering, small)
         # Where no wave arrives, none is let through.
         arrives = at.c > 0.0
         more = where(arrives, at.e * (at.e / where(arrives, at.c, 1.0)), 0.0)
         direct = (entering < 0.6) | (at.fades > 0.0)
-        Ts = where(direct, 4.0 * (at.p + at.n1 * more) / P * at.a, 1.0 - small)
+        Ts = where(direct, 4.0 * (at.p + at.n1 * more) * at.a * (1.0 / P), 1.0 - small)
         along = slant_of(where, at)
         _, q = is_there(where, along.q)
         behind = at.squared + at.n1 * along.z

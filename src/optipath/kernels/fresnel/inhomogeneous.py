@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.fresnel.boundary import LOST, squared_along_normal
+from optipath.kernels.fresnel.boundary import LOST, contrast, squared_along_normal
 from optipath.kernels.numbers.complex_pairs import brought_near_one, complex_root, from_within
 
 if TYPE_CHECKING:
@@ -61,6 +61,12 @@ class InhomogeneousBoundary(NamedTuple):
     n: Any
     k: Any
 
+    @property
+    def squares(self) -> tuple[Any, Any]:
+        """|g1|^2 + |g2|^2 and 2 Re(g1 conj g2)."""
+        even = (self.p * self.p + self.fades * self.fades) + self.squared
+        return even, 2.0 * self.p * self.a + 2.0 * self.fades * self.b
+
     def from_behind(self, where: Callable[..., Any]) -> InhomogeneousBoundary:
         """Return the same boundary as light from the other side meets it."""
         n = where(self.n > 0.0, self.n, 1.0)
@@ -98,19 +104,18 @@ def inhomogeneous_boundary(xp: Primitives) -> Callable[..., InhomogeneousBoundar
         # The absolute value makes -0 a 0.
         k1, k = inside(absolute(k1)), inside(absolute(k))
         n1, k1, n, k, *n0 = divided(n1, k1, n, k, *n0)
-        contrast = (n - n1) * (n + n1)
+        k2 = k * k
         if n0:
             p, fades, s, squared = refracted(n1, k1, n, *n0, cos, sin)
-            c, e = p / n1, fades / n1
+            c, e, u = p / n1, fades / n1, squared - k2
         else:
             c, e, s = by_angle(n1, k1, cos, sin)
             p, fades, y = n1 * c, n1 * e, n1 * s
-            # Re g2^2 + k^2, from whichever of cos and sin is small: that one carries the digits.
-            squared = where(
-                c < s, contrast + p * p - (fades - k1) * (fades + k1), (n - y) * (n + y)
-            )
-        a, b, size = root(squared - k * k, n, k)
-        D = contrast - (k - k1) * (k + k1)
+            # Re g2^2, from whichever of cos and sin is small: that one carries the digits.
+            by_cos = contrast(where, n1, n, k2) + p * p - (fades - k1) * (fades + k1)
+            u = where(c < s, by_cos, n * n - (y * y + k2))
+        a, b, size = root(u, n, k)
+        D = contrast(where, n1, n, (k - k1) * (k + k1))
         # Without the difference that n k - n1 k1 is.
         v = 2.0 * where(k1 > 0.0, (n - n1) * k + n1 * (k - k1), n * k)
         return InhomogeneousBoundary(p, fades, c, e, s, k1 / n1, a, b, size, D, v, n1, n, k)

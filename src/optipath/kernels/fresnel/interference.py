@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.fresnel.from_absorbing import slant_of, sum_squared
+from optipath.kernels.fresnel.from_absorbing import slant_of
 from optipath.kernels.fresnel.inhomogeneous import InhomogeneousBoundary, inhomogeneous_boundary
+from optipath.kernels.fresnel.stable import sum_squared
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,9 +14,9 @@ from optipath.kernels.fresnel.boundary import (
     denser_boundary,
     lossless_boundary,
 )
-from optipath.kernels.fresnel.from_absorbing import slant_of, sum_squared
+from optipath.kernels.fresnel.from_absorbing import slant_of
 from optipath.kernels.fresnel.inhomogeneous import inhomogeneous_boundary
-from optipath.kernels.fresnel.stable import front, slant
+from optipath.kernels.fresnel.stable import slant, sum_squared
 
 if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
@@ -33,7 +33,7 @@ def reflected_powers(xp: Primitives) -> KernelFunction:
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
     def powers(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
-        n1, n, k, c, s, p, contrast, u = wave(n1, n, k, *angle)
+        n1, n, k, c, s, p, D, u = wave(n1, n, k, *angle)
         ab, size = n * k, absolute(u)
         v = 2.0 * ab
         # What underflows here is too little beside p^2 to be seen.
@@ -42,7 +42,7 @@ def reflected_powers(xp: Primitives) -> KernelFunction:
         r = sqrt(r2)
         forward = u >= 0.0
         ar, br = where(forward, r2, ab), where(forward, ab, r2)
-        D, z = contrast - k * k, n1 * (s * s)
+        z = n1 * (s * s)
         P = (p * p + squared) * r + 2.0 * p * ar
         q = (z * z + c * c * squared) * r + 2.0 * z * c * ar
         apart, across = z * r - c * ar, c * br
@@ -90,6 +90,6 @@ def _of_refracted(xp: Primitives, angle: tuple[Any, ...], p: Any, parted: Any, m
 
 
 def _powers(xp: Primitives, angle: tuple[Any, ...], at: Boundary) -> tuple[Any, ...]:
-    P, along = front(at), slant(at)
+    P, along = sum_squared(at), slant(at)
     parted = _of_refracted(xp, angle, at.p, at.D * at.D + at.v * at.v, P * P)
     return parted * along.q, parted * along.less, P * P * along.q

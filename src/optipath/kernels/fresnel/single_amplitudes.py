@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.fresnel.amplitude import times
-from optipath.kernels.fresnel.from_absorbing import phases_through, slant_of, sum_squared
+from optipath.kernels.fresnel.from_absorbing import phases_through, slant_of
 from optipath.kernels.fresnel.inhomogeneous import inhomogeneous_boundary
+from optipath.kernels.fresnel.stable import sum_squared
 from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:

@@ -15,11 +15,14 @@ from optipath.kernels.numbers.complex_pairs import hypotenuse
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from optipath.kernels.fresnel.inhomogeneous import InhomogeneousBoundary
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
-_LOST, _LEAST = 2.0**-52, 2.0**-970
-"""What the first takes to 0 has lost digits; what is below the second has too large an inverse."""
+_LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
+"""What the first takes to 0 has lost digits; what is below the second has too large an inverse.
+
+Media whose squares differ by less than the third, which has an inverse in float32, are equal."""
 
 
 def stable_reflection(xp: Primitives) -> KernelFunction:
@@ -101,23 +104,48 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
 
     def first(at: Boundary) -> tuple[Any, Any]:
         """Return Fs and Ts."""
-        P = front(at)
-        # P vanishes only at grazing incidence on an equal medium, which is no interface. Asked so
-        # that NaN stays NaN.
-        vanishes = P <= 0.0
-        P = where(vanishes, 1.0, P)
-        Ts = where(vanishes, 1.0, 4.0 * at.p / P * at.a)
-        re, im = at.D / P, at.v / P
-        small = re * re + im * im
+        _, Ts, small = through_and_back(where, *at.squares, at.D, at.v)
         # The smaller of the two carries the digits of both.
         return where(Ts < 0.6, 1.0 - Ts, small), where(Ts < 0.6, Ts, 1.0 - small)
 
     return first
 
 
-def front(at: Boundary) -> Any:
-    """Return P = |p + g|^2."""
-    return at.p * at.p + (2.0 * at.p * at.a + at.squared)
+def through_and_back(
+    where: Callable[..., Any], even: Any, mixed: Any, D: Any, v: Any
+) -> tuple[Any, Any, Any]:
+    """Return P = |g1 + g2|^2, 1 - Fs, and Fs, which has its digits where it is small.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    even, mixed : float or array_like
+        |g1|^2 + |g2|^2 and 2 Re(g1 conj g2), which is no larger.
+    D, v : float or array_like
+        The parts of the difference of the squares, g2^2 - g1^2, no larger than P.
+
+    Returns
+    -------
+    P, entering, small : float or array_like
+    """
+    P = even + mixed
+    # At grazing incidence on an equal medium there is no interface. Asked so that NaN stays NaN.
+    vanishes, lost = P < _EQUAL, mixed - (P - even)
+    P = where(vanishes, 1.0, P)
+    inverse = 1.0 / P
+    # A quotient has one rounding less than a product with an inverse.
+    re, im = D / P, v * inverse
+    small = re * re + im * im
+    # What the sum P has lost is known exactly, since its first term is the larger.
+    small = small - 2.0 * lost * inverse * small
+    return P, where(vanishes, 1.0, 2.0 * mixed * inverse), small
+
+
+def sum_squared(at: Boundary | InhomogeneousBoundary) -> Any:
+    """Return P = |g1 + g2|^2."""
+    even, mixed = at.squares
+    return even + mixed
 
 
 class Slant(NamedTuple):
@@ -152,18 +180,7 @@ def slant(at: Boundary) -> Slant:
     """Return how the two polarisations differ at a boundary."""
     z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
     z2, g2 = z * z, at.c * at.c * at.squared
-    return Slant(z, ca, cb, z2, g2, z2 + (2.0 * z * ca + g2))
-
-
-def _second(xp: Primitives) -> Callable[[Boundary], tuple[Slant, Any, Any]]:
-    where = xp.where
-
-    def second(at: Boundary) -> tuple[Slant, Any, Any]:
-        """Return the slant, whether q is there, and q where it is."""
-        found = slant(at)
-        return found, *is_there(where, found.q)
-
-    return second
+    return Slant(z, ca, cb, z2, g2, (z2 + g2) + 2.0 * z * ca)
 
 
 def is_there(where: Callable[..., Any], q: Any) -> tuple[Any, Any]:
@@ -188,30 +205,50 @@ def is_there(where: Callable[..., Any], q: Any) -> tuple[Any, Any]:
 
 
 def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
-    where, first, second = xp.where, _first(xp), _second(xp)
+    where, first = xp.where, _first(xp)
+    return lambda at: in_plane(where, first(at)[0], slant(at), at.c)
 
-    def reflected(at: Boundary) -> tuple[Any, ...]:
-        Fs, _ = first(at)
-        along, there, q = second(at)
-        f = Fs / q
-        # Factors that may be tiny come last: no digit is lost to an underflow before them.
-        parted = 2.0 * f * (at.s * at.s) * at.c
-        B, S = parted * at.a * at.n1, parted * at.b * at.n1
-        # The difference is the better one unless it cancels, and exact in total reflection.
-        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
-        C = where(there & (at.c > 0.0), f * (along.z2 - along.g2), where(at.c < along.z, Fs, -Fs))
-        return Fs, Fp, B, C, S
 
-    return reflected
+def in_plane(
+    where: Callable[..., Any], Fs: Any, along: Slant, c: Any
+) -> tuple[Any, Any, Any, Any, Any]:
+    """Return (Fs, Fp, B, C, S) of what is reflected, from Fs.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    Fs : float or array_like
+        What is reflected across the plane.
+    along : Slant
+        How the other differs.
+    c : float or array_like
+        The cosine in front.
+
+    Returns
+    -------
+    tuple of float or array_like
+    """
+    there, q = is_there(where, along.q)
+    f = Fs / q
+    parted = 2.0 * f * along.z
+    B, S = parted * along.ca, parted * along.cb
+    # The difference is the better one unless it cancels, and exact in total reflection.
+    Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
+    # Near the normal C is -A, and a little of what is small there.
+    near = 4.0 * along.z2 < along.g2
+    C = where(near, 2.0 * f * along.z2 - (Fs - B), f * (along.z2 - along.g2))
+    return Fs, Fp, B, where(there & (c > 0.0), C, where(c < along.z, Fs, -Fs)), S
 
 
 def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
-    first, second = _first(xp), _second(xp)
+    where, first = xp.where, _first(xp)
 
     def transmitted(at: Boundary) -> tuple[Any, ...]:
         """Return (Ts, Tp, B), (z + p g) / n1, |g|^2 + z, and |z + p g|^2 / n1^2."""
         Fs, Ts = first(at)
-        along, _, q = second(at)
+        along = slant(at)
+        _, q = is_there(where, along.q)
         behind = at.squared + at.n1 * along.z
         B = 0.0 - 2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
         powers = Ts, Ts * (behind / q), B
