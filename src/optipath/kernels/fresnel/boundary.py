@@ -174,7 +174,7 @@ def contrast(where: Callable[..., Any], n1: Any, n: Any, loss: Any) -> Any:
     """
     # Up to 2 n1, d is exact, and so is its product with n1 in front of vacuum.
     d = n - n1
-    return where(n > 2.0 * n1, n * n - (n1 * n1 + loss), 2.0 * n1 * d + (d * d - loss))
+    return where(d > n1, n * n - (n1 * n1 + loss), 2.0 * n1 * d + (d * d - loss))
 
 
 def refracted_wave(xp: Primitives) -> KernelFunction:

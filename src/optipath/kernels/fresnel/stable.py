@@ -138,8 +138,8 @@ def through_and_back(
     re, im = D / P, v * inverse
     small = re * re + im * im
     # What the sum P has lost is known exactly, since its first term is the larger.
-    small = small - 2.0 * lost * inverse * small
-    return P, where(vanishes, 1.0, 2.0 * mixed * inverse), small
+    twice = 2.0 * inverse
+    return P, where(vanishes, 1.0, mixed * twice), small - lost * twice * small
 
 
 def sum_squared(at: Boundary | InhomogeneousBoundary) -> Any:
@@ -237,7 +237,7 @@ def in_plane(
     Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
     # Near the normal C is -A, and a little of what is small there.
     near = 4.0 * along.z2 < along.g2
-    C = where(near, 2.0 * f * along.z2 - (Fs - B), f * (along.z2 - along.g2))
+    C = where(near, parted * along.z - (Fs - B), f * (along.z2 - along.g2))
     return Fs, Fp, B, where(there & (c > 0.0), C, where(c < along.z, Fs, -Fs)), S
 
 
