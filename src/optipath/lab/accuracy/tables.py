@@ -11,7 +11,7 @@ from optipath.kernels.catalogue import METHODS
 from optipath.lab.accuracy.error_measures import LIMIT
 from optipath.lab.accuracy.interface_errors import interface_errors
 from optipath.lab.accuracy.regions import REGIONS
-from optipath.lab.accuracy.worst_cases import COMPONENTS, worst
+from optipath.lab.accuracy.worst_cases import ANYWHERE, COMPONENTS, worst
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -145,13 +145,16 @@ def _worst_cases(method: str, dtype: str, generations: int) -> TextTable:
 
     columns = [f"{what[0].upper()} {name}" for what, name in sides]
     title = f"Worst cases found of {method}, {dtype}: reflection (R), transmission (T)"
-    return _of_regions(title, columns, row)
+    return _of_regions(title, columns, row, (*REGIONS, ANYWHERE))
 
 
 def _of_regions(
-    title: str, columns: Iterable[str], row: Callable[[Region], Iterable[str]]
+    title: str,
+    columns: Iterable[str],
+    row: Callable[[Region], Iterable[str]],
+    regions: tuple[Region, ...] = REGIONS,
 ) -> TextTable:
-    rows = tuple((region.name, *row(region)) for region in REGIONS)
+    rows = tuple((region.name, *row(region)) for region in regions)
     return TextTable(title, ("region", *columns), rows)
 
 

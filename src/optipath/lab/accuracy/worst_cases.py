@@ -7,27 +7,39 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.kernels.catalogue import REFLECTION
-from optipath.kernels.numbers.double_double import DoubleDouble
-from optipath.kernels.numbers.primitives import NUMPY
-from optipath.kernels.numbers.twice import twice
 from optipath.lab.accuracy.error_measures import errors, in_ulp
 from optipath.lab.accuracy.interface_errors import FAMILIES, REFERENCES, matrix_numbers
 from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
+from optipath.lab.accuracy.regions import Region, Samples
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.kernels.carriers.kernel import Kernel, KernelFamily
-    from optipath.lab.accuracy.regions import Region, Samples
+    from optipath.lab.accuracy.regions import Dice
 
     Floats = npt.NDArray[np.floating]
 
 COMPONENTS = ("A", "B", "C", "S", "C near 0")
 """What is searched: the four numbers, C but where its zero is double, and C there."""
 
-_CHILDREN, _KEPT = 1000, 100
-_STEP = 2.0**-60
+_CHILDREN, _KEPT, _LIFE = 1000, 100, 200
+_STEP = 2.0**-24
 """By how much of it a tangent is moved to find a condition."""
+
+
+def _anywhere(dice: Dice) -> tuple[Floats, ...]:
+    away = dice.decades(1e-6, 10.0)
+    n = np.where(dice.sign() > 0, 1.0 + away, 1.0 / (1.0 + away))
+    k = np.where(dice.sign() > 0, dice.decades(1e-9, 10.0), away * dice.decades(1e-3, 1e2))
+    angle = dice.decades(1e-4, np.pi / 4)
+    one, other = np.cos(angle), np.sin(angle)
+    steep = dice.sign() > 0
+    return n, k, np.where(steep, one, other), np.where(steep, other, one)
+
+
+ANYWHERE = Region("anywhere", _anywhere)
+"""Where regions meet: searched, and in no table of samples."""
 
 
 class WorstCase(NamedTuple):
@@ -61,8 +73,9 @@ def worst(
     """Return the worst case of a method in a region, as far as a search finds it.
 
     The numbers of which a region makes its samples are changed by steps of all sizes; the worst
-    samples have the next generation. While it climbs, the truth comes from the same formulas in
-    more digits; the error of what is found is measured against 50 digits.
+    samples have the next generation. While it climbs, the truth comes from the stable formulas
+    in a wider float (`numpy.longdouble` for float64; where that is no wider, nothing is found);
+    the error of what is found is measured against 50 digits.
 
     Parameters
     ----------
@@ -94,18 +107,20 @@ def worst(
     rng = np.random.default_rng(seed)
     family = FAMILIES[what]
     kernel = family.by_method(method)
-    # Twice the precision tells nothing of numbers that are computed with twice the precision.
-    kind = np.longdouble if method == "compensated" else np.float64
+    kind = np.float64 if dtype == "float32" else np.longdouble
     units: Floats = rng.random((region.dimensions, _CHILDREN))
-    kept, known = units[:, :0], np.empty(0)
-    for _ in range(generations):
+    kept, known, best = units[:, :0], np.empty(0), (-1.0, units[:, :1])
+    for generation in range(1, generations + 1):
         samples = region.at(units, dtype)
         scores = _scores(component, matrix_numbers(kernel, samples), samples, family, kind)
         known, kept = np.append(known, scores), np.append(kept, units, axis=1)
-        best = np.argsort(-known)[:_KEPT]
-        known, kept = known[best], kept[:, best]
+        order = np.argsort(-known)[:_KEPT]
+        known, kept = known[order], kept[:, order]
+        best = max(best, (float(known[0]), kept[:, :1]), key=lambda pair: pair[0])
         units = _children(rng, kept)
-    return _measured(kernel, region.at(kept[:, :1], dtype), component, what, dtype)
+        if generation % _LIFE == 0:  # A climb that has come to its top begins elsewhere.
+            units, known, kept = rng.random(units.shape), known[:0], kept[:, :0]
+    return _measured(kernel, region.at(best[1], dtype), component, what, dtype)
 
 
 def _children(rng: np.random.Generator, parents: Floats) -> Floats:
@@ -113,7 +128,9 @@ def _children(rng: np.random.Generator, parents: Floats) -> Floats:
     shape = len(parents), _CHILDREN
     steps = rng.normal(size=shape) * 10.0 ** rng.uniform(-17.0, -0.5, _CHILDREN)
     changed = rng.random(shape) < rng.choice([0.35, 0.7, 1.0], _CHILDREN)
-    children = parents[:, rng.integers(0, parents.shape[1], _CHILDREN)] + steps * changed
+    # The square prefers the worst, which come first.
+    chosen = (parents.shape[1] * rng.random(_CHILDREN) ** 2).astype(int)
+    children = parents[:, chosen] + steps * changed
     fresh = rng.random(_CHILDREN) < 0.05
     # What leaves the unit cube is mirrored back.
     inside = np.abs((children + 1.0) % 2.0 - 1.0)
@@ -123,22 +140,31 @@ def _children(rng: np.random.Generator, parents: Floats) -> Floats:
 def _scores(
     component: str, found: Floats, samples: Samples, family: KernelFamily, kind: Any
 ) -> Floats:
-    """Return the errors of computed numbers against the stable formulas in more digits."""
+    """Return the errors of computed numbers against the stable formulas in a wider float."""
     place = "ABCS".index(component[0])
     with np.errstate(all="ignore"):
-        numbers = [part.astype(kind) for part in samples]
-        values, moved = (_doubled(family, numbers, step) for step in (0.0, _STEP))
-        exact, A = values[place], values[0].high
-        condition = np.abs((moved[place] - exact).high / exact.high) / _STEP
+        (A, exact), (_, moved) = (_wide(family, samples, kind, step, place) for step in (0, _STEP))
+        condition = np.abs((moved - exact) / exact) / _STEP
         condition = np.where((samples.cos > 0.0) & (samples.sin > 0.0), condition, 0.0)
-        off = np.abs((found[:, place] - exact.high) - exact.low)
         has_zeros = component[0] == "C" and family is REFLECTION
-        near = is_near_double_zero(A, exact.high, condition) & has_zeros
-        unit = A if component == "C near 0" else exact.high
-        score = off / _ulp(unit, found.dtype)
+        near = is_near_double_zero(A, exact, condition) & has_zeros
+        score = np.abs(found[:, place] - exact)
+        score /= _ulp(A if component == "C near 0" else exact, found.dtype)
         if component != "C near 0":
             score, near = score / (1.0 + condition), ~near
-    return np.where(np.isfinite(score) & near & (exact.high != 0.0), score, 0.0).astype(float)
+    return np.where(np.isfinite(score) & near & (exact != 0.0), score, 0.0).astype(float)
+
+
+def _wide(
+    family: KernelFamily, samples: Samples, kind: Any, step: float, place: int
+) -> tuple[Floats, Floats]:
+    """Return A and one of the four numbers in a wider float, the tangent moved."""
+    n, k, c, s = (part.astype(kind) for part in samples)
+    s = s * kind(1.0 + step)
+    length = np.hypot(c, s)
+    moved = Samples(n, k, c / length, s / length)
+    numbers = matrix_numbers(family.by_method("stable"), moved)
+    return numbers[:, 0], numbers[:, place]
 
 
 def is_near_double_zero(A: Any, C: Any, condition: Any) -> Any:
@@ -162,17 +188,6 @@ def _ulp(number: Floats, dtype: Any) -> Floats:
     kind = np.finfo(dtype)
     exponent = np.maximum(np.frexp(number)[1] - 1, kind.minexp)
     return np.asarray(np.ldexp(np.ones((), number.dtype), exponent - kind.nmant))
-
-
-def _doubled(family: KernelFamily, numbers: list[Floats], step: float) -> list[DoubleDouble]:
-    """Return A, B, C, S by the stable formulas in twice the precision, the tangent moved."""
-    n, k, c, s = (DoubleDouble(NUMPY, part, 0.0 * part) for part in numbers)
-    one = DoubleDouble(NUMPY, np.ones_like(n.high), np.zeros_like(n.high))
-    s = s * (one + step)
-    length = DoubleDouble.sqrt(c * c + s * s)
-    kernel = family.by_method("stable").factory(twice(NUMPY))
-    Fs, Fp, B, C, S = (one * number for number in kernel(one, n, k, c / length, s / length))
-    return [0.5 * (Fs + Fp), B, C, S]
 
 
 def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype: str) -> WorstCase:
