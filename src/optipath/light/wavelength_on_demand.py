@@ -77,9 +77,8 @@ class WavelengthOnDemand(Arithmetic):
         if (apart := np.abs(one - two) > _ROUNDING * one).any():
             pair = [displayed(np.broadcast_to(w, apart.shape)[apart][0], "nm") for w in (one, two)]
             raise LightError(
-                f"lights of different wavelengths, {pair[0]} and {pair[1]}, have no sum per "
-                f"nanometre; add what comes of each light.integrate(), or trace both at the same "
-                f"wavelengths"
+                f"lights of different wavelengths, {pair[0]} and {pair[1]}, have no sum; "
+                f"add light.integrate() of each, or, of powers, op.Light(light.stokes, light.frame)"
             )
         return self.wavelength
 

@@ -60,7 +60,7 @@ def _finer(line: GaussianLine, sampled: Sampled) -> tuple[str, str, str]:
     finest = 1e9 * line.width * _FINEST / 2.0
     power = 10.0 ** math.floor(math.log10(finest))
     step = max(times * power for times in (1.0, 2.0, 5.0) if times * power <= finest)
-    first, last = sampled.extent
+    first, last = (sampled.wavelengths[0], sampled.wavelengths[-1])
     least, most = (1e9 * (line.peak + side * _AMPLE * line.width) / step for side in (-1.0, 1.0))
     low = max(math.floor(least), math.ceil(1e9 * first / step))
     high = min(math.ceil(most), math.floor(1e9 * last / step))

@@ -226,7 +226,8 @@ def value_outside(owner: str, outside: Any) -> float | None:
     except OptipathError:
         pass
     raise ValueFault(
-        f"outside of {owner} is {shown(outside)}; give 0.0 where nothing is there, or leave it out"
+        f"outside of {owner} is {shown(outside)}; give 0.0 where nothing is there, or leave it out "
+        f"(of samples 'nearest' and 'linear' may be given, too)"
     )
 
 
