@@ -71,7 +71,9 @@ def test_curves_of_the_numbers_of_all_presets_give_the_same_light():
                 continue
             tried += 1
             for end, light in path.trace_all().items():
-                if not np.allclose(found[end].stokes, light.stokes, rtol=1e-9, atol=1e-12, equal_nan=True):
+                if not np.allclose(
+                    found[end].stokes, light.stokes, rtol=1e-9, atol=1e-12, equal_nan=True
+                ):
                     faults.append(f"{preset} {name}: {found[end]} {light}")
     assert faults == []
     assert tried > 50

@@ -28,9 +28,9 @@ from optipath.values.domains.optional import OptionalDomain
 from optipath.values.domains.rotation_vector import FirstComponentDomain
 from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.domains.stack_indices import INDICES
-from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.thick_layers import LENGTHS
+from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
 from optipath.values.follows import Follows

@@ -142,8 +142,8 @@ class Spectrum(RefusedOperations, SpectrumMaking):
         wavelengths : array_like, shape (n,)
             In metres or as texts.
         outside : {0.0, "nearest", "linear"}, optional
-            What is beyond the new samples, as in `sampled`. Where this spectrum is not known it has no
-            value in any case, unless it was itself made with an ``outside``.
+            What is beyond the new samples, as in `sampled`. Where this spectrum is not known it has
+            no value in any case, unless it was itself made with an ``outside``.
 
         Returns
         -------

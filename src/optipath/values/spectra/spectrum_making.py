@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 _TEMPERATURE = Domain("temperature in kelvins", minimum=1e-3, maximum=1e9)
 _MAKERS = (
-    "sampled(wavelengths, values), histogram, line, led, black_body, illuminant, constant or from_csv, as in "
-    "Spectrum.line('633 nm')"
+    "sampled(wavelengths, values), histogram, line, led, black_body, illuminant, constant or "
+    "from_csv, as in Spectrum.line('633 nm')"
 )
 
 
