@@ -19,17 +19,17 @@ def test_an_index_of_0_is_refused_with_its_place():
             lambda: op.Interface(np.diag([1.5, 1.5, 1.6]), 0.3),
             r"Interface index is 0.0 at \(0, 1\)",
         ),
-        (lambda: op.Interface(0, 0.3), "Interface index is 0.0"),
+        (lambda: op.Interface(0, 0.3), "Interface index is 0"),
         (lambda: op.Interface(0j, 0.3), "Interface index is 0j"),
-        (lambda: op.Interface(1.5, 0.3, outside=0.0), "Interface outside is 0.0"),
+        (lambda: op.Interface(1.5, 0.3, outside=0.0), "Interface outside is 0"),
         (lambda: op.LayerStack([1, 0, 1.5], 0.3), r"indices\[1\] is 0"),
         (lambda: op.LayerStack([1, 1.2, 0], 0.3), r"indices\[2\] is 0"),
         (lambda: op.path_from_vertices([[0, 0, 0], [0, 0, 1], [0, 1, 1]], materials=[0]), "index"),
         (lambda: op.fresnel_reflection(0.0, 1.0, 0.0), "index is 0"),
         (lambda: op.Material(0), "Material n is 0"),
         (lambda: op.Material(0.0, 0.0), "Material n is 0"),
-        (lambda: op.Material([1.5, 0.0], 0.0), "Material n is 0.0 at 1"),
-        (lambda: op.Material([1.5, 0.0], [0.0, 0.0]), "Material n is 0.0 at 1"),
+        (lambda: op.Material([1.5, 0.0], 0.0), r"Material n is 0(\.0)? at 1"),
+        (lambda: op.Material([1.5, 0.0], [0.0, 0.0]), r"Material n is 0(\.0)? at 1"),
         (lambda: op.Material.tabulated(["400 nm", "500 nm"], [1.5, 0.0]), "n of .* at 500 nm"),
         (lambda: op.Material.tabulated(["1 um", "2 um"], [0.0, 1.0], [0.0, 1.0]), "at 1000 nm"),
         (lambda: _path(N).trace(n=0), "'n' .* is 0"),
@@ -52,7 +52,9 @@ def test_n_of_0_with_absorption_is_an_index():
 
 def test_traced_indices_are_what_they_were():
     jax = pytest.importorskip("jax")
-    with jax.enable_x64(True) if hasattr(jax, "enable_x64") else jax.experimental.enable_x64():
+    from optipath.engines.jax_path import double_precision  # noqa: PLC0415
+
+    with double_precision()(True):  # noqa: FBT003 - as JAX has it
         path = _path(N)
         slope = jax.grad(lambda n: path.trace(n=n).stokes[0])(1.5)
         # At 0.3 rad, by differences of the closed form.

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def materials_placed(
     values: Mapping[str, Any], uses: Sequence[Use]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return what is bound once each curve is in its place, and each material gives its n and its k.
+    """Return what is bound once curves are in place, and materials give n and k.
 
     Parameters
     ----------

@@ -116,15 +116,17 @@ class PathGraph(Sweeping, DescribedGraph):
             _check_named(unnamed, plan)
         ends = isinstance(keep, str) and keep == KEPT[0]
         if not ends and "keep" not in plan.inputs.open:
-            path = self._with_curves(parameters) or self
-            return path._keeping(keep).run_all(**parameters)
+            if path := self._with_curves(parameters):
+                return path.trace(keep="all", **parameters)
+            return self._keeping(keep).run_all(**parameters)
         if not ends:
             parameters["keep"] = keep
         try:
             return plan.run(**parameters)
         except ParameterError:
             if path := self._with_curves(parameters):
-                return path.trace(**{"keep": keep, **parameters})
+                light: Light = path.trace(**parameters)
+                return light
             plan.only_detector("trace_all()")
             raise
 

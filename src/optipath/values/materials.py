@@ -43,7 +43,8 @@ def _number(value: Any) -> Any:
     """Return a known number, or an array of them; None for anything else."""
     value = value.placed(value.default) if isinstance(value, Parameter) and value.bound else value
     plain = isinstance(value, (int, float, np.ndarray, np.number)) and not is_traced(value)
-    return np.asarray(value) if plain else None
+    array = np.asarray(value if plain else "")
+    return array if array.dtype.kind in "biuf" else None
 
 
 def index_of(text: str, asked: str = "") -> complex:
@@ -125,9 +126,11 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
     def domain_of_n(self) -> Domain:
         """What n may be: 0 only where k is above 0, or not known yet."""
         n, k = _number(self.n), _number(self.k)
-        if k is None or (np.any(k) and (n is None or broadcast_fault({"n": n.shape, "k": k.shape}))):
+        if k is None or not np.any(k):
+            return N if k is None else N_OF_CLEAR
+        if n is None or broadcast_fault({"n": n.shape, "k": k.shape}):
             return N
-        return N_OF_CLEAR if not np.any(k) or np.any((n == 0.0) & (k == 0.0)) else N
+        return N_OF_CLEAR if np.any((n == 0.0) & (k == 0.0)) else N
 
     @property
     def refractive_index(self) -> Any:

@@ -115,7 +115,7 @@ def _to_first_order(
     changes = changes_of(center, slopes, light_at.uncertain, rounding)
     changes = np.where(_is_lost(light)[..., np.newaxis, np.newaxis], np.nan, changes)
     spread = spread_of(changes, correlation)
-    left = nonlinearity_of(light_at, center, changes, spread.uncertainties)
+    left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
     there = np.where(_is_lost(light)[..., np.newaxis], 0.0, spread.uncertainties)
     notes = notes_of_first_order(light, light_at.uncertain, there, left)
     mean = np.asarray(light.stokes, np.float64)

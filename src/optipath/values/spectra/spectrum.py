@@ -38,10 +38,11 @@ class Spectrum(RefusedOperations, SpectrumMaking):
     """Power per nanometre by wavelength, or a relative value such as a response.
 
     ``Spectrum(wavelengths, values)`` goes through samples, as `sampled` does. Others are made by
-    `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant` and `from_csv`, and by arithmetic: a sum, a product with a number, a product or a quotient
-    sample by sample: of two sampled spectra at the wavelengths of both. Between these the product
-    of two straight lines is a parabola, and is taken as a straight line; so integrals are those of
-    the trapezoids at the wavelengths of both, and finer samples, `resample`, bring them closer.
+    `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant` and `from_csv`, and by
+    arithmetic: a sum, a product with a number, a product or a quotient sample by sample, of two
+    sampled spectra at the wavelengths of both. Between these the product of two straight lines is
+    a parabola, and is taken as a straight line; so integrals are those of the trapezoids at the
+    wavelengths of both, and finer samples, `resample`, bring them closer.
 
     Attributes
     ----------
