@@ -13,7 +13,6 @@ from optipath.values.spectra.even_spectrum import EvenSpectrum
 from optipath.values.spectra.gaussian_line import GaussianLine
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.lines import Lines
-from optipath.values.spectra.lost_between_samples import lost_between
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import values_at
 from optipath.values.spectra.sum_of_kinds import SumOfKinds
@@ -25,6 +24,8 @@ if TYPE_CHECKING:
 
     Array = np.ndarray[Any, Any]
 
+_AROUND = np.arange(-3.0, 3.01, 0.125)
+"""Samples of a diode, in widths from its peak, between which straight lines keep its power."""
 _ROUNDING = 4.0 * np.finfo(float).eps
 _RESAMPLE = "spectrum.resample(op.wavelengths('380 nm', '700 nm', '5 nm'))"
 
@@ -166,16 +167,28 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
             f"{both} have no samples at which they could be {done}; resample one of them, "
             f"{_RESAMPLE}"
         )
-    places = np.unique(np.concatenate([kind.wavelengths for kind in sampled]))
+    narrow = [kind for kind in (*first.terms, *second.terms) if isinstance(kind, GaussianLine)]
+    places = np.unique(
+        np.concatenate(
+            [kind.wavelengths for kind in sampled]
+            + [kind.peak + kind.width * _AROUND for kind in narrow if _is_lost(kind, sampled[0])]
+        )
+    )
     places = places[np.diff(places, prepend=0.0) > _ROUNDING * places]
     for kind in sampled:
         places = places[is_within(places, kind.extent)]
     if not places.size and not first.span[1] == second.span[1] == np.inf:
         raise ValueFault(f"{both} have no wavelength in common; give outside=0.0 to one of them")
-    narrow = [kind for kind in (*first.terms, *second.terms) if isinstance(kind, GaussianLine)]
-    if lost := [fault for kind in narrow if (fault := lost_between(kind, sampled[0]))]:
-        raise ValueFault(*lost)
     return places
+
+
+def _is_lost(line: GaussianLine, sampled: Sampled) -> bool:
+    """Return whether straight lines between samples would not keep the power of a diode."""
+    places = sampled.wavelengths[np.abs(sampled.wavelengths - line.peak) < 2.0 * line.width]
+    steps = np.diff(
+        places, prepend=line.peak - 2.0 * line.width, append=line.peak + 2.0 * line.width
+    )
+    return bool(np.max(steps) > 0.5 * line.width)
 
 
 def _outside(first: SpectrumKind, second: SpectrumKind, endless: Any) -> float | str | None:
