@@ -113,3 +113,15 @@ def test_a_preset_keeps_what_is_beyond_samples(tmp_path):
     file.write_text(path.to_toml())
     again = op.load_preset(file)
     assert again.trace(wavelength="700 nm").intensity == pytest.approx(5.0, rel=1e-12)
+
+
+def test_a_diode_between_coarse_samples_keeps_its_power():
+    coarse = op.Spectrum(["380 nm", "550 nm", "700 nm"], [0.1, 0.9, 0.3])
+    # A straight line from 0.1 at 380 nm to 0.9 at 550 nm, by what is even around 450 nm.
+    expected = 0.1 + 0.8 * 70.0 / 170.0
+    for width in ("20 nm", "1 nm", "0.001 nm"):
+        led = op.Spectrum.led("450 nm", width)
+        for seen in (coarse * led, led * coarse, (led + op.Spectrum.constant(0.0)) * coarse):
+            assert seen.power() == pytest.approx(expected, rel=1e-5)
+    far = coarse * op.Spectrum.led("900 nm", "20 nm")
+    np.testing.assert_array_equal(far.wavelengths, coarse.wavelengths)

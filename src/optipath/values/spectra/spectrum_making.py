@@ -37,16 +37,27 @@ _MAKERS = (
 
 
 class SpectrumMaking(Curve):
-    """A spectrum by its kind, and its constructors."""
+    """A spectrum through samples, or by its kind, and its constructors.
+
+    Parameters
+    ----------
+    wavelengths : array_like, shape (n,), or SpectrumKind
+        Of the samples, in metres or as texts; or a way in which power is spread, alone.
+    values : array_like, shape (n,), optional
+        Of the samples.
+    outside, name
+        As `sampled` takes them.
+    """
 
     kind: SpectrumKind
 
     def __init__(
-        self, kind: Any, values: Any = None, *, outside: Any = None, name: str = ""
+        self, wavelengths: Any, values: Any = None, *, outside: Any = None, name: str = ""
     ) -> None:
+        kind = wavelengths
         if values is not None:
             label = label_of("a spectrum", name, "a sampled spectrum")
-            kind = Sampled(kind, values, outside, label)
+            kind = Sampled(wavelengths, values, outside, label)
         if not isinstance(kind, SpectrumKind):
             raise ValueFault(f"a Spectrum is not made of {shown(kind)}; use Spectrum.{_MAKERS}")
         vars(self).update(
