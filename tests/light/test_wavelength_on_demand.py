@@ -131,6 +131,8 @@ def test_wavelengths_that_differ_by_rounding_are_one():
     light = op.Light([1.0, 0, 0, 0], wavelength=830 * 1e-9)
     assert 830 * 1e-9 != 830e-9
     assert (light + light.at_wavelengths(830e-9)).wavelength == pytest.approx(830e-9)
+    single = LIGHT.at_wavelengths(WAVELENGTHS.astype(np.float32))
+    assert np.array_equal((LIGHT + single).wavelength, WAVELENGTHS)
 
 
 def test_lights_of_one_wavelength_have_it_together():

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from optipath.values.roundings import Array
 
-_ROUNDING = 1e-14
-"""By how much, as a share of them, wavelengths differ that were meant to be one."""
+_ROUNDING = 2.0 * float(np.finfo(np.float32).eps)
+"""By how much, as a share of them, wavelengths differ that were meant to be one, in single precision."""
 
 
 class WavelengthOnDemand(Arithmetic):

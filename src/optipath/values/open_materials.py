@@ -23,9 +23,8 @@ def is_by_wavelength(given: Any) -> bool:
     >>> is_by_wavelength(Material(1.5)), is_by_wavelength(1.5)
     (True, False)
     """
-    return isinstance(given, (Material, CurveValue)) or (
-        isinstance(given, Curve) and len(given.parts) == 1
-    )
+    is_curve = isinstance(given, Curve) and len(given.parts) == 1
+    return is_curve or isinstance(given, (Material, CurveValue))
 
 
 def waits_for(given: Any) -> Sequence[str]:

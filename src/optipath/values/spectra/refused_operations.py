@@ -7,11 +7,6 @@ from typing import Any, NoReturn
 
 from optipath.errors import ValueFault, shown
 
-_OF_NUMBERS = (
-    "compute with its numbers, spectrum.at(wavelengths), and make one of what comes of it, "
-    "Spectrum.sampled(wavelengths, numbers)"
-)
-
 
 class RefusedOperations:
     """Differences and powers, which are refused with the cure."""
@@ -21,7 +16,8 @@ class RefusedOperations:
     def _refused(self, *_: Any) -> NoReturn:
         raise ValueFault(
             f"a difference or power of {self.label} is no spectrum, which is nowhere below 0; "
-            f"{_OF_NUMBERS}"
+            f"compute with its numbers, spectrum.at(wavelengths), and make one of what comes of "
+            f"it, Spectrum(wavelengths, numbers)"
         )
 
     __neg__ = __sub__ = __rsub__ = __pow__ = __rpow__ = _refused

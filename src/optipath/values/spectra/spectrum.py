@@ -52,7 +52,7 @@ class Spectrum(RefusedOperations, SpectrumMaking):
     Raises
     ------
     ValueFault
-        If it is made of anything but a kind.
+        If it is made of anything but samples or a kind.
 
     Examples
     --------
