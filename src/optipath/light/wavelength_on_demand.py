@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from optipath.values.roundings import Array
 
 _ROUNDING = 2.0 * float(np.finfo(np.float32).eps)
-"""By how much, as a share of them, wavelengths differ that were meant to be one, in single precision."""
+"""By how much, as a share, wavelengths differ that are one, given in single precision."""
 
 
 class WavelengthOnDemand(Arithmetic):

@@ -13,7 +13,7 @@ from optipath.paths.described_graph import DescribedGraph
 from optipath.paths.joining import name_by_kind
 from optipath.paths.sweeping import Sweeping
 from optipath.values.by_name import check_named
-from optipath.values.open_materials import waits_for
+from optipath.values.open_materials import is_curve
 
 if TYPE_CHECKING:
     from optipath.light.light import Light
@@ -186,7 +186,7 @@ class PathGraph(Sweeping, DescribedGraph):
 
     def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:
         """Return the path bound to what depends on the wavelength, which is taken out; or none."""
-        curves = {n: parameters.pop(n) for n in [*parameters] if waits_for(parameters[n])}
+        curves = {n: parameters.pop(n) for n in [*parameters] if is_curve(parameters[n])}
         return self.bind(**curves) if curves else None
 
     def mueller(

@@ -15,6 +15,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+def is_curve(given: Any) -> bool:
+    """Return whether something is one curve, or what it comes to at a wavelength."""
+    return isinstance(given, CurveValue) or (isinstance(given, Curve) and len(given.parts) == 1)
+
+
 def is_by_wavelength(given: Any) -> bool:
     """Return whether something is put in place of a parameter: a material, or one curve.
 
@@ -23,8 +28,7 @@ def is_by_wavelength(given: Any) -> bool:
     >>> is_by_wavelength(Material(1.5)), is_by_wavelength(1.5)
     (True, False)
     """
-    is_curve = isinstance(given, Curve) and len(given.parts) == 1
-    return is_curve or isinstance(given, (Material, CurveValue))
+    return isinstance(given, Material) or is_curve(given)
 
 
 def waits_for(given: Any) -> Sequence[str]:
