@@ -34,7 +34,7 @@ STEPS = (1.0, 1.5, 2.0, 2.5, 3.0)
 
 
 def nonlinearity_of(
-    light_at: LightAt, light: Light, changes: Any, uncertainties: Any, correlation: Any = None
+    light_at: LightAt, light: Light, changes: Any, uncertainties: Any, correlation: Any
 ) -> npt.NDArray[np.float64]:
     """Return what the first order leaves, as a share of the uncertainty.
 
@@ -53,8 +53,8 @@ def nonlinearity_of(
         What slopes say.
     uncertainties : ndarray, shape (..., 10)
         Of the figures.
-    correlation : ndarray, shape (k, k), optional
-        The coefficients; without them values are not correlated.
+    correlation : ndarray, shape (k, k)
+        The coefficients.
 
     Returns
     -------
@@ -114,10 +114,9 @@ def _directions(changes: Any, correlation: Any) -> list[Any]:
     values = changes.shape[-1]
     batch = (*changes.shape[:-2], values)
     found = [np.broadcast_to(row, batch) for row in np.eye(values)]
-    matrix = np.eye(values) if correlation is None else correlation
     if values > 1:
         stokes = np.nan_to_num(np.moveaxis(changes[..., :STOKES, :], -2, 0))
-        together = stokes @ matrix
+        together = stokes @ correlation
         with np.errstate(all="ignore"):
             size = np.max(np.abs(stokes), axis=-1, keepdims=True)
             stokes, together = stokes / size, together / size
