@@ -65,7 +65,7 @@ class IndexDomain(Domain):
         return super().check(owner, _as_number(value))
 
     def described(self) -> str:
-        return "an index of refraction n + ik with n and k not negative, and not both 0"
+        return "an index of refraction n + ik with n and k not negative"
 
     def allows(self, numbers: Any) -> Any:
         there = namespace(numbers).isfinite(numbers) & (numbers != 0.0)
@@ -76,7 +76,8 @@ class IndexDomain(Domain):
         bad = ~self.allows(array)
         if np.any(bad):
             value = array[bad].ravel()[0]
-            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
+            cure = ", and not both 0" if value == 0.0 else ""
+            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else cure
             raise ValueFault(f"{owner} is {value}{first_place(bad)}; give {self.described()}{cure}")
 
 

@@ -24,8 +24,7 @@ class RefusedOperations:
 
     def _no_sum(self, other: Any) -> ValueFault:
         """Return why a spectrum and something else have no sum."""
-        number = isinstance(other, (int, float)) and not isinstance(other, bool)
-        same = float(other) if number and 0.0 < other < math.inf else 1.0
+        same = float(other) if type(other) in (int, float) and 0.0 < other < math.inf else 1.0
         return ValueFault(
             f"{self.label} + {shown(other)} is no spectrum; add a spectrum, such as "
             f"Spectrum.constant({shown(same)}), which is the same at each wavelength"
