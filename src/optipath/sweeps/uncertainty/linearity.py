@@ -29,7 +29,7 @@ FLAT = 100.0
 """Beyond how much of it there is no slope to speak of."""
 
 
-STEPS = (1.0, 1.5, 2.0, 2.5, 3.0)
+STEPS = tuple(0.25 * number for number in range(1, 13))
 """How many standard uncertainties away values are looked at: beyond 3 are 0.3 % of all."""
 
 
@@ -38,7 +38,7 @@ def nonlinearity_of(
 ) -> npt.NDArray[np.float64]:
     """Return what the first order leaves, as a share of the uncertainty.
 
-    The path runs with each value 1 to 3 standard uncertainties up and down, at each pair of values
+    The path runs with each value up to 3 standard uncertainties up and down, at each pair of values
     with both changed by one, and with all values changed together in the direction in which each
     Stokes component changes most. What the slopes did not say counts for the values that were
     changed; at n uncertainties divided by n squared, so that a curve is the same at all of them.
@@ -69,9 +69,9 @@ def nonlinearity_of(
         # What is lost on the way changes by more than any slope says.
         return np.where(np.isnan(there) & ~np.isnan(center), np.inf, there)
 
-    def count(left: Any, share: Any) -> None:
+    def count(left: Any, share: Any, step: float = 1.0) -> None:
         """Count what is left for the values that have a share in the change."""
-        left = np.where(left <= rounding, 0.0, left)[..., np.newaxis]
+        left = np.where(left <= rounding, 0.0, left / step**2)[..., np.newaxis]
         found[...] = np.where(share, np.fmax(found, left), found)
 
     inner = [_towards(each, 1.0, -1.0) for each in uncertain]
@@ -99,7 +99,7 @@ def nonlinearity_of(
             with np.errstate(invalid="ignore"):
                 left = np.abs(there - said if abs(step) == 1.0 else difference(there, said))
             left = np.where(np.isinf(there), np.inf, left)
-            count(np.where(inside[..., np.newaxis], left, 0.0) / step**2, share)
+            count(np.where(inside[..., np.newaxis], left, 0.0), share, step)
     for one, other in combinations(range(len(uncertain)), 2):
         both = moved({uncertain[place].name: inner[place] for place in (one, other)})
         share = np.isin(np.arange(len(uncertain)), (one, other))
