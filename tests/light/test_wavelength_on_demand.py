@@ -103,10 +103,36 @@ def test_an_index_takes_its_wavelengths():
     assert [float(each.wavelength) for each in LIGHT] == [4e-7, 5e-7, 6e-7]
 
 
-def test_lights_of_different_wavelengths_have_none_together():
-    assert (LIGHT + LIGHT[::-1]).wavelength is None
-    assert (LIGHT + op.Light([1.0, 0, 0, 0])).wavelength is None
-    assert (LIGHT[0] + LIGHT[1]).wavelength is None
+def test_lights_of_different_wavelengths_are_not_added():
+    further = op.Light(LIGHT.stokes, wavelength=WAVELENGTHS + 1e-8)
+    both = [
+        lambda: LIGHT + further,
+        lambda: LIGHT + LIGHT[::-1],
+        lambda: LIGHT[0] + LIGHT[1],
+        lambda: LIGHT + LIGHT[0],
+        lambda: sum(LIGHT),
+        lambda: np.add(LIGHT, further),
+        lambda: DIMMED.trace(wavelength="500 nm") + DIMMED.trace(wavelength="501 nm"),
+        lambda: DIMMED.trace(wavelength="2 eV") + DIMMED.bind(wavelength="2.1 eV").trace(),
+    ]
+    for add in both:
+        with pytest.raises(op.LightError, match=r"different wavelengths, .* nm and .* nm"):
+            add()
+
+
+def test_light_of_no_known_wavelength_adds_to_any():
+    plain = op.Light([1.0, 0, 0, 0])
+    for light in (LIGHT + plain, plain + LIGHT, sum([LIGHT, plain]), LIGHT + LIGHT.integrate()):
+        assert light.wavelength is None
+    assert np.array_equal((plain + LIGHT).S0, LIGHT.S0 + 1.0)
+
+
+def test_wavelengths_that_differ_by_rounding_are_one():
+    light = op.Light([1.0, 0, 0, 0], wavelength=830 * 1e-9)
+    assert 830 * 1e-9 != 830e-9
+    assert (light + light.at_wavelengths(830e-9)).wavelength == pytest.approx(830e-9)
+    single = LIGHT.at_wavelengths(WAVELENGTHS.astype(np.float32))
+    assert np.array_equal((LIGHT + single).wavelength, WAVELENGTHS)
 
 
 def test_lights_of_one_wavelength_have_it_together():

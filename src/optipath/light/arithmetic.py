@@ -37,7 +37,10 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
     frame: Frame
 
     def __add__(self, other: object) -> Self:
-        """Return both lights together, incoherently, in the frame of this one."""
+        """Return both lights together, incoherently, in the frame of this one.
+
+        Lights whose wavelengths are known to differ are refused.
+        """
         if not isinstance(other, Arithmetic):
             self._refuse(f"{shown(other)} is no light to be added")
         check_broadcast({"light": self.shape, "other light": other.shape})

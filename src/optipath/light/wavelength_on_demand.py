@@ -6,16 +6,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ShapeError
+from optipath.errors import LightError, ShapeError
 from optipath.light.arithmetic import Arithmetic
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import locked
+from optipath.values.displayed import displayed
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.values.roundings import Array
+
+_ROUNDING = 2.0 * float(np.finfo(np.float32).eps)
+"""By how much, as a share, wavelengths differ that are one, given in single precision."""
 
 
 class WavelengthOnDemand(Arithmetic):
@@ -27,7 +31,8 @@ class WavelengthOnDemand(Arithmetic):
 
         They broadcast to the shape of the light. Those of a run that was given its
         `Wavelength`, or was bound to it. An index takes its part of them; a sum has those
-        that both lights have.
+        that both lights have; lights of different wavelengths are not added, and with light
+        of no known ones a sum has none.
 
         Examples
         --------
@@ -69,8 +74,13 @@ class WavelengthOnDemand(Arithmetic):
         one, two = self.wavelength, other.wavelength
         if one is None or two is None or is_traced(one) or is_traced(two):
             return None
-        one, two = np.broadcast_arrays(one, two)
-        return self.wavelength if np.array_equal(one, two) else None
+        if (apart := np.abs(one - two) > _ROUNDING * one).any():
+            pair = [displayed(np.broadcast_to(w, apart.shape)[apart][0], "nm") for w in (one, two)]
+            raise LightError(
+                f"lights of different wavelengths, {pair[0]} and {pair[1]}, have no sum; "
+                f"add light.integrate() of each, or, of powers, op.Light(light.stokes, light.frame)"
+            )
+        return self.wavelength
 
     def _part_of_wavelength(self, change: Callable[[Any], Any]) -> Any:
         """Return what returns the wavelengths of a part of the batch; None where there are none."""

@@ -12,7 +12,7 @@ from optipath.paths.exchanged_values import exchanged
 from optipath.values.arrays.read_only import changed
 from optipath.values.domains.axis import axes_for
 from optipath.values.large_angles import LargeAngles
-from optipath.values.materials import Material
+from optipath.values.open_materials import is_by_wavelength
 from optipath.values.other_part import of_complex
 from optipath.values.parameters import ABSENT, Parameter
 from optipath.values.unknown_parameter import unknown_parameter
@@ -46,12 +46,12 @@ def bind(
     ParameterError
         With every unknown parameter and every value that is not allowed.
     """
-    if any(isinstance(value, Material) for value in values.values()):
+    if any(map(is_by_wavelength, values.values())):
         values, placed = materials_placed(values, Values(graph).uses)
         if placed and not for_good:
             raise ParameterError(
-                f"parameter '{min(placed)}' cannot have a Material that depends on other "
-                f"parameters as its default; bind it, by path.bind({min(placed)}=...)"
+                f"parameter '{min(placed)}' cannot have as its default what depends on "
+                f"other parameters; bind it, by path.bind({min(placed)}=...)"
             )
         graph = exchanged(graph, placed)
         # A material may follow from a wavelength to which the path is bound already.

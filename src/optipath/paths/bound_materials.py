@@ -1,4 +1,4 @@
-"""Materials that are bound to the parameter of an index: they give n, and k with it."""
+"""Materials and curves that are bound to parameters; a material gives n, and k with it."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.path_values import Values
 from optipath.errors import ParameterError
 from optipath.values.arrays.read_only import same
+from optipath.values.curves.curve import Curve
+from optipath.values.curves.curve_value import curve_values
 from optipath.values.materials import Material
-from optipath.values.open_materials import waits_for
+from optipath.values.open_materials import is_by_wavelength, waits_for
 from optipath.values.other_part import extinctions_beside, places_of
 from optipath.values.parameters import Parameter
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Container, Mapping, Sequence
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
 def materials_placed(
     values: Mapping[str, Any], uses: Sequence[Use]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return what is bound once each material among some values gives its n and its k.
+    """Return what is bound once curves are in place, and materials give n and k.
 
     Parameters
     ----------
@@ -50,7 +53,13 @@ def materials_placed(
     plain, faults = dict(values), []
     for name, material in values.items():
         places = places_of(uses, name)
-        if not isinstance(material, Material) or not places or places[0].value.bound:
+        known = not places or places[0].value.bound or isinstance(places[0].value, Wavelength)
+        if known or not is_by_wavelength(material):
+            continue
+        if not isinstance(material, Material):
+            curve = isinstance(material, Curve)
+            placed[name] = curve_values(material, Wavelength())[0] if curve else material
+            del plain[name]
             continue
         if doubts := [doubt for use in places if (doubt := use.doubt(material))]:
             faults.append(doubts[0])

@@ -18,7 +18,7 @@ from optipath.paths.place_choice import PlaceChoice, choice_faults, put_in_place
 from optipath.paths.reversed_graph import reversed_graph
 from optipath.values.by_name import check_named
 from optipath.values.cases import Case
-from optipath.values.materials import Material
+from optipath.values.open_materials import is_by_wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -108,9 +108,10 @@ class DescribedGraph(ElementGraph):
         ----------
         *unnamed
             None: values are given by name.
-        **values : float, str, array_like or Material
+        **values : float, str, array_like, Material or curve
             In radians and metres, or texts with units. A `Material` for the n of an index gives
-            its k as well; one that depends on the wavelength leaves the path that parameter.
+            its k as well. What depends on the wavelength, as `op.tabulated(...)` and a `Spectrum`
+            do, stands wherever the parameter stood, and leaves the path the parameter wavelength.
 
         Returns
         -------
@@ -125,7 +126,7 @@ class DescribedGraph(ElementGraph):
             opened = [name for name, p in self.parameters.items() if not p.bound]
             check_named("bind", unnamed, opened)
         path = self._with(self._given(values, for_good=True))
-        if any(isinstance(value, Material) for value in values.values()):
+        if any(map(is_by_wavelength, values.values())):
             path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
         return path
 

@@ -53,7 +53,11 @@ def _exchanged(value: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(value, Parameter):
         found = values.get(value.name, value)
         kept = found is value or not isinstance(found, Parameter)
-        return found if kept else found.like(value)
+        if kept or not isinstance(found, CurveValue):
+            return found if kept else found.like(value)
+        offset = value.scale * found.offset + value.offset
+        dimension = value.offset_dimension or found.offset_dimension
+        return found.shaped(value.scale * found.scale, offset, dimension)
     if isinstance(value, tuple):
         return tuple(_exchanged(one, values) for one in value)
     # What is made of several values, as a material and a chain of vertices are.

@@ -13,6 +13,7 @@ from optipath.paths.described_graph import DescribedGraph
 from optipath.paths.joining import name_by_kind
 from optipath.paths.sweeping import Sweeping
 from optipath.values.by_name import check_named
+from optipath.values.open_materials import is_curve
 
 if TYPE_CHECKING:
     from optipath.light.light import Light
@@ -115,12 +116,17 @@ class PathGraph(Sweeping, DescribedGraph):
             _check_named(unnamed, plan)
         ends = isinstance(keep, str) and keep == KEPT[0]
         if not ends and "keep" not in plan.inputs.open:
+            if path := self._with_curves(parameters):
+                return path.trace(keep="all", **parameters)
             return self._keeping(keep).run_all(**parameters)
         if not ends:
             parameters["keep"] = keep
         try:
             return plan.run(**parameters)
         except ParameterError:
+            if path := self._with_curves(parameters):
+                light: Light = path.trace(**parameters)
+                return light
             plan.only_detector("trace_all()")
             raise
 
@@ -171,7 +177,17 @@ class PathGraph(Sweeping, DescribedGraph):
         """
         plan = self.compose()
         check_named("trace_all", unnamed, plan.inputs.open)
-        return plan.run_all(**parameters)
+        try:
+            return plan.run_all(**parameters)
+        except ParameterError:
+            if path := self._with_curves(parameters):
+                return path.trace_all(**parameters)
+            raise
+
+    def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:
+        """Return the path bound to what depends on the wavelength, which is taken out; or none."""
+        curves = {n: parameters.pop(n) for n in [*parameters] if is_curve(parameters[n])}
+        return self.bind(**curves) if curves else None
 
     def mueller(
         self,

@@ -134,16 +134,10 @@ _OF_NUMPY: dict[Any, Callable[..., Any]] = {
     np.not_equal: lambda *both: np.not_equal(*map(_as_object, both)),
 }
 
-_REFUSED = {
-    "raised to a power": ["pow", "rpow"],
-    "divided without the rest": ["floordiv", "rfloordiv", "mod", "rmod", "divmod", "rdivmod"],
-    "the divisor of anything": ["rtruediv"],
-    "a factor of a matrix product": ["matmul", "rmatmul"],
-    "made positive by abs()": ["abs"],
-    "rounded": ["round", "trunc", "floor", "ceil"],
-    "compared by size, since its value is not known yet": ["lt", "le", "gt", "ge"],
-    "made a number, since its value is not known yet": ["float", "int", "complex"],
-}
-for _done, _names in _REFUSED.items():
-    for _name in _names:
-        setattr(AffineArithmetic, f"__{_name}__", _refused(_done))
+_REFUSED = (
+    "rtruediv matmul rmatmul floordiv rfloordiv mod rmod divmod rdivmod abs round trunc floor"
+)
+for _name in (_REFUSED + " ceil lt le gt ge float int complex").split():
+    setattr(AffineArithmetic, f"__{_name}__", _refused(f"given to {_name}()"))
+for _name in ("__pow__", "__rpow__"):
+    setattr(AffineArithmetic, _name, _refused("raised to a power"))

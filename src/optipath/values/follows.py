@@ -42,10 +42,8 @@ def _refused(*_: Any) -> NoReturn:
     )
 
 
-for _name in ("add", "sub", "mul", "truediv", "pow", "matmul"):
-    setattr(Follows, f"__{_name}__", _refused)
-    setattr(Follows, f"__r{_name}__", _refused)
-for _name in ("neg", "pos", "abs"):
+_REFUSED = "add radd sub rsub mul rmul truediv rtruediv pow rpow matmul rmatmul neg pos abs"
+for _name in _REFUSED.split():
     setattr(Follows, f"__{_name}__", _refused)
 
 FOLLOWS = Follows()

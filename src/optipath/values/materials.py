@@ -10,6 +10,7 @@ import numpy as np
 from optipath.errors import ParameterError, UnitError, ValueFault, shown
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same, same_fields
+from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.cures import cure
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.curves.material_formulas import MaterialFormulas
@@ -28,10 +29,22 @@ class _Part(Domain):
     def parse(self, text: str) -> Any:
         return index_of(text)
 
+    def described(self) -> str:
+        above = self.minimum > 0.0
+        return f"a real {self.name} above 0 where k is 0" if above else super().described()
+
     def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
         if array.dtype.kind == "c":
             raise ValueFault(f"{owner} is complex; give n and k apart, such as {_gold()}")
         super()._check_numbers(owner, array, rounding)
+
+
+def _number(value: Any) -> Any:
+    """Return a known number, or an array of them; None for anything else."""
+    value = value.placed(value.default) if isinstance(value, Parameter) and value.bound else value
+    plain = isinstance(value, (int, float, np.ndarray, np.number)) and not is_traced(value)
+    array = np.asarray(value if plain else "")
+    return array if array.dtype.kind in "biuf" else None
 
 
 def index_of(text: str, asked: str = "") -> complex:
@@ -70,6 +83,9 @@ def _gold() -> str:
 
 N = _Part("index of refraction", minimum=0.0)
 K = _Part("extinction coefficient", minimum=0.0)
+LEAST = float(np.finfo(float).tiny)
+"""The least n of a medium that does not absorb; where n is 0, k is above 0."""
+N_OF_CLEAR = _Part("index of refraction", minimum=LEAST)
 _PARTS = {"n": N, "k": K}
 
 
@@ -103,9 +119,18 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
     k: Any = 0.0
 
     def __post_init__(self) -> None:
-        make_sound(
-            self, _PARTS, lambda: [(name, getattr(self, name), of) for name, of in _PARTS.items()]
-        )
+        parts = lambda: [("n", self.n, self.domain_of_n), ("k", self.k, K)]  # noqa: E731
+        make_sound(self, _PARTS, parts, of_fields=False)
+
+    @property
+    def domain_of_n(self) -> Domain:
+        """What n may be: 0 only where k is above 0, or not known yet."""
+        n, k = _number(self.n), _number(self.k)
+        if k is None or not np.any(k):
+            return N if k is None else N_OF_CLEAR
+        if n is None or broadcast_fault({"n": n.shape, "k": k.shape}):
+            return N
+        return N_OF_CLEAR if np.any((n == 0.0) & (k == 0.0)) else N
 
     @property
     def refractive_index(self) -> Any:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 from optipath.errors import ParameterError, UnitError
 from optipath.values.cures import cure
+from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.parameters import Parameter
 from optipath.values.spectral_units import (
     falls_with_wavelength,
@@ -18,6 +20,7 @@ from optipath.values.units import format_quantity, unit_of
 
 _MICROMETRES, _MILLIMETRES = 1e-5, 1e-3
 _MOST_NANOMETRES = 1e6
+_SMALL, _SMALLER = ("nanometres", "nm", -9), ("micrometres", "um", -6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +38,7 @@ class Wavelength(Parameter):
     unit : str, optional
         The unit of length in which files and the command line give it.
     minimum, maximum : float, optional
-        The range; from X-rays to millimetres.
+        The range; from X-rays to microwaves.
     help : str, optional
         One line for the command line. All else, as the default, is that of a `Parameter`.
 
@@ -53,7 +56,7 @@ class Wavelength(Parameter):
     name: str = "wavelength"
     unit: str = "nm"
     minimum: float = 1e-12
-    maximum: float = 1e-3
+    maximum: float = LONGEST
     help: str = "wavelength in vacuum"
 
     def __post_init__(self) -> None:
@@ -97,13 +100,42 @@ class Wavelength(Parameter):
             if array.dtype.kind == "c":
                 raise
             first = float(array[~self.allows(array)].ravel()[0])
-            if not 1.0 <= first <= _MOST_NANOMETRES:
+            if not LONGEST < first <= _MOST_NANOMETRES:
                 raise
+            name, unit, power = _SMALLER if first < 1.0 else _SMALL
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
-                f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}; light "
+                f"for {name} write '{first:g} {unit}'{cure(f', or {first:g}e{power}', '')}; light "
                 f"goes from {_written(self.minimum)} to {_written(self.maximum)}"
             ) from error
+
+
+def read_within(span: tuple[float, float], given: Any) -> Any:
+    """Return wavelengths in metres, as long as a curve is known for.
+
+    Parameters
+    ----------
+    span : tuple of float
+        The least and the largest wavelength of the curve; infinite where it has no end.
+    given : float, str or array_like
+        In metres, or texts with units.
+
+    Returns
+    -------
+    array_like
+
+    Raises
+    ------
+    ParameterError
+        If they are no wavelengths.
+
+    Examples
+    --------
+    >>> print(read_within((44.3e-9, 2.0), "1.9 m"))
+    1.9
+    """
+    most = max(LONGEST, span[1]) if span[1] < math.inf else LONGEST
+    return Wavelength(maximum=most).resolve(given).value
 
 
 def _written(length: float) -> str:

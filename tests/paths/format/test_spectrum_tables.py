@@ -99,9 +99,9 @@ def test_a_width_in_electronvolts_is_taken_at_the_peak_in_files_as_well():
         ('{ sum = ["A"] }', r"write \{ illuminant = \"A\" \}"),
         (
             '{ line = ["633 nm", "500 nm"], power = [1, 2] }',
-            r'\{ sum = \[\{ line = "633 nm", power = 1 \}, \{ line = "500 nm", power = 2 \}\] \}',
+            r'\{ sum = \[\{ line = "633 nm" \}, \.\.\.\] \}',
         ),
-        ("{ black_body = [300, 400, 500, 600] }", r"\{ black_body = 500 \}, \.\.\.\] \}"),
+        ("{ black_body = [300, 400, 500, 600] }", r"\{ black_body = 300 \}, \.\.\.\] \}"),
         ("{ sum = [{ black_body = -3 }] }", "temperature of a black body"),
     ],
 )

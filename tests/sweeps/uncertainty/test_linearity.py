@@ -102,3 +102,45 @@ def test_faint_and_bright_light_have_the_uncertainty_of_other_light(share):
     path = op.Source(op.Parameter("i")) >> op.Detector()
     found = found_for(path, i=(share, 0.1 * share))
     np.testing.assert_allclose(found.uncertainty_of("S0"), 0.1 * share, rtol=1e-9)
+
+
+def test_a_jump_within_three_uncertainties_is_told():
+    path = op.Source(stokes=[1, 0, 1, 0]) >> op.Interface(1.5, op.Parameter("t")) >> op.Detector()
+    for away in (0.5, 1.05, 1.2, 1.6, 2.0, 2.4, 2.9):
+        for sign in (1.0, -1.0):
+            t = np.arctan(1.5) + sign * away * 0.003, 0.003
+            found = path.propagate(t=t, method="differences")
+            # Delta is 0 or 180 deg, and has no slope on either side of Brewster's angle.
+            assert found.uncertainty_of("delta") == 0.0
+            assert found.is_doubtful("delta"), away
+    far = path.propagate(t=(np.arctan(1.5) + 8 * 0.003, 0.003), method="differences")
+    assert not any(far.is_doubtful(name) for name in ("delta", "psi", "intensity", "dop"))
+
+
+def test_a_jump_that_values_reach_together_is_told():
+    n, t = op.Parameter("n"), op.Parameter("t")
+    path = op.Source(stokes=[1, 0, 1, 0]) >> op.Interface(n, t) >> op.Detector()
+    # Brewster's angle is 1.9 of the joint uncertainty away, and 3.6 and 4.2 of each alone.
+    given = {"t": (np.arctan(1.5) + 0.0036, 0.001), "n": (1.5, 0.0028)}
+    for correlation, doubtful in ((-1.0, True), (1.0, False)):
+        found = path.propagate(**given, correlation={("t", "n"): correlation}, method="differences")
+        assert found.is_doubtful("delta") == doubtful
+
+
+def test_what_is_linear_is_not_doubtful_far_away():
+    rows = [
+        (op.Source(op.Parameter("a")), {"a": (1.0, 0.3)}),
+        (op.Source() >> op.Attenuator(op.Parameter("a")), {"a": (0.5, 0.1)}),
+        (op.Source(stokes=[1, 1, 0, 0]) >> op.Rotator(op.Parameter("a")), {"a": (0.3, 0.4)}),
+    ]
+    names = ["intensity", "intensity", "aop"]
+    for (path, given), name in zip(rows, names, strict=True):
+        found = (path >> op.Detector()).propagate(**given, method="differences")
+        assert not found.is_doubtful(name)
+        assert found.uncertainty_of(name) == pytest.approx(given["a"][1], rel=1e-9)
+
+
+def test_values_that_a_path_has_not_far_away_are_left_out():
+    path = op.Source() >> op.Interface(1.5, op.Parameter("t")) >> op.Detector()
+    found = path.propagate(t=(1.5, 0.03), method="differences")
+    assert found.uncertainty_of("intensity") > 0.0

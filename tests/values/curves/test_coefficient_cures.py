@@ -46,8 +46,8 @@ def test_a_formula_below_0_names_its_coefficients_besides_the_wavelength():
     path = path_of(op.Material.cauchy([P("a"), 2 * P("b")]))
     assert told(path, a=-3.0, b=0.005) == (
         "n of a Cauchy formula at 500 nm is -2.96, and interface.index.n takes a real index of "
-        "refraction of 0 or more; give other coefficients (a is -3, 2 * b is 0.01), or another "
-        "wavelength (in a fit, give the optimiser bounds=)"
+        "refraction above 0 where k is 0; give other coefficients (a is -3, 2 * b is 0.01), or "
+        "another wavelength (in a fit, give the optimiser bounds=)"
     )
     words = told(path, a=np.array([1.5, -3.0]), b=0.005)
     assert "is -2.96 (at 1, of 2 paths), and" in words

@@ -278,11 +278,28 @@ def test_without_pyyaml_the_sentence_says_what_to_install(monkeypatch):
         gold()
 
 
-def test_a_page_beyond_a_millimetre_is_told_for_wavelengths_that_may_be_asked_for():
-    ice = op.Material.named("ice")
-    assert ice.span[1] == 1e-3
-    assert ice.at("1 mm").n > 1.0
+def test_materials_are_known_as_far_as_their_pages():
+    rows = [
+        ("ice", "", 2.0),
+        ("H2O", "Rowe-263K", 0.010395939),
+        ("H2O", "Asfar-H2O", 0.001733),
+        ("H2O", "Segelstein", 10.0),
+    ]
+    for name, page, end in rows:
+        material = op.Material.named(name, page=page) if page else op.Material.named(name)
+        assert material.span[1] == end
+        assert material.at(0.999 * end).n > 1.0
+        with pytest.raises(op.OptipathError, match="wavelength"):
+            material.at(1.001 * end)
     (found,) = [one for one in pages_with(["ice"]) if one.page.place == "3d/crystals/ice"]
-    assert {high for _, high in found.spans().values()} == {1e-3}
-    with pytest.raises(op.ParameterError, match=r"light goes from 0\.001 nm to 1 mm"):
-        ice.at("1 m")
+    assert {high for _, high in found.spans().values()} == {2.0}
+
+
+def test_a_run_has_wavelengths_up_to_microwaves():
+    path = op.Source() >> op.Interface(op.Material.named("ice"), 0.0) >> op.Detector()
+    light = path.trace(wavelength=["2 mm", "50 mm"])
+    index = op.Material.named("ice").at(["2 mm", "50 mm"]).refractive_index
+    np.testing.assert_allclose(light.intensity, np.abs((index - 1) / (index + 1)) ** 2, rtol=1e-12)
+    for given, told in [(0.633, "'0.633 um'"), (633, "'633 nm'"), ("1 m", "100 mm")]:
+        with pytest.raises(op.ParameterError, match=told):
+            path.trace(wavelength=given)

@@ -47,7 +47,6 @@ _FORMS = {
 }
 """The keys by which the kinds are known, and those that stand beside them."""
 _NEEDED = {"wavelengths": "values", "edges": "powers", "led": "width"}
-_MOST_TOLD = 3
 _WHEN, _SCALE, _OFFSET = "wavelength", "scale", "offset"
 
 
@@ -169,28 +168,11 @@ def _terms(raw: Mapping[str, Any]) -> Spectrum:
     return reduce(add, found)  # type: ignore[return-value]
 
 
-def _apart(raw: Mapping[str, Any], form: str) -> str:
-    """Return the tables of several spectra of one kind, of which one table has lists."""
-    several = len(raw[form])
-    tables = [
-        ", ".join(
-            f"{key} = {json.dumps(value[place] if _is_list(value, several) else value)}"
-            for key, value in raw.items()
-        )
-        for place in range(min(several, _MOST_TOLD))
-    ]
-    more = ["..."] * (several > _MOST_TOLD)
-    return f"{{ sum = [{', '.join([*[f'{{ {table} }}' for table in tables], *more])}] }}"
-
-
-def _is_list(value: Any, count: int) -> bool:
-    return isinstance(value, list) and len(value) == count
-
-
 def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
     if form not in ("wavelengths", "edges") and isinstance(raw[form], list) and raw[form]:
         raise PresetError(
-            f"'{form}' is {shown(raw[form])}, but one is asked for; write {_apart(raw, form)}"
+            f"'{form}' is {shown(raw[form])}, but one is asked for; write a table for each, "
+            f"{{ sum = [{{ {form} = {json.dumps(raw[form][0])} }}, ...] }}"
         )
     for key in ("line", "led", "width", "illuminant", "name", "unit"):
         if key in raw and not isinstance(raw[key], str):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,13 +19,8 @@ if TYPE_CHECKING:
 _CHUNK = 4096
 """How many random numbers begin anew, whatever the blocks are that samples run in."""
 
-_LEAST = 0.05
-"""How much of a normal distribution must be within the range, or too much is drawn in vain."""
-
 _ROUNDS = 1000
 """How often samples outside are drawn again: of 0.05 inside, 1e-22 are still outside then."""
-
-_ERF = np.frompyfunc(math.erf, 1, 1)
 
 
 class DrawnSamples:
@@ -56,11 +50,6 @@ class DrawnSamples:
     ----------
     outside : dict of str to int
         Of how many samples, drawn first, a value was outside its range for some path.
-
-    Raises
-    ------
-    ParameterError
-        If hardly any samples of a value are within its range.
     """
 
     def __init__(
@@ -79,8 +68,6 @@ class DrawnSamples:
             for group in _groups(correlation, places)
         ]
         self.outside = dict.fromkeys([each.name for each in uncertain], 0)
-        if narrow := [each.name for each in uncertain if _least_share(each) < _LEAST]:
-            raise ParameterError(_hardly_any(narrow))
 
     def within(self, block: slice, names: Collection[str]) -> dict[str, npt.NDArray[np.float64]]:
         """Return some samples of some values, an axis of them in front of the batch.
@@ -157,17 +144,6 @@ def _groups(correlation: npt.NDArray[np.float64], places: Sequence[int]) -> list
     order = sorted(range(len(places)), key=places.__getitem__)
     groups = [[other for other in order if together[one, other]] for one in order]
     return [group for one, group in zip(order, groups, strict=True) if group[0] == one]
-
-
-def _least_share(each: UncertainValue) -> float:
-    """Return how much of a normal distribution is within the range, of the path of least."""
-    if not each.leaves_its_range:
-        return 1.0
-    with np.errstate(all="ignore"):
-        ends = [(end - each.value) / (math.sqrt(2.0) * each.sigma) for end in (each.low, each.high)]
-    low, high = (np.asarray(_ERF(end), np.float64) for end in ends)
-    share = np.where(each.sigma == 0.0, 1.0, 0.5 * (high - low))
-    return float(np.min(share, initial=1.0))
 
 
 def _inside(each: UncertainValue, samples: Any) -> Any:

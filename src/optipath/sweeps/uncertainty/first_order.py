@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.sweeps.uncertainty.light_figures import STOKES, figures_of, gradients_of
-from optipath.sweeps.uncertainty.scaled_squares import covariance_of, exponent_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -111,8 +110,7 @@ def spread_of(changes: Any, correlation: npt.NDArray[np.float64]) -> Spread:
         # Of values that are wholly correlated, rounding may leave less than nothing.
         variance = np.maximum(np.sum(rows, axis=-1, keepdims=True), 0.0)
         shares = np.where(variance == 0.0, 0.0, rows / np.where(variance == 0.0, 1.0, variance))
-        exponent = exponent_of(changes[..., :STOKES, :], -1)
-        stokes = np.ldexp(changes[..., :STOKES, :], -exponent[..., np.newaxis])
-        covariance = covariance_of(stokes @ correlation @ np.swapaxes(stokes, -1, -2), exponent)
+        stokes = changes[..., :STOKES, :]
+        covariance = stokes @ correlation @ np.swapaxes(stokes, -1, -2)
         uncertainties = (scale * np.sqrt(variance))[..., 0]
     return Spread(covariance, uncertainties, shares)

@@ -94,7 +94,7 @@ def _moments(
     light_at: LightAt, light: Light, samples: DrawnSamples, names: Sequence[str]
 ) -> SampleMoments:
     """Return the moments of what samples differ by from the light at the best estimates."""
-    center, found = figures_of(light), SampleMoments()
+    center, found = figures_of(light), SampleMoments(light.intensity)
     size = samples_at_once(light.shape)
     for start in range(0, samples.count, size):
         values = samples.within(slice(start, min(start + size, samples.count)), names)

@@ -118,34 +118,3 @@ def notes_of_lost_light(lost: Any) -> list[str]:
     count = int(np.count_nonzero(lost))
     told = f"nan: the light of {count} in {lost.size} paths is too faint or bright for a float"
     return [told] if count else []
-
-
-def notes_of_lost_covariances(covariance: Any, uncertainty: Any) -> list[str]:
-    """Return what is said of covariances that no float holds, if there are any.
-
-    Parameters
-    ----------
-    covariance : ndarray, shape (..., 4, 4)
-        Of the Stokes vector.
-    uncertainty : ndarray, shape (..., 4)
-        Its standard uncertainty.
-
-    Returns
-    -------
-    list of str
-
-    Examples
-    --------
-    >>> notes_of_lost_covariances(np.eye(4), np.ones(4))
-    []
-    """
-    unknown = np.isnan(uncertainty)
-    lost = np.isnan(covariance) & ~(unknown[..., :, np.newaxis] | unknown[..., np.newaxis, :])
-    count = int(np.count_nonzero(lost.any(axis=(-2, -1))))
-    if not count:
-        return []
-    told = (
-        f"nan: the covariance of the Stokes vector of {count} in {lost[..., 0, 0].size} paths, of "
-        f"which some squares are too small or too large for a float; its uncertainty is right"
-    )
-    return [told]

@@ -12,12 +12,10 @@ from optipath.plan.choosing import only
 from optipath.sweeps.uncertainty.correlation import read_correlation
 from optipath.sweeps.uncertainty.first_order import changes_of, spread_of
 from optipath.sweeps.uncertainty.light_at import LightAt
-from optipath.sweeps.uncertainty.light_figures import STOKES
 from optipath.sweeps.uncertainty.linearity import nonlinearity_of
 from optipath.sweeps.uncertainty.monte_carlo import samples_at_once, spread_of_samples
 from optipath.sweeps.uncertainty.notes import (
     notes_of_first_order,
-    notes_of_lost_covariances,
     notes_of_lost_light,
 )
 from optipath.sweeps.uncertainty.propagation import Propagation
@@ -115,7 +113,7 @@ def _to_first_order(
     changes = changes_of(center, slopes, light_at.uncertain, rounding)
     changes = np.where(_is_lost(light)[..., np.newaxis, np.newaxis], np.nan, changes)
     spread = spread_of(changes, correlation)
-    left = nonlinearity_of(light_at, center, changes, spread.uncertainties)
+    left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
     there = np.where(_is_lost(light)[..., np.newaxis], 0.0, spread.uncertainties)
     notes = notes_of_first_order(light, light_at.uncertain, there, left)
     mean = np.asarray(light.stokes, np.float64)
@@ -125,11 +123,7 @@ def _to_first_order(
         covariance=spread.covariance,
         uncertain=light_at.uncertain,
         method=method,
-        notes=(
-            *notes_of_lost_light(_is_lost(light)),
-            *notes_of_lost_covariances(spread.covariance, spread.uncertainties[..., :STOKES]),
-            *notes,
-        ),
+        notes=(*notes_of_lost_light(_is_lost(light)), *notes),
         uncertainties=spread.uncertainties,
         shares=spread.shares,
         left=left,
@@ -152,11 +146,7 @@ def _by_samples(
         covariance=np.where(lost[..., np.newaxis, np.newaxis], np.nan, spread.covariance),
         uncertain=light_at.uncertain,
         method=f"Monte Carlo, {count:,} samples, seed {seed}",
-        notes=(
-            *notes_of_lost_light(lost),
-            *notes_of_lost_covariances(spread.covariance, uncertainties[..., :STOKES]),
-            *notes,
-        ),
+        notes=(*notes_of_lost_light(lost), *notes),
         uncertainties=uncertainties,
         shares=spread.shares,
         left=np.zeros_like(spread.shares),

@@ -12,7 +12,7 @@ from optipath.errors import OptipathError, ValueFault, listed, shown
 from optipath.values.curves.csv_header import axis_of, has_numbers, is_header, names_in, places_of
 from optipath.values.curves.csv_lines import Line, first_of, lines_of
 from optipath.values.curves.doubtful_units import unit_doubted
-from optipath.values.domains.wavelengths import LONGEST
+from optipath.values.domains.wavelengths import LONGEST_FIRST
 from optipath.values.given_files import given_file
 from optipath.values.spectral_units import wavelength_of
 from optipath.values.units import parse_quantity, unit_of
@@ -250,7 +250,7 @@ class _Rows:
         if self.faults or not self.wavelengths:
             return
         least = min(self.wavelengths)
-        if least > LONGEST:
+        if least > LONGEST_FIRST:
             self.faults.append(
                 f"the least wavelength is {least:g} metres, which is no wavelength of light; the "
                 f"unit {unit} is most likely another one"

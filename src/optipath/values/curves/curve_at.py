@@ -9,7 +9,7 @@ from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.domain import in_unit_of
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.parameters import Parameter
-from optipath.values.wavelength import Wavelength
+from optipath.values.wavelength import Wavelength, read_within
 
 if TYPE_CHECKING:
     from optipath.values.curves.curve import Curve
@@ -46,7 +46,7 @@ def curve_at(curve: Curve, wavelength: Any = None) -> tuple[Any, ...]:
     """
     if wavelength is None or isinstance(wavelength, Parameter):
         return curve_values(curve, in_unit_of(wavelength or Wavelength(), WAVELENGTH))
-    there = Wavelength().resolve(wavelength).value
+    there = read_within(curve.span, wavelength)
     WavelengthRange.of(curve).check("the wavelength", there)
     values = curve_values(curve, there)
     if isinstance(values[0], CurveValue):

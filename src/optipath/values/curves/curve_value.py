@@ -21,7 +21,7 @@ from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.units import dimension_of, with_article
-from optipath.values.wavelength import Wavelength
+from optipath.values.wavelength import Wavelength, read_within
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from optipath.values.curves.curve import Curve
 
 
-_THERE = Wavelength(default=1e-6, bound=True)
+_THERE = Wavelength(default=1e-6, maximum=np.inf, bound=True)
 """What stands for a wavelength that is known."""
 
 
@@ -207,7 +207,7 @@ class CurveValue(Parameter):
                     f"{self.spoken} follows from parameter '{one.name}' besides, which has no "
                     f"value; give the parameter a default"
                 )
-        where = Wavelength().resolve(wavelength).value
+        where = read_within(self.curve.span, wavelength)
         WavelengthRange.of(self.curve).check("the wavelength", where)
         there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
         check_broadcast(there.shapes(known))

@@ -12,7 +12,7 @@ from optipath.values.arrays.jax_values import is_traced
 from optipath.values.cures import cure
 from optipath.values.curves.coefficients import REAL
 from optipath.values.curves.curve import Curve
-from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH, too_long
+from optipath.values.domains.wavelengths import LONGEST_FIRST, WAVELENGTH, too_long
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.use import Use
@@ -121,6 +121,6 @@ def read_span(owner: str, span: Any) -> tuple[float, float]:
         raise ValueFault(
             f"{owner} is {shown(span)}; give the least and the largest wavelength, such as {such}"
         )
-    if ends[0] > LONGEST:
+    if ends[0] > LONGEST_FIRST:
         raise ValueFault(f"the least wavelength of the {owner} is {too_long(float(ends[0]))}")
     return float(ends[0]), float(ends[1])

@@ -80,7 +80,7 @@ class MaterialTables(CurveMaterial):
             interpolation=interpolation,
             extrapolate=extrapolate,
         )
-        _refuse_negative(curve)
+        _refuse_unphysical(curve, k if constant else None)
         return cls.of_curve(curve, wavelength, k if constant else 0.0)
 
     @classmethod
@@ -140,7 +140,8 @@ class MaterialTables(CurveMaterial):
         )
 
 
-def _refuse_negative(curve: Tabulated) -> None:
+def _refuse_unphysical(curve: Tabulated, k: Any = None) -> None:
+    """Refuse samples below 0, and n of 0 where k, of the curve or at all wavelengths, is 0."""
     faults = [
         f"{part} of {curve.label} is {column[bad][0]:g} at "
         f"{curve.wavelengths[bad][0] * 1e9:.10g} nm; give none below 0"
@@ -148,5 +149,9 @@ def _refuse_negative(curve: Tabulated) -> None:
         for part, column in zip(curve.parts, curve.columns, strict=True)
         if np.any(bad := column < 0.0)
     ]
+    extinction = k if isinstance(k, (int, float)) else curve.columns[-1] if k is None else 1.0
+    if not faults and np.any(bad := (curve.columns[0] == 0.0) & (extinction == 0.0)):
+        place = f"{curve.wavelengths[bad][0] * 1e9:.10g} nm"
+        faults = [f"n of {curve.label} is 0 at {place}, where k is 0; give an n above 0 there"]
     if faults:
         raise ValueFault(*faults)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import ValueFault
 from optipath.values.cures import argument
 from optipath.values.curves.curve import Curve
-from optipath.values.curves.wavelength_range import of_light, span_text
+from optipath.values.curves.wavelength_range import span_text
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping, Sequence
@@ -70,7 +70,7 @@ class PageCurve(Curve):
             place=place,
             source=source,
             asked=dict(asked or {}),
-            span=of_light((low, high)),
+            span=(low, high),
             # The one with fewer ways to leave its range has the shorter sentence.
             beyond=min([curve.beyond for curve in curves], key=len),
         )

@@ -13,7 +13,7 @@ from optipath.values.arrays.shapes import first_place
 from optipath.values.cures import argument, cure
 from optipath.values.curves.curve import Curve
 from optipath.values.curves.monotone_slopes import monotone_slopes
-from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH, too_long
+from optipath.values.domains.wavelengths import LONGEST_FIRST, WAVELENGTH, too_long
 from optipath.values.texts import numbers_for
 from optipath.values.units import parse_quantity
 
@@ -179,7 +179,7 @@ def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
     steps = np.diff(places)
     if (least := float(places.min())) <= 0.0:
         return f"a wavelength of {label} is {least:g}; give lengths above 0"
-    if least > LONGEST:
+    if least > LONGEST_FIRST:
         return f"the least wavelength of {label} is {too_long(least)}"
     if np.any(same := steps == 0.0):
         twice = float(places[:-1][same][0]) * 1e9

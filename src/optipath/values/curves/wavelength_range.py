@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH, WavelengthDomain
+from optipath.values.domains.wavelengths import WAVELENGTH, WavelengthDomain
 from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
@@ -48,18 +48,6 @@ def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
     """
     low, high = span
     return (wavelength >= low * (1.0 - _ROUNDING)) & (wavelength <= high * (1.0 + _ROUNDING))
-
-
-def of_light(span: tuple[float, float]) -> tuple[float, float]:
-    """Return the part of a range that may be asked for: light has waves of a millimetre at most.
-
-    Examples
-    --------
-    >>> of_light((44.3e-9, 2.0))
-    (4.43e-08, 0.001)
-    """
-    low, high = span
-    return (low, LONGEST) if low <= LONGEST < high < math.inf else span
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from optipath.errors import OptipathError
-from optipath.values.curves.wavelength_range import of_light
 from optipath.values.database.catalog_pages import CatalogPage, catalog_pages
 from optipath.values.database.curated_names import CURATED, alike
 from optipath.values.database.installed import read_yaml
@@ -64,7 +63,7 @@ class FoundPage(NamedTuple):
         if self.curated and self.curated.clear:
             low, high = self.curated.clear
             found["n"] = max(low, found["n"][0]), min(high, found["n"][1])
-        return {part: of_light(found[part]) for part in ("n", "k") if part in found}
+        return {part: found[part] for part in ("n", "k") if part in found}
 
 
 def pages_with(words: Sequence[str]) -> list[FoundPage]:

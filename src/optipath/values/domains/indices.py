@@ -15,14 +15,13 @@ from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.domains.pair import pair_in
-from optipath.values.materials import K, Material, N, index_of
+from optipath.values.materials import LEAST, K, Material, index_of
 
 _NO_K = NoAbsorption("extinction coefficient", why=", since light comes from there")
 _NO_K_BEHIND = NoAbsorption(
     "extinction coefficient", why=", since light comes from there too (by port 'back')"
 )
 _NO_K_BEYOND = NoAbsorption("extinction coefficient", why=", since light goes on in there")
-_LEAST = float(np.finfo(float).tiny)
 
 
 class IndexDomain(Domain):
@@ -38,12 +37,12 @@ class IndexDomain(Domain):
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
             return [(name, value, self)]
-        return [(f"{name}.n", value.n, N), (f"{name}.k", value.k, K)]
+        return [(f"{name}.n", value.n, value.domain_of_n), (f"{name}.k", value.k, K)]
 
     def quickly_allows(self, value: Any) -> bool:
         if type(value) is complex:
-            return 0.0 <= value.real < math.inf and 0.0 <= value.imag < math.inf
-        return type(value) is float and 0.0 <= value < math.inf
+            return value != 0.0 <= value.real < math.inf and 0.0 <= value.imag < math.inf
+        return type(value) is float and 0.0 < value < math.inf
 
     def parse(self, text: str) -> Any:
         return index_of(text)
@@ -69,7 +68,7 @@ class IndexDomain(Domain):
         return "an index of refraction n + ik with n and k not negative"
 
     def allows(self, numbers: Any) -> Any:
-        there = namespace(numbers).isfinite(numbers)
+        there = namespace(numbers).isfinite(numbers) & (numbers != 0.0)
         return there & (numbers.real >= 0.0) & (numbers.imag >= 0.0)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
@@ -77,7 +76,8 @@ class IndexDomain(Domain):
         bad = ~self.allows(array)
         if np.any(bad):
             value = array[bad].ravel()[0]
-            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
+            cure = ", and not both 0" if value == 0.0 else ""
+            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else cure
             raise ValueFault(f"{owner} is {value}{first_place(bad)}; give {self.described()}{cure}")
 
 
@@ -110,7 +110,7 @@ class LitIndexDomain(IndexDomain):
     @property
     def interval(self) -> tuple[float, float]:
         """The limits of n."""
-        return _LEAST, math.inf
+        return LEAST, math.inf
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
@@ -118,7 +118,7 @@ class LitIndexDomain(IndexDomain):
         return [(f"{name}.n", value.n, OUTSIDE), (f"{name}.k", value.k, K)]
 
     def quickly_allows(self, value: Any) -> bool:
-        return super().quickly_allows(value) and value.real >= _LEAST
+        return super().quickly_allows(value) and value.real >= LEAST
 
     def described(self) -> str:
         return (
@@ -127,7 +127,7 @@ class LitIndexDomain(IndexDomain):
         )
 
     def allows(self, numbers: Any) -> Any:
-        return super().allows(numbers) & (numbers.real >= _LEAST)
+        return super().allows(numbers) & (numbers.real >= LEAST)
 
 
 class FollowedLitIndex(Followed, LitIndexDomain):
@@ -194,12 +194,12 @@ def _as_numbers(value: Any) -> Any:
 
 
 INDEX = IndexDomain("index of refraction")
-OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
+OUTSIDE = OutsideDomain("index of refraction", minimum=LEAST)
 LIT_INDEX = LitIndexDomain("index of refraction")
 FOLLOWED_LIT_INDEX = FollowedLitIndex("index of refraction")
 OPTIONAL_LIT_INDEX = OptionalLitIndex("index of refraction")
-FOLLOWED_OUTSIDE = FollowedOutside("index of refraction", minimum=_LEAST)
-OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=_LEAST)
-LIT_BEHIND = LitBehind("index of refraction", minimum=_LEAST)
-CLEAR = ClearDomain("index of refraction", minimum=_LEAST)
+FOLLOWED_OUTSIDE = FollowedOutside("index of refraction", minimum=LEAST)
+OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=LEAST)
+LIT_BEHIND = LitBehind("index of refraction", minimum=LEAST)
+CLEAR = ClearDomain("index of refraction", minimum=LEAST)
 # Beyond, waves across a layer have squares that vanish.

@@ -30,6 +30,7 @@ from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.domains.stack_indices import INDICES
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.thick_layers import LENGTHS
+from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
 from optipath.values.follows import Follows
@@ -97,10 +98,10 @@ VerdetConstant: TypeAlias = Annotated[
 MagneticField: TypeAlias = Annotated[
     Quantity, OptionalDomain("magnetic field", "magnetic field", -1e6, 1e6)
 ]
-WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
+WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=LONGEST, own_unit="m")
 Wavelength: TypeAlias = Annotated[Quantity, replace(WAVELENGTH, name="wavelength", own_unit="nm")]
 OptionalWavelength: TypeAlias = Annotated[
-    Quantity, OptionalDomain("wavelength", "length", minimum=1e-12, maximum=1e-3, own_unit="nm")
+    Quantity, OptionalDomain("wavelength", "length", minimum=1e-12, maximum=LONGEST, own_unit="nm")
 ]
 Birefringence: TypeAlias = Annotated[Quantity, Domain("birefringence", minimum=-10, maximum=10)]
 EXTINCTION = ExtinctionDomain("extinction ratio", minimum=1.000001)

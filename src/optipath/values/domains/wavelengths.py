@@ -8,12 +8,15 @@ from optipath.errors import UnitError
 from optipath.values.domains.domain import Domain
 from optipath.values.spectral_units import wavelength_of, with_other_units
 
-LONGEST = 1e-3
-"""Above this many metres, a number was most likely meant in another unit."""
+LONGEST = 0.1
+"""Above this many metres, a number is no wavelength: materials are known up to microwaves."""
+
+LONGEST_FIRST = 0.01
+"""Above this many metres, the least wavelength of a table was most likely in another unit."""
 
 
 def too_long(wavelength: float) -> str:
-    """Say of a number above `LONGEST` that it is no wavelength, and what it may have been.
+    """Say of a number that is too large that it is no wavelength, and what it may have been.
 
     Examples
     --------

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault
+from optipath.values.curves.wavelength_range import is_within
 from optipath.values.displayed import displayed
+from optipath.values.spectra.even_spectrum import EvenSpectrum
 from optipath.values.spectra.gaussian_line import GaussianLine
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.lines import Lines
-from optipath.values.spectra.lost_between_samples import lost_between
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import values_at
 from optipath.values.spectra.sum_of_kinds import SumOfKinds
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
     Array = np.ndarray[Any, Any]
 
+_AROUND = np.arange(-3.0, 3.01, 0.125)
+"""Samples of a diode, in widths from its peak, between which straight lines keep its power."""
+_ROUNDING = 4.0 * np.finfo(float).eps
 _RESAMPLE = "spectrum.resample(op.wavelengths('380 nm', '700 nm', '5 nm'))"
 
 
@@ -60,12 +64,13 @@ def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
     Parameters
     ----------
     first, second : SpectrumKind
-        Of which one is sampled at the wavelengths of the product, or one has lines.
+        Of which one is sampled, or one has lines.
 
     Returns
     -------
     SpectrumKind
-        Samples, or lines that have their power times the value there.
+        Samples, at the wavelengths of both where both are sampled, or lines that have their power
+        times the value there.
 
     Raises
     ------
@@ -78,10 +83,15 @@ def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
     for one, other in ((first, second), (second, first)):
         if isinstance(one, Lines) and other.is_pointwise:
             return _lines_through(one, other)
+    for one, other in ((first, second), (second, first)):
+        if isinstance(one, Sampled) and isinstance(other, EvenSpectrum):
+            return one.times(other.value)
     places = _sampled_at(first, second, "multiplied")
+    if not places.size:
+        return EvenSpectrum(0.0)
     values = values_at(first, places) * values_at(second, places)
     endless = first.span[1] == second.span[1] == np.inf
-    return Sampled(places, values, 0.0 if endless else None, _label(first, second))
+    return Sampled(places, values, _outside(first, second, endless), _label(first, second))
 
 
 def quotient_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
@@ -110,8 +120,8 @@ def quotient_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
             f"{second.label} is 0 at {place}, where nothing can be divided by it; resample both "
             f"to wavelengths at which it is above 0"
         )
-    endless = first.span[1] == second.span[1] == np.inf and not isinstance(second, Sampled)
-    return Sampled(places, above / below, 0.0 if endless else None, _label(first, second))
+    endless = second.span[1] == np.inf and getattr(second, "outside", None) != 0.0
+    return Sampled(places, above / below, _outside(first, second, endless), _label(first, second))
 
 
 def _total(terms: Sequence[SpectrumKind]) -> SpectrumKind:
@@ -124,7 +134,7 @@ def _joined(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind | None:
         return Lines([*first.lines, *second.lines])
     if isinstance(first, Sampled) and isinstance(second, Sampled):
         alike = np.array_equal(first.wavelengths, second.wavelengths)
-        if alike and first.outside == second.outside:
+        if alike and first.outside == second.outside != "linear":
             return first.with_values(first.values + second.values)
     if isinstance(first, Histogram) and isinstance(second, Histogram):
         alike = np.array_equal(first.edges, second.edges)
@@ -157,16 +167,36 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
             f"{both} have no samples at which they could be {done}; resample one of them, "
             f"{_RESAMPLE}"
         )
-    places = sampled[0].wavelengths
-    if not all(np.array_equal(places, kind.wavelengths) for kind in sampled):
-        raise ValueFault(
-            f"{both} are sampled at different wavelengths, and cannot be {done} sample by sample; "
-            f"resample one to those of the other, first.resample(second.wavelengths)"
-        )
     narrow = [kind for kind in (*first.terms, *second.terms) if isinstance(kind, GaussianLine)]
-    if lost := [fault for kind in narrow if (fault := lost_between(kind, sampled[0]))]:
-        raise ValueFault(*lost)
+    places = np.unique(
+        np.concatenate(
+            [kind.wavelengths for kind in sampled]
+            + [kind.peak + kind.width * _AROUND for kind in narrow if _is_lost(kind, sampled[0])]
+        )
+    )
+    places = places[np.diff(places, prepend=0.0) > _ROUNDING * places]
+    for kind in sampled:
+        places = places[is_within(places, kind.extent)]
+    if not places.size and not first.span[1] == second.span[1] == np.inf:
+        raise ValueFault(f"{both} have no wavelength in common; give outside=0.0 to one of them")
     return places
+
+
+def _is_lost(line: GaussianLine, sampled: Sampled) -> bool:
+    """Return whether straight lines between samples would not keep the power of a diode."""
+    places = sampled.wavelengths[np.abs(sampled.wavelengths - line.peak) < 2.0 * line.width]
+    steps = np.diff(
+        places, prepend=line.peak - 2.0 * line.width, append=line.peak + 2.0 * line.width
+    )
+    return bool(np.max(steps) > 0.5 * line.width)
+
+
+def _outside(first: SpectrumKind, second: SpectrumKind, endless: Any) -> float | str | None:
+    """Return what a product or quotient is beyond its samples, None where that is not known."""
+    outside = [getattr(kind, "outside", None) for kind in (first, second)]
+    if endless and 0.0 in outside:
+        return 0.0
+    return "nearest" if outside == ["nearest", "nearest"] else None
 
 
 def _label(first: SpectrumKind, second: SpectrumKind) -> str:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
 
 OUTSIDE = "give outside=0.0 where the spectrum is made, if nothing is there"
+HELD = ("nearest", "linear")
+"""What a spectrum may be beyond its samples, besides 0: the last one, or the straight line on."""
 
 
 class Sampled(SpectrumKind):
@@ -28,8 +30,8 @@ class Sampled(SpectrumKind):
         In metres or as texts, rising or falling.
     values : array_like, shape (n,)
         The densities, per nanometre, or relative values; not negative.
-    outside : 0.0 or None, optional
-        What is beyond the samples; by default nobody knows.
+    outside : {0.0, "nearest", "linear"} or None, optional
+        What is beyond the samples, of a straight line as far as 0; by default nobody knows.
     label : str, optional
         What sentences call it.
 
@@ -41,12 +43,13 @@ class Sampled(SpectrumKind):
 
     wavelengths: np.ndarray[Any, Any]
     values: np.ndarray[Any, Any]
-    outside: float | None
+    outside: float | str | None
 
     def __init__(
         self, wavelengths: Any, values: Any, outside: Any = None, label: str = "a sampled spectrum"
     ) -> None:
-        table = Tabulated(label, ("value",), wavelengths, [values])
+        held = outside if isinstance(outside, str) and outside in HELD else ""
+        table = Tabulated(label, ("value",), wavelengths, [values], extrapolate=held)
         (columns,) = table.columns
         if np.any(bad := columns < 0.0):
             raise ValueFault(
@@ -57,8 +60,8 @@ class Sampled(SpectrumKind):
             label=label,
             wavelengths=table.wavelengths,
             values=columns,
-            outside=value_outside(label, outside),
-            beyond=OUTSIDE,
+            outside=held or value_outside(label, outside),
+            beyond=f"{OUTSIDE}, or outside='nearest' or 'linear'",
             _table=table,
         )
 
@@ -70,7 +73,7 @@ class Sampled(SpectrumKind):
 
     @property
     def extent(self) -> tuple[float, float]:
-        return self._table.known_span
+        return (0.0, np.inf) if self.outside in HELD else self._table.known_span
 
     @property
     def breaks(self) -> np.ndarray[Any, Any]:
@@ -82,6 +85,8 @@ class Sampled(SpectrumKind):
 
     def density(self, xp: Any, wavelength: Any) -> Any:
         (found,) = self._table.numbers(xp, xp.clip(wavelength, *self.extent))
+        if self.outside in HELD:
+            return xp.maximum(found, 0.0)  # Where a straight line goes on there is no less power.
         return xp.where(is_within(wavelength, self.extent), found, 0.0)
 
     def times(self, factor: float) -> Sampled:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ValueFault, shown
+from optipath.errors import ValueFault, shown
 from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.quantities import NON_NEGATIVE
 from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH
@@ -220,13 +220,11 @@ def value_outside(owner: str, outside: Any) -> float | None:
     """
     if outside is None:
         return None
-    try:
-        if one_number(owner, outside) == 0.0:
-            return 0.0
-    except OptipathError:
-        pass
+    if np.ndim(outside) == 0 and not isinstance(outside, (str, bool)) and outside == 0.0:
+        return 0.0
     raise ValueFault(
-        f"outside of {owner} is {shown(outside)}; give 0.0 where nothing is there, or leave it out"
+        f"outside of {owner} is {shown(outside)}; give 0.0 where nothing is there, or leave it out "
+        f"(of samples 'nearest' and 'linear' may be given, too)"
     )
 
 

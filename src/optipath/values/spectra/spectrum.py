@@ -37,9 +37,12 @@ _ABOVE = Domain("number above 0", minimum=1e-300)
 class Spectrum(RefusedOperations, SpectrumMaking):
     """Power per nanometre by wavelength, or a relative value such as a response.
 
-    It is made by `sampled`, `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant`
-    and `from_csv`, and by arithmetic: a sum, a product with a number, a product or a quotient
-    sample by sample.
+    ``Spectrum(wavelengths, values)`` goes through samples, as `sampled` does. Others are made by
+    `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant` and `from_csv`, and by
+    arithmetic: a sum, a product with a number, a product or a quotient sample by sample, of two
+    sampled spectra at the wavelengths of both. Between these the product of two straight lines is
+    a parabola, and is taken as a straight line; so integrals are those of the trapezoids at the
+    wavelengths of both, and finer samples, `resample`, bring them closer.
 
     Attributes
     ----------
@@ -49,7 +52,7 @@ class Spectrum(RefusedOperations, SpectrumMaking):
     Raises
     ------
     ValueFault
-        If it is made of anything but a kind.
+        If it is made of anything but samples or a kind.
 
     Examples
     --------
@@ -139,9 +142,9 @@ class Spectrum(RefusedOperations, SpectrumMaking):
         ----------
         wavelengths : array_like, shape (n,)
             In metres or as texts.
-        outside : 0.0, optional
-            Where nothing is beyond the new samples. Where this spectrum is not known it has no
-            value in any case, unless it was itself made with ``outside=0.0``.
+        outside : {0.0, "nearest", "linear"}, optional
+            What is beyond the new samples, as in `sampled`. Where this spectrum is not known it has
+            no value in any case, unless it was itself made with an ``outside``.
 
         Returns
         -------

@@ -31,17 +31,33 @@ if TYPE_CHECKING:
 
 _TEMPERATURE = Domain("temperature in kelvins", minimum=1e-3, maximum=1e9)
 _MAKERS = (
-    "sampled, histogram, line, led, black_body, illuminant, constant or from_csv, as in "
-    "Spectrum.line('633 nm')"
+    "sampled(wavelengths, values), histogram, line, led, black_body, illuminant, constant or "
+    "from_csv, as in Spectrum.line('633 nm')"
 )
 
 
 class SpectrumMaking(Curve):
-    """A spectrum by its kind, and its constructors."""
+    """A spectrum through samples, or by its kind, and its constructors.
+
+    Parameters
+    ----------
+    wavelengths : array_like, shape (n,), or SpectrumKind
+        Of the samples, in metres or as texts; or a way in which power is spread, alone.
+    values : array_like, shape (n,), optional
+        Of the samples.
+    outside, name
+        As `sampled` takes them.
+    """
 
     kind: SpectrumKind
 
-    def __init__(self, kind: SpectrumKind) -> None:
+    def __init__(
+        self, wavelengths: Any, values: Any = None, *, outside: Any = None, name: str = ""
+    ) -> None:
+        kind = wavelengths
+        if values is not None:
+            label = label_of("a spectrum", name, "a sampled spectrum")
+            kind = Sampled(wavelengths, values, outside, label)
         if not isinstance(kind, SpectrumKind):
             raise ValueFault(f"a Spectrum is not made of {shown(kind)}; use Spectrum.{_MAKERS}")
         vars(self).update(
@@ -62,8 +78,9 @@ class SpectrumMaking(Curve):
             In metres, or texts such as ``"516 nm"``; rising or falling.
         values : array_like, shape (n,)
             Power per nanometre, or relative values; not negative.
-        outside : 0.0, optional
-            Where nothing is beyond the samples; without it, to ask there is an error.
+        outside : {0.0, "nearest", "linear"}, optional
+            What is beyond the samples: nothing, as much as at the last one, or the last straight
+            line on, as far as it is above 0; without it, to ask there is an error.
         name : str, optional
             What sentences call it.
 
@@ -76,8 +93,7 @@ class SpectrumMaking(Curve):
         ValueFault
             With all that is wrong with the samples.
         """
-        label = label_of("a spectrum", name, "a sampled spectrum")
-        return cls(Sampled(wavelengths, values, outside, label))
+        return cls(wavelengths, () if values is None else values, outside=outside, name=name)
 
     @classmethod
     def from_csv(

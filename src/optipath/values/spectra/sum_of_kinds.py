@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault
-from optipath.values.displayed import displayed
+from optipath.values.curves.wavelength_range import span_text
 from optipath.values.spectra.spectrum_kind import EmissionLine, SpectrumKind
 
 if TYPE_CHECKING:
@@ -37,11 +37,7 @@ class SumOfKinds(SpectrumKind):
         high = min(term.span[1] for term in terms)
         label = " + ".join(term.label for term in terms)
         if low > high:
-            spans = [
-                f"{displayed(term.span[0], 'nm')} .. {displayed(term.span[1], 'nm')}"
-                for term in terms
-                if np.isfinite(term.span[1])
-            ]
+            spans = [span_text(term.span) for term in terms if np.isfinite(term.span[1])]
             raise ValueFault(
                 f"{label} are known from {' and from '.join(spans)}, which have no wavelength in "
                 f"common; give outside=0.0 to those that are 0 elsewhere"

@@ -21,15 +21,6 @@ def test_faint_and_bright_light_is_as_uncertain_as_any(method, size):
     np.testing.assert_allclose(found.mean / size, plain.mean, rtol=1e-12, atol=1e-15)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("size", [1e-160, 1e300])
-def test_a_covariance_that_no_float_holds_is_told(method, size):
-    found = lamp().propagate(i=(size, 0.01 * size), a=(0.3, 0.01), method=method)
-    assert np.isnan(found.covariance[0, 0])
-    assert any(note.startswith("nan: the covariance of the Stokes vector") for note in found.notes)
-    assert not any("circular" in note for note in found.notes)
-
-
 def test_light_that_is_nearly_absorbed_is_uncertain_by_the_length_of_the_absorber():
     medium = op.Medium(length=op.Parameter("L"), absorption="100 1/cm")
     path = op.Source(1) >> medium >> op.Detector()
