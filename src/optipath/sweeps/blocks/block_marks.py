@@ -96,12 +96,19 @@ def content_of(file: Path, most: int = _MOST) -> bytes:
     Returns
     -------
     bytes
+
+    Raises
+    ------
+    PermissionError
+        If it may not be read, which is no damage.
     """
     try:
         about = file.stat()
         if S_ISREG(about.st_mode) and 0 < about.st_size <= most:
             with file.open("rb") as stream:
                 return stream.read(about.st_size)
+    except PermissionError:
+        raise
     except OSError:
         pass
     return b""

@@ -118,12 +118,12 @@ class BlockStore:
                 f"{OTHER_PLACE}: '{self.folder}'"
             ) from None
         marked = {number for number in range(job.blocks) if f"{number}.0" in names}
-        damaged = [
-            number
-            for number in sorted(marked)
-            if any(damaged_files(self.folder, _mark(number), self.about(number)))
-        ]
         with self._writing():
+            damaged = [
+                number
+                for number in sorted(marked)
+                if any(damaged_files(self.folder, _mark(number), self.about(number)))
+            ]
             for number in damaged:
                 clear(self.folder / _mark(number))
         if damaged:
