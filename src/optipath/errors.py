@@ -130,6 +130,10 @@ class ColourWarning(UserWarning):
     """Light of too few wavelengths for its colour, or of too small a range of them."""
 
 
+class StoreWarning(UserWarning):
+    """Blocks of a store are damaged, and are computed anew."""
+
+
 class MissingExtraError(OptipathError):
     """A feature whose extra is not installed.
 

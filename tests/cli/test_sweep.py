@@ -1,6 +1,7 @@
 """``optipath sweep``: tables, and files of every form."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -133,6 +134,29 @@ def test_a_store_that_is_whole_is_not_computed_again(capsys):
     assert sweep(capsys, *given, "--scheduler", "synchronous")[2] == ""
     status, _, err = sweep(capsys, *given, "--scheduler", "synchronous")
     assert (status, err) == (0, "optipath: 2 of 2 blocks are in a.zarr already\n")
+
+
+def test_damaged_blocks_of_a_store_are_named_and_computed_anew(capsys, tmp_path):
+    pytest.importorskip("xarray")
+    given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "2"]
+    given += ["--scheduler", "synchronous"]
+    sweep(capsys, *given)
+    chunk = tmp_path / "a.zarr" / "S0" / "3"
+    content = chunk.read_bytes()
+    chunk.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
+    (tmp_path / "a.zarr" / "DoP" / "1").unlink()
+    os.mkfifo(tmp_path / "a.zarr" / "DoP" / "1")
+    status, _, err = sweep(capsys, *given)
+    damaged, kept = err.splitlines()
+    assert status == 0
+    assert damaged.startswith("optipath: blocks of '")
+    assert damaged.endswith("a.zarr' are damaged and computed anew: 1, 3")
+    assert kept == "optipath: 3 of 5 blocks are in a.zarr already"
+    assert chunk.read_bytes() == content
+    (tmp_path / "a.zarr" / ".zattrs").write_text("[" * 100_000)
+    status, _, err = sweep(capsys, *given)
+    assert (status, len(err.splitlines())) == (2, 1)
+    assert ".zattrs' is damaged or gone" in err
 
 
 def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, monkeypatch):

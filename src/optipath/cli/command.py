@@ -21,6 +21,7 @@ from optipath.errors import (
     MeshWarning,
     OptipathError,
     PhotonWarning,
+    StoreWarning,
     did_you_mean,
     printable,
 )
@@ -146,7 +147,7 @@ def _run(arguments: Sequence[str]) -> int:
     try:
         with warnings.catch_warnings(), units_are_written(), of_files():
             warnings.simplefilter("always", LoopWarning)
-            for once in (MeshWarning, PhotonWarning):  # The same of each surface.
+            for once in (MeshWarning, PhotonWarning, StoreWarning):  # The same of each surface.
                 warnings.simplefilter("default", once)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
             _invoke(arguments)

@@ -118,8 +118,8 @@ def drafted(file: Path) -> Iterator[Path]:
         raise
 
 
-def write_own_file(file: Path, content: bytes) -> None:
-    """Write a file for its owner alone, in place of whatever stood there, a link too.
+def write_own_file(file: Path, content: bytes, mode: int = 0o600) -> None:
+    """Write a file in place of whatever stood there, a link too; by default for its owner alone.
 
     Parameters
     ----------
@@ -127,8 +127,10 @@ def write_own_file(file: Path, content: bytes) -> None:
         Its place.
     content : bytes
         What it is to hold.
+    mode : int, optional
+        Its permissions, of which the umask takes some away.
     """
-    with _draft(file, 0o600) as stream:
+    with _draft(file, mode) as stream:
         stream.write(content)
 
 

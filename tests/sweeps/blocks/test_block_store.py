@@ -15,9 +15,12 @@ import zarr
 
 import optipath as op
 from large_jobs import Powers, computed, marked, powers
-from optipath.errors import JobError
+from optipath.errors import JobError, StoreWarning
 from optipath.sweeps.blocks import block_store
+from optipath.sweeps.blocks.block_marks import clear
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
+
+HUGE = 1 << 40
 
 
 @pytest.fixture
@@ -28,7 +31,10 @@ def store(tmp_path):
 def content_of(place):
     """Every file beneath a place, or at it, with what is in it."""
     files = [place] if place.is_file() else sorted(place.rglob("*"))
-    return {file: file.read_bytes() if file.is_file() else None for file in files}
+    return {
+        file: file.read_bytes() if file.is_file() and file.stat().st_size < HUGE else None
+        for file in files
+    }
 
 
 def other_job(store):
@@ -42,7 +48,12 @@ def other_layout(store):
 
 def newer_format(store):
     keep_blocks(Powers(2), store)
-    edit_record(store, format=2)
+    edit_record(store, format=3)
+
+
+def older_format(store):
+    keep_blocks(Powers(2), store)
+    edit_record(store, format=1)
 
 
 def damaged_record(store):
@@ -68,7 +79,8 @@ def another_folder(store):
             other_layout,
             "another job: it has blocks 3, where this one has 2; take another name",
         ),
-        (newer_format, "has format 2, and this version of optipath knows 1; use the version"),
+        (newer_format, "has format 3, and this version of optipath knows 2; use the version"),
+        (older_format, "has format 1, and this version of optipath knows 2; use the version"),
         (damaged_record, r"the record '.*\.zattrs' is damaged; take another name, or delete it"),
         (another_folder, "is there, and is no store of blocks; take another name, or delete it"),
         (lambda store: store.write_text("x"), "is there, and is no folder; take another name"),
@@ -82,14 +94,6 @@ def test_what_stands_in_the_place_is_told_and_left_as_it_is(store, put, told):
     assert content_of(store) == before
 
 
-@pytest.mark.parametrize(("name", "content"), [("1.0", b""), ("7.0", b"\1"), ("x", b"")])
-def test_a_mark_that_is_none_is_told(store, name, content):
-    keep_blocks(Powers(2), store)
-    (store / "blocks" / "done" / name).write_bytes(content)
-    with pytest.raises(JobError, match=rf"done/{name}' is no mark of a block; delete this file"):
-        keep_blocks(Powers(2), store)
-
-
 def lose(file):
     file.unlink()
 
@@ -98,29 +102,174 @@ def empty(file):
     file.write_bytes(b"")
 
 
-@pytest.mark.parametrize("harm", [lose, empty])
-def test_a_block_that_has_lost_a_file_is_computed_again_and_no_other(store, tmp_path, harm):
+def flip(file):
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 16
+    file.write_bytes(content)
+
+
+def cut(file):
+    file.write_bytes(file.read_bytes()[:-1])
+
+
+def lengthen(file):
+    file.write_bytes(file.read_bytes() + b"x")
+
+
+def make_zero(file):
+    file.write_bytes(bytes(file.stat().st_size))
+
+
+def take_of_another(file):
+    """What lies beside it: each chunk, and each mark, is whole, and in a wrong place."""
+    file.write_bytes(next(each for each in others_beside(file)).read_bytes())
+
+
+def link_to_another(file):
+    other = next(others_beside(file))
+    file.unlink()
+    file.symlink_to(other)
+
+
+def others_beside(file):
+    content = file.read_bytes()
+    return (each for each in sorted(file.parent.iterdir()) if each.read_bytes() != content)
+
+
+def lay(make):
+    """Have something else made in the place of a file."""
+
+    def harm(file):
+        file.unlink()
+        make(file)
+
+    return harm
+
+
+def folder_with_files(file):
+    (file / "within").mkdir(parents=True)
+    (file / "within" / "thesis.tex").write_text("light")
+
+
+DAMAGES = [
+    *(empty, flip, cut, lengthen, make_zero, take_of_another, link_to_another),
+    lay(os.mkfifo),
+    lay(os.mkdir),
+    lay(folder_with_files),
+    lay(lambda file: file.symlink_to("/dev/zero")),
+    lay(lambda file: file.symlink_to(file.parent)),
+    lay(lambda file: file.symlink_to(file)),
+    lay(lambda file: file.symlink_to("nowhere")),
+    lay(lambda file: (file.touch(), os.truncate(file, HUGE))),  # It takes no disk.
+    lay(lambda file: file.write_bytes(b"[" * 100_000)),
+    lay(lambda file: file.write_bytes(b"[" * 100 + b"]" * 100)),
+]
+
+
+@pytest.mark.parametrize("name", ["power/3.0", "total/1", "blocks/done/1.0"])
+def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path, name):
     job = Powers(3, log=str(tmp_path / "log"))
     keep_blocks(job, store, "synchronous")
     before = content_of(store)
-    harm(store / "power" / "3.0")
+    for count, harm in enumerate(DAMAGES, 1):
+        harm(store / name)
+        with pytest.warns(StoreWarning, match=r"blocks of '.*' are damaged and computed anew: 1$"):
+            keep_blocks(job, store, "synchronous")
+        assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count]
+        assert content_of(store) == before
+        assert not [each for each in store.rglob("*") if each.is_symlink()]
+
+
+def test_a_lost_chunk_is_damage_and_a_lost_mark_is_a_block_that_is_not_done(store, tmp_path):
+    job = Powers(3, log=str(tmp_path / "log"))
     keep_blocks(job, store, "synchronous")
-    assert computed(tmp_path / "log") == [0, 1, 2, 1]
+    before = content_of(store)
+    lose(store / "power" / "3.0")
+    with pytest.warns(StoreWarning, match=r"computed anew: 1$"):
+        keep_blocks(job, store, "synchronous")
+    lose(store / "blocks" / "done" / "1.0")
+    keep_blocks(job, store, "synchronous")
+    assert computed(tmp_path / "log") == [0, 1, 2, 1, 1]
     assert content_of(store) == before
+
+
+@pytest.mark.filterwarnings("ignore::optipath.errors.StoreWarning")
+def test_every_bit_of_a_store_is_looked_at(store):
+    job = Powers(1)
+    keep_blocks(job, store)
+    accepted, mark = [], (store / "blocks" / "done" / "0.0").read_bytes()
+    for file in sorted(each for each in store.rglob("*") if each.is_file()):
+        content = file.read_bytes()
+        for place in range(0, 8 * len(content), 25):  # It has no factor in common with 8.
+            damaged = bytearray(content)
+            damaged[place // 8] ^= 1 << place % 8
+            file.write_bytes(damaged)
+            try:
+                if block_store.BlockStore.of(job, store).done(job):
+                    accepted.append((file, place))
+            except JobError:
+                pass
+            file.write_bytes(content)
+            (store / "blocks" / "done" / "0.0").write_bytes(mark)
+    assert not accepted
+
+
+def test_a_whole_block_of_another_job_is_none(store, tmp_path):
+    keep_blocks(Powers(2), store)
+    keep_blocks(Powers(2, title="others"), other := tmp_path / "others.zarr")
+    (other / "power" / "3.0").write_bytes(b"whatever they have")
+    mark = json.loads((other / "blocks" / "done" / "1.0").read_bytes().partition(b"\n")[2])
+    assert {*mark} == {"power/2.0", "power/3.0", "total/1"}
+    shutil.copy(other / "blocks" / "done" / "1.0", store / "blocks" / "done")
+    with pytest.warns(StoreWarning, match="anew: 1"):
+        keep_blocks(Powers(2), store)
+
+
+def test_of_many_damaged_blocks_twenty_are_named(store):
+    keep_blocks(Powers(25), store)
+    for file in (store / "total").glob("[0-9]*"):
+        empty(file)
+    with pytest.warns(StoreWarning, match=r"anew: 0, 1, .*, 18, 19 and 5 more$"):
+        keep_blocks(Powers(25), store)
 
 
 @pytest.mark.parametrize(
     "name",
-    [".zgroup", ".zmetadata", "power/.zarray", "number/.zarray", "called/.zattrs", "number/0"],
+    [
+        *(".zgroup", ".zmetadata", ".zattrs", "blocks/.zgroup", "blocks/files", "called/.zattrs"),
+        *("power/.zarray", "number/.zarray", "number/0"),
+    ],
 )
-@pytest.mark.parametrize("harm", [lose, empty])
-def test_a_damaged_file_of_the_group_is_told_and_nothing_is_changed(store, name, harm):
+def test_a_damaged_file_of_the_group_is_told_and_nothing_is_changed(store, name):
     keep_blocks(Powers(2), store)
-    harm(store / name)
-    before = content_of(store)
-    with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone; take another"):
+    content = (store / name).read_bytes()
+    for harm in [lose, *DAMAGES]:
+        harm(store / name)
+        before = content_of(store)
+        told = rf"the file '.*{name}' is damaged or gone; take another"
+        with pytest.raises(JobError, match=told):
+            keep_blocks(Powers(2), store)
+        assert content_of(store) == before
+        clear(store / name)
+        (store / name).write_bytes(content)
+    keep_blocks(Powers(2), store)
+
+
+def test_a_damaged_record_is_told_and_nothing_is_changed(store):
+    keep_blocks(Powers(2), store)
+    record = store / "blocks" / ".zattrs"
+    content = record.read_bytes()
+    for harm in [lose, *DAMAGES]:
+        harm(record)
+        before = content_of(store)
+        with pytest.raises(JobError, match="take another name, or delete it"):
+            keep_blocks(Powers(2), store)
+        assert content_of(store) == before
+        clear(record)
+        record.write_bytes(content)
+    record.write_bytes(content.replace(b" ", b"\t", 1))  # The same to JSON.
+    with pytest.raises(JobError, match=r"blocks/.zattrs' is damaged or gone"):
         keep_blocks(Powers(2), store)
-    assert content_of(store) == before
 
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"shape": [3]}'])
@@ -136,6 +285,11 @@ def test_attributes_may_be_added_by_hand(store):
     keep_blocks(Powers(2), store)
     zarr.open_group(store, mode="r+").attrs["note"] = "mine"
     keep_blocks(Powers(2), store)
+    told = json.loads((store / ".zmetadata").read_bytes())
+    told["metadata"]["power/.zarray"]["shape"] = [4, 3]
+    (store / ".zmetadata").write_text(json.dumps(told))
+    with pytest.raises(JobError, match="is damaged or gone"):
+        keep_blocks(Powers(2), store)
 
 
 def test_a_record_without_marks_is_told(store):
@@ -191,9 +345,10 @@ def test_half_a_store_of_who_was_killed_is_in_nobodys_way(store, monkeypatch):
 def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monkeypatch, title):
     make = block_store.make_group
 
-    def slower(job, folder):
-        make(job, folder)
-        make(Powers(2, title=title), store)
+    def slower(job, *given):
+        make(job, *given)
+        monkeypatch.setattr(block_store, "make_group", make)
+        block_store.BlockStore.of(Powers(2, title=title), store)
 
     monkeypatch.setattr(block_store, "make_group", slower)
     if title == "powers":
@@ -210,7 +365,7 @@ def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monke
 def test_a_disk_that_takes_no_more_is_told_and_finished_blocks_stay(
     store, monkeypatch, number, scheduler
 ):
-    write = block_store.write_file
+    write = block_store.put_file
 
     def full(file, content):
         if file.name == "6.0":
@@ -218,7 +373,7 @@ def test_a_disk_that_takes_no_more_is_told_and_finished_blocks_stay(
         write(file, content)
 
     with monkeypatch.context() as patch:
-        patch.setattr(block_store, "write_file", full)
+        patch.setattr(block_store, "put_file", full)
         with pytest.raises(JobError, match=f"cannot be written: {os.strerror(number)}; mend that"):
             keep_blocks(Powers(5), store, scheduler)
         assert 3 not in marked(store)
@@ -226,96 +381,6 @@ def test_a_disk_that_takes_no_more_is_told_and_finished_blocks_stay(
     assert before >= ({0, 1, 2} if scheduler == "synchronous" else set())
     keep_blocks(Powers(5), store)
     assert marked(store) == {*range(5)}
-
-
-@dataclass(frozen=True)
-class Careless(Powers):
-    """Gives what is asked of it for its first array."""
-
-    gives: tuple = ()
-
-    def compute(self, number):
-        del number
-        return dict([self.gives]) if self.gives else {}
-
-
-WHOLE = np.zeros((4, 3))
-
-
-@pytest.mark.parametrize(
-    ("gives", "told"),
-    [
-        ((), "block 0 gives no array 'power'"),
-        (("S9", (slice(0, 4), WHOLE)), "block 0 gives 'S9', which is not kept"),
-        (("power", ((slice(1, 5), slice(0, 3)), WHOLE)), r"\(1, 5\).* no whole chunks of \(2, 3\)"),
-        (("power", ((slice(0, 3), slice(0, 3)), WHOLE[:3])), r"\(0, 3\).* is no whole chunks"),
-        (("power", ((slice(0, 4),), WHOLE)), r"\[\(0, 4\)\] of shape .* is no whole chunks"),
-        (("power", ((slice(6, 10), slice(0, 3)), WHOLE)), "no whole chunks"),
-        (("power", ((slice(0, 4), slice(0, 3)), WHOLE[:2])), r"of shape \(2, 3\), not float64 of"),
-        (("power", ((slice(0, 4), slice(0, 3)), WHOLE.astype("f4"))), "as float32 of shape"),
-    ],
-)
-def test_what_a_block_gives_is_what_its_job_says(store, gives, told):
-    with pytest.raises(JobError, match=told):
-        keep_blocks(Careless(2, gives=gives), store, "synchronous")
-    assert not store.exists()  # Nothing is done of it.
-
-
-ROWS = (slice(0, 4), slice(0, 3))
-
-
-@pytest.mark.parametrize(
-    ("gives", "told"),
-    [
-        (("power", WHOLE), r"gives 'power' as .*; give \(region, values\)"),
-        (("power", (ROWS, WHOLE.tolist())), r"gives 'power' as .*; give \(region, values\)"),
-        (("power", ((slice(None), slice(0, 3)), WHOLE)), "give a tuple of slices"),
-        (("power", ((0, slice(0, 3)), WHOLE)), "give a tuple of slices"),
-        (("power", ((slice(0, 4, 2), slice(0, 3)), WHOLE)), "give a tuple of slices"),
-        (("power", (slice(0, 4), WHOLE)), "give a tuple of slices"),
-    ],
-)
-def test_what_is_no_part_is_told(store, gives, told):
-    with pytest.raises(JobError, match=told):
-        keep_blocks(Careless(2, gives=gives), store, "synchronous")
-
-
-def test_a_block_of_nothing_is_told(store):
-    class Idle(Powers):
-        def compute(self, number):
-            del number
-
-    with pytest.raises(JobError, match="block 0 gives None; return what is in each array"):
-        keep_blocks(Idle(2), store, "synchronous")
-
-
-class Twice(Powers):
-    """Its second block is its first one."""
-
-    def compute(self, number):
-        return super().compute(0 * number)
-
-
-class Half(Powers):
-    """One block, and arrays of two."""
-
-    @property
-    def arrays(self):
-        return Powers(2).arrays
-
-    @property
-    def coords(self):
-        return Powers(2).coords
-
-
-def test_blocks_that_fill_one_part_are_told(store):
-    with pytest.raises(JobError, match="blocks 0 and 1 both fill the part"):
-        keep_blocks(Twice(2), store, "synchronous")
-
-
-def test_chunks_that_no_block_fills_are_told(store):
-    with pytest.raises(JobError, match="of the 4 chunks of 'power' 2 are filled by none"):
-        keep_blocks(Half(1), store, "synchronous")
 
 
 def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):

@@ -1,5 +1,6 @@
 """Sweeps that are kept in a Zarr store or a file of NetCDF, and go on where they stopped."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -128,6 +129,14 @@ def test_what_is_no_sweep_is_refused_and_left_alone(store):
     with pytest.raises((JobError, op.ParameterError), match="is there"):
         kept(store)
     assert store.read_text() == "mine"
+
+
+def test_a_pipe_or_a_device_in_the_place_of_a_file_is_refused_and_not_opened(tmp_path):
+    os.mkfifo(tmp_path / "pipe.nc")
+    (tmp_path / "device.nc").symlink_to("/dev/zero")
+    for name in ("pipe.nc", "device.nc"):
+        with pytest.raises(op.ParameterError, match=rf"{name}' is there already, and is no file"):
+            kept(tmp_path / name)
 
 
 def test_the_store_beside_a_file_is_gone_when_the_file_is_there(tmp_path):

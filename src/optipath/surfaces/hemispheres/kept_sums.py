@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import zarr
 
-from optipath.errors import JobError
 from optipath.surfaces.energies.given_run import processors
 from optipath.surfaces.hemispheres.part_sums import PartSums
 from optipath.surfaces.hemispheres.sensed_beam import CHUNK
@@ -15,7 +14,7 @@ from optipath.sweeps.blocks.keep_blocks import keep_blocks
 from optipath.sweeps.blocks.workers import active_client
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
     from pathlib import Path
 
     from optipath.surfaces.hemispheres.chunk_job import ChunkJob
@@ -44,7 +43,7 @@ def kept_sums(
     Raises
     ------
     JobError
-        If the store holds something else, or cannot be written or read.
+        If the store holds something else, or cannot be written.
     """
     if scheduler is None:
         scheduler = active_client() or "synchronous"
@@ -61,17 +60,5 @@ def kept_sums(
     there = [zarr.open_array(str(folder / name), mode="r") for name in PartSums._fields]
     found = PartSums.none(job.seen.shape)
     for number in range(job.blocks):
-        found.add(_read(folder, there, number))
+        found.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type]
     return found
-
-
-def _read(folder: Path, there: Iterable[zarr.Array[Any]], number: int) -> PartSums:
-    """Return the sums of a chunk."""
-    try:
-        return PartSums(*(each[number] for each in there))  # type: ignore[arg-type]
-    except (OSError, RuntimeError, ValueError, KeyError, TypeError) as fault:
-        raise JobError(
-            f"chunk {number} of '{folder}' cannot be read ({fault}); delete "
-            f"'{folder / 'blocks' / 'done' / f'{number}.0'}' and start again, and this chunk alone "
-            f"is walked once more"
-        ) from None

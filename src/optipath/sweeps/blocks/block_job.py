@@ -53,10 +53,6 @@ class WholeArray(NamedTuple):
 class BlockPart(Protocol):
     """What a worker is sent of a job for one block."""
 
-    @property
-    def arrays(self) -> Mapping[str, KeptArray]:
-        """What is kept, by name."""
-
     def compute(self, number: int) -> Mapping[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
         """Compute one block.
 
@@ -68,7 +64,7 @@ class BlockPart(Protocol):
         Returns
         -------
         mapping of str to (tuple of slice, ndarray)
-            For each of `arrays` the part that the block fills, and what is in it.
+            For each array of the job the part that the block fills, and what is in it.
         """
 
 
@@ -87,6 +83,10 @@ class BlockJob(BlockPart, Protocol):
     @property
     def blocks(self) -> int:
         """How many there are."""
+
+    @property
+    def arrays(self) -> Mapping[str, KeptArray]:
+        """What is kept, by name."""
 
     @property
     def coords(self) -> Mapping[str, WholeArray]:

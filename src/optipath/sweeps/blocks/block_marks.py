@@ -1,92 +1,151 @@
-"""The mark of a finished block: which part of each array it has filled."""
+"""Marks: which files were written, with their sizes and digests, so that any damage is found."""
 
 from __future__ import annotations
 
-from itertools import product
+import json
+import shutil
+from hashlib import sha256
+from stat import S_ISREG
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from optipath.sweeps.blocks.block_job import KeptArray
+from optipath.values.written_files import write_own_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from pathlib import Path
 
-_TYPE = np.dtype("<i8")
-
-
-def marks_of(arrays: Mapping[str, KeptArray], blocks: int) -> KeptArray:
-    """Return the array of all marks, a row and a chunk for each block.
-
-    A row is 1 and then, for each array and dimension, where the part of the block begins and ends.
-
-    Parameters
-    ----------
-    arrays : mapping of str to KeptArray
-        What the job keeps.
-    blocks : int
-        How many there are.
-
-    Returns
-    -------
-    KeptArray
-    """
-    length = 1 + 2 * sum(len(each.shape) for each in arrays.values())
-    return KeptArray(("block", "bound"), (blocks, length), (1, length), _TYPE.str)
+_MOST = 1 << 26
+"""How many bytes a mark or a file of metadata may have; that of a chunk is known."""
 
 
-def name_of_mark(number: int) -> str:
-    """Return the name of the file of a mark."""
-    return f"{number}.0"
-
-
-def mark_of(arrays: Mapping[str, KeptArray], found: Mapping[str, Any]) -> bytes:
-    """Return the mark of a block.
+def mark_of(about: str, stamps: Mapping[str, list[Any]]) -> bytes:
+    """Return the content of a mark.
 
     Parameters
     ----------
-    arrays : mapping of str to KeptArray
-        What the job keeps.
-    found : mapping of str to (tuple of slice, ndarray)
-        What the block gave.
+    about : str
+        What it is the mark of: it is worth nothing in the place of another one.
+    stamps : mapping of str to list
+        Of each file, as `stamp_of` returns it, by its name.
 
     Returns
     -------
     bytes
-        The content of its file.
     """
-    regions = [found[name][0] for name in arrays]
-    bounds = [end for region in regions for each in region for end in (each.start, each.stop)]
-    return np.array([1, *bounds], _TYPE).tobytes()
+    content = json.dumps(stamps, sort_keys=True).encode()  # Chunks come in any order.
+    return _seal(about, content) + b"\n" + content
 
 
-def files_of_mark(arrays: Mapping[str, KeptArray], mark: bytes) -> Iterator[tuple[str, str]]:
-    """Yield what a block has written.
+def damaged_files(folder: Path, mark: str, about: str) -> Iterator[str]:
+    """Yield the names of files that are not as a mark says; its own name where it is damaged.
 
     Parameters
     ----------
-    arrays : mapping of str to KeptArray
-        What the job keeps.
-    mark : bytes
-        Of the block.
+    folder : Path
+        Where files and mark are.
+    mark : str
+        The name of its file.
+    about : str
+        As `mark_of` took it.
 
     Yields
     ------
-    tuple of (str, str)
-        The name of an array, and that of the file of one of its chunks.
+    str
 
     Examples
     --------
-    >>> arrays = {"S0": KeptArray(("delta", "rho"), (6, 4), (2, 4))}
-    >>> mark = mark_of(arrays, {"S0": ((slice(2, 6), slice(0, 4)), None)})
-    >>> list(files_of_mark(arrays, mark))
-    [('S0', '1.0'), ('S0', '2.0')]
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     place = Path(folder)
+    ...     put_file(place / "mark", mark_of("block 0", {"S0": stamp_of(b"light")}))
+    ...     put_file(place / "S0", b"night")
+    ...     print(*damaged_files(place, "mark", "block 0"), *damaged_files(place, "mark", "1"))
+    S0 mark
     """
-    bounds = iter(np.frombuffer(mark, _TYPE)[1:].tolist())
-    for name, kept in arrays.items():
-        places = [
-            range(next(bounds) // chunk, -(-min(next(bounds), size) // chunk))
-            for size, chunk in zip(kept.shape, kept.chunks, strict=True)
-        ]
-        for place in product(*places):
-            yield name, ".".join(map(str, place)) or "0"
+    seal, _, stamps = content_of(folder / mark).partition(b"\n")
+    if seal != _seal(about, stamps):
+        yield mark
+        return
+    for name, stamp in json.loads(stamps).items():
+        if stamp_of(content_of(folder / name, stamp[0])) != stamp:
+            yield name
+
+
+def _seal(about: str, stamps: bytes) -> bytes:
+    return sha256(f"{about}\n".encode() + stamps).hexdigest().encode()
+
+
+def stamp_of(content: bytes) -> list[Any]:
+    """Return the size and the digest of what a file is to hold."""
+    return [len(content), sha256(content).hexdigest()]
+
+
+def content_of(file: Path, most: int = _MOST) -> bytes:
+    """Return what is in a file; nothing of what is no regular file, or a larger one.
+
+    Pipes and devices are not opened: they may never end.
+
+    Parameters
+    ----------
+    file : Path
+        Its name.
+    most : int, optional
+        How many bytes it may have.
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    PermissionError
+        If it may not be read, which is no damage.
+    """
+    try:
+        about = file.stat()
+        if S_ISREG(about.st_mode) and 0 < about.st_size <= most:
+            with file.open("rb") as stream:
+                return stream.read(about.st_size)
+    except PermissionError:
+        raise
+    except OSError:
+        pass
+    return b""
+
+
+def object_of(file: Path) -> dict[str, Any]:
+    """Return the JSON object that is in a file; an empty one where there is none."""
+    try:
+        found = json.loads(content_of(file))
+    except (ValueError, RecursionError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def put_file(file: Path, content: bytes) -> None:
+    """Write a file, whole or not at all, in place of whatever is there.
+
+    Parameters
+    ----------
+    file : Path
+        Its place.
+    content : bytes
+        All that is in it.
+
+    Raises
+    ------
+    OSError
+        As `write_own_file` does.
+    """
+    if file.is_dir():
+        clear(file)
+    write_own_file(file, content, 0o666)
+
+
+def clear(place: Path) -> None:
+    """Remove a file, a folder, or what else may be at a place; a link, and not what it leads to."""
+    if place.is_dir() and not place.is_symlink():
+        shutil.rmtree(place)
+    else:
+        place.unlink(missing_ok=True)

@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 import errno
+import json
 import os
 import secrets
 import shutil
+import warnings
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
-from math import prod
+from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import JobError
-from optipath.sweeps.blocks.block_marks import files_of_mark, mark_of, marks_of, name_of_mark
-from optipath.sweeps.blocks.block_parts import check_parts, chunk_files
-from optipath.sweeps.blocks.group_files import check_group
-from optipath.sweeps.blocks.job_record import OTHER_PLACE, check_record
+from optipath.errors import JobError, StoreWarning
+from optipath.sweeps.blocks.block_marks import clear, damaged_files, mark_of, put_file, stamp_of
+from optipath.sweeps.blocks.block_parts import chunk_files
+from optipath.sweeps.blocks.job_record import OTHER_PLACE, check_files, check_record, record_of
 from optipath.sweeps.blocks.new_group import make_group
-from optipath.values.written_files import write_file
+from optipath.values.calls_up import calls_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.sweeps.blocks.block_job import BlockJob, BlockPart
+    from optipath.sweeps.blocks.block_job import BlockJob
+
+_MARKS = "blocks/done"
+_NAMED = 20
+"""How many damaged blocks are named."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +37,16 @@ class BlockStore:
 
     A block's arrays are written first and its mark last, each file whole or not at all. So whoever
     is interrupted leaves nothing that passes for a block, and two who do one block at a time write
-    the same bits. The marks are a Zarr array of their own, ``blocks/done``, with a chunk a block,
-    and say which files the block has written: where one of these is lost, so is the block.
+    the same bits. The marks, in ``blocks/done``, have the sizes and the digests of the files that
+    the block has written, and a digest of themselves, the job and the number of the block: where
+    any byte of these is another, the block is not done.
 
     Attributes
     ----------
     folder : Path
         Where it is.
+    seal : str
+        A digest of what is said of the job, without which no mark is one.
     is_new : bool
         Whether this run has made it.
     stood : bool
@@ -46,6 +54,7 @@ class BlockStore:
     """
 
     folder: Path
+    seal: str
     is_new: bool = False
     stood: bool = False
 
@@ -67,108 +76,75 @@ class BlockStore:
         Raises
         ------
         JobError
-            If something else is there, or it cannot be made.
+            If something else is there, it is damaged, or it cannot be made.
         """
-        store = cls(Path(os.path.realpath(folder)))
+        record = record_of(job)
+        seal = sha256(json.dumps(record).encode()).hexdigest()
+        store = cls(Path(os.path.realpath(folder)), seal)
         if not store.folder.parent.is_dir():
             raise JobError(f"there is no folder '{store.folder.parent}' for a store; make it first")
         with store._writing():
             stood = store.folder.exists()
             if not stood or _is_empty(store.folder):
-                store = cls(store.folder, store._make(job), stood)
-            check_record(store.folder, store.folder / "blocks" / ".zattrs", job)
-            check_group(store.folder, job)
+                store = replace(store, is_new=store._make(job, record), stood=stood)
+            check_record(store.folder, record)
+            check_files(store.folder, store.about("files"), job)
         return store
 
-    @property
-    def _marks(self) -> Path:
-        return self.folder / "blocks" / "done"
+    def about(self, name: object) -> str:
+        """Return what the mark of a block, or of the files before any block, is made with."""
+        return f"{name} of {self.seal}"
 
     def done(self, job: BlockJob) -> set[int]:
-        """Return the numbers of the blocks that it holds.
+        """Return the numbers of the blocks that it holds, each byte of which is looked at.
 
-        The marks of blocks that have lost a file are removed, so that they are computed again.
-
-        Raises
-        ------
-        JobError
-            If what it says of them is damaged, or two blocks have filled one part.
-        """
-        return self._done(job)[0]
-
-    def _done(self, job: BlockJob) -> tuple[set[int], dict[str, set[str]]]:
-        """Return the blocks that it holds, and the files of chunks of each array."""
-        marks = self._read_marks(job)
-        with self._writing():
-            # After the marks, since a block writes these last.
-            there = {name: _chunks_with_content(self.folder / name) for name in job.arrays}
-            written = dict[tuple[str, str], int]()
-            lost = set[int]()
-            for number, mark in marks.items():
-                for name, file in files_of_mark(job.arrays, mark):
-                    if file not in there[name]:
-                        lost.add(number)
-                    if (other := written.setdefault((name, file), number)) != number:
-                        raise JobError(
-                            f"blocks {other} and {number} both fill the part '{file}' of "
-                            f"'{name}'; let each block fill a part of its own"
-                        )
-            for number in lost:
-                (self._marks / name_of_mark(number)).unlink(missing_ok=True)
-        return marks.keys() - lost, there
-
-    def check_whole(self, job: BlockJob) -> None:
-        """Refuse a store in which all blocks are done and have not filled all arrays.
+        The marks of damaged blocks are removed, so that these are computed anew.
 
         Raises
         ------
         JobError
-            Naming an array that is not filled, or two blocks that have filled one part.
-        """
-        _, there = self._done(job)
-        for name, kept in job.arrays.items():
-            sides = zip(kept.shape, kept.chunks, strict=True)
-            chunks = prod(-(-size // chunk) for size, chunk in sides)
-            if len(there[name]) < chunks:
-                raise JobError(
-                    f"all blocks are done, and of the {chunks} chunks of '{name}' "
-                    f"{chunks - len(there[name])} are filled by none; let each be in one block"
-                )
+            If it cannot be read.
 
-    def _read_marks(self, job: BlockJob) -> dict[int, bytes]:
-        size = 8 * marks_of(job.arrays, job.blocks).shape[1]
-        numbers = {name_of_mark(number): number for number in range(job.blocks)}
-        found = {}
+        Warns
+        -----
+        StoreWarning
+            Naming the blocks that are damaged.
+        """
         try:
-            for file in self._marks.iterdir():
-                if file.name.startswith("."):
-                    continue
-                with suppress(FileNotFoundError):  # Another run has found that the block is lost.
-                    mark = file.read_bytes()
-                    if file.name not in numbers or len(mark) != size:
-                        raise JobError(
-                            f"'{file}' is no mark of a block; delete this file, and what is "
-                            f"missing is computed again"
-                        )
-                    found[numbers[file.name]] = mark
+            names = {each.name for each in (self.folder / _MARKS).iterdir()}
         except OSError as fault:
             raise JobError(
-                f"the record '{self._marks}' cannot be read: {fault.strerror}; {OTHER_PLACE}: "
-                f"'{self.folder}'"
+                f"the record '{self.folder / _MARKS}' cannot be read: {fault.strerror}; "
+                f"{OTHER_PLACE}: '{self.folder}'"
             ) from None
-        return found
+        marked = {number for number in range(job.blocks) if f"{number}.0" in names}
+        with self._writing():
+            damaged = [
+                number
+                for number in sorted(marked)
+                if any(damaged_files(self.folder, _mark(number), self.about(number)))
+            ]
+            for number in damaged:
+                clear(self.folder / _mark(number))
+        if damaged:
+            more = f" and {len(damaged) - _NAMED:,} more" if len(damaged) > _NAMED else ""
+            warnings.warn(
+                f"blocks of '{self.folder}' are damaged and computed anew: "
+                f"{', '.join(map(str, damaged[:_NAMED]))}{more}",
+                StoreWarning,
+                stacklevel=calls_up(),
+            )
+        return marked.difference(damaged)
 
     def holds(self, number: int) -> bool:
         """Tell whether a block is there."""
-        return (self._marks / name_of_mark(number)).exists()
+        return (self.folder / _mark(number)).exists()
 
-    def keep(self, job: BlockPart, number: int, found: Mapping[str, Any]) -> None:
+    def keep(self, number: int, found: Mapping[str, Any]) -> None:
         """Write a block, and then mark it as done.
 
         Parameters
         ----------
-        job : BlockJob
-            What it is of.
         number : int
             Which one it is.
         found : mapping of str to (tuple of slice, ndarray)
@@ -177,33 +153,34 @@ class BlockStore:
         Raises
         ------
         JobError
-            If it is not what the job says of it, or cannot be written.
+            If it cannot be written.
         """
-        check_parts(number, job.arrays, found)
         with self._writing():
+            stamps = {}
             for name, (region, values) in found.items():
                 metadata = (self.folder / name / ".zarray").read_bytes()
                 for file, content in chunk_files(metadata, region, values):
-                    write_file(self.folder / name / file, content)
-            write_file(self._marks / name_of_mark(number), mark_of(job.arrays, found))
+                    put_file(self.folder / name / file, content)
+                    stamps[f"{name}/{file}"] = stamp_of(content)
+            put_file(self.folder / _mark(number), mark_of(self.about(number), stamps))
 
     def discard_unused(self) -> None:
         """Remove it if this run has made it and no block of it is done."""
-        if self.is_new and not any(self._marks.glob("[0-9]*")):
+        if self.is_new and not any((self.folder / _MARKS).glob("[0-9]*")):
             draft = self._draft()
             self.folder.rename(draft)
             shutil.rmtree(draft, ignore_errors=True)
             if self.stood:
                 self.folder.mkdir()
 
-    def _make(self, job: BlockJob) -> bool:
+    def _make(self, job: BlockJob, record: dict[str, Any]) -> bool:
         """Make it beside its place and move it there: nobody finds half of it.
 
         False if another run was faster.
         """
         draft = self._draft()
         try:
-            make_group(job, draft)
+            make_group(job, record, self.about("files"), draft)
             with suppress(OSError):
                 self.folder.rmdir()
             draft.rename(self.folder)
@@ -230,9 +207,8 @@ class BlockStore:
             ) from None
 
 
-def _chunks_with_content(folder: Path) -> set[str]:
-    with os.scandir(folder) as found:
-        return {each.name for each in found if each.name[0] != "." and each.stat().st_size}
+def _mark(number: int) -> str:
+    return f"{_MARKS}/{number}.0"
 
 
 def _is_empty(folder: Path) -> bool:

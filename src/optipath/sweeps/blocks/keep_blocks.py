@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import JobError, OptipathError
 from optipath.sweeps.blocks.block_store import BlockStore
-from optipath.sweeps.blocks.checked_job import check_job
 from optipath.sweeps.blocks.workers import check_scheduler, workers_of
 from optipath.values.given_files import given_file
 
@@ -55,6 +54,11 @@ def keep_blocks(
     JobError
         If the store holds something else, cannot be written, or there is nobody to compute.
 
+    Warns
+    -----
+    StoreWarning
+        Naming blocks of the store that are damaged; they are computed anew.
+
     Notes
     -----
     A store that was made and has no block yet goes again where an error comes out, so that the job
@@ -88,7 +92,6 @@ def keep_blocks(
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
-    check_job(job)
     kept = BlockStore.of(job, given_file(store, JobError))
     done = kept.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
@@ -111,7 +114,6 @@ def keep_blocks(
             if not are_at_work:  # They might write into another job's store of the same name.
                 kept.discard_unused()
             raise
-    kept.check_whole(job)
     return kept.folder
 
 
@@ -153,7 +155,7 @@ def _keep_block(job: BlockPart, kept: BlockStore, number: int) -> OptipathError 
     try:
         # Another run, or a worker that was thought lost, may have done it.
         if not kept.holds(number):
-            kept.keep(job, number, job.compute(number))
+            kept.keep(number, job.compute(number))
     except OptipathError as fault:
         return fault
     return None

@@ -8,8 +8,8 @@ import numpy as np
 import zarr
 
 from optipath.sweeps.blocks.block_job import KeptArray
-from optipath.sweeps.blocks.block_marks import marks_of
-from optipath.sweeps.blocks.job_record import record_of
+from optipath.sweeps.blocks.block_marks import mark_of, stamp_of
+from optipath.sweeps.blocks.job_record import FILES, group_attrs
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,31 +22,38 @@ _VERSION: Literal[2] = 2
 _DIMENSIONS = "_ARRAY_DIMENSIONS"
 
 
-def make_group(job: BlockJob, folder: Path) -> None:
+def make_group(job: BlockJob, record: dict[str, Any], about: str, folder: Path) -> None:
     """Write a group with the arrays of a job, its coordinates and its record.
 
     Parameters
     ----------
     job : BlockJob
         What will be kept in it.
+    record : dict of str to Any
+        As `record_of` returns it.
+    about : str
+        What the mark of these files is made with.
     folder : Path
         Where it is made; nothing is there yet.
     """
-    # Coordinates that do not bear the name of a dimension are told apart by this attribute.
-    others = [name for name, each in job.coords.items() if each.dims != (name,)]
-    attrs = {**job.attrs, **({"coordinates": " ".join(others)} if others else {})}
     folder.mkdir()
-    group = zarr.create_group(str(folder), zarr_format=_VERSION, attributes=attrs)
+    group = zarr.create_group(str(folder), zarr_format=_VERSION, attributes=group_attrs(job))
     for name, kept in job.arrays.items():
         _create(group, name, kept)
     for name, whole in job.coords.items():
         _write(group, name, whole)
-    record = group.create_group("blocks", attributes=record_of(job))
-    _create(record, "done", marks_of(job.arrays, job.blocks), compressors=None, filters=None)
     zarr.consolidate_metadata(str(folder), zarr_format=_VERSION)
+    group.create_group("blocks", attributes=record)
+    (folder / "blocks" / "done").mkdir()
+    stamps = {
+        file.relative_to(folder).as_posix(): stamp_of(file.read_bytes())
+        for file in sorted(folder.rglob("*"))
+        if file.is_file()
+    }
+    (folder / FILES).write_bytes(mark_of(about, stamps))
 
 
-def _create(group: zarr.Group, name: str, kept: KeptArray, **encoding: Any) -> zarr.Array[Any]:
+def _create(group: zarr.Group, name: str, kept: KeptArray) -> zarr.Array[Any]:
     dtype = np.dtype(kept.dtype)
     return group.create_array(
         name,
@@ -57,7 +64,6 @@ def _create(group: zarr.Group, name: str, kept: KeptArray, **encoding: Any) -> z
         fill_value=np.nan if dtype.kind in "fc" else None,
         config={"write_empty_chunks": True},
         attributes={**kept.attrs, _DIMENSIONS: list(kept.dims)},
-        **encoding,
     )
 
 

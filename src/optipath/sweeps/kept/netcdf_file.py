@@ -102,6 +102,8 @@ def _write(file: Path, store: Path, identity: str, chunks: Mapping[str, tuple[in
 
 def _opened(file: Path, identity: str) -> xr.Dataset:
     """Return what a file holds, if it is the sweep that is asked for."""
+    if not file.is_file():
+        raise ParameterError(_TAKEN.format(file, "is no file"))
     try:
         found = xr.open_dataset(file, engine="h5netcdf", chunks={})
     except _FAULTS:

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.sweeps.axes.sweep_grid import SweepGrid
-    from optipath.sweeps.blocks.block_job import KeptArray
     from optipath.sweeps.chunked.plan_recipe import PlanRecipe
     from optipath.sweeps.labels.light_quantities import LightQuantity
 
@@ -32,15 +31,12 @@ class SweepBlock:
         Where it is in the whole.
     quantities : mapping of str to LightQuantity
         By the names of their variables.
-    arrays : mapping of str to KeptArray
-        The whole variables.
     """
 
     recipe: PlanRecipe
     grid: SweepGrid
     region: tuple[slice, ...]
     quantities: Mapping[str, LightQuantity]
-    arrays: Mapping[str, KeptArray]
 
     def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:  # noqa: ARG002 - it is one block
         """Return the part of each variable that the block is, and what is in it."""

@@ -141,7 +141,7 @@ class SweepJob:
         """
         region = self.region(number)
         grid = self.grid.part(region)
-        return SweepBlock(self.recipe, grid, region, self.quantities, self.arrays)
+        return SweepBlock(self.recipe, grid, region, self.quantities)
 
     def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
         """Return the part of each variable that a block is, and what is in it.
