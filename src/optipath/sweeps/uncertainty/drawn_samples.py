@@ -20,7 +20,7 @@ _CHUNK = 4096
 """How many random numbers begin anew, whatever the blocks are that samples run in."""
 
 _ROUNDS = 1000
-"""How often samples outside are drawn again: of 0.05 inside, 1e-22 are still outside then."""
+"""How often samples outside are drawn again, before what is inside is next to nothing."""
 
 
 class DrawnSamples:

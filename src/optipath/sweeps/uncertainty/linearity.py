@@ -29,7 +29,7 @@ FLAT = 100.0
 """Beyond how much of it there is no slope to speak of."""
 
 
-STEPS = tuple(0.25 * number for number in range(1, 13))
+STEPS = (1.0, 1.5, 2.0, 2.5, 3.0)
 """How many standard uncertainties away values are looked at: beyond 3 are 0.3 % of all."""
 
 
