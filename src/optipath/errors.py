@@ -141,7 +141,7 @@ class MissingExtraError(OptipathError):
 
     def __init__(self, what: str, library: str, extra: str) -> None:
         super().__init__(
-            f"{what} need {library}, which is not installed; pip install 'optipath[{extra}]'"
+            f'{what} need {library}, which is not installed; pip install "optipath[{extra}]"'
         )
 
 
