@@ -126,7 +126,7 @@ op.Material.named("silver").at("516 nm")
 op.Material.from_yaml("own.yml").at("516 nm")
 op.Spectrum.illuminant("D65")
 op.measure(rough, "60 deg", 100, sensor=8).adm(noise=None)
-op.measure(rough, "60 deg", 100, sensor=8, store="kept-photons.zarr")
+op.measure(rough, "60 deg", 100, sensor=8, store="photons.zarr")
 op.measure(rough, "60 deg", 100, sensor=8).save("a.zarr")
 op.measure(rough, "60 deg", 100, sensor=8).save("a.exr", side="reflected")
 [op.measure(rough, "60 deg", 100, sensor=8).save("a.nc"), op.load_hemisphere("a.nc")]
@@ -137,7 +137,7 @@ op.polarization(path)
 answers.open({"preset": "npgr026"})
 answers.trace({"preset": "npgr026", "values": {"n1": "gold", "wavelength": "516 nm"}})
 """
-"""An expression of Python each, of `op`, a `path`, its `light`, a `rough` sample and the `answers` of the page."""
+"""An expression of Python each; `answers` are those of the page."""
 
 
 FILES = {

@@ -47,7 +47,7 @@ def need(what: str, *packages: str) -> None:
     >>> need("paths")
     """
     if missing := [package for package in packages if find_spec(package) is None]:
-        raise _missing(what, missing)
+        raise missing_extra(what, *missing)
 
 
 @contextmanager
@@ -70,10 +70,20 @@ def needing(what: str) -> Iterator[None]:
         package = (error.name or "").partition(".")[0]
         if package not in _EXTRA_OF:
             raise
-        raise _missing(what, [package]) from None
+        raise missing_extra(what, package) from None
 
 
-def _missing(what: str, packages: list[str]) -> MissingExtraError:
+def missing_extra(what: str, *packages: str) -> MissingExtraError:
+    """Return the error that packages are not installed, and which extras bring them.
+
+    Examples
+    --------
+    >>> print(missing_extra("pictures", "matplotlib"))
+    pictures need matplotlib, which is not installed; pip install "optipath[plot]"
+    """
     libraries = " and ".join(_NAMES.get(package, package) for package in packages)
     extras = ",".join(dict.fromkeys(_EXTRA_OF[package] for package in packages))
-    return MissingExtraError(what, libraries, extras)
+    are = "is" if len(packages) == 1 else "are"
+    return MissingExtraError(
+        f'{what} need {libraries}, which {are} not installed; pip install "optipath[{extras}]"'
+    )
