@@ -76,6 +76,17 @@ def needing(what: str) -> Iterator[None]:
 def missing_extra(what: str, *packages: str) -> MissingExtraError:
     """Return the error that packages are not installed, and which extras bring them.
 
+    Parameters
+    ----------
+    what : str
+        The feature, in the plural.
+    *packages : str
+        Their modules, all of which are in `EXTRAS`.
+
+    Returns
+    -------
+    MissingExtraError
+
     Examples
     --------
     >>> print(missing_extra("pictures", "matplotlib"))

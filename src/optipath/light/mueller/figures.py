@@ -195,6 +195,7 @@ class MatrixFigures:
                     CoherenceWarning,
                     stacklevel=calls_up(),
                 )
+                return
 
     def _over_m00(self, entries: Array) -> Array:
         """Return entries over M00; NaN where that is no more than noise."""
