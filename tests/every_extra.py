@@ -127,7 +127,7 @@ op.Material.from_yaml("own.yml").at("516 nm")
 op.Spectrum.illuminant("D65")
 op.measure(rough, "60 deg", 100, sensor=8).adm(noise=None)
 op.measure(rough, "60 deg", 100, sensor=8, store="photons.zarr")
-op.measure(rough, "60 deg", 100, sensor=8).save("a.zarr")
+op.measure(rough, "60 deg", 100, sensor=8).save("saved.zarr")
 op.measure(rough, "60 deg", 100, sensor=8).save("a.exr", side="reflected")
 [op.measure(rough, "60 deg", 100, sensor=8).save("a.nc"), op.load_hemisphere("a.nc")]
 op.surfaces.energy(rough, "60 deg", photons=100)

@@ -230,7 +230,7 @@ def test_a_range_of_plain_degrees_is_told_as_it_was_given():
             give(d=85)
 
 
-@pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])
+@pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 200.0])
 def test_a_slip_of_radians_and_what_was_in_degrees_already_are_not(delta):
     with pytest.raises(op.ParameterError) as error:
         op.load_preset("npgr026").trace(delta=delta)

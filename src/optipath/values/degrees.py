@@ -17,8 +17,8 @@ TURN = 2.0 * math.pi * (1.0 + 1e-6)
 _MULTIPLES = 10.0
 """Up to what factor of an angle one has to do with an angle still."""
 
-_LEAST = math.pi
-"""Beyond what size a number that is refused may have been one of degrees."""
+_LEAST = 2.0
+"""From what size on a number that is refused may have been one of degrees."""
 
 
 def is_within_a_turn(low: Any, high: Any) -> bool:
@@ -96,7 +96,7 @@ def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
     >>> meant_in_degrees(math.radians(100.0), lambda angle: 0.0 <= angle <= 1.6)
     ''
     """
-    if abs(number) <= _LEAST or UNITS_ARE_WRITTEN.get() or not allows(math.radians(number)):
+    if abs(number) < _LEAST or UNITS_ARE_WRITTEN.get() or not allows(math.radians(number)):
         return ""
     return f"; did you mean '{number:.6g} deg' or np.radians({number:.6g})?"
 
