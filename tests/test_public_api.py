@@ -20,6 +20,7 @@ ROOMS = [
     "spelling",
     "lazy_names",
     "errors",
+    "extras",
     "kernels",
     "values",
     "light",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 # At once, for Ctrl-C while the others are imported.
 from optipath.errors import (
     AngleWarning,
+    CoherenceWarning,
     ColourWarning,
     ComposerError,
     FrameError,
@@ -123,6 +124,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Certificate",
     "CircularDiattenuator",
     "CircularPolarizer",
+    "CoherenceWarning",
     "ColourWarning",
     "Combiner",
     "Composer",

@@ -126,6 +126,10 @@ class AngleWarning(UserWarning):
     """An angle beyond a whole turn, given as a plain number: degrees, perhaps, for radians."""
 
 
+class CoherenceWarning(UserWarning):
+    """Intensities are added of light that interferes, or r_p / r_s is read where there is none."""
+
+
 class ColourWarning(UserWarning):
     """Light of too few wavelengths for its colour, or of too small a range of them."""
 
@@ -135,18 +139,7 @@ class StoreWarning(UserWarning):
 
 
 class MissingExtraError(OptipathError):
-    """A feature whose extra is not installed.
-
-    Parameters
-    ----------
-    what, library, extra : str
-        The feature, what it needs, and the extra that brings it.
-    """
-
-    def __init__(self, what: str, library: str, extra: str) -> None:
-        super().__init__(
-            f"{what} need {library}, which is not installed; pip install 'optipath[{extra}]'"
-        )
+    """A feature whose extra is not installed; the sentence says which to install."""
 
 
 class ParameterError(OptipathError):

@@ -93,7 +93,7 @@ def test_a_chart_is_drawn_again_without_mpmath():
 def test_what_measures_says_that_it_needs_mpmath():
     done = without_mpmath(*QUICK)
     assert done.returncode == 2
-    assert "pip install 'optipath[chart]'" in done.stderr
+    assert 'pip install "optipath[chart]"' in done.stderr
 
 
 def test_errors_near_a_place_are_measured_drawn_and_drawn_again(monkeypatch):

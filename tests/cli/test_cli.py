@@ -462,7 +462,7 @@ def test_a_feature_whose_extra_is_missing_says_which(monkeypatch, capsys):
     for name in [name for name in sys.modules if name.startswith("optipath.lab.accuracy")]:
         monkeypatch.delitem(sys.modules, name)
     assert main(["accuracy", "--samples", "1"]) == 2
-    assert "pip install 'optipath[chart]'" in capsys.readouterr().err
+    assert 'pip install "optipath[chart]"' in capsys.readouterr().err
 
 
 def test_files_that_are_no_text_are_refused_in_one_line(tmp_path, capsys):

@@ -317,6 +317,6 @@ def test_forbidden_compilation_is_told(capsys, monkeypatch):
 
 def test_a_missing_extra_is_told(capsys, monkeypatch):
     walk_code.walk_code.cache_clear()
-    monkeypatch.setitem(sys.modules, "optipath.engines.machine_code", None)
+    monkeypatch.setitem(sys.modules, "numba", None)
     wrong = refused(capsys, "flat.toml", "--incidence", "60")
-    assert wrong.endswith("need numba, which is not installed; pip install 'optipath[fast]'")
+    assert wrong.endswith('need numba, which is not installed; pip install "optipath[fast]"')

@@ -250,7 +250,7 @@ def test_a_missing_extra_is_told_with_its_cure(missing):
         [sys.executable, "-c", program], capture_output=True, text=True, check=False
     )
     assert (ended.returncode, ended.stdout) == (2, "")
-    assert ended.stderr.endswith("is not installed; pip install 'optipath[sweep]'\n")
+    assert ended.stderr.endswith('is not installed; pip install "optipath[sweep]"\n')
     assert len(ended.stderr.splitlines()) == 1
 
 

@@ -13,6 +13,10 @@ import optipath as op
 from chains import ENGINES
 from incoherent_stacks import exact_stack, mueller_of
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::optipath.CoherenceWarning"
+)  # Of films, on purpose.
+
 WAVE = {"wavelength": 500e-9}
 FILM = {"lengths": [op.Parameter("d")], **WAVE}
 OF_PANE = {"lengths": [4e-3], "wavelength": 550e-9}

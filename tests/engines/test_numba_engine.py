@@ -64,6 +64,7 @@ def test_parts_of_complex_numbers_of_single_precision_are_read_as_what_they_are(
     np.testing.assert_allclose(found, law, rtol=1e-13)
 
 
+@pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
 def test_whole_numbers_of_one_axis_of_a_grid_are_whole_numbers_along_the_other():
     # Indices are scaled by powers of two, whose exponents depend on the indices alone.
     material = op.Material(op.Parameter("n"), op.Parameter("k"))

@@ -1,3 +1,5 @@
+import sys
+
 import numpy as np
 import pytest
 
@@ -51,7 +53,7 @@ def test_a_matrix_draws_itself():
 
 
 def test_without_matplotlib_the_extra_is_named(monkeypatch):
-    monkeypatch.setattr(op.plots, "find_spec", lambda _: None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.delitem(vars(op.plots), "ellipse", raising=False)
     with pytest.raises(op.OptipathError, match="matplotlib"):
         LIGHT.plot()

@@ -14,6 +14,10 @@ from lossless import networks
 from optipath.cli.command import main
 from paths import chain
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::optipath.CoherenceWarning"
+)  # Of films, on purpose.
+
 ANGLES = np.radians([50.0, 56.0, 60.0, 65.0])
 TINTED = {"lengths": [0.2], "wavelength": 5e-7}
 INDICES = st.floats(1.0, 4.0)

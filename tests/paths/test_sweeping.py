@@ -16,7 +16,7 @@ def test_without_xarray_one_sentence_names_the_extra():
     )
     assert ended.stderr.splitlines()[-1] == (
         "optipath.errors.MissingExtraError: "
-        "sweeps need xarray, which is not installed; pip install 'optipath[sweep]'"
+        'sweeps need xarray, which is not installed; pip install "optipath[sweep]"'
     )
 
 

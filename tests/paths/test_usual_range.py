@@ -94,6 +94,7 @@ def test_of_huge_values_the_range_has_ends_in_its_unit_as_well(unit, given):
     assert np.isfinite([in_unit(each, unit) for each in points]).all()
 
 
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 def test_a_signed_range_is_no_wider_than_floats():
     low, high = of(op.Parameter("a", 1e308), op.Retarder, one=-1e308)
     assert np.isfinite(high - low)

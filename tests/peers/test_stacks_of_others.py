@@ -11,6 +11,10 @@ import pytest
 
 import optipath as op
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::optipath.CoherenceWarning"
+)  # Of films, on purpose.
+
 FIGURES = json.loads((Path(__file__).parent / "figures/stacks/tmm.json").read_text("utf-8"))
 
 

@@ -201,7 +201,7 @@ def test_an_offset_of_another_dimension_is_a_fault():
 
 @pytest.mark.parametrize("angle", [2 * D + 45.0, 45.0 - D, op.Parameter("d", unit="deg") + 45.0])
 def test_an_offset_that_looks_like_degrees_is_warned_of(angle):
-    with pytest.warns(op.AngleWarning, match="offset of parameter 'd' .* 45 rad.* '45 deg'"):
+    with pytest.warns(op.AngleWarning, match="offset of parameter 'd' .* is a plain number"):
         op.Polarizer(angle)
     op.Polarizer(D + "45 deg")
 

@@ -75,8 +75,8 @@ def test_an_unknown_picture_is_told():
 
 
 def test_pictures_without_matplotlib_say_what_to_install(monkeypatch):
-    monkeypatch.setattr(op.plots, "find_spec", {}.get)
-    with pytest.raises(op.OptipathError, match=r"pip install 'optipath\[plot\]'"):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(op.OptipathError, match=r'pip install "optipath\[plot\]"'):
         op.plots.__getattr__("save")
 
 

@@ -17,54 +17,60 @@ def warned(action):
     return [str(one.message) for one in told]
 
 
-@pytest.mark.parametrize(
-    ("action", "what"),
-    [
-        (
-            lambda: op.Polarizer(45),
-            "Polarizer angle is 45 rad, which is 2578.31 deg; did you mean ",
-        ),
-        (lambda: op.Retarder(90.0), "Retarder retardance is 90 rad, which is 5156.62 deg"),
-        (lambda: op.Rotator(np.linspace(0, 180, 7)), "Rotator angle has a value of 180 rad"),
-        (lambda: op.Rotator([30.0, "1 deg"]), "Rotator angle has a value of 30 rad"),
-        (lambda: op.Rotator(np.float32(-45)), "Rotator angle is -45 rad"),
-        (lambda: op.Interface(1.5, 0.1, azimuth=30), "Interface azimuth is 30 rad"),
-        (lambda: op.Medium(1.0, angle=45), "Medium angle is 45 rad"),
-        (lambda: op.VerticesByAngles((0.1, 0.2), (45,)), r"turns\[0\] is 45 rad"),
-        (lambda: op.Parameter("t", 45, unit="deg"), "parameter 't' is 45 rad"),
-        (lambda: op.Parameter("t", unit="deg", maximum=180), "the maximum of parameter 't' is 180"),
-        (lambda: op.Rotator(op.Parameter("t", 45)), "Rotator angle is 45 rad"),
-        (
-            lambda: op.Parameter("f", words={"up": 90}, unit="deg"),
-            "the word 'up' of parameter 'f' is 90 rad, which is 5156.62 deg; did you mean '90 deg'",
-        ),
-        (lambda: op.Polarizer(op.Parameter("f", words={"up": 90})), "the word 'up' of .* is 90"),
-        (lambda: op.Polarizer(op.Parameter("d", maximum=90)), "the maximum of parameter 'd' is 90"),
-        (lambda: op.Interface(1.5, op.Parameter("d", 0.5, maximum=90)), "the maximum of .* 'd'"),
-        (
-            lambda: op.Medium("10 cm", dextrorotation=66.5),
-            r"is 66.5 rad/m, which over 0.1 m is .* 381.017 deg; did you mean '66.5 deg/dm'\?",
-        ),
-        (lambda: op.Medium("10 cm", retardance=90), "Medium retardance is 90 rad/m"),
-        (lambda: op.Frame().turned(90), "the angle of a turn is 90 rad"),
-    ],
+WARNED = (
+    "is a plain number beyond 2 pi, in radians; write degrees as '48 deg', and radians as '48 rad'"
 )
-def test_an_angle_beyond_a_whole_turn_is_warned_of(action, what):
-    with pytest.warns(op.AngleWarning, match=what):
-        action()
 
 
-def test_the_warning_has_both_readings_and_the_line_of_who_wrote_it():
-    with pytest.warns(op.AngleWarning) as told:
-        op.Polarizer(45)
-    (warning,) = told
-    assert str(warning.message) == (
-        "Polarizer angle is 45 rad, which is 2578.31 deg; did you mean '45 deg' or np.radians(45)?"
-    )
-    assert warning.filename == __file__
-    with pytest.warns(op.AngleWarning) as told:
-        chain([op.Rotator(op.Parameter("turn"))]).trace(turn=45)
-    assert told[0].filename == __file__
+def test_a_plain_number_beyond_a_whole_turn_is_warned_of():
+    rows = [
+        (lambda: op.Polarizer(45), "Polarizer angle"),
+        (lambda: op.Retarder(90.0), "Retarder retardance"),
+        (lambda: op.Rotator(4.0 * np.pi), "Rotator angle"),
+        (lambda: op.Rotator(np.linspace(0, 180, 7)), "Rotator angle"),
+        (lambda: op.Rotator([30.0, "1 deg"]), "Rotator angle"),
+        (lambda: op.Rotator(np.float32(-45)), "Rotator angle"),
+        (lambda: op.Interface(1.5, 0.1, azimuth=30), "Interface azimuth"),
+        (lambda: op.Medium(1.0, angle=45), "Medium angle"),
+        (lambda: op.VerticesByAngles((0.1, 0.2), (45,)), "turns[0]"),
+        (lambda: op.Parameter("t", 45, unit="deg"), "parameter 't'"),
+        (lambda: op.Parameter("t", unit="deg", maximum=180), "the maximum of parameter 't'"),
+        (lambda: op.Rotator(op.Parameter("t", 45)), "Rotator angle"),
+        (lambda: op.Parameter("f", words={"up": 90}, unit="deg"), "the word 'up' of parameter 'f'"),
+        (
+            lambda: op.Polarizer(op.Parameter("f", words={"up": 90})),
+            "the word 'up' of parameter 'f'",
+        ),
+        (lambda: op.Polarizer(op.Parameter("d", maximum=90)), "the maximum of parameter 'd'"),
+        (
+            lambda: op.Interface(1.5, op.Parameter("d", 0.5, maximum=90)),
+            "the maximum of parameter 'd'",
+        ),
+        (lambda: op.Frame().turned(90), "the angle of a turn"),
+    ]
+    for action, what in rows:
+        (sentence,) = warned(action)
+        assert sentence.endswith(f"{what} {WARNED}")
+
+
+def test_a_warning_is_of_the_line_of_who_wrote_it():
+    path = chain([op.Rotator(op.Parameter("turn"))])
+    for action in (lambda: op.Polarizer(45), lambda: path.trace(turn=45)):
+        with pytest.warns(op.AngleWarning) as told:
+            action()
+        assert told[0].filename == __file__
+
+
+def test_other_numbers_at_one_line_are_warned_of_once():
+    """By the rule of Python's own, which merges what is the same at a place."""
+    path = chain([op.Rotator(op.Parameter("turn"))])
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("default")
+        for angle in np.linspace(10.0, 90.0, 500):
+            path.trace(turn=angle)
+    assert len(told) == 1
+    of_turns = [key for key in __warningregistry__ if "parameter 'turn' is" in str(key)]
+    assert len(of_turns) == 1
 
 
 @pytest.mark.parametrize(
@@ -74,10 +80,8 @@ def test_the_warning_has_both_readings_and_the_line_of_who_wrote_it():
         lambda: op.Rotator(["720 deg", "45 rad"]),
         lambda: op.Rotator(2.0 * np.pi),
         lambda: op.Rotator(np.linspace(-2.0 * np.pi, 2.0 * np.pi, 9, dtype=np.float32)),
-        lambda: op.Rotator(np.radians(720.0)),
         lambda: op.Medium(1.0, rotation="500 rad/m"),
         lambda: op.Medium(op.Parameter("length"), rotation=500.0),
-        lambda: op.Medium(0.001, retardance=2.0 * np.pi * 0.009 / 589e-9),
         lambda: chain([op.Medium(op.Parameter("l"), rotation="500 rad/m")]).bind(l=1.0).trace(),
         lambda: op.Polarizer(op.Parameter("f", words={"up": "400 deg"}, maximum="720 deg")),
         lambda: chain([op.Polarizer(op.Parameter("f", words={"up": "400 deg"}))]).bind(f="up"),
@@ -133,32 +137,12 @@ def test_each_run_that_is_given_degrees_is_warned_of(plan, angle):
 A = op.Parameter("a")
 
 
-@pytest.mark.parametrize(
-    ("angle", "given", "sentence"),
-    [
-        (
-            10 * A,
-            45,
-            r"is 45, and 10 \* a is 450 rad, which is 25783.1 deg; did you mean '45 deg'",
-        ),
-        (
-            2 * A - "10 deg",
-            [0.5, -40.0],
-            r"of -40, and 2 \* a - 10 deg is -80.174\d* rad, which is -4593",
-        ),
-        (-A, 45, "parameter 'a' is 45 rad"),
-        (A * (np.pi / 180), "45 deg", "is '45 deg', and .* is 0.785398 deg; give the degrees as a"),
-        (op.Parameter("a", minimum=0, maximum=90) * 0.01745, ["45 deg"], "a is 0.785.* deg; give"),
-    ],
-)
-def test_a_multiple_is_warned_of_where_both_it_and_the_number_are_beyond_a_turn(
-    angle, given, sentence
-):
+@pytest.mark.parametrize("angle", [10 * A, 2 * A - "10 deg", -A])
+def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn(angle):
     path = chain([op.Rotator(angle)])
     for give in (path.trace, path.bind):
-        with pytest.warns(op.AngleWarning, match=sentence) as told:
-            give(a=given)
-        assert len(told) == 1
+        for given in (45, [0.5, -40.0]):
+            assert warned(lambda: give(a=given)) == [f"parameter 'a' {WARNED}"]  # noqa: B023
 
 
 @pytest.mark.parametrize(
@@ -167,13 +151,11 @@ def test_a_multiple_is_warned_of_where_both_it_and_the_number_are_beyond_a_turn(
         (A * (np.pi / 180), [10.0, 45.0, 720.0]),
         (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
         (A / 100, 270.0),
-        (A / 2, 10.0),
         (10 * A, 4.5),
         (5 * A, np.linspace(0.0, 3.0, 31)),
         (5 * A, np.float32(2.1)),
         (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
         (A * (2.0 * np.pi * 0.009 / 550e-9), 1e-3),
-        (2.0 * np.pi * A, np.sqrt(110.0)),
         (A * (np.pi / 180), np.arange(0.0, 720.0, 0.7)),
         (10 * A, "30 deg"),
         (10 * A, np.radians(90.0)),
@@ -183,46 +165,6 @@ def test_a_multiple_of_an_angle_within_a_turn_or_of_a_pure_number_is_no_reason_t
     angle, given
 ):
     assert warned(lambda: chain([op.Rotator(angle)]).trace(a=given)) == []
-
-
-FILE = """
-format = 1
-
-[parameters.a]
-unit = "deg"
-default = "45 deg"
-
-[elements.lamp]
-kind = "source"
-
-[elements.filter]
-kind = "polarizer"
-angle = { parameter = "a", scale = 0.017453292519943295 }
-
-[elements.eye]
-kind = "detector"
-
-[[links]]
-from = "lamp.out"
-to = "filter.in"
-
-[[links]]
-from = "filter.out"
-to = "eye.in"
-"""
-
-
-def test_a_default_of_degrees_that_become_radians_twice_is_warned_of(tmp_path):
-    (file := tmp_path / "twice.toml").write_text(FILE)
-    twice = op.Parameter("a", "45 deg") * (np.pi / 180)
-    for make in (
-        lambda: op.Polarizer(twice),
-        lambda: op.Interface(1.5, twice),
-        lambda: op.load_preset(file),
-    ):
-        (sentence,) = warned(make)
-        assert sentence.startswith("the default of parameter 'a' is '45 deg', and 0.01745")
-        assert "* a is 0.785398 deg; give the degrees as a plain number" in sentence
 
 
 @pytest.mark.parametrize("default", [45, 0.5, None])
@@ -288,7 +230,7 @@ def test_a_range_of_plain_degrees_is_told_as_it_was_given():
             give(d=85)
 
 
-@pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])
+@pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 200.0])
 def test_a_slip_of_radians_and_what_was_in_degrees_already_are_not(delta):
     with pytest.raises(op.ParameterError) as error:
         op.load_preset("npgr026").trace(delta=delta)

@@ -25,6 +25,7 @@ from optipath.errors import (
     did_you_mean,
     printable,
 )
+from optipath.extras import needing
 from optipath.values.cures import of_files
 from optipath.values.written_units import units_are_written
 
@@ -150,7 +151,8 @@ def _run(arguments: Sequence[str]) -> int:
             for once in (MeshWarning, PhotonWarning, StoreWarning):  # The same of each surface.
                 warnings.simplefilter("default", once)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
-            _invoke(arguments)
+            with needing("some options"):
+                _invoke(arguments)
         sys.stdout.flush()
     except click.ClickException as error:
         return _refuse(error.format_message())

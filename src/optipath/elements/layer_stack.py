@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -10,8 +11,11 @@ from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.fading_layer import FadingLayer
 from optipath.elements.known_sizes import vanishes
+from optipath.elements.thin_layer import ThinLayer
+from optipath.errors import CoherenceWarning
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
+from optipath.values.calls_up import calls_up
 from optipath.values.domains.indices import INDEX, OPTIONAL_OUTSIDE
 from optipath.values.domains.quantities import (
     Angle,
@@ -46,8 +50,9 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     """Smooth parallel layers on a substrate, with the ports of an `Interface`.
 
     Light goes to and fro between the boundaries; intensities add up, as they do in layers much
-    thicker than the coherence length. For thin films, which interfere, it is not meant. It
-    depolarises, since light that has gone round more often has gained other phases.
+    thicker than the coherence length. Thin films interfere, which it does not compute: a layer
+    thinner than ten wavelengths is warned of (`CoherenceWarning`). It depolarises, since light
+    that has gone round more often has gained other phases.
 
     Parameters
     ----------
@@ -96,6 +101,11 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     parallel: YesOrNo = True
     lengths: Lengths | None = None
     wavelength: OptionalWavelength | None = None
+
+    def __post_init__(self) -> None:
+        """Keep values as every element does; warn of layers that are films."""
+        super().__post_init__()
+        self._warn_of_films()
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value; layers may absorb where lengths and a wavelength are given."""
@@ -194,6 +204,20 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
             beside = [number for pair in pairs[place - 1 : place + 2] for number in pair]
             given = (*beside, lengths[place - 1], self.wavelength, n0, incidence)
             yield FadingLayer(tuple(map(operand_of, given)), f"{owner}.indices[{place}]")
+
+    def _warn_of_films(self) -> None:
+        """Warn of layers in which light would interfere, where lengths and wavelength are known."""
+        if self.wavelength is None or not isinstance(self.lengths, tuple):
+            return
+        wavelength = operand_of(self.wavelength)
+        for place, (index, length) in enumerate(
+            zip(self._media[1:-1], self.lengths, strict=False), 1
+        ):
+            n = operand_of(numbers_of(index, INDEX)[0])
+            n = n if n.known else operand_of(1.0)
+            law = ThinLayer((n, operand_of(length), wavelength), f"layer {place} of a LayerStack")
+            if not law.is_open and law.fault():
+                warnings.warn(law.sentence(), CoherenceWarning, stacklevel=calls_up())
 
     def _operation(self, wanted: str, enters: str) -> Operation:
         """Return what the stack does to light from one side."""

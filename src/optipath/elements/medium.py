@@ -18,7 +18,6 @@ from optipath.values.agreement import first_faults
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.degree_warnings import warn_of_turning
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import (
     WAVELENGTH,
@@ -32,7 +31,7 @@ from optipath.values.domains.quantities import (
     OptionalAxis,
     RotatoryPower,
 )
-from optipath.values.made import is_checked_later, refuse
+from optipath.values.made import refuse
 from optipath.values.operands import operand_of
 from optipath.values.parameters import Parameter
 
@@ -133,14 +132,8 @@ class Medium(Element, kind="medium"):
     depolarization: Depolarization = 0.0
 
     def __post_init__(self) -> None:
-        """Keep values as every element does; warn of turns that look typed in degrees."""
-        given = {name: getattr(self, name) for name in _TURNING}
+        """Keep values as every element does; those of one medium must agree."""
         super().__post_init__()
-        for name, rate in given.items():
-            if rate is not getattr(Medium, name) and not is_checked_later():
-                warn_of_turning(
-                    f"Medium {name}", rate, largest(self.length), self.domains()[name].unit
-                )
         refuse(first_faults(a for a in self.agreements("Medium") if not a.is_open))
 
     @classmethod

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from importlib.util import find_spec
-from typing import ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
-from optipath.errors import MissingExtraError
+from optipath.extras import missing_extra
+
+if TYPE_CHECKING:
+    from optipath.errors import MissingExtraError
 
 FormulaT = TypeVar("FormulaT")
 PathT = TypeVar("PathT")
@@ -57,4 +60,4 @@ class Engine(ABC, Generic[FormulaT, PathT]):
     @property
     def missing(self) -> MissingExtraError:
         """The error that it is not installed."""
-        return MissingExtraError(f"plans of engine '{self.name}'", self.name, self.extra)
+        return missing_extra(f"plans of engine '{self.name}'", self.name)

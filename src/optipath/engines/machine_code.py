@@ -131,12 +131,3 @@ def _begin() -> None:
         llvm.initialize()
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
-
-
-def address(array: Any) -> int:
-    """Return where the numbers of an array are."""
-    try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array))
-    except (TypeError, ValueError):  # nothing may be written there, or there is nothing
-        found: int = array.__array_interface__["data"][0]
-        return found

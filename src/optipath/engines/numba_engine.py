@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.engines.array_address import address
 from optipath.engines.engine import Engine
 from optipath.engines.formulas.left import left_formula
 from optipath.engines.formulas.python_text import assignments, indented
@@ -66,7 +67,7 @@ def is_forbidden() -> bool:
 
 
 def _compiled(formula: Formula, cache: CodeCache) -> ArrayPath:
-    from optipath.engines.machine_code import address, compiled  # noqa: PLC0415 - an extra
+    from optipath.engines.machine_code import compiled  # noqa: PLC0415 - an extra
 
     function = cache.function(source(formula), compiled)
     arrays = [place for place, s in enumerate(formula.inputs) if formula.place_of(s) != "one"]

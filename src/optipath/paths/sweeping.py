@@ -5,16 +5,13 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import MissingExtraError
+from optipath.extras import needing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
     from optipath.composer.composer import Composer
-
-_BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf", "h5py")
-"""What a sweep needs of the extra that brings it, and what that needs itself."""
 
 
 class Sweeping:
@@ -80,14 +77,9 @@ class Sweeping:
         """
         own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more = {"scheduler": scheduler, "progress": progress, "composer": composer}
-        try:
+        with needing("sweeps"):
             sweep = import_module("optipath.sweeps.sweep").sweep
             return sweep(self, unnamed, axes, **own, **more)
-        except ModuleNotFoundError as missing:
-            package = (missing.name or "").partition(".")[0]
-            if package not in _BROUGHT:
-                raise
-            raise MissingExtraError("sweeps", package, "sweep") from None
 
     def propagate(
         self,

@@ -1,9 +1,8 @@
 """Pictures, drawn with Matplotlib into axes that are given or made; nothing is shown by itself."""
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from optipath.errors import MissingExtraError
+from optipath.extras import need
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
@@ -78,8 +77,7 @@ def check_matplotlib() -> None:
     MissingExtraError
         Which says what to install.
     """
-    if find_spec("matplotlib") is None:
-        raise MissingExtraError("pictures", "matplotlib", "plot")
+    need("pictures", "matplotlib")
 
 
 if not TYPE_CHECKING:  # Else any name would do for who checks types.

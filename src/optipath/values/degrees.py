@@ -57,10 +57,10 @@ def has_plain_degrees(low: float, high: float) -> bool:
 
     Examples
     --------
-    >>> has_plain_degrees(0.0, 80.0), has_plain_degrees(0.0, 4.0 * math.pi)
+    >>> has_plain_degrees(0.0, 80.0), has_plain_degrees(0.0, math.pi)
     (True, False)
     """
-    return any(TURN < abs(end) < math.inf and not is_in_radians(end) for end in (low, high))
+    return any(TURN < abs(end) < math.inf for end in (low, high))
 
 
 def is_of_an_angle(scale: float) -> bool:
@@ -87,8 +87,7 @@ def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
     Returns
     -------
     str
-        ``"; did you mean '48 deg' or np.radians(48)?"``; nothing where degrees are refused too,
-        or have been turned into radians already.
+        ``"; did you mean '48 deg' or np.radians(48)?"``; nothing where degrees are refused too.
 
     Examples
     --------
@@ -97,11 +96,9 @@ def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
     >>> meant_in_degrees(math.radians(100.0), lambda angle: 0.0 <= angle <= 1.6)
     ''
     """
-    # A little beyond a right angle, it is a slip; up to a whole turn, it may have been computed.
-    typed = abs(number) > TURN or len(f"{number:.12g}") + 3 < len(f"{math.degrees(number):.12g}")
-    if abs(number) < _LEAST or not typed or is_in_radians(number):
+    if abs(number) < _LEAST or UNITS_ARE_WRITTEN.get() or not allows(math.radians(number)):
         return ""
-    return f"; did you mean {in_degrees(number)}?" if allows(math.radians(number)) else ""
+    return f"; did you mean '{number:.6g} deg' or np.radians({number:.6g})?"
 
 
 def called(
@@ -127,14 +124,14 @@ def called(
 
     Examples
     --------
-    >>> called(2.5, "143 deg", "angle", (0.0, 1.6))
-    ('2.5 rad, which is 143.239 deg', "; did you mean '2.5 deg' or np.radians(2.5)?")
+    >>> called(5.0, "286 deg", "angle", (0.0, 1.6))
+    ('5 rad, which is 286.479 deg', "; did you mean '5 deg' or np.radians(5)?")
     """
     told = _in_few_digits(text, dimension, limits)
     if dimension != "angle":
         return told, ""
     meant = meant_in_degrees(number, lambda angle: limits[0] <= angle <= limits[1])
-    return (in_both(number) if meant else told), meant
+    return (_in_both(number) if meant else told), meant
 
 
 def _in_few_digits(text: str, dimension: str, limits: tuple[float, float]) -> str:
@@ -147,33 +144,12 @@ def _in_few_digits(text: str, dimension: str, limits: tuple[float, float]) -> st
     return short
 
 
-def in_both(number: float) -> str:
+def _in_both(number: float) -> str:
     """Write an angle in radians and in degrees.
 
     Examples
     --------
-    >>> in_both(48.0)
+    >>> _in_both(48.0)
     '48 rad, which is 2750.2 deg'
     """
     return f"{number:.6g} rad, which is {math.degrees(number):.6g} deg"
-
-
-def is_in_radians(number: float) -> bool:
-    """Tell whether an angle is surely meant in radians: written so, or a round one in degrees."""
-    return UNITS_ARE_WRITTEN.get() or is_round_in_degrees(number)
-
-
-def is_round_in_degrees(number: float) -> bool:
-    """Tell whether an angle in radians has fewer digits in degrees.
-
-    Examples
-    --------
-    >>> is_round_in_degrees(math.pi / 4.0), is_round_in_degrees(45.0)
-    (True, False)
-    """
-    return len(f"{math.degrees(number):.12g}") < len(f"{number:.12g}")
-
-
-def in_degrees(number: float) -> str:
-    """Write a number as one of degrees, in both ways that Python takes."""
-    return f"'{number:.6g} deg' or np.radians({number:.6g})"

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.degree_warnings import counts_degrees, warn_of_degrees, warn_of_two_factors
+from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.degrees import TURN, is_of_an_angle, is_within_a_turn
-from optipath.values.texts import may_hold_texts
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable, Mapping
+    from collections.abc import Mapping
 
-    from optipath.values.affine import Affine
     from optipath.values.inputs import Inputs
 
 
@@ -31,14 +28,12 @@ class LargeAngles:
     """
 
     def __init__(self, inputs: Inputs) -> None:
-        self.places: dict[str, dict[Hashable, Affine]] = {}
+        self.names: list[str] = []
         for use in inputs.uses:
-            value = use.value
-            near = is_within_a_turn(*inputs.limits[value.name])
-            large = is_of_an_angle(value.scale) and not near
-            if use.domain.dimension == "angle" and (large or counts_degrees(value)):
-                self.places.setdefault(value.name, {}).setdefault(value.quantity, value)
-        self._ranges = [(name, _within(of.values())) for name, of in self.places.items()]
+            name = use.value.name
+            of_angle = use.domain.dimension == "angle" and is_of_an_angle(use.value.scale)
+            if of_angle and name not in self.names and not is_within_a_turn(*inputs.limits[name]):
+                self.names.append(name)
         self._looked_at: set[str] = set()
 
     def look(self, given: Mapping[str, Any]) -> None:
@@ -54,15 +49,15 @@ class LargeAngles:
         AngleWarning
             Once for each parameter.
         """
-        for name, most in self._ranges:
+        for name in self.names:
             value = given.get(name)
-            if value is None or (type(value) is float and -most <= value <= most):
+            if value is None or (type(value) is float and -TURN <= value <= TURN):
                 continue
             if type(value) is np.ndarray and value.size and value.dtype.kind == "f":
-                if name in self._looked_at and _looks_small(value, most):
+                if name in self._looked_at and _looks_small(value):
                     continue
                 self._looked_at.add(name)
-            self._warn(f"parameter '{name}'", name, value)
+            warn_of_degrees(f"parameter '{name}'", value)
 
     def look_at_uncertainties(self, given: Mapping[str, Any]) -> None:
         """Warn of standard uncertainties that come to angles beyond a whole turn.
@@ -77,25 +72,11 @@ class LargeAngles:
         AngleWarning
             Once for each parameter.
         """
-        for name in [name for name in given if name in self.places]:
-            self._warn(f"the standard uncertainty of parameter '{name}'", name, given[name])
-
-    def _warn(self, what: str, name: str, value: Any) -> None:
-        places = self.places[name].values()
-        texts = may_hold_texts(value)
-        for place in places:
-            if texts and warn_of_two_factors(what, value, place):
-                return
-            if warn_of_degrees(what, value, place):
-                return
+        for name in [name for name in given if name in self.names]:
+            warn_of_degrees(f"the standard uncertainty of parameter '{name}'", given[name])
 
 
-def _within(places: Iterable[Affine]) -> float:
-    """Return up to what size no number for a parameter is one to warn of."""
-    return TURN if any(is_of_an_angle(place.scale) for place in places) else math.inf
-
-
-def _looks_small(numbers: np.ndarray[Any, Any], most: float) -> bool:
-    """Tell whether three numbers of an array are up to some size; this takes no time."""
+def _looks_small(numbers: np.ndarray[Any, Any]) -> bool:
+    """Tell whether three numbers of an array are within a whole turn; this takes no time."""
     first, last, between = numbers.item(0), numbers.item(-1), numbers.item(numbers.size // 2)
-    return bool(abs(first) <= most and abs(last) <= most and abs(between) <= most)
+    return bool(abs(first) <= TURN and abs(last) <= TURN and abs(between) <= TURN)

@@ -11,9 +11,8 @@ from optipath.errors import ValueFault
 from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.domains.domain import in_unit_of
 from optipath.values.parameters import Parameter
-from optipath.values.specification import warn_of_default, warn_where_it_stands
+from optipath.values.specification import warn_where_it_stands
 from optipath.values.use import Use
-from optipath.values.written_units import UNITS_ARE_WRITTEN
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -166,12 +165,8 @@ def kept_value(owner: str, value: Any, domain: Domain) -> Any:
         if isinstance(value, Parameter) and not value.offset_dimension:
             warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
     if isinstance(value, Parameter):
-        here = not _is_checked_later.get()
-        if not value.unit and domain.dimension == "angle" and here:
+        if not value.unit and domain.dimension == "angle" and not _is_checked_later.get():
             warn_where_it_stands(value)
-        # Of a value that is bound or put in place of a default, it is told where it is given.
-        if not value.bound and domain.dimension == "angle" and (here or UNITS_ARE_WRITTEN.get()):
-            warn_of_default(value)
         return in_unit_of(value, domain)
     return domain.kept(domain.read(owner, value))
 

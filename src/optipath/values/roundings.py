@@ -16,6 +16,32 @@ RIGHT_ANGLES = (-math.pi / 2.0, math.pi / 2.0)
 NARROW = (np.float16, np.float32)
 
 
+def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
+    """Return limits as the precision of JAX's numbers holds them, neither as 0 nor as infinite.
+
+    Parameters
+    ----------
+    numbers : array_like
+        An array of NumPy's, whose limits stay, or of JAX's, which takes subnormal numbers for 0.
+    limits : tuple of float
+        The least and the largest number.
+
+    Returns
+    -------
+    low, high : float
+
+    Examples
+    --------
+    >>> held(np.array([0.5], np.float32), (0.0, 1e60))
+    (0.0, 1e+60)
+    """
+    if isinstance(numbers, (np.ndarray, np.generic)) or numbers.dtype.kind not in "fc":
+        return limits
+    low, high = limits
+    of = np.finfo(numbers.dtype)
+    return (max(low, float(of.tiny)) if low > 0.0 else low), min(high, float(of.max))
+
+
 def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     """Return numbers of less precision than double as doubles, and others as they are.
 

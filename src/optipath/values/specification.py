@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.degree_warnings import (
-    counts_degrees,
-    largest,
     warn_of_degrees,
-    warn_of_two_factors,
 )
-from optipath.values.degrees import is_round_in_degrees, is_within_a_turn
+from optipath.values.degrees import is_within_a_turn
 from optipath.values.ratios import is_of_decibels
 from optipath.values.texts import numbers_for
-from optipath.values.units import dimension_of, format_quantity, parse_quantity, unit_of
+from optipath.values.units import dimension_of, parse_quantity, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -167,24 +164,6 @@ def warn_where_it_stands(parameter: Any) -> None:
     """
     limits = {end: getattr(parameter, end) for end in ("minimum", "maximum")}
     _warn_of(parameter.name, limits | _by_phrase(parameter.words), parameter)
-
-
-def warn_of_default(parameter: Any) -> None:
-    """Warn of a default with an angle's unit of which pi/180 makes radians once more.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        Where it stands for an angle.
-
-    Warns
-    -----
-    AngleWarning
-        If the default is round in degrees, as no plain number of degrees is.
-    """
-    if counts_degrees(parameter) and is_round_in_degrees(angle := largest(parameter.default)):
-        text = format_quantity(angle, parameter.unit)
-        warn_of_two_factors(f"the default of parameter '{parameter.name}'", text, parameter)
 
 
 def _warn_of(name: str, numbers: Mapping[str, Any], place: Affine | None = None) -> None:

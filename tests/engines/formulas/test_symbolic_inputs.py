@@ -56,7 +56,7 @@ def test_angles_up_to_any_limit_are_right(least, most):
     plan = op.Composer(engine="numpy").compose(chain([polarizer], SEEN))
     expected = np.cos(angles) ** 2
     if most > 2 * np.pi:
-        with pytest.warns(op.AngleWarning, match="did you mean '1000 deg'"):
+        with pytest.warns(op.AngleWarning, match="parameter 'a' is a plain number"):
             plan.run(a=angles)
     np.testing.assert_allclose(plan.run(a=angles).intensity, expected, rtol=0, atol=1e-15)
     for place in (0, 7, 1000, 1500, 2000, 2900, 3000):

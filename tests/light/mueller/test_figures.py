@@ -6,6 +6,10 @@ from hypothesis import strategies as st
 import optipath as op
 from random_matrices import jones, of_jones
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::optipath.CoherenceWarning"
+)  # Of films, on purpose.
+
 SCALARS = ["diattenuation", "polarizance", "depolarization_index", "psi", "delta"]
 VECTORS = ["diattenuation_vector", "polarizance_vector"]
 METALS = [0.6 + 2.1j, 1.5, 0.05 + 3.3j, 0.7]

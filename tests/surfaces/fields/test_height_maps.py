@@ -147,7 +147,7 @@ def test_several_pictures_in_a_file_are_refused(tmp_path):
 
 def test_the_extra_for_pictures_is_named_where_it_is_missing(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "tifffile", None)
-    with pytest.raises(op.OptipathError, match=r"pip install 'optipath\[tiff\]'"):
+    with pytest.raises(op.OptipathError, match=r'pip install "optipath\[tiff\]"'):
         HeightField.from_file(written(tmp_path, "a.tif", ""), 1.0)
 
 

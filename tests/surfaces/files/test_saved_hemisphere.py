@@ -142,17 +142,17 @@ def test_a_missing_extra_is_told(form, package, extra, metal, tmp_path, monkeypa
 
     def without(name, *more):
         if name.partition(".")[0] == package:
-            raise ImportError(name=package)
+            raise ModuleNotFoundError(name=package)
         return taken(name, *more)
 
     if form != ".exr":
         metal.save(tmp_path / f"a{form}")
     monkeypatch.setattr(builtins, "__import__", without)
     monkeypatch.setitem(__import__("sys").modules, package, None)
-    with pytest.raises(op.OptipathError, match=rf"{package}, .* 'optipath\[{extra}\]'"):
+    with pytest.raises(op.OptipathError, match=rf'{package}, .* "optipath\[{extra}\]"'):
         metal.save(tmp_path / f"b{form}")
     if form != ".exr":
-        with pytest.raises(op.OptipathError, match=rf"{package}, .* 'optipath\[{extra}\]'"):
+        with pytest.raises(op.OptipathError, match=rf'{package}, .* "optipath\[{extra}\]"'):
             op.load_hemisphere(tmp_path / f"a{form}")
 
 

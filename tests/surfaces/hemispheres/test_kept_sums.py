@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import warnings
 from functools import cache
 
@@ -22,7 +23,6 @@ from optipath import surfaces
 from optipath.errors import JobError, MissingExtraError, StoreWarning
 from optipath.surfaces.energies.given_run import processors
 from optipath.surfaces.hemispheres import chunk_job as of_job
-from optipath.surfaces.hemispheres import measure as of_measure
 from optipath.surfaces.hemispheres.chunk_job import ChunkJob
 from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
 from small_chunks import CHUNK, PLACES, SmallChunks
@@ -191,7 +191,7 @@ def test_what_is_no_store_or_scheduler_is_told_with_all_other_faults(options, to
 
 @pytest.mark.parametrize("package", ["zarr", "dask", "distributed"])
 def test_what_a_store_needs_is_named_before_photons_are_walked(store, walked, monkeypatch, package):
-    monkeypatch.setattr(of_measure, "find_spec", lambda name: None if name == package else 1)
+    monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(MissingExtraError, match=rf"need {package}.*optipath\[sweep\]"):
         measured(store=store)
     assert not walked

@@ -273,7 +273,7 @@ def test_degrees_for_radians_are_warned_of_once_from_the_line_of_the_caller():
     (warning,) = caught
     assert warning.category is op.AngleWarning
     assert warning.filename == __file__
-    assert "parameter 'a' has a value of 45 rad" in str(warning.message)
+    assert "parameter 'a' is a plain number" in str(warning.message)
 
 
 def test_texts_of_many_turns_are_what_they_say():

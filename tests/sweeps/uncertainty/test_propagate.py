@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.known_engines import REGISTRY
 from optipath.errors import MissingExtraError
 from optipath.values.arrays import memory
 
@@ -18,7 +17,7 @@ def malus():
 
 @pytest.fixture
 def _without_jax(monkeypatch):
-    monkeypatch.setattr(type(REGISTRY["jax"]), "is_installed", property(lambda _: False))
+    monkeypatch.setitem(sys.modules, "jax", None)
 
 
 @pytest.mark.usefixtures("_without_jax")

@@ -17,6 +17,7 @@ from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import Quantity
+from optipath.values.roundings import held
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -124,7 +125,8 @@ def legs_fit(chains: Any) -> Any:
     """Return which legs of chains are within the limits, shape (..., m + 1)."""
     legs = chains[..., 1:, :] - chains[..., :-1, :]
     squares = namespace(chains).einsum("...i,...i", legs, legs)
-    return (squares >= _LEAST) & (squares <= _MOST)
+    least, most = held(squares, (_LEAST, _MOST))
+    return (squares >= least) & (squares <= most)
 
 
 def _are_surely_apart(chains: npt.NDArray[Any]) -> bool:

@@ -6,13 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from optipath.errors import MissingExtraError
+from optipath.extras import needing
 from optipath.kernels.numbers.primitives import Primitives
 
-try:
+with needing("50-digit references"):
     import mpmath
-except ImportError:
-    raise MissingExtraError("50-digit references", "mpmath", "chart") from None
 
 DIGITS = 50
 WORKING_DIGITS = 2 * DIGITS

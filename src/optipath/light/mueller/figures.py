@@ -7,14 +7,17 @@ entry they need is not known; and exact in scale.
 
 from __future__ import annotations
 
+import warnings
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import CoherenceWarning
 from optipath.light.mueller import cloude
 from optipath.light.polarization_state import direction, length, ratio
-from optipath.values.arrays.jax_values import known, namespace
+from optipath.values.arrays.jax_values import is_traced, known, namespace
+from optipath.values.calls_up import calls_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
     from optipath.values.roundings import Array
 
 _BCS = (0, 1), (2, 2), (2, 3)
+_DEPOLARIZES, _MIXES = 0.02, 0.05
+"""From where on a matrix is no r_p / r_s: beyond the noise of ellipsometers, of some 0.01."""
 
 
 class MatrixFigures:
@@ -170,13 +175,45 @@ class MatrixFigures:
 
     def _bcs(self) -> Iterator[Array]:
         matrix = known(self.matrix)
+        if not is_traced(matrix):
+            self._warn_of_no_sample(matrix)
         return (self._over_m00(matrix[..., i, j, np.newaxis])[..., 0] for i, j in _BCS)
+
+    def _warn_of_no_sample(self, matrix: Array) -> None:
+        """Warn where there is no r_p / r_s: of what depolarizes, or mixes s and p."""
+        lit = matrix[..., 0, 0] > 0.0
+        with np.errstate(all="ignore"):
+            near = np.abs(matrix / matrix[..., :1, :1] - _isotropic(matrix)).max(axis=(-2, -1))
+        for bad, what in (
+            (self.depolarization_index < 1.0 - _DEPOLARIZES, "depolarizes (index below 0.98)"),
+            (near > _MIXES, "is not that of an isotropic sample in its frame of s and p"),
+        ):
+            if np.any(lit & bad):
+                warnings.warn(
+                    f"psi and Delta are read off a matrix that {what}, and is none of r_p / r_s; "
+                    f"use the whole matrix",
+                    CoherenceWarning,
+                    stacklevel=calls_up(),
+                )
+                return
 
     def _over_m00(self, entries: Array) -> Array:
         """Return entries over M00; NaN where that is no more than noise."""
         whole = known(self.matrix)[..., 0, 0, np.newaxis]
         noise = (whole != 0.0) & (abs(whole) < self.noise[..., np.newaxis])
         return namespace(whole).where(noise, np.nan, ratio(entries, whole))  # type: ignore[no-any-return]
+
+
+def _isotropic(matrix: Array) -> Array:
+    """Return the matrix of an isotropic sample that is nearest to one, over M00."""
+    found = np.zeros(matrix.shape)
+    m = matrix / matrix[..., :1, :1]
+    found[..., 0, 0] = found[..., 1, 1] = 1.0
+    found[..., 0, 1] = found[..., 1, 0] = (m[..., 0, 1] + m[..., 1, 0]) / 2.0
+    found[..., 2, 2] = found[..., 3, 3] = (m[..., 2, 2] + m[..., 3, 3]) / 2.0
+    found[..., 2, 3] = (m[..., 2, 3] - m[..., 3, 2]) / 2.0
+    found[..., 3, 2] = -found[..., 2, 3]
+    return found
 
 
 def norm(vector: Array) -> Array:

@@ -10,6 +10,7 @@ import numpy as np
 
 from optipath.errors import LoopWarning, ParameterError
 from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.values.calls_up import calls_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -89,7 +90,7 @@ def check_gains(solvers: Sequence[LoopSolver]) -> None:
                 f"each time; the condition number of the sum is {worst.condition:.2g}, by which "
                 f"errors of the values that are given may be enlarged",
                 LoopWarning,
-                stacklevel=2,
+                stacklevel=calls_up(),
             )
     if faults:
         raise ParameterError(*faults)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import MissingExtraError, SurfaceError, did_you_mean, shown
+from optipath.errors import SurfaceError, did_you_mean, shown
+from optipath.extras import needing
 from optipath.values.arrays.memory import enough_for
 from optipath.values.given_files import given_file
 
@@ -108,10 +109,8 @@ def _array(file: Path) -> Array:
 
 def _picture(file: Path) -> Array:
     """Read a picture, which must be alone in its file."""
-    try:
+    with needing("pictures of heights"):
         import tifffile  # noqa: PLC0415 - an extra
-    except ImportError:
-        raise MissingExtraError("pictures of heights", "tifffile", "tiff") from None
     try:
         with warnings.catch_warnings(), tifffile.TiffFile(file) as picture:
             warnings.simplefilter("ignore")

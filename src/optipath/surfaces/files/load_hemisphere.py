@@ -5,7 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import MissingExtraError, OptipathError, SurfaceError
+from optipath.errors import OptipathError, SurfaceError
+from optipath.extras import needing
 from optipath.values.given_files import given_file
 
 if TYPE_CHECKING:
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.samples.sample import Sample
 
-_NEEDED = {"xarray", "zarr", "h5netcdf", "h5py"}
 _PACKAGES = {".zarr": "zarr", ".nc": "h5netcdf"}
 
 
@@ -57,14 +57,10 @@ save it with a name that ends in .zarr or .nc, and load that
         )
     if not place.exists():
         raise SurfaceError(f"there is no '{place}'; save a hemisphere of that name first")
-    try:
+    with needing("files of hemispheres"):
         import_module(_PACKAGES[place.suffix])
         forms: Any = import_module("optipath.surfaces.files.hemisphere_forms")
         kept: Any = import_module("optipath.surfaces.files.kept_hemisphere")
-    except ImportError as fault:
-        if fault.name not in _NEEDED:
-            raise
-        raise MissingExtraError("files of hemispheres", fault.name, "sweep") from None
     try:
         found: Hemisphere = kept.hemisphere_of(forms.read_dataset(place), sample)
     except OptipathError as fault:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import MissingExtraError, SurfaceError
+from optipath.errors import SurfaceError
+from optipath.extras import needing
 from optipath.surfaces.files.file_faults import told_of
 from optipath.surfaces.files.stokes_picture import StokesPicture
 from optipath.values.given_files import given_file
@@ -55,17 +56,8 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
 
 def _writer(hemisphere: Hemisphere, ending: str) -> Any:
     package, name = _WRITERS[ending]
-    kept, forms = (
-        _extra(f"optipath.surfaces.files.{module}", package)
-        for module in ("kept_hemisphere", "hemisphere_forms")
-    )
-    _extra(package, package)
+    with needing("files of hemispheres"):
+        import_module(package)
+        kept: Any = import_module("optipath.surfaces.files.kept_hemisphere")
+        forms = import_module("optipath.surfaces.files.hemisphere_forms")
     return lambda place: getattr(forms, name)(kept.kept_hemisphere(hemisphere), place)
-
-
-def _extra(module: str, package: str) -> Any:
-    try:
-        return import_module(module)
-    except ImportError as fault:
-        missing = fault.name if fault.name in ("xarray", "zarr", "h5netcdf", "h5py") else package
-        raise MissingExtraError("files of hemispheres", missing, "sweep") from None

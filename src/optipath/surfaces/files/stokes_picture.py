@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import MissingExtraError, SurfaceError
+from optipath.errors import SurfaceError
+from optipath.extras import needing
 from optipath.surfaces.walk.given_beam import UNPOLARISED, given_state
 from optipath.values.written_files import drafted
 
@@ -96,10 +97,8 @@ class StokesPicture:
         MissingExtraError
             If OpenEXR is not installed.
         """
-        try:
+        with needing("pictures of Stokes vectors"):
             import OpenEXR  # noqa: PLC0415 - an extra
-        except ImportError:
-            raise MissingExtraError("pictures of Stokes vectors", "OpenEXR", "exr") from None
         header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
         with drafted(file) as draft:
             draft.touch()  # What is wrong with the place is told by the system, not by OpenEXR.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import MissingExtraError, SurfaceError, shown
+from optipath.errors import SurfaceError, shown
+from optipath.extras import need
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.energies.given_run import processors
 from optipath.surfaces.hemispheres.chunk_job import ChunkJob
@@ -159,7 +159,9 @@ def measure(
         error=SurfaceError,
         what="hemisphere of {:.3g} numbers",
     )
-    _check_extras("xarray", *(() if place is None else ("zarr", "dask", "distributed")))
+    # Before photons are walked.
+    kept = () if place is None else ("zarr", "dask", "distributed")
+    need("hemispheres", "numba", "llvmlite", "xarray", *kept)
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
     when = np.atleast_1d(np.ravel(when))
     is_known = is_flat(seen)
@@ -209,10 +211,3 @@ def _faults(photons: Any, events: Any, polarized: Any, threads: Any) -> list[str
 
 def _yes(value: Any) -> Any:
     return YES_OR_NO.check("symmetric", value)
-
-
-def _check_extras(*names: str) -> None:
-    """Refuse before photons are walked what cannot be handed over afterwards."""
-    for name in names:
-        if find_spec(name) is None:
-            raise MissingExtraError("hemispheres", name, "sweep")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from optipath.engines.array_address import address
 from optipath.surfaces.ends.turned_ends import turned_directions
 from optipath.surfaces.hemispheres.part_sums import PartSums
 from optipath.surfaces.walk.photon_beam import BLOCK, PORTION
@@ -112,8 +113,6 @@ class SensedBeam:
         -------
         PartSums
         """
-        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
-
         found, add = PartSums.none(self.shape), pixel_code()
         kept = [int(self.polarized != other) for other in ("scalar", "polarized")]
         lights = self.beam.indices.n.size

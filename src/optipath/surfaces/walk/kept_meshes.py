@@ -6,6 +6,7 @@ from threading import Lock
 from typing import TYPE_CHECKING, NamedTuple
 from weakref import proxy
 
+from optipath.engines.array_address import address
 from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.walk.packed_meshes import PackedMeshes, packed_meshes
 
@@ -58,8 +59,6 @@ class KeptMeshes:
         -------
         PlacedMeshes
         """
-        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
-
         with self._lock:
             if surface not in self._known:
                 if len(self._known) >= self._sample.surfaces + _MORE:

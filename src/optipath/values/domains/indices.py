@@ -16,6 +16,7 @@ from optipath.values.domains.followed import Followed
 from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.domains.pair import pair_in
 from optipath.values.materials import LEAST, K, Material, index_of
+from optipath.values.roundings import held
 
 _NO_K = NoAbsorption("extinction coefficient", why=", since light comes from there")
 _NO_K_BEHIND = NoAbsorption(
@@ -127,7 +128,8 @@ class LitIndexDomain(IndexDomain):
         )
 
     def allows(self, numbers: Any) -> Any:
-        return super().allows(numbers) & (numbers.real >= LEAST)
+        least, _ = held(numbers, (LEAST, math.inf))
+        return super().allows(numbers) & (numbers.real >= least)
 
 
 class FollowedLitIndex(Followed, LitIndexDomain):

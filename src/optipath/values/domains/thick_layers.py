@@ -14,6 +14,7 @@ from optipath.values.domains.domain import Domain, in_unit_of
 from optipath.values.domains.indices import IndexDomain
 from optipath.values.domains.stack_indices import INNER
 from optipath.values.materials import Material
+from optipath.values.roundings import held
 
 # Light-years are shorter; beyond, what is absorbed overflows before it is too much.
 LENGTH_OF_LAYER = Domain("length", "length", minimum=0.0, maximum=1e100, own_unit="mm")
@@ -99,8 +100,9 @@ class LossyDomain(IndexDomain):
         )
 
     def allows(self, numbers: Any) -> Any:
-        inside = (numbers.real >= INNER.minimum) & (numbers.real <= INNER.maximum)
-        return super().allows(numbers) & inside & (numbers.imag <= INNER.maximum)
+        least, most = held(numbers, (INNER.minimum, INNER.maximum))
+        inside = (numbers.real >= least) & (numbers.real <= most)
+        return super().allows(numbers) & inside & (numbers.imag <= most)
 
 
 _N = Domain("index of refraction", minimum=INNER.minimum, maximum=INNER.maximum)

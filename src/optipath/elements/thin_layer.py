@@ -1,0 +1,41 @@
+"""ThinLayer: a layer in which light would interfere, whose intensities are added all the same."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from optipath.values.agreement import Agreement
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+_WAVELENGTHS = 10.0
+"""Up to how many wavelengths a layer is a thin film, whose light interferes."""
+
+
+@dataclass(frozen=True, eq=False)
+class ThinLayer(Agreement):
+    """A layer is longer than about ten wavelengths in it, or else it is warned of.
+
+    The operands are n of the layer, its length, and the wavelength in vacuum.
+
+    Attributes
+    ----------
+    layer : str
+        The layer, as sentences call it.
+    """
+
+    layer: str
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        del xp
+        n, length, wavelength = numbers
+        return ~(n * length < _WAVELENGTHS * wavelength)
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del numbers, varying
+        return (
+            f"{self.layer} is thinner than ten wavelengths, where light interferes, and a "
+            f"LayerStack adds intensities; give the r_s and r_p of a film to a Mirror"
+        )
