@@ -1,16 +1,8 @@
-"""Every exception of the library: one sentence a fault, all under `OptipathError`.
-
-The package imports this before all else, so that Ctrl-C ends the command ``optipath`` in one line
-while NumPy, which takes longer than a user to change their mind, is still being imported.
-"""
+"""Every exception of the library: one sentence a fault, all under `OptipathError`."""
 
 from __future__ import annotations
 
-import os
 import re
-import signal
-import sys
-from contextlib import suppress
 from copyreg import __newobj__  # type: ignore[attr-defined]
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any
@@ -19,9 +11,6 @@ from optipath.spelling import closest, looks_left
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
-
-INTERRUPTED = 130
-"""The status of a command that Ctrl-C ended: 128 and the number of the signal."""
 
 _LONGEST = 600
 _MOST_LISTED = 40
@@ -299,22 +288,3 @@ def shown(value: object) -> str:
         return printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
     except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
         return f"something of type {type(value).__name__}"
-
-
-def stop(*_: object) -> None:
-    """End at once: what is being imported could swallow an exception."""
-    with suppress(OSError):
-        os.write(2, b"optipath: interrupted\n")
-    os._exit(INTERRUPTED)
-
-
-def _is_command() -> bool:
-    # While a package is looked for, its name stands behind -m, and "-m" is all that argv knows.
-    if sys.argv[:1] == ["-m"]:
-        return sys.orig_argv[sys.orig_argv.index("-m") + 1 :][:1] == ["optipath"]
-    return os.path.basename("".join(map(str, sys.argv[:1]))).partition(".")[0] == "optipath"  # noqa: PTH119
-
-
-# In a program of others, nothing changes.
-if _is_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, stop)

@@ -16,7 +16,6 @@ from click.shell_completion import shell_complete
 from optipath.cli.interrupts import interruptible
 from optipath.cli.whole_help import WholeHelp
 from optipath.errors import (
-    INTERRUPTED,
     LoopWarning,
     MeshWarning,
     OptipathError,
@@ -24,6 +23,7 @@ from optipath.errors import (
     did_you_mean,
     printable,
 )
+from optipath.interruption import INTERRUPTED
 from optipath.values.cures import of_files
 from optipath.values.written_units import units_are_written
 
@@ -137,6 +137,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _run(sys.argv[1:] if arguments is None else arguments)
     except KeyboardInterrupt:
         _print_error("interrupted")
+        exec("")  # noqa: S102 - else Python, interrupted in a text it ran, ends by the signal
         return INTERRUPTED
 
 
