@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
 _LONGEST = 600
-_MOST_LISTED = 40
+_LONGEST_QUOTE, _LONGEST_PATH = 60, 250
+_MOST_LISTED, _MOST_FAULTS = 40, 20
 
 
 class OptipathError(Exception):
@@ -40,23 +41,26 @@ class OptipathError(Exception):
     about = ""
 
     def __init__(self, *faults: str, about: str = "") -> None:
-        short = tuple(printable(_shortened(fault)) for fault in faults)
+        short = tuple(map(_told, faults))
         super().__init__(*short)
         self.faults = short
         if about:
-            self.about = printable(_shortened(about))
+            self.about = _told(about)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its sentences are what it is.
         return __newobj__, (type(self), *self.faults), self.__dict__
 
     def __str__(self) -> str:
-        """All faults, one a line; a single fault stands alone."""
+        """The first faults, one a line, and how many more there are; a single one stands alone."""
         if len(self.faults) == 1:
             return f"{self.about}: {self.faults[0]}" if self.about else self.faults[0]
         counted = f"{len(self.faults)} faults:"
         head = f"{self.about} has {counted}" if self.about else counted
-        return "\n".join([head, *(f"- {fault}" for fault in self.faults)])
+        lines = [head, *(f"- {fault}" for fault in self.faults[:_MOST_FAULTS])]
+        if (more := len(self.faults) - _MOST_FAULTS) > 0:
+            lines.append(f"and {more:,} more")
+        return "\n".join(lines)
 
 
 class FrameError(OptipathError):
@@ -230,15 +234,28 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def _shortened(fault: str) -> str:
-    # A sentence may quote what was given, which may be of any length.
+def _told(fault: str) -> str:
+    """Return a sentence on one line, what it quotes cut where it is long."""
+    fault = _QUOTED.sub(_cut, printable(fault).replace("\n", "\\n"))
     return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"
 
 
-# Control characters but for the end of a line and the tabulator, what turns the direction of
+def _cut(quoted: re.Match[str]) -> str:
+    # Of the name of a file, each folder counts.
+    return _short(quoted[0], _LONGEST_PATH if "/" in quoted[0] else _LONGEST_QUOTE + 2)
+
+
+def _short(text: str, most: int) -> str:
+    return text if len(text) <= most else f"{text[: most // 2]}...{text[3 - most // 2 :]}"
+
+
+# Texts in quotation marks, and words of any length.
+_QUOTED = re.compile(r"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|[^\s'"]{61,}""")
+
+# Control characters but for the end of a line, what turns the direction of
 # writing, other ends of lines, and halves of characters, which no file in UTF-8 can hold.
 _UNSEEN = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
+    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
 )
 
 
@@ -260,7 +277,7 @@ class _Short(Repr):
         super().__init__()
         self.maxlevel = 4
         self.maxlist = self.maxtuple = self.maxset = self.maxdict = 12
-        self.maxstring, self.maxlong, self.maxother = 200, 60, 300
+        self.maxstring, self.maxlong, self.maxother = 60, 60, 60
 
     def repr_int(self, x: int, level: int) -> str:
         """Return its digits, or how many bits it has where Python refuses to write them."""
@@ -285,6 +302,7 @@ def shown(value: object) -> str:
     """
     try:
         # Arrays are written in rows.
-        return printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
+        text = printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
+        return _short(text, _LONGEST_QUOTE + 2)
     except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
         return f"something of type {type(value).__name__}"

@@ -191,11 +191,7 @@ def _forget_output() -> None:
 
 def _refuse(*faults: str, about: str = "") -> int:
     """Tell what is wrong: one fault on the one line, several on a line each."""
-    if len(faults) == 1:
-        _print_error(f"{about}: {faults[0]}" if about else faults[0])
-        return 2
-    counted = f"{len(faults)} faults:"
-    _print_error(f"{about} has {counted}" if about else counted, *(f"- {one}" for one in faults))
+    _print_error(*str(OptipathError(*faults, about=about)).splitlines())
     return 2
 
 
