@@ -23,8 +23,8 @@ class OptipathError(Exception):
     Parameters
     ----------
     *faults : str
-        One sentence for each fault: the thing, the value, and the cure. Control characters
-        that it quotes are shown by their codes.
+        One sentence for each fault: the thing, the value, and the cure. Of what it quotes, 60
+        characters are shown (250 of names of files), control characters by their codes.
     about : str, optional
         What all of them are about, such as a file.
 
@@ -52,7 +52,7 @@ class OptipathError(Exception):
         return __newobj__, (type(self), *self.faults), self.__dict__
 
     def __str__(self) -> str:
-        """The first faults, one a line, and how many more there are; a single one stands alone."""
+        """Return the first faults, one a line, and how many more there are; or a single one."""
         if len(self.faults) == 1:
             return f"{self.about}: {self.faults[0]}" if self.about else self.faults[0]
         counted = f"{len(self.faults)} faults:"
