@@ -133,7 +133,7 @@ def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
     OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError
         If it is no page.
     """
-    found = {}
+    found: dict[str, tuple[float, float]] = {}
     for entry in contents["DATA"]:
         [(parts, _)] = _TYPE.findall(entry["type"])
         if parts:
