@@ -46,6 +46,7 @@ def test_a_column_is_asked_for_by_its_name(column, tmp_path):
         ("x.yml", op.Material.from_yaml),
         ("x.txt", lambda file: op.surfaces.HeightField.from_file(file, size=("1 mm", "1 mm"))),
         ("x.npy", lambda file: op.surfaces.HeightField.from_file(file, size=("1 mm", "1 mm"))),
+        ("x.nc", op.surfaces.load_hemisphere),
         ("x.csv", columns_of),
     ],
 )
