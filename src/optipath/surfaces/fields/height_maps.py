@@ -51,7 +51,7 @@ def read_heights(path: str | PathLike[str]) -> Array:
             f"a file of heights cannot end in '{file.suffix}'{did_you_mean(ending, _READERS)}",
             about=str(file),
         )
-    if file.exists() and not file.is_file():
+    if file.exists() and not (file.is_file() or file.is_dir()):  # A pipe would be waited for.
         raise SurfaceError("cannot be read: it is no file", about=str(file))
     try:
         return _READERS[ending](file)
