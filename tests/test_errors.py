@@ -94,7 +94,7 @@ def deep():
 )
 def test_whatever_is_quoted_is_short_and_on_one_line(value):
     text = errors.shown(value)
-    assert 0 < len(text) < 600
+    assert 0 < len(text) <= 62
     assert text.isprintable()
 
 
@@ -105,3 +105,30 @@ def test_what_is_short_is_quoted_as_it_is():
         "[0.1, None]",
         "(1+2j)",
     ]
+
+
+def test_a_sentence_quotes_60_characters_of_what_is_given_and_keeps_its_cure():
+    for quoted in ("'" + 5000 * "x" + "'", '"' + 900 * "a b " + '"', 5000 * "y"):
+        told = str(op.OptipathError(f"word {quoted} is unknown; did you mean 'x'?"))
+        first, _, rest = told.removeprefix("word ").partition(" is unknown")
+        assert len(first) <= 62
+        assert rest == "; did you mean 'x'?"
+
+
+def test_the_name_of_a_file_is_quoted_whole():
+    told = f"'/home/{100 * 'a'}/b.toml' cannot be read"
+    assert str(op.OptipathError(told)) == told
+
+
+def test_control_characters_are_shown_as_codes():
+    told = str(op.OptipathError("kind 'so\turce' is \x00unknown\r\n"))
+    assert told == r"kind 'so\turce' is \x00unknown\r\n"
+
+
+def test_20_faults_are_listed_and_others_are_counted():
+    error = op.PathError(*[f"fault {number}" for number in range(20_000)])
+    first, *listed, last = str(error).splitlines()
+    assert first == "20000 faults:"
+    assert listed == [f"- fault {number}" for number in range(20)]
+    assert last == "and 19,980 more"
+    assert len(error.faults) == 20_000

@@ -17,6 +17,7 @@ FOR_DEVELOPERS = {"test", "lint", "docs", "browser"}
 
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
+    "interruption",
     "spelling",
     "lazy_names",
     "errors",

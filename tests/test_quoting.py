@@ -38,7 +38,7 @@ VALUES = [
 
 @pytest.mark.parametrize("value", VALUES, ids=lambda value: type(value).__name__)
 def test_every_value_is_shown_in_few_characters(value):
-    assert 0 < len(shown(value)) < 1000
+    assert 0 < len(shown(value)) <= 62
 
 
 def test_short_values_are_shown_as_python_writes_them():
@@ -49,7 +49,7 @@ def test_short_values_are_shown_as_python_writes_them():
 def test_no_control_character_is_printable():
     every = "".join(map(chr, range(0x3000))) + "\ud800\udfff"
     seen = printable(every)
-    assert [letter for letter in seen if letter < " "] == ["\t", "\n"]
+    assert [letter for letter in seen if letter < " "] == ["\n"]
     assert not {*map(chr, range(0x7F, 0xA0)), "\u202e", "\u2066", "\u2028", "\ud800"} & {*seen}
     assert printable("Étienne, 30°, λ/4, 偏光") == "Étienne, 30°, λ/4, 偏光"
 

@@ -4,9 +4,11 @@ Optical elements are nodes of a path graph, each with its own reference frames. 
 the frames and orders the work; the plan it makes runs on one set of values or on millions.
 """
 
+import optipath.interruption  # noqa: F401 - before all else, for Ctrl-C while it is imported
+
+# isort: split
 from typing import TYPE_CHECKING
 
-# At once, for Ctrl-C while the others are imported.
 from optipath.errors import (
     AngleWarning,
     CoherenceWarning,

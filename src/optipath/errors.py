@@ -1,16 +1,8 @@
-"""Every exception of the library: one sentence a fault, all under `OptipathError`.
-
-The package imports this before all else, so that Ctrl-C ends the command ``optipath`` in one line
-while NumPy, which takes longer than a user to change their mind, is still being imported.
-"""
+"""Every exception of the library: one sentence a fault, all under `OptipathError`."""
 
 from __future__ import annotations
 
-import os
 import re
-import signal
-import sys
-from contextlib import suppress
 from copyreg import __newobj__  # type: ignore[attr-defined]
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any
@@ -20,11 +12,9 @@ from optipath.spelling import closest, looks_left
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
-INTERRUPTED = 130
-"""The status of a command that Ctrl-C ended: 128 and the number of the signal."""
-
 _LONGEST = 600
-_MOST_LISTED = 40
+_LONGEST_QUOTE, _LONGEST_PATH = 60, 250
+_MOST_LISTED, _MOST_FAULTS = 40, 20
 
 
 class OptipathError(Exception):
@@ -33,8 +23,8 @@ class OptipathError(Exception):
     Parameters
     ----------
     *faults : str
-        One sentence for each fault: the thing, the value, and the cure. Control characters
-        that it quotes are shown by their codes.
+        One sentence for each fault: the thing, the value, and the cure. Of what it quotes, 60
+        characters are shown (250 of names of files), control characters by their codes.
     about : str, optional
         What all of them are about, such as a file.
 
@@ -51,23 +41,26 @@ class OptipathError(Exception):
     about = ""
 
     def __init__(self, *faults: str, about: str = "") -> None:
-        short = tuple(printable(_shortened(fault)) for fault in faults)
+        short = tuple(map(_told, faults))
         super().__init__(*short)
         self.faults = short
         if about:
-            self.about = printable(_shortened(about))
+            self.about = _told(about)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its sentences are what it is.
         return __newobj__, (type(self), *self.faults), self.__dict__
 
     def __str__(self) -> str:
-        """All faults, one a line; a single fault stands alone."""
+        """Return the first faults, one a line, and how many more there are; or a single one."""
         if len(self.faults) == 1:
             return f"{self.about}: {self.faults[0]}" if self.about else self.faults[0]
         counted = f"{len(self.faults)} faults:"
         head = f"{self.about} has {counted}" if self.about else counted
-        return "\n".join([head, *(f"- {fault}" for fault in self.faults)])
+        lines = [head, *(f"- {fault}" for fault in self.faults[:_MOST_FAULTS])]
+        if (more := len(self.faults) - _MOST_FAULTS) > 0:
+            lines.append(f"and {more:,} more")
+        return "\n".join(lines)
 
 
 class FrameError(OptipathError):
@@ -238,15 +231,28 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def _shortened(fault: str) -> str:
-    # A sentence may quote what was given, which may be of any length.
+def _told(fault: str) -> str:
+    """Return a sentence on one line, what it quotes cut where it is long."""
+    fault = _QUOTED.sub(_cut, printable(fault).replace("\n", "\\n"))
     return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"
 
 
-# Control characters but for the end of a line and the tabulator, what turns the direction of
+def _cut(quoted: re.Match[str]) -> str:
+    # Of the name of a file, each folder counts.
+    return _short(quoted[0], _LONGEST_PATH if "/" in quoted[0] else _LONGEST_QUOTE + 2)
+
+
+def _short(text: str, most: int) -> str:
+    return text if len(text) <= most else f"{text[: most // 2]}...{text[3 - most // 2 :]}"
+
+
+# Texts in quotation marks, and words of any length.
+_QUOTED = re.compile(r"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|[^\s'"]{61,}""")
+
+# Control characters but for the end of a line, what turns the direction of
 # writing, other ends of lines, and halves of characters, which no file in UTF-8 can hold.
 _UNSEEN = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
+    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
 )
 
 
@@ -268,7 +274,7 @@ class _Short(Repr):
         super().__init__()
         self.maxlevel = 4
         self.maxlist = self.maxtuple = self.maxset = self.maxdict = 12
-        self.maxstring, self.maxlong, self.maxother = 200, 60, 300
+        self.maxstring, self.maxlong, self.maxother = 60, 60, 60
 
     def repr_int(self, x: int, level: int) -> str:
         """Return its digits, or how many bits it has where Python refuses to write them."""
@@ -293,25 +299,7 @@ def shown(value: object) -> str:
     """
     try:
         # Arrays are written in rows.
-        return printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
+        text = printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
+        return _short(text, _LONGEST_QUOTE + 2)
     except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
         return f"something of type {type(value).__name__}"
-
-
-def stop(*_: object) -> None:
-    """End at once: what is being imported could swallow an exception."""
-    with suppress(OSError):
-        os.write(2, b"optipath: interrupted\n")
-    os._exit(INTERRUPTED)
-
-
-def _is_command() -> bool:
-    # While a package is looked for, its name stands behind -m, and "-m" is all that argv knows.
-    if sys.argv[:1] == ["-m"]:
-        return sys.orig_argv[sys.orig_argv.index("-m") + 1 :][:1] == ["optipath"]
-    return os.path.basename("".join(map(str, sys.argv[:1]))).partition(".")[0] == "optipath"  # noqa: PTH119
-
-
-# In a program of others, nothing changes.
-if _is_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, stop)

@@ -56,7 +56,9 @@ def script(folder):
     return [sys.executable, str(file)]
 
 
-@pytest.mark.parametrize(("library", "as_script"), [("numpy", 1), ("numpy", 0), ("click", 0)])
+@pytest.mark.parametrize(
+    ("library", "as_script"), [("difflib", 1), ("difflib", 0), ("numpy", 1), ("click", 0)]
+)
 def test_an_interrupt_while_it_starts_is_told_in_one_line(library, as_script, tmp_path):
     (tmp_path / "bin").mkdir()
     environment = with_library(tmp_path, library, WAITS)
@@ -81,6 +83,7 @@ ctypes.CFUNCTYPE(None)(wait)()
     ("text", "sent", "found"),
     [
         (WAITS, signal.SIGINT, (130, "optipath: interrupted\n")),
+        (f"exec({WAITS!r})", signal.SIGINT, (130, "optipath: interrupted\n")),
         (LOST, signal.SIGINT, (130, "optipath: interrupted\n")),
         (WAITS, signal.SIGTERM, (143, "")),
     ],

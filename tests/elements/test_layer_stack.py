@@ -162,3 +162,10 @@ def test_a_layer_of_any_index_lets_through_what_the_closed_form_says(n):
 def test_an_index_whose_waves_have_squares_that_vanish_is_refused(n):
     with pytest.raises(op.OptipathError, match=r"indices\[1\] is .* within 1e-60 \.\. 1e\+60"):
         op.LayerStack([1.0, n, 1.0], 0.9).mueller("in", "transmitted")
+
+
+def test_a_stack_has_a_thousand_media_at_most():
+    assert np.isfinite(op.LayerStack([1.0] * 1000, 0.1).mueller().matrix).all()
+    for media in ([1.5] * 1001, np.full(20_000, 1.5)):
+        with pytest.raises(op.OptipathError, match="media; give 1,000 at most"):
+            op.LayerStack(media, 0.1).mueller()

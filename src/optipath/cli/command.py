@@ -16,7 +16,6 @@ from click.shell_completion import shell_complete
 from optipath.cli.interrupts import interruptible
 from optipath.cli.whole_help import WholeHelp
 from optipath.errors import (
-    INTERRUPTED,
     LoopWarning,
     MeshWarning,
     OptipathError,
@@ -26,6 +25,7 @@ from optipath.errors import (
     printable,
 )
 from optipath.extras import needing
+from optipath.interruption import INTERRUPTED
 from optipath.values.cures import of_files
 from optipath.values.written_units import units_are_written
 
@@ -139,6 +139,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _run(sys.argv[1:] if arguments is None else arguments)
     except KeyboardInterrupt:
         _print_error("interrupted")
+        exec("")  # noqa: S102 - else Python, interrupted in a text it ran, ends by the signal
         return INTERRUPTED
 
 
@@ -193,11 +194,7 @@ def _forget_output() -> None:
 
 def _refuse(*faults: str, about: str = "") -> int:
     """Tell what is wrong: one fault on the one line, several on a line each."""
-    if len(faults) == 1:
-        _print_error(f"{about}: {faults[0]}" if about else faults[0])
-        return 2
-    counted = f"{len(faults)} faults:"
-    _print_error(f"{about} has {counted}" if about else counted, *(f"- {one}" for one in faults))
+    _print_error(*str(OptipathError(*faults, about=about)).splitlines())
     return 2
 
 

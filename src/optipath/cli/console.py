@@ -8,7 +8,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import click
-from rich.console import Console
+from rich.console import Console, Group
 from rich.padding import Padding
 from rich.table import Column, Table
 from rich.text import Text
@@ -155,8 +155,8 @@ class PlainConsole(Console):
                 column.overflow = "fold"
                 column.min_width = min(_COLUMN, self._widest(column))
             wide = self.measure(shown, options=self.options.update(width=_WIDEST)).minimum
-            for part in [shown] if wide <= self.width else _stacked(shown):
-                super().print(part, **{"crop": False, **keywords})
+            whole = shown if wide <= self.width else Group(*_stacked(shown))
+            super().print(whole, **{"crop": False, **keywords})
         if not objects:
             super().print(**keywords)
 

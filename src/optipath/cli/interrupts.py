@@ -7,7 +7,7 @@ import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NoReturn
 
-from optipath.errors import stop
+from optipath.interruption import stop
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

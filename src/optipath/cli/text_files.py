@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath.errors import shown
+from optipath.values.given_files import bytes_of
 from optipath.values.written_files import write_file
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def read_text(file: Path) -> str:
         If it cannot be read, or is no text.
     """
     try:
-        return file.read_text("utf-8")
+        return bytes_of(file).decode("utf-8")
     except OSError as error:
         raise click.ClickException(f"'{file}' cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -58,7 +58,7 @@ class CosSin(Unchanging):
                 f"without CosSin"
             )
         cos, sin = _numbers("cos", cos), _numbers("sin", sin)
-        if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}, paired=True):
+        if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}):
             raise ParameterError(*faults)
         refuse_too_large(joint_shape(np.shape(cos), np.shape(sin)), _ANGLE, error=ParameterError)
         object.__setattr__(self, "cos", within_right_angle(cos, sin))

@@ -19,7 +19,6 @@ from optipath.values.curves.computed_values import computed_values
 from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
-from optipath.values.materials import Material
 from optipath.values.open_materials import given_too_late
 from optipath.values.other_part import of_complex
 from optipath.values.ranges import Ranges
@@ -145,9 +144,7 @@ class Inputs:
         # is computed of them has their shapes.
         shapes = {name: found[name] for name in (*given, *self.open) if name in found}
         shapes = {**self.shapes, **shapes}
-        lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
-        media = [name for name, value in given.items() if isinstance(value, Material)]
-        faults += broadcast_fault(shapes, [*self.shapes, *media], lists)
+        faults += broadcast_fault(shapes)
         laws = self._agreements_of(resolved, seen=plain is None)
         faults = faults or first_faults(laws, resolved)
         if faults and unchecked:

@@ -330,3 +330,12 @@ def test_a_prism_by_its_points_is_the_same():
     chain = op.path_from_vertices(points, [n, 1.0], faces, events="TT")
     expected = op.load_preset("prism-refraction").trace(apex=apex, n=n).stokes
     np.testing.assert_allclose(chain.trace().stokes, expected, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("what", ["elements", "parameters", "links"])
+def test_a_file_has_4000_entries_of_each_kind_at_most(what, tmp_path):
+    header = "[[links]]" if what == "links" else "[{}.x{}]"
+    file = tmp_path / "many.toml"
+    file.write_text("format = 1\n" + "".join(f"{header.format(what, n)}\n" for n in range(4001)))
+    with pytest.raises(op.PathError, match=f"it has 4,001 {what}; give 4,000 at most"):
+        op.load_preset(file)

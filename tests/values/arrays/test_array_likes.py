@@ -393,3 +393,68 @@ def test_a_number_of_jax_is_taken_wherever_a_number_is():
 def test_light_and_matrices_with_frames_are_no_numbers(given, cure, take):
     with pytest.raises(op.OptipathError, match=cure):
         take(given)
+
+
+def deep(value):
+    for _ in range(500):
+        value = [value]
+    return value
+
+
+class Raises:
+    def __array__(self, dtype=None, copy=None):
+        raise RuntimeError("cannot be made an array")
+
+
+class Itself:
+    def __array__(self, dtype=None, copy=None):
+        return self
+
+
+class NoFloat:
+    def __float__(self):
+        raise ZeroDivisionError
+
+
+HOSTILE = [
+    deep(5e-7),
+    [[1.0], [1.0, 2.0]],
+    Raises(),
+    [Raises(), 1.0],
+    Itself(),
+    NoFloat(),
+    [NoFloat(), 1.0],
+    range(10**15),
+    np.broadcast_to(np.float64(0.3), (10**12,)),
+    [np.broadcast_to(np.float64(0.3), (10**12,))],
+]
+
+
+@pytest.mark.parametrize(
+    "take",
+    [
+        lambda value: op.load_preset("malus").trace(angle=value),
+        lambda value: op.load_preset("malus").bind(angle=value),
+        lambda value: op.load_preset("copper-gold-spectrum").trace(wavelength=value),
+        lambda value: op.Polarizer(value).mueller(),
+        lambda value: op.Interface(value, 0.3).mueller(),
+        lambda value: op.LayerStack([1.0, value, 1.5], 0.3).mueller(),
+        lambda value: op.Material.tabulated([5e-7, 6e-7], n=value),
+        lambda value: op.Material.tabulated(value, n=[1.5, 1.6]),
+        lambda value: op.Material.tabulated([5e-7, 6e-7], n=[1.5, 1.6], k=value),
+        lambda value: op.tabulated([5e-7, 6e-7], value),
+    ],
+)
+def test_what_is_no_array_is_refused_in_a_sentence_wherever_numbers_are_given(take):
+    for value in HOSTILE:
+        with pytest.raises(op.OptipathError):
+            take(value)
+
+
+def test_a_number_beyond_double_precision_is_refused():
+    large = np.longdouble("1e4000")
+    if not np.isfinite(large) or large == np.finfo(float).max:
+        pytest.skip("long doubles are doubles here")
+    for value in (large, [large], np.array([large])):
+        with pytest.raises(op.OptipathError, match="beyond those of double precision"):
+            op.Polarizer(value).mueller()

@@ -5,7 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.errors import MissingExtraError
-from optipath.values.database import installed
+from optipath.values.database import installed, page_entries
 from optipath.values.database.catalog_pages import catalog_pages
 from optipath.values.database.curated_names import CURATED, curated_names
 from optipath.values.database.named_pages import named_page, of_curated
@@ -303,3 +303,11 @@ def test_a_run_has_wavelengths_up_to_microwaves():
     for given, told in [(0.633, "'0.633 um'"), (633, "'633 nm'"), ("1 m", "100 mm")]:
         with pytest.raises(op.ParameterError, match=told):
             path.trace(wavelength=given)
+
+
+def test_a_search_reads_the_wavelengths_of_tables_and_nothing_else(monkeypatch):
+    monkeypatch.setattr(page_entries, "_table", None)
+    table = {"type": "tabulated k", "data": "0.5 0.1\n0.25 0.2\n 1e1 0\n"}
+    formula = {"type": "formula 1", "wavelength_range": "0.3 2", "coefficients": "0 1 0.1"}
+    spans = page_entries.spans_of({"DATA": [formula, table]})
+    assert spans == {"n": (0.3e-6, 2e-6), "k": (0.25e-6, 10e-6)}

@@ -50,7 +50,7 @@ def tristimulus(light: WavelengthOnDemand, white: Any, observer: str, outside: s
         absolute: Array = LUMENS_PER_WATT * _plain(total, power)
         return absolute
     of_white, power_of_white = white_sums(light, white, standard, outside)
-    check_broadcast({"light": total.shape[:-1], "white": of_white.shape[:-1]}, fixed=("white",))
+    check_broadcast({"light": total.shape[:-1], "white": of_white.shape[:-1]})
     if is_traced(total) or is_traced(of_white):
         relative: Array = _plain(total, power) / _plain(of_white, power_of_white)[..., 1:2]
         return relative

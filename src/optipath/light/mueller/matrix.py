@@ -124,7 +124,7 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMat
 
     def _attenuated(self, light: Light) -> Light:
         matrix = known(self.matrix)
-        check_broadcast({"matrix": self.shape, "light": light.shape}, fixed=("matrix",))
+        check_broadcast({"matrix": self.shape, "light": light.shape})
         aligned = light.in_frame(self.frame_in)
         behind = self._kept_frame("frame_out")
         judged = self.is_given and not light.is_measured
@@ -148,8 +148,7 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMat
 
     def _behind(self, other: Mueller) -> Mueller:
         matrix, before = known(self.matrix), known(other.matrix)
-        shapes = {"matrix": self.shape, "other matrix": other.shape}
-        check_broadcast(shapes, fixed=shapes)
+        check_broadcast({"matrix": self.shape, "other matrix": other.shape})
         turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
         with np.errstate(over="ignore", invalid="ignore"):
             product = matrix @ turn @ before

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from copy import deepcopy
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -71,4 +72,6 @@ def kept(value: Any) -> Any:
     """
     if isinstance(value, np.ndarray):
         return value.copy() if value.flags.writeable else value
-    return deepcopy(value) if isinstance(value, list) else value
+    with suppress(RecursionError, MemoryError):  # What is too much is refused by the run.
+        return deepcopy(value) if isinstance(value, list) else value
+    return value

@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import SurfaceError, did_you_mean, shown
 from optipath.extras import needing
 from optipath.values.arrays.memory import enough_for
-from optipath.values.given_files import given_file
+from optipath.values.given_files import bytes_of, given_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 Array = np.ndarray[Any, Any]
 
 _CURE = "cut out a part of it"
+_LARGEST = 256 * 1024 * 1024
 
 
 def read_heights(path: str | PathLike[str]) -> Array:
@@ -51,6 +52,8 @@ def read_heights(path: str | PathLike[str]) -> Array:
             f"a file of heights cannot end in '{file.suffix}'{did_you_mean(ending, _READERS)}",
             about=str(file),
         )
+    if file.exists() and not (file.is_file() or file.is_dir()):  # A pipe would be waited for.
+        raise SurfaceError("cannot be read: it is no file", about=str(file))
     try:
         return _READERS[ending](file)
     except SurfaceError as fault:
@@ -65,7 +68,7 @@ def read_heights(path: str | PathLike[str]) -> Array:
 def _text(file: Path) -> Array:
     """Read numbers separated by blanks or commas."""
     try:
-        lines = enumerate(file.read_text("utf-8-sig").splitlines(), 1)
+        lines = enumerate(bytes_of(file, _LARGEST).decode("utf-8-sig").splitlines(), 1)
     except UnicodeDecodeError:
         raise SurfaceError("is no text in UTF-8; save it as UTF-8") from None
     rows = [(number, row) for number, line in lines if (row := line.partition("#")[0].strip())]

@@ -55,7 +55,7 @@ save it with a name that ends in .zarr or .nc, and load that
             f"'{place}' is {what} a hemisphere; save it with a name that ends in .zarr or .nc, and "
             f"load that"
         )
-    if not place.exists():
+    if not (place.is_file() or place.is_dir()):  # A pipe would be waited for.
         raise SurfaceError(f"there is no '{place}'; save a hemisphere of that name first")
     with needing("files of hemispheres"):
         import_module(_PACKAGES[place.suffix])

@@ -89,7 +89,7 @@ def _read(inputs: Inputs, name: str, given: tuple[Any, ...]) -> UncertainValue:
         )
     value, sigma = _value(inputs, name, given[0]), _sigma(inputs, name, given[1])
     shapes = {f"the values of '{name}'": value.shape, "their uncertainties": sigma.shape}
-    if faults := broadcast_fault(shapes, paired=True):
+    if faults := broadcast_fault(shapes):
         raise ParameterError(*faults)
     value, sigma = np.broadcast_arrays(value, sigma)
     low, high = inputs.limits[name]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from types import NoneType
@@ -17,8 +18,9 @@ _PLAIN = frozenset(
     {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
 )
 _DEEPEST = 64
-_NUMBER = 8
-"""How many bytes a number takes."""
+_FEW, _PATH = 2**20, 32
+"""How many numbers take no memory to speak of, and how many bytes a path of each takes."""
+_LONG = "gG"
 _LABELS = ("to_numpy", "dims", "coords", "columns")
 _UNITS = ("unit", "units")
 _CURES = {
@@ -104,12 +106,15 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
     array([0.5, 1. ])
     """
     if type(value) in _PLAIN:
-        return np.asarray(value)
+        array = np.asarray(value)
+        if array.size <= _FEW and array.dtype.char not in _LONG:
+            return array
     try:
         _refuse_endless(value)
         kinds = _kinds(value, set())
         _refuse_too_long(value)
         array = np.asarray(value)
+        _refuse_beyond(array)
     except _MoreThanNumbers as more:
         raise error(f"{what} {more}") from None
     except MemoryError:
@@ -182,6 +187,8 @@ def _kinds(value: Any, seen: set[int]) -> set[type]:
             _refuse_more(value)
         return {type(value)}
     kinds = set(map(type, value))
+    if np.ndarray in kinds:
+        _refuse_count(sum(entry.size for entry in value if type(entry) is np.ndarray))
     if kinds <= _PLAIN:
         return kinds
     seen.add(id(value))
@@ -199,12 +206,24 @@ def _refuse_endless(value: Any) -> None:
 
 
 def _refuse_too_long(value: Any) -> None:
-    """Refuse a sequence that says how long it is, and is longer than there is memory for."""
+    """Refuse what says how long it is, and is longer than there is memory for."""
+    # A view of one number as many takes none, until it is copied.
+    if isinstance(value, np.ndarray):
+        _refuse_count(value.size)
     # A number of JAX has a length, and refuses to tell it.
-    if isinstance(value, (str, bytes, np.ndarray)) or getattr(value, "ndim", None) == 0:
-        return
-    if hasattr(type(value), "__len__") and (length := len(value)) * _NUMBER > memory():
-        raise _MoreThanNumbers(f"has {length:.3g} entries, more than this machine has memory for")
+    elif not isinstance(value, (str, bytes)) and getattr(value, "ndim", None) != 0:
+        _refuse_count(len(value) if hasattr(type(value), "__len__") else 0)
+
+
+def _refuse_count(count: int) -> None:
+    if count > _FEW and count * _PATH > memory():
+        raise _MoreThanNumbers(f"has {count:.3g} entries, more than this machine has memory for")
+
+
+def _refuse_beyond(array: Array) -> None:
+    """Refuse numbers of more precision that are no doubles."""
+    if array.dtype.char in _LONG and np.any(np.isfinite(array) & (abs(array) > sys.float_info.max)):
+        raise _MoreThanNumbers("has a number beyond those of double precision; give smaller ones")
 
 
 def _refuse_more(value: Any) -> None:

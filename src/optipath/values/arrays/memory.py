@@ -94,7 +94,7 @@ def enough_for(
 
 
 def memory() -> int:
-    """Return how many bytes of memory the machine has.
+    """Return how many bytes of memory the machine has, or how many a process may take.
 
     Examples
     --------
@@ -102,9 +102,13 @@ def memory() -> int:
     True
     """
     try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
+        import resource  # noqa: PLC0415 - Windows has none
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (ImportError, AttributeError, ValueError, OSError):
         return UNTOLD
+    return there if limit == resource.RLIM_INFINITY else min(there, limit)
 
 
 def _too_much(batch: tuple[int, ...], each: int, cure: str, what: str) -> str:

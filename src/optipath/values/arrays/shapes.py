@@ -9,12 +9,11 @@ import numpy as np
 
 from optipath.errors import ShapeError
 from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.combinations import combination
 from optipath.values.arrays.jax_values import is_jax
 from optipath.values.arrays.memory import refuse_too_large
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
 
     import numpy.typing as npt
 
@@ -48,25 +47,13 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
     return found
 
 
-def broadcast_fault(
-    shapes: Mapping[str, tuple[int, ...]],
-    fixed: Collection[str] = (),
-    lists: Collection[str] = (),
-    *,
-    paired: bool = False,
-) -> list[str]:
+def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
     """Return the sentence that names shapes which do not broadcast, or nothing.
 
     Parameters
     ----------
     shapes : mapping of str to tuple of int
         The shapes by what has them, as the sentence names it.
-    fixed : collection of str, optional
-        Which of these cannot be given with other axes.
-    lists : collection of str, optional
-        Which of these are lists, which take no axes.
-    paired : bool, optional
-        Whether they belong together one by one, as a cosine and its sine do.
 
     Returns
     -------
@@ -76,13 +63,12 @@ def broadcast_fault(
     --------
     >>> print(*broadcast_fault({"delta": (7,), "rho": (4,)}))  # doctest: +NORMALIZE_WHITESPACE
     arrays do not broadcast together: delta (7,), rho (4,);
-    for every pair, give delta[:, None]; or make their axes equal
+    make their axes equal or 1, as x[:, None] does
     """
     found = _joint(shapes.values())
     if found is None:
         named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
-        more = "" if paired else combination(shapes, fixed, lists)
-        cure = f"{more}; or make their axes equal" if more else "make their axes equal or 1"
+        cure = "make their axes equal or 1, as x[:, None] does"
         return [f"arrays do not broadcast together: {named}; {cure}"]
     if len(found) > MOST_AXES:
         owner = max(shapes, key=lambda owner: len(shapes[owner]))
@@ -106,14 +92,12 @@ def _joint(shapes: Iterable[tuple[int, ...]]) -> tuple[int, ...] | None:
     return tuple(found)
 
 
-def check_broadcast(
-    shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = ()
-) -> tuple[int, ...]:
+def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
     """Return the shape that several shapes broadcast to.
 
     Parameters
     ----------
-    shapes, fixed
+    shapes
         As `broadcast_fault` takes them.
 
     Returns
@@ -125,7 +109,7 @@ def check_broadcast(
     ShapeError
         Naming each shape and its owner; or if there is no memory for so much.
     """
-    if faults := broadcast_fault(shapes, fixed):
+    if faults := broadcast_fault(shapes):
         raise ShapeError(*faults)
     batch = joint_shape(*shapes.values())
     refuse_too_large(batch, _STOKES)

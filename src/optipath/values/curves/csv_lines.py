@@ -6,6 +6,7 @@ import csv
 from typing import TYPE_CHECKING, TypeAlias
 
 from optipath.errors import ValueFault
+from optipath.values.given_files import bytes_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,7 +36,7 @@ def lines_of(file: Path) -> list[Line]:
         If it cannot be read.
     """
     try:
-        text = file.read_text("utf-8-sig")
+        text = bytes_of(file).decode("utf-8-sig")
     except FileNotFoundError:
         raise ValueFault("there is no such file; look at its name", about=str(file)) from None
     except (OSError, UnicodeDecodeError) as fault:

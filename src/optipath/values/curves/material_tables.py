@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from optipath.errors import ValueFault
+from optipath.values.arrays.array_likes import as_given
 from optipath.values.curves.csv_columns import read_columns
 from optipath.values.curves.curve_material import CurveMaterial
 from optipath.values.curves.tabulated import Tabulated
@@ -68,8 +69,10 @@ class MaterialTables(CurveMaterial):
         Material 'gold', 500 nm .. 521 nm
         """
         label = label_of("a material", name, "a table of n and k")
-        columns: dict[str, Any] = {"n": np.full(np.shape(wavelengths), n) if np.ndim(n) == 0 else n}
-        constant = np.ndim(k) == 0
+        given = {"wavelengths": wavelengths, "n": n, "k": k}
+        shapes = {name: as_given(f"{name} of {label}", v).shape for name, v in given.items()}
+        columns: dict[str, Any] = {"n": n if shapes["n"] else np.full(shapes["wavelengths"], n)}
+        constant = not shapes["k"]
         if not constant:
             columns["k"] = k
         curve = Tabulated(

@@ -155,7 +155,7 @@ def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray
         array = _real(owner, numbers_for(owner, given, parse))
     except OptipathError as fault:
         faults += fault.faults
-    except (OverflowError, TypeError, ValueError):
+    except Exception:  # noqa: BLE001 - what is given may raise anything
         faults.append(f"{owner} must be a row of real numbers, not {shown(given)}")
     else:
         if array.ndim == 1 and array.size:

@@ -10,6 +10,7 @@ from typing import Any
 
 from optipath.errors import MaterialError
 from optipath.extras import need, needing
+from optipath.values.given_files import bytes_of
 
 _LARGEST = 4 * 1024 * 1024
 
@@ -70,7 +71,8 @@ def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
             raise MaterialError(
                 f"{about} is too large for a material; give a file of at most 4 MiB"
             )
-        return yaml.load(file.read_text("utf-8"), Loader=loader)  # noqa: S506 - a BaseLoader
+        text = bytes_of(file, _LARGEST).decode("utf-8")
+        return yaml.load(text, Loader=loader)  # noqa: S506 - a BaseLoader
     except OSError as error:
         raise MaterialError(f"{about} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:

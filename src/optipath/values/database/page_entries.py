@@ -125,6 +125,26 @@ def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
     return found
 
 
+def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
+    """Return the wavelengths of each part of a page, of whose tables only these are read.
+
+    Raises
+    ------
+    OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError
+        If it is no page.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    for entry in contents["DATA"]:
+        [(parts, _)] = _TYPE.findall(entry["type"])
+        if parts:
+            words = sorted(entry["data"].split()[:: 1 + len(parts)], key=float)
+            span = _metres_of([Decimal(words[0]), Decimal(words[-1])])
+        else:
+            parts, span = "n", _entry(entry).span
+        found |= dict.fromkeys(parts, span)
+    return found
+
+
 def _entry(entry: Any) -> PageEntry:
     kind = entry.get("type") if isinstance(entry, dict) else None
     match = _TYPE.fullmatch(kind) if isinstance(kind, str) else None

@@ -9,7 +9,7 @@ from optipath.errors import OptipathError
 from optipath.values.database.catalog_pages import CatalogPage, catalog_pages
 from optipath.values.database.curated_names import CURATED, alike
 from optipath.values.database.installed import read_yaml
-from optipath.values.database.page_entries import entries_of
+from optipath.values.database.page_entries import spans_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,10 +56,9 @@ class FoundPage(NamedTuple):
         dict of str to tuple
         """
         try:
-            entries = entries_of(read_yaml(self.page.file, self.page.place, installed=True), [])
-        except OptipathError:
+            found = spans_of(read_yaml(self.page.file, self.page.place, installed=True))
+        except (OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
             return {}
-        found = {part: entry.span for entry in entries for part in entry.parts}
         if self.curated and self.curated.clear:
             low, high = self.curated.clear
             found["n"] = max(low, found["n"][0]), min(high, found["n"][1])

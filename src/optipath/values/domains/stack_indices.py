@@ -19,6 +19,9 @@ from optipath.values.domains.indices import (
 from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.follows import FOLLOWS
 
+MOST_MEDIA = 1000
+"""How many media a stack may have: the time to order the work of a path grows with them."""
+
 
 @dataclass(frozen=True)
 class InnerDomain(OutsideDomain):
@@ -88,6 +91,8 @@ class IndicesDomain(Domain):
             entries = entries_of("", "indices", value)
         except ValueFault:
             return value  # For validation to name.
+        if len(entries) > MOST_MEDIA:
+            return value
         return tuple(_plain_index(read_only(index)) for index in entries)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
@@ -103,7 +108,9 @@ class IndicesDomain(Domain):
     def check(self, owner: str, value: Any) -> Any:
         if value is not None and not isinstance(value, (float, int, complex)):
             # Good lists are checked by their parts.
-            entries_of(owner, "two indices or more", value)
+            entries = entries_of(owner, "two indices or more", value)
+            if (media := len(entries)) > MOST_MEDIA:
+                raise ValueFault(f"{owner} has {media:,} media; give {MOST_MEDIA:,} at most")
         raise ValueFault(
             f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
             f"first and the substrate last, such as [1, 1.5, 1.33]"

@@ -39,6 +39,10 @@ if TYPE_CHECKING:
     Parameters: TypeAlias = dict[str, Parameter]
 
 
+_MOST_ENTRIES = 4000
+"""How many elements, links, ... a file may have, so that it is loaded and run within 2 s."""
+
+
 def read(document: Table) -> PathGraph:
     """Return the path that a parsed TOML document describes.
 
@@ -48,6 +52,9 @@ def read(document: Table) -> PathGraph:
         With every fault: keys, kinds, units, values, ports, links, and the path itself; what
         follows from another fault is left out.
     """
+    for key, table in document.items():
+        if isinstance(table, (dict, list)) and len(table) > _MOST_ENTRIES:
+            raise PathError(f"it has {len(table):,} {key}; give {_MOST_ENTRIES:,} at most")
     faults = Faults(schema.type_faults("the preset", document, schema.TOP))
     if faults:
         document = schema.as_meant(document, schema.TOP)
