@@ -22,6 +22,8 @@ def stack(length, n=1.5, **others):
 
 def test_layers_thinner_than_ten_wavelengths_are_warned_of():
     path = op.Source() >> stack(op.Parameter("d")) >> op.Detector()
+    by_wavelength = op.Source() >> stack("1 um", wavelength=op.Wavelength()) >> op.Detector()
+    by_index = op.Source() >> stack("1 um", op.Parameter("n")) >> op.Detector()
     rows = [
         (lambda: stack("5 nm"), 1),
         (lambda: stack("3 um"), 1),  # 9 wavelengths in it
@@ -32,6 +34,11 @@ def test_layers_thinner_than_ten_wavelengths_are_warned_of():
         (lambda: stack("4 mm"), 0),
         (lambda: path.bind(d="100 nm"), 1),
         (lambda: path.bind(d="1 mm").trace(), 0),
+        (lambda: path.trace(d="25 nm"), 1),
+        (lambda: path.trace(d=["1 mm", "25 nm"]), 1),
+        (lambda: path.trace(d="1 mm"), 0),
+        (lambda: by_wavelength.trace(wavelength="500 nm"), 1),
+        (lambda: by_index.trace(n=1.4), 1),
     ]
     for number, (action, count) in enumerate(rows):
         assert warned(action) == [op.CoherenceWarning] * count, number

@@ -167,6 +167,14 @@ def test_a_multiple_of_an_angle_within_a_turn_or_of_a_pure_number_is_no_reason_t
     assert warned(lambda: chain([op.Rotator(angle)]).trace(a=given)) == []
 
 
+def test_a_unit_for_what_the_path_turns_into_radians_is_warned_of():
+    path = chain([op.Rotator(A * (np.pi / 180))])
+    for given in ("45 deg", ["45 deg", "0.1 rad"]):
+        sentence = warned(lambda given=given: path.trace(a=given))[0]
+        assert sentence.startswith("parameter 'a' has a unit, and the path multiplies it by pi")
+    assert warned(lambda: path.trace(a=[10.0, 45.0, 720.0])) == []
+
+
 @pytest.mark.parametrize("default", [45, 0.5, None])
 def test_a_default_of_plain_degrees_that_become_radians_is_no_reason_to_warn(default):
     path = chain([op.Rotator(op.Parameter("a", default) * (np.pi / 180))])

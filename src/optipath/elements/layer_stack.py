@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,10 +11,8 @@ from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.fading_layer import FadingLayer
 from optipath.elements.known_sizes import vanishes
 from optipath.elements.thin_layer import ThinLayer
-from optipath.errors import CoherenceWarning
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
-from optipath.values.calls_up import calls_up
 from optipath.values.domains.indices import INDEX, OPTIONAL_OUTSIDE
 from optipath.values.domains.quantities import (
     Angle,
@@ -41,6 +38,7 @@ if TYPE_CHECKING:
 
     from optipath.elements.coupling import Coupling
     from optipath.light.light import Light
+    from optipath.values.agreement import Agreement
     from optipath.values.domains.domain import Domain
 
 _NEEDED = {"lengths": "the lengths (one for each layer)", "wavelength": "the wavelength"}
@@ -105,7 +103,9 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     def __post_init__(self) -> None:
         """Keep values as every element does; warn of layers that are films."""
         super().__post_init__()
-        self._warn_of_films()
+        for film in self._films():
+            if not film.is_open:
+                film.fault()
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value; layers may absorb where lengths and a wavelength are given."""
@@ -192,8 +192,9 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         found = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
         return found[..., ::-1] if enters == "back" else found
 
-    def agreements(self, owner: str) -> Iterator[FadingLayer]:
-        """Yield what must hold of the layers that may absorb."""
+    def agreements(self, owner: str) -> Iterator[Agreement]:
+        """Yield what must hold of the layers that may absorb, and what is known at a run only."""
+        yield from (film for film in self._films() if film.is_open)
         incidence, measured = self.measured
         if any(value is FOLLOWS for value in (incidence, measured, self.outside)):
             return  # What it takes over is looked at.
@@ -205,19 +206,14 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
             given = (*beside, lengths[place - 1], self.wavelength, n0, incidence)
             yield FadingLayer(tuple(map(operand_of, given)), f"{owner}.indices[{place}]")
 
-    def _warn_of_films(self) -> None:
-        """Warn of layers in which light would interfere, where lengths and wavelength are known."""
+    def _films(self) -> Iterator[ThinLayer]:
+        """Yield what is warned of where it does not hold of a layer: that it is no film."""
         if self.wavelength is None or not isinstance(self.lengths, tuple):
             return
-        wavelength = operand_of(self.wavelength)
-        for place, (index, length) in enumerate(
-            zip(self._media[1:-1], self.lengths, strict=False), 1
-        ):
-            n = operand_of(numbers_of(index, INDEX)[0])
-            n = n if n.known else operand_of(1.0)
-            law = ThinLayer((n, operand_of(length), wavelength), f"layer {place} of a LayerStack")
-            if not law.is_open and law.fault():
-                warnings.warn(law.sentence(), CoherenceWarning, stacklevel=calls_up())
+        layers = zip(self._media[1:-1], self.lengths, strict=False)
+        for place, (index, length) in enumerate(layers, 1):
+            given = (numbers_of(index, INDEX)[0], length, self.wavelength)
+            yield ThinLayer(tuple(map(operand_of, given)), f"layer {place} of a LayerStack")
 
     def _operation(self, wanted: str, enters: str) -> Operation:
         """Return what the stack does to light from one side."""

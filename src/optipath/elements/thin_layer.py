@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from optipath.errors import CoherenceWarning
 from optipath.values.agreement import Agreement
+from optipath.values.calls_up import calls_up
+from optipath.values.operands import NOTHING
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Mapping
+
+    from optipath.values.resolved import Resolved
 
 _WAVELENGTHS = 10.0
 """Up to how many wavelengths a layer is a thin film, whose light interferes."""
@@ -39,3 +45,14 @@ class ThinLayer(Agreement):
             f"{self.layer} is thinner than ten wavelengths, where light interferes, and a "
             f"LayerStack adds intensities; give the r_s and r_p of a film to a Mirror"
         )
+
+    def fault(self, given: Mapping[str, Resolved] = NOTHING) -> str:
+        """Warn of a thin layer, which is no fault."""
+        if super().fault(given):
+            warnings.warn(self.sentence(), CoherenceWarning, stacklevel=calls_up())
+        return ""
+
+    def inside(self, given: Mapping[str, Resolved]) -> Any:
+        """Return that any layer is allowed."""
+        del given
+        return True

@@ -86,7 +86,7 @@ class Answers:
 
     def lights(self, parameters: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
         """Return the light at every end, as Stokes vectors and exponents."""
-        if self.large_angles.names:
+        if self.large_angles.looks:
             self.large_angles.look(parameters)
         return dict((self.approximation or self.light).answer(self.question, parameters))
 

@@ -124,7 +124,7 @@ class Plan(PlanDetails):
         by = answers.wavelengths
         later = LaterWavelength(by, self.inputs, parameters) if by else None
         if fast_path is not None:
-            if answers.large_angles.names:
+            if answers.large_angles.looks:
                 answers.large_angles.look(parameters)
             stokes, exponent = fast_path[place][:4], fast_path[place][4]
         else:

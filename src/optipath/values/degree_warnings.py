@@ -13,6 +13,7 @@ from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.calls_up import calls_up
 from optipath.values.degrees import TURN, is_of_an_angle
+from optipath.values.units import UNITS, unit_of
 from optipath.values.written_units import UNITS_ARE_WRITTEN
 
 if TYPE_CHECKING:
@@ -56,6 +57,35 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
         warnings.warn(
             f"{what} is a plain number beyond 2 pi, in radians; write degrees as '48 deg', and "
             f"radians as '48 rad'",
+            AngleWarning,
+            stacklevel=calls_up(),
+        )
+
+
+def warn_of_two_factors(name: str, value: Any) -> None:
+    """Warn of a text in degrees for a parameter of which pi/180 makes radians once more.
+
+    Parameters
+    ----------
+    name : str
+        Of the parameter.
+    value : Any
+        What is given: a text, or an array or a list with texts among its entries.
+
+    Warns
+    -----
+    AngleWarning
+        At the line that called the library.
+    """
+    try:
+        entries = as_given("", value).ravel().tolist()
+    except OptipathError:
+        return  # For validation to name.
+    units = (UNITS.get(unit_of(entry)) for entry in entries if isinstance(entry, str))
+    if any(unit is not None and unit.dimension == "angle" for unit in units):
+        warnings.warn(
+            f"parameter '{name}' has a unit, and the path multiplies it by pi / 180; give degrees "
+            f"as a plain number",
             AngleWarning,
             stacklevel=calls_up(),
         )

@@ -63,6 +63,11 @@ def has_plain_degrees(low: float, high: float) -> bool:
     return any(TURN < abs(end) < math.inf for end in (low, high))
 
 
+def counts_degrees(scale: float) -> bool:
+    """Tell whether an angle is a number times pi/180, computed or typed."""
+    return math.isclose(abs(scale), math.pi / 180.0, rel_tol=1e-3)
+
+
 def is_of_an_angle(scale: float) -> bool:
     """Tell whether a factor is one of angles, and not one that makes angles of pure numbers.
 

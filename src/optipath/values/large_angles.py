@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.degree_warnings import warn_of_degrees
-from optipath.values.degrees import TURN, is_of_an_angle, is_within_a_turn
+from optipath.values.degree_warnings import warn_of_degrees, warn_of_two_factors
+from optipath.values.degrees import TURN, counts_degrees, is_of_an_angle, is_within_a_turn
+from optipath.values.texts import may_hold_texts
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,11 +30,15 @@ class LargeAngles:
 
     def __init__(self, inputs: Inputs) -> None:
         self.names: list[str] = []
+        self._turned: set[str] = set()
         for use in inputs.uses:
             name = use.value.name
+            if use.domain.dimension == "angle" and counts_degrees(use.value.scale):
+                self._turned.add(name)
             of_angle = use.domain.dimension == "angle" and is_of_an_angle(use.value.scale)
             if of_angle and name not in self.names and not is_within_a_turn(*inputs.limits[name]):
                 self.names.append(name)
+        self.looks = bool(self.names or self._turned)
         self._looked_at: set[str] = set()
 
     def look(self, given: Mapping[str, Any]) -> None:
@@ -49,6 +54,9 @@ class LargeAngles:
         AngleWarning
             Once for each parameter.
         """
+        for name in self._turned & given.keys():
+            if may_hold_texts(given[name]):
+                warn_of_two_factors(name, given[name])
         for name in self.names:
             value = given.get(name)
             if value is None or (type(value) is float and -TURN <= value <= TURN):
