@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     Parameters: TypeAlias = dict[str, Parameter]
 
 
-_MOST_ENTRIES = 4000
+_MOST_ENTRIES = 3000
 """How many elements, links, ... a file may have, so that it is loaded and run within 2 s."""
 
 
