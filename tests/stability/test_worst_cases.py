@@ -42,6 +42,12 @@ WORST = {
     ],
     "S": [(2.229876357287204, 0.19867469621615875, 0.24075602395248014, 0.9705856669715419)],
 }
+WORST_IN_FLOAT32 = [
+    (1.031729817390442, 0.0001831289118854329, 0.9968290925025940, 0.07957191020250320),
+    (1.1320353746414185, 0.0004058231133967638, 0.9594302177429199, 0.28194624185562134),
+    (1.3993197679519653, 0.002874102909117937, 0.24654033780097961, 0.9691325426101685),
+    (1.0000293254852295, 1.9644691207076903e-08, 0.0019110689172521234, 0.999998152256012),
+]
 DOUBLE_ZERO = [
     (0.41421356237309503, 0.0, 0.8408964152537144, 0.5411961001461972),
     (0.44999033470313743, 3.62208537643414e-08, 0.8213097285328537, 0.5704825412028753),
@@ -95,6 +101,13 @@ def test_compensated_holds_in_the_worst_cases_that_a_search_finds(name):
     for component in ("A", "C"):
         found = worst("compensated", NAMES[name], component, generations=GENERATIONS // 2)
         assert found.error <= 1.5, (component, found)
+
+
+def test_the_worst_cases_of_float32_are_within_the_promised_limit():
+    for given in np.array(WORST_IN_FLOAT32, np.float32):
+        found = matrix_numbers(REFLECTION.by_method("stable"), Samples(*given[:, None]))
+        off = errors(found, [exactly_reflected(*given)], "float32").componentwise
+        assert off.max() <= LIMIT, (given, off)
 
 
 @pytest.mark.parametrize("component", WORST)
