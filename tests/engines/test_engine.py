@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from optipath import extras
 from optipath.engines.engine import Engine
 from optipath.engines.float_engine import FLOAT_ENGINE
 from optipath.engines.formulas.formula import Formula
@@ -23,7 +24,8 @@ class Absent(Engine):
         return formula
 
 
-def test_an_engine_whose_package_is_not_there_names_what_brings_it():
+def test_an_engine_whose_package_is_not_there_names_what_brings_it(monkeypatch):
+    monkeypatch.setitem(extras._EXTRA_OF, "no_such_package", "fast")
     assert not Absent().is_installed
     assert "optipath[fast]" in str(Absent().missing)
 

@@ -58,7 +58,7 @@ FIELDS = {
     "elliptical retardance": (lambda v: op.EllipticalRetarder(0.3, v), [0.0, 2.0], [np.inf]),
     "right-handed": (lambda v: op.CircularDiattenuator(v, 0.2), [0.1, 0.7], [-0.1, 1.5]),
     "incidence": (lambda v: op.Interface(1.5, v), [0.0, 0.7, np.pi / 2], [-0.1, 1.6, 2.0]),
-    "index": (lambda v: op.Interface(v, 0.7), [0.0, 1.5], [-0.5, np.inf]),
+    "index": (lambda v: op.Interface(v, 0.7), [1e-9, 1.5], [-0.5, 0.0, np.inf]),
     "complex index": (lambda v: op.Interface(v, 0.7), [0.2 + 3j], [0.2 - 3j, -0.2 + 3j]),
     "n": (lambda v: op.Interface(op.Material(v, 2.0), 0.7), [0.5], [-0.5]),
     "k": (lambda v: op.Interface(op.Material(1.5, v), 0.7), [0.0, 2.0], [-1e-3]),

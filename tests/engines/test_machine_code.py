@@ -9,7 +9,8 @@ import pytest
 pytest.importorskip("numba")
 from optipath.engines import code_key, machine_code
 from optipath.engines.code_cache import CodeCache
-from optipath.engines.machine_code import MachineCode, address, compiled
+from optipath.engines.array_address import address
+from optipath.engines.machine_code import MachineCode, compiled
 
 TEXT = """
 def path(count: 'int64', factor: 'float64', given: '*float64', flags: '*uint8', out: '*float64'):

@@ -17,9 +17,6 @@ TURN = 2.0 * math.pi * (1.0 + 1e-6)
 _MULTIPLES = 10.0
 """Up to what factor of an angle one has to do with an angle still."""
 
-_LEAST = 2.0
-"""From what size on a number that is refused may have been one of degrees."""
-
 
 def is_within_a_turn(low: Any, high: Any) -> bool:
     """Tell whether a range has no angle beyond a whole turn.
@@ -101,7 +98,9 @@ def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
     >>> meant_in_degrees(math.radians(100.0), lambda angle: 0.0 <= angle <= 1.6)
     ''
     """
-    if abs(number) < _LEAST or UNITS_ARE_WRITTEN.get() or not allows(math.radians(number)):
+    # Up to a whole turn, what is no whole number may have been computed.
+    meant = abs(number) > TURN or (abs(number) >= 2.0 and float(number).is_integer())
+    if not meant or UNITS_ARE_WRITTEN.get() or not allows(math.radians(number)):
         return ""
     return f"; did you mean '{number:.6g} deg' or np.radians({number:.6g})?"
 

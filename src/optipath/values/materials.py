@@ -125,10 +125,11 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
     @property
     def domain_of_n(self) -> Domain:
         """What n may be: 0 only where k is above 0, or not known yet."""
-        n, k = _number(self.n), _number(self.k)
-        if k is None or not np.any(k):
-            return N if k is None else N_OF_CLEAR
-        if n is None or broadcast_fault({"n": n.shape, "k": k.shape}):
+        if (k := _number(self.k)) is None:
+            return N
+        if not np.any(k):
+            return N_OF_CLEAR
+        if (n := _number(self.n)) is None or broadcast_fault({"n": n.shape, "k": k.shape}):
             return N
         return N_OF_CLEAR if np.any((n == 0.0) & (k == 0.0)) else N
 

@@ -124,7 +124,7 @@ def test_only_the_ratio_of_the_indices_matters(n, k, outside, angle):
     np.testing.assert_allclose(given_outside.matrix, relative.matrix, rtol=0, atol=slack)
 
 
-@pytest.mark.parametrize("index", [0.0, 1e-200, 1e-100 + 1e-100j])
+@pytest.mark.parametrize("index", [1e-200, 1e-100 + 1e-100j])
 def test_an_index_that_vanishes_reflects_everything(index):
     A, B, C, S = op.fresnel_reflection(index, [1.0, 0.8], [0.0, 0.6])
     np.testing.assert_array_equal(A, [1.0, 1.0])

@@ -33,5 +33,5 @@ def run_once(contenders):
 
 def test_an_engine_that_is_not_installed_is_told(monkeypatch):
     monkeypatch.setattr(report, "is_installed", lambda engine: engine != "jax")
-    with pytest.raises(op.OptipathError, match="need jax, which is not installed"):
+    with pytest.raises(op.OptipathError, match="need JAX, which is not installed"):
         bench(op.load_preset("malus"), lambda: None, engines=["numpy", "jax"])

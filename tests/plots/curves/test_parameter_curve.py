@@ -108,6 +108,7 @@ def test_few_points_are_marked_and_flips_between_them_leave_them_seen():
     assert len(marks(curve(op.load_preset("malus"), "angle", values="0 deg:90 deg:7"))) == 7
 
 
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")  # ten half turns
 def test_of_many_points_those_are_marked_that_stand_alone():
     # The light is turned by 90 deg from each to the next.
     ax = curve(WAVEPLATE, "turn", "aop", values="0 deg:1800 deg:41")

@@ -113,13 +113,6 @@ def test_a_base_that_lets_light_of_one_of_the_wavelengths_through_is_refused(wav
     assert fault.endswith("give one wavelength at a time")
 
 
-def test_a_base_that_is_no_medium_at_a_wavelength_is_refused():
-    nothing = op.Material.tabulated(["400 nm", "600 nm"], [0.0, 1.0], [0.0, 1.0], name="nothing")
-    op.Sample([(nothing, 0.1)]).indices("600 nm")
-    (fault,) = refused([(nothing, 0.1)], "400 nm")
-    assert fault.startswith("layers[0].index is 0j; give an index of refraction n + ik")
-
-
 def test_a_wavelength_that_jax_traces_is_refused():
     jax = pytest.importorskip("jax")
     sample = op.Sample([(METAL, 0.1)])

@@ -181,7 +181,7 @@ class MatrixFigures:
 
     def _warn_of_no_sample(self, matrix: Array) -> None:
         """Warn where there is no r_p / r_s: of what depolarizes, or mixes s and p."""
-        lit = matrix[..., 0, 0] > 0.0
+        lit = matrix[..., 0, 0] > self.noise
         with np.errstate(all="ignore"):
             near = np.abs(matrix / matrix[..., :1, :1] - _isotropic(matrix)).max(axis=(-2, -1))
         for bad, what in (

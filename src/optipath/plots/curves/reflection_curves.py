@@ -128,8 +128,6 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         )
     if not faults and behind == front:
         faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
-    if not faults and not behind:
-        faults.append("index is 0, which is that of no medium; give n or k above 0")
     if faults:
         raise OptipathError(*faults)
     told = [f"n = {number}" for number in _told_apart(behind, front)]
