@@ -8,8 +8,8 @@ import pytest
 
 pytest.importorskip("numba")
 from optipath.engines import code_key, machine_code
-from optipath.engines.code_cache import CodeCache
 from optipath.engines.array_address import address
+from optipath.engines.code_cache import CodeCache
 from optipath.engines.machine_code import MachineCode, compiled
 
 TEXT = """
