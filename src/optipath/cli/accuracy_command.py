@@ -21,7 +21,7 @@ SEARCH = click.Option(
     ["--search", "generations"],
     type=click.IntRange(1, 100_000),
     help="Search for the worst cases instead: so many generations of 1000 boundaries and angles "
-    "for each component in each region; 3000 take less than an hour.",
+    "for each component in each region; 1000 take about a quarter of an hour.",
 )
 WRITE = click.Option(
     ["--write", "file"],

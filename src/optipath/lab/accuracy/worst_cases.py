@@ -24,8 +24,8 @@ COMPONENTS = ("A", "B", "C", "S", "C near 0")
 """What is searched: the four numbers, C but where its zero is double, and C there."""
 
 _CHILDREN, _KEPT, _LIFE = 1000, 100, 200
-_STEP = 2.0**-24
-"""By how much of it a tangent is moved to find a condition."""
+_STEPS = 2.0**13
+"""By how many roundings a tangent is moved to find a condition: next to an angle, too."""
 
 
 def _anywhere(dice: Dice) -> tuple[Floats, ...]:
@@ -141,10 +141,10 @@ def _scores(
     component: str, found: Floats, samples: Samples, family: KernelFamily, kind: Any
 ) -> Floats:
     """Return the errors of computed numbers against the stable formulas in a wider float."""
-    place = "ABCS".index(component[0])
+    place, step = "ABCS".index(component[0]), _STEPS * np.finfo(kind).eps
     with np.errstate(all="ignore"):
-        (A, exact), (_, moved) = (_wide(family, samples, kind, step, place) for step in (0, _STEP))
-        condition = np.abs((moved - exact) / exact) / _STEP
+        (A, exact), (_, moved) = (_wide(family, samples, kind, by, place) for by in (0.0, step))
+        condition = np.abs((moved - exact) / exact) / step
         condition = np.where((samples.cos > 0.0) & (samples.sin > 0.0), condition, 0.0)
         has_zeros = component[0] == "C" and family is REFLECTION
         near = is_near_double_zero(A, exact, condition) & has_zeros
@@ -156,11 +156,11 @@ def _scores(
 
 
 def _wide(
-    family: KernelFamily, samples: Samples, kind: Any, step: float, place: int
+    family: KernelFamily, samples: Samples, kind: Any, by: float, place: int
 ) -> tuple[Floats, Floats]:
     """Return A and one of the four numbers in a wider float, the tangent moved."""
     n, k, c, s = (part.astype(kind) for part in samples)
-    s = s * kind(1.0 + step)
+    s = s * (kind(1.0) + by)
     length = np.hypot(c, s)
     moved = Samples(n, k, c / length, s / length)
     numbers = matrix_numbers(family.by_method("stable"), moved)
