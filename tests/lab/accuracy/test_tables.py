@@ -38,7 +38,7 @@ def test_the_published_worst_cases_are_within_the_promised_limits():
     published = DOCUMENT.read_text("utf-8")
     found = published.split(SEARCHED[0])[1].split(SEARCHED[1])[0]
     stable, single, compensated = found.split("Worst cases found of ")[1:]
-    for text, limit in ((stable, 15.0), (single, 15.0), (compensated, 1.5)):
+    for text, limit in ((stable, 20.0), (single, 20.0), (compensated, 1.5)):
         errors = [word for word in numbers(text) if isinstance(word, float)]
         assert len(errors) == (len(REGIONS) + 1) * 8  # and anywhere
         assert max(errors) <= limit
