@@ -11,6 +11,9 @@ from spectral_paths import Ramps, SpectralDraw, run_by_run, wavelengths
 FLOATS = np.linspace(0.0, np.pi / 2, 4)
 WAVELENGTH = op.Wavelength()
 
+# Absorbing layers are thin here, so that light comes through.
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.CoherenceWarning")
+
 
 def ramp(low, high, period=1.1e-7):
     return curve_values(Ramps(low, high, period), WAVELENGTH)[0]
