@@ -1,5 +1,11 @@
-"""Examples are run in every module but those of an engine whose extra is not installed."""
+"""One cache of compiled code for all tests, and as many workers as help.
 
+Examples are run in every module but those of an engine whose extra is not installed.
+"""
+
+import os
+import shutil
+import tempfile
 from importlib.util import find_spec
 
 OF_JAX = [
@@ -9,3 +15,19 @@ OF_JAX = [
 ]
 
 collect_ignore = [] if find_spec("jax") else OF_JAX
+
+
+def pytest_configure(config):
+    """Keep compiled code in a folder of these tests, which all workers share."""
+    if not hasattr(config, "workerinput"):
+        folder = tempfile.mkdtemp(prefix="optipath-tests-")
+        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+        os.environ["OPTIPATH_CACHE"] = os.path.join(folder, "cache")  # noqa: PTH118 - a text
+        os.environ["JAX_COMPILATION_CACHE_DIR"] = os.path.join(folder, "jax")  # noqa: PTH118
+        os.environ["JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS"] = "0.5"
+
+
+def pytest_xdist_auto_num_workers(config):
+    """Let benchmarks and tests asked for by name run in this process; None is for xdist to say."""
+    alone = config.option.benchmark_only or any("::" in name for name in config.args)
+    return 0 if alone else None

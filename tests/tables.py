@@ -1,0 +1,40 @@
+"""Tables inside one test: every row is looked at, and every row that fails is reported."""
+
+import functools
+import inspect
+
+import pytest
+
+
+def rows(names, table):
+    """Call a test once for each row of a table, as ``pytest.mark.parametrize`` does, in one item.
+
+    The test fails with all rows that fail, each with its values. Rows share their fixtures: those
+    that need a folder, a patch or captured output of their own stay with ``parametrize``, as those
+    that a mark skips do. A test that skips in one row is skipped.
+    """
+    keys = [name.strip() for name in names.split(",")] if isinstance(names, str) else list(names)
+    table = list(table)
+    assert table, "a table without a row tests nothing"
+
+    def over_rows(test):
+        @functools.wraps(test)
+        def tabled(**fixtures):
+            failed = []
+            for number, row in enumerate(table):
+                values = (row,) if len(keys) == 1 else row
+                given = dict(zip(keys, values, strict=True))
+                try:
+                    test(**given, **fixtures)
+                except (Exception, pytest.fail.Exception) as fault:  # noqa: BLE001 - reported below
+                    fault.add_note(f"row {number}: {given}")
+                    failed.append(fault)
+            if failed:
+                raise BaseExceptionGroup(f"{len(failed)} of {len(table)} rows fail", failed)
+
+        signature = inspect.signature(test)
+        left = [p for name, p in signature.parameters.items() if name not in keys]
+        tabled.__signature__ = signature.replace(parameters=left)
+        return tabled
+
+    return over_rows
