@@ -21,13 +21,11 @@ if TYPE_CHECKING:
     from optipath.engines.formulas.formula import Formula
 
 _BLOCK = 512
-_MOST_BRANCHES = 300
-"""How many choices Numba follows as branches, each of them deeper in its own stack."""
 _HEAD = """\
 from math import atan2, cos, exp, inf, nan, sin, sqrt
 
 import numpy as np
-from optipath.engines.numba_helpers import {chosen}exponent
+from optipath.engines.numba_helpers import chosen, exponent
 from optipath.engines.numba_helpers import {ldexp} as ldexp, product_rest
 
 T = np.{dtype}
@@ -105,10 +103,9 @@ def source(formula: Formula) -> str:
         return constants.setdefault(repr(float(operand)), f"c{len(constants)}")
 
     before, in_row, cuts, inside = _loads(formula)
-    choices = sum(step.operation == "where" for step in formula.steps)
-    branchless = choices > _MOST_BRANCHES
-    before += assignments(formula.prologue, written, branchless=branchless)
-    inside += assignments(formula.body, written, branchless=branchless)
+    # Numba takes half as long again to compile choices that are branches.
+    before += assignments(formula.prologue, written, branchless=True)
+    inside += assignments(formula.body, written, branchless=True)
     for row, result in enumerate(formula.computed):
         cuts.append(f"o{row} = {row} * paths + at + first + begin")
         inside.append(f"out[o{row} + i] = {written(result)}")
@@ -133,10 +130,7 @@ def source(formula: Formula) -> str:
     given = [f"a{s.index}: '{_kind(formula, s)}'" for s in formula.inputs]
     places = ", ".join(f"{name}: 'int64'" for name in ("top", "bottom", "start", "stop"))
     ends = f"own: '*{kind}', out: '*{kind}', paths: 'int64', at: 'int64'"
-    chosen = "chosen, " * branchless
-    head = _HEAD.format(
-        chosen=chosen, dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp"
-    )
+    head = _HEAD.format(dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp")
     text = f"def path({', '.join([places, *given, ends])}):"
     return "\n".join([head + text, *indented(*lines), ""])
 
