@@ -8,7 +8,7 @@ def wired(nodes, links, **about):
     path = op.PathGraph(**about)
     for name, element in nodes.items():
         path.add(name, element)
-    for link in links.split(", "):
+    for link in filter(None, links.split(", ")):
         path.connect(*link.split(" -> "))
     return path
 
