@@ -119,7 +119,7 @@ def test_ids_choose_the_material_of_each_vertex_and_may_be_whole_numbers_of_any_
     for chain, several in enumerate(ids):
         alone = op.path_from_vertices(points[chain], [palette[i] for i in several]).trace()
         np.testing.assert_allclose(light.stokes[chain], alone.stokes, rtol=0, atol=1e-15)
-    lengths = np.array([1, 2, 2, 1, 2])
+    lengths, palette = np.array([1, 2, 2, 1, 2]), [1.5, 1.2, 1.33]
     expected = op.path_from_vertices(points, palette, ids=ids, lengths=lengths)
     for kind in (np.uint8, np.int32, np.float64):
         given = {"ids": ids.astype(kind), "lengths": lengths.astype(kind)}
