@@ -86,9 +86,7 @@ def test_a_path_goes_on_at_its_only_open_natural_way():
     path.add("filter", op.Polarizer())
     path.connect("split.reflected", "filter")
     assert (path >> op.Detector()).trace().intensity == 0.125
-
-
-def test_a_tap_leaves_the_way_of_its_port_open():
+    # A tap leaves the way of its port open.
     path = op.Source() >> op.Polarizer()
     path.add("state", op.Detector())
     path.connect("polarizer", "state", tap=True)
@@ -167,15 +165,12 @@ def test_a_path_is_put_behind_itself_and_not_behind_a_node_of_its_own():
         dim["attenuator-2"] >> dim
 
 
-def test_a_path_is_unchanged_where_a_chain_cannot_go_on():
+def test_a_path_is_unchanged_where_a_chain_cannot_go_on_and_all_that_is_wrong_is_told():
     path = reflected()
     for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
         with pytest.raises(op.PathError):
             path["interface"] >> behind
     assert path == reflected()
-
-
-def test_a_detector_in_front_of_a_source_is_refused_in_words():
     with pytest.raises(op.PathError) as error:
         op.Detector() >> op.Source()
     assert error.value.faults == (
@@ -184,18 +179,12 @@ def test_a_detector_in_front_of_a_source_is_refused_in_words():
     )
 
 
-def front():
-    return wired({"front": op.Interface(1.5, 0.0)}, "")
-
-
-def two_lamps():
-    return wired({"sun": op.Source(), "moon": op.Source()}, "")
+FRONT = wired({"front": op.Interface(1.5, 0.0)}, "")
+LAMPS = wired({"sun": op.Source(), "moon": op.Source()}, "")
 
 
 def with_case(element):
-    path = op.PathGraph(cases={"a": op.Case({})})
-    path.add(element.kind, element)
-    return path
+    return wired({element.kind: element}, "", cases={"a": op.Case({})})
 
 
 ELEMENTS = r"made of elements, .* not of "
@@ -216,11 +205,11 @@ ELEMENTS = r"made of elements, .* not of "
             lambda: with_case(op.Source()) >> with_case(op.Detector()),
             "case 'a' stands on both sides",
         ),
-        (lambda: two_lamps() >> op.Detector(), r"2 natural ways out .*: 'sun.out', 'moon.out'"),
-        (lambda: front()["front.transmited"], r"did you mean 'front\.transmitted'"),
-        (lambda: front()["frnt.transmitted"], "did you mean 'front'"),
-        (lambda: front()["front."], r"port 'front\.' does not exist"),
-        (lambda: front()[3], "node 3 does not exist"),
+        (lambda: LAMPS >> op.Detector(), r"2 natural ways out .*: 'sun.out', 'moon.out'"),
+        (lambda: FRONT["front.transmited"], r"did you mean 'front\.transmitted'"),
+        (lambda: FRONT["frnt.transmitted"], "did you mean 'front'"),
+        (lambda: FRONT["front."], r"port 'front\.' does not exist"),
+        (lambda: FRONT[3], "node 3 does not exist"),
         (
             lambda: op.Source() >> reflected()["detector"],
             r"path\.add\(name, element\) >> path\['detector'\]",
@@ -248,7 +237,7 @@ def test_a_chain_is_shown_as_it_is_written_and_other_paths_by_how_large_they_are
         assert " nodes and " in repr(op.load_preset(preset))
 
 
-def test_links_find_the_natural_ports_of_nodes():
+def test_links_find_the_natural_ports_of_nodes_in_files_too(tmp_path):
     ends = {"a": op.Source(), "b": op.Interface(1.5, 0.0), "c": op.Detector(), "d": op.Dump()}
     path = wired(ends, "a -> b, b.transmitted -> c, b -> d.in")
     links = [(start, end, *ports) for start, end, ports in path.graph.edges(keys=True)]
@@ -259,9 +248,6 @@ def test_links_find_the_natural_ports_of_nodes():
     ]
     with pytest.raises(op.PathError, match=r"link 'a\.out -> b\.in' is there already"):
         path.connect("a", "b")
-
-
-def test_links_in_files_find_natural_ports(tmp_path):
     text = reflected().to_toml()
     for port in (".out", ".reflected", ".in"):
         text = text.replace(f'{port}"', '"')

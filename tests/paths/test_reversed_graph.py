@@ -81,9 +81,7 @@ def test_with_a_faraday_rotator_the_theorem_does_not_hold(rotator):
         path = chain >> op.Detector()
         there, back = path.mueller().reversed().matrix, path.reversed().mueller().matrix
         assert abs(there - back).max() > 1e-3 * there[0, 0], seed
-
-
-def test_an_isolator_lets_light_through_one_way():
+    # An isolator lets light through one way.
     eighth = np.pi / 4
     path = op.Source() >> op.Polarizer(0.0) >> op.FaradayRotator(eighth) >> op.Polarizer(eighth)
     path = path >> op.Detector()
@@ -113,6 +111,10 @@ def test_a_path_with_turns_at_its_links_is_the_same_back_and_forth():
     assert once.reversed().reversed() == once
     path = op.Source(stokes=(1, 1, 0, 0)) >> op.Retarder(op.Parameter("r"), 0.3) >> op.Detector()
     assert path.reversed().reversed(path.element("source")) == path
+    # One element in two places is reversed once.
+    plate = op.Retarder(1.0, 0.3)
+    back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
+    assert back.element("retarder") is back.element("retarder-2")
 
 
 def test_light_of_many_faces_goes_back_by_the_same_ways():
@@ -417,9 +419,3 @@ def test_axes_keep_their_words_on_the_way_back():
         np.testing.assert_array_equal(back.trace(a=angles).stokes, wanted)
         np.testing.assert_array_equal(back.bind(a=angles).trace().stokes, wanted)
     np.testing.assert_allclose(back.trace(a="diagonal").S2, -0.5, rtol=1e-15)
-
-
-def test_one_element_in_two_places_is_reversed_once():
-    plate = op.Retarder(1.0, 0.3)
-    back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
-    assert back.element("retarder") is back.element("retarder-2")
