@@ -43,13 +43,17 @@ def test_light_of_paths_by_chance_is_neither_made_nor_lost(seed):
     assert_conserved(path, **draw.values)
 
 
-def test_a_polariser_takes_half_of_light_without_polarisation():
+def test_a_polariser_takes_half_of_light_and_several_sources_are_told_apart():
     found = energy_along(op.load_preset("malus"), angle="60 deg", intensity=8.0)
     assert numbers(found.given) == {"lamp": 8.0}
     assert numbers(found.taken) == pytest.approx({"polarizer": 4.0, "analyzer": 3.0})
     assert found.ended["eye"] == pytest.approx(1.0)
     assert not found.left
     assert not found.notes
+    found = assert_conserved(op.load_preset("malus"), intensity=0.0)
+    assert total(found.taken, found.left, found.ended) == 0.0
+    found = assert_conserved(op.load_preset("sky-and-window"))
+    assert numbers(found.given) == {"heaven": 10.0, "lamp": 2.0}
 
 
 def test_a_tap_takes_nothing_and_what_it_reads_does_not_end():
@@ -75,11 +79,6 @@ def test_light_behind_a_tap_is_read_however_far_it_goes():
     links = {"polarizer.out -> analyser.in", "analyser.out -> split.in", "split.reflected"}
     read = {link.name for link in found.links if link.tap}
     assert read == links | {"split.transmitted -> probe.in"}
-
-
-def test_light_of_several_sources_is_told_apart():
-    found = assert_conserved(op.load_preset("sky-and-window"))
-    assert numbers(found.given) == {"heaven": 10.0, "lamp": 2.0}
 
 
 def test_a_loop_is_told_and_its_links_have_all_rounds_together():
@@ -119,11 +118,6 @@ def test_many_values_give_powers_and_lights_of_their_shape():
     assert {power.shape for power in found.taken.values()} == {(2, 1)}
     lights = lights_along(op.load_preset("malus"), angle=np.linspace(0.0, 1.0, 5))
     assert lights[-1].light.shape == (5,)
-
-
-def test_light_of_no_power_is_spent_on_nothing():
-    found = assert_conserved(op.load_preset("malus"), intensity=0.0)
-    assert total(found.taken, found.left, found.ended) == 0.0
 
 
 def test_all_of_it_is_written_as_json_and_a_power_that_is_not_a_number_as_null():

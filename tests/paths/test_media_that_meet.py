@@ -102,9 +102,7 @@ def test_what_light_goes_straight_through_stands_in_the_same_medium(between):
     (fault,) = faults_of(faces(GLASS, between, op.Interface(1.0, THETA, outside=1.5)))
     assert "n sin(incidence)" in fault
     faces(GLASS, between, FOLLOWING).check()
-
-
-def test_a_mirror_turns_light_but_keeps_it_in_its_medium():
+    # A mirror turns light but keeps it in its medium.
     (fault,) = faults_of(faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7)))
     assert "outside is 1; give outside = 1.5" in fault
     faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7, outside=1.5)).check()

@@ -73,26 +73,20 @@ QUARTER, HALF, WHOLE = math.pi / 2, math.pi, 2 * math.pi
         # Wavelengths are the visible ones that the curve has; a sign goes as far down as up.
         (lambda: of_preset("copper-gold-spectrum", "wavelength"), (380e-9, 700e-9)),
         (lambda: of_preset("faraday-isolator", "field"), (-1.0, 1.0)),
+        # A least value far from the usual ones is followed by one of its size.
+        (lambda: of_medium("length", minimum="5 mm", unit="mm"), pytest.approx((5e-3, 10e-3))),
+        (lambda: of_medium("absorption", minimum="3 1/m", unit="1/m"), pytest.approx((3.0, 6.0))),
+        # Far limits make no range wide where there is a default, here of 0.09 / um.
+        (lambda: of_preset("dichroic-sheet", "dichroism"), pytest.approx((-2e5, 2e5))),
+        (lambda: of_preset("absorbing-pile", "thickness"), pytest.approx((0.0, 4e-3))),
+        (
+            lambda: of_preset("solc-filter", "wavelength", wavelength="1500 nm"),
+            pytest.approx((380e-9, 1500e-9)),
+        ),
     ],
 )
 def test_the_usual_range_is_known_by_kind_default_cases_and_limits(find, expected):
     assert find() == expected
-
-
-@rows(
-    "find, expected",
-    [
-        # A least value far from the usual ones is followed by one of its size.
-        (lambda: of_medium("length", minimum="5 mm", unit="mm"), (5e-3, 10e-3)),
-        (lambda: of_medium("absorption", minimum="3 1/m", unit="1/m"), (3.0, 6.0)),
-        # Far limits make no range wide where there is a default, here of 0.09 / um.
-        (lambda: of_preset("dichroic-sheet", "dichroism"), (-2e5, 2e5)),
-        (lambda: of_preset("absorbing-pile", "thickness"), (0.0, 4e-3)),
-        (lambda: of_preset("solc-filter", "wavelength", wavelength="1500 nm"), (380e-9, 1500e-9)),
-    ],
-)
-def test_a_range_of_its_own_size_follows_a_least_value_or_a_default(find, expected):
-    assert find() == pytest.approx(expected)
 
 
 def test_a_least_angle_beyond_a_turn_begins_the_range():
