@@ -38,7 +38,8 @@ def assert_alone(light, chain, alone, slack=1e-14):
 @pytest.mark.parametrize(
     ("engine", "most"),
     [
-        *MOST.items(),
+        ("numpy", 8),
+        # Light of masked batches by these engines is that of NumPy, by a quicker test.
         pytest.param("numba", 8, marks=pytest.mark.slow),
         pytest.param("jax", 3, marks=pytest.mark.slow),
     ],

@@ -24,6 +24,10 @@ from optipath.values.made import checked_later
 from tables import rows
 from wired import read_back
 
+NOT_COMPILED_ONCE_MORE = [
+    pytest.param(engine, marks=pytest.mark.slow) if engine == "numba" else engine
+    for engine in ENGINES
+]
 FLIP = np.diag([1.0, 1.0, -1.0, 1.0])
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
 INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
@@ -100,9 +104,16 @@ def test_the_size_of_the_world_and_its_origin_do_not_matter():
 EVENTS = ["T", "RT", "TTR", "TRRT", "RTTRT", "TTTTTT", "TRTRRTT", "RTRTRTRT", "RRRRRRRR"]
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_random_histories_are_those_of_a_reference_without_frames(engine):
-    for events in EVENTS if engine == "numpy" else ["TRT"]:
+@pytest.mark.parametrize(
+    ("engine", "several"),
+    [
+        ("numpy", EVENTS),
+        ("numba", ["TR"]),
+        *(pytest.param(engine, ["TRT"], marks=pytest.mark.slow) for engine in ENGINES[1:]),
+    ],
+)
+def test_random_histories_are_those_of_a_reference_without_frames(engine, several):
+    for events in several:
         points, normals, materials = random_histories(len(events), events, 2000)
         path = op.path_from_vertices(points, materials, normals, events=events)
         light = op.Composer(engine=engine).compose(path).run()
@@ -115,7 +126,7 @@ def test_random_histories_are_those_of_a_reference_without_frames(engine):
         np.testing.assert_allclose(light.stokes[at], one.stokes, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("count", [6, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [4, pytest.param(100, marks=pytest.mark.slow)])
 def test_a_history_is_that_of_50_digits(count):
     for seed in range(count):
         points, materials, events = random_history(seed)
@@ -174,7 +185,7 @@ def test_the_media_follow_along_the_chain():
     np.testing.assert_allclose(path.trace().intensity, expected, rtol=1e-14)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", NOT_COMPILED_ONCE_MORE)
 def test_between_equal_media_light_goes_straight_on_and_nothing_changes(engine):
     points, _, materials = random_histories(7, "R", 50)
     straight = np.concatenate([points, 2.0 * points[:, 2:] - points[:, 1:2]], axis=1)
@@ -292,17 +303,17 @@ def test_a_chain_without_any_plane_takes_the_worlds_x_or_y(end, x):
 
 
 def test_gradients_with_respect_to_vertices_are_those_of_differences_and_finite(jax):
-    points = random_chains(11, 2)
-    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()
+    points = random_chains(11, 1)
+    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:1]).compose()
     with quickly("jax"):
         slopes = jax.grad(lambda p: plan.run(points=p).stokes[0])(jax.numpy.asarray(points))
-    for at in [(0, 1), (2, 0), (3, 2)]:
+    for at in [(0, 1), (1, 0), (2, 2)]:
         step = np.zeros_like(points)
         step[at] = 1e-6
         ends = [float(plan.run(points=points + sign * step).intensity) for sign in (1, -1)]
         assert float(slopes[at]) == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-8)
     # Where vertices have no plane, too.
-    straight = jax.numpy.asarray([[0.0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 0, 0]])
+    straight = jax.numpy.asarray([[0.0, 0, 0], [0, 0, 1], [0, 0, 2]])
     with quickly("jax"):
         slopes = jax.grad(lambda p: plan.run(points=p).stokes.sum())(straight)
     assert np.all(np.isfinite(slopes))
@@ -310,7 +321,7 @@ def test_gradients_with_respect_to_vertices_are_those_of_differences_and_finite(
 
 def test_a_frame_of_traced_vertices_is_refused(jax):
     path = op.path_from_vertices(op.Parameter("points"), [1.5])
-    with pytest.raises(op.FrameError, match="JAX traces"):
+    with pytest.raises(op.FrameError, match="JAX traces"), quickly("jax"):
         jax.grad(lambda p: path.trace(points=p).frame.x[0])(jax.numpy.asarray(CORNER))
 
 

@@ -195,7 +195,7 @@ STRANGE = [
     "{in={x=[nan,0,0],y=[0,1,0],z=[0,0,1]}}",
 ]
 # All of them take a minute; a part that differs from place to place will do otherwise.
-SHARES = [5, pytest.param(1, marks=pytest.mark.slow)]
+SHARES = [10, pytest.param(1, marks=pytest.mark.slow)]
 PLACES = {
     "npgr026": (
         "choices choices.place choices.place.element choices.place.behind choices.place.help "
