@@ -201,9 +201,7 @@ def spoilt(batch):
         *(pytest.param(engine, False, marks=pytest.mark.slow) for engine in ENGINES[1:]),
     ],
 )
-def test_the_light_of_chains_that_cannot_be_is_not_a_number_and_all_other_is_as_it_was(
-    engine, later
-):
+def test_chains_that_cannot_be_have_no_light_and_all_others_are_as_they_were(engine, later):
     batch = random_batch(11, 2)
     points, ids, bad = spoilt(batch)
     expected = path_of(batch).trace()
@@ -283,14 +281,9 @@ BENT = [[0.0, 0, 1], [0, 0, 0], [0, 2, -1], [0, 4, -2]]
 @rows(
     "points, given, messages",
     [
+        ([DOWN] * 2, {"events": ["TT", "T"], "ids": [[0, 1], [1, 0]]}, ["absorbs, k = 3", "bad="]),
         (
-            [DOWN, DOWN],
-            {"events": ["TT", "T"], "ids": [[0, 1], [1, 0]]},
-            ["absorbs, k = 3", "bad="],
-        ),
-        (
-            [BENT, BENT],
-            {"events": ["TR", "T"], "ids": [[0, 0], [0, 0]]},
+            *([BENT] * 2, {"events": ["TR", "T"], "ids": [[0, 0]] * 2}),
             ["light is turned by 63.4", "bad='mask'", "of 2 paths"],
         ),
         ([DOWN, [[np.nan] * 3, *DOWN[1:]]], {"events": ["TT", "T"]}, ["not finite", "at 1, of 2"]),

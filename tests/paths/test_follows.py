@@ -11,7 +11,12 @@ from optipath.lab.accuracy.path_reference import exact_lights
 from tables import rows
 from wired import read_back, wired
 
-SECOND = op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)
+
+def following(index):
+    return op.Interface(index, op.FOLLOWS, outside=op.FOLLOWS)
+
+
+SECOND = following(1.0)
 
 
 def stack_of(*boundaries, loops="sum"):
@@ -39,10 +44,7 @@ def faults_of(path):
 @rows(
     "boundaries, indices",
     [
-        (
-            [op.Interface(n, op.FOLLOWS, outside=op.FOLLOWS) for n in (1.2, 1.7, 1.0)],
-            [1.0, 1.5, 1.2, 1.7, 1.0],
-        ),
+        ([following(n) for n in (1.2, 1.7, 1.0)], [1.0, 1.5, 1.2, 1.7, 1.0]),
         ([op.LayerStack([op.FOLLOWS, 1.2, 1.0], op.FOLLOWS)], [1.0, 1.5, 1.2, 1.0]),
     ],
 )

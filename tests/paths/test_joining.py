@@ -180,6 +180,7 @@ def test_a_path_is_unchanged_where_a_chain_cannot_go_on_and_all_that_is_wrong_is
 
 
 FRONT = wired({"front": op.Interface(1.5, 0.0)}, "")
+NAMED = op.Polarizer().named("a")
 LAMPS = wired({"sun": op.Source(), "moon": op.Source()}, "")
 
 
@@ -197,14 +198,8 @@ ELEMENTS = r"made of elements, .* not of "
             (lambda name=name: op.Source() >> op.Polarizer().named(name), "a text without a dot")
             for name in ("a.b", "", 3)
         ),
-        (
-            lambda: op.Polarizer().named("a") >> op.Polarizer().named("a"),
-            "node 'a' stands on both sides of >>",
-        ),
-        (
-            lambda: with_case(op.Source()) >> with_case(op.Detector()),
-            "case 'a' stands on both sides",
-        ),
+        (lambda: NAMED >> NAMED, "node 'a' stands on both sides of >>"),
+        (lambda: with_case(op.Source()) >> with_case(op.Dump()), "case 'a' stands on both sides"),
         (lambda: LAMPS >> op.Detector(), r"2 natural ways out .*: 'sun.out', 'moon.out'"),
         (lambda: FRONT["front.transmited"], r"did you mean 'front\.transmitted'"),
         (lambda: FRONT["frnt.transmitted"], "did you mean 'front'"),

@@ -131,6 +131,9 @@ def test_all_of_it_is_written_as_json_and_a_power_that_is_not_a_number_as_null()
     assert None in [link["power"] for link in json.loads(written)["links"]]
 
 
+BACK = "mirror.reflected -> analyzer-back.in", "polarizer-back.out -> returned.in"
+
+
 @rows(
     "preset, before, behind",
     [
@@ -138,11 +141,7 @@ def test_all_of_it_is_written_as_json_and_a_power_that_is_not_a_number_as_null()
         ("sky-and-window", "tilt.out -> pane.in", "pane.reflected -> polarizer.in"),
         ("glass-slab", "front.transmitted -> down.in", "up.out -> front.back"),
         ("ellipsometer-pcsa", "S.transmitted", "A.out -> photometer.in"),
-        (
-            "faraday-isolator",
-            "mirror.reflected -> analyzer-back.in",
-            "polarizer-back.out -> returned.in",
-        ),
+        ("faraday-isolator", *BACK),
     ],
 )
 def test_light_stands_in_the_order_of_travel(preset, before, behind):

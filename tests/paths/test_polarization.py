@@ -16,9 +16,8 @@ from paths import chain
 from tables import rows
 from wired import wired
 
-pytestmark = pytest.mark.filterwarnings(
-    "ignore::optipath.CoherenceWarning"
-)  # Of films, on purpose.
+# Of films, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
 
 ANGLES = np.radians([50.0, 56.0, 60.0, 65.0])
 TINTED = {"lengths": [0.2], "wavelength": 5e-7}
@@ -186,9 +185,8 @@ def test_at_normal_incidence_unpolarised_light_is_what_the_scalar_model_says(med
     tinted = [1.0, *(n + k * 1j for n in media[:-1]), media[-1]]
     found = op.polarization(stack(tinted, 0.0, port, lengths=lengths, wavelength=5e-7))
     assert found.difference == pytest.approx(0.0, abs=1e-13)
-    assert op.polarization(layer_by_hand(*media[:2], 0.0)).difference == pytest.approx(
-        0.0, abs=1e-13
-    )
+    by_hand = op.polarization(layer_by_hand(*media[:2], 0.0))
+    assert by_hand.difference == pytest.approx(0.0, abs=1e-13)
 
 
 def test_behind_total_reflection_nothing_differs():
@@ -205,9 +203,7 @@ def test_behind_total_reflection_nothing_differs():
     angles=st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0)),
     dop=st.floats(0.0, 1.0),
 )
-def test_what_is_exact_keeps_within_the_bounds_of_a_stack_among_others(
-    media, incidence, angles, dop
-):
+def test_what_is_exact_keeps_within_bounds_of_a_stack_among_others(media, incidence, angles, dop):
     layers = op.LayerStack([1.0, *media], incidence)
     elements = [op.Polarizer(angles[0]), layers, op.Retarder(1.0, 0.4), op.Interface(1.5, 1.0)]
     found = op.polarization(chain([*elements, op.Polarizer(angles[1])], [1.0, 0.0, dop, 0.0]))
@@ -272,9 +268,8 @@ def test_values_that_jax_traces_are_refused(make):
 
 def test_the_command_says_that_loops_have_no_bounds(capsys):
     assert main(["polarization", "glass-slab", "--theta", "56"]) == 0
-    assert "there are no bounds of what it could change" in " ".join(
-        capsys.readouterr().out.split()
-    )
+    told = " ".join(capsys.readouterr().out.split())
+    assert "there are no bounds of what it could change" in told
     assert main(["polarization", "glass-slab", "--theta", "56", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["detectors"]["transmitted"]
     assert found["lower"] is found["upper"] is None

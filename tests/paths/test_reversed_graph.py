@@ -359,23 +359,21 @@ NO_SOURCE = "must be a Source"
         ),
     ],
 )
-def test_light_that_is_no_source_and_what_ones_own_class_gives_are_looked_at(
-    path, source, sentence
-):
+def test_light_that_is_no_source_and_what_ones_own_class_gives_are_told(path, source, sentence):
     with pytest.raises(op.PathError, match=sentence):
         path.reversed(source)
     if sentence == NO_SOURCE:
         assert path.reversed({}) == path.reversed()
 
 
+REPLACED = "path.replace('photometer', op.Detector())"
+
+
 @rows(
     "preset, cures",
     [
         ("faraday-isolator", ["path.remove('passed')"]),
-        (
-            "ellipsometer-pcsa",
-            ["path.remove('state')", "path.replace('photometer', op.Detector())"],
-        ),
+        ("ellipsometer-pcsa", ["path.remove('state')", REPLACED]),
     ],
 )
 def test_the_cures_of_a_preset_with_a_tap_leave_a_path_that_runs_both_ways(preset, cures):

@@ -359,9 +359,8 @@ def slab(second):
 
 
 def boundary(index="1.5", outside="1.0", incidence='"40 deg"'):
-    return through(
-        f'kind = "interface"\nindex = {index}\noutside = {outside}\nincidence = {incidence}'
-    )
+    about = f"index = {index}\noutside = {outside}\nincidence = {incidence}"
+    return through(f'kind = "interface"\n{about}')
 
 
 @rows(
