@@ -10,6 +10,7 @@ from reciprocal_paths import ReciprocalPath, matrices_there_and_back
 from tables import rows
 from wired import read_back, wired
 
+WEDGES = r"n sin\(incidence\)|parallel=False|light goes to and fro between"
 CORNER = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 2.2, 2], [2.5, 2.0, 2.2]])
 
 
@@ -56,7 +57,7 @@ def test_random_graphs_obey_the_theorem_of_reciprocity_and_stay_what_they_were(c
             pairs = list(matrices_there_and_back(path, drawn.values))
         except (op.PathError, op.ParameterError) as error:
             # Which faces are parallel cannot be said of every wedge; that is told.
-            assert "n sin(incidence)" in str(error) or "parallel=False" in str(error)  # noqa: PT017
+            assert re.search(WEDGES, str(error))  # noqa: PT017
             refused += 1
             continue
         assert path.to_toml() == before

@@ -126,7 +126,7 @@ def test_random_histories_are_those_of_a_reference_without_frames(engine, severa
         np.testing.assert_allclose(light.stokes[at], one.stokes, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("count", [4, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [6, pytest.param(100, marks=pytest.mark.slow)])
 def test_a_history_is_that_of_50_digits(count):
     for seed in range(count):
         points, materials, events = random_history(seed)

@@ -92,6 +92,7 @@ ROOT_CAUSES = [
     ('["0 deg", "90 deg"]', "[0, 90]", "parameters.theta.range: 0 has no unit"),
     ('["0 deg", "90 deg"]', '["0 deg"]', "two ends, not 1"),
     ('["0 deg", "90 deg"]', '["90 deg", "0 deg"]', "begin with the lower end"),
+    ("[0, inf]", "[0, [1, 2]]", "the ends of 'range' must be single values"),
     ("range = [", "rnge = [", "did you mean 'range'?"),
     ("default = 1.2\nrange = [0, inf]", 'default = "3 deg"\nunit = "deg"', "parameters.n is in"),
     ("default = 1.2", 'default = "1.2 nm"', "parameters.n declares no unit"),
@@ -319,6 +320,7 @@ def test_odd_values_are_faults_and_nothing_else(new):
     [
         ("3", "must be tables"),
         ("{ in = { x = [1, 0, 0] } }", "axis 'y' is missing"),
+        ("{ in = { x = ['a', 0, 0], y = [0, 1, 0], z = [0, 0, 1] } }", "must be numbers"),
         ("{ in = { x = [1, 0, 0], y = [0, 1, 0], z = [0, 0, 2] } }", "unit vectors"),
         ("{ inn = { x = [1, 0, 0], y = [0, 1, 0], z = [0, 0, 1] } }", "'eye.inn' does not exist"),
     ],
