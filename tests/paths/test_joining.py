@@ -56,11 +56,6 @@ def test_nodes_are_named_by_kind_or_class_and_numbered_or_as_they_are_named():
     assert own.trace_all()["detector"].intensity == 1.0
 
 
-def test_parameters_in_a_chain_are_open():
-    path = op.Source() >> op.Interface(1.5, op.Parameter("theta")) >> op.Detector()
-    assert path.trace(theta=0.0).intensity == pytest.approx(0.04, abs=1e-15)
-
-
 def test_a_chain_changes_neither_side_and_does_not_depend_on_where_it_is_cut():
     start, end = op.Source() >> op.Polarizer(), op.Polarizer(0.3) >> op.Detector()
     whole = start >> end

@@ -171,13 +171,6 @@ def test_the_graph_is_networkx_cannot_be_changed_and_a_plain_one_can_be_composed
     assert op.Composer().compose(nx.MultiDiGraph(path.graph)) == path.compose()
 
 
-def test_adding_a_node_composes_anew():
-    path = wired({"lamp": op.Source(), "eye": op.Detector()}, "lamp -> eye")
-    assert path.trace().intensity == 1.0
-    path.add("lamp2", op.Source(2.0)) >> path["eye"]
-    assert path.trace().intensity == 3.0
-
-
 def test_the_order_in_which_a_path_is_built_does_not_matter():
     one = reflections(0.2)
     elements = {name: one.element(name) for name in ("eye", "second", "lamp", "first")}

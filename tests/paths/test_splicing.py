@@ -369,6 +369,9 @@ def test_a_path_that_is_changed_is_composed_anew_and_shown_by_the_graph_handed_o
     change(path)
     assert path.compose() != plan
     assert [*graph] == [*path]
+    before = path.trace().intensity
+    path.add("lamp", op.Source(2.0)) >> path["E"]
+    assert path.trace().intensity == pytest.approx(before + 2.0)
 
 
 def by_angle(turn, behind, path=None):
