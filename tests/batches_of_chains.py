@@ -1,17 +1,12 @@
 """Batches of chains of light that differ in events, lengths and media, with what each must give."""
 
-import os
 from contextlib import nullcontext
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
-from chains import ENGINES
 from histories import coherency, random_histories
-
-FEWER = ENGINES if "OPTIPATH_SETS" in os.environ else ["numpy"]
-"""Engines for what needs not be compiled more than once; all where somebody takes the time."""
 
 
 @dataclass

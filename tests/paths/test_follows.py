@@ -8,8 +8,15 @@ import pytest
 
 import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights
+from tables import rows
+from wired import read_back, wired
 
-SECOND = op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)
+
+def following(index):
+    return op.Interface(index, op.FOLLOWS, outside=op.FOLLOWS)
+
+
+SECOND = following(1.0)
 
 
 def stack_of(*boundaries, loops="sum"):
@@ -34,11 +41,16 @@ def faults_of(path):
     return error.value.faults
 
 
-def test_chains_in_loops_take_over_from_face_to_face():
-    indices = [1.5, 1.2, 1.7, 1.0]
-    faces = [op.Interface(n, op.FOLLOWS, outside=op.FOLLOWS) for n in indices[1:]]
-    path = stack_of(op.Interface(indices[0], 0.7), *faces)
-    whole = op.LayerStack([1.0, *indices], 0.7).mueller("in", "transmitted").matrix[:, 0]
+@rows(
+    "boundaries, indices",
+    [
+        ([following(n) for n in (1.2, 1.7, 1.0)], [1.0, 1.5, 1.2, 1.7, 1.0]),
+        ([op.LayerStack([op.FOLLOWS, 1.2, 1.0], op.FOLLOWS)], [1.0, 1.5, 1.2, 1.0]),
+    ],
+)
+def test_faces_in_loops_and_a_stack_take_over_from_face_to_face(boundaries, indices):
+    path = stack_of(op.Interface(1.5, 0.7), *boundaries)
+    whole = op.LayerStack(indices, 0.7).mueller("in", "transmitted").matrix[:, 0]
     np.testing.assert_allclose(path.trace().stokes, whole, rtol=0, atol=1e-15)
     exact = [float(part) for part in exact_lights(path)["T"].stokes]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=1e-15)
@@ -55,43 +67,29 @@ def test_it_is_what_one_would_write():
     assert np.array_equal(paths[0].bind(n=1.3, theta=0.6).trace().stokes, first[0])
 
 
-def test_a_medium_is_taken_over_through_what_light_goes_straight_through():
-    path = op.PathGraph()
-    path.add("lamp", op.Source())
-    path.add("first", op.Interface(1.5, 0.4, outside=1.33))
-    path.add("filter", op.Polarizer(0.2))
-    path.add("second", op.Interface(1.5, 0.4, outside=op.FOLLOWS))
-    path.add("eye", op.Detector())
-    path["lamp"] >> path["first"] >> path["filter"] >> path["second"] >> path["eye"]
-    written = op.PathGraph()
-    for name, element in path.graph.nodes(data="element"):
-        written.add(name, op.Interface(1.5, 0.4, outside=1.33) if name == "second" else element)
-    written["lamp"] >> written["first"] >> written["filter"] >> written["second"] >> written["eye"]
-    assert np.array_equal(path.trace().stokes, written.trace().stokes)
+def test_a_medium_is_taken_over_through_what_light_goes_straight_through_and_by_a_vertex():
+    first, points = (
+        op.Interface(1.5, 0.4, outside=1.33),
+        [[0, 0, 0], [0, 0, 3], [0, 2, 3], [1, 2, 3]],
+    )
 
-
-def test_a_stack_and_a_vertex_take_over_too():
-    stack = stack_of(op.Interface(1.5, 0.7), op.LayerStack([op.FOLLOWS, 1.2, 1.0], op.FOLLOWS))
-    whole = op.LayerStack([1.0, 1.5, 1.2, 1.0], 0.7).mueller("in", "transmitted").matrix[:, 0]
-    np.testing.assert_allclose(stack.trace().stokes, whole, rtol=0, atol=1e-15)
-    exact = [float(part) for part in exact_lights(stack)["T"].stokes]
-    np.testing.assert_allclose(stack.trace().stokes, exact, rtol=0, atol=1e-15)
-    points = [[0, 0, 0], [0, 0, 3], [0, 2, 3], [1, 2, 3]]
+    def filtered(outside):
+        return first >> op.Polarizer(0.2) >> op.Interface(1.5, 0.4, outside=outside)
 
     def vertices(outside):
-        path = op.PathGraph()
-        path.add("lamp", op.Source())
-        path.add("a", op.SpecularVertex(1.5, points, 1, outside=1.2))
-        path.add("b", op.SpecularVertex(1.5, points, 2, outside=outside))
-        path.add("eye", op.Detector())
-        path["lamp"] >> path["a"] >> path["b"] >> path["eye"]
-        return path.trace().stokes
+        vertex = op.SpecularVertex(1.5, points, 1, outside=1.2)
+        return vertex >> op.SpecularVertex(1.5, points, 2, outside=outside)
 
-    assert np.array_equal(vertices(op.FOLLOWS), vertices(1.2))
+    for path, outside in ((filtered, 1.33), (vertices, 1.2)):
+        taken, given = (
+            (op.Source() >> path(medium) >> op.Detector()).trace().stokes
+            for medium in (op.FOLLOWS, outside)
+        )
+        assert np.array_equal(taken, given)
 
 
-@pytest.mark.parametrize(
-    ("boundaries", "words"),
+@rows(
+    "boundaries, words",
     [
         (
             [SECOND],
@@ -122,77 +120,76 @@ def test_where_nothing_can_be_taken_over_a_fault_says_so_once(boundaries, words)
     assert all(word in fault for word, fault in zip(words, faults, strict=True))
 
 
-def test_what_cannot_be_taken_over_is_refused_when_the_element_is_made():
-    with pytest.raises(op.ValueFault, match="index must be an index of refraction"):
-        op.Interface(op.FOLLOWS, 0.3)
+ARITHMETIC = (op.ParameterError, r"FOLLOWS .* has no arithmetic; give the number")
 
 
-@pytest.mark.parametrize(
-    "arithmetic",
+@rows(
+    "call, error, sentence",
     [
-        lambda: op.FOLLOWS + 0.1,
-        lambda: 2 * op.FOLLOWS,
-        lambda: -op.FOLLOWS,
-        lambda: np.float64(2.0) * op.FOLLOWS,
-        lambda: np.ones(2) - op.FOLLOWS,
+        (lambda: op.FOLLOWS + 0.1, *ARITHMETIC),
+        (lambda: 2 * op.FOLLOWS, *ARITHMETIC),
+        (lambda: -op.FOLLOWS, *ARITHMETIC),
+        (lambda: np.float64(2.0) * op.FOLLOWS, *ARITHMETIC),
+        (lambda: np.ones(2) - op.FOLLOWS, *ARITHMETIC),
+        (
+            lambda: op.Interface(op.FOLLOWS, 0.3),
+            *(op.ValueFault, "index must be an index of refraction"),
+        ),
+        (
+            lambda: op.LayerStack([1, op.FOLLOWS, 1], 0.3),
+            *(op.ValueFault, r"indices\[1\] cannot be FOLLOWS; only"),
+        ),
+        (SECOND.mueller, op.PathError, "interface takes its outside and incidence over from"),
     ],
 )
-def test_what_is_taken_over_has_no_arithmetic(arithmetic):
-    with pytest.raises(op.ParameterError, match=r"FOLLOWS .* has no arithmetic; give the number"):
-        arithmetic()
+def test_what_cannot_be_taken_over_is_refused_when_it_is_written(call, error, sentence):
+    with pytest.raises(error, match=sentence):
+        call()
 
 
 def merged(*boundaries):
     """Boundaries whose lights meet at one face, which takes over what they have."""
-    path = op.PathGraph()
-    path.add("both", op.Combiner())
+    path = wired({"both": op.Combiner(), "face": SECOND, "eye": op.Detector()}, "both -> face")
     for number, boundary in enumerate(boundaries):
         path.add(f"lamp{number}", op.Source())
         path.add(f"b{number}", boundary)
         path.connect(f"lamp{number}", f"b{number}")
         path.connect(f"b{number}.transmitted", "both")
-    path.add("face", SECOND)
-    path.add("eye", op.Detector())
-    path.connect("both.out", "face.in")
     path.connect("face.transmitted", "eye.in")
     return path
 
 
-@pytest.mark.parametrize(
-    ("boundaries", "given", "words"),
+ANGLES = (
+    "'face' has taken its incidence over (FOLLOWS) from other light: n sin(incidence) is 0.5 at "
+    "'b1' and 0.6427876097 at 'face' (40 deg in n = 1); light of several directions merges there: "
+    "give each light a face of its own"
+)
+MEDIA = (
+    "lit from 2 * m = 1.6 behind 'b1' (by 'b1.transmitted'), but has taken its outside over "
+    "(FOLLOWS) from other light, in n = 1.5 (parameter 'n'); light of several media merges there: "
+    "give each light a face of its own"
+)
+STEEP = op.Interface(1.5, "40 deg")
+
+
+@rows(
+    "boundaries, given, words",
     [
         (
             [op.Interface(1.5, 0.3), op.Interface(1.6, 0.3)],
-            {},
-            "light of several media comes to 'face.in'; give each light a face of its own",
+            *({}, "light of several media comes to 'face.in'; give each light a face of its own"),
         ),
         (
             [op.Interface(op.Parameter("n"), 0.3), op.Interface(2 * op.Parameter("m"), 0.3)],
-            {"n": 1.5, "m": 0.8},
-            (
-                "lit from 2 * m = 1.6 behind 'b1' (by 'b1.transmitted'), but has taken its outside "
-                "over (FOLLOWS) from other light, in n = 1.5 (parameter 'n'); light of several "
-                "media merges there: give each light a face of its own"
-            ),
+            *({"n": 1.5, "m": 0.8}, MEDIA),
         ),
-        *(
-            (
-                [op.Interface(1.5, "40 deg"), op.Interface(1.5, second)],
-                given,
-                (
-                    "'face' has taken its incidence over (FOLLOWS) from other light: "
-                    "n sin(incidence) is 0.5 at 'b1' and 0.6427876097 at 'face' (40 deg in n = 1); "
-                    "light of several directions merges there: give each light a face of its own"
-                ),
-            )
-            for second, given in (("30 deg", {}), (op.Parameter("t"), {"t": "30 deg"}))
-        ),
+        ([STEEP, op.Interface(1.5, "30 deg")], {}, ANGLES),
+        ([STEEP, op.Interface(1.5, op.Parameter("t"))], {"t": "30 deg"}, ANGLES),
     ],
 )
 def test_lights_that_differ_and_merge_have_nothing_to_take_over(boundaries, given, words):
-    path = merged(*boundaries)
     with pytest.raises(op.OptipathError) as error:
-        path.trace(**given)
+        merged(*boundaries).trace(**given)
     (fault,) = error.value.faults
     assert words in fault
 
@@ -214,22 +211,11 @@ def test_a_face_in_space_is_told_that_its_frames_keep_it_from_taking_over():
 
 
 def test_boundaries_that_only_take_over_from_each_other_have_nothing():
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source())
-    path.add("half", op.BeamSplitter())
-    path.add("a", op.Interface(1.0, 0.3, outside=op.FOLLOWS))
-    path.add("b", op.Interface(1.0, 0.3, outside=op.FOLLOWS))
-    path.add("eye", op.Detector())
-    for link in (("lamp.out", "half.in"), ("half.transmitted", "a.in"), ("a.reflected", "b.in")):
-        path.connect(*link)
-    path.connect("b.reflected", "half.back")
-    path.connect("half.reflected", "eye.in")
+    face = op.Interface(1.0, 0.3, outside=op.FOLLOWS)
+    ends = {"lamp": op.Source(), "half": op.BeamSplitter(), "a": face, "b": face}
+    links = "lamp -> half, half.transmitted -> a, a -> b, b -> half.back, half.reflected -> eye"
+    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
     assert all("give it at one of them" in fault for fault in faults_of(path))
-
-
-def test_an_element_alone_says_that_it_has_nothing_to_take_over():
-    with pytest.raises(op.PathError, match="interface takes its outside and incidence over from"):
-        SECOND.mueller()
 
 
 def test_files_copies_and_texts_know_it(tmp_path):
@@ -244,6 +230,4 @@ def test_files_copies_and_texts_know_it(tmp_path):
         path = stack_of(op.Interface(1.5, op.Parameter("theta")), second, loops=loops)
         text = path.to_toml()
         assert 'incidence = "follows"' in text or "parallel = false" in text
-        file = tmp_path / "path.toml"
-        file.write_text(text)
-        assert op.load_preset(str(file)) == path
+        assert read_back(path, tmp_path) == path

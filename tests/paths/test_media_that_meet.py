@@ -1,13 +1,21 @@
 """Where light goes from boundary to boundary, media and Snell's law agree on both sides."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 import optipath as op
 from chains import ENGINES
+from tables import rows
+from wired import wired
 
 THETA = np.radians(40.0)
 INSIDE = np.arcsin(np.sin(THETA) / 1.5)
+GLASS = op.Interface(1.5, THETA)
+FOLLOWING = op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)
 
 
 class Window(op.Element):
@@ -43,32 +51,29 @@ def faults_of(path, **parameters):
     return error.value.faults
 
 
-GLASS = op.Interface(1.5, THETA)
-
-
-def test_a_second_face_that_forgets_its_medium_is_refused_and_the_cure_is_told():
+def test_a_second_face_that_forgets_its_medium_or_where_its_angle_is_measured_is_refused():
     (fault,) = faults_of(faces(GLASS, op.Interface(1.0, THETA, incidence_in=1.0)))
     assert fault == (
         "'back.in' is lit from n = 1.5 behind 'front' (by 'front.transmitted'), but its outside "
         "is 1; give outside = 1.5, or op.FOLLOWS for outside"
     )
-
-
-def test_a_second_face_that_forgets_where_its_angle_is_measured_is_refused():
     (fault,) = faults_of(faces(GLASS, op.Interface(1.0, THETA, outside=1.5)))
-    assert "'front.transmitted' enters 'back.in'" in fault
-    assert "n sin(incidence) is 0.6427876097 at 'front' and 0.9641814145 at 'back'" in fault
-    assert f"incidence of {np.degrees(INSIDE):.10g} deg in n = 1.5, or" in fault
-    assert "40 deg with incidence_in = 1, or op.FOLLOWS" in fault
-    assert "parallel=False" in fault
+    for part in (
+        "'front.transmitted' enters 'back.in'",
+        "n sin(incidence) is 0.6427876097 at 'front' and 0.9641814145 at 'back'",
+        f"incidence of {np.degrees(INSIDE):.10g} deg in n = 1.5, or",
+        "40 deg with incidence_in = 1, or op.FOLLOWS",
+        "parallel=False",
+    ):
+        assert part in fault
 
 
-@pytest.mark.parametrize(
+@rows(
     "back",
     [
         op.Interface(1.0, THETA, outside=1.5, incidence_in=1.0),
         op.Interface(1.0, INSIDE, outside=1.5),
-        op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS),
+        FOLLOWING,
         op.Interface(1.0, op.FOLLOWS, outside=op.Material(1.5)),
         op.LayerStack([1.5, 1.5, 1.0], THETA, incidence_in=1.0),
         op.LayerStack([op.FOLLOWS, 1.5, 1.0], op.FOLLOWS),
@@ -85,49 +90,29 @@ def test_a_slab_lets_through_0_912_however_its_second_face_is_written_rightly(ba
     assert f"{light.intensity:.3f}" == "0.912"
 
 
-BETWEEN = [
-    op.Medium(0.1, 1.0),
-    op.Polarizer(0.3),
-    op.Attenuator(0.5),
-    op.Rotator(0.2),
-    op.Retarder(0.3),
-    op.Depolarizer(0.1),
-    op.BeamSplitter(0.3),
-    op.Combiner(),
-    op.MuellerElement(np.eye(4)),
-    Window(),
-]
+STRAIGHT = [op.Medium(0.1, 1.0), op.Polarizer(0.3), op.Attenuator(0.5), op.Rotator(0.2)]
+STRAIGHT += [op.Retarder(0.3), op.Depolarizer(0.1), op.BeamSplitter(0.3), op.Combiner()]
+STRAIGHT += [op.MuellerElement(np.eye(4)), Window()]
 
 
-@pytest.mark.parametrize("between", BETWEEN, ids=lambda element: type(element).__name__)
+@rows("between", STRAIGHT)
 def test_what_light_goes_straight_through_stands_in_the_same_medium(between):
     (fault,) = faults_of(faces(GLASS, between, op.Interface(1.0, THETA, incidence_in=1.0)))
     assert "outside is 1; give outside = 1.5" in fault
     (fault,) = faults_of(faces(GLASS, between, op.Interface(1.0, THETA, outside=1.5)))
     assert "n sin(incidence)" in fault
-    faces(GLASS, between, op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)).check()
-
-
-def test_a_mirror_turns_light_but_keeps_it_in_its_medium():
+    faces(GLASS, between, FOLLOWING).check()
+    # A mirror turns light but keeps it in its medium.
     (fault,) = faults_of(faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7)))
     assert "outside is 1; give outside = 1.5" in fault
     faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7, outside=1.5)).check()
 
 
-def test_reflected_light_enters_the_next_front_in_its_medium_at_any_angle():
-    path = op.PathGraph()
-    nodes = [
-        path.add("lamp", op.Source()),
-        path.add("first", op.Interface(1.5, 0.3)),
-        path.add("second", op.Interface(1.5, 0.9, outside=1.33)),
-        path.add("eye", op.Detector()),
-    ]
-    nodes[0] >> nodes[1] >> nodes[2] >> nodes[3]
+def test_light_enters_in_the_medium_it_was_reflected_in_or_comes_from_behind():
+    path = op.Source() >> op.Interface(1.5, 0.3).named("first")
+    path = path >> op.Interface(1.5, 0.9, outside=1.33).named("second") >> op.Detector()
     (fault,) = faults_of(path)
     assert "'second.in' is lit from n = 1 in front of 'first' (by 'first.reflected')" in fault
-
-
-def test_light_from_behind_is_in_the_medium_behind():
     (fault,) = faults_of(faces(GLASS, op.Interface(1.6, THETA, incidence_in=1.0), back="back"))
     assert "'back.back' is lit from n = 1.5 behind 'front'" in fault
     assert "its index is 1.6; give index = 1.5" in fault
@@ -135,7 +120,7 @@ def test_light_from_behind_is_in_the_medium_behind():
 
 def test_light_that_stays_between_two_faces_is_looked_at_too():
     def unfolded(index, incidence, **about):
-        path = faces(GLASS, op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS))
+        path = faces(GLASS, FOLLOWING)
         path.add("again", op.Interface(index, incidence, **about))
         path.add("R", op.Dump())
         path.connect("back.reflected", "again.back")
@@ -146,35 +131,24 @@ def test_light_that_stays_between_two_faces_is_looked_at_too():
     unfolded(1.5, 0.1, parallel=False).check()
     assert "its index is 1.6" in faults_of(unfolded(1.6, THETA))[0]
     assert "'back.reflected' enters 'again.back'" in faults_of(unfolded(1.5, 0.1))[0]
-
-
-def test_two_faces_of_one_gap_are_parallel_whichever_side_they_turn_to_it():
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source())
-    path.add("a", op.Interface(1.5, 0.3))
-    path.add("b", op.Interface(1.5, 0.4))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "a.back")
-    path.connect("a.reflected", "b.in")
-    path.connect("b.reflected", "a.in")
-    path.connect("b.transmitted", "eye.in")
+    # Two faces of one gap are parallel, whichever side they turn to it.
+    ends = {"a": op.Interface(1.5, 0.3), "b": op.Interface(1.5, 0.4)}
+    path = wired(
+        {"lamp": op.Source(), **ends, "eye": op.Detector()},
+        "lamp -> a.back, a.reflected -> b, b.reflected -> a, b.transmitted -> eye",
+        loops="sum",
+    )
     (fault,) = faults_of(path)
     assert "n sin(incidence)" in fault
 
 
 def test_the_faces_of_a_prism_have_angles_of_their_own():
     def prism(**about):
-        path = op.PathGraph()
-        path.add("lamp", op.Source())
-        path.add("entry", op.Interface(1.5, 0.0))
-        path.add("base", op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS, **about))
-        path.add("exit", op.Interface(1.0, 0.0, outside=op.FOLLOWS))
-        path.add("eye", op.Detector())
-        path.connect("lamp.out", "entry.in")
-        path.connect("entry.transmitted", "base.in")
-        path.connect("base.reflected", "exit.in")
-        path.connect("exit.transmitted", "eye.in")
-        return path
+        base = op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS, **about)
+        ends = op.Interface(1.5, 0.0), op.Interface(1.0, 0.0, outside=op.FOLLOWS)
+        elements = {"lamp": op.Source(), "entry": ends[0], "base": base, "exit": ends[1]}
+        links = "lamp -> entry, entry.transmitted -> base, base -> exit, exit.transmitted -> eye"
+        return wired({**elements, "eye": op.Detector()}, links)
 
     # Total reflection at the base, and 4 % lost at either face.
     light = prism(parallel=False).trace()
@@ -183,9 +157,7 @@ def test_the_faces_of_a_prism_have_angles_of_their_own():
     assert "'entry.transmitted' enters 'base.in'" in faults_of(prism())[0]
 
 
-@pytest.mark.parametrize(
-    ("turn", "is_parallel"), [(0.0, True), (np.pi, True), (-np.pi, True), (0.5, False)]
-)
+@rows("turn, is_parallel", [(0.0, True), (np.pi, True), (-np.pi, True), (0.5, False)])
 def test_a_face_turned_about_the_light_has_another_plane_of_incidence(turn, is_parallel):
     path = faces(GLASS, op.Interface(1.0, THETA, outside=1.5, azimuth=turn))
     if is_parallel:
@@ -213,9 +185,8 @@ def test_faces_that_stand_in_space_have_their_directions_by_their_frames():
     base = op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS)
     path.add("base", base, {"in": along, "reflected": mirrored})
     path.add("eye", op.Detector(), {"in": mirrored})
-    path.connect("lamp.out", "front.in")
-    path.connect("front.transmitted", "base.in")
-    path.connect("base.reflected", "eye.in")
+    for link in (("lamp", "front"), ("front.transmitted", "base"), ("base.reflected", "eye")):
+        path.connect(*link)
     assert path.trace().intensity == pytest.approx(0.96, rel=1e-14)
 
 
@@ -248,12 +219,13 @@ def test_parameters_are_looked_at_whenever_they_are_given():
     (media,) = error.value.faults
     assert "n = 1.5 (parameter 'n')" in media
     assert "outside is 1.6 (parameter 'm'); give m = 1.5" in media
-    with pytest.raises(op.ParameterError, match=r"\(parameter 'phi'\)"):
-        path.trace(**good | {"phi": 0.1})
-    with pytest.raises(op.ParameterError, match="but its outside is"):
-        path.trace(**good | {"n": np.full(5, 1.5), "m": [1.5, 1.5, 1.5, 1.6, 1.5]})
-    with pytest.raises(op.ParameterError, match="parameter 'n' is nan"):
-        path.trace(**good | {"n": np.nan})
+    for wrong, told in (
+        ({"phi": 0.1}, r"\(parameter 'phi'\)"),
+        ({"n": np.full(5, 1.5), "m": [1.5, 1.5, 1.5, 1.6, 1.5]}, "but its outside is"),
+        ({"n": np.nan}, "parameter 'n' is nan"),
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            path.trace(**good | wrong)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -307,3 +279,96 @@ def test_one_parameter_on_both_sides_needs_no_look_at_its_values():
     other = op.Interface(1.0, op.Parameter("theta"), outside=n, incidence_in=1.0)
     # The other sign is another angle.
     assert len(faces(op.Interface(n, minus), other).compose().inputs.agreements) == 1
+
+
+LOSSLESS = [op.Medium(0.1), op.Attenuator(1.0), op.Rotator(0.0), op.Combiner(), op.Retarder(0.0)]
+
+
+class Hand:
+    """A stack of random media, whose faces are written in one of several right ways."""
+
+    def __init__(self, seed):
+        self.rng = rng = np.random.default_rng(seed)
+        self.indices = [1.0, *rng.uniform(1.0, 2.0, rng.integers(1, 5)), 1.0]
+        self.theta = float(rng.uniform(0.0, 1.4))
+        self.values = {}
+        self.faces = []
+        for before, behind in zip(self.indices, self.indices[1:], strict=False):
+            own = float(np.arcsin(np.sin(self.theta) / before))
+            ways = [
+                op.Interface(behind, self.theta, outside=before, incidence_in=1.0),
+                op.Interface(behind, own, outside=before),
+                op.Interface(op.Material(behind), self.given(own), outside=self.given(before)),
+            ]
+            if self.faces:
+                ways.append(op.Interface(behind, op.FOLLOWS, outside=op.FOLLOWS))
+            self.faces.append(ways[rng.integers(len(ways))])
+
+    def given(self, value):
+        """A constant, an array, or a parameter that is given it."""
+        way = self.rng.integers(3)
+        if way < 2:
+            return (value, np.full(2, value))[way]
+        name = f"p{len(self.values)}"
+        self.values[name] = value
+        return op.Parameter(name)
+
+    def traced(self):
+        rng, path = self.rng, op.PathGraph(loops="sum")
+        path.add("lamp", op.Source())
+        light, back = "lamp.out", ""
+        for number, face in enumerate(self.faces):
+            for place in range(rng.integers(3) if number else 0):
+                between = f"between {number}{place}"
+                path.add(between, LOSSLESS[rng.integers(len(LOSSLESS))])
+                path.connect(light, f"{between}.in")
+                light = f"{between}.out"
+            path.add(f"face {number}", face)
+            path.connect(light, f"face {number}.in")
+            if number:
+                path.connect(f"face {number}.reflected", back)
+            light, back = f"face {number}.transmitted", f"face {number}.back"
+        path.add("T", op.Detector())
+        path.connect(light, "T.in")
+        # A face may be written in another way than the one that they were drawn for.
+        return path.trace(**{name: self.values[name] for name in path.parameters})
+
+
+SEEDS = st.integers(0, 10**6)
+
+
+@settings(max_examples=25)
+@given(seed=SEEDS)
+def test_faces_written_rightly_by_hand_are_the_stack(seed):
+    hand = Hand(seed)
+    whole = op.LayerStack(hand.indices, hand.theta).mueller("in", "transmitted").matrix[:, 0]
+    light = hand.traced()
+    expected = np.broadcast_to(whole, light.stokes.shape)
+    np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=2e-14)
+
+
+@settings(max_examples=50)
+@given(seed=SEEDS, wrong=st.sampled_from(["outside", "index", "incidence"]))
+def test_one_wrong_medium_or_angle_of_a_stack_by_hand_is_refused(seed, wrong):
+    hand = Hand(seed)
+    # A face that follows another has nothing of its own that could be wrong but its index.
+    own = [n for n, face in enumerate(hand.faces) if n and face.outside is not op.FOLLOWS]
+    number = hand.rng.choice(own) if own and wrong != "index" else 0
+    assume(number or wrong == "index")
+    face = hand.faces[number]
+    change = 1.0 + 10.0 ** hand.rng.uniform(-6, -1)
+    if wrong == "incidence":
+        angle = (
+            hand.theta
+            if face.incidence_in is not None
+            else np.arcsin(np.sin(hand.theta) / hand.indices[number])
+        )
+        hand.faces[number] = replace(face, incidence=float(angle / change))
+    elif wrong == "outside":
+        hand.faces[number] = replace(face, outside=hand.indices[number] * change)
+    else:
+        hand.faces[0] = replace(face, index=hand.indices[1] * change)
+        if len(hand.faces) > 1 and hand.faces[1].outside is op.FOLLOWS:
+            hand.faces[1] = replace(hand.faces[1], outside=hand.indices[1])
+    with pytest.raises(op.OptipathError, match=r"is lit from n|n sin\(incidence\)"):
+        hand.traced()

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
+from wired import wired
 
 THETA = np.radians(40.0)
 INSIDE = np.arcsin(np.sin(THETA) / 1.5)
@@ -14,26 +16,16 @@ F = op.FOLLOWS
 
 def slab(front, back, *, between=None, to="front.back", azimuth=None, before=None):
     """Two faces; light goes to and fro between them where it has a way back."""
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source())
-    path.add("front", front)
-    path.add("back", back)
-    path.add("T", op.Detector())
+    given = {"before": before, "front": front, "between": between, "back": back}
+    row = {name: element for name, element in given.items() if element is not None}
+    path = wired({"lamp": op.Source(), **row, "T": op.Detector()}, "", loops="sum")
     light = "lamp.out"
-    if before is not None:
-        path.add("before", before)
-        path.connect(light, "before.in")
-        light = "before.transmitted"
-    path.connect(light, "front.in")
-    light = "front.transmitted"
-    if between is not None:
-        path.add("between", between)
-        path.connect(light, "between.in")
-        light = "between.out"
-    path.connect(light, "back.in")
+    for name in row:
+        path.connect(light, f"{name}.in")
+        light = f"{name}.{'out' if name == 'between' else 'transmitted'}"
+    path.connect(light, "T.in")
     if to:
         path.connect("back.reflected", to, azimuth=azimuth)
-    path.connect("back.transmitted", "T.in")
     return path
 
 
@@ -56,8 +48,8 @@ def fresnel_slab():
     return sum((1 - r) / (1 + r) / 2 for r in (s, p))
 
 
-@pytest.mark.parametrize("before", [None, op.LayerStack([1, 1.5, 1], "10 deg")])
-@pytest.mark.parametrize("back", [RIGHT, TAKING])
+@rows("before", [None, op.LayerStack([1, 1.5, 1], "10 deg")])
+@rows("back", [RIGHT, TAKING])
 def test_a_front_that_is_not_parallel_to_what_is_before_it_is_parallel_to_its_back(before, back):
     front = op.Interface(1.5, THETA, parallel=False)
     light = slab(front, back, before=before).trace()
@@ -67,13 +59,16 @@ def test_a_front_that_is_not_parallel_to_what_is_before_it_is_parallel_to_its_ba
     assert "n sin(incidence)" in fault_of(slab(front, WRONG, before=before))
 
 
-@pytest.mark.parametrize("azimuth", [0.3, 1e-6, np.pi / 2])
+@rows("azimuth", [0.3, 1e-6, np.pi / 2])
 def test_no_azimuth_in_a_loop_switches_the_look_at_angles_off(azimuth):
     turned = op.Interface(1.0, THETA, outside=1.5, azimuth=azimuth)
     filtered = slab(GLASS, WRONG, between=op.Polarizer(0.0, azimuth=azimuth))
     for path in (slab(GLASS, WRONG, azimuth=azimuth), slab(GLASS, turned), filtered):
         with pytest.raises(op.PathError, match=r"n sin\(incidence\)"):
             path.trace()
+    # A turn of a thousandth is none without a loop, too.
+    turned = op.Interface(1.0, THETA, outside=1.5, azimuth=1e-4)
+    assert "n sin(incidence)" in fault_of(slab(GLASS, turned, to=None))
 
 
 def test_faces_between_which_light_goes_to_and_fro_have_one_plane_of_incidence():
@@ -91,11 +86,6 @@ def test_faces_between_which_light_goes_to_and_fro_have_one_plane_of_incidence()
     undone = slab(GLASS, turned, between=op.Polarizer(0.0, azimuth=0.3))
     undone.trace(a=-0.3)
     assert "let the azimuths on the way add up to 0" in fault_of(undone, a=0.0)
-
-
-def test_a_turn_of_a_thousandth_is_none():
-    turned = op.Interface(1.0, THETA, outside=1.5, azimuth=1e-4)
-    assert "n sin(incidence)" in fault_of(slab(GLASS, turned, to=None))
 
 
 def test_a_face_that_takes_its_incidence_over_is_not_turned():
@@ -116,7 +106,7 @@ def test_at_normal_incidence_any_azimuth_will_do():
             assert light.trace().intensity == pytest.approx(loss, rel=1e-12)
 
 
-@pytest.mark.parametrize("indices", [[1, 1.5, 1], [1, 1.5, 1.3, 1.7]])
+@rows("indices", [[1, 1.5, 1], [1, 1.5, 1.3, 1.7]])
 def test_a_stack_that_is_turned_about_its_normal_does_the_same(indices):
     state, turn = np.array([1, 0.4, 0.3, 0.2]), 0.3
     path = op.PathGraph(loops="sum")
@@ -146,7 +136,7 @@ def test_a_stack_that_is_turned_about_its_normal_does_the_same(indices):
     np.testing.assert_allclose(found["R"].stokes, back * state * [1, 1, -1, -1], atol=1e-14)
 
 
-@pytest.mark.parametrize("back", [None, -0.3, op.Parameter("b")])
+@rows("back", [None, -0.3, op.Parameter("b")])
 def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
     turned = op.Interface(1.0, F, outside=F, azimuth=0.3)
     late = {"b": [0.3, -0.3]} if isinstance(back, op.Parameter) else {}
@@ -164,20 +154,18 @@ def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
 
 def before_mirror(go, back, *, again=None):
     """A face with a mirror behind it, and another between that and the way back, or none."""
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source(stokes=[1, 0.4, 0.3, 0.2])) >> path.add("f", op.Interface(1.5, 0.0))
-    path.add("m", op.Mirror(-0.9, azimuth=go)) >> path.add("plate", op.Retarder(0.0))
-    path.connect("f.transmitted", "m")
+    ends = {"lamp": op.Source(stokes=[1, 0.4, 0.3, 0.2]), "f": op.Interface(1.5, 0.0)}
+    ends |= {"m": op.Mirror(-0.9, azimuth=go), "plate": op.Retarder(0.0), "R": op.Detector()}
+    path = wired(ends, "lamp -> f, f.transmitted -> m, m -> plate, f.reflected -> R", loops="sum")
     light = "plate"
     if again is not None:
         light = path.add("again", op.Mirror(azimuth=again)).name
         path.connect("plate", light)
     path.connect(light, "f.back", azimuth=back)
-    path.connect("f.reflected", path.add("R", op.Detector()).name)
     return path
 
 
-@pytest.mark.parametrize("go", [0.3, op.Parameter("a"), np.array([0.0, 0.3])])
+@rows("go", [0.3, op.Parameter("a"), np.array([0.0, 0.3])])
 def test_light_that_a_mirror_sends_back_is_turned_alike_on_both_ways(go):
     late = {"a": 0.3} if isinstance(go, op.Parameter) else {}
     fault = fault_of(before_mirror(go, None), **late)
@@ -189,24 +177,18 @@ def test_light_that_a_mirror_sends_back_is_turned_alike_on_both_ways(go):
     shape = np.broadcast_shapes(light.shape, (4,))
     expected = np.broadcast_to(r * np.array([1, 0.4, -0.3, -0.2]), shape)
     np.testing.assert_allclose(light, expected, rtol=1e-12, atol=1e-15)
-
-
-def test_what_two_mirrors_send_back_may_be_turned():
+    # What two mirrors send back may be turned.
     assert before_mirror(0.3, None, again=0.2).trace().S0 > 0.0
 
 
 def test_a_ring_may_turn_its_light():
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
-    path.add("both", op.Combiner())
-    path.add("a", op.Interface(1.5, 0.0))
-    path.add("b", op.Interface(1.0, F, outside=F, azimuth=op.Parameter("turn")))
-    path.add("half", op.Attenuator(0.5))
-    path.add("R", op.Detector())
-    for start, end in (("lamp", "both"), ("both", "a"), ("a.transmitted", "b"), ("half", "both")):
-        path.connect(start, end)
-    path.connect("b.transmitted", "half")
-    path.connect("a.reflected", "R")
+    turned = op.Interface(1.0, F, outside=F, azimuth=op.Parameter("turn"))
+    ends = {"lamp": op.Source(stokes=[1, 1, 0, 0]), "both": op.Combiner(), "R": op.Detector()}
+    path = wired(
+        {**ends, "a": op.Interface(1.5, 0.0), "b": turned, "half": op.Attenuator(0.5)},
+        "lamp -> both, both -> a, a.transmitted -> b, b.transmitted -> half, half -> both, a -> R",
+        loops="sum",
+    )
     turn = np.array([0.0, 0.3])
     # What goes round is turned by as much each time: a geometric series in exp(-2i turn).
     once = 0.5 * 0.96**2
@@ -225,26 +207,17 @@ def test_light_does_not_come_back_from_a_face_at_an_angle():
     assert "between 'front' and 'back', which says parallel=False: what comes back" in fault
 
 
-@pytest.mark.parametrize("turned_first", [True, False])
+@rows("turned_first", [True, False])
 def test_every_route_to_a_face_is_looked_at(turned_first):
-    path = op.PathGraph()
-    names = ["a", "b"] if turned_first else ["b", "a"]
-    path.add("lamp", op.Source())
-    path.add("front", GLASS)
-    path.add("half", op.BeamSplitter())
-    path.add(names[0], op.Polarizer(0.0, azimuth=0.5))
-    path.add(names[1], op.Polarizer(0.0))
-    path.add("both", op.Combiner())
-    path.add("back", WRONG)
-    path.add("T", op.Detector())
-    path.connect("lamp.out", "front.in")
-    path.connect("front.transmitted", "half.in")
-    path.connect("half.transmitted", "a.in")
+    filters = op.Polarizer(0.0, azimuth=0.5), op.Polarizer(0.0)
+    ends = dict(zip(["a", "b"] if turned_first else ["b", "a"], filters, strict=True))
+    ends |= {"lamp": op.Source(), "front": GLASS, "half": op.BeamSplitter()}
+    path = wired(
+        {**ends, "both": op.Combiner(), "back": WRONG, "T": op.Detector()},
+        "lamp -> front, front.transmitted -> half, half.transmitted -> a, a -> both, b -> both, "
+        "both -> back, back.transmitted -> T",
+    )
     path.connect("half.transmitted", "b.in", tap=True)
-    path.connect("a.out", "both.in")
-    path.connect("b.out", "both.in")
-    path.connect("both.out", "back.in")
-    path.connect("back.transmitted", "T.in")
     with pytest.raises(op.PathError) as error:
         path.check()
     assert any("n sin(incidence)" in fault for fault in error.value.faults)
@@ -301,7 +274,7 @@ def test_a_multiple_of_a_parameter_is_named_where_it_stands():
     assert "'back.in' is lit from 2 * n = 1.6 behind 'front'" in fault_of(path, n=0.8)
 
 
-@pytest.mark.parametrize("late", [False, True])
+@rows("late", [False, True])
 def test_of_a_row_of_faults_only_the_first_is_told(late):
     path = op.PathGraph()
     path.add("lamp", op.Source())
@@ -324,8 +297,3 @@ def test_an_absorption_that_is_open_is_told_of_the_boundary_that_has_it():
     path.trace(n=1.5, k=0.0)
     fault = fault_of(path, n=1.5, k=0.1)
     assert "with k = 0.1 (parameter 'k') behind 'front' (by 'front.transmitted')" in fault
-
-
-def test_only_the_first_medium_of_a_stack_is_taken_over():
-    with pytest.raises(op.ValueFault, match=r"indices\[1\] cannot be FOLLOWS; only"):
-        op.LayerStack([1, F, 1], 0.3)

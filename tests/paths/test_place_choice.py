@@ -9,6 +9,14 @@ import pytest
 
 import optipath as op
 from optipath.cli.command import main
+from tables import rows
+from wired import read, read_back
+
+ROWS = {
+    "light": "L >> P >> X2 >> X1 >> E",
+    "between": "L >> X2 >> P >> X1 >> E",
+    "eye": "L >> X2 >> X1 >> P >> E",
+}
 
 
 def built(place, angle):
@@ -17,19 +25,20 @@ def built(place, angle):
     second = op.Interface(0.608 + 2.12j, np.radians(20.0))
     first = op.Interface(1.12 + 2.16j, np.radians(48.0), azimuth=np.radians(-34.0))
     row = [lamp, second, first, op.Detector()]
-    row.insert({"light": 1, "between": 2, "eye": 3}[place], op.Polarizer(angle))
+    row.insert([*ROWS].index(place) + 1, op.Polarizer(angle))
     path = row[0]
     for element in row[1:]:
         path = path >> element
     return path
 
 
-@pytest.mark.parametrize("place", ["light", "between", "eye"])
-@pytest.mark.parametrize("angle", [0.0, 0.7])
+@rows("place", [*ROWS])
+@rows("angle", [0.0, 0.7])
 def test_the_filter_stands_at_the_light_between_the_surfaces_or_before_the_eye(place, angle):
     path = op.load_preset("npgr026", case=8, place=place, filter=angle)
     expected = built(place, angle).trace().stokes
     np.testing.assert_allclose(path.trace().stokes, expected, rtol=1e-14, atol=1e-14)
+    assert repr(path) == f"<PathGraph: {ROWS[place]}>"
 
 
 def test_before_the_eye_the_unfiltered_light_is_filtered_by_malus_law():
@@ -39,6 +48,10 @@ def test_before_the_eye_the_unfiltered_light_is_filtered_by_malus_law():
     s0, s1, s2, _ = lit.stokes
     expected = 0.5 * (s0 + s1 * np.cos(2 * angles) + s2 * np.sin(2 * angles))
     np.testing.assert_allclose(eye.intensity, expected, rtol=1e-14)
+    # The filter is open wherever it stands.
+    path = op.load_preset("npgr026", case=7, place="eye")
+    assert path.trace().intensity == lit.intensity
+    assert path.trace(filter="horizontal").dop == pytest.approx(1.0)
 
 
 def turned(plate=None, link=None, **own):
@@ -52,10 +65,8 @@ def turned(plate=None, link=None, **own):
     return path
 
 
-@pytest.mark.parametrize("how", [{"azimuth": 0.35}, {"link": 0.35}])
-@pytest.mark.parametrize(
-    "plate", [None, 0.1, op.Parameter("a", 0.1)], ids=["none", "number", "parameter"]
-)
+@rows("how", [{"azimuth": 0.35}, {"link": 0.35}])
+@rows("plate", [None, 0.1, op.Parameter("a", 0.1)])
 def test_a_filter_that_is_moved_stays_turned_in_the_light(plate, how):
     path, by_angle = turned(plate, **how), op.Source(100) >> op.Polarizer(0.55)
     # The eye stays as it was turned, too.
@@ -100,73 +111,26 @@ def test_a_filter_is_moved_past_a_turned_plate_and_both_stay_as_they_were_turned
         assert path(place).trace().intensity == pytest.approx(expected, rel=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("place", "chain"),
-    [
-        ("light", "L >> P >> X2 >> X1 >> E"),
-        ("between", "L >> X2 >> P >> X1 >> E"),
-        ("eye", "L >> X2 >> X1 >> P >> E"),
-    ],
-)
-def test_a_path_shows_where_the_filter_stands(place, chain):
-    assert repr(op.load_preset("npgr026", place=place)) == f"<PathGraph: {chain}>"
-
-
-def test_nothing_chosen_is_the_filter_at_the_light():
+def test_nothing_chosen_is_the_filter_at_the_light_and_a_place_may_be_chosen_again():
     path = op.load_preset("npgr026")
     assert path == op.load_preset("npgr026", place="light")
-    assert list(path.parameters) == [
-        *("delta", "rho", "phi", "n1", "k1", "n2", "k2", "filter", "intensity")
-    ]
+    names = ("delta", "rho", "phi", "n1", "k1", "n2", "k2", "filter", "intensity")
+    assert tuple(path.parameters) == names
     assert path.choices["place"].place(path.graph) == "light"
+    moved = op.load_preset("npgr026", place="eye")
+    assert moved.bind(place="between").bind(place="light") == path
 
 
-def test_a_place_may_be_chosen_again():
-    path = op.load_preset("npgr026", place="eye").bind(place="between").bind(place="light")
-    assert path == op.load_preset("npgr026")
-
-
-def test_the_filter_is_open_wherever_it_stands():
-    path = op.load_preset("npgr026", case=7, place="eye")
-    whole = op.load_preset("npgr026", case=7)
-    assert path.trace().intensity == whole.trace().intensity
-    assert path.trace(filter="horizontal").dop == pytest.approx(1.0)
-
-
-def test_every_fault_of_what_is_chosen_is_told_at_once():
-    with pytest.raises(op.OptipathError) as error:
-        op.load_preset("npgr026", place="eyes", delta="steep")
-    told = str(error.value)
-    assert "place 'eyes' is unknown; did you mean 'eye'?" in told
-    assert "delta" in told
-    with pytest.raises(op.OptipathError, match="did you mean 'place'"):
-        op.load_preset("npgr026", plce="eye")
-
-
-def test_a_place_is_not_given_while_a_path_runs():
-    with pytest.raises(op.ParameterError, match=r"path\.bind\(place=\.\.\.\)"):
-        op.load_preset("npgr026").trace(place="eye")
-    with pytest.raises(op.ParameterError, match=r"path\.bind\(place=\.\.\.\)"):
-        op.load_preset("npgr026").compose().run(delta=np.array([0.1, 0.2]), place="eye")
-
-
-def test_choices_are_written_and_read_back(tmp_path):
-    file = tmp_path / "copy.toml"
+def test_choices_are_copied_written_and_read_back(tmp_path):
     for place in ("light", "eye"):
         path = op.load_preset("npgr026", place=place)
-        file.write_text(path.to_toml(), "utf-8")
-        again = op.load_preset(file)
-        assert again == path
-        assert again.choices == path.choices
-        assert again.bind(place="between") == path.bind(place="between")
-
-
-def test_copies_keep_their_choices():
-    path = op.load_preset("npgr026")
-    for again in (copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))):
-        assert again == path
-        assert repr(again.bind(place="eye")) == "<PathGraph: L >> X2 >> X1 >> P >> E>"
-    assert path.reading("intensity").choices == path.choices
+        copies = copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))
+        for again in (read_back(path, tmp_path), *copies):
+            assert again == path
+            assert again.choices == path.choices
+            assert again.bind(place="between") == path.bind(place="between")
+            assert repr(again.bind(place="eye")) == f"<PathGraph: {ROWS['eye']}>"
+        assert path.reading("intensity").choices == path.choices
 
 
 def test_paths_that_offer_other_choices_are_not_equal():
@@ -190,8 +154,28 @@ def test_choices_go_along_in_a_chain():
         twice >> tail
 
 
-@pytest.mark.parametrize(
-    ("offered", "told"),
+@rows(
+    "choose, told",
+    [
+        (
+            lambda: op.load_preset("npgr026", place="eyes", delta="steep"),
+            r"(?s)place 'eyes' is unknown; did you mean 'eye'\?.*delta",
+        ),
+        (lambda: op.load_preset("npgr026", plce="eye"), "did you mean 'place'"),
+        (lambda: op.load_preset("npgr026").trace(place="eye"), r"path\.bind\(place=\.\.\.\)"),
+        (
+            lambda: op.load_preset("npgr026").compose().run(delta=[0.1, 0.2], place="eye"),
+            r"path\.bind\(place=\.\.\.\)",
+        ),
+    ],
+)
+def test_a_place_is_chosen_by_its_word_before_a_path_runs(choose, told):
+    with pytest.raises(op.ParameterError, match=told):
+        choose()
+
+
+@rows(
+    "offered, told",
     [
         (("place", "Q", {"light": "L.out"}), "'Q' does not exist"),
         (("place", "X1", {"light": "L.out"}), "not go straight through 'X1'"),
@@ -212,8 +196,8 @@ def test_places_that_cannot_be_taken_are_told_when_they_are_offered(offered, tol
     assert not path.choices
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "told"),
+@rows(
+    "old, new, told",
     [
         ('"X1.reflected" }', '"X1.refl" }', "choices.place: place 'eye': port 'X1.refl' does not"),
         ('element = "P"', 'elemnt = "P"', "choices.place: key 'elemnt' is unknown"),
@@ -223,29 +207,24 @@ def test_places_that_cannot_be_taken_are_told_when_they_are_offered(offered, tol
 )
 def test_faults_of_choices_in_a_file_have_their_place(old, new, told, tmp_path):
     text = op.load_preset("npgr026").to_toml()
-    file = tmp_path / "faulty.toml"
-    file.write_text(text.replace(old, new, 1), "utf-8")
     with pytest.raises(op.PathError, match=told):
-        op.load_preset(file)
+        read(text.replace(old, new, 1), tmp_path)
 
 
-def test_a_node_that_is_removed_has_no_choice_of_places():
+def test_a_node_that_is_removed_has_no_choice_and_one_whose_ports_are_gone_is_not_written():
     path = op.load_preset("npgr026")
     path.cases.clear()
     path.remove("P")
     assert not path.choices
     assert "choices" not in path.to_toml()
-    assert "place" in op.load_preset("npgr026").choices
-
-
-def test_a_choice_whose_ports_are_gone_is_not_written():
     path = op.load_preset("npgr026")
+    assert "place" in path.choices
     path.disconnect("X1", "E")
     with pytest.raises(op.PathError, match=r"choice 'place': place 'eye': 'X1\.reflected' feeds"):
         path.to_toml()
 
 
-def test_the_command_line_takes_the_place(capsys):
+def test_the_command_line_takes_the_place_and_tells_of_places(capsys):
     assert main(["run", "npgr026", "--case", "8", "--place", "eye", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["choices"] == {"place": "eye"}
@@ -253,9 +232,6 @@ def test_the_command_line_takes_the_place(capsys):
     assert found["detectors"]["E"]["stokes"] == pytest.approx(expected, abs=1e-12)
     assert main(["run", "npgr026", "--case", "8", "--json"]) == 0
     assert "choices" not in json.loads(capsys.readouterr().out)
-
-
-def test_the_command_line_tells_of_places(capsys):
     assert main(["run", "npgr026", "--place", "eyes"]) == 2
     assert "place 'eyes' is unknown; did you mean 'eye'?" in capsys.readouterr().err
     assert main(["show", "npgr026"]) == 0

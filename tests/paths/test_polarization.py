@@ -1,7 +1,7 @@
-"""The scalar model of light that goes round: sums over all rounds, each boundary by its mean."""
+"""What polarisation changes: the scalar model, its sums over all rounds, and who brings it in."""
 
 import json
-import os
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,10 +13,11 @@ from incoherent_stacks import exact_stack
 from lossless import networks
 from optipath.cli.command import main
 from paths import chain
+from tables import rows
+from wired import wired
 
-pytestmark = pytest.mark.filterwarnings(
-    "ignore::optipath.CoherenceWarning"
-)  # Of films, on purpose.
+# Of films, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
 
 ANGLES = np.radians([50.0, 56.0, 60.0, 65.0])
 TINTED = {"lengths": [0.2], "wavelength": 5e-7}
@@ -26,36 +27,23 @@ INCIDENCES = st.floats(0.0, 1.55)
 
 def stack(media, incidence, port="reflected", **others):
     """A path on which unpolarised light meets a stack."""
-    path = op.PathGraph()
-    path.add("lamp", op.Source())
-    path.add("layers", op.LayerStack(media, incidence, **others))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "layers.in")
-    path.connect(f"layers.{port}", "eye.in")
-    return path
+    layers = op.LayerStack(media, incidence, **others)
+    ends = {"lamp": op.Source(), "layers": layers, "eye": op.Detector()}
+    return wired(ends, f"lamp -> layers, layers.{port} -> eye")
 
 
 def layer_by_hand(n, below, incidence, port="reflected", medium=None):
     """A layer of two interfaces, and what is between them, in a loop."""
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source())
-    path.add("top", op.Interface(n, incidence))
-    path.add("bottom", op.Interface(below, op.FOLLOWS, outside=op.FOLLOWS))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "top.in")
-    if medium is None:
-        path.connect("top.transmitted", "bottom.in")
-        path.connect("bottom.reflected", "top.back")
-    else:
-        for name, start, end in (
-            ("down", "top.transmitted", "bottom.in"),
-            ("up", "bottom.reflected", "top.back"),
-        ):
-            path.add(name, medium)
-            path.connect(start, f"{name}.in")
-            path.connect(f"{name}.out", end)
-    path.connect(f"{'top' if port == 'reflected' else 'bottom'}.{port}", "eye.in")
-    return path
+    bottom = op.Interface(below, op.FOLLOWS, outside=op.FOLLOWS)
+    ends = {"lamp": op.Source(), "top": op.Interface(n, incidence), "bottom": bottom}
+    links = "top.transmitted -> bottom, bottom.reflected -> top.back"
+    if medium is not None:
+        ends |= {"down": medium, "up": medium}
+        links = "top.transmitted -> down, down -> bottom, bottom.reflected -> up, up -> top.back"
+    leaves = f"{'top' if port == 'reflected' else 'bottom'}.{port}"
+    return wired(
+        {**ends, "eye": op.Detector()}, f"lamp -> top, {links}, {leaves} -> eye", loops="sum"
+    )
 
 
 def fresnel(n1, n2, y):
@@ -97,21 +85,11 @@ def test_two_boundaries_reflect_the_geometric_series_of_their_means(n, below, in
         assert found.scalar == pytest.approx(series, rel=1e-12, abs=1e-15)
 
 
-@settings(max_examples=10)
-@given(first=INDICES, second=INDICES, below=INDICES, incidence=INCIDENCES)
-def test_three_boundaries_let_through_the_series_within_the_series(first, second, below, incidence):
-    y = np.sin(incidence)
-    a, b, c = mean(1.0, first, y), mean(first, second, y), mean(second, below, y)
-    lower = b + (1.0 - b) ** 2 * c / (1.0 - b * c)
-    all_three = 1.0 - (a + (1.0 - a) ** 2 * lower / (1.0 - a * lower))
-    found = op.polarization(stack([1.0, first, second, below], incidence, "transmitted"))
-    assert found.scalar == pytest.approx(all_three, rel=1e-9, abs=1e-15)
-
-
-@pytest.mark.parametrize("port", ["reflected", "transmitted"])
-@pytest.mark.parametrize(
-    ("media", "lengths"),
+@rows("port", ["reflected", "transmitted"])
+@rows(
+    "media, lengths",
     [
+        ([1.0, 1.3, 2.1, 1.6], [1e-3, 2e-3]),
         ([1.0, 1.5 + 1e-4j, 2.4], [1e-3]),
         ([1.0, 1.5, 1.7 + 1e-5j, 1.3], [1e-3, 2e-3]),
         ([1.2, 1.6 + 1e-5j, 0.9 + 0.2j, 1.5, 1.4], [1e-3, 3e-7, 1e-3]),
@@ -130,7 +108,7 @@ def test_layers_that_absorb_agree_with_50_digits(media, lengths, port):
         np.testing.assert_allclose(getattr(found, name), expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("port", ["reflected", "transmitted"])
+@rows("port", ["reflected", "transmitted"])
 def test_a_stack_and_the_same_boundaries_in_a_loop_agree_to_the_last_digits(port):
     for n, below in ((1.5, 2.4), (2.4, 1.5), (1.3, 1.0)):
         one = op.polarization(stack([1.0, n, below], ANGLES, port))
@@ -153,19 +131,14 @@ def test_a_tinted_layer_on_a_metal_agrees_with_its_loop():
 
 def ring(elements, kept=0.7):
     """Light let into a ring by a beam splitter, which lets some of it out each time."""
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source())
-    path.add("door", op.BeamSplitter(kept))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "door.in")
-    path.connect("door.reflected", "eye.in")
-    leaves = "door.transmitted"
-    for number, element in enumerate(elements):
-        path.add(f"e{number}", element)
-        path.connect(leaves, f"e{number}.in")
-        leaves = f"e{number}.out"
-    path.connect(leaves, "door.back")
-    return path
+    row = {f"e{number}": element for number, element in enumerate(elements)}
+    way = ["door.transmitted", *row, "door.back"]
+    links = ", ".join(f"{start} -> {end}" for start, end in pairwise(way))
+    return wired(
+        {"lamp": op.Source(), "door": op.BeamSplitter(kept), "eye": op.Detector(), **row},
+        f"lamp -> door, door.reflected -> eye, {links}",
+        loops="sum",
+    )
 
 
 def test_the_sum_over_all_rounds_of_a_ring_is_that_of_means_one_by_one():
@@ -183,15 +156,10 @@ def test_the_sum_over_all_rounds_of_a_ring_is_that_of_means_one_by_one():
 
 
 def test_a_stack_in_a_loop_is_taken_by_its_boundaries():
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source())
-    path.add("top", op.LayerStack([1.0, 1.5, 1.8], 0.9))
-    path.add("bottom", op.Interface(2.4, op.FOLLOWS, outside=op.FOLLOWS))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "top.in")
-    path.connect("top.transmitted", "bottom.in")
-    path.connect("bottom.reflected", "top.back")
-    path.connect("top.reflected", "eye.in")
+    bottom = op.Interface(2.4, op.FOLLOWS, outside=op.FOLLOWS)
+    ends = {"lamp": op.Source(), "top": op.LayerStack([1.0, 1.5, 1.8], 0.9), "bottom": bottom}
+    links = "lamp -> top, top.transmitted -> bottom, bottom.reflected -> top.back, top -> eye"
+    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
     found = op.polarization(path)
     whole = op.polarization(stack([1.0, 1.5, 1.8, 2.4], 0.9))
     assert found.scalar == pytest.approx(whole.scalar, rel=1e-14)
@@ -207,16 +175,6 @@ def test_no_light_of_the_scalar_model_gets_lost_in_networks():
 
 
 @settings(max_examples=10)
-@given(media=st.lists(INDICES, min_size=2, max_size=5), incidence=INCIDENCES)
-def test_what_a_stack_reflects_and_lets_through_is_all_that_came(media, incidence):
-    both = [
-        op.polarization(stack([1.0, *media], incidence, port)).scalar
-        for port in ("reflected", "transmitted")
-    ]
-    assert sum(both) == pytest.approx(1.0, rel=1e-13)
-
-
-@settings(max_examples=10)
 @given(
     media=st.lists(INDICES, min_size=2, max_size=5),
     k=st.floats(0.0, 1e-3),
@@ -227,9 +185,8 @@ def test_at_normal_incidence_unpolarised_light_is_what_the_scalar_model_says(med
     tinted = [1.0, *(n + k * 1j for n in media[:-1]), media[-1]]
     found = op.polarization(stack(tinted, 0.0, port, lengths=lengths, wavelength=5e-7))
     assert found.difference == pytest.approx(0.0, abs=1e-13)
-    assert op.polarization(layer_by_hand(*media[:2], 0.0)).difference == pytest.approx(
-        0.0, abs=1e-13
-    )
+    by_hand = op.polarization(layer_by_hand(*media[:2], 0.0))
+    assert by_hand.difference == pytest.approx(0.0, abs=1e-13)
 
 
 def test_behind_total_reflection_nothing_differs():
@@ -246,9 +203,7 @@ def test_behind_total_reflection_nothing_differs():
     angles=st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0)),
     dop=st.floats(0.0, 1.0),
 )
-def test_what_is_exact_keeps_within_the_bounds_of_a_stack_among_others(
-    media, incidence, angles, dop
-):
+def test_what_is_exact_keeps_within_bounds_of_a_stack_among_others(media, incidence, angles, dop):
     layers = op.LayerStack([1.0, *media], incidence)
     elements = [op.Polarizer(angles[0]), layers, op.Retarder(1.0, 0.4), op.Interface(1.5, 1.0)]
     found = op.polarization(chain([*elements, op.Polarizer(angles[1])], [1.0, 0.0, dop, 0.0]))
@@ -258,14 +213,10 @@ def test_what_is_exact_keeps_within_the_bounds_of_a_stack_among_others(
     assert found.exact <= found.certificate.upper * found.scalar
 
 
-def test_bounds_of_a_stack_alone_leave_nothing_open():
+def test_of_a_stack_alone_bounds_leave_nothing_open_and_its_share_is_that_of_all_its_boundaries():
     found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
     for bound in (found.certificate.lower, found.certificate.upper):
         np.testing.assert_allclose(bound - 1.0, found.difference, rtol=0, atol=1e-12)
-
-
-def test_the_share_of_a_stack_is_that_of_all_its_boundaries():
-    found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
     assert found.culprits == ("layers",)
     np.testing.assert_array_equal(found.elements["layers"], found.difference)
 
@@ -280,7 +231,7 @@ def test_the_share_of_a_boundary_in_a_loop_is_what_its_mean_alone_would_change()
     assert found.elements["top"] == pytest.approx(share, rel=1e-12)
 
 
-@pytest.mark.parametrize("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
+@rows("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
 def test_batches_give_what_single_paths_give(make):
     path, angles = make([1.0, 1.5, 2.4], op.Parameter("a")), np.linspace(0.0, 1.57, 20_000)
     found = op.polarization(path, a=angles)
@@ -290,7 +241,7 @@ def test_batches_give_what_single_paths_give(make):
             assert getattr(found, name)[place] == getattr(one, name)
 
 
-@pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="JAX compiles for long")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "make",
     [
@@ -307,7 +258,7 @@ def test_jax_gives_what_the_others_give(make):
     )
 
 
-@pytest.mark.parametrize("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
+@rows("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
 def test_values_that_jax_traces_are_refused(make):
     jax = pytest.importorskip("jax")
     path = make([1.0, 1.5, 2.4], op.Parameter("a"))
@@ -315,16 +266,10 @@ def test_values_that_jax_traces_are_refused(make):
         jax.jit(lambda a: op.polarization(path, a=a).difference)(ANGLES)
 
 
-def test_an_end_that_is_not_there_is_told_where_light_goes_round():
-    with pytest.raises(op.ParameterError, match="detector 'transmited' does not exist"):
-        op.polarization(op.load_preset("glass-slab"), "transmited")
-
-
 def test_the_command_says_that_loops_have_no_bounds(capsys):
     assert main(["polarization", "glass-slab", "--theta", "56"]) == 0
-    assert "there are no bounds of what it could change" in " ".join(
-        capsys.readouterr().out.split()
-    )
+    told = " ".join(capsys.readouterr().out.split())
+    assert "there are no bounds of what it could change" in told
     assert main(["polarization", "glass-slab", "--theta", "56", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["detectors"]["transmitted"]
     assert found["lower"] is found["upper"] is None
@@ -348,3 +293,54 @@ def test_a_tolerance_holds_for_a_stack_before_another_boundary():
     found, exact = plan.run(a=angle).intensity, path.trace(a=angle).intensity
     np.testing.assert_allclose(found, exact, rtol=0.03)
     assert np.max(np.abs(found / exact - 1.0)) > 0.01  # The scalar model has been run for some.
+
+
+def test_two_reflections_of_one_material_crossed_lose_the_square_of_the_diattenuation():
+    angle = np.linspace(0.0, 1.5, 7)
+    panes = op.load_preset("npgr026", n1=1.5, n2=1.5, rho=np.pi / 2)
+    found = op.polarization(panes, delta=angle, phi=angle)
+    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(angle), np.sin(angle))
+    np.testing.assert_allclose(found.scalar, 100.0 * A * A, rtol=1e-13)
+    np.testing.assert_allclose(found.difference, -((B / A) ** 2), rtol=0, atol=1e-13)
+    # Without one of the two nothing is lost.
+    for share in (found.elements["X1"], found.elements["X2"]):
+        np.testing.assert_allclose(share, -((B / A) ** 2), rtol=0, atol=1e-13)
+
+
+def test_the_element_that_brings_the_difference_in_is_named():
+    elements = [op.Interface(0.05 + 3.9j, 0.5), op.Retarder(1.0, 0.3), op.Polarizer(0.7)]
+    found = op.polarization(chain(elements, [1.0, 0.0, 0.9, 0.0]))
+    assert found.culprits == ("e2",)
+    assert set(found.elements) == {"e0", "e1", "e2"}
+    assert found.elements["e1"] == 0.0
+
+
+def test_where_nothing_polarises_there_is_no_difference_and_no_culprit():
+    found = op.polarization(chain([op.Rotator(0.3), op.Attenuator(0.5)], [1.0, 0.5, 0.0, 0.2]))
+    assert found.difference == 0.0
+    assert found.culprits == ()
+    assert found.certificate.error >= 0.0
+
+
+def test_dark_scenes_differ_in_nothing_or_in_all():
+    crossed = op.polarization(op.load_preset("two-panes"))
+    assert crossed.exact == pytest.approx(0.0, abs=1e-15)
+    assert crossed.difference == pytest.approx(-1.0)
+    dark = op.polarization(chain([op.Attenuator(0.0), op.Polarizer(0.1), op.Polarizer(1.0)]))
+    assert dark.scalar == dark.difference == 0.0
+
+
+def test_the_detector_is_named_where_there_are_several():
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25)}
+    path = wired(
+        {**ends, "a": op.Detector(), "b": op.Detector()},
+        "lamp -> split, split.reflected -> a, split.transmitted -> b",
+    )
+    assert op.polarization(path, "b").exact == 0.75
+    for asked, told in (
+        ((path,), "2 detectors"),
+        ((path, "bb"), "there are: a, b"),
+        ((op.load_preset("glass-slab"), "transmited"), "detector 'transmited' does not exist"),
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            op.polarization(*asked)

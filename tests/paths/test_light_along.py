@@ -1,4 +1,4 @@
-"""Where the power of the light of a path comes from and goes."""
+"""Light on every link of a path, in the order of travel; where its power comes from and goes."""
 
 import json
 
@@ -7,7 +7,15 @@ import pytest
 
 import optipath as op
 from optipath.paths.energy_along import energy_along
+from optipath.paths.lights_along import lights_along
 from random_paths import Draw
+from tables import rows
+
+PRESETS = op.preset_names()
+
+
+def numbers(powers):
+    return {name: np.asarray(power).item() for name, power in powers.items()}
 
 
 def total(*powers):
@@ -21,30 +29,31 @@ def assert_conserved(path, **values):
     return found
 
 
-@pytest.mark.parametrize("name", op.preset_names())
+@rows("name", PRESETS)
 def test_what_sources_give_is_taken_leaves_or_ends_in_every_case(name):
-    path = op.load_preset(name)
-    for case in (None, *path.cases):
+    for case in (None, *op.load_preset(name).cases):
         found = assert_conserved(op.load_preset(name, case=case))
         assert min(map(np.min, found.taken.values()), default=0.0) >= 0.0
 
 
-@pytest.mark.parametrize("seed", range(20))
+@rows("seed", range(20))
 def test_light_of_paths_by_chance_is_neither_made_nor_lost(seed):
     draw = Draw(seed)
     path = draw.path(loops=seed % 2 == 0)
     assert_conserved(path, **draw.values)
 
 
-def test_a_polariser_takes_half_of_light_without_polarisation():
+def test_a_polariser_takes_half_of_light_and_several_sources_are_told_apart():
     found = energy_along(op.load_preset("malus"), angle="60 deg", intensity=8.0)
-    assert {name: float(p) for name, p in found.given.items()} == {"lamp": 8.0}
-    assert {name: p.item() for name, p in found.taken.items()} == pytest.approx(
-        {"polarizer": 4.0, "analyzer": 3.0}
-    )
+    assert numbers(found.given) == {"lamp": 8.0}
+    assert numbers(found.taken) == pytest.approx({"polarizer": 4.0, "analyzer": 3.0})
     assert found.ended["eye"] == pytest.approx(1.0)
     assert not found.left
     assert not found.notes
+    found = assert_conserved(op.load_preset("malus"), intensity=0.0)
+    assert total(found.taken, found.left, found.ended) == 0.0
+    found = assert_conserved(op.load_preset("sky-and-window"))
+    assert numbers(found.given) == {"heaven": 10.0, "lamp": 2.0}
 
 
 def test_a_tap_takes_nothing_and_what_it_reads_does_not_end():
@@ -52,32 +61,24 @@ def test_a_tap_takes_nothing_and_what_it_reads_does_not_end():
     assert [link.end for link in found.links if link.tap] == ["state"]
     assert [*found.ended] == ["photometer"]
     assert [*found.left] == ["S.transmitted"]
+    # It stands behind the link beside it.
+    taps = [each for each in lights_along(op.load_preset("ellipsometer-pcsa")) if each.tap]
+    assert [each.name for each in taps] == ["S.reflected -> state.in"]
 
 
 def test_light_behind_a_tap_is_read_however_far_it_goes():
     path = op.Source() >> op.Polarizer("0 deg") >> op.Detector()
     path.add("analyser", op.Polarizer("30 deg"))
-    path.add("split", op.BeamSplitter())
-    path.add("probe", op.Detector())
     path.connect("polarizer.out", "analyser.in", tap=True)
-    path.connect("analyser.out", "split.in")
-    path.connect("split.transmitted", "probe.in")
+    path["analyser"] >> path.add("split", op.BeamSplitter())
+    path.connect("split.transmitted", path.add("probe", op.Detector()).name)
     found = assert_conserved(path)
-    assert {name: p.item() for name, p in found.taken.items()} == pytest.approx({"polarizer": 0.5})
+    assert numbers(found.taken) == pytest.approx({"polarizer": 0.5})
     assert [*found.ended] == ["detector"]
     assert not found.left
+    links = {"polarizer.out -> analyser.in", "analyser.out -> split.in", "split.reflected"}
     read = {link.name for link in found.links if link.tap}
-    assert read == {
-        "polarizer.out -> analyser.in",
-        "analyser.out -> split.in",
-        "split.transmitted -> probe.in",
-        "split.reflected",
-    }
-
-
-def test_light_of_several_sources_is_told_apart():
-    found = assert_conserved(op.load_preset("sky-and-window"))
-    assert {name: float(p) for name, p in found.given.items()} == {"heaven": 10.0, "lamp": 2.0}
+    assert read == links | {"split.transmitted -> probe.in"}
 
 
 def test_a_loop_is_told_and_its_links_have_all_rounds_together():
@@ -88,9 +89,7 @@ def test_a_loop_is_told_and_its_links_have_all_rounds_together():
     assert len(inner) == 4
     assert len(found.notes) == 1
     assert found.notes[0].startswith("light goes round")
-
-
-def test_a_way_there_and_back_through_one_element_is_no_loop():
+    # A way there and back through one element is none.
     path = op.load_preset("double-pass-waveplate")
     assert not any(link.in_loop for link in energy_along(path).links)
 
@@ -102,44 +101,65 @@ def test_what_amplifies_takes_a_negative_power_and_is_told():
     assert found.notes == ("'laser' gives more light than it gets: it takes a negative power",)
 
 
-def test_rounding_is_not_taken_for_light():
+def test_rounding_is_not_taken_for_light_but_light_that_was_dimmed_keeps_its_power():
     found = energy_along(op.load_preset("fresnel-rhomb"))
-    assert found.taken["first"] == 0.0
-    assert found.taken["second"] == 0.0
-
-
-def test_what_is_left_of_crossed_polarisers_is_no_power():
+    assert (found.taken["first"], found.taken["second"]) == (0.0, 0.0)
+    # What is left of crossed polarisers is no power.
     path = op.load_preset("senarmont")
     assert 0.0 < path.trace().intensity < 1e-15
     found = energy_along(path)
-    assert found.ended["eye"] == 0.0
-    assert found.links[-1].power == 0.0
-
-
-def test_light_that_is_faint_since_it_was_dimmed_keeps_its_power():
+    assert (found.ended["eye"], found.links[-1].power) == (0.0, 0.0)
     path = op.Source() >> op.Attenuator(1e-30) >> op.Attenuator(0.5) >> op.Detector()
     assert energy_along(path).ended["detector"] == pytest.approx(5e-31)
 
 
-def test_many_values_give_powers_of_their_shape():
+def test_many_values_give_powers_and_lights_of_their_shape():
     found = assert_conserved(op.load_preset("malus"), angle=np.radians([[0.0], [90.0]]))
     assert {power.shape for power in found.taken.values()} == {(2, 1)}
+    lights = lights_along(op.load_preset("malus"), angle=np.linspace(0.0, 1.0, 5))
+    assert lights[-1].light.shape == (5,)
 
 
-def test_light_of_no_power_is_spent_on_nothing():
-    found = assert_conserved(op.load_preset("malus"), intensity=0.0)
-    assert total(found.taken, found.left, found.ended) == 0.0
-
-
-def test_all_of_it_is_written_as_json():
+def test_all_of_it_is_written_as_json_and_a_power_that_is_not_a_number_as_null():
     written = energy_along(op.load_preset("glass-slab")).as_json()
     read = json.loads(json.dumps(written))
     assert read == written
     assert read["links"][0]["name"] == "lamp.out -> front.in"
     assert read["ended"].keys() == {"reflected", "transmitted"}
-
-
-def test_a_power_that_is_not_a_number_is_null():
     path = op.path_from_vertices([[0, -1, 1], [0, 0, 0], [0, 9, 1]], [1.5], events="T", bad="mask")
     written = json.dumps(energy_along(path).as_json(), allow_nan=False)
     assert None in [link["power"] for link in json.loads(written)["links"]]
+
+
+BACK = "mirror.reflected -> analyzer-back.in", "polarizer-back.out -> returned.in"
+
+
+@rows(
+    "preset, before, behind",
+    [
+        ("npgr026", "X2.transmitted", "X1.reflected -> E.in"),
+        ("sky-and-window", "tilt.out -> pane.in", "pane.reflected -> polarizer.in"),
+        ("glass-slab", "front.transmitted -> down.in", "up.out -> front.back"),
+        ("ellipsometer-pcsa", "S.transmitted", "A.out -> photometer.in"),
+        ("faraday-isolator", *BACK),
+    ],
+)
+def test_light_stands_in_the_order_of_travel(preset, before, behind):
+    found = [each.name for each in lights_along(op.load_preset(preset))]
+    assert found.index(before) < found.index(behind)
+
+
+@rows("preset", PRESETS)
+def test_all_light_on_the_way_stands_behind_what_leads_to_it_unless_light_goes_round(preset):
+    path = op.load_preset(preset)
+    met, found = set(), lights_along(path)
+    for each in found:
+        arrives = {end for _, end in path.graph.in_edges(each.start)}
+        assert not arrives or each.start in met or path.compose().program.loops
+        met.add(each.end)
+    assert {each.name for each in found} == {*path.trace(keep="all")} - {*path.graph}
+
+
+def test_a_parameter_may_be_called_keep():
+    path = op.Source(op.Parameter("keep", 2.0)) >> op.Detector()
+    assert [each.light.intensity for each in lights_along(path, keep=3.0)] == [3.0]

@@ -1,0 +1,470 @@
+"""The presets: they are read as asked for, and their light is that of closed forms."""
+
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+from mpmath import mpf
+
+import optipath as op
+from crystal_optics import lyot, retardance, rhomb, solc
+from tables import rows
+from wired import read_back
+
+PRESETS = op.preset_names()
+
+
+def test_the_presets_that_were_promised_are_there():
+    promised = {"npgr026", "fresnel-rhomb", "two-panes", "three-polarizers", "malus", "senarmont"}
+    assert promised <= set(PRESETS)
+    assert sorted(PRESETS) == PRESETS
+
+
+@rows("name", PRESETS)
+def test_every_preset_and_case_runs_and_is_written_and_read_back_the_same(name, tmp_path):
+    whole = op.load_preset(name)
+    for path in (whole, *(op.load_preset(name, case=case) for case in whole.cases)):
+        assert np.all(np.isfinite(path.trace().stokes))
+        copy = read_back(path, tmp_path)
+        assert copy == path
+        assert copy.compose() == path.compose()
+        assert list(copy.parameters) == list(path.parameters)
+
+
+ANGLES = np.linspace(0.0, np.pi, 51)
+RETARDANCE = np.linspace(-np.pi, np.pi, 41)
+
+
+@rows(
+    "name, values, expected",
+    [
+        ("malus", {"angle": ANGLES}, 0.5 * np.cos(ANGLES) ** 2),
+        ("malus", {"angle": -ANGLES}, 0.5 * np.cos(ANGLES) ** 2),
+        ("three-polarizers", {"middle": "none"}, 0.0),
+        ("three-polarizers", {"middle": ANGLES}, np.sin(2 * ANGLES) ** 2 / 8),
+        # tan(theta) = n leaves F_s = ((n^2 - 1) / (n^2 + 1))^2 of s and nothing of p.
+        ("two-panes", {"turn": ANGLES}, 0.5 * (1.25 / 3.25) ** 4 * np.cos(ANGLES) ** 2),
+        # Dark at half the retardance, which it is by default, and bright across.
+        ("senarmont", {"retardance": RETARDANCE, "analyzer": np.pi / 2 + RETARDANCE / 2}, 0.0),
+        ("senarmont", {"retardance": RETARDANCE, "analyzer": RETARDANCE / 2}, 0.5),
+        ("senarmont", {}, 0.0),
+    ],
+)
+def test_polarisers_and_plates_follow_malus_law(name, values, expected):
+    found = op.load_preset(name).trace(**values).intensity
+    slack = {"senarmont": 1e-15 if values else 1e-16, "two-panes": 1e-17}.get(name, 1e-16)
+    np.testing.assert_allclose(found, expected, rtol=1e-15, atol=slack)
+
+
+def test_fresnels_rhomb_makes_circular_light():
+    # Born & Wolf, sec. 1.5.4: at 54 deg 37' or 48 deg 37' in glass of n = 1.51 each
+    # total reflection retards by 45 degrees.
+    path = op.load_preset("fresnel-rhomb")
+    for incidence in ("54.616666666666667 deg", "48.616666666666667 deg"):
+        stokes = path.trace(incidence=incidence).stokes
+        np.testing.assert_allclose(stokes, [0.5, 0, 0, -0.5], rtol=0, atol=1e-3)
+
+
+def test_a_double_pass_is_a_plate_of_twice_the_retardance():
+    # Chipman, Lam & Young, table 6.5; then y and z are turned over.
+    d, a = np.random.default_rng(2).uniform(-3.0, 3.0, (2, 20))
+    c, s = np.cos(2 * a), np.sin(2 * a)
+    both = [c**2 + s**2 * np.cos(2 * d), c * s * (np.cos(2 * d) - 1), s * np.sin(2 * d)]
+    light = op.load_preset("double-pass-waveplate").trace(retardance=d, angle=a)
+    np.testing.assert_allclose(light.stokes.T, [1 + 0 * a, *both], atol=1e-15)
+
+
+def by_an_ellipsometer(n, k, theta, polarizer, compensator, retardance, analyzer):
+    """The intensity behind P, C, S and A, azimuths from p towards s, fields exp(+iwt).
+
+    Azzam & Bashara, Ellipsometry and Polarized Light (1977), sec. 3.4: Jones vectors (p, s).
+    """
+
+    def along(angle):
+        return np.array([np.cos(angle), np.sin(angle)])
+
+    N, c = n - 1j * k, np.cos(theta)
+    g = np.sqrt(1.0 - (np.sin(theta) / N) ** 2)
+    sample = np.diag([(N * c - g) / (N * c + g), (c - N * g) / (c + N * g)])
+    fast, slow = along(compensator), along(compensator + np.pi / 2)
+    plate = np.outer(fast, fast) + np.exp(-1j * retardance) * np.outer(slow, slow)
+    return 0.5 * abs(along(analyzer) @ sample @ plate @ along(polarizer)) ** 2
+
+
+def test_the_ellipsometer_counts_azimuths_from_p_towards_s():
+    rng = np.random.default_rng(7)
+    limits = {"n": (0.2, 4.0), "k": (0.0, 4.0), "theta": (0.0, 1.5)}
+    limits |= dict.fromkeys(["polarizer", "compensator", "retardance", "analyzer"], (-3.0, 3.0))
+    plan = op.load_preset("ellipsometer-pcsa").compose()
+    for _ in range(50):
+        values = {name: rng.uniform(*between) for name, between in limits.items()}
+        found = plan.run_all(**values)["photometer"].intensity
+        assert found == pytest.approx(by_an_ellipsometer(**values), abs=1e-14)
+    # At Brewster's angle an analyser at 0 passes nothing of p; half the light before is s, of
+    # which r_s = (1 - n^2) / (1 + n^2) is reflected.
+    glass = {"n": 1.5, "k": 0.0, "theta": np.arctan(1.5), "retardance": 0.0}
+    along_p, along_s = (
+        plan.run_all(**glass, analyzer=analyzer)["photometer"].intensity
+        for analyzer in (0.0, np.pi / 2)
+    )
+    assert along_p < 1e-30
+    assert along_s == pytest.approx(0.25 * (1.25 / 3.25) ** 2)
+
+
+def test_psi_and_delta_of_the_light_of_an_ellipsometer_are_those_of_the_sample():
+    values = {"n": np.linspace(0.2, 4.0, 20), "k": np.linspace(3.0, 0.1, 20), "theta": 1.2}
+    light = op.load_preset("ellipsometer-pcsa").trace(**values)
+    sample = op.Interface(values["n"] + 1j * values["k"], 1.2).mueller()
+    np.testing.assert_allclose(light.psi, sample.psi, rtol=1e-13)
+    np.testing.assert_allclose(light.delta, sample.delta, rtol=1e-13)
+
+
+def test_values_given_take_precedence_over_the_case_whose_values_can_be_varied():
+    path, values = op.load_preset("npgr026"), op.load_preset("npgr026").cases["8"].values
+    found = op.load_preset("npgr026", case="7", filter="horizontal")
+    expected = op.load_preset("npgr026", case="8").trace().stokes
+    np.testing.assert_array_equal(found.trace().stokes, expected)
+    np.testing.assert_allclose(found.trace(intensity=200.0).stokes, 2 * expected)
+    of_case, angles = op.load_preset("npgr026", case=8), np.radians([10.0, 48.0, 80.0])
+    for given in ({"delta": angles}, {}, {"filter": "none"}):
+        np.testing.assert_array_equal(
+            of_case.trace(**given).stokes, path.trace(**{**values, **given}).stokes
+        )
+
+
+@rows("name", PRESETS)
+def test_a_case_leaves_every_parameter_open_with_its_range_words_and_unit(name):
+    plain = op.load_preset(name)
+    for case, said in plain.cases.items():
+        for parameter in op.load_preset(name, case=case).parameters.values():
+            known = plain.parameters[parameter.name]
+            assert not parameter.bound
+            default = said.values.get(parameter.name, known.default)
+            default = known.parse(default) if isinstance(default, str) else default
+            assert np.all(parameter.default == default)
+            assert replace(parameter, default=known.default) == known
+
+
+def test_what_is_given_beside_a_case_is_bound():
+    path = op.load_preset("npgr026", case=8, delta=0.5)
+    assert [name for name, p in path.parameters.items() if p.bound] == ["delta"]
+    with pytest.raises(op.ParameterError, match=r"'delta' is bound.*leave it out of load_preset"):
+        path.trace(delta=0.1)
+    with pytest.raises(op.ParameterError, match=r"'delta' is bound.*leave it open there"):
+        path.bind(delta=0.1)
+
+
+def test_a_case_given_by_number_leaves_an_element_out_and_it_can_be_put_back():
+    path = op.load_preset("npgr026", case=7)
+    assert path == op.load_preset("npgr026", case="7")
+    assert path.parameters["filter"].default == "none"
+    np.testing.assert_array_equal(
+        path.trace(filter="horizontal").stokes,
+        op.load_preset("npgr026", case=7, filter="horizontal").trace().stokes,
+    )
+
+
+def test_a_path_gets_new_defaults_and_stays_as_it_was():
+    path = op.load_preset("malus")
+    crossed = path.with_defaults(angle="90 deg")
+    assert crossed.trace().intensity == 0.0
+    assert crossed.trace(angle=0.0).intensity == 0.5
+    assert path.trace().intensity == pytest.approx(0.375)
+
+
+@rows(
+    "load, error, sentences",
+    [
+        ("npgr62", op.PresetError, ["'npgr62' is unknown", "did you mean 'npgr026'"]),
+        *(
+            (name, op.PresetError, ["neither the name of a preset"])
+            for name in ("../npgr026", "../x", "", "NPGR026")
+        ),
+        ("no-such.toml", op.PresetError, ["cannot be read", "No such file"]),
+        ("a\0b.toml", op.PresetError, ["cannot be read"]),
+        (3, op.PresetError, ["not 3"]),
+        (None, op.PresetError, ["not None"]),
+        (
+            lambda: op.load_preset("two-panes", case="crosed"),
+            *(op.PresetError, ["case 'crosed'", "did you mean 'crossed'"]),
+        ),
+        (
+            lambda: op.load_preset("npgr026", detla=1.0, phi=9.0, n1=-1.0),
+            *(op.ParameterError, ["3 faults", "did you mean 'delta'"]),
+        ),
+        (
+            lambda: op.load_preset("malus").with_defaults(angel=0.1, intensity=-1.0),
+            *(op.ParameterError, ["2 faults"]),
+        ),
+    ],
+)
+def test_presets_cases_and_values_that_do_not_exist_are_refused(load, error, sentences):
+    with pytest.raises(error) as caught:
+        load() if callable(load) else op.load_preset(load)
+    for sentence in sentences:
+        assert sentence in str(caught.value)
+
+
+MANY = ["".join(f"[{what}.x{n}]\n" for n in range(3001)) for what in ("elements", "parameters")]
+MANY.append("[[links]]\n" * 3001)
+
+
+@rows(
+    "content, error, message",
+    [
+        (b"\xff\xfe", op.OptipathError, "not UTF-8: byte 0 is 0xff"),
+        (b"a = = 1", op.OptipathError, "not TOML"),
+        (b"a = " + b"[" * 100_000, op.OptipathError, "not TOML"),
+        (b"format = 2", op.OptipathError, "has format 2, but this version reads format 1"),
+        (b"", op.OptipathError, "'format' is missing"),
+        (b"#" * (5 * 1024 * 1024), op.OptipathError, "larger than 4 MiB"),
+        # Not all of a huge file is read.
+        (100 * 1024 * 1024, op.PresetError, "larger than"),
+        (None, op.PresetError, "cannot be read"),
+        *(
+            (b"format = 1\n" + text.encode(), op.PathError, f"it has 3,001 {what}; give 3,000 at m")
+            for text, what in zip(MANY, ("elements", "parameters", "links"), strict=True)
+        ),
+    ],
+)
+def test_folders_and_files_that_are_no_presets_are_refused(content, error, message, tmp_path):
+    file = tmp_path / ("folder.toml" if content is None else "file.toml")
+    if content is None:
+        file.mkdir()
+    elif isinstance(content, int):
+        with file.open("wb") as handle:
+            handle.truncate(content)
+    else:
+        file.write_bytes(content)
+    with pytest.raises(error, match=message):
+        op.load_preset(file)
+
+
+def test_a_dichroic_sheet_at_45_degrees_between_crossed_polarizers_is_a_filter_and_a_plate():
+    # Along one axis, amplitudes t1 and t2 exp(i delta) interfere.
+    path = op.load_preset("dichroic-sheet")
+    thickness = np.linspace(0.0, 1e-4, 21)
+    t1, t2 = (np.exp(-0.5 * (0.1e6 + sign * 0.09e6) * thickness) for sign in (-1, 1))
+    expected = abs(t1 - t2 * np.exp(1j * np.radians(20e6) * thickness)) ** 2 / 8
+    found = path.trace(thickness=thickness).intensity
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+
+
+def test_the_cases_of_a_dichroic_sheet_are_what_their_notes_say():
+    clear, aligned, skewed = (
+        float(op.load_preset("dichroic-sheet", case=case).trace().intensity)
+        for case in ("clear", "aligned", "skewed")
+    )
+    assert clear == pytest.approx(np.sin(np.radians(250.0)) ** 2 / 2, rel=1e-14)
+    assert aligned == pytest.approx(np.exp(-0.25) / 2, rel=1e-15)
+    # One that is skewed is many thin filters and plates in turn.
+    count = 4096
+    plate = np.radians(500.0) / count
+    plate = op.Retarder(plate / 2, "45 deg").mueller().matrix
+    passed = np.exp(-0.01 * 25 / count), np.exp(-0.19 * 25 / count)
+    dye = op.Diattenuator(*passed, "25 deg").mueller().matrix
+    whole = np.linalg.matrix_power(plate @ dye @ plate, count)
+    first, last = (op.Polarizer(angle).mueller().matrix for angle in (0.0, "90 deg"))
+    # Halves before and behind are right to the square of the step.
+    assert skewed == pytest.approx((last @ whole @ first)[0, 0], rel=1e-5)
+
+
+@rows("case", ["crown", "flint", "brewster"])
+def test_a_prism_at_minimum_deviation_lets_through_what_fresnels_equations_say(case):
+    path = op.load_preset("prism-refraction", case=case)
+    apex, n = (path.parameters[name].default for name in ("apex", "n"))
+    inside, outside = np.cos(apex / 2), np.sqrt(1.0 - (n * np.sin(apex / 2)) ** 2)
+    # Both faces let through 4 p q / (p + q)^2, with q = n cos for s and cos / n for p.
+    s = (4.0 * n * inside * outside / (outside + n * inside) ** 2) ** 2
+    p = (4.0 * n * inside * outside / (n * outside + inside) ** 2) ** 2
+    expected = [0.5 * (s + p), 0.5 * (s - p), 0.0, 0.0]
+    np.testing.assert_allclose(path.trace().stokes, expected, rtol=0, atol=1e-15)
+    if case == "brewster":
+        assert p == pytest.approx(1.0, abs=1e-15), "all of p gets through"
+
+
+def test_a_prism_by_its_points_is_the_same():
+    apex, n = np.radians(60.0), 1.5
+    # It stands on its base, along which light runs inside; outside it is turned down on both sides.
+    half = 0.5 * (2.0 * np.arcsin(n * np.sin(apex / 2)) - apex)
+    away = [np.cos(half), 0.0, -np.sin(half)]
+    points = [[-1 - away[0], 0, away[2]], [-1, 0, 0], [1, 0, 0], [1 + away[0], 0, away[2]]]
+    faces = [[-np.cos(apex / 2), 0, np.sin(apex / 2)], [np.cos(apex / 2), 0, np.sin(apex / 2)]]
+    chain = op.path_from_vertices(points, [n, 1.0], faces, events="TT")
+    expected = op.load_preset("prism-refraction").trace(apex=apex, n=n).stokes
+    np.testing.assert_allclose(chain.trace().stokes, expected, rtol=0, atol=1e-15)
+
+
+def test_fields_that_are_wrong_let_light_come_back_by_the_closed_form_of_an_isolator():
+    path, fields, verdet, length = op.load_preset("faraday-isolator"), ANGLES - 1.2, -134.0, 0.02
+    ideal = path.trace_all()
+    assert (ideal["passed"].intensity, ideal["returned"].intensity) == (1.0, 0.0)
+    lights = path.trace_all(verdet=verdet, length=length, field=fields)
+    short = np.pi / 4 - verdet * length * fields
+    passed, returned = np.cos(short) ** 2, np.sin(2 * short) ** 2 / 4
+    np.testing.assert_allclose(lights["passed"].intensity, passed, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(lights["returned"].intensity, returned, rtol=0, atol=1e-15)
+    # In the wrong field it isolates the other way.
+    assert path.trace_all(field=0.5)["passed"].intensity == pytest.approx(0.0, abs=1e-30)
+    for case, returned in (("tgg", 7e-12), ("weak-field", 0.00154)):
+        garnet = op.load_preset("faraday-isolator", case=case)
+        assert garnet.trace().intensity == pytest.approx(returned, rel=0.01)
+
+
+def plate(polarization, n, k, depth, incidence):
+    """What one plate reflects and lets through, by Fresnel's equations for waves that fade."""
+    m, y = mpmath.mpc(n, k), mpmath.sin(incidence)
+    c, g = mpmath.cos(incidence), mpmath.sqrt(m * m - y * y)
+    first, second = (c, g) if polarization == "s" else (c, g / (m * m))
+    R = abs((first - second) / (first + second)) ** 2
+    T = abs(2 * first / (first + second)) ** 2 * second.real / first
+    T_back = abs(2 * second / (first + second)) ** 2 * first / second.real
+    t = mpmath.exp(-depth * g.imag)
+    rounds = 1 / (1 - R * R * t * t)
+    return R + T * T_back * R * t * t * rounds, T * T_back * t * rounds
+
+
+def pile(R, T, plates=4):
+    """R and T of a pile (G. G. Stokes, Proc. R. Soc. Lond. 11, 545 (1862))."""
+    root = mpmath.sqrt((1 + R + T) * (1 + R - T) * (1 - R + T) * (1 - R - T))
+    a, b = (1 + R * R - T * T + root) / (2 * R), (1 - R * R + T * T + root) / (2 * T)
+    bottom = a * b**plates - 1 / (a * b**plates)
+    return (b**plates - b**-plates) / bottom, (a - 1 / a) / bottom
+
+
+@rows("case", ["tinted", "normal", "smoked"])
+def test_an_absorbing_pile_is_stokes_formula_in_50_digits(case):
+    path = op.load_preset("absorbing-pile", case=case)
+    values = {name: parameter.default for name, parameter in path.parameters.items()}
+    with mpmath.workdps(50):
+        depth = 4 * mpmath.pi * mpf(values["thickness"]) / mpf(values["wavelength"])
+        of_plate = [mpf(values[name]) for name in ("n", "k")]
+        # At Brewster's angle a plate reflects next to nothing of p.
+        (Rs, Ts), (Rp, Tp) = (
+            pile(*plate(way, *of_plate, depth, mpf(values["theta"]))) for way in "sp"
+        )
+        exact = {"reflected": (Rs, Rp), "transmitted": (Ts, Tp)}
+        for name, light in path.trace_all().items():
+            s, p = exact[name]
+            assert light.stokes[0] == pytest.approx(float((s + p) / 2), rel=1e-12)
+            assert light.stokes[1] == pytest.approx(float((s - p) / 2), rel=1e-12, abs=1e-15)
+
+
+def test_a_clear_pile_absorbs_nothing_and_is_the_lossless_stack():
+    lights = op.load_preset("absorbing-pile", case="clear").trace_all()
+    assert sum(light.intensity for light in lights.values()) == pytest.approx(1.0, abs=1e-15)
+    lossless = op.LayerStack([1.0] + [1.5, 1.0] * 4, "56.309932474020215 deg")
+    expected = lossless.mueller("in", "transmitted").matrix[:, 0]
+    assert lights["transmitted"].stokes == pytest.approx(expected, abs=1e-15)
+
+
+VISIBLE = np.linspace(4e-7, 7e-7, 61)
+CRYSTALS = ["lyot-filter", "solc-filter", "quartz-quarter-wave", "achromatic-rhomb"]
+
+
+def each(function, number):
+    """A closed form of a number and the wavelength, in 50 digits, over the visible ones."""
+    with mpmath.workdps(50):
+        return np.array([float(function(mpf(number), mpf(float(one)))) for one in VISIBLE])
+
+
+@rows("name, closed", [("lyot-filter", lyot), ("solc-filter", solc)])
+def test_a_filter_lets_through_what_its_closed_form_says(name, closed):
+    path = op.load_preset(name)
+    exact = each(closed, path.parameters["thickness"].default)
+    light = op.Composer(engine="numpy").compose(path).run(wavelength=VISIBLE)
+    np.testing.assert_allclose(light.intensity, exact, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(np.abs(light.stokes[:, 1]), light.intensity, rtol=0, atol=1e-15)
+
+
+@rows(
+    "name, number, closed, S0, handed, slack",
+    [
+        ("quartz-quarter-wave", "thickness", retardance, 1.0, 1.0, 1e-12),
+        ("achromatic-rhomb", "incidence", rhomb, 0.5, -1.0, 1e-14),
+    ],
+)
+def test_a_wave_plate_and_a_rhomb_retard_as_their_closed_forms_say(
+    name, number, closed, S0, handed, slack
+):
+    path = op.load_preset(name)
+    light, exact = path.trace(wavelength=VISIBLE), each(closed, path.parameters[number].default)
+    np.testing.assert_allclose(light.stokes[:, 2], S0 * np.cos(exact), rtol=0, atol=slack)
+    np.testing.assert_allclose(light.stokes[:, 3], handed * S0 * np.sin(exact), rtol=0, atol=slack)
+    if name == "achromatic-rhomb":
+        assert np.all(np.abs(np.degrees(exact) - 90.0) < 1.2)
+    else:
+        assert path.trace().docp == pytest.approx(1.0, abs=1e-15)
+
+
+@pytest.mark.slow
+@rows(
+    "name, number, closed, S, wavelengths",
+    [
+        ("lyot-filter", "thickness", lyot, 0, (4.3e-7, 5.461e-7, 6.57e-7)),
+        (
+            *("quartz-quarter-wave", "thickness"),
+            *(lambda d, w: mpmath.cos(retardance(d, w)), 2, (4.3e-7,)),
+        ),
+        (
+            *("achromatic-rhomb", "incidence"),
+            *(lambda a, w: mpmath.cos(rhomb(a, w)) / 2, 2, (4.1e-7, 6.5e-7)),
+        ),
+    ],
+)
+def test_slopes_are_those_of_the_closed_forms(jax, name, number, closed, S, wavelengths):
+    path = op.load_preset(name)
+    default = path.parameters[number].default
+    plan = op.Composer(engine="jax").compose(path)
+
+    def part(wavelength, value):
+        return plan.run(**{"wavelength": wavelength, number: value}).stokes[S]
+
+    with mpmath.workdps(50):
+        for wavelength in wavelengths:
+            found = jax.grad(part, argnums=(0, 1))(wavelength, default)
+            places = (mpf(default), mpf(wavelength))
+            exact = [mpmath.diff(closed, places, order) for order in ((0, 1), (1, 0))]
+            rtol = 1e-12 if name == "quartz-quarter-wave" else 1e-9
+            np.testing.assert_allclose(found, [float(slope) for slope in exact], rtol=rtol)
+
+
+@rows("angle", ["0 deg", "22.5 deg", "45 deg", "70 deg"])
+def test_a_band_of_wavelengths_leaves_the_depolarizer_unpolarized(angle):
+    path = op.load_preset("lyot-depolarizer")
+    band = 1.0 / np.linspace(1.0 / 5e-7, 1.0 / 6e-7, 4001)
+    light = path.trace(wavelength=band, angle=angle, thickness="10 mm")
+    np.testing.assert_allclose(light.dop, 1.0, rtol=0, atol=1e-13)
+    whole = light.stokes.mean(axis=0)
+    assert np.linalg.norm(whole[1:]) / whole[0] < 0.02
+
+
+def test_copper_and_gold_are_those_of_johnson_and_christy():
+    # Linear between 495.9 and 520.9 nm: Phys. Rev. B 6, 4370 (1972), table I.
+    share = (516.0 - 495.9) / (520.9 - 495.9)
+    gold = 1.04 + 1.833j + share * ((0.62 + 2.081j) - (1.04 + 1.833j))
+    copper = 1.22 + 2.564j + share * ((1.18 + 2.608j) - (1.22 + 2.564j))
+    known = {"delta": "48 deg", "rho": "34 deg", "phi": "20 deg"}
+    same = op.load_preset("npgr026", **known).trace(
+        n1=copper.real, k1=copper.imag, n2=gold.real, k2=gold.imag
+    )
+    light = op.load_preset("copper-gold-spectrum").trace(wavelength="516 nm")
+    np.testing.assert_allclose(light.stokes, same.stokes, rtol=1e-13)
+
+
+@rows("name", [*CRYSTALS, "lyot-depolarizer"])
+def test_cases_come_out_as_they_are_told(name):
+    path = op.load_preset(name)
+    for case, told in path.cases.items():
+        light = op.load_preset(name, case=case).trace()
+        np.testing.assert_allclose(light.stokes, told.published["eye"], rtol=0, atol=2e-9)
+
+
+def test_a_wavelength_may_be_a_photon_energy_and_outside_the_range_is_refused():
+    path = op.load_preset("lyot-filter")
+    assert path.trace(wavelength="2.4 eV").intensity == pytest.approx(
+        path.trace(wavelength=1.2398419843320026e-6 / 2.4).intensity, abs=1e-12
+    )
+    with pytest.raises(op.ParameterError, match=r"give 200 nm \.\. 2000 nm"):
+        path.trace(wavelength="100 nm")

@@ -1,0 +1,447 @@
+"""Materials and curves by wavelength in paths, and in place of the parameters of a path."""
+
+import copy
+import pickle
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import optipath as op
+from batches_of_chains import quickly
+from chains import ENGINES
+from optipath.lab.accuracy.path_reference import exact_stokes
+from optipath.paths.drawing import draw
+from tables import rows
+from wired import read_back, wired
+
+STATE = (1.0, 0.3, 0.2, 0.1)
+B, C = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.560653)
+BK7 = op.Material.sellmeier(B, C, name="BK7")
+TINTED = op.Material.sellmeier(B, C, k=2e-6, name="tinted glass")
+SILICA = op.Material.cauchy([1.458, 0.00354], name="silica")
+GOLD = op.Material.tabulated(
+    ["400 nm", "500 nm", "521 nm", "700 nm"],
+    [1.47, 0.97, 0.62, 0.13],
+    [1.95, 1.87, 2.08, 4.0],
+    name="gold",
+)
+WAVELENGTHS = np.array([450e-9, 516e-9, 633e-9])
+FOLLOWING = op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)
+
+
+def as_it_is(given):
+    return given
+
+
+def slab(at=as_it_is, _=None, outside=op.FOLLOWS, behind=1.0):
+    back = op.Interface(at(behind), op.FOLLOWS, outside=at(outside))
+    ends = {"lamp": op.Source(1.0, STATE), "front": op.Interface(at(BK7), 0.7), "back": back}
+    links = "lamp -> front, front.transmitted -> back, back.transmitted -> eye"
+    return wired({**ends, "eye": op.Detector()}, links)
+
+
+def slab_with_echoes(at, _):
+    ends = {"lamp": op.Source(1.0, STATE), "front": op.Interface(at(BK7), 0.7), "back": FOLLOWING}
+    return wired(
+        {**ends, "eye": op.Detector(), "dump": op.Dump()},
+        "lamp -> front, front.transmitted -> back, back.reflected -> front.back, "
+        "front.reflected -> dump, back.transmitted -> eye",
+        loops="sum",
+    )
+
+
+def stack(at, wavelength):
+    layers = [1.0, at(TINTED), at(SILICA), at(GOLD)]
+    lengths = ["1 mm", "2 mm"]
+    pane = op.LayerStack(layers, 0.6, lengths=lengths, wavelength=wavelength)
+    return op.Source(1.0, STATE) >> pane >> op.Detector()
+
+
+def chain(at, _):
+    points = [[0, -1, 1], [0, 0, 0], [0, 1, -1.5], [0.3, 2, 0.2], [0.5, 3, 1]]
+    return op.path_from_vertices(points, materials=[at(GOLD), at(SILICA), at(GOLD)], events="RRR")
+
+
+def double_pass(at, _):
+    metal = op.Interface(at(GOLD), 0.0)
+    way = op.there_and_back(op.Medium("1 mm", absorption="1 1/cm"), metal)
+    return op.Source(1.0, STATE) >> way >> op.Detector()
+
+
+def turned_round(at, _):
+    return slab(at, _).reversed()
+
+
+PATHS = [slab, slab_with_echoes, stack, chain, double_pass, turned_round]
+
+
+# Loops and stacks are compiled for many seconds, by JAX most of all.
+@pytest.mark.parametrize(
+    ("engine", "built"),
+    [
+        ("numpy", PATHS),
+        *((engine, [slab]) for engine in ENGINES[1:]),
+        pytest.param("numba", PATHS, marks=pytest.mark.slow),
+    ],
+)
+def test_light_of_each_wavelength_is_that_of_the_numbers_there(engine, built):
+    for build in built:
+        path = build(as_it_is, op.Wavelength())
+        together = op.Composer(engine=engine).compose(path).run(wavelength=WAVELENGTHS).stokes
+        for found, wavelength in zip(np.asarray(together), WAVELENGTHS.tolist(), strict=True):
+
+            def at(given, wavelength=wavelength):
+                return given.at(wavelength) if isinstance(given, op.Material) else given
+
+            expected = build(at, wavelength).trace().stokes
+            np.testing.assert_allclose(found, expected, rtol=1e-14, atol=1e-17)
+        bound = path.bind(wavelength="516 nm").trace().stokes
+        np.testing.assert_allclose(bound, path.trace(wavelength="516 nm").stokes, rtol=1e-14)
+
+
+@rows("outside", [SILICA, 1.5])
+def test_two_materials_on_both_sides_of_a_link_are_refused_by_their_names(outside):
+    with pytest.raises(op.OptipathError) as fault:
+        slab(outside=outside).trace(wavelength="516 nm")
+    told = str(fault.value)
+    assert "'back.in' is lit from n = 1.520" in told
+    assert "(n of BK7) behind 'front'" in told
+    assert told.endswith("op.FOLLOWS for outside")
+    assert "[" not in told
+    # One material on both sides is one medium.
+    by_hand = slab(outside=BK7).trace(wavelength="516 nm")
+    assert by_hand == slab().trace(wavelength="516 nm")
+
+
+def test_rays_are_refracted_by_the_index_of_their_wavelength():
+    # Snell's law at the second face, into silica: n sin(incidence) is that in air.
+    path = slab(behind=SILICA)
+    for wavelength in WAVELENGTHS.tolist():
+        glass, silica = BK7.at(wavelength).n, SILICA.at(wavelength).n
+        first = np.arcsin(np.sin(0.7) / glass)
+        front = op.Interface(glass, 0.7).mueller("in", "transmitted").matrix
+        back = op.Interface(silica, first, outside=glass).mueller("in", "transmitted").matrix
+        found = path.trace(wavelength=wavelength).stokes
+        np.testing.assert_allclose(found, back @ front @ STATE, rtol=1e-13)
+
+
+BELOW = op.Material.tabulated(
+    [500e-9, 600e-9], [0.9, 0.1], [2.0, 3.0], name="metal", extrapolate="linear"
+)
+
+
+@rows(
+    "call, sentences",
+    [
+        (op.Interface(GOLD, 0.3).mueller, ["n of gold of interface depends on the wavelength"]),
+        *(
+            (
+                lambda end=end: stack(as_it_is, op.Wavelength()).trace(wavelength=["500 nm", end]),
+                ["within 400 nm .. 700 nm, for which gold is known", "layer-stack.indices[3].n"],
+            )
+            for end in ("300 nm", "5 um")
+        ),
+        (
+            lambda: (op.Source() >> op.Interface(BELOW, 0.3) >> op.Detector()).trace(
+                wavelength=["550 nm", "700 nm"]
+            ),
+            [
+                "n of metal at 700 nm is -0.7 (beyond its samples a straight line goes on), and ",
+                "and interface.index.n takes a real index of refraction of 0 or more; give another",
+            ],
+        ),
+    ],
+)
+def test_where_a_material_is_not_known_it_is_refused_where_it_stands(call, sentences):
+    with pytest.raises(op.OptipathError) as fault:
+        call()
+    for sentence in sentences:
+        assert sentence in str(fault.value)
+
+
+def test_jax_gets_nan_where_a_material_is_not_known(jax):
+    path = op.Source() >> op.Interface(GOLD, 0.3) >> op.Detector()
+    light = jax.jit(lambda w: path.trace(wavelength=w).stokes)
+    assert np.isnan(light(5e-6)).all()
+    assert np.isfinite(light(5e-7)).all()
+
+
+def reference(wavelength, strength, plasma, length):
+    """The intensity behind a pane of glass that absorbs, of light reflected by a metal there."""
+    w = wavelength * 10**6
+    strengths = (strength, *map(mp.mpf, B[1:]))
+    glass = mp.sqrt(
+        1 + sum(b * w**2 / (w**2 - mp.mpf(c)) for b, c in zip(strengths, C, strict=True))
+    )
+    constant = mp.mpf("6.62607015e-34") * 299792458 / mp.mpf("1.602176634e-19")
+    energy = constant / wavelength
+    metal = mp.sqrt(4 - plasma**2 / (energy * (energy + mp.mpc(0, 1) * mp.mpf(0.07))))
+    there, tilt = mp.mpf(0.7), mp.mpf(0.9)
+    inside = mp.asin(mp.sin(there) / glass)
+    one, other = mp.cos(there), glass * mp.cos(inside)
+    passes = [
+        4 * one * other / (one + other) ** 2,
+        4 * glass * mp.cos(inside) * one / (glass * one + mp.cos(inside)) ** 2,
+    ]
+    cosine = mp.cos(tilt)
+    slanted = mp.sqrt(metal**2 - mp.sin(tilt) ** 2)
+    mirrors = [
+        abs((cosine - slanted) / (cosine + slanted)) ** 2,
+        abs((metal**2 * cosine - slanted) / (metal**2 * cosine + slanted)) ** 2,
+    ]
+    dimmed = mp.exp(-200 * length)
+    s1 = mp.mpf(STATE[1])
+    parts = zip([(1 + s1) / 2, (1 - s1) / 2], passes, mirrors, strict=True)
+    return sum(weight * t**2 * dimmed * r for weight, t, r in parts)
+
+
+def test_slopes_of_light_in_wavelength_coefficients_and_thickness_have_twelve_digits(jax):
+    glass = op.Material.sellmeier([op.Parameter("b"), *B[1:]], C)
+    metal = op.Material.drude_lorentz(op.Parameter("plasma"), 0.07, background=4.0)
+    pane = op.Medium(op.Parameter("length"), absorption="2 1/cm")
+    ends = {"lamp": op.Source(1.0, STATE), "front": op.Interface(glass, 0.7), "glass": pane}
+    ends |= {"back": FOLLOWING, "mirror": op.Interface(metal, 0.9, parallel=False)}
+    path = wired(
+        {**ends, "eye": op.Detector()},
+        "lamp -> front, front.transmitted -> glass, glass -> back, back.transmitted -> mirror, "
+        "mirror.reflected -> eye",
+    )
+    names = ("wavelength", "b", "plasma", "length")
+    values = (516e-9, B[0], 9.03, 2e-3)
+
+    def intensity(*given):
+        return path.trace(**dict(zip(names, given, strict=True))).stokes[0]
+
+    with mp.workdps(50):
+        exact = [mp.mpf(value) for value in values]
+        assert intensity(*values) == pytest.approx(float(reference(*exact)), rel=1e-14)
+        with quickly("jax"):
+            slopes = jax.grad(intensity, (0, 1, 2, 3))(*values)
+        for place, slope in enumerate(slopes):
+            order = tuple([int(each == place) for each in range(4)])
+            wanted = mp.diff(reference, tuple(exact), order)
+            assert float(slope) == pytest.approx(float(wanted), rel=1e-12)
+
+
+GRID = np.array([4.0e-7, 4.4e-7, 5.16e-7])
+NODES, N, K = [4e-7, 5e-7, 6e-7], [1.5, 1.0, 0.3], [1.9, 1.8, 2.9]
+
+
+def paint(wavelength=None):
+    return op.Material.tabulated(NODES, N, K, name="paint", wavelength=wavelength)
+
+
+def interpolated(wavelengths):
+    return np.interp(wavelengths, NODES, N), np.interp(wavelengths, NODES, K)
+
+
+def panes(case=7, **given):
+    return op.load_preset("npgr026", case=case, **given)
+
+
+def test_a_material_bound_to_the_n_of_an_index_gives_n_and_k_of_the_path():
+    path = panes(n1=paint())
+    assert "wavelength" in path.parameters
+    assert {"n1", "k1"}.isdisjoint(path.parameters)
+    n, k = interpolated(GRID)
+    expected = panes().trace(n1=n, k1=k).stokes
+    np.testing.assert_allclose(path.trace(wavelength=GRID).stokes, expected, rtol=1e-13)
+    # What was published for other values is left out.
+    assert path.cases["7"].published == {}
+    assert "k1" not in path.cases["7"].values
+    assert path.cases["7"].values["n2"] == 0.608
+
+
+def test_two_materials_share_one_wavelength_and_may_be_bound_behind_it():
+    path = op.load_preset("npgr026").bind(n1=paint(), n2=paint(), wavelength="500 nm")
+    expected = op.load_preset("npgr026").trace(n1=1.0, k1=1.8, n2=1.0, k2=1.8)
+    assert path.trace() == expected
+    path = panes(n1=paint()).bind(wavelength="500 nm").bind(n2=paint())
+    assert path.trace() == panes(n1=paint()).bind(wavelength="500 nm", n2=paint()).trace()
+    assert path.parameters["wavelength"].bound
+
+
+def test_a_constant_material_gives_both_as_well():
+    path = panes().bind(n1=op.Material(1.12, 2.16))
+    assert path.parameters["k1"].bound
+    assert path.trace() == panes().trace()
+    # The k of the case would be none of glass.
+    assert panes().bind(n1=op.Material(1.5)).trace() == panes().trace(n1=1.5, k1=0.0)
+
+
+def test_an_index_that_is_one_parameter_takes_a_material():
+    path = op.Source() >> op.Interface(op.Parameter("m"), "40 deg") >> op.Detector()
+    light = path.bind(m=paint()).trace(wavelength="500 nm")
+    np.testing.assert_allclose(light.stokes, path.trace(m=1.0 + 1.8j).stokes, rtol=1e-13)
+
+
+SHARED_K = op.Parameter("k")
+
+
+def lit(*indices):
+    path = op.Source()
+    for index in indices:
+        path = path >> op.Interface(index, 0.3)
+    return path >> op.Detector()
+
+
+def bound_in_a_part_of_a_path_and_open_in_another():
+    part = (op.Source() >> op.Interface(paint(), 0.3)).bind(wavelength="500 nm")
+    (part >> op.Interface(paint(), 0.3) >> op.Detector()).trace()
+
+
+TGG = op.drude_rotation([-41.72], [0.08909], unit="rad/(T m)", label="TGG")
+GREEN = op.tabulated(["500 nm", "600 nm"], [0.2, 0.8], label="green")
+ISOLATOR = op.load_preset("faraday-isolator")
+PANES = op.load_preset("npgr026")
+
+
+@rows(
+    "give, sentence",
+    [
+        (lambda: PANES.bind(n1=paint(), k1=0.1), "'k1' is given by 'n1', .* leave k1 out"),
+        (lambda: PANES.trace(n1=paint()), r"depends on wavelength, .* path.bind\(n1=...\)"),
+        (lambda: PANES.with_defaults(n1=paint()), r"bind it, by path.bind\(.1=...\)"),
+        (lambda: PANES.bind(delta=paint()), "'delta' .* stands for an index of refraction"),
+        (lambda: PANES.bind(k1=paint()), "'k1' .* stands for an index of refraction"),
+        (
+            lambda: PANES.bind(n1=paint(), wavelength="1 um"),
+            "1000 nm; .* 400 nm .. 600 nm, for which paint",
+        ),
+        (lambda: PANES.bind(n1=paint(), wavelength=516), "write '516 nm'"),
+        (
+            lambda: lit(op.Material(op.Parameter("n"), 2.0)).bind(n=paint()),
+            "k is 2 where the path is built",
+        ),
+        (
+            lambda: lit(op.Material(op.Parameter("n"), SHARED_K), op.Material(1.5, SHARED_K)).bind(
+                n=paint()
+            ),
+            r"'k' stands at interface-2.index.k besides",
+        ),
+        (
+            lambda: lit(op.Material(0.5 * op.Parameter("n"), SHARED_K)).bind(n=paint()),
+            r"'n' stands as 0.5 \* n",
+        ),
+        (
+            bound_in_a_part_of_a_path_and_open_in_another,
+            r"'wavelength' is open at .*, and bound elsewhere to 500 nm; bind it",
+        ),
+        # Curves of one number.
+        (lambda: ISOLATOR.bind(length=TGG), "rad/"),
+        (lambda: ISOLATOR.with_defaults(verdet=TGG), r"bind it, by path\.bind\(verdet"),
+        (lambda: ISOLATOR.compose().run_all(verdet=TGG), r"write path\.bind\(verdet"),
+        (lambda: ISOLATOR.bind(verdet=TGG, vordet=TGG), "'vordet' is unknown"),
+        (lambda: ISOLATOR.bind(verdet=TGG).bind(wavelength=GREEN), "must be a number"),
+    ],
+)
+def test_what_a_material_or_a_curve_cannot_do_is_told_with_the_cure(give, sentence):
+    with pytest.raises(op.OptipathError, match=sentence):
+        give()
+
+
+def test_a_path_with_a_material_is_copied_kept_and_written(tmp_path):
+    path = panes(n1=paint())
+    for other in (copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))):
+        assert other == path
+        assert other.trace(wavelength="500 nm") == path.trace(wavelength="500 nm")
+    assert read_back(path, tmp_path) == path
+    assert panes(n1=paint("500 nm")) != path
+    plan = pickle.loads(pickle.dumps(path.compose()))
+    assert plan.run(wavelength=GRID) == path.trace(wavelength=GRID)
+
+
+def test_drawings_and_explanations_call_a_material_by_its_name():
+    path = op.load_preset("npgr026", n1=paint())
+    assert "X1  interface  index=paint  incidence=$delta" in draw(path)
+    explained = str(path.compose().explanation())
+    assert "parameter wavelength: must be given" in explained
+    assert "n of paint follows from wavelength" in explained
+    green = str(path.bind(wavelength="516 nm").compose().explanation())
+    assert "parameter wavelength = 516 nm" in green
+    assert "paint" not in green
+
+
+def test_questions_of_a_plan_and_the_reference_take_the_wavelength():
+    n, k = interpolated(5.16e-7)
+    path, same = panes(8, n1=paint()), panes(8, n1=float(n), k1=float(k))
+    green = path.bind(wavelength="516 nm")
+    for ask in (
+        lambda one: one.trace().stokes,
+        lambda one: one.mueller().matrix,
+        lambda one: one.reversed().trace().stokes,
+        lambda one: one.paths()[0].light.stokes,
+        lambda one: op.polarization(one).certificate.upper,
+        lambda one: one.compose().certificate().lower,
+    ):
+        np.testing.assert_allclose(ask(green), ask(same), rtol=1e-12, atol=1e-15)
+    exact = [float(part) for part in exact_stokes(path, wavelength="516 nm")["E"]]
+    light = path.trace(wavelength="516 nm")
+    np.testing.assert_allclose(light.stokes, exact, rtol=20 * 2.0**-52)
+
+
+def _verdet(micrometres):
+    return -41.72 / (micrometres**2 - 0.08909)
+
+
+def test_a_curve_stands_where_a_parameter_of_a_preset_does():
+    turned = _verdet(0.6328) * -0.5 * 20e-3
+    expected = np.cos(np.pi / 4 - turned) ** 2
+    at = {"wavelength": "632.8 nm"}
+    lights = [
+        op.load_preset("faraday-isolator", verdet=TGG).trace_all(**at),
+        ISOLATOR.bind(verdet=TGG).trace_all(**at),
+        ISOLATOR.bind(verdet=TGG, **at).trace_all(),
+        ISOLATOR.trace_all(verdet=TGG, **at),
+        ISOLATOR.bind(verdet=0.5 * TGG + "0 rad/(T m)", length="40 mm").trace_all(**at),
+    ]
+    for light in lights:
+        assert light["passed"].intensity == pytest.approx(expected, rel=1e-12)
+    # It takes precedence over a case.
+    path = op.load_preset("faraday-isolator", case="tgg", verdet=TGG)
+    again = op.load_preset("faraday-isolator", case="tgg").parameters
+    assert again["verdet"].default == pytest.approx(_verdet(0.6328), rel=1e-2)
+    assert path.trace_all(**at)["passed"].intensity == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_curve_keeps_its_multiple_and_that_of_its_place():
+    share = op.Parameter("share")
+    path = op.Source() >> op.Attenuator(0.1 + 0.5 * share) >> op.Detector()
+    light = path.trace(share=2.0 * GREEN - 0.1, wavelength="550 nm")
+    assert light.intensity == pytest.approx(0.1 + 0.5 * (2 * 0.5 - 0.1), rel=1e-14)
+
+
+def test_a_spectrum_stands_for_the_parameter_of_a_source_and_of_a_detector():
+    path = op.Source(spectrum=op.Parameter("s")) >> op.Detector(response=op.Parameter("r"))
+    lamp = op.Spectrum(["500 nm", "600 nm"], [1.0, 3.0])
+    grid = ["500 nm", "550 nm", "600 nm"]
+    light = path.trace(s=lamp, r=GREEN, wavelength=grid)
+    np.testing.assert_allclose(light.intensity, [0.2, 1.0, 2.4], rtol=1e-14)
+
+
+def test_curves_of_the_numbers_of_all_presets_give_the_same_light():
+    faults, tried = [], 0
+    for preset in op.preset_names():
+        path = op.load_preset(preset)
+        for name, one in path.parameters.items():
+            number = isinstance(one.default, float) and not one.bound and np.isfinite(one.default)
+            if not number or isinstance(one, op.Wavelength) or one.words or one.optional:
+                continue
+            unit = one.unit if one.unit else ""
+            text = one.text(one.default)
+            curve = op.tabulated(["100 nm", "10 um"], [text, text], unit)
+            given = {"wavelength": 5e-7} if "wavelength" not in path.parameters else {}
+            try:
+                found = path.bind(**{name: curve}).trace_all(**given)
+            except op.OptipathError as fault:
+                faults.append(f"{preset} {name}: {fault}")
+                continue
+            tried += 1
+            for end, light in path.trace_all().items():
+                if not np.allclose(
+                    found[end].stokes, light.stokes, rtol=1e-9, atol=1e-12, equal_nan=True
+                ):
+                    faults.append(f"{preset} {name}: {found[end]} {light}")
+    assert faults == []
+    assert tried > 50

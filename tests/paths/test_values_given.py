@@ -1,0 +1,190 @@
+"""Values given without a name, by a wrong one, as a word or as None, and what is told."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from paths import chain
+from tables import rows
+from wired import wired
+
+
+def npgr026(**values):
+    return op.load_preset("npgr026", **values)
+
+
+def malus(**values):
+    return op.load_preset("malus", **values)
+
+
+def fault(action, *given, **values):
+    with pytest.raises(op.OptipathError) as error:
+        action(*given, **values)
+    return str(error.value)
+
+
+@rows(
+    "call, written",
+    [
+        (lambda path: path.trace(0.3), "trace(angle=0.3)"),
+        (lambda path: path.trace(0.3, 0.4), "trace(angle=0.3)"),
+        (lambda path: path.trace([0.1, 0.2]), "trace(angle=[0.1, 0.2])"),
+        (lambda path: path.trace({"angle": 0.3}), "trace(**{'angle': 0.3})"),
+        (lambda path: path.trace_all(0.3), "trace_all(angle=0.3)"),
+        (lambda path: path.mueller(0.3), "mueller(angle=0.3)"),
+        (lambda path: path.mueller("lamp", "eye", 0.3), "mueller(angle=0.3)"),
+        (lambda path: path.bind(0.3), "bind(angle=0.3)"),
+        (lambda path: path.paths({"angle": 0.3}), "paths(**{'angle': 0.3})"),
+        (lambda path: path.compose().run(0.3), "run(angle=0.3)"),
+        (lambda path: path.compose().run_all(0.3), "run_all(angle=0.3)"),
+        (lambda path: path.compose().certificate(0.3), "certificate(angle=0.3)"),
+        (lambda path: next(path.compose().stream(9, 0.3)), "stream(angle=0.3)"),
+    ],
+)
+def test_a_value_without_a_name_is_shown_with_one(call, written):
+    with pytest.raises(op.ParameterError) as told:
+        call(malus())
+    assert f"given by name: {written}; there are: angle" in str(told.value)
+
+
+@rows(
+    "call, sentence",
+    [
+        (lambda: malus(angle=0.1, intensity=1.0).trace(0.3), "no parameter is open"),
+        (lambda: malus().trace("all"), "trace(keep='all')"),
+        (lambda: op.load_preset("npgr026", 8), "load_preset('npgr026', case=8)"),
+        (lambda: op.load_preset("npgr026", "8"), "load_preset('npgr026', case='8')"),
+        (lambda: op.load_preset("npgr026", 0.3), "load_preset('npgr026', delta=0.3)"),
+        (lambda: op.load_preset("npgr026", {"n1": 2}), "load_preset('npgr026', **{'n1': 2})"),
+        # The other part of a complex index is told by its name.
+        *(
+            (lambda act=act, index=index: act(n1=index), "give k by k1")
+            for act in (npgr026().trace, npgr026().bind, npgr026)
+            for index in (1.2 + 2j, "1.2+2j")
+        ),
+        (lambda: npgr026().trace(n1=op.Material(1.2, 2.0)), "give k by k1"),
+        # An option of a composer, and a case, are told where they belong.
+        *(
+            (
+                lambda act=act, name=name: act(**{name: "x"}),
+                f"write Composer({name}=...).compose(path)",
+            )
+            for act in (npgr026().trace, npgr026().bind, npgr026)
+            for name in ("method", "model", "engine", "dtype", "tolerance")
+        ),
+        *(
+            (
+                lambda act=act, name=name: act(**{name: 8}),
+                "is no parameter of the path; write load_preset(..., case=...)",
+            )
+            for act, name in ((npgr026().trace, "case"), (npgr026().bind, "case"), (npgr026, "cas"))
+        ),
+        # None is no value, but a word may leave an element out.
+        (lambda: npgr026(filter=None), "filter='none' leaves its element out"),
+        (lambda: npgr026(delta=None), "parameter 'delta' is None, which is no value; give one"),
+    ],
+)
+def test_what_is_given_by_a_wrong_name_or_none_is_told_where_it_belongs(call, sentence):
+    with pytest.raises(op.ParameterError) as told:
+        call()
+    assert sentence in str(told.value)
+    if sentence.endswith(("k1", "case=...)", "give one")):
+        assert str(told.value).endswith(sentence)
+
+
+def test_several_detectors_name_the_call_that_gives_them_all():
+    ends = {"reflected": op.Detector(), "transmitted": op.Detector()}
+    path = wired(
+        {"lamp": op.Source(op.Parameter("power", 2.0)), "plate": op.BeamSplitter(), **ends},
+        "lamp -> plate, plate.reflected -> reflected, plate.transmitted -> transmitted",
+    )
+    for call, other in ((path.trace, "trace_all"), (path.compose().run, "run_all")):
+        for values in ({}, {"power": 3.0}):
+            with pytest.raises(op.ParameterError, match=rf"2 detectors .*; use {other}\(\)$"):
+                call(**values)
+    assert set(path.trace_all()) == {"reflected", "transmitted"}
+
+
+def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
+    path = chain([op.Polarizer(op.Parameter("d"))], [1.0, 1.0, 0.0, 0.0])
+    assert path.trace(d="horizontal").intensity == 1.0
+    # Malus, at 0, 90 and 45 degrees.
+    found = path.trace(d=["horizontal", "vertical", "45 deg"]).intensity
+    np.testing.assert_allclose(found, [1.0, 0.0, 0.5], atol=1e-15)
+    assert path.bind(d="diagonal").trace().intensity == pytest.approx(0.5)
+    own = chain([op.Polarizer(op.Parameter("d", words={"vertical": 0.0}))], [1.0, 1.0, 0.0, 0.0])
+    assert own.trace(d="vertical").intensity == 1.0
+    for words in ("off", ["off", "none"]):
+        told = fault(npgr026().trace, filter=words)
+        assert told.endswith("none, antidiagonal, or give an angle such as '45 deg'")
+    with pytest.raises(op.ValueFault, match=r"antidiagonal, or give an angle such as '45 deg'$"):
+        op.Polarizer("pi/4")
+    turned = chain([op.Rotator(op.Parameter("d"))])
+    assert "knows no word 'vertical'" in fault(turned.trace, d="vertical")
+
+
+def test_a_word_for_another_direction_is_never_offered():
+    for word in ("antidiagonal", "antidiagonl"):
+        told = fault(op.Parameter, "d", word, "deg", words={"diagonal": "45 deg"})
+        assert told.endswith("; write '-45 deg' for the axis 'antidiagonal'")
+    assert fault(op.Parameter, "d", "half", "deg").endswith("give an angle such as '45 deg'")
+    two_faces = wired({"X1": op.Interface(1.5, 0.3), "E": op.Detector()}, "")
+    for port in ("refracted", "refraced"):
+        told = fault(two_faces.connect, f"X1.{port}", "E")
+        assert told.endswith("does not exist; there are: X1.reflected, X1.transmitted")
+
+
+def test_a_path_is_a_collection_of_the_names_of_its_nodes():
+    path = npgr026()
+    assert "X1" in path
+    assert "polarizer" not in path
+    assert [*path] == ["L", "P", "X2", "X1", "E"]
+    assert (len(path), len(op.PathGraph())) == (5, 0)
+
+
+def test_a_place_that_a_node_cannot_be_moved_to_is_named():
+    path = npgr026()
+    path.add("camera", op.Detector())
+    path.connect("P", "camera", tap=True)
+    told = fault(path.bind, place="eye")
+    assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
+
+
+D = op.Parameter("d")
+BOTH = (
+    "parameter 'd' is a real number of 0 or more at source.intensity, and a real angle at "
+    "polarizer.angle; use two names"
+)
+K_IS_KNOWN = op.Interface(op.Material(op.Parameter("n", 1.5, minimum=0.0), 0.5), 0.3)
+
+
+@rows(
+    "call, sentence",
+    [
+        (lambda: chain([K_IS_KNOWN]).bind(n=1.2 + 2j), "k is 0.5 where the path is built"),
+        (lambda: npgr026(case=True), "case must be a name or a number, not True"),
+        ((op.Source(D) >> op.Polarizer(D) >> op.Detector()).check, BOTH),
+        # A negative is told as one, in few digits.
+        (
+            lambda: chain([op.Interface(1.5, -op.Parameter("t"))]).trace(t=0.3),
+            ".incidence, as -t) is -17.1887 deg; give",
+        ),
+        # Digits that tell a number from its limit are kept.
+        (lambda: op.Attenuator(1.0000000000002), "is 1.0000000000002; give"),
+        (lambda: op.Attenuator(1.12345678901234), "is 1.12346; give"),
+        (
+            lambda: op.Parameter("p", minimum="90 deg", maximum="0 deg"),
+            "the range 90 deg .. 0 deg;",
+        ),
+        (lambda: wired({"eye": op.Detector()}, "").trace(), "add one, such as Source()"),
+    ],
+)
+def test_numbers_and_places_are_told_as_they_stand(call, sentence):
+    assert sentence in fault(call)
+    assert sentence != BOTH or fault(call) == BOTH
+
+
+def test_a_text_that_is_typed_is_no_step_of_a_fit():
+    path = chain([op.Interface(1.5, D)])
+    assert "bounds=" not in fault(path.trace, d="100 deg")
+    assert "bounds=" in fault(path.trace, d=-0.1)
