@@ -1,20 +1,28 @@
-"""The references themselves, against published values and closed forms."""
+"""The references themselves, against published values and closed forms, and errors by them."""
 
 import mpmath
 import numpy as np
 import pytest
 
 import optipath as op
+from chains import MATERIALS, random_chains
 from optipath.elements.coupling import Coupling
 from optipath.lab.accuracy.element_reference import mueller
+from optipath.lab.accuracy.error_measures import errors
 from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
 from optipath.lab.accuracy.reference import reflection, transmission
+from optipath.lab.accuracy.regions import REGIONS
+from optipath.lab.accuracy.worst_cases import worst
+from paths import chain
 from published import npgr026
 from slabs import stack
+from tables import rows
+
+NAMES = {region.name: region for region in REGIONS}
 
 
-@pytest.mark.parametrize("case", sorted(npgr026.EXACT))
+@rows("case", sorted(npgr026.EXACT))
 def test_a_whole_path_gives_the_published_case_to_its_last_digits(case):
     lights = exact_lights(op.load_preset("npgr026", case=case))
     exact = [mpmath.mpf(text) for text in npgr026.EXACT[case]]
@@ -38,16 +46,12 @@ def test_brewsters_angle_and_total_reflection_are_as_in_the_books():
     A, B, C, S = reflection(0.5, 0.0, 0.75, 1.0).values
     assert (A, B) == (1, 0)
     # Born & Wolf, sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2, the sine being 0.8.
-    half = (
-        mpmath.mpf(3)
-        / 5
-        * mpmath.sqrt(mpmath.mpf("0.64") - mpmath.mpf("0.25"))
-        / mpmath.mpf("0.64")
-    )
+    number = mpmath.mpf
+    half = number(3) / 5 * mpmath.sqrt(number("0.64") - number("0.25")) / number("0.64")
     assert abs(S / (1 + C) - half) <= 1e-49
 
 
-@pytest.mark.parametrize(("n", "k"), [(1.5, 0.0), (0.2, 3.4), (0.7, 0.0)])
+@rows("n, k", [(1.5, 0.0), (0.2, 3.4), (0.7, 0.0)])
 def test_what_is_not_reflected_is_let_through(n, k):
     given = (n, k, 0.8, 0.6)
     F, T = reflection(*given).values, transmission(*given).values
@@ -76,11 +80,6 @@ def test_a_batch_has_one_reference_for_each():
     lights = list(exact_batch(path.graph, angle=angles))
     for angle, light in zip(angles.tolist(), lights, strict=True):
         assert light["eye"] == exact_lights(path, angle=angle)["eye"]
-
-
-def test_a_reference_of_a_batch_at_once_is_refused():
-    with pytest.raises(op.ParameterError, match="single values"):
-        exact_lights(op.load_preset("malus"), angle=[0.1, 0.2])
 
 
 def everything():
@@ -135,16 +134,14 @@ def everything():
 
 def test_every_element_has_a_reference_that_agrees_with_the_library():
     path = everything()
-    exact = [float(part) for part in exact_lights(path)["eye"].stokes]
+    exact = [float(part) for part in exact_stokes(path)["eye"]]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
 
 
-def test_turns_of_a_whole_number_of_right_angles_along_a_medium_are_exact():
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
-    lamp >> path.add("quartz", op.Medium(np.pi / 0.7, rotation=0.35))
-    path["quartz"] >> path.add("eye", op.Detector())
-    assert exact_lights(path)["eye"].stokes == (1, -1, 0, 0)
+def test_turns_of_whole_right_angles_are_exact():
+    quartz = op.Medium(np.pi / 0.7, rotation=0.35)
+    assert exact_lights(chain([quartz], (1, 1, 0, 0)))["eye"].stokes == (1, -1, 0, 0)
+    assert exact_lights(op.load_preset("malus", case="crossed"))["eye"].stokes == (0, 0, 0, 0)
 
 
 def test_world_frames_have_a_reference():
@@ -155,6 +152,9 @@ def test_world_frames_have_a_reference():
     path["lamp"] >> path["filter"] >> path.add("eye", op.Detector())
     exact = [float(part) for part in exact_lights(path)["eye"].stokes]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
+
+
+HALF = (1, 0.5, 0.5, 0.5)
 
 
 class Unregistered(op.Element):
@@ -179,49 +179,34 @@ def _(element: Registered, way: Coupling, read: Reader):
     return mpmath.diag([1, share, mpmath.sqrt(share), mpmath.sqrt(share)]).tolist()
 
 
-def through(element):
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(stokes=[1, 0.5, 0.5, 0.5]))
-    lamp >> path.add("thing", element) >> path.add("eye", op.Detector())
-    return path
-
-
 def test_an_element_of_ones_own_has_the_reference_that_is_registered_for_it():
-    stokes = exact_lights(through(Registered(op.Parameter("share"))), share=0.3)["eye"].stokes
+    stokes = exact_lights(chain([Registered(op.Parameter("share"))], HALF), share=0.3)["eye"].stokes
     assert abs(stokes[2] - mpmath.sqrt(mpmath.mpf(0.3)) / 2) <= 1e-49
 
 
-@pytest.mark.parametrize("reference", [exact_lights, exact_stokes])
+@rows("reference", [exact_lights, exact_stokes])
 def test_a_kernel_is_no_reference_of_itself(reference):
     cure = r"class Unregistered have no reference .* register .*element_reference\.jones\.register"
     with pytest.raises(op.PathError, match=cure):
-        reference(through(Unregistered(0.5)))
+        reference(chain([Unregistered(0.5)], HALF))
 
 
-@pytest.mark.parametrize("value", ["none", "horizontal"])
+@rows("value", ["none", "horizontal"])
 def test_optional_elements_are_left_out_of_the_reference_too(value):
     path = op.load_preset("npgr026", filter=value)
     exact = [float(part) for part in exact_lights(path)["E"].stokes]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=1e-14, atol=1e-15)
 
 
-@pytest.mark.parametrize(("index", "expected"), [(1e300, [1, 0.3, 0.2, 0.1]), (1.0, [0, 0, 0, 0])])
+@rows("index, expected", [(1e300, [1, 0.3, 0.2, 0.1]), (1.0, [0, 0, 0, 0])])
 def test_light_at_exactly_90_degrees_is_told_exactly(index, expected):
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(stokes=[1, 0.3, 0.2, 0.1]))
-    lamp >> path.add("a", op.Interface(index, np.pi / 2)) >> path.add("eye", op.Detector())
+    path = chain([op.Interface(index, np.pi / 2)], (1, 0.3, 0.2, 0.1))
     assert [float(part) for part in exact_lights(path)["eye"].stokes] == expected
     np.testing.assert_array_equal(path.trace().stokes, expected)
 
 
-def test_crossed_polarizers_leave_nothing():
-    assert exact_lights(op.load_preset("malus", case="crossed"))["eye"].stokes == (0, 0, 0, 0)
-
-
 def test_an_angle_whose_rounding_is_a_turn_is_taken_as_it_is():
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
-    lamp >> path.add("a", op.Polarizer("1e17 rad")) >> path.add("eye", op.Detector())
+    path = chain([op.Polarizer("1e17 rad")], (1, 1, 0, 0))
     exact = float(exact_lights(path)["eye"].stokes[0])
     assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
 
@@ -232,6 +217,107 @@ def test_light_that_goes_round_next_to_a_critical_angle_has_a_reference():
     assert abs(lights["R"][0] + lights["T"][0] - 1) < 1e-45
 
 
-def test_a_reference_is_of_a_path():
+def test_a_reference_is_of_a_path_and_of_single_values():
     with pytest.raises(op.PathError, match="PathGraph"):
         exact_lights("npgr026")
+    with pytest.raises(op.ParameterError, match="single values"):
+        exact_lights(op.load_preset("malus"), angle=[0.1, 0.2])
+
+
+@rows("case", ["3", "6", "8"])
+def test_points_in_space_give_the_same_light_as_angles_to_50_digits(case):
+    space, plane = (op.load_preset(name, case=case) for name in ("npgr026-3d", "npgr026"))
+    found, expected = exact_lights(space)["E"], exact_lights(plane)["E"]
+    for one, other in zip(found.stokes, expected.stokes, strict=True):
+        assert abs(one - other) <= 1e-50
+    np.testing.assert_allclose(found.conditions, expected.conditions, rtol=1e-6, atol=1e-20)
+
+
+@rows("reflections", [1, 3, 5])
+def test_light_along_a_chain_is_right_to_its_last_digits(reflections):
+    points, materials = random_chains(1, reflections), MATERIALS[:reflections]
+    path = op.path_from_vertices(points, materials, events="R" * reflections)
+    exact = [float(component) for component in exact_lights(path)["eye"].stokes]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=1e-14 * exact[0])
+
+
+def test_an_error_is_counted_in_ulp_of_the_exact_value_over_its_condition():
+    found = np.array([[1.0 + 2.0**-51, 0.5, 0.0, 0.0]])
+    exact = [((1.0, 0.5, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))]
+    off = errors(found, exact, "float64")
+    np.testing.assert_array_equal(off.componentwise, [[1.0, 0.0, 0.0, 0.0]])
+    np.testing.assert_array_equal(off.normwise, [1.0])
+
+
+def test_what_should_be_nothing_has_no_ulp_to_hide_in_nor_what_is_not_finite():
+    exact = [((1, 0, 0, 0), (0, 0, 0, 0))]
+    off = errors(np.array([[1.0, 1e-17, 0.0, 0.0]]), exact, "float64")
+    assert off.componentwise.max() > 1e300
+    assert off.normwise[0] < 0.1
+    off = errors(np.array([[np.nan, 0, 0, 0]]), exact, "float64")
+    assert np.isinf(off.componentwise[0, 0])
+    assert np.isinf(off.normwise[0])
+
+
+def test_the_unit_is_that_of_the_precision():
+    found = np.array([[1.0 + 2.0**-23, 0, 0, 0]], "float32")
+    exact = [((1, 0, 0, 0), (0, 0, 0, 0))]
+    assert errors(found, exact, "float32").componentwise[0, 0] == 1.0
+    assert errors(found.astype(float), exact, "float64").componentwise[0, 0] == 2.0**29
+
+
+@rows("dtype", ["float64", "float32"])
+@rows("region", REGIONS)
+def test_samples_are_boundaries_and_angles(region, dtype):
+    samples = region.samples(500, dtype)
+    assert all(part.shape == (500,) and part.dtype == dtype for part in samples)
+    assert np.all(np.isfinite(samples))
+    assert np.all((samples.n >= 0) & (samples.k >= 0))
+    wide = np.array([samples.cos, samples.sin], dtype=float)
+    assert np.all((wide >= 0) & (wide <= 1))
+    np.testing.assert_allclose(np.hypot(*wide), 1.0, rtol=0, atol=2 * np.finfo(dtype).eps)
+
+
+def test_samples_come_of_numbers_within_0_and_1_of_a_seed_and_a_name_of_their_own():
+    assert len(NAMES) == len(REGIONS)
+    for region in REGIONS:
+        random = np.random.default_rng([3, *region.name.encode()])
+        units = random.random((region.dimensions, 50))
+        for one, other in zip(region.at(units), region.samples(50, seed=3), strict=True):
+            np.testing.assert_array_equal(one, other)
+    assert not np.array_equal(REGIONS[0].samples(9).n, REGIONS[0].samples(9, seed=1).n)
+
+
+def test_samples_lie_where_their_region_says():
+    by_name = {name: region.samples(500) for name, region in NAMES.items()}
+    total = by_name["k = 0, total reflection"]
+    assert np.all(total.sin > total.n)
+    grazing = np.degrees(by_name["grazing"].cos)
+    assert grazing.min() < 1e-11
+    assert grazing.max() <= 0.1
+    brewster = by_name["near Brewster's angle"]
+    off = np.abs(brewster.incidence - np.arctan(brewster.n))
+    assert off.min() < 1e-10
+    assert off.max() <= 0.11
+    extreme = by_name["extreme magnitudes"]
+    size = np.abs(extreme.n + 1j * extreme.k)
+    assert np.all((size < 1e-162) | (size > 1e140))
+
+
+def test_a_longer_search_finds_no_less():
+    found = [worst("stable", NAMES["metals"], "B", generations=n).error for n in (1, 4, 8)]
+    assert found == sorted(found)
+    assert found[0] < found[-1]
+
+
+def test_a_search_finds_more_than_samples_do_and_the_same_every_time():
+    first, second = (worst("stable", NAMES["generic"], "A", generations=15) for _ in range(2))
+    assert first == second
+    assert first.error > 5.0
+
+
+def test_a_search_finds_a_double_zero_of_c_and_nothing_where_a_component_vanishes():
+    found = worst("stable", NAMES["k = 0, total reflection"], "C near 0", generations=5)
+    assert 0.3 < found.n < 0.6
+    assert found.error > 0.5
+    assert worst("stable", NAMES["exactly normal"], "B", generations=1).error == 0.0
