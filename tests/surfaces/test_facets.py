@@ -152,9 +152,7 @@ def test_x_is_across_the_meridional_plane_and_y_of_the_surface_along_its_normal(
     np.testing.assert_allclose(brdf.frame_in.z[1], down(0.5, 1.0), rtol=1e-16)
 
 
-@given(
-    angles, angles, azimuths, azimuths, alphas, alphas, st.sampled_from(INDICES)
-)
+@given(angles, angles, azimuths, azimuths, alphas, alphas, st.sampled_from(INDICES))
 def test_no_light_becomes_circular_out_of_unpolarised_light(ti, to, a, b, alpha, alpha_y, index):
     matrix = single_scattering(index, alpha, down(ti, a), direction(to, b), alpha_y=alpha_y).matrix
     assert np.all(np.isfinite(matrix))
@@ -406,38 +404,3 @@ def test_what_is_wrong_is_told_and_all_of_it_at_once(wrong, sentence):
     with pytest.raises(op.SurfaceError) as told:
         single_scattering(-1.0, 0.0, direction(0.5), down(0.5), masking="no")
     assert len(told.value.faults) == 5
-
-
-SILVER, ALPHA, INCIDENCE, PHOTONS = 0.5 + 2.1j, 0.3, np.radians(40.0), 60_000
-LOW, HIGH = np.radians(25.0), np.radians(65.0)
-
-
-def modelled(first, last):
-    """The Stokes vector of what goes into an interval of azimuths, by Gauss and Legendre."""
-    nodes, weights = np.polynomial.legendre.leggauss(24)
-    theta = (0.5 * (LOW + HIGH) + 0.5 * (HIGH - LOW) * nodes)[:, None]
-    azimuth = 0.5 * (first + last) + 0.5 * (last - first) * nodes
-    s, c = np.sin(theta), np.cos(theta) + 0.0 * azimuth
-    up = np.stack([s * np.cos(azimuth), s * np.sin(azimuth), c], axis=-1)
-    down_there = (np.sin(INCIDENCE), 0.0, -np.cos(INCIDENCE))
-    stokes = single_scattering(SILVER, ALPHA, down_there, up).matrix[..., 0]
-    shares = weights[:, None] * weights * s * c * 0.25 * (HIGH - LOW) * (last - first)
-    return np.einsum("ij,ijk->k", shares, stokes)
-
-
-def test_photons_that_met_one_facet_have_its_stokes_vectors():
-    pytest.importorskip("numba")
-    from optipath.surfaces.ends.photon_ends import photon_ends  # noqa: PLC0415 - compiled
-
-    sample = op.Sample([(SILVER, ALPHA)], cells=400, surfaces=4)
-    found = photon_ends(sample, INCIDENCE, PHOTONS, seed=1)
-    once = (found.ends == "up") & (found.events == 1)
-    x, y, z = found.directions.T
-    inside = once & (np.cos(HIGH) < z) & (z < np.cos(LOW))
-    azimuth = np.arctan2(y, x)
-    for first, last in np.radians([(-70, -20), (-20, 20), (20, 70)]):
-        stokes = found.stokes[inside & (first < azimuth) & (azimuth < last)]
-        expected, error = modelled(first, last), np.sqrt(np.sum(stokes**2, axis=0)) / PHOTONS
-        off = np.abs(np.sum(stokes, axis=0) / PHOTONS - expected)
-        # One in a million by chance, and what Smith's masking and these heights differ in.
-        assert np.all(off <= 5.0 * error + 0.03 * np.abs(expected) + 1e-15)

@@ -6,27 +6,27 @@ import sys
 import warnings
 from functools import cache
 
-import distributed
 import numpy as np
-import psutil
 import pytest
-import xarray as xr
-
-import optipath as op
-from large_jobs import marked
-from small_chunks import CHUNK, PLACES, SmallChunks
-from tables import rows
 
 pytest.importorskip("numba")
 pytest.importorskip("zarr")
 pytest.importorskip("distributed")
 
+import distributed
+import psutil
+import xarray as xr
+
+import optipath as op
+from large_jobs import marked
 from optipath import surfaces
 from optipath.errors import JobError, MissingExtraError, StoreWarning
 from optipath.surfaces.energies.given_run import processors
 from optipath.surfaces.hemispheres import chunk_job as of_job
 from optipath.surfaces.hemispheres.chunk_job import ChunkJob
 from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
+from small_chunks import CHUNK, PLACES, SmallChunks
+from tables import rows
 
 SAMPLE = op.Sample([(1.5, 0.3)], cells=200, surfaces=2)
 SENSOR = surfaces.Sensor(16, parts=3)

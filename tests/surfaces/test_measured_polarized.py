@@ -16,6 +16,9 @@ from optipath.surfaces.hemispheres.sensor import Sensor
 from optipath.surfaces.walk.given_beam import given_beam
 from tables import rows
 
+pytest.importorskip("numba")
+pytest.importorskip("xarray")
+
 AXES = "phi_d", "theta_d", "theta_h"
 GLASS = partial(single_scattering, 1.5, 0.4)
 
