@@ -23,7 +23,7 @@ from optipath.lab.accuracy.path_errors import AS_GIVEN, path_errors, trials
 from optipath.lab.accuracy.peer_times import peer_times
 from optipath.lab.accuracy.region_path import in_region
 from optipath.lab.accuracy.regions import REGIONS
-from optipath.lab.accuracy.slow_operations import kernel_operations
+from optipath.lab.accuracy.slow_operations import kernel_operations, slow_operations
 from paths import chain
 from pictures import faults_of, texts_of
 from tables import rows
@@ -169,6 +169,9 @@ def test_roots_and_divisions_of_a_kernel_are_counted():
     lossless = REFLECTION.by_method("stable").without[1]
     assert kernel_operations(lossless, 4)["sqrt"] == 1
     assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
+    # Of a program whose steps do not each have a kernel of their own, too.
+    program = op.load_preset("coated-metal").compose().program
+    assert slow_operations(program)["sqrt"] >= 2
 
 
 STATE = (1.0, 0.3, 0.2, 0.1)
@@ -189,6 +192,8 @@ def test_light_that_a_precision_cannot_hold_is_lost_and_its_contender_left_out()
     (trial,) = trials(dark, (), "float64", 1)
     assert np.isinf(path_errors(op.Composer(dtype="float32"), trial, "float32").normwise).all()
     assert path_errors(op.Composer(), trial, "float64").normwise.max() == 0.0
+    (trial,) = trials(bright, (), "float64", 1)
+    assert np.isinf(path_errors(op.Composer(dtype="float32"), trial, "float32").normwise).all()
     dtypes = {c["dtype"] for c in path_chart(bright, "bright", LITTLE)["contenders"]}
     assert "float64" in dtypes
     assert "float32" not in dtypes

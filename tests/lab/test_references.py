@@ -138,6 +138,13 @@ def test_every_element_has_a_reference_that_agrees_with_the_library():
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
 
 
+@rows("indices", [[1.0, 1.38, 0.2 + 3j], [1.2, 1.5, 2.0, 1.3]])
+def test_a_stack_of_layers_has_a_reference_that_agrees_with_the_library(indices):
+    path = chain([op.LayerStack(indices, 0.6)], (1, 0.3, 0.2, 0.1))
+    exact = [float(part) for part in exact_stokes(path)["eye"]]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
+
+
 def test_turns_of_whole_right_angles_are_exact():
     quartz = op.Medium(np.pi / 0.7, rotation=0.35)
     assert exact_lights(chain([quartz], (1, 1, 0, 0)))["eye"].stokes == (1, -1, 0, 0)
