@@ -36,6 +36,8 @@ TEXT, TABLE = 'text = "a tenth"', "[[measurements]]"
         (0.151, 0.0, True),
         (0.149, 0.0, False),
         (0.149, 0.001, True),
+        (0.1481, 0.001, True),
+        (0.1479, 0.001, False),
         (0.195, 0.0, True),
         (0.1951, 0.0, False),
         (math.nan, 0.0, False),

@@ -268,6 +268,9 @@ def test_a_coarse_mesh_is_warned_of_with_what_it_costs_and_what_would_do():
     assert "80 x 80 cells has 4 a correlation length 2/alpha, and needs 16 at alpha 1" in said
     assert said.endswith("cells=(320, 320) are enough")
     assert caught[0].filename == __file__
+    # The rougher axis tells how many cells both need.
+    with pytest.warns(op.MeshWarning, match=r"cells=\(800, 320\) are enough"):
+        HeightField.beckmann(0.5, 0.2, size=200.0, cells=(400, 160))
 
 
 @rows(
