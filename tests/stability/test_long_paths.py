@@ -1,14 +1,13 @@
 """Paths of many elements, and light too faint for a float."""
 
-import os
-
 import mpmath
 import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
 from paths import chain
+from tables import rows
 
 TURNED = {"azimuth": 0.3}
 ELEMENTS = {
@@ -26,10 +25,10 @@ def excess(light):
         return float(mpmath.sqrt(sum(part * part for part in rest)) / s0 - 1)
 
 
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("count", [10, 300, 3000])
-@pytest.mark.parametrize("kind", ELEMENTS)
+@pytest.mark.parametrize("count", [10, 200, pytest.param(3000, marks=pytest.mark.slow)])
+@rows("composing", ["stokes", "jones"])
+@rows("dtype", ["float64", "float32"])
+@rows("kind", ELEMENTS)
 def test_no_path_polarises_by_more_than_100_percent(kind, count, dtype, composing):
     path = chain([ELEMENTS[kind]] * count, POLARISED)
     light = op.Composer(dtype=dtype, composing=composing).compose(path).run()
@@ -38,8 +37,8 @@ def test_no_path_polarises_by_more_than_100_percent(kind, count, dtype, composin
     assert excess(light) <= np.finfo(dtype).eps
 
 
-def test_many_thousand_total_reflections_keep_the_light_and_its_polarisation():
-    count = 100_000 if "OPTIPATH_SETS" in os.environ else 20_000
+@pytest.mark.parametrize("count", [1000, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_many_thousand_total_reflections_keep_the_light_and_its_polarisation(count):
     # One after another about one axis: a retarder of as many times the angle.
     element = op.Interface(1 / 1.5, 0.9)
     path = chain([element] * count, POLARISED)
@@ -63,26 +62,23 @@ def test_light_of_1e_minus_100000_has_its_polarisation():
     assert light.dop == pytest.approx(1.0, abs=1e-15)
 
 
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
-def test_a_faint_path_of_glass_agrees_with_50_digits(composing):
+def test_a_faint_path_of_glass_agrees_with_50_digits():
     rng = np.random.default_rng(4)
     angles = rng.uniform((0, -3), (1.5, 3), (8, 2))
     dark = [op.Attenuator(1e-200)] * 2
     path = chain([*dark, *(op.Interface(1.5, i, azimuth=a) for i, a in angles.tolist())], POLARISED)
-    exact = exact_lights(path)["eye"].stokes
-    light = op.Composer(composing=composing).compose(path).run()
-    assert light.log10_intensity == pytest.approx(float(mpmath.log10(exact[0])), rel=1e-14)
+    exact = exact_stokes(path)["eye"]
     expected = [float(part / exact[0]) for part in exact]
-    np.testing.assert_allclose(light.normalized, expected, rtol=0, atol=1e-13)
+    for composing in ("stokes", "jones"):
+        light = op.Composer(composing=composing).compose(path).run()
+        assert light.log10_intensity == pytest.approx(float(mpmath.log10(exact[0])), rel=1e-14)
+        np.testing.assert_allclose(light.normalized, expected, rtol=0, atol=1e-13)
 
 
-def test_two_steps_are_enough_to_be_too_faint():
+def test_two_steps_are_enough_to_be_too_faint_and_a_batch_may_be_so_in_part():
     light = chain([op.Attenuator(1e-200)] * 2, POLARISED).trace()
     assert light.intensity == 0.0
     np.testing.assert_allclose(light.normalized, POLARISED, rtol=1e-15)
-
-
-def test_a_batch_may_be_faint_in_part():
     light = chain([op.Attenuator([0.5, 1e-300, 0.0])] * 2, POLARISED).trace()
     np.testing.assert_allclose(light.log10_intensity, [np.log10(0.25), -600, -np.inf])
     np.testing.assert_array_equal(light.exponent == 0, [True, False, True])
@@ -148,9 +144,9 @@ def nulled(kind, axes):
     return chain([op.Polarizer(axes), element, op.Polarizer(axes + np.pi / 2 + turn)], (1, 0, 0, 0))
 
 
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("kind", ["rotator", "full-wave plate", "nothing"])
+@rows("composing", ["stokes", "jones"])
+@rows("dtype", ["float64", "float32"])
+@rows("kind", ["rotator", "full-wave plate", "nothing"])
 def test_light_that_is_nulled_is_not_negative(kind, dtype, composing):
     axes = np.random.default_rng(0).uniform(-4, 4, 50_000)
     light = op.Composer(dtype=dtype, composing=composing).compose(nulled(kind, axes)).run()
@@ -158,17 +154,16 @@ def test_light_that_is_nulled_is_not_negative(kind, dtype, composing):
     assert np.all(light.intensity <= 1e-6 if dtype == "float32" else light.intensity <= 1e-14)
 
 
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
-def test_a_thousand_retarders_polarise_by_no_more_than_100_percent_in_float32(composing):
+@pytest.mark.parametrize("count", [200, pytest.param(1000, marks=pytest.mark.slow)])
+@rows("composing", ["stokes", "jones"])
+def test_many_retarders_polarise_by_no_more_than_100_percent_in_float32(composing, count):
     rng = np.random.default_rng(6)
-    plates = [op.Retarder(*pair) for pair in rng.uniform(-3, 3, (1000, 2)).tolist()]
-    light = (
-        op.Composer(dtype="float32", composing=composing).compose(chain(plates, POLARISED)).run()
-    )
-    assert excess(light) <= 2 * np.finfo("float32").eps
+    plates = [op.Retarder(*pair) for pair in rng.uniform(-3, 3, (count, 2)).tolist()]
+    composer = op.Composer(dtype="float32", composing=composing)
+    assert excess(composer.compose(chain(plates, POLARISED)).run()) <= 2 * np.finfo("float32").eps
 
 
-@pytest.mark.parametrize("theta", [1e-8, 1e-4, 0.7, 1.57])
+@rows("theta", [1e-8, 1e-4, 0.7, 1.57])
 def test_each_entry_of_the_matrix_of_a_path_has_its_own_digits(theta):
     path = chain([op.Interface(1.5, theta)], POLARISED)
     matrix = path.mueller().matrix

@@ -1,0 +1,430 @@
+"""The chart: what is measured, what is drawn, and that the one can be had without the other."""
+
+import json
+
+import numpy as np
+import pytest
+
+import optipath as op
+from charts import texts_over_marks
+from optipath.cli.chart_options import NEAR
+from optipath.kernels.catalogue import REFLECTION
+from optipath.lab.accuracy import critical_chart as module
+from optipath.lab.accuracy.chart import interface_chart, path_chart
+from optipath.lab.accuracy.chart_effort import FULL, QUICK, Effort, expected
+from optipath.lab.accuracy.chart_file import KINDS, chart_text, read_chart
+from optipath.lab.accuracy.contenders import contenders
+from optipath.lab.accuracy.critical_chart import critical_chart
+from optipath.lab.accuracy.critical_places import PLACES
+from optipath.lab.accuracy.error_measures import Errors
+from optipath.lab.accuracy.interface_errors import interface_errors
+from optipath.lab.accuracy.many_paths import many_paths
+from optipath.lab.accuracy.path_errors import AS_GIVEN, path_errors, trials
+from optipath.lab.accuracy.peer_times import peer_times
+from optipath.lab.accuracy.region_path import in_region
+from optipath.lab.accuracy.regions import REGIONS
+from optipath.lab.accuracy.slow_operations import kernel_operations, slow_operations
+from paths import chain
+from pictures import faults_of, texts_of
+from tables import rows
+
+LITTLE = Effort(samples=1, rounds=1, engines=("numpy",))
+
+
+@pytest.fixture(scope="module")
+def chart():
+    steps, kept = [], []
+    path = op.load_preset("npgr026", case="8")
+    found = path_chart(
+        path,
+        "npgr026",
+        LITTLE,
+        lambda *step: steps.append(step),
+        lambda so_far: kept.append(json.loads(chart_text(so_far))),
+    )
+    return found, steps, kept
+
+
+def worst(contender, kind="componentwise"):
+    return max(error["worst"] for error in contender["errors"][kind].values())
+
+
+def by_words(chart, *words):
+    for contender in chart["contenders"]:
+        if (contender["method"], contender["dtype"], contender["composing"]) == words:
+            return contender
+    raise AssertionError(words)
+
+
+def test_every_way_to_compute_the_path_is_there(chart):
+    found = chart[0]["contenders"]
+    assert len(found) == len(contenders(engines=("numpy",)))
+    regions = {AS_GIVEN, *(region.name for region in REGIONS)}
+    for contender in found:
+        assert set(contender["errors"]["componentwise"]) == regions
+        assert contender["ns"]["median"] >= contender["ns"]["least"] > 0
+
+
+def test_stable_holds_and_textbook_fails_on_the_path(chart):
+    assert worst(by_words(chart[0], "stable", "float64", "stokes")) <= 100
+    assert not worst(by_words(chart[0], "textbook", "float64", "stokes")) <= 1e6
+    assert worst(by_words(chart[0], "stable", "float64", "jones"), "normwise") <= 100
+    assert worst(by_words(chart[0], "stable", "longdouble", "stokes"), "normwise") <= 30
+
+
+def test_progress_is_told_from_the_beginning_to_the_end(chart):
+    shares = [share for _, share in chart[1]]
+    assert shares == sorted(shares)
+    told = {what.partition(",")[0] for what, _ in chart[1]}
+    assert told == {"composing and compiling", "times", "errors"}
+    assert 0 <= shares[0] < 0.1
+    assert 0.9 < shares[-1] <= 1
+
+
+def test_what_is_measured_so_far_is_a_whole_chart_after_every_region(chart):
+    found, _, kept = chart
+    assert len(kept) == 1 + len(REGIONS)
+    for number, so_far in enumerate(kept, start=1):
+        assert so_far["regions"] == {"measured": number, "of": len(kept)}
+        (errors, *_) = read_chart(json.dumps(so_far), "x.json")["contenders"]
+        assert len(errors["errors"]["normwise"]) == number
+    assert json.loads(chart_text(found)) == kept[-1]
+
+
+def test_a_quick_chart_measures_less_and_says_what_it_leaves_out():
+    assert QUICK.samples < FULL.samples
+    assert FULL.told()["left_out"] == ""
+    assert "Numba" in QUICK.told()["left_out"]
+    measured = [runner for runner in contenders() if QUICK.measures(runner)]
+    assert {runner.engine for runner in measured} == {runner.engine for runner in contenders()}
+    assert sum(runner.engine == "numba" for runner in measured) <= 1
+    assert "--quick" in expected(FULL)
+    assert Errors._fields == KINDS, "in files, too"
+
+
+def test_the_limits_of_the_machine_are_below_what_was_measured(chart):
+    limits = chart[0]["limits_ns"]
+    assert set(limits) == {"sqrt and division", "memory"}
+    assert all(
+        0 < ns < min(c["ns"]["least"] for c in chart[0]["contenders"]) for ns in limits.values()
+    )
+
+
+def test_json_can_be_drawn_again_without_measuring(chart, tmp_path):
+    text = chart_text(chart[0])
+    assert json.loads(text)["title"] == "npgr026"
+    again = read_chart(text, "chart.json")
+    for name, found in (("a.svg", chart[0]), ("b.svg", again)):
+        op.plots.save(op.plots.chart(found), tmp_path / name)
+    a, b = ((tmp_path / name).read_text("utf-8") for name in ("a.svg", "b.svg"))
+    assert len(a) > 10_000
+    assert a.count("<path") == b.count("<path")
+
+
+def test_the_chart_of_one_interface_has_all_methods():
+    found = interface_chart(LITTLE)
+    assert {c["method"] for c in found["contenders"]} == set(REFLECTION.methods)
+    assert worst(by_words(found, "compensated", "float64", "stokes")) <= 1.5
+    assert len(op.plots.chart(found)) == 2
+
+
+# npgr026 is charted above, and those that are like it, or take long, are left out.
+SLOW = ["coated-metal", "glass-slab", "senarmont", "sky-and-window"]
+CHARTED = ["malus", "npgr026-3d", *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW)]
+
+
+@pytest.mark.parametrize("name", CHARTED)
+def test_presets_can_be_charted(name):
+    found = path_chart(op.load_preset(name), name, LITTLE)
+    # By Jones columns, where there are any: Stokes vectors lose a light that is nearly
+    # extinguished, as here.
+    ways = {contender["composing"] for contender in found["contenders"]}
+    composing = "jones" if "jones" in ways else "stokes"
+    assert worst(by_words(found, "stable", "float64", composing), "normwise") <= 100
+
+
+def test_a_path_with_an_own_matrix_is_charted_without_jones():
+    found = path_chart(chain([op.MuellerElement(np.eye(4))]), "foil", LITTLE)
+    assert {c["composing"] for c in found["contenders"]} == {"stokes"}
+
+
+def test_interfaces_in_world_frames_keep_their_incidence():
+    meets = op.plane_of_incidence((1, 0, -1), (0, 0, 1))
+    frames = {"in": meets.arriving, "reflected": meets.reflected}
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), frames={"out": meets.arriving})
+    path.add("glass", op.Interface(1.5, float(meets.incidence)), frames=frames)
+    path["lamp"] >> path["glass"] >> path.add("eye", op.Detector())
+    graph = in_region(path, REGIONS[0], 4, "float64")
+    assert graph.nodes["glass"]["element"].incidence == float(meets.incidence)
+    assert op.Composer().compose(graph).run().stokes.shape == (4, 4)
+
+
+def test_a_path_is_made_many_for_timing():
+    graph, values = many_paths(op.load_preset("npgr026"), 6)
+    assert op.Composer().compose(graph).run(**values).stokes.shape == (6, 4)
+
+
+def test_roots_and_divisions_of_a_kernel_are_counted():
+    lossless = REFLECTION.by_method("stable").without[1]
+    assert kernel_operations(lossless, 4)["sqrt"] == 1
+    assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
+    # Of a program whose steps do not each have a kernel of their own, too.
+    program = op.load_preset("coated-metal").compose().program
+    assert slow_operations(program)["sqrt"] >= 2
+
+
+STATE = (1.0, 0.3, 0.2, 0.1)
+
+
+def test_components_that_are_not_read_have_no_error():
+    path = chain([op.Interface(1.5, 0.9)], STATE, reads="intensity")
+    (trial,) = trials(path, (), "float64", 1)
+    off = path_errors(op.Composer(), trial, "float64")
+    assert off.normwise.max() <= 10
+    assert off.componentwise.max() <= 10
+
+
+def test_light_that_a_precision_cannot_hold_is_lost_and_its_contender_left_out():
+    dark, bright = (op.PathGraph() for _ in range(2))
+    for path, size in ((dark, 1e-60), (bright, 1e60)):
+        path.add("lamp", op.Source(size)) >> path.add("eye", op.Detector())
+    (trial,) = trials(dark, (), "float64", 1)
+    assert np.isinf(path_errors(op.Composer(dtype="float32"), trial, "float32").normwise).all()
+    assert path_errors(op.Composer(), trial, "float64").normwise.max() == 0.0
+    (trial,) = trials(bright, (), "float64", 1)
+    assert np.isinf(path_errors(op.Composer(dtype="float32"), trial, "float32").normwise).all()
+    dtypes = {c["dtype"] for c in path_chart(bright, "bright", LITTLE)["contenders"]}
+    assert "float64" in dtypes
+    assert "float32" not in dtypes
+
+
+def test_a_chart_is_of_one_path_and_not_of_a_batch():
+    with pytest.raises(op.ParameterError, match=r"batch of shape \(3,\)"):
+        path_chart(chain([op.Attenuator([0.1, 0.2, 0.3])], STATE), "three", LITTLE)
+
+
+def test_equal_computations_are_measured_once_and_limits_of_nothing_are_left_out():
+    found = path_chart(chain([op.Attenuator(0.5)], STATE), "grey", LITTLE)
+    assert {c["method"] for c in found["contenders"]} == {"stable"}
+    assert set(found["limits_ns"]) == {"memory"}
+
+
+@rows(
+    "spoil",
+    [
+        lambda chart: chart.update(format=True),
+        lambda chart: chart.update(contenders=[]),
+        lambda chart: chart.update(title=None),
+        lambda chart: chart["limits_ns"].update(memory=-1.0),
+        lambda chart: chart["contenders"][0].pop("ns"),
+        lambda chart: chart["contenders"][0]["ns"].update(least="fast"),
+        lambda chart: chart["contenders"][0]["errors"].update(normwise={}),
+        lambda chart: chart["contenders"][0].update(engine=3),
+        lambda chart: chart["contenders"][0]["ns"].update(least=10**400),
+        lambda chart: chart["contenders"][0]["ns"].update(least=1e300),
+    ],
+)
+def test_a_chart_that_lacks_something_is_refused(chart, spoil):
+    text = json.loads(chart_text(chart[0]))
+    spoil(text)
+    with pytest.raises(op.OptipathError, match="no whole chart"):
+        read_chart(json.dumps(text), "x.json")
+
+
+@rows("text", ["", "[]", '{"format": 99}', '{"format": 1}', "nonsense"])
+def test_what_is_no_chart_is_refused(text):
+    with pytest.raises(op.OptipathError, match="optipath chart --data"):
+        read_chart(text, "x.json")
+
+
+@pytest.mark.filterwarnings("ignore:Glyph")
+def test_an_engine_of_a_later_version_and_letters_without_glyphs_are_drawn(chart, tmp_path):
+    later = json.loads(chart_text(chart[0]))
+    later["contenders"][0].update(engine="quantum", dtype="float128")
+    later["title"] = r"光路 $\frac{$"
+    panel = op.plots.chart(read_chart(json.dumps(later), "x.json"))
+    op.plots.save(panel, tmp_path / "later.svg")
+
+
+@rows("distance", [1e-1, 1e-6])
+@rows("name", PLACES)
+def test_samples_stand_at_the_distance_from_their_angle(name, distance):
+    samples = PLACES[name].region(distance).samples(8)
+    # cos of the refracted angle is 0 there, the reflection of p, or the angle itself.
+    angle = {
+        "brewster": np.arctan(samples.n),
+        "critical": np.arcsin(np.minimum(samples.n, 1.0)),
+        "grazing": np.pi / 2,
+        "normal": 0.0,
+    }[name]
+    assert np.abs(samples.incidence - angle) == pytest.approx(np.full(8, distance), rel=1e-6)
+    assert tuple(PLACES) == NEAR, "of the command line"
+
+
+def test_media_are_the_same_at_every_distance():
+    far, near = (PLACES["grazing"].region(distance).samples(4) for distance in (1e-1, 1e-9))
+    assert far.n.tolist() == near.n.tolist()
+
+
+def test_amplitudes_lose_a_digit_a_decade_near_the_normal_and_stable_none():
+    errors = [
+        interface_errors("amplitude", PLACES["normal"].region(distance), count=8)
+        for distance in (1e-2, 1e-4, 1e-6)
+    ]
+    worst = [float(off.componentwise[:, 1].max()) for off in errors]
+    # B follows the square of the angle, and the amplitudes keep their absolute error.
+    assert 1e2 < worst[1] / worst[0] < 1e6
+    assert 1e2 < worst[2] / worst[1] < 1e6
+    stable = interface_errors("stable", PLACES["normal"].region(1e-6), count=8)
+    assert stable.componentwise.max() <= 20
+
+
+@pytest.fixture
+def _few(monkeypatch):
+    monkeypatch.setattr(module, "DISTANCES", (1e-8, 1e-2))
+
+
+@pytest.mark.usefixtures("_few")
+def test_a_path_and_an_interface_have_all_methods_at_all_distances():
+    path = op.load_preset("npgr026", case="8")
+    for measured in (path, None):
+        kept = []
+        found = critical_chart(measured, "x", ["normal", "grazing"], 2, keep=kept.append)
+        assert [place["name"] for place in found["places"]] == ["normal", "grazing"]
+        for place in found["places"]:
+            assert place["distances"] == [1e-2, 1e-8]
+            assert set(place["errors"]) == {"stable", "compensated", "amplitude", "textbook"}
+            assert max(place["errors"]["stable"]["componentwise"]) <= 100
+        assert kept[-1]["regions"] == {"measured": 4, "of": 4}
+        assert json.loads(chart_text(read_chart(chart_text(found), "x"))) == json.loads(
+            chart_text(found)
+        )
+
+
+@pytest.mark.usefixtures("_few")
+def test_what_is_measured_so_far_can_be_read():
+    kept = []
+    critical_chart(None, "x", ["critical"], 1, keep=lambda found: kept.append(chart_text(found)))
+    first = read_chart(kept[0], "x.json")
+    assert first["places"][0]["distances"] == [1e-2]
+    assert first["regions"] == {"measured": 1, "of": 2}
+
+
+def test_unknown_places_and_paths_without_interfaces_are_refused():
+    with pytest.raises(op.OptipathError, match="place 'nirmal' is unknown; did you mean 'normal'"):
+        critical_chart(None, "x", ["nirmal"])
+    with pytest.raises(op.OptipathError, match="'malus' has no interface"):
+        critical_chart(op.load_preset("malus"), "malus", ["normal"])
+
+
+ERROR = {"worst": 1.0, "median": 0.5}
+OLD_CHART = {
+    "format": 1,
+    "title": "npgr026, case 8",
+    "parameters": {"filter": "horizontal", "n1": "1.12", "k1": "2.16", "delta": "48 deg"},
+    "machine": {"model": "EPYC"},
+    "versions": {"python": "3.11.7", "optipath": "0.1.0", "numpy": "2.4.6"},
+    "limits_ns": {"memory": 2.0},
+    "fails_above": 1000.0,
+    "contenders": [
+        {
+            "method": "stable",
+            "dtype": "float64",
+            "engine": "numba",
+            "composing": "stokes",
+            "eps": 2.2e-16,
+            "ns": {"least": 30.0, "median": 33.0},
+            "errors": {"componentwise": {"generic": ERROR}, "normwise": {"generic": ERROR}},
+        }
+    ],
+}
+NAMES = ["tmm", "mitsuba, llvm", "katsu", "numpy by hand", "jax by hand", "pypolar", "py_pol"]
+
+
+def race(**changes):
+    results = [
+        {"contender": name, "how": "", "paths": 10, "least": ns, "median": ns, "error": error}
+        for name, ns, error in (
+            ("optipath, numba", 20.0, 1e-16),
+            *((name, 100.0 * 1.3**place, 1e-15) for place, name in enumerate(NAMES)),
+            ("slow", 1e6, float("nan")),
+        )
+    ]
+    path = {"filter": "horizontal", "n1": 1.12, "k1": 2.16}
+    found = {
+        "path": {"preset": "npgr026"},
+        "contests": {"absorbing": {"path": path, "results": results, "left out": {}}},
+        "processor": "EPYC",
+        "software": {**OLD_CHART["versions"], "tmm": "0.2"},
+        **changes,
+    }
+    return json.dumps(found)
+
+
+def test_times_are_multiplied_so_that_optipath_is_as_fast_in_both():
+    found = peer_times(race(), "race.json", OLD_CHART)
+    assert found.shared == "optipath, numba"
+    assert found.ratio == pytest.approx(1.5)
+    times = {racer.name: racer.ns for racer in found.racers}
+    assert times["optipath, numba"] == pytest.approx(30.0)
+    assert times["tmm"] == pytest.approx(150.0)
+    racer = found.racers[-1]
+    assert (racer.error, racer.is_own) == (1.0, False), "without any right digit"
+
+
+(ENTRY,) = OLD_CHART["contenders"]
+
+
+@rows(
+    "changes, others, message",
+    [
+        (
+            {"processor": "Xeon"},
+            {},
+            "the processor of 'race.json' is 'Xeon', and that of the chart",
+        ),
+        ({"software": {"python": "3.12.0"}}, {}, "python of 'race.json' is '3.12.0'"),
+        ({"path": {"preset": "malus"}}, {}, "the preset of 'race.json' is 'malus'"),
+        ({}, {"machine": {"system": "Linux"}}, "that of the chart not told"),
+        ({}, {"parameters": {"filter": "none"}}, "the chart is of other values"),
+        ({}, {"contenders": [{**ENTRY, "dtype": "float32"}]}, "share no contender"),
+    ],
+)
+def test_a_race_of_something_else_than_the_chart_is_refused(changes, others, message):
+    with pytest.raises(op.OptipathError, match=message):
+        peer_times(race(**changes), "race.json", OLD_CHART | others)
+
+
+@rows(
+    "name, value",
+    [("error", 10**400), ("error", -1e-9), ("error", True), ("least", True), ("least", 10**400)],
+)
+def test_a_time_or_an_error_that_is_no_such_number_is_refused(name, value):
+    found = json.loads(race())
+    found["contests"]["absorbing"]["results"][1][name] = value
+    with pytest.raises(op.OptipathError, match="is no whole race"):
+        peer_times(json.dumps(found), "race.json", OLD_CHART)
+
+
+@rows("text", ["", "[]", "{}", '{"contests": 3}'])
+def test_what_is_no_race_is_refused(text):
+    with pytest.raises(op.OptipathError, match=r"race\.py --json"):
+        peer_times(text, "race.json", OLD_CHART)
+
+
+def test_peers_stand_in_a_panel_of_their_own_with_their_names(tmp_path):
+    pytest.importorskip("matplotlib")
+    file = tmp_path / "race.json"
+    file.write_text(race(), "utf-8")
+    panel = op.plots.chart(OLD_CHART, peers=file)
+    figure = panel[0].figure
+    texts = texts_of(figure)
+    words = [text.get_text() for text in texts]
+    assert set(NAMES) <= set(words)
+    assert any("times x 1.5" in word for word in words)
+    assert faults_of(figure) == []
+    assert texts_over_marks(figure, texts) == []
+    colours = {line.get_color() for line in panel[2].get_lines() if line.get_marker() == "o"}
+    assert len(colours) == 2
+    op.plots.save(panel, tmp_path / "x.png", 60)

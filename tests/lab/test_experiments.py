@@ -1,0 +1,347 @@
+"""Published experiments: their files, what agrees with a number, and what is measured again."""
+
+import math
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.lab.published.experiment import Experiment, Measurement, Walks
+from optipath.lab.published.experiment_files import experiment_names, load_experiment
+from optipath.lab.published.measured_quantities import MEASURES
+from optipath.lab.published.reproduction import reproduce
+from tables import rows
+
+AT_60, AT_80 = Walks("60 deg", (), None), Walks("80 deg", (), None)
+ROUGH = op.Sample([(1.5, 0.3), (2.4, 0.3)], surfaces=2, cells=400)
+OWN = """\
+format = 1
+description = "glass"
+source = "a notebook"
+sample = "glass-rough"
+
+[[measurements]]
+measure = "R"
+incidence = ["60 deg", "1 rad"]
+text = "a tenth"
+published = [0.1, [0.05, 0.1]]
+"""
+TEXT, TABLE = 'text = "a tenth"', "[[measurements]]"
+
+
+@rows(
+    "value, error, agrees",
+    [
+        (0.165, 0.0, True),
+        (0.151, 0.0, True),
+        (0.149, 0.0, False),
+        (0.149, 0.001, True),
+        (0.1481, 0.001, True),
+        (0.1479, 0.001, False),
+        (0.195, 0.0, True),
+        (0.1951, 0.0, False),
+        (math.nan, 0.0, False),
+    ],
+)
+def test_a_value_agrees_within_the_range_what_is_allowed_and_two_errors(value, error, agrees):
+    one = Measurement("adm", "16.5 to 18 %", AT_60, (0.165, 0.18), within=0.0150001)
+    assert one.agrees(value, error) is agrees
+    assert Measurement("adm", "larger", AT_60).agrees(value, error) is None
+
+
+def test_measurements_of_one_direction_share_photons_in_the_order_of_the_file():
+    pairs = [("adm", AT_60), ("adm", AT_80), ("mdm", AT_60), ("mdm", AT_80)]
+    several = tuple(Measurement(measure, "", walks) for measure, walks in pairs)
+    found = Experiment("own", "", "", op.Sample([(1.5, 0.1)]), several).by_walks()
+    assert [(walks, [one.measure for one in shared]) for walks, shared in found] == [
+        (AT_60, ["adm", "mdm"]),
+        (AT_80, ["adm", "mdm"]),
+    ]
+
+
+def written(folder, text):
+    file = folder / "own.toml"
+    file.write_text(text, "utf-8")
+    return file
+
+
+def refused(folder, text):
+    with pytest.raises(op.SurfaceError) as error:
+        load_experiment(written(folder, text))
+    return error.value.faults
+
+
+def test_every_published_sample_has_an_experiment():
+    samples = [name for name in op.sample_names() if name.startswith("wang-2017-")]
+    assert experiment_names() == samples
+    with pytest.raises(op.SurfaceError, match="did you mean 'wang-2017-table-1'"):
+        load_experiment("wang-2017-tabel-1")
+
+
+@rows("name", experiment_names())
+def test_an_experiment_is_over_the_sample_of_its_name_and_says_its_source(name):
+    found = load_experiment(name)
+    assert found.sample == op.load_sample(name)
+    assert found.source.startswith("M. Wang et al., Optics Express 25(19), 2017, ")
+    assert all(one.text and one.measure in MEASURES for one in found.measurements)
+
+
+def test_the_published_numbers_of_simulation_1_are_there():
+    found = load_experiment("wang-2017-simulation-01").measurements
+    numbers = {"50 deg": 0.165, "56 deg": 0.19, "60 deg": 0.205, "65 deg": 0.215}
+    known = {one.walks.incidence: one.published for one in found}
+    assert known == {angle: (number, number) for angle, number in numbers.items()}
+
+
+def test_metals_are_looked_at_from_380_to_700_nm():
+    walks = load_experiment("wang-2017-simulation-07").measurements[0].walks
+    assert walks.wavelengths == tuple(f"{each} nm" for each in range(380, 701, 40))
+
+
+def test_a_file_of_ones_own_has_a_measurement_for_each_angle(tmp_path):
+    found = load_experiment(written(tmp_path, OWN)).measurements
+    assert [(one.walks.incidence, one.published) for one in found] == [
+        ("60 deg", (0.1, 0.1)),
+        ("1 rad", (0.05, 0.1)),
+    ]
+
+
+def test_its_sample_may_be_a_file_beside_it(tmp_path):
+    (tmp_path / "pane.toml").write_text(op.Sample([(1.7, 0.0)]).to_toml(), "utf-8")
+    text = OWN.replace("glass-rough", "pane.toml")
+    assert load_experiment(written(tmp_path, text)).sample == op.Sample([(1.7, 0.0)])
+    # Without random fields it takes no cells.
+    (fault,) = refused(tmp_path, text.replace(TEXT, f"{TEXT}\ncells = 20"))
+    assert fault.startswith("measurements[0]: ")
+    assert "cells" in fault
+
+
+def test_all_faults_of_a_file_are_told_at_once(tmp_path):
+    text = OWN.replace('"R"', '"adn"').replace("1 rad", "1 nm").replace("[0.05, 0.1]", '"x"')
+    faults = refused(tmp_path, text.replace('source = "a notebook"', "photons = 0"))
+    assert len(faults) == 5
+    told = " ".join(faults)
+    for part in (
+        "the experiment: 'source' is missing",
+        "photons must be a whole number of 1 or more, not 0",
+        "measurements[0]: measure 'adn' is unknown; did you mean 'adm'?",
+        "measurements[0]: published: 'x' is neither a number nor [LEAST, LARGEST]",
+        "1 nm",
+    ):
+        assert part in told
+
+
+@rows(
+    "old, new, told",
+    [
+        ("format = 1", "format = 2", "format is 2, but this version reads format 1"),
+        ("glass-rough", "../own.toml", "'../own.toml' leads out of the folder of the experiment"),
+        ("glass-rough", "nul\\u0000.toml", "cannot be read"),
+        ("glass-rough", "glas-rough", "sample: sample 'glas-rough' is unknown"),
+        ("glass-rough", "gold-rough", "depends on the wavelength"),
+        ("[0.1, [", "[0.1, 0.2, [", "3 numbers, but 2 angles of incidence"),
+        ("[0.05, 0.1]", "[0.1, 0.05]", "neither a number nor"),
+        ("60 deg", "90 deg", "90 deg, along the sample"),
+        ("measure =", "mesure =", "key 'mesure' is unknown; did you mean 'measure'?"),
+        (TEXT, "within = -1", "'within' is -1; write a number from 0"),
+        (TEXT, "", "'text' is missing"),
+        (TEXT, "text = 1", "'text' must be a text, not 1"),
+        (TEXT, "cells = 1", "cells must be a whole number of 2 or more, not 1"),
+        (TEXT, "stokes = [1, 2, 0, 0]", "polarised by more than 100 %"),
+        (TABLE, f"wavelengths = ['1 nm', '2 nm']\n{TABLE}", "one wavelength"),
+        ('["60 deg", "1 rad"]\n', "[]\n", "incidence is empty; give one angle or more, such as"),
+        ('"1 rad"', "1.0", 'incidence: 1.0 is no text; write one such as "60 deg"'),
+        (OWN[OWN.index("[[") :], "measurements = []", "measures nothing; add a table [[meas"),
+    ],
+)
+def test_what_is_wrong_is_told(old, new, told, tmp_path):
+    assert any(told in fault for fault in refused(tmp_path, OWN.replace(old, new)))
+
+
+PIXELS = "'sensor' is given, but not for 'R', which no pixels see; leave it out"
+WITHIN = "'within' is given, but nothing is 'published'; give both, or leave it out"
+
+
+@rows(
+    "old, new, told",
+    [
+        ('["60 deg", "1 rad"]', '"50 deg"', "measurements[0]: 'incidence' must be a list, not"),
+        ('"R"', "3", "measurements[0]: 'measure' must be a text, not 3"),
+        ('"glass-rough"', "3", "the experiment: 'sample' must be a text, not 3"),
+        (OWN[OWN.index("[[") :], "measurements = 3", "'measurements' must be a list, not 3"),
+        (TABLE, f"wavelengths = 3\n{TABLE}", "'wavelengths' must be a list"),
+        (TABLE, f"sensor = 64\n{TABLE}", PIXELS),
+        ("published = [0.1, [0.05, 0.1]]", "within = 0.1", WITHIN),
+        *(
+            (
+                f'"R"\nincidence = ["60 deg", "1 rad"]\n{TEXT}',
+                f'"adm"\nincidence = ["60 deg", "1 rad"]\n{TEXT}\nazimuth = {azimuth}',
+                f"measurements[0]: 'azimuth' is {azimuth}; write a number from 0 to 180, in deg",
+            )
+            for azimuth in (500, 180.1, -1, "nan")
+        ),
+    ],
+)
+def test_one_thing_that_is_wrong_is_told_once(old, new, told, tmp_path):
+    (fault,) = refused(tmp_path, OWN.replace(old, new))
+    assert told in fault
+
+
+@rows("key", ["stokes", "azimuth", "brighter_than", "noise", "cells"])
+def test_what_a_measure_does_not_depend_on_is_refused(key, tmp_path):
+    value = "[1.0, 0.0, 0.5, 0.0]" if key == "stokes" else "20"
+    for name, measure in MEASURES.items():
+        text = OWN.replace('"R"', f'"{name}"').replace(TEXT, f"{TEXT}\n{key} = {value}")
+        if key in measure.takes:
+            assert load_experiment(written(tmp_path, text)).measurements
+        else:
+            (fault,) = refused(tmp_path, text)
+            assert fault == (
+                f"measurements[0]: '{key}' is given, but measure '{name}' does not depend on it; "
+                f"leave it out"
+            )
+
+
+def test_each_key_is_of_the_measures_that_it_has_a_meaning_for():
+    keys = "stokes", "azimuth", "noise", "brighter_than", "sensor", "cells"
+    known = {key: {name for name, one in MEASURES.items() if key in one.takes} for key in keys}
+    shares = {"R_s", "R_m", "R", "T_s", "T_m", "T", "R+T"}
+    without_pixels = shares | {f"scalar-{name}" for name in shares}
+    assert known["stokes"] == shares | {"dolp", "aop"}
+    assert known["azimuth"] == known["noise"] == known["brighter_than"] == {"adm", "mdm"}
+    assert known["sensor"] == set(MEASURES) - without_pixels
+    assert known["cells"] == set(MEASURES) - {"model-S3"}  # Of the model alone.
+
+
+def test_pixels_may_be_given_where_some_are_measured(tmp_path):
+    more = '[[measurements]]\nmeasure = "adm"\nincidence = ["1 rad"]\ntext = "none"\n'
+    text = OWN.replace(TABLE, f"sensor = 64\n{TABLE}") + more
+    assert load_experiment(written(tmp_path, text)).sensor == 64
+
+
+def test_the_cure_of_a_missing_wavelength_is_one_of_the_file(tmp_path):
+    text, cure = OWN.replace("glass-rough", "gold-rough"), 'wavelengths = ["550 nm"]'
+    (fault,) = refused(tmp_path, text)
+    assert fault.endswith(f"depends on the wavelength; give one above [[measurements]], {cure}")
+    cured = load_experiment(written(tmp_path, text.replace(TABLE, f"{cure}\n{TABLE}")))
+    assert cured.measurements[0].walks.wavelengths == ("550 nm",)
+
+
+# What is measured again, beside closed forms on flat samples.
+
+
+@pytest.fixture
+def _photons():
+    pytest.importorskip("numba")
+    pytest.importorskip("xarray")
+
+
+def amplitudes(m, theta):
+    """r_s and r_p, as textbooks have them, of fields whose p keeps its sense."""
+    c, g = np.cos(theta), np.sqrt(m**2 - np.sin(theta) ** 2 + 0j)
+    return (c - g) / (c + g), (m**2 * c - g) / (m**2 * c + g)
+
+
+def found(sample, measure, incidence, photons=20_000, **more):
+    one = Measurement(measure, "", Walks(incidence, (), more.pop("cells", None)), **more)
+    (again,) = reproduce(Experiment("own", "", "", sample, (one,), sensor=64), photons)
+    assert (again.measurement, again.photons) == (one, photons)
+    return again.found
+
+
+@pytest.mark.usefixtures("_photons")
+def test_shares_of_a_flat_face_are_those_of_fresnel_for_the_light_that_is_given():
+    glass, (r_s, r_p) = op.Sample([(1.5, 0)]), amplitudes(1.5, np.pi / 3)
+    value, error, mask, pixel = found(glass, "R", "60 deg")
+    assert abs(value - (abs(r_s) ** 2 + abs(r_p) ** 2) / 2.0) < 5 * error < 0.02
+    assert (mask, pixel) == ("", "")
+    for s1, known in ((1.0, r_s), (-1.0, r_p)):
+        value, error, *_ = found(glass, "R", "60 deg", stokes=(1.0, s1, 0.0, 0.0))
+        assert abs(value - abs(known) ** 2) < 5 * error < 0.02
+
+
+@pytest.mark.usefixtures("_photons")
+def test_lights_from_one_direction_are_told_apart():
+    lights = [(1.0, s1, 0.0, 0.0) for s1 in (1.0, -1.0, 0.0)]
+    several = tuple(Measurement("R", "", AT_60, stokes=light) for light in lights)
+    experiment = Experiment("own", "", "", op.Sample([(1.5, 0)]), several)
+    both = [one.found for one in reproduce(experiment, 20_000)]
+    assert both[0].value > 0.15
+    assert both[1].value < 0.05
+    assert abs((both[0].value + both[1].value) / 2.0 - both[2].value) < 5 * both[2].error
+
+
+@pytest.mark.usefixtures("_photons")
+@rows("measure", ["R+T", "scalar-R+T"])
+def test_glass_reflects_or_lets_through_all_light(measure):
+    value, error, *_ = found(op.Sample([(1.5, 0.3)], surfaces=2, cells=400), measure, "60 deg")
+    assert abs(value - 1.0) < 5 * error + 1e-12
+
+
+@pytest.mark.usefixtures("_photons")
+@rows("angle, known", [(50, 1.785), (56, 2.498), (60, 2.900), (65, 3.167)])
+def test_adm_of_a_smooth_stack_is_the_exact_one(angle, known):
+    # 1.5 on 2.4, flat: all light goes into one pixel; by the matrices of the two interfaces and
+    # the geometric series between them, in per cent.
+    sample = op.Sample([(1.5, 0), (2.4, 0)])
+    value, error, mask, pixel = found(sample, "adm", f"{angle} deg", 200_000)
+    assert abs(100.0 * value - known) < 500.0 * error + 0.001
+    assert 100.0 * error < 0.05
+    assert "64 x 64 pixels" in mask
+    assert abs(int(pixel.split(" ")[0]) - angle) <= 1
+
+
+@pytest.mark.usefixtures("_photons")
+def test_pixels_are_left_out_beside_an_azimuth_and_where_they_are_dark():
+    *_, mask, pixel = found(ROUGH, "adm", "60 deg", 50_000, azimuth=10.0, noise=5.0)
+    assert "azimuth within 10 deg" in mask
+    assert int(pixel.split(" ")[2]) <= 10
+    value, error, *_ = found(ROUGH, "adm", "60 deg", 20_000, brighter_than=1e6)
+    assert np.isnan([value, error]).all()
+
+
+@pytest.mark.usefixtures("_photons")
+def test_mirrored_light_has_the_polarisation_of_fresnel():
+    sample, given = op.Sample([(0.2 + 3.4j, 0)]), (1.0, 0.0, 1.0, 0.0)
+    light = np.array(amplitudes(0.2 + 3.4j, np.radians(60.0)))
+    intensity, s1 = np.sum(abs(light) ** 2), abs(light[0]) ** 2 - abs(light[1]) ** 2
+    s2 = 2.0 * np.real(np.conj(light[0]) * light[1])
+    dolp, aop = (found(sample, name, "60 deg", stokes=given) for name in ("dolp", "aop"))
+    assert dolp.value == pytest.approx(np.hypot(s1, s2) / intensity, rel=1e-12)
+    assert aop.value == pytest.approx(np.degrees(np.arctan2(abs(s2), abs(s1))) / 2.0, rel=1e-12)
+    assert "where a mirror sends the light" in aop.mask
+
+
+@pytest.mark.usefixtures("_photons")
+@rows("cells, finer", [(40, False), (640, True)])
+def test_cells_are_those_of_the_experiment_without_a_warning(cells, finer):
+    value, *_ = found(op.Sample([(1.5, 1.0)]), "scalar-T_m", "1 rad", 65_536, cells=cells)
+    # A coarse mesh has too little light that is refracted twice.
+    assert (value > 0.053) == finer
+
+
+@pytest.mark.usefixtures("_photons")
+def test_a_seed_gives_the_same_numbers_with_any_number_of_threads():
+    several = tuple(Measurement(measure, "", AT_60) for measure in ("adm", "R_m"))
+    experiment = Experiment("own", "", "", ROUGH, several, sensor=16)
+    one, two = (
+        [each.found for each in reproduce(experiment, 40_000, seed=3, threads=threads)]
+        for threads in (1, 2)
+    )
+    assert one == two
+    assert np.isfinite([each.value for each in one]).all()
+
+
+@pytest.mark.usefixtures("_photons")
+def test_progress_is_told_of_each_direction():
+    told = []
+    experiment = load_experiment("wang-2017-table-2-alpha-0-1")
+    again = reproduce(experiment, 1000, progress=lambda *counts: told.append(counts))
+    assert all(one.agrees for one in again)
+    assert told.count((1000, 1000)) >= 3
+
+
+@pytest.mark.usefixtures("_photons")
+def test_too_few_photons_are_told_with_a_cure_that_can_be_followed():
+    with pytest.raises(op.SurfaceError, match=r"measure with more photons$"):
+        found(op.Sample([(1.5, 0.3)], cells=400), "adm", "60 deg", 1)

@@ -1,0 +1,330 @@
+"""The references themselves, against published values and closed forms, and errors by them."""
+
+import mpmath
+import numpy as np
+import pytest
+
+import optipath as op
+from chains import MATERIALS, random_chains
+from optipath.elements.coupling import Coupling
+from optipath.lab.accuracy.element_reference import mueller
+from optipath.lab.accuracy.error_measures import errors
+from optipath.lab.accuracy.exact_values import Reader
+from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
+from optipath.lab.accuracy.reference import reflection, transmission
+from optipath.lab.accuracy.regions import REGIONS
+from optipath.lab.accuracy.worst_cases import worst
+from paths import chain
+from published import npgr026
+from slabs import stack
+from tables import rows
+
+NAMES = {region.name: region for region in REGIONS}
+
+
+@rows("case", sorted(npgr026.EXACT))
+def test_a_whole_path_gives_the_published_case_to_its_last_digits(case):
+    lights = exact_lights(op.load_preset("npgr026", case=case))
+    exact = [mpmath.mpf(text) for text in npgr026.EXACT[case]]
+    # The angles of the preset are floats: what they are off by is all that is left.
+    slack = 1e-12 if case == "3" else 1e-15
+    for found, component in zip(lights["E"].stokes, exact, strict=True):
+        assert abs(found - component) <= slack * exact[0]
+
+
+@pytest.fixture(autouse=True)
+def many_digits():
+    with mpmath.workdps(60):
+        yield
+
+
+def test_brewsters_angle_and_total_reflection_are_as_in_the_books():
+    A, B, C, S = reflection(1.5, 0.0, 1.0, 1.5).values
+    assert abs(A - mpmath.mpf(25) / 338) <= 1e-49  # (1 - n^2)^2 / (1 + n^2)^2 / 2
+    assert A == B
+    assert (C, S) == (0, 0)
+    A, B, C, S = reflection(0.5, 0.0, 0.75, 1.0).values
+    assert (A, B) == (1, 0)
+    # Born & Wolf, sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2, the sine being 0.8.
+    number = mpmath.mpf
+    half = number(3) / 5 * mpmath.sqrt(number("0.64") - number("0.25")) / number("0.64")
+    assert abs(S / (1 + C) - half) <= 1e-49
+
+
+@rows("n, k", [(1.5, 0.0), (0.2, 3.4), (0.7, 0.0)])
+def test_what_is_not_reflected_is_let_through(n, k):
+    given = (n, k, 0.8, 0.6)
+    F, T = reflection(*given).values, transmission(*given).values
+    assert abs(F[0] + T[0] - 1) <= 1e-49
+    assert abs(F[1] + T[1]) <= 1e-49
+
+
+def test_the_condition_is_the_slope_in_tan_theta():
+    # B ~ theta^2 next to the normal, and A does not follow the angle there.
+    conditions = reflection(1.5, 0.0, 1.0, 1e-9).conditions
+    assert conditions[1] == pytest.approx(2.0, abs=1e-12)
+    assert conditions[0] <= 1e-30
+
+
+def test_the_conditions_of_a_path_are_those_of_its_angles():
+    # Malus: cos^2 a against tan 2a.
+    light = exact_lights(op.load_preset("malus", angle=0.3))["eye"]
+    slope = 2 * np.tan(0.3) * np.sin(4 * 0.3) / 4
+    # The polariser turns the frame there and back again.
+    assert light.conditions[0] == pytest.approx(slope, rel=1e-12)
+
+
+def test_a_batch_has_one_reference_for_each():
+    path = op.load_preset("malus")
+    angles = np.array([0.1, 0.2, 0.3])
+    lights = list(exact_batch(path.graph, angle=angles))
+    for angle, light in zip(angles.tolist(), lights, strict=True):
+        assert light["eye"] == exact_lights(path, angle=angle)["eye"]
+
+
+def everything():
+    """A path of every element, with branches that meet."""
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(2.0, [1.0, 0.2, -0.3, 0.4]))
+    lamp >> path.add("plate", op.Retarder(0.7, 0.2, azimuth=0.3))
+    path["plate"] >> path.add("split", op.BeamSplitter(0.3, azimuth=-0.1))
+    path.add("sum", op.Combiner())
+    for name, element in (
+        ("glass", op.Interface(1.5, 0.9, outside=1.2, azimuth=0.4)),
+        ("metal", op.Interface(0.2 + 3j, 0.5)),
+    ):
+        port = "reflected" if name == "glass" else "transmitted"
+        path.add(name, element)
+        path.connect(f"split.{port}", f"{name}.in")
+        path.connect(f"{name}.reflected", "sum.in", azimuth=0.2)
+    path.add("cube", op.PolarizingBeamSplitter(1000.0, azimuth=0.3))
+    path["sum"] >> path["cube"]
+    path.add("both", op.Combiner())
+    path.connect("cube.reflected", "both.in")
+    path.connect("cube.transmitted", "both.in", azimuth=0.7)
+    foil = np.diag([0.9, 0.5, 0.4, 0.3])
+    node = path["both"]
+    for number, element in enumerate(
+        (
+            op.Rotator(0.3),
+            op.Polarizer(0.4, 0.1, 0.9, 0.05),
+            op.Attenuator(0.5),
+            op.MuellerElement(foil),
+            op.Mirror(-0.9 + 0.2j, 0.8 - 0.3j, azimuth=0.5),
+            op.Diattenuator(0.9, 0.3, angle=0.2, azimuth=0.1),
+            op.Medium(0.1, 3.0, rotation=8.0),
+            op.Medium(0.1, dextrorotation=3.0),
+            op.Depolarizer(0.1),
+            op.Medium(0.2, 0.0, retardance=5.0, angle=0.7, azimuth=0.2),
+            op.FaradayRotator(0.4),
+            op.FaradayRotator(verdet=-134.0, field=0.17, length=0.02),
+            op.CircularPolarizer("left", 0.9, 0.3),
+            op.Waveplate(2.3e-3, -0.0091, 5.89e-7, 0.3, azimuth=0.2),
+            op.EllipticalRetarder(0.3, -0.7, 1.1, azimuth=0.4),
+            op.CircularDiattenuator(0.9, 0.4),
+            op.Medium(0.1, 3.0, dichroism=2.0, circular_dichroism=1.0, retardance=9.0, angle=0.3),
+            op.Medium(0.1, 3.0, dichroism=2.0, retardance=4.0, dichroic_angle=0.8, rotation=2.0),
+            op.Medium(0.1, 3.0, dichroism=-1.0, depolarization=1.5, dextrorotation=4.0),
+        )
+    ):
+        node = node >> path.add(f"e{number}", element)
+    node >> path.add("eye", op.Detector())
+    return path
+
+
+def test_every_element_has_a_reference_that_agrees_with_the_library():
+    path = everything()
+    exact = [float(part) for part in exact_stokes(path)["eye"]]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
+
+
+@rows("indices", [[1.0, 1.38, 0.2 + 3j], [1.2, 1.5, 2.0, 1.3]])
+def test_a_stack_of_layers_has_a_reference_that_agrees_with_the_library(indices):
+    path = chain([op.LayerStack(indices, 0.6)], (1, 0.3, 0.2, 0.1))
+    exact = [float(part) for part in exact_stokes(path)["eye"]]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
+
+
+def test_turns_of_whole_right_angles_are_exact():
+    quartz = op.Medium(np.pi / 0.7, rotation=0.35)
+    assert exact_lights(chain([quartz], (1, 1, 0, 0)))["eye"].stokes == (1, -1, 0, 0)
+    assert exact_lights(op.load_preset("malus", case="crossed"))["eye"].stokes == (0, 0, 0, 0)
+
+
+def test_world_frames_have_a_reference():
+    first, second = op.Frame(), op.Frame().turned(0.7)
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=[1, 0.6, 0.1, 0.2]), frames={"out": first})
+    path.add("filter", op.Polarizer(0.2), frames={"in": second})
+    path["lamp"] >> path["filter"] >> path.add("eye", op.Detector())
+    exact = [float(part) for part in exact_lights(path)["eye"].stokes]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
+
+
+HALF = (1, 0.5, 0.5, 0.5)
+
+
+class Unregistered(op.Element):
+    """An element of one's own."""
+
+    share: op.Fraction = 0.5
+
+    @staticmethod
+    def mueller_rows(xp, share):
+        c = xp.sqrt(share)
+        return (1, 0, 0, 0), (0, share, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
+
+
+class Registered(Unregistered):
+    """One whose matrix is told a second time, in many digits."""
+
+
+@mueller.register
+def _(element: Registered, way: Coupling, read: Reader):
+    del way
+    share = read.real(element.share)
+    return mpmath.diag([1, share, mpmath.sqrt(share), mpmath.sqrt(share)]).tolist()
+
+
+def test_an_element_of_ones_own_has_the_reference_that_is_registered_for_it():
+    stokes = exact_lights(chain([Registered(op.Parameter("share"))], HALF), share=0.3)["eye"].stokes
+    assert abs(stokes[2] - mpmath.sqrt(mpmath.mpf(0.3)) / 2) <= 1e-49
+
+
+@rows("reference", [exact_lights, exact_stokes])
+def test_a_kernel_is_no_reference_of_itself(reference):
+    cure = r"class Unregistered have no reference .* register .*element_reference\.jones\.register"
+    with pytest.raises(op.PathError, match=cure):
+        reference(chain([Unregistered(0.5)], HALF))
+
+
+@rows("value", ["none", "horizontal"])
+def test_optional_elements_are_left_out_of_the_reference_too(value):
+    path = op.load_preset("npgr026", filter=value)
+    exact = [float(part) for part in exact_lights(path)["E"].stokes]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=1e-14, atol=1e-15)
+
+
+@rows("index, expected", [(1e300, [1, 0.3, 0.2, 0.1]), (1.0, [0, 0, 0, 0])])
+def test_light_at_exactly_90_degrees_is_told_exactly(index, expected):
+    path = chain([op.Interface(index, np.pi / 2)], (1, 0.3, 0.2, 0.1))
+    assert [float(part) for part in exact_lights(path)["eye"].stokes] == expected
+    np.testing.assert_array_equal(path.trace().stokes, expected)
+
+
+def test_an_angle_whose_rounding_is_a_turn_is_taken_as_it_is():
+    path = chain([op.Polarizer("1e17 rad")], (1, 1, 0, 0))
+    exact = float(exact_lights(path)["eye"].stokes[0])
+    assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
+
+
+def test_light_that_goes_round_next_to_a_critical_angle_has_a_reference():
+    indices = 1.2013844143721588, 2.3154580605777224, 1.1992097736544047, 2.41156558882614
+    lights = exact_stokes(stack(*indices, theta=1.5106189446918221))
+    assert abs(lights["R"][0] + lights["T"][0] - 1) < 1e-45
+
+
+def test_a_reference_is_of_a_path_and_of_single_values():
+    with pytest.raises(op.PathError, match="PathGraph"):
+        exact_lights("npgr026")
+    with pytest.raises(op.ParameterError, match="single values"):
+        exact_lights(op.load_preset("malus"), angle=[0.1, 0.2])
+
+
+@rows("case", ["3", "6", "8"])
+def test_points_in_space_give_the_same_light_as_angles_to_50_digits(case):
+    space, plane = (op.load_preset(name, case=case) for name in ("npgr026-3d", "npgr026"))
+    found, expected = exact_lights(space)["E"], exact_lights(plane)["E"]
+    for one, other in zip(found.stokes, expected.stokes, strict=True):
+        assert abs(one - other) <= 1e-50
+    np.testing.assert_allclose(found.conditions, expected.conditions, rtol=1e-6, atol=1e-20)
+
+
+@rows("reflections", [1, 3, 5])
+def test_light_along_a_chain_is_right_to_its_last_digits(reflections):
+    points, materials = random_chains(1, reflections), MATERIALS[:reflections]
+    path = op.path_from_vertices(points, materials, events="R" * reflections)
+    exact = [float(component) for component in exact_lights(path)["eye"].stokes]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=1e-14 * exact[0])
+
+
+def test_an_error_is_counted_in_ulp_of_the_exact_value_over_its_condition():
+    found = np.array([[1.0 + 2.0**-51, 0.5, 0.0, 0.0]])
+    exact = [((1.0, 0.5, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))]
+    off = errors(found, exact, "float64")
+    np.testing.assert_array_equal(off.componentwise, [[1.0, 0.0, 0.0, 0.0]])
+    np.testing.assert_array_equal(off.normwise, [1.0])
+
+
+def test_what_should_be_nothing_has_no_ulp_to_hide_in_nor_what_is_not_finite():
+    exact = [((1, 0, 0, 0), (0, 0, 0, 0))]
+    off = errors(np.array([[1.0, 1e-17, 0.0, 0.0]]), exact, "float64")
+    assert off.componentwise.max() > 1e300
+    assert off.normwise[0] < 0.1
+    off = errors(np.array([[np.nan, 0, 0, 0]]), exact, "float64")
+    assert np.isinf(off.componentwise[0, 0])
+    assert np.isinf(off.normwise[0])
+
+
+def test_the_unit_is_that_of_the_precision():
+    found = np.array([[1.0 + 2.0**-23, 0, 0, 0]], "float32")
+    exact = [((1, 0, 0, 0), (0, 0, 0, 0))]
+    assert errors(found, exact, "float32").componentwise[0, 0] == 1.0
+    assert errors(found.astype(float), exact, "float64").componentwise[0, 0] == 2.0**29
+
+
+@rows("dtype", ["float64", "float32"])
+@rows("region", REGIONS)
+def test_samples_are_boundaries_and_angles(region, dtype):
+    samples = region.samples(500, dtype)
+    assert all(part.shape == (500,) and part.dtype == dtype for part in samples)
+    assert np.all(np.isfinite(samples))
+    assert np.all((samples.n >= 0) & (samples.k >= 0))
+    wide = np.array([samples.cos, samples.sin], dtype=float)
+    assert np.all((wide >= 0) & (wide <= 1))
+    np.testing.assert_allclose(np.hypot(*wide), 1.0, rtol=0, atol=2 * np.finfo(dtype).eps)
+
+
+def test_samples_come_of_numbers_within_0_and_1_of_a_seed_and_a_name_of_their_own():
+    assert len(NAMES) == len(REGIONS)
+    for region in REGIONS:
+        random = np.random.default_rng([3, *region.name.encode()])
+        units = random.random((region.dimensions, 50))
+        for one, other in zip(region.at(units), region.samples(50, seed=3), strict=True):
+            np.testing.assert_array_equal(one, other)
+    assert not np.array_equal(REGIONS[0].samples(9).n, REGIONS[0].samples(9, seed=1).n)
+
+
+def test_samples_lie_where_their_region_says():
+    by_name = {name: region.samples(500) for name, region in NAMES.items()}
+    total = by_name["k = 0, total reflection"]
+    assert np.all(total.sin > total.n)
+    grazing = np.degrees(by_name["grazing"].cos)
+    assert grazing.min() < 1e-11
+    assert grazing.max() <= 0.1
+    brewster = by_name["near Brewster's angle"]
+    off = np.abs(brewster.incidence - np.arctan(brewster.n))
+    assert off.min() < 1e-10
+    assert off.max() <= 0.11
+    extreme = by_name["extreme magnitudes"]
+    size = np.abs(extreme.n + 1j * extreme.k)
+    assert np.all((size < 1e-162) | (size > 1e140))
+
+
+def test_a_longer_search_finds_no_less():
+    found = [worst("stable", NAMES["metals"], "B", generations=n).error for n in (1, 4, 8)]
+    assert found == sorted(found)
+    assert found[0] < found[-1]
+
+
+def test_a_search_finds_more_than_samples_do_and_the_same_every_time():
+    first, second = (worst("stable", NAMES["generic"], "A", generations=15) for _ in range(2))
+    assert first == second
+    assert first.error > 5.0
+
+
+def test_a_search_finds_a_double_zero_of_c_and_nothing_where_a_component_vanishes():
+    found = worst("stable", NAMES["k = 0, total reflection"], "C near 0", generations=5)
+    assert 0.3 < found.n < 0.6
+    assert found.error > 0.5
+    assert worst("stable", NAMES["exactly normal"], "B", generations=1).error == 0.0

@@ -1,0 +1,165 @@
+"""Which model is enough for a sample."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.surfaces import decide
+from optipath.surfaces.decisions.largest_of import LargestOf
+from optipath.surfaces.decisions.smooth_exit import smooth_exit
+from tables import rows
+
+pytest.importorskip("numba")
+pytest.importorskip("xarray")
+
+
+def test_three_standard_errors_to_either_side_of_one_are_within():
+    found = LargestOf.of([-0.2], [0.02])
+    np.testing.assert_allclose([found.value, found.least, found.most], [0.2, 0.14, 0.26])
+
+
+def test_one_of_many_that_chance_has_made_large_is_not_above():
+    noise = np.random.default_rng(0).normal(0.0, 0.01, (200, 2000))
+    assert not any(LargestOf.of(each, np.full(2000, 0.01)).is_above(0.0) for each in noise)
+    assert LargestOf.of([*noise[0], 0.06], np.full(2001, 0.01)).is_above(0.0)
+
+
+def test_a_number_that_is_none_leaves_the_largest_open():
+    found = LargestOf.of([np.nan, 0.3, 0.1], [0.0, 0.01, 0.01])
+    assert (found.value, found.error, found.most) == (0.3, 0.01, np.inf)
+    assert found.is_above(0.26)
+
+
+def test_the_noise_of_another_number_may_reach_further():
+    found = LargestOf.of([0.1, 0.2], [0.1, 0.001])
+    assert found.value == 0.2
+    assert not found.is_below(0.3)
+    assert found.is_above(0.19)
+
+
+def test_an_error_that_is_not_known_leaves_the_largest_open_and_so_do_no_numbers():
+    found = LargestOf.of([0.01, 0.02], [np.nan, 0.001])
+    assert not found.is_below(1e6)
+    assert str(found) == "1.7 % or more"
+    assert not LargestOf.of([], []).is_below(1.0)
+    assert not LargestOf.of([], []).is_above(0.0)
+
+
+GLASS = op.Sample([(1.5, 0.1), (2.4, 0.1)])
+
+
+def fresnel(first, second, angle):
+    """What a boundary reflects of s and p (M. Born, E. Wolf, Principles of Optics, eq. 1.5.21)."""
+    cos, behind = np.cos(angle), np.sqrt(1.0 - (first * np.sin(angle) / second) ** 2)
+    s = (first * cos - second * behind) / (first * cos + second * behind)
+    p = (second * cos - first * behind) / (second * cos + first * behind)
+    return np.array([s**2, p**2])
+
+
+@rows("incidence", [50.0, 65.0])
+def test_it_is_the_product_of_three_boundaries_in_one_plane(incidence):
+    there, back = np.radians([incidence, 80.0])
+    inside = np.arcsin(np.sin([there, back]) / 1.5)
+    ways = [1.0 - fresnel(1.0, 1.5, there), fresnel(1.5, 2.4, inside.mean())]
+    ways.append(1.0 - fresnel(1.5, 1.0, inside[1]))
+    exact = np.prod(ways, axis=0).mean() / np.prod([way.mean() for way in ways])
+    assert smooth_exit(GLASS, there, back) == pytest.approx(exact - 1.0, rel=1e-12)
+
+
+def test_smooth_exit_is_of_light_of_one_interface():
+    assert smooth_exit(GLASS, "60 deg", "80 deg", depth=0) == 0.0
+    sample = op.Sample([(1.3, 0.1), (1.5, 0.1), (1.8, 0.1)])
+    assert -0.2 < smooth_exit(sample, "60 deg", "80 deg", depth=2) < -0.1
+    with pytest.raises(op.SurfaceError, match="there is no interface 2; give one from 0 to 1"):
+        smooth_exit(GLASS, 0.5, 0.5, depth=2)
+
+
+FEW = {"photons": 50_000, "sensor": 16}
+
+
+def test_a_flat_stack_is_decided_without_photons():
+    sample = op.Sample([(1.5, 0.0), (2.4, 0.0)])
+    needed, enough = [decide(sample, "65 deg", each, photons=1) for each in (0.03, 0.04)]
+    assert (needed.model, enough.model) == ("polarized", "scalar")
+    assert needed.smooth == pytest.approx(-0.03167, abs=5e-6)
+    assert needed.difference is None
+
+
+def test_a_layered_sample_needs_polarisation_but_for_a_wide_tolerance():
+    found = decide(op.load_sample("glass-on-glass"), "60 deg", **FEW)
+    assert (found.model, found.undecided, found.multiple) == ("polarized", (), None)
+    assert found.explain().startswith("the polarised model is needed for a tolerance of 2 %\n")
+    assert any("-18.0 %" in line for line in found.evidence)
+    found = decide(op.load_sample("glass-on-glass"), "60 deg", 0.5, **FEW)
+    assert (found.model, found.undecided) == ("scalar", ())
+
+
+def test_a_metal_that_is_hardly_rough_is_told_by_single_scattering():
+    found = decide(op.Sample([(0.2 + 3j, 0.1)]), "30 deg", 0.15, photons=50_000, sensor=8)
+    assert (found.model, found.undecided) == ("single-scattering", ())
+    assert found.beside_model[0] + 3.0 * found.beside_model[1] < 0.15
+
+
+def test_single_scattering_is_held_against_all_light_of_each_pixel():
+    sample, few = op.Sample([(0.14 + 3.7j, 0.1)]), {"photons": 20_000, "sensor": 12}
+    found = decide(sample, "75 deg", 0.05, **few)
+    assert (found.model, found.undecided) == ("scalar", ("single-scattering",))
+    seen = op.measure(sample, "75 deg", **few)
+    light, error = (each[0, ..., 0, 0, 0] for each in seen.mueller)
+    bright = light > 0.2 * light.sum() / np.isfinite(seen.sensor.theta).sum()
+    light, error = light[bright], error[bright]
+    model = seen.single_scattering().values[0, ..., 0, 0, 0][bright] / light
+    at = np.argmax(np.abs(model - 1.0))
+    expected = abs(model[at] - 1.0), model[at] * error[at] / light[at]
+    assert found.beside_model == pytest.approx(expected, rel=0.1)
+
+
+def test_a_model_that_is_off_by_more_than_the_noise_is_not_enough():
+    found = decide(op.Sample([(1j, 0.6)]), "75 deg", 0.05, photons=20_000, sensor=8)
+    assert (found.model, found.undecided) == ("scalar", ())
+
+
+@rows(
+    "index, options, sentence",
+    [
+        (
+            1.0,
+            {"photons": 2000},
+            "^no pixel counts: .*of 2,000 photons none is reflected; walk more photons, or look",
+        ),
+        (
+            1j,
+            {"photons": 2000, "sensor": 16, "brighter_than": 100},
+            "^no pixel counts: .*none has 100 times the mean light",
+        ),
+        (1.5, {"tolerance": 0}, "give one above 0 and below 1, such as"),
+        (1.5, {"tolerance": 1}, "give one above 0 and below 1, such as"),
+        (1.5, {"progress": 3}, "progress is 3; give a function of two numbers"),
+        (1j, {"side": "transmitted"}, "give side='reflected'"),
+    ],
+)
+def test_what_cannot_be_decided_is_told(index, options, sentence):
+    with pytest.raises(op.SurfaceError, match=sentence):
+        decide(op.Sample([(index, 0.3)]), "30 deg", **options)
+
+
+def test_what_the_noise_does_not_tell_takes_the_next_better_model():
+    found = decide(op.Sample([(1.5, 0.25)]), "60 deg", 0.02, photons=20_000, sensor=16)
+    assert found.model == "polarized"
+    assert "scalar" in found.undecided
+    assert found.explain().splitlines()[0].endswith("the noise does not tell")
+
+
+def test_transmitted_light_is_beyond_the_model_of_single_scattering():
+    found = decide(op.Sample([(1.5, 0.1)]), 0.5, side="transmitted", **FEW)
+    assert found.model == "scalar"
+    assert "single scattering: it tells reflected light" in found.evidence
+
+
+def test_all_that_is_wrong_is_told_at_once():
+    with pytest.raises(op.SurfaceError) as caught:
+        decide(op.Sample([(1.5, 0.1)]), 2.0, 1.0, photons=0, side="up", seed=-1)
+    told = "\n".join(caught.value.faults)
+    assert all(
+        each in told for each in ("photons", "tolerance is 1.0", "'up'", "incidence", "seed")
+    )

@@ -1,0 +1,409 @@
+"""What follows from a hemisphere: light of pixels, maps of differences, a dataset.
+
+Statistical tests have fixed seeds, and would fail by chance once in a million of other seeds.
+"""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import optipath as op
+from optipath.surfaces.decisions.smooth_exit import smooth_exit
+from tables import rows
+
+pytest.importorskip("numba")
+pytest.importorskip("xarray")
+
+
+SILVER = op.Sample([(0.5 + 2.1j, 0.3)], cells=200, surfaces=4)
+GLASS = op.Sample([(1.5, 0.3)], cells=200, surfaces=4)
+SOURCE = (2.0, 0.6, -0.8, 1.0)
+
+
+@pytest.fixture(scope="module")
+def silver():
+    return op.measure(SILVER, "40 deg", 30_000, sensor=16, symmetric=False)
+
+
+@pytest.fixture(scope="module")
+def glass():
+    return op.measure(GLASS, "60 deg", 30_000, sensor=16)
+
+
+@rows("source", [SOURCE, [1, 0, 0, 0], np.array([1.0, 0, 0, 1])])
+def test_stokes_vectors_are_those_of_the_mueller_matrices(silver, source):
+    found = silver.stokes(source)
+    expected = np.einsum("...ij,j->...i", silver.mueller[0], np.array(source, float))
+    assert np.allclose(found, expected, rtol=1e-14, atol=1e-18)
+    assert found.dims == ("side", "y", "x", "wavelength", "out")
+    assert found.attrs["source"].tolist() == [*map(float, source)]
+
+
+def test_the_error_of_a_sum_is_not_that_of_its_parts(silver):
+    # S0 and S1 of one photon go together: with x-polarised light M00 + M01 is no sum of two noises.
+    light, (_, each) = silver.stokes([1, 1, 0, 0]), silver.mueller
+    naive = np.hypot(each[..., 0, 0], each[..., 0, 1])
+    lit = silver.dataset["count"].values[..., np.newaxis] > 100
+    assert np.median(light.se.values[..., 0][lit] / naive[lit]) > 1.05
+    unpolarised = silver.stokes().se.values
+    assert np.allclose(unpolarised, each[..., 0], rtol=1e-9, atol=1e-20)
+
+
+def test_brdf_is_light_over_solid_angle_and_cosine(glass):
+    found, scalar = glass.brdf(), glass.brdf(polarized=False)
+    area = (glass.dataset.solid_angle * np.cos(glass.dataset.theta)).values[..., np.newaxis]
+    inside = ~np.isnan(glass.sensor.theta)
+    for array, value, error in (
+        (found, *glass.mueller),
+        (scalar, *glass.scalar),
+    ):
+        over = area[..., np.newaxis, np.newaxis] if array is found else area
+        assert np.allclose((array * over).values[:, inside], value[:, inside], rtol=1e-13)
+        assert np.allclose((array.se * over).values[:, inside], error[:, inside], rtol=1e-9)
+        assert np.isnan(array.values[:, ~inside]).all()
+        assert array.units == array.se.units == "1/sr"
+
+
+def test_the_brdf_of_what_has_not_been_measured_is_told():
+    one = op.measure(SILVER, "40 deg", 100, sensor=8, polarized="scalar")
+    assert one.brdf(polarized=False).name == "brdf"
+    for ask in (one.brdf, one.stokes, one.dop, one.dolp, one.aop):
+        with pytest.raises(op.SurfaceError, match="the Mueller matrix has not been measured"):
+            ask()
+    other = op.measure(SILVER, "40 deg", 100, sensor=8, polarized="polarized")
+    with pytest.raises(op.SurfaceError, match="light without polarisation has not been measured"):
+        other.brdf(polarized=False)
+
+
+@rows("source", [SOURCE, (1, 0, 0, 0)])
+def test_degrees_and_angles_are_those_of_the_stokes_vectors(silver, source):
+    s0, s1, s2, s3 = np.moveaxis(silver.stokes(source).values, -1, 0)
+    lit = s0 > 0.0
+    s0, s1, s2, s3 = (each[lit] for each in (s0, s1, s2, s3))
+    assert np.allclose(silver.dolp(source).values[lit], np.hypot(s1, s2) / s0, atol=1e-12)
+    assert np.allclose(silver.dop(source).values[lit], np.sqrt(s1**2 + s2**2 + s3**2) / s0)
+    aop = silver.aop(source).values[lit]
+    assert np.allclose(np.exp(2j * aop), (s1 + 1j * s2) / np.hypot(s1, s2), atol=1e-7)
+    assert np.all((aop > -np.pi / 2.0) & (aop <= np.pi / 2.0))
+    assert (silver.aop().units, silver.dop().units, silver.dolp().units) == ("rad", "1", "1")
+
+
+@given(
+    degree=st.floats(0.0, 1.0),
+    angles=st.tuples(st.floats(0.0, np.pi), st.floats(-np.pi, np.pi)),
+)
+@settings(max_examples=20)
+def test_no_light_is_polarised_by_more_than_all_of_it(silver, degree, angles):
+    latitude, longitude = angles
+    level = degree * np.sin(latitude)
+    state = [1.0, level * np.cos(longitude), level * np.sin(longitude), degree * np.cos(latitude)]
+    matrices = silver.mueller[0]
+    lit = matrices[..., 0, 0] > 0.0
+    assert np.all(silver.dop(state).values[lit] <= 1.0 + 1e-12)
+    assert np.all(silver.dolp(state).values[lit] <= silver.dop(state).values[lit] + 1e-12)
+
+
+def test_where_no_light_falls_there_is_no_degree_and_no_angle(silver):
+    dark = silver.dataset["count"].values[..., np.newaxis] == 0
+    assert dark.any()
+    for array in (silver.dop(), silver.dolp(), silver.aop()):
+        assert np.array_equal(np.isnan(array.values), dark)
+    assert np.all(silver.stokes().values[dark] == 0.0)
+
+
+def test_angles_next_to_a_right_angle_have_small_errors():
+    # In the plane of incidence light along y stays so, but for a little noise of either sign.
+    found = op.measure(SILVER, "40 deg", 30_000, sensor=17, symmetric=False)
+    aop = found.aop([1.0, -1.0, 0.0, 0.0]).isel(y=8, x=slice(10, None), side=0, wavelength=0)
+    bright = found.dataset["count"].values[0, 8, 10:] > 100
+    angles, errors = aop.values[bright], aop.se.values[bright]
+    assert bright.sum() >= 5
+    assert angles.min() < 0.0 < angles.max()
+    assert np.all(np.abs(angles) > np.radians(80.0))
+    assert errors.max() < np.radians(5.0)
+
+
+def test_angles_of_light_turned_by_a_right_angle_have_the_same_errors():
+    one = op.measure(SILVER, "40 deg", 30_000, sensor=8, symmetric=False)
+    numbers = one.parts.sums
+    turned = numbers[..., :16].reshape(*numbers.shape[:-1], 4, 4).copy()
+    turned[..., 1:3, :] *= -1.0
+    sums = np.concatenate([turned.reshape(*numbers.shape[:-1], 16), numbers[..., 16:]], axis=-1)
+    other = op.surfaces.Hemisphere(
+        one.seen, one.parts._replace(sums=sums), one.wavelengths, symmetric=False
+    )
+    found, expected = other.aop(SOURCE), one.aop(SOURCE)
+    assert np.allclose(found.se, expected.se, rtol=1e-6, atol=1e-12, equal_nan=True)
+    apart = (found - expected).values % np.pi
+    assert np.allclose(apart[~np.isnan(apart)], np.pi / 2.0, atol=1e-12)
+
+
+def test_errors_go_along_with_what_is_chosen(silver):
+    chosen = silver.dolp().sel(side="reflected").isel(wavelength=0)
+    assert chosen.se.dims == chosen.dims == ("y", "x")
+    assert {"theta", "phi", "x", "y"} <= {*chosen.coords}
+    # Of a difference they would be wrong, and xarray leaves them out.
+    assert "se" not in (silver.dolp() - silver.dop(SOURCE)).coords
+
+
+@rows(
+    "source, told",
+    [
+        ([1, 1, 1, 0], "polarised by more than 100 %"),
+        ([0, 0, 0, 0], "has no intensity; give S0 > 0"),
+        ([-1, 0, 0, 0], "intensity"),
+        ([1, 0, 0], r"must have shape \(..., 4\)"),
+        ([[1, 0, 0, 0], [1, 1, 0, 0]], "give one Stokes vector"),
+        ([1, np.nan, 0, 0], "finite Stokes vector"),
+        (op.Light([1.0, 0, 0, 0]), "light.stokes"),
+        ("unpolarised", "source"),
+    ],
+)
+def test_what_is_no_source_is_told(silver, source, told):
+    for ask in (silver.stokes, silver.dop, silver.dolp, silver.aop):
+        with pytest.raises(op.SurfaceError, match=told):
+            ask(source)
+
+
+def test_what_follows_comes_of_a_function_that_returns_real_numbers(glass):
+    for estimate in (glass.own.estimate, lambda found: glass.estimate_toward(found, "56 deg")):
+        with pytest.raises(op.SurfaceError, match="found is 3; give a function"):
+            estimate(3)
+        for value in (None, "0.5", [[1.0], [1.0, 2.0]], 1j, True):
+            with pytest.raises(op.SurfaceError, match="let the function return real numbers"):
+                estimate(lambda _, value=value: value)
+    value, error = glass.estimate_toward(lambda _: 2, "56 deg")
+    assert (value, error) == (2, 0.0)
+
+
+@rows(
+    "ask, sentence",
+    [
+        (lambda it: it.toward(np.zeros((0, 3))), r"the shape \(0, 3\); give one direction or more"),
+        (lambda it: it.side("below"), "give reflected or transmitted"),
+        (lambda it: it.side(0), "give reflected or transmitted"),
+        (
+            lambda _: op.measure(op.Sample([(1j, 0.0)]), 0.5, 100, sensor=4).side("transmitted"),
+            "nothing goes through an opaque sample",
+        ),
+        (
+            lambda _: op.measure(op.Sample([(1.5, 0.1)]), "56 deg", progress=3),
+            "progress is 3; give a function of two numbers",
+        ),
+        *(
+            (
+                lambda _, kind=kind: op.measure(GLASS, 0.5, 1000, sensor=8, polarized=kind).adm(),
+                "measure with polarized='both'",
+            )
+            for kind in ("scalar", "polarized")
+        ),
+        (
+            lambda _: op.measure(GLASS, 0.5, 100, sensor=8).adm(),
+            "measure with more photons, or give noise=None",
+        ),
+    ],
+)
+def test_what_cannot_be_asked_for_is_told(glass, ask, sentence):
+    with pytest.raises(op.SurfaceError, match=sentence):
+        ask(glass)
+
+
+@pytest.fixture(scope="module")
+def ground():
+    sample = op.Sample([(1.5, (0.3, 0.2))], cells=200, surfaces=2, description="ground")
+    return op.measure(sample, "30 deg", 5000, sensor=8, azimuth="90 deg", seed=7)
+
+
+def test_everything_has_a_name_and_a_unit(ground):
+    data = ground.dataset
+    for name in [*data, "x", "y", "wavelength", "theta", "phi"]:
+        assert data[name].attrs["long_name"]
+        assert data[name].attrs["units"] in ("1", "sr", "rad", "m")
+    assert data.side.values.tolist() == ["reflected", "transmitted"]
+    assert ground.side("transmitted") == 1
+    assert data["in"].values.tolist() == data["out"].values.tolist() == ["S0", "S1", "S2", "S3"]
+    assert np.isnan(data.wavelength.values).tolist() == [True]
+    told = data.attrs
+    assert told["incidence"] == pytest.approx(np.pi / 6.0)
+    assert told["azimuth"] == pytest.approx(np.pi / 2.0)
+    assert (told["photons"], told["seed"], told["events"]) == (5000, 7, "any number")
+    assert 'description = "ground"' in told["sample"]
+    assert "perpendicular" in told["frame"]
+    heights = op.surfaces.HeightField(np.eye(4), 4.0, periodic=True)
+    data = op.measure(op.Sample([(1j, heights)]), "30 deg", 100, sensor=4).dataset
+    assert "no form in TOML" in data.attrs["sample"]
+
+
+def test_dimensions_are_those_that_are_told(ground):
+    pixels = ("side", "y", "x", "wavelength")
+    expected = {
+        "mueller": (*pixels, "out", "in"),
+        "scalar": pixels,
+        "difference": pixels,
+        "count": pixels[:3],
+        "solid_angle": ("y", "x"),
+    }
+    data = ground.dataset
+    for name, dims in expected.items():
+        assert data[name].dims == dims
+        if f"{name}_se" in data:
+            assert data[f"{name}_se"].dims == dims
+    assert {*data} == {*expected, "mueller_se", "scalar_se", "difference_se"}
+    assert data.theta.dims == data.phi.dims == ("y", "x")
+
+
+PUBLISHED = {50: 0.165, 56: 0.19, 60: 0.205, 65: 0.215}
+"""Simulation 1 of M. Wang et al., Optics Express 25(19), 2017: the largest ADM at each angle."""
+
+
+@pytest.fixture(scope="module")
+def layered():
+    return op.measure(op.load_sample("glass-on-glass"), "60 deg", 50_000, sensor=32)
+
+
+@pytest.fixture(scope="module")
+def gold():
+    sample, lights = op.load_sample("glass-on-gold"), ["450 nm", "550 nm", "650 nm"]
+    return op.measure(sample, "60 deg", 50_000, lights, sensor=32)
+
+
+def relative(hemisphere, side="reflected"):
+    found = hemisphere.dataset.sel(side=side)
+    polarised = found.mueller.values[..., 0, 0]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return (polarised - found.scalar.values) / found.scalar.values
+
+
+def test_the_signed_map_is_the_difference_over_what_there_is_without_polarisation(layered):
+    found = layered.relative_difference()
+    counts = ~np.isnan(found.values)
+    assert found.dims == ("y", "x", "wavelength")
+    np.testing.assert_allclose(found.values[counts], relative(layered)[counts], rtol=1e-12)
+    # One wavelength has one measure; the lower hemisphere has a map of its own.
+    np.testing.assert_array_equal(layered.adm(), layered.mdm())
+    found = layered.adm("transmitted")
+    counts = ~np.isnan(found.values)
+    assert found.attrs["side"] == "transmitted"
+    expected = np.abs(relative(layered, "transmitted"))[..., 0]
+    np.testing.assert_allclose(found.values[counts], expected[counts], rtol=1e-12)
+
+
+def test_adm_is_the_mean_over_wavelengths_and_mdm_the_largest(gold):
+    sizes = np.abs(relative(gold))
+    for found, expected in ((gold.adm(), sizes.mean(-1)), (gold.mdm(), sizes.max(-1))):
+        counts = ~np.isnan(found.values)
+        assert found.dims == ("y", "x")
+        assert counts.sum() == found.attrs["pixels_left"] > 100
+        np.testing.assert_allclose(found.values[counts], expected[counts], rtol=1e-12)
+
+
+def test_a_mask_is_what_it_says(layered):
+    found = layered.adm(brighter_than=0.5, noise=0.1, known_to=0.0)
+    light = layered.dataset.scalar.sel(side="reflected").values[..., 0]
+    mean = light[~np.isnan(layered.sensor.theta)].mean()
+    counts = ~np.isnan(found.values)
+    assert (light[counts] > 0.5 * mean).all()
+    assert (found.se.values[counts] <= 0.1 * found.values[counts]).all()
+    assert "above 0.5 of the mean" in found.attrs["mask"]
+    assert found.attrs["largest_se"] == np.nanmax(found.se)
+    assert counts.sum() < (~np.isnan(layered.adm().values)).sum()
+    # Noise that is not known masks nothing silently.
+    few = op.measure(GLASS, 0.5, 100, sensor=8)
+    assert np.isfinite(few.adm(noise=None)).any()
+
+
+def test_standard_errors_are_those_of_other_seeds():
+    sample = op.Sample([(1.5, 0.3), (2.4, 0.3)], cells=200)
+    several = [
+        op.measure(sample, "60 deg", 16_384, sensor=8, seed=seed).adm(noise=None)
+        for seed in range(12)
+    ]
+    counts = np.isfinite(np.stack([each.values for each in several])).all(axis=0)
+    spread = np.std([each.values[counts] for each in several], axis=0, ddof=1)
+    error = np.sqrt(np.mean([each.se.values[counts] ** 2 for each in several], axis=0))
+    assert counts.sum() > 15
+    assert 0.7 < np.sqrt((spread**2).sum() / (error**2).sum()) < 1.4
+
+
+def test_light_that_is_reflected_once_has_no_difference_and_no_circular_part():
+    found = op.measure(op.Sample([(1.5, 0.3)]), "60 deg", 50_000, sensor=16, events=1)
+    assert float(found.adm().max()) < 1e-12
+    assert found.adm().attrs["pixels_left"] > 30
+    once = op.measure(SILVER, "40 deg", 30_000, sensor=16, events=1)
+    assert np.all(once.stokes().sel(out="S3") == 0.0)
+    assert np.array_equal(once.dop(), once.dolp(), equal_nan=True)
+    assert np.any(op.measure(SILVER, "40 deg", 30_000, sensor=16).stokes().sel(out="S3") != 0.0)
+
+
+@rows(
+    "projection, width, area",
+    # Polar angles 2 arcsin(r / sqrt(2)); the whole pixels of an area of 2 pi on a disc of pi.
+    [("equidistant", 180.0 / 32, None), ("equal-area", np.degrees(2**0.5 / 16), 8 / 32**2)],
+)
+def test_pixels_are_told_as_the_projection_has_them(projection, width, area):
+    sensor = op.surfaces.Sensor(32, projection)
+    told = op.measure(op.Sample([(1.5, 0.0)]), 0.5, sensor=sensor).adm(noise=None).attrs
+    assert told["pixel_degrees_at_normal"] == pytest.approx(width, rel=1e-12)
+    # Between the axes of the sensor and 1 / 32 of its radius, nearly square.
+    nearly = pytest.approx(np.radians(width) ** 2, rel=3e-3)
+    assert told["largest_pixel_solid_angle"] == (pytest.approx(area, rel=1e-12) if area else nearly)
+
+
+def test_a_paired_run_needs_300_times_fewer_photons_than_two_separate_ones():
+    sample, given = op.load_sample("glass-on-glass"), {"photons": 32_768, "sensor": 16}
+    paired = op.measure(sample, "60 deg", seed=0, **given)
+    polarised = op.measure(sample, "60 deg", seed=1, polarized="polarized", **given)
+    scalar = op.measure(sample, "60 deg", seed=2, polarized="scalar", **given)
+    counts = ~np.isnan(paired.relative_difference().values)
+    together = paired.difference[1][0][counts]
+    apart = polarised.mueller[1][0][..., 0, 0][counts], scalar.scalar[1][0][counts]
+    assert 2.0 * np.square(apart).sum() / np.square(together).sum() > 300
+
+
+@pytest.mark.slow
+@rows("seed", [0, 1])
+@rows("angle", PUBLISHED)
+def test_simulation_1_has_the_published_differences(angle, seed):
+    found = op.measure(op.load_sample("glass-on-glass"), f"{angle} deg", seed=seed).adm()
+    largest = found[found.argmax(dim=["y", "x"])]
+    assert abs(float(largest) - PUBLISHED[angle]) < 0.015 + 2.0 * float(largest.se)
+
+
+def off_the_lobe(sample, incidence, at, wavelengths=None):
+    """(S0 - U) / U some degrees beside the plane, where no facet on top reflects: value, error."""
+    found = op.measure(sample, incidence, wavelengths=wavelengths)
+    theta, phi = np.degrees(found.sensor.theta), np.abs(np.degrees(found.sensor.phi))
+    beside = (np.abs(theta - at) < 1.5) & (phi > 9.0) & (phi < 12.0)
+
+    def change(light):
+        within = light[0][beside].sum(axis=0)
+        return within[..., 0] / within[..., 16] - 1.0
+
+    return found.own.estimate(change)
+
+
+@pytest.mark.slow
+@rows("angle", PUBLISHED)
+@rows("at", [80, 85])
+def test_simulation_1_tends_to_nearly_smooth_interfaces_off_the_lobe(angle, at):
+    sample = op.load_sample("glass-on-glass")
+    value, error = off_the_lobe(sample, f"{angle} deg", at)
+    smooth = smooth_exit(sample, f"{angle} deg", f"{at} deg")
+    assert smooth - 2.0 * error[0] < value[0] < 0.85 * smooth + 2.0 * error[0]
+
+
+@pytest.mark.slow
+def test_half_the_roughness_is_nearer_to_nearly_smooth_interfaces():
+    sample = op.Sample([(1.5, 0.05), (2.4, 0.05)])
+    value, error = off_the_lobe(sample, "60 deg", 80)
+    assert abs(value[0] - smooth_exit(sample, "60 deg", "80 deg")) < 0.01 + 2.0 * error[0]
+
+
+@pytest.mark.slow
+def test_simulation_7_tends_to_it_where_polarisation_takes_light_away():
+    sample, lights = op.load_sample("wang-2017-simulation-07"), 1e-9 * np.arange(380, 501, 40)
+    value, error = off_the_lobe(sample, "60 deg", 80, lights)
+    smooth = smooth_exit(sample, "60 deg", "80 deg", wavelengths=lights)
+    assert (smooth - 2.0 * error < value).all()
+    assert (value < 0.85 * smooth + 2.0 * error).all()

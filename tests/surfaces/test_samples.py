@@ -1,0 +1,490 @@
+"""Samples: layers, media and indices, the surfaces that they draw, and their smooth limit."""
+
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from optipath.surfaces import HeightField
+from tables import rows
+
+GLASS = op.Material.cauchy([1.5, 0.004])
+BK7 = op.Material.sellmeier(
+    [1.03961212, 0.231792344, 1.01046945], [0.00600069867, 0.0200179144, 103.560653], name="BK7"
+)
+METAL = op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="metal")
+GOLD = op.Material.tabulated(["500 nm", "600 nm"], [0.9, 0.3], [1.8, 2.8], name="gold")
+INK = op.Material.tabulated(["400 nm", "600 nm"], [1.5, 1.5], [0.0, 0.2], name="ink")
+WHITE = op.Material.tabulated(["400 nm", "600 nm"], [1.6, 1.6], name="white glass")
+
+
+def heights(*, periodic=False):
+    bumps = np.random.default_rng(1).normal(size=(9, 12))
+    return HeightField.from_heights(bumps, (20.0, 30.0), periodic=periodic)
+
+
+def refused(*given, **others):
+    with pytest.raises(op.SurfaceError) as error:
+        op.Sample(*given, **others)
+    return error.value.faults
+
+
+def fault_of(*given, **others):
+    (fault,) = refused(*given, **others)
+    return fault
+
+
+def faults_at(layers, wavelength=None, **others):
+    sample = op.Sample(layers, **others)
+    with pytest.raises(op.SurfaceError) as error:
+        sample.indices(wavelength)
+    return error.value.faults
+
+
+def test_layers_keep_their_index_and_their_roughness_along_both_axes():
+    sample = op.Sample([(1.5, 0.1), (op.Material(0.5, 2.1), (0.1, 0.2))])
+    upper, lower = sample.layers
+    assert (upper.index, upper.roughness) == (1.5, (0.1, 0.1))
+    assert (lower.index, lower.roughness) == (0.5 + 2.1j, (0.1, 0.2))
+    assert op.Sample(sample.layers) == sample
+    assert op.Sample([upper, (2.4, 0.3)]) == op.Sample([(1.5, 0.1), (2.4, 0.3)])
+
+
+def test_numbers_may_be_texts_and_those_of_numpy():
+    plain = op.Sample([(1.5, 0.1), (0.5 + 2.1j, 0.2)], outside=1.3, cells=(400, 300))
+    written = op.Sample(
+        [["1.5", np.float32(0.1).astype(np.float64).round(6)], ("0.5+2.1j", np.array([0.2, 0.2]))],
+        outside=np.array(1.3),
+        cells=[np.int64(400), 300],
+    )
+    assert written == plain
+
+
+def test_samples_are_equal_by_all_that_is_given():
+    sample = op.Sample([(1.5, 0.1)])
+    assert sample == op.Sample([(op.Material(1.5), (0.1, 0.1))])
+    others = {"outside": 1.3, "cells": 400, "surfaces": 4, "seed": 1, "periodic": False}
+    for name, value in others.items():
+        assert sample != op.Sample([(1.5, 0.1)], **{name: value})
+    for layer in ((1.5, 0.2), (1.6, 0.1), (1.5, heights())):
+        assert sample != op.Sample([layer])
+
+
+def test_a_sample_cannot_change():
+    sample = op.Sample([(1.5, 0.1)])
+    with pytest.raises(AttributeError):
+        sample.seed = 3
+    with pytest.raises(AttributeError):
+        sample.layers[0].index = 1.6
+
+
+def test_the_repr_says_all_that_is_not_usual():
+    layers = [(1.5, 0.1), (2.4, (0.1, 0.2)), (1j, 0.0)]
+    assert repr(op.Sample(layers)) == f"Sample({layers})"
+    others = "outside=1.3, cells=(640, 320), surfaces=4, seed=7, periodic=False"
+    text = f"Sample([(1.5, 0.1)], {others})"
+    assert repr(eval(text, {"Sample": op.Sample})) == text  # noqa: S307 - written above
+
+
+def test_a_pickled_sample_draws_the_same_surfaces_and_takes_none_along():
+    sample = op.Sample([(1.5, 0.2), (2.4, heights())], cells=200, seed=5)
+    before = pickle.dumps(sample)
+    fields = sample.fields(1)
+    for content in (before, pickle.dumps(sample)):
+        copy = pickle.loads(content)
+        assert copy == sample
+        assert copy.fields(1) == fields
+        assert len(content) == len(before)
+
+
+def test_each_layer_of_each_surface_has_a_seed_of_its_own():
+    sample = op.Sample([(1.5, 0.4), (2.4, (0.4, 0.8))], seed=3)
+    key = np.random.SeedSequence(3, spawn_key=(2, 1))
+    expected = HeightField.beckmann(0.4, 0.8, size=(200.0, 100.0), cells=640, seed=key)
+    assert sample.fields(2)[1] == expected
+    first, second = (sample.fields(surface)[0].heights for surface in (0, 1))
+    assert not np.array_equal(first, second)
+    assert not np.array_equal(first, op.Sample([(1.5, 0.4)], seed=4).fields(0)[0].heights)
+    assert sample.fields(0)[0] is sample.fields(0)[0], "drawn once"
+
+
+def test_fields_are_forty_correlation_lengths_wide_with_sixteen_cells_each():
+    (field,) = op.Sample([(1.5, (0.25, 0.5))]).fields()
+    assert (field.size, field.cells) == ((320.0, 160.0), (640, 640))
+    assert field.periodic
+    assert not op.Sample([(1.5, 0.4)], periodic=False).fields()[0].periodic
+
+
+def test_fields_that_are_given_are_those_of_every_surface():
+    sample = op.Sample([(1.5, bumps := heights()), (2.4, 0)])
+    for surface in (0, 7):
+        first, second = sample.fields(surface)
+        assert first is bumps
+        assert second.is_flat
+
+
+def test_too_few_cells_are_warned_of_when_they_are_drawn():
+    sample = op.Sample([(1.5, 0.4)], cells=200)
+    with pytest.warns(op.MeshWarning, match="200 x 200 cells"):
+        sample.fields()
+
+
+@rows("surface", [-1, 0.5, True, None])
+def test_a_surface_that_there_is_not_is_refused(surface):
+    with pytest.raises(op.SurfaceError, match="surface must be a whole number of 0 or more"):
+        op.Sample([(1.5, 0.4)]).fields(surface)
+
+
+@rows(
+    "layers, isotropic",
+    [
+        ([(1.5, 0.1)], True),
+        ([(1.5, (0.1, 0.2))], False),
+        ([(1.5, 0.1), (2.4, 0)], True),
+        ([(1.5, 0.1), (2.4, (0.2, 0.1))], False),
+        ([(1.5, HeightField.flat())], True),
+        ([(1.5, heights())], False),
+    ],
+)
+def test_a_sample_is_isotropic_where_all_its_interfaces_are(layers, isotropic):
+    assert op.Sample(layers).isotropic is isotropic
+
+
+RANGE = "give a roughness within 1e-06 .. 100, or 0 for a flat interface"
+ROUGHNESSES = [
+    ([-0.1, 1e-7, 101.0, "-0.1", (0.1, -0.1)], "layers[0].alpha is ", RANGE),
+    ([np.nan, np.inf, (0.1, np.nan)], "", "give a finite roughness"),
+    ([None, True, {}, "rough", 0.1j, op.Material(1.5)], "layers[0].alpha", ""),
+    (
+        [(), (0.1,), (0.1, 0.2, 0.3), np.linspace(0.1, 0.5, 5)],
+        "",
+        "give one number, a pair along x and y, or heights",
+    ),
+    (
+        [((0.1, 0.2), 0.1), [[0.1], [0.2]], ([], 0.1)],
+        "",
+        "for one number; give a pair along x and y",
+    ),
+    ([(0.1, 0), (0, 0.1)], "", "give two numbers above 0, or 0 for a flat interface"),
+    (
+        [op.Parameter("a", 0.1)],
+        "layers[0].alpha is parameter 'a'; give a number, and make a sample for each",
+        "",
+    ),
+]
+
+
+@rows("roughness, start, end", [(each, *words) for all_, *words in ROUGHNESSES for each in all_])
+def test_what_is_no_roughness_is_refused(roughness, start, end):
+    fault = fault_of([(1.5, roughness)])
+    assert fault.startswith(start)
+    assert fault.endswith(end)
+
+
+@rows("roughness", [0, 0.0, (0, 0), "0"])
+def test_a_roughness_of_0_is_flat(roughness):
+    sample = op.Sample([(1.5, roughness)])
+    assert sample.fields()[0].is_flat
+    assert not sample.layers[0].is_random
+
+
+@rows("roughness", [1e-6, 100.0])
+def test_the_ends_of_the_range_can_be_drawn(roughness):
+    (field,) = op.Sample([(1.5, roughness)], seed=2).fields()
+    assert field.mean_square_slopes == pytest.approx((roughness**2 / 2,) * 2, rel=0.02)
+
+
+INDEX, SEVERAL = "layers[0].index is ", "but a sample has one index there; give one, such as 1.5 or"
+NO_INDICES = [None, True, "gold", op.FOLLOWS, op.Spectrum.black_body(3000.0), op.Polarizer(), {}]
+LISTS = [(0.5, 2.1), [1.5, 1.6], np.array([1.5, 1.6]), op.Material(np.array([1.5, 1.6])), []]
+WRONG_LAYERS = [
+    *(([(each, 0.1)], INDEX, "") for each in (0, 0.0, 0j, -1.5, np.nan, np.inf, 1.5 - 0.1j)),
+    *(([(each, 0.1), (1.5, 0.1)], INDEX, "") for each in (0, -1.5, np.nan, 1e-70, 1e70)),
+    *(([(each, 0.1)], "layers[0].index", "") for each in NO_INDICES),
+    *(([(each, 0.1)], "", f"{SEVERAL} 0.5+2.1j") for each in LISTS),
+    *(
+        (each, "layers is ", "its roughness, such as [(1.5, 0.1)]")
+        for each in ([], (), None, 1.5, "glass", {(1.5, 0.1)})
+    ),
+    *(
+        ([(1.5, 0.1), each], "layers[1] is ", "roughness, such as (1.5, 0.1)")
+        for each in (1.5, (1.5,), (1.5, 0.1, 0.2), None, "1.5")
+    ),
+    (
+        [*op.Sample([(0.5 + 2.1j, 0.1)]).layers, (1.5, 0.1)],
+        "layers[0].index is (0.5+2.1j), which absorbs",
+        "",
+    ),
+]
+
+
+@rows("layers, start, within", WRONG_LAYERS)
+def test_layers_and_indices_that_are_none_are_refused(layers, start, within):
+    fault = fault_of(layers)
+    assert fault.startswith(start)
+    assert within in fault
+
+
+@rows("roughness", [0, HeightField.flat(), heights()])
+def test_cells_of_no_random_interface_are_refused(roughness):
+    fault = fault_of([(1.5, roughness)], cells=640)
+    assert fault == "cells is given, but no interface is random; leave it out"
+
+
+def test_periodic_heights_in_a_sample_that_is_not_to_be_periodic_are_refused():
+    fault = fault_of([(1.5, 0.1), (2.4, heights(periodic=True))], periodic=False)
+    assert fault.startswith("periodic is False, but the heights of layers[1] are periodic")
+    op.Sample([(1.5, 0.1), (2.4, heights()), (1.5, HeightField.flat())], periodic=False)
+
+
+@rows(
+    "option, value, sentence",
+    [
+        ("surfaces", 0, "must be a whole number of 1 or more, not 0"),
+        ("surfaces", 2.0, "must be a whole number of 1 or more, not 2.0"),
+        ("seed", -1, "must be a whole number of 0 or more, not -1"),
+        ("seed", True, "must be a whole number of 0 or more, not True"),
+        ("periodic", 1, "is 1; give True or False"),
+        ("cells", 1, "must be a whole number of 2 or more, or two of them for x and y, not 1"),
+        ("description", 3, "must be a text, not 3"),
+    ],
+)
+def test_an_option_that_is_none_is_told_with_the_cure(option, value, sentence):
+    assert fault_of([(1.5, 0.1)], **{option: value}) == f"{option} {sentence}"
+
+
+def test_all_faults_are_told_at_once():
+    layers = [(1.5j, -0.1), 3, (0, np.nan)]
+    others = {"outside": -1, "cells": 0, "surfaces": 0, "seed": -1, "periodic": "no"}
+    places = [fault.split()[0] for fault in refused(layers, **others)]
+    assert places == [
+        "outside", "layers[0].index", "layers[0].alpha", "layers[1]", "layers[2].index",
+        "layers[2].alpha", "cells", "surfaces", "seed", "periodic",
+    ]  # fmt: skip
+
+
+@rows("index", [1.5, 1, "1.5", 1.5 + 0j, op.Material(1.5), np.array(1.5), BK7])
+def test_a_medium_that_does_not_absorb_may_be_anywhere(index):
+    op.Sample([(index, 0.1), (index, 0.2), (index, 0.3)], outside=index)
+
+
+@rows("index", [0.5 + 2.1j, 1j, "0.5+2.1j", op.Material(0.5, 2.1), GOLD])
+def test_the_last_medium_may_absorb(index):
+    op.Sample([(1.5, 0.1), (index, 0.1)])
+
+
+@rows("index", [1.5 + 1e-9j, "1.5+0.1j", 1j, op.Material(1.5, 0.1)])
+@rows("place", ["outside", "layers[0].index"])
+def test_a_medium_above_the_last_must_not_absorb(index, place):
+    first, outside = (1.5, index) if place == "outside" else (index, 1.0)
+    fault = fault_of([(first, 0.1), (2.4, 0.1)], outside=outside)
+    assert fault.startswith(f"{place} is ")
+    assert "which absorbs; give a real index of refraction" in fault
+    assert fault.endswith("since only the last medium may absorb")
+
+
+def test_a_material_that_absorbs_at_every_wavelength_is_refused_above_the_last():
+    assert refused([(GOLD, 0.1), (2.4, 0.1)], outside=GOLD) == tuple(
+        f"k of gold is 0 at no wavelength, and {place}.k takes 0, since only the last medium may "
+        f"absorb: take the medium without its k, such as Material(glass.n)"
+        for place in ("outside", "layers[0].index")
+    )
+    op.Sample([(op.Material(GOLD.n), 0.1), (2.4, 0.1)])
+
+
+@rows(
+    "index, name",
+    [
+        (op.Parameter("n"), "n"),
+        (op.Parameter("n", 1.5), "n"),
+        (op.Material(op.Parameter("n", 1.5)), "n"),
+        (op.Material.cauchy([1.5, op.Parameter("b", 0.004)]), "b"),
+        (op.Material.cauchy([1.5, 0.004], wavelength=op.Wavelength("colour")), "colour"),
+        (op.Material.cauchy([1.5, 0.004], wavelength=2 * op.Wavelength()), "wavelength"),
+        (op.Material.cauchy([1.5, 0.004], wavelength=op.Wavelength(default=5e-7)), "wavelength"),
+    ],
+)
+def test_a_medium_that_follows_from_a_parameter_is_refused(index, name):
+    assert refused([(index, 0.1), (index, 0.1)]) == tuple(
+        f"layers[{place}].index follows from the parameter '{name}'; give numbers, or a Material "
+        f"that follows from the wavelength alone, made without wavelength=..."
+        for place in (0, 1)
+    )
+
+
+def test_a_material_at_a_wavelength_is_a_number():
+    sample = op.Sample([(op.Material.cauchy([1.5, 0.004], wavelength="500 nm"), 0.1)])
+    assert sample.layers[0].index == pytest.approx(1.516, rel=1e-15)
+
+
+def test_numbers_that_jax_traces_are_refused():
+    jax = pytest.importorskip("jax")
+    with pytest.raises(op.SurfaceError, match="has one index there"):
+        jax.grad(lambda n: op.Sample([(n, 0.1)]).seed)(1.5)
+    sample = op.Sample([(METAL, 0.1)])
+    with pytest.raises(op.SurfaceError, match="wavelength is traced by JAX"):
+        jax.grad(lambda wavelength: sample.indices(wavelength).n)(5e-7)
+
+
+def test_indices_of_numbers_are_what_they_are():
+    found = op.Sample([(1.5, 0.1), (2.4, 0.1), (0.5 + 2.1j, 0.1)], outside=1.3).indices()
+    assert (found.outside, found.inner) == (1.3, (1.5, 2.4))
+    assert (found.n.shape, found.k.shape) == ((), ())
+    assert (float(found.n), float(found.k)) == (0.5, 2.1)
+    assert op.Sample([(1.0, 0.1), (1.0, 0.1)]).indices().inner == (1.0,), "equal neighbours"
+
+
+def test_materials_are_taken_at_the_wavelength():
+    # Cauchy's formula: 1.5 + 0.004 / 0.5^2; and halfway between two samples.
+    found = op.Sample([(GLASS, 0.1), (METAL, 0.1)], outside=GLASS).indices("500 nm")
+    assert found.outside == pytest.approx(1.516, rel=1e-15)
+    assert found.inner == pytest.approx((1.516,), rel=1e-15)
+    assert (found.n.shape, float(found.n)) == ((), pytest.approx(0.75, rel=1e-12))
+    assert float(found.k) == pytest.approx(2.0, rel=1e-12)
+
+
+@rows("wavelength", [["400 nm", "500 nm"], [4e-7, 5e-7], np.array([[4e-7], [5e-7]])])
+def test_the_base_has_the_shape_of_the_wavelengths(wavelength):
+    found = op.Sample([(1.5, 0.1), (METAL, 0.1)]).indices(wavelength)
+    assert found.n.shape == found.k.shape == np.shape(wavelength)
+    np.testing.assert_allclose(found.n.ravel(), [1.0, 0.75], rtol=1e-12)
+    np.testing.assert_allclose(found.k.ravel(), [1.0, 2.0], rtol=1e-12)
+    assert found.inner == (1.5,)
+
+
+def test_a_base_of_numbers_is_laid_out_where_a_medium_above_takes_a_wavelength():
+    found = op.Sample([(WHITE, 0.1), (0.5 + 2.1j, 0.1)]).indices(["400 nm", "500 nm"])
+    assert found.inner == (1.6,)
+    np.testing.assert_array_equal(found.n, [0.5, 0.5])
+    np.testing.assert_array_equal(found.k, [2.1, 2.1])
+
+
+@rows("index, opaque", [(1.5, False), (0.5 + 2.1j, True), (1.5 + 1e-9j, True)])
+def test_a_base_that_absorbs_is_opaque(index, opaque):
+    assert op.Sample([(index, 0.1)]).indices().opaque is opaque
+
+
+@rows(
+    "layers, wavelength, start, end",
+    [
+        (
+            [(GLASS, 0.1), (METAL, 0.1)],
+            None,
+            "",
+            "depends on the wavelength; give one, such as '550 nm'",
+        ),
+        (
+            [(1.5, 0.1)],
+            "550 nm",
+            "wavelength is given, but no medium depends on it; leave it out",
+            "",
+        ),
+        (
+            [(INK, 0.1), (1.5, 0.1)],
+            "500 nm",
+            "k of ink at 500 nm is 0.1, and layers[0].index.k takes 0",
+            "",
+        ),
+        *(
+            (
+                [(INK, 0.1)],
+                each,
+                "layers[0].index lets light through",
+                "give one wavelength at a time",
+            )
+            for each in (["400 nm", "500 nm"], ["500 nm", "400 nm"])
+        ),
+    ],
+)
+def test_a_wavelength_that_does_not_fit_the_media_is_refused(layers, wavelength, start, end):
+    (fault,) = faults_at(layers, wavelength)
+    assert fault.startswith(start)
+    assert fault.endswith(end)
+    assert op.Sample([(INK, 0.1), (1.5, 0.1)]).indices("400 nm").inner == (1.5,)
+
+
+@rows(
+    "wavelength, sentence",
+    [
+        (550, "550 metres, which is no wavelength of light; for nanometres write '550 nm'"),
+        ("550", "has no unit"),
+        ("a", "knows no word 'a'"),
+        (np.nan, "is nan"),
+        (True, "True"),
+        ([], "wavelength is empty; give one or more"),
+    ],
+)
+def test_what_is_no_wavelength_is_refused(wavelength, sentence):
+    (fault,) = faults_at([(GLASS, 0.1)], wavelength)
+    assert sentence in fault
+
+
+def test_a_wavelength_at_which_a_material_is_not_known_is_told_once_for_each_place():
+    faults = faults_at([(WHITE, 0.1), (METAL, 0.1)], "700 nm")
+    assert [fault.partition(" is ")[0] for fault in faults] == [
+        f"parameter 'wavelength' (at layers[{place}].index)" for place in (0, 1)
+    ]
+
+
+def test_media_above_the_base_must_be_the_same_at_all_wavelengths():
+    faults = faults_at([(GLASS, 0.1), (METAL, 0.1)], ["400 nm", "500 nm"], outside=GLASS)
+    assert [fault.partition(" ")[0] for fault in faults] == ["outside", "layers[0].index"]
+    assert all(fault.endswith("give one wavelength at a time") for fault in faults)
+
+
+def test_smooth_is_the_stack_of_the_same_media_by_the_parameter_incidence():
+    sample = op.Sample([(1.5, 0.1), (0.5 + 2.1j, 0.3)], outside=1.2)
+    stack = op.LayerStack([1.2, 1.5, 0.5 + 2.1j], op.Parameter("incidence"))
+    assert sample.smooth() == stack
+    assert sample.smooth("30 deg") == op.LayerStack([1.2, 1.5, 0.5 + 2.1j], "30 deg")
+
+
+def test_smooth_of_one_layer_is_its_interface():
+    stack = op.Sample([(1.5, 0.1)]).smooth(0.7)
+    glass = op.Interface(1.5, 0.7)
+    for port in ("reflected", "transmitted"):
+        given, expected = (each.mueller("in", port).matrix for each in (stack, glass))
+        np.testing.assert_allclose(given, expected, rtol=0, atol=1e-15)
+
+
+def test_smooth_glass_on_glass_sums_up_light_that_goes_to_and_fro():
+    # Fresnel's equations and the geometric series, of light along s and along p.
+    theta = np.radians([65.0])
+    first, second = (np.arcsin(np.sin(theta) / n) for n in (1.5, 2.4))
+
+    def reflectances(n1, n2, t1, t2):
+        c1, c2 = np.cos(t1), np.cos(t2)
+        pairs = (n1 * c1, n2 * c2), (n1 * c2, n2 * c1)
+        return np.array([((a - b) / (a + b)) ** 2 for a, b in pairs])
+
+    upper = reflectances(1.0, 1.5, theta, first)
+    lower = reflectances(1.5, 2.4, first, second)
+    along_s, along_p = upper + (1 - upper) ** 2 * lower / (1 - upper * lower)
+    light = (op.Source() >> op.load_sample("glass-on-glass").smooth(theta) >> op.Detector()).trace()
+    np.testing.assert_allclose(light.intensity, (along_s + along_p) / 2, rtol=1e-14)
+    np.testing.assert_allclose(light.dolp, (along_s - along_p) / (along_s + along_p), rtol=1e-13)
+    assert light.intensity == pytest.approx(0.16024, abs=5e-6)
+
+
+def test_smooth_media_may_follow_from_the_wavelength():
+    lengths, sample = ["400 nm", "550 nm", "700 nm"], op.load_sample("glass-on-gold")
+    path = op.Source() >> sample.smooth("60 deg") >> op.Detector()
+    indices = sample.indices(lengths)
+    at_once = path.trace(wavelength=lengths).intensity
+    for index, expected in zip(indices.n + 1j * indices.k, at_once, strict=True):
+        light = (op.Source() >> op.LayerStack([1.0, 1.5, index], "60 deg") >> op.Detector()).trace()
+        assert light.intensity == pytest.approx(expected, rel=1e-14)
+
+
+@given(
+    st.lists(st.tuples(st.floats(0.1, 10.0), st.floats(1e-6, 100.0)), min_size=1, max_size=5),
+    st.floats(0.0, 1.5),
+)
+def test_smooth_layers_reflect_and_let_through_all_light(layers, incidence):
+    stack = op.Sample(layers).smooth(incidence)
+    ports = ("reflected", "transmitted")
+    total = sum(stack.mueller("in", port).matrix[0, 0] for port in ports)
+    assert total == pytest.approx(1.0, abs=1e-12)

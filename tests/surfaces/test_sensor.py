@@ -1,0 +1,303 @@
+"""Pixels of a hemisphere, what is summed in them, and what tells measurements from each other."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from optipath import surfaces
+from optipath.surfaces.hemispheres.chunk_identity import chunk_identity
+from optipath.surfaces.hemispheres.part_sums import PartSums
+from optipath.surfaces.hemispheres.pixel_mask import PixelMask
+from optipath.surfaces.hemispheres.pixel_points import pixel_points
+from optipath.surfaces.hemispheres.sensed_beam import STATES, SensedBeam
+from optipath.surfaces.walk.given_beam import given_beam
+from tables import rows
+
+PROJECTIONS = ["equidistant", "equal-area"]
+
+
+def density(projection, radius):
+    """The solid angle over the area of the disc, from theta = pi r / 2, or 1 - cos theta = r^2."""
+    if projection == "equal-area":
+        return np.full_like(radius, 2.0)
+    return np.pi / 2.0 * np.sin(np.pi * radius / 2.0) / radius
+
+
+@rows("projection", PROJECTIONS)
+@rows("pixels", [4, 5])
+def test_solid_angles_are_those_of_many_small_cells(projection, pixels):
+    parts = 400
+    middle = (2.0 * np.arange(parts * pixels) + 1.0) / (parts * pixels) - 1.0
+    radius = np.hypot(middle, middle[:, None])
+    inside = np.where(radius < 1.0, density(projection, radius), 0.0)
+    expected = inside.reshape(pixels, parts, pixels, parts).sum(axis=(1, 3))
+    found = op.surfaces.Sensor(pixels, projection).solid_angle
+    # Cells on the rim count as a whole or not at all.
+    assert np.allclose(found, expected * (2.0 / (parts * pixels)) ** 2, rtol=2e-3)
+
+
+@rows("projection", PROJECTIONS)
+@rows("pixels", [1, 2, 7, 16, 128])
+def test_solid_angles_are_those_of_a_hemisphere(projection, pixels):
+    found = op.surfaces.Sensor(pixels, projection).solid_angle
+    assert found.sum() == pytest.approx(2.0 * np.pi, rel=1e-12)
+    assert found.min() >= -1e-15
+    for image in (found[::-1], found[:, ::-1], found.T):
+        assert np.allclose(image, found, rtol=1e-9, atol=1e-14)
+
+
+def test_pixels_of_equal_area_within_the_hemisphere_are_equal():
+    sensor = op.surfaces.Sensor(32, "equal-area")
+    corner = np.abs(sensor.coordinates) + 1.0 / 32
+    within = np.hypot(corner, corner[:, None]) <= 1.0
+    assert np.allclose(sensor.solid_angle[within], 2.0 * (2.0 / 32) ** 2, rtol=1e-12)
+
+
+@rows("projection", PROJECTIONS)
+@rows("pixels", [1, 6, 7, 128])
+def test_the_direction_of_a_centre_falls_on_its_pixel(projection, pixels):
+    sensor = op.surfaces.Sensor(pixels, projection)
+    there = ~np.isnan(sensor.theta)
+    places = np.arange(pixels**2).reshape(pixels, pixels)
+    for side in (1.0, -1.0):
+        found = sensor.place(sensor.directions[there] * [1.0, 1.0, side])
+        assert np.array_equal(found, places[there])
+
+
+@rows("projection", PROJECTIONS)
+def test_centres_beyond_the_horizon_have_no_direction(projection):
+    sensor = op.surfaces.Sensor(16, projection)
+    beyond = np.hypot(sensor.coordinates, sensor.coordinates[:, None]) > 1.0
+    assert np.array_equal(np.isnan(sensor.theta), beyond)
+    assert np.array_equal(np.isnan(sensor.phi), beyond)
+    assert np.array_equal(np.isnan(sensor.directions).all(axis=-1), beyond)
+    assert np.nanmax(sensor.theta) < np.pi / 2.0
+
+
+@given(
+    cos=st.floats(0.0, 1.0),
+    azimuth=st.floats(-np.pi, np.pi),
+    pixels=st.integers(1, 300),
+    projection=st.sampled_from(PROJECTIONS),
+)
+def test_every_direction_falls_within_half_a_pixel_of_a_centre(cos, azimuth, pixels, projection):
+    sensor = op.surfaces.Sensor(pixels, projection)
+    sin = np.sqrt(1.0 - cos * cos)
+    place = sensor.place([sin * np.cos(azimuth), sin * np.sin(azimuth), cos])
+    theta = np.arctan2(sin, cos)
+    radius = (
+        2.0 * theta / np.pi if projection == "equidistant" else np.sqrt(2.0) * np.sin(theta / 2)
+    )
+    row, column = divmod(int(place), pixels)
+    off = [
+        sensor.coordinates[column] - radius * np.cos(azimuth),
+        sensor.coordinates[row] - radius * np.sin(azimuth),
+    ]
+    assert np.max(np.abs(off)) <= (1.0 + 1e-9) / pixels + 1e-9
+
+
+def test_light_that_goes_on_is_on_the_right_and_y_goes_with_rows():
+    sensor = op.surfaces.Sensor(5)
+    assert sensor.place([[0.6, 0, 0.8], [0, 0.6, 0.8], [0, 0, 1]]).tolist() == [13, 17, 12]
+    assert sensor.phi[2, 4] == 0.0
+    assert sensor.phi[4, 2] == pytest.approx(np.pi / 2.0)
+
+
+def test_all_faults_of_a_sensor_are_told_at_once():
+    with pytest.raises(op.SurfaceError) as caught:
+        op.surfaces.Sensor(0, "equi-area", 1)
+    assert [*caught.value.faults] == [
+        "pixels must be a whole number of 1 or more, not 0",
+        "parts must be a whole number of 2 or more, not 1",
+        "projection is 'equi-area'; did you mean 'equal-area'?",
+    ]
+
+
+@rows("projection", ["equidistant", "equal-area"])
+def test_points_lie_within_their_pixels(projection):
+    sensor = op.surfaces.Sensor(9, projection)
+    places = np.arange(81).reshape(9, 9)
+    for directions, areas in pixel_points(sensor, 3):
+        lit = areas > 0.0
+        assert np.array_equal(sensor.place(directions[lit]), places[lit])
+        assert np.all(directions[..., 2] > 0.0)
+        assert np.allclose(np.linalg.norm(directions, axis=-1), 1.0, atol=1e-14)
+
+
+@rows("projection", ["equidistant", "equal-area"])
+def test_polynomials_of_directions_are_averaged_as_over_the_hemisphere(projection):
+    sensor, found = op.surfaces.Sensor(32, projection), np.zeros(4)
+    for directions, areas in pixel_points(sensor, 4):
+        x, y, z = np.moveaxis(directions, -1, 0)
+        found += [np.sum(areas * each) for each in (z, z * z, x * x * z, x * y)]
+    expected = np.pi * np.array([1.0, 2.0 / 3.0, 1.0 / 4.0, 0.0])
+    assert np.allclose(found, expected, atol=2e-5)
+
+
+LIGHT = np.array([[np.nan, 1.0], [2.0, 9.0]])
+
+
+def test_brightness_is_over_the_mean_of_the_pixels_that_there_are():
+    bright = PixelMask(brighter_than=0.5).bright(LIGHT)  # The mean is 4.
+    np.testing.assert_array_equal(bright, [[False, False], [False, True]])
+    assert PixelMask(brighter_than=0.3).bright(LIGHT).sum() == 2
+
+
+def test_a_difference_is_known_by_its_share_or_by_itself():
+    mask = PixelMask(noise=0.2, known_to=0.001)
+    known = mask.known(np.array([-0.1, 0.1, 0.0, 0.1]), np.array([0.019, 0.021, 0.001, np.nan]))
+    np.testing.assert_array_equal(known, [True, False, True, False])
+    # Any noise leaves out what is no number only.
+    known = PixelMask(noise=None).known(np.array([np.nan, 0.1]), np.array([0.0, np.nan]))
+    np.testing.assert_array_equal(known, [False, True])
+
+
+def test_all_thresholds_that_are_none_are_told_at_once():
+    with pytest.raises(op.SurfaceError) as caught:
+        PixelMask(-1.0, noise=True, known_to=np.inf)
+    assert [fault.split()[0] for fault in caught.value.faults] == [
+        "brighter_than",
+        "known_to",
+        "noise",
+    ]
+
+
+SHAPE = (6, 1, 4, 4, 2, 17)
+MIRROR = np.diag([1.0, 1.0, -1.0, -1.0])
+
+
+def drawn(seed=1, shape=SHAPE):
+    random = np.random.default_rng(seed)
+    photons = random.integers(50, 90, shape[0])
+    return PartSums(random.normal(size=shape), np.ones(shape[1:4], int), photons)
+
+
+def test_a_mean_of_equal_parts_has_the_error_of_a_mean():
+    parts = drawn()._replace(photons=np.full(6, 70))
+    value, error = parts.estimate(lambda light: light)
+    each = parts.sums / 70
+    assert np.allclose(value, each.mean(axis=0), rtol=1e-12)
+    assert np.allclose(error, each.std(axis=0, ddof=1) / np.sqrt(6), rtol=1e-9)
+    # One part says nothing of it.
+    _, error = drawn(shape=(1, *SHAPE[1:])).estimate(lambda light: light)
+    assert np.all(np.isnan(error))
+
+
+def test_parts_without_photons_do_not_count():
+    parts = drawn()
+    more = PartSums(
+        np.concatenate([parts.sums, np.zeros((3, *SHAPE[1:]))]),
+        parts.counts,
+        np.append(parts.photons, [0, 0, 0]),
+    )
+    for found, expected in zip(more.estimate(np.exp), parts.estimate(np.exp), strict=True):
+        assert np.allclose(found, expected, rtol=1e-13)
+
+
+def test_the_error_of_a_ratio_is_that_of_its_linear_part():
+    random = np.random.default_rng(3)
+    sums = 1000.0 + random.normal(size=SHAPE)
+    parts = PartSums(sums, np.ones(SHAPE[1:4], int), np.full(6, 100))
+    _, error = parts.estimate(lambda light: light[..., 1] / light[..., 0])
+    a, b = sums[..., 0], sums[..., 1]
+    ratio = b.mean(axis=0) / a.mean(axis=0)
+    linear = (b - ratio * a) / a.mean(axis=0)
+    assert np.allclose(error, linear.std(axis=0, ddof=1) / np.sqrt(6), rtol=1e-2)
+
+
+def test_mirror_images_are_those_of_mueller_matrices():
+    parts = drawn()
+    found = parts.mirrored().sums
+    matrices = parts.sums[..., :16].reshape(*SHAPE[:-1], 4, 4)
+    images = MIRROR @ matrices[:, :, ::-1] @ MIRROR
+    assert np.allclose(found[..., :16], (0.5 * (matrices + images)).reshape(*SHAPE[:-1], 16))
+    scalar = parts.sums[..., 16]
+    assert np.allclose(found[..., 16], 0.5 * (scalar + scalar[:, :, ::-1]))
+    for numbers in (1, 16, 17):
+        once = drawn(shape=(*SHAPE[:-1], numbers)).mirrored()
+        assert np.allclose(once.mirrored().sums, once.sums, rtol=1e-15), "of an image, itself"
+
+
+def test_sums_are_added_in_place():
+    one, other = drawn(1), drawn(2)
+    expected = one.sums + other.sums, one.counts + other.counts, one.photons + other.photons
+    one.add(other)
+    for found, value in zip(one, expected, strict=True):
+        assert np.array_equal(found, value)
+
+
+SAMPLE = op.Sample([(1.5, 0.3), (0.5 + 2.1j, (0.1, 0.2))])
+HEIGHTS = np.zeros((4, 4))
+
+
+def identity(sample=SAMPLE, incidence="50 deg", photons=100, when=(np.nan,), code="1", **options):
+    sensor = options.pop("sensor", surfaces.Sensor(16))
+    kinds = options.pop("polarized", "both"), options.pop("events", None)
+    beam = replace(given_beam(sample, incidence, **options), states=STATES)
+    return chunk_identity(SensedBeam(beam, sensor, *kinds), np.array(when), photons, code)
+
+
+def with_heights(heights, size=3.0, **options):
+    return op.Sample([(1.5, surfaces.HeightField.from_heights(heights, size, **options))])
+
+
+UPPER, BASE = SAMPLE.layers
+
+
+@rows(
+    "other",
+    [
+        {"sample": op.Sample([(1.5, np.nextafter(0.3, 1.0)), BASE])},
+        {"sample": op.Sample([UPPER, (0.5 + 2.1j, (0.2, 0.1))])},
+        {"sample": op.Sample([(1.4, 0.3), BASE])},
+        {"sample": op.Sample([UPPER, (0.5 + 2.2j, (0.1, 0.2))])},
+        *(
+            {"sample": op.Sample(SAMPLE.layers, **{name: value})}
+            for name, value in (
+                *(("outside", 1.1), ("cells", 700), ("surfaces", 3), ("seed", 1)),
+                ("periodic", False),
+            )
+        ),
+        {"incidence": np.nextafter(np.radians(50.0), 1.0)},
+        {"azimuth": 0.1},
+        {"photons": 101},
+        {"seed": 1},
+        {"most_events": 7},
+        {"sensor": surfaces.Sensor(17)},
+        {"sensor": surfaces.Sensor(16, "equal-area")},
+        {"sensor": surfaces.Sensor(16, parts=8)},
+        {"polarized": "polarized"},
+        {"events": 1},
+        {"when": (5e-7,)},
+        {"code": "2"},
+    ],
+)
+def test_whatever_changes_the_bits_is_another_identity(other):
+    assert identity(**other) != identity()
+
+
+def test_heights_are_told_apart_by_all_that_they_are():
+    higher = HEIGHTS.copy()
+    higher[2, 1] = 1e-300
+    others = [
+        with_heights(HEIGHTS),
+        with_heights(higher),
+        with_heights(HEIGHTS, np.nextafter(3.0, 4.0)),
+        with_heights(HEIGHTS, (3.0, 2.0)),
+        with_heights(HEIGHTS, periodic=True),
+        with_heights(np.zeros((4, 5))),
+    ]
+    assert len({identity(each) for each in others}) == len(others)
+
+
+def test_what_makes_no_difference_is_none_nor_is_an_index_by_name():
+    there = identity(op.Sample([(op.Material.cauchy([1.5]), 0.3)]), wavelength="500 nm")
+    assert there == identity(op.Sample([(1.5, 0.3)]))
+    described = op.Sample(SAMPLE.layers, description="glass over metal")
+    assert identity(described) == identity()
+    assert identity(seed=np.int64(3)) == identity(seed=3)
+    assert identity(sensor=surfaces.Sensor(np.int64(16))) == identity()

@@ -1,0 +1,353 @@
+"""Meshes, rays over them, and the ways of photons from facet to facet."""
+
+import gc
+import weakref
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import optipath as op
+from optipath import surfaces
+from optipath.surfaces.fields.height_field import HeightField
+from optipath.surfaces.walk import packed_meshes as packed
+from optipath.surfaces.walk.kept_meshes import kept_meshes
+from optipath.surfaces.walk.mesh_pyramid import SHIFT, levels_of, pyramid_of
+from rays_over_meshes import crossings, first_meeting, height_above
+from tables import rows
+from uncompiled import uncompiled
+
+pytest.importorskip("numba")
+
+from optipath.surfaces.walk import mesh_entry as entry_walk
+from optipath.surfaces.walk import mesh_hit as walk
+from optipath.surfaces.walk import walk_layout as layout
+from optipath.surfaces.walk.facet_hit import LOWER, NO_FACET, UPPER
+from optipath.surfaces.walk.given_beam import given_beam
+from optipath.surfaces.walk.packed_meshes import packed_meshes
+from optipath.surfaces.walk.random_stream import uniform
+
+
+def fields(rng):
+    shapes = [((5, 9), True), ((33, 3), False), ((2, 2), True)]
+    return [HeightField(rng.normal(size=shape), (3.0, 7.0), periodic) for shape, periodic in shapes]
+
+
+def test_heights_and_their_extremes_are_found_by_their_places(rng):
+    meshes = packed.packed_meshes(given := fields(rng))
+    for place, field in enumerate(given):
+        wholes = meshes.wholes[packed.WHOLES * place :][: packed.WHOLES]
+        across, down = field.cells
+        assert wholes[: packed.PYRAMID].tolist()[1:3] == [across, down]
+        assert wholes[packed.PERIODIC] == field.periodic
+        first = wholes[packed.HEIGHTS]
+        vertices = meshes.heights[first:][: (across + 1) * (down + 1)].reshape(down + 1, across + 1)
+        assert np.ptp(vertices - field.vertices()) < 1e-14
+        levels = pyramid_of(vertices)
+        assert wholes[packed.LEVELS] == len(levels) - 1
+        for level, values in enumerate(levels[1:], 1):
+            at = wholes[packed.PYRAMID + level]
+            assert meshes.extremes[at:][: values.size].tolist() == values.ravel().tolist()
+
+
+def test_meshes_are_apart_by_two_deviations_of_the_rougher_and_flat_ones_too(rng):
+    given = fields(rng)
+    numbers = packed.packed_meshes(given).numbers.reshape(-1, packed.NUMBERS)
+    for place in (1, 2):
+        gap = numbers[place - 1, packed.LOW] - numbers[place, packed.HIGH]
+        deviation = max(given[place - 1].deviation, given[place].deviation)
+        assert gap == pytest.approx(2.0 * deviation, rel=1e-12)
+    assert np.all(numbers[:, packed.HIGH] >= numbers[:, packed.LOW])
+    numbers = packed.packed_meshes([HeightField.flat()] * 2).numbers.reshape(-1, packed.NUMBERS)
+    assert numbers[0, packed.LOW] > numbers[1, packed.HIGH]
+
+
+CELLS = [(1, 1), (1, 2), (1, 17), (33, 1), (4, 4), (5, 4), (16, 64), (17, 65), (63, 3)]
+
+
+@rows("cells", CELLS)
+def test_extremes_are_those_of_all_corners_of_a_block(cells, rng):
+    across, down = cells
+    vertices = rng.normal(size=(down + 1, across + 1))
+    for level, found in enumerate(pyramid_of(vertices)):
+        width = 1 << (SHIFT * level)
+        for line, column in np.ndindex(found.shape[:2]):
+            part = vertices[line * width :, column * width :][: width + 1, : width + 1]
+            assert found[line, column].tolist() == [part.min(), part.max()]
+
+
+@rows("cells", CELLS)
+def test_the_last_level_is_one_block_the_first_are_the_cells_and_blocks_cover_all(cells):
+    across, down = cells
+    levels = pyramid_of(np.zeros((down + 1, across + 1)))
+    assert len(levels) == levels_of(across, down) + 1
+    assert levels[0].shape == (down, across, 2)
+    assert levels[-1].shape == (1, 1, 2)
+    assert all(len(each) * each.shape[1] > 1 for each in levels[:-1])
+    for level, found in enumerate(levels):
+        width = 1 << (SHIFT * level)
+        assert found.shape[:2] == (-(-down // width), -(-across // width))
+
+
+def test_meshes_go_at_once_with_their_sample():
+    gc.disable()  # Nothing goes but what nobody refers to.
+    try:
+        sample = op.Sample([(1.5, 0.3)], cells=200)
+        meshes = weakref.ref(kept_meshes(sample).of(0).meshes.heights)
+        assert meshes() is not None
+        del sample
+        assert meshes() is None
+    finally:
+        gc.enable()
+
+
+@rows("seed", [0, 1, 2**63, 12345678901234567890])
+def test_the_numbers_are_those_of_numpy(seed):
+    stream = np.random.SFC64(seed)
+    state = np.array(stream.state["state"]["state"], np.uint64)
+    draw = uncompiled(uniform)
+    with np.errstate(over="ignore"):
+        found = [draw(state) for _ in range(1000)]
+    assert found == np.random.Generator(stream).random(1000).tolist()
+    assert state.tolist() == stream.state["state"]["state"].tolist()
+
+
+mesh_entry = uncompiled(entry_walk.mesh_entry)
+TENT = [[0.0, 1.0, 0.5], [0.0, 0.5, 0.0], [0.0, 0.0, -1.0]]
+
+
+def entered(field, point, k, side=1.0, start=(0.0, 0.0)):
+    with np.errstate(all="ignore"):
+        return mesh_entry(tuple(packed_meshes([field])), 0, side, point, np.float64(k), start)
+
+
+@rows("side, height", [(1.0, 1.0), (-1.0, -1.0)])
+def test_light_gets_to_the_edge_of_a_mesh_along_its_direction(side, height):
+    field = HeightField(TENT, (4.0, 2.0))
+    inside, point, x, y = entered(field, (0.0, 0.0, 5 * side), (0.6, 0.0, -0.8 * side), side)
+    assert inside
+    assert point == (pytest.approx(3.0, rel=1e-15), 0.0, height)
+    assert (x, y) == (pytest.approx(1.5, rel=1e-15), 0.0)
+    # Beside a smaller one it is not inside.
+    for along in (0.6, -0.6):
+        assert not entered(HeightField(TENT, 2.0), (0.0, 0.0, 5.0), (along, 0.0, -0.8))[0]
+
+
+def test_a_periodic_mesh_is_met_where_its_period_says():
+    field = HeightField(TENT, 3.0, periodic=True)
+    _, _, x, y = entered(field, (0.0, 0.0, 5.0), (-0.6, 0.0, -0.8), start=(1.0, 2.5))
+    assert (x, y) == (pytest.approx(1.0, rel=1e-15), 2.5)
+
+
+@rows("upwards", [0.0, -1e-300, -1e-30])
+@rows("height", [1.0, 5.0])
+@rows("along", [-1.0, 0.0, 1.0])
+def test_light_along_a_periodic_mesh_comes_to_one_of_its_cells(along, height, upwards):
+    field = HeightField(TENT, 3.0, periodic=True)
+    inside, point, x, y = entered(field, (0.0, 0.0, height), (along, 1.0, upwards))
+    assert inside
+    assert point[2] == 1.0
+    assert 0.0 <= x < 3.0
+    assert 0.0 <= y < 3.0
+
+
+mesh_hit = uncompiled(walk.mesh_hit)
+SEEDS = st.integers(0, 10**6)
+SIDES = st.sampled_from([1.0, -1.0])
+QUARTERS = st.integers(-8, 8).map(lambda number: number / 4)
+SLOPES = st.tuples(QUARTERS, QUARTERS, st.sampled_from([0.25, 0.5, 1.0, 2.0]))
+
+
+@st.composite
+def plateaus(draw):
+    """Fields with many equal heights: numbers of which nothing is rounded."""
+    return _field(draw, lambda numbers, shape: numbers.integers(-2, 3, shape).astype(float))
+
+
+@st.composite
+def hills(draw):
+    """Fields of any heights, from nearly flat ones to cliffs."""
+    scale = 10.0 ** draw(st.integers(-6, 6))
+    return _field(draw, lambda numbers, shape: scale * numbers.normal(size=shape))
+
+
+def _field(draw, heights):
+    periodic, numbers = draw(st.booleans()), np.random.default_rng(draw(SEEDS))
+    cells = draw(st.tuples(st.integers(2, 6), st.integers(2, 6)))
+    shape = [each + (not periodic) for each in cells[::-1]]
+    return HeightField(heights(numbers, shape), cells, periodic)
+
+
+def outcome_of(field, start, direction, side, cell=None, own=NO_FACET):
+    """How a ray ends that starts somewhere in cells, and where."""
+    (x, y, z), (dx, dy, dz) = np.float64(start), np.float64(direction)
+    column, line = cell or (min(int(x), field.cells[0] - 1), min(int(y), field.cells[1] - 1))
+    with np.errstate(all="ignore"):
+        outcome, t, *_ = mesh_hit(
+            tuple(packed_meshes([field])), 0, x, y, (z, dx, dy, dz), side, column, line, own
+        )
+    return outcome, float(t)
+
+
+def expect_meeting(field, start, direction, side, found):
+    """Met where exact arithmetic meets it; or before, where the ray touches the mesh."""
+    outcome, t = found
+    expected = first_meeting(field, start, direction, side)
+    if outcome != walk.MET:
+        assert expected is None
+    elif expected is None or t != pytest.approx(expected, rel=1e-9, abs=1e-9):
+        assert expected is None or t < expected
+        rounding = 1e-9 * (np.ptp(field.heights) + abs(direction[2]))
+        assert abs(height_above(field, start, direction)(t)) <= rounding
+
+
+@given(field=plateaus(), place=st.tuples(*2 * [st.integers(0, 23)]), slopes=SLOPES, side=SIDES)
+def test_rays_from_outside_through_vertices_and_along_edges(field, place, slopes, side):
+    x, y = (number / 4 % cells for number, cells in zip(place, field.cells, strict=True))
+    start = x, y, side * np.max(side * field.heights)
+    direction = *slopes[:2], -side * slopes[2]
+    expect_meeting(field, start, direction, side, outcome_of(field, start, direction, side))
+
+
+@given(field=hills(), seed=SEEDS, side=SIDES)
+def test_rays_from_outside_onto_hills_and_cliffs(field, seed, side):
+    numbers = np.random.default_rng(seed)
+    heights = side * field.heights
+    start = *numbers.uniform(0, field.cells), side * heights.max()
+    steep = np.ptp(heights) * 10.0 ** numbers.uniform(-1, 3)
+    direction = *numbers.normal(size=2), -side * steep
+    expect_meeting(field, start, direction, side, outcome_of(field, start, direction, side))
+
+
+@given(field=hills(), seed=SEEDS, side=SIDES, facet=st.sampled_from([LOWER, UPPER]))
+def test_rays_from_facets_leave_these_and_meet_others(field, seed, side, facet):
+    numbers = np.random.default_rng(seed)
+    vertices, cell = field.vertices(), [int(numbers.integers(most)) for most in field.cells]
+    u, v = sorted(numbers.uniform(0.05, 0.95, 2), reverse=facet == LOWER)
+    column, line = cell
+    low, right, back, high = vertices[line : line + 2, column : column + 2].ravel()
+    rise = (right - low, high - right) if facet == LOWER else (high - back, back - low)
+    start = column + u, line + v, low + u * rise[0] + v * rise[1]
+    flat = numbers.normal(size=2)
+    away = side * np.ptp(vertices) * 10.0 ** numbers.uniform(-3, 1)
+    direction = *flat, float(flat @ rise) + away
+    assume(abs(direction[2]) > 1e-2 * np.ptp(vertices))
+    found = outcome_of(field, start, direction, side, (column, line), facet)
+    if found[0] == walk.MET:
+        # The start is on its facet but for a rounding, and met there by exact arithmetic.
+        assert found[1] * abs(away) > 1e-9 * np.ptp(vertices)
+    expect_meeting(field, nearly(start, side), direction, side, found)
+
+
+def nearly(start, side):
+    """A start that is not below its facet by a rounding."""
+    x, y, z = start
+    return x, y, z + side * 1e-12 * (abs(z) + 1e-9)
+
+
+@rows("side", [1.0, -1.0])
+@rows("x", [0.0, 0.25, 1.0])
+def test_vertical_rays(side, x):
+    field = HeightField([[0.0, 1.0, 3.0], [2.0, 5.0, 0.0], [1.0, 1.0, 1.0]], 3.0, periodic=True)
+    edge = 5.0 if side > 0.0 else 0.0
+    start, direction = (x, 0.5, edge), (0.0, 0.0, -side)
+    outcome, t = outcome_of(field, start, direction, side)
+    assert outcome == walk.MET
+    assert t == first_meeting(field, start, direction, side)
+
+
+def test_light_along_a_periodic_mesh_is_given_up_and_leaves_a_finite_one_at_its_side(monkeypatch):
+    monkeypatch.setitem(mesh_hit.__globals__, "_MOST_STEPS", 100)
+    field = HeightField([[0.0, 1.0], [2.0, 0.0]], 2.0, periodic=True)
+    assert outcome_of(field, (0.0, 0.5, 3.0), (1.0, 0.0, 0.0), 1.0)[0] == walk.LOST
+    field = HeightField(np.zeros((3, 3)), 2.0)
+    outcome, t = outcome_of(field, (0.5, 0.5, 1.0), (1.0, 0.25, -0.1), 1.0)
+    assert (outcome, t) == (walk.LEFT, 1.5)
+
+
+SPACING = np.array([0.5, 0.8])
+
+
+def steep_field(seed, *, periodic):
+    heights = np.random.default_rng(seed).normal(size=(8, 6))
+    cells = np.array([6, 8]) - (not periodic)
+    return surfaces.HeightField(heights, tuple(SPACING * cells), periodic)
+
+
+def first_photon(field, index, seed):
+    """Events of the first photon of a seed, and where on the mesh it starts, in cells."""
+    beam = given_beam(op.Sample([(index, field)]), 0.8, 0.4, seed=seed)
+    record = beam.block(0, wanted=0).record
+    stream = np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(0,)))
+    start = np.random.Generator(stream).random(2) * field.cells
+    return record[0], record[1 : 1 + int(record[0, layout.EVENTS])], start
+
+
+def in_cells(vector):
+    return vector / [*SPACING, 1.0]
+
+
+@rows("periodic", [True, False])
+@rows("index", [1.5, 1j])
+def test_photons_stay_on_their_side_of_the_surface_from_event_to_event(periodic, index):
+    met = 0
+    for seed in range(80):
+        field = steep_field(seed, periodic=periodic)
+        end, events, start = first_photon(field, index, seed)
+        place = np.array([*start, field.heights.max()])
+        along = in_cells(end[layout.FIRST_K : layout.FIRST_K + 3])
+        if first_meeting(field, place, along, 1.0) is None:
+            continue  # No photon: another start was drawn.
+        for event in events:
+            there = in_cells(event[layout.POINT : layout.POINT + 3]) + np.array([*start, 0.0])
+            above = height_above(field, place, there - place)
+            inside = [t for t in crossings(field, place, there - place) if t < 1]
+            assert all(event[layout.SIDE] * above(t) > -1e-12 for t in inside)
+            assert abs(float(above(1))) < 1e-12
+            place, met = there, met + 1
+    assert met > 20
+
+
+@rows("index", [1.5, 1j])
+def test_light_changes_sides_where_it_is_refracted(index):
+    for seed in range(30):
+        _, events, _ = first_photon(steep_field(seed, periodic=True), index, seed)
+        side = 1.0
+        for event in events:
+            assert event[layout.SIDE] == side
+            along = event[layout.DIRECTION : layout.DIRECTION + 3]
+            normal = event[layout.NORMAL : layout.NORMAL + 3]
+            assert along @ normal < 0.0
+            assert side * normal[2] > 0.0
+            media = (1.0, index.real) if side > 0.0 else (index.real, 1.0)
+            assert tuple(event[[layout.N1, layout.N2]]) == media
+            side *= 1.0 if event[layout.REFLECTED] else -1.0
+
+
+def test_photons_get_stuck_after_the_most_events_and_leave_finite_fields_sideways():
+    mirror = op.Sample([(1j, steep_field(0, periodic=True))])
+    found = surfaces.photon_ends(mirror, 0.8, 1000, most_events=2)
+    assert set(found.ends) == {"up", "stuck"}
+    assert np.all(found.events[found.ends == "stuck"] == 2)
+    found = surfaces.photon_ends(op.Sample([(1.5, steep_field(0, periodic=False))]), 0.8, 1000)
+    assert set(found.ends) == {"up", "down", "sideways"}
+
+
+def test_light_that_never_comes_down_is_lost_and_counted_as_stuck():
+    ridges = surfaces.HeightField(
+        [[0.0, 0.0], [0.0, 0.0], [1.0, 1.0], [0.0, 0.0]], 4.0, periodic=True
+    )
+    found = surfaces.energy(
+        op.Sample([(1.5, ridges)]), np.pi / 2 - 1e-11, photons=3, azimuth=0.0, threads=1, seed=1
+    )
+    assert found.stuck + found.sideways == found.stuck > 0
+    assert found.lost == pytest.approx(found.stuck / 3, rel=1e-12)
+
+
+def test_normals_of_cliffs_are_of_length_1():
+    cliffs = surfaces.HeightField(1e6 * (np.indices((8, 8)).sum(axis=0) % 2), 8.0, periodic=True)
+    beam = given_beam(op.Sample([(1j, cliffs)]), 0.1)
+    record = beam.block(0, wanted=50).record
+    normals = record[1 : 1 + int(record[0, layout.EVENTS]), layout.NORMAL : layout.NORMAL + 3]
+    assert np.linalg.norm(normals, axis=-1) == pytest.approx(1.0, abs=1e-15)
