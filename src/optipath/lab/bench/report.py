@@ -57,7 +57,8 @@ def bench(
     path: PathGraph,
     load: Callable[[], object],
     *,
-    largest: int = 1_000_000,
+    largest: int = _COMPARED,
+    long: bool = False,
     engines: Iterable[str] = (),
     threads: int = 1,
     progress: Callable[[str], object] = lambda _: None,
@@ -71,7 +72,10 @@ def bench(
     load : callable
         Loads it.
     largest : int
-        The largest batch; batches grow by tens from 1.
+        The largest batch; the other one has a hundredth of its paths.
+    long : bool
+        Whether batches grow by tens from 1, in both precisions, Mueller matrices and all methods
+        are measured, too.
     engines : iterable of str
         Which are measured; all that are installed by default.
     threads : int
@@ -113,17 +117,19 @@ def bench(
     }
     timings = race(single, tick=progress)
     report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
+    kinds = slice(None if long else 1)
     # First, since their first calls tell how long they take to be compiled.
     size = min(_COMPARED, largest)
     methods = {
         f"{engine}, {method}": {"engine": engine, "method": method, "paths": size}
-        for engine, method in product(found, METHODS)
+        for engine, method in product(found, METHODS[kinds])
     }
     report.methods.extend(_timed(plan_of, methods, progress))
-    for size in [10**power for power in range(20) if 10**power <= largest]:
+    tens = [10**power for power in range(len(str(largest)))]
+    for size in tens if long else sorted({max(1, largest // 100), largest}):
         batches = {
             f"{size} paths, {', '.join(choice)}": dict(zip(_BATCH, (*choice, size), strict=True))
-            for choice in product(found, _DTYPES, _OUTPUTS)
+            for choice in product(found, _DTYPES[kinds], _OUTPUTS[kinds])
         }
         report.batches.extend(_timed(plan_of, batches, progress))
     return report
@@ -152,7 +158,8 @@ def _timed(
         values = {name: value.astype(plan.dtype) for name, value in values.items()}
         action: Callable[..., object] = plan.run_all
         if run.get("output") == "mueller":
-            action = plan.mueller
+            ends = next(iter(plan.whole.sources)), next(iter(plan.whole.readings))
+            action = partial(plan.mueller, *ends)
         contenders[name] = partial(_finished, action, values)
     return [
         {
