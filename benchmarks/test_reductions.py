@@ -58,7 +58,7 @@ def mirrors(count):
 
 
 @pytest.mark.parametrize("engine", COMPILED)
-@pytest.mark.parametrize("count", [2, *long(5), 10])
+@pytest.mark.parametrize("count", [2, 5, *long(10)])
 @pytest.mark.parametrize("tolerance", [None, 0.05])
 def test_a_tolerance_for_mirrors(benchmark, engine, count, tolerance):
     benchmark.group = f"{count} mirrors, {engine}"

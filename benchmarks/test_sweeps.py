@@ -27,9 +27,7 @@ def test_a_grid(benchmark, name, points, way):
     path, ends = op.load_preset(name.partition(",")[0]), GRIDS[name]
     count = round(points ** (1 / len(ends)))
     axes = {each: np.linspace(low, high, count) for each, (low, high) in ends.items()}
-    if way == "sweep":
-        path.sweep(**axes)
-        benchmark(lambda: path.sweep(**axes).S0.values)
-    else:
-        plan, grid = path.compose(), dict(zip(axes, np.ix_(*axes.values()), strict=True))
-        benchmark(lambda: plan.run(**grid).S0)
+    plan, grid = path.compose(), dict(zip(axes, np.ix_(*axes.values()), strict=True))
+    ways = {"sweep": lambda: path.sweep(**axes).S0.values, "run": lambda: plan.run(**grid).S0}
+    ways[way]()
+    benchmark(ways[way])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from subjects import ENGINES, finished, needs_numba, traced
+from subjects import COMPILED, ENGINES, finished, long, needs_numba, traced
 
 COUNT = 1_000_000
 METALS = (1.5, 1.12 + 2.16j, 0.608 + 2.12j)
@@ -15,7 +15,7 @@ KINDS = {
 }
 
 
-@pytest.fixture(scope="session", params=KINDS)
+@pytest.fixture(scope="session", params=[*KINDS][:1] + long(*[*KINDS][1:]))
 def chains(request):
     """Two arrays of vertices, 100,000 different chains each, materials, and events."""
     materials, events = KINDS[request.param]
@@ -45,7 +45,7 @@ def test_a_path_of_its_own_for_new_points(benchmark, chains):
     )
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", [*COMPILED, *long("jax")])
 @pytest.mark.parametrize("chains", ["three reflections"], indirect=True)
 def test_points_and_the_world_frame_of_the_last_leg(benchmark, chains, engine):
     kind, several, materials, events = chains
