@@ -1,56 +1,63 @@
-"""A million chains of one to eight reflections and refractions in any order, in one batch."""
-
-import sys
-from dataclasses import replace
-from pathlib import Path
+"""Chains of one to eight reflections and refractions in any order; a million with -m long."""
 
 import numpy as np
 import pytest
 
 import optipath as op
-from subjects import ENGINES, finished
+from subjects import finished, long, needs_numba, traced
 
-sys.path.append(str(Path(__file__).parents[1] / "tests"))
-from batches_of_chains import random_batch
-
-COUNT = 1_000_000
-GROUP = "a million chains of one to eight events"
-
-
-@pytest.fixture(scope="module")
-def batch():
-    """Chains of 96 texts, many of each, with ids of a few materials, eight of which absorb."""
-    found = random_batch(1, 8, several=96, each=COUNT // 96)
-    absorbs = np.iscomplex(found.palette)
-    kept = np.concatenate([np.flatnonzero(~absorbs), np.flatnonzero(absorbs)[:8]])
-    few = np.arange(len(absorbs)) % 8 + np.sum(~absorbs)
-    few[kept] = np.arange(len(kept))
-    ids = np.where(found.ids < 0, found.ids, few[found.ids])
-    return replace(found, palette=[found.palette[i] for i in kept], ids=ids)
+PALETTE = [
+    1.0,
+    1.2,
+    1.33,
+    1.5,
+    1.77,
+    2.42,
+    *(0.2 + 0.3 * i + (3.0 - 0.3 * i) * 1j for i in range(8)),
+]
 
 
-def path_of(batch, **others):
-    letters = {"events": batch.letters, "lengths": batch.lengths}
-    return op.path_from_vertices(batch.points, batch.palette, ids=batch.ids, **letters, **others)
+@pytest.fixture(scope="session", params=[100_000, *long(1_000_000)])
+def chains(request):
+    """The arguments of chains, 100,000 of which differ: light is reflected off what absorbs."""
+    rng = np.random.default_rng(1)
+    refracted = rng.random((100_000, 8)) < 0.5
+    ids = np.where(
+        refracted, rng.integers(0, 6, refracted.shape), rng.integers(6, 14, refracted.shape)
+    )
+    points = traced(refracted, np.real(PALETTE)[ids], seed=1)
+    times = request.param // len(ids)
+    several = {"ids": ids, "events": np.where(refracted, "T", "R")}
+    several["lengths"] = rng.integers(1, 9, len(ids))
+    many = {name: np.concatenate([value] * times) for name, value in several.items()}
+    return many | {"vertices": np.concatenate([points] * times)}
 
 
-@pytest.mark.skipif("numba" not in ENGINES, reason="needs Numba")
-def test_a_path_that_is_there(benchmark, batch):
-    benchmark.group = GROUP
-    plan = op.Composer(engine="numba").compose(path_of(batch, bad="mask"))
+@pytest.fixture
+def timed(benchmark, chains):
+    benchmark.group = f"{len(chains['lengths']):,} chains of one to eight events"
+    return benchmark
+
+
+def path_of(chains, bad="mask"):
+    return op.path_from_vertices(materials=PALETTE, bad=bad, **chains)
+
+
+@needs_numba
+def test_a_path_that_is_there(timed, chains):
+    plan = op.Composer(engine="numba").compose(path_of(chains))
     finished(plan.run().stokes)
-    benchmark(lambda: finished(plan.run().stokes))
+    timed(lambda: finished(plan.run().stokes))
 
 
 @pytest.mark.parametrize("bad", ["mask", "refuse"])
-def test_the_making_of_a_path(benchmark, batch, bad):
-    benchmark.group = GROUP
-    benchmark(lambda: path_of(batch, bad=bad))
+def test_the_making_of_a_path(timed, chains, bad):
+    timed.pedantic(path_of, (chains, bad), rounds=3)
 
 
-@pytest.mark.skipif("numba" not in ENGINES, reason="needs Numba")
-def test_a_path_of_its_own_for_new_points(benchmark, batch):
-    benchmark.group = GROUP
-    composer = op.Composer(engine="numba")
-    finished(composer.compose(path_of(batch, bad="mask")).run().stokes)
-    benchmark(lambda: finished(composer.compose(path_of(batch, bad="mask")).run().stokes))
+@needs_numba
+def test_a_path_of_its_own_for_new_points(timed, chains):
+    def light():
+        finished(op.Composer(engine="numba").compose(path_of(chains)).run().stokes)
+
+    timed.pedantic(light, rounds=3, warmup_rounds=1)

@@ -4,45 +4,30 @@ import numpy as np
 import pytest
 
 import optipath as op
+from subjects import long
 
 pytest.importorskip("xarray")
 
 GRIDS = {
     "malus": {"angle": (0.1, 1.4), "intensity": (1.0, 2.0)},
     "npgr026": {"delta": (0.1, 1.4), "phi": (0.1, 1.4)},
+    "copper-gold-spectrum": {"wavelength": (400e-9, 700e-9), "phi": (0.1, 1.4)},
     "npgr026, one axis": {"delta": (0.1, 1.4)},
     "ellipsometer-pcsa": {"theta": (0.1, 1.4), "polarizer": (0.1, 1.4)},
     "sky-and-window": {"theta": (0.1, 1.4), "sky_angle": (0.1, 1.4), "n": (1.2, 1.6)},
-    "copper-gold-spectrum": {"wavelength": (400e-9, 700e-9), "phi": (0.1, 1.4)},
 }
-POINTS = [10**6, 2 * 10**6, 10**7]
+NAMES = [*GRIDS]
 
 
-def asked(name, points):
-    """Return a path, its axes, and the same as arrays that broadcast."""
-    ends = GRIDS[name]
+@pytest.mark.parametrize("way", ["run", "sweep"])
+@pytest.mark.parametrize("points", [10**6, *long(2 * 10**6, 10**7)])
+@pytest.mark.parametrize("name", [*NAMES[:3], *long(*NAMES[3:])])
+def test_a_grid(benchmark, name, points, way):
+    benchmark.group = f"{name}, {points:,} points"
+    path, ends = op.load_preset(name.partition(",")[0]), GRIDS[name]
     count = round(points ** (1 / len(ends)))
     axes = {each: np.linspace(low, high, count) for each, (low, high) in ends.items()}
-    return (
-        op.load_preset(name.partition(",")[0]),
-        axes,
-        dict(zip(axes, np.ix_(*axes.values()), strict=True)),
-    )
-
-
-@pytest.mark.parametrize("points", POINTS)
-@pytest.mark.parametrize("name", GRIDS)
-def test_run(benchmark, name, points):
-    benchmark.group = f"{name}, {points:,} points"
-    path, _, grid = asked(name, points)
-    plan = path.compose()
-    benchmark(lambda: plan.run(**grid).S0)
-
-
-@pytest.mark.parametrize("points", POINTS)
-@pytest.mark.parametrize("name", GRIDS)
-def test_sweep(benchmark, name, points):
-    benchmark.group = f"{name}, {points:,} points"
-    path, axes, _ = asked(name, points)
-    path.sweep(**axes)
-    benchmark(lambda: path.sweep(**axes).S0.values)
+    plan, grid = path.compose(), dict(zip(axes, np.ix_(*axes.values()), strict=True))
+    ways = {"sweep": lambda: path.sweep(**axes).S0.values, "run": lambda: plan.run(**grid).S0}
+    ways[way]()
+    benchmark(ways[way])

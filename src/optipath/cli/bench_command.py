@@ -25,8 +25,12 @@ ENGINES = ("numpy", "numba", "jax")
 LARGEST = click.Option(
     ["--largest"],
     type=click.IntRange(1, 10**8),
-    default=1_000_000,
-    help="The largest batch; batches grow by tens from 1.",
+    help="The largest batch, by default 100,000 paths, or 1,000,000 with --long.",
+)
+LONG = click.Option(
+    ["--long"],
+    is_flag=True,
+    help="Add batches of 1, 10 and so on, float32, Mueller matrices, methods; takes minutes.",
 )
 ENGINE = click.Option(
     ["--engine", "engines"],
@@ -43,15 +47,16 @@ THREADS = click.Option(
 
 
 def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
-    """Time a preset or a TOML file: one run, batches by every engine, and the methods."""
+    """Time a preset or a TOML file: one run, and batches by every engine. Ends within 30 s."""
     from optipath.lab.bench.report import bench  # noqa: PLC0415 - not for every command
 
     def load() -> Any:
-        path = load_preset(chosen.preset)
-        return bound_preset(path, chosen.preset, chosen.case, chosen.values)
+        return bound_preset(load_preset(chosen.preset), chosen.preset, chosen.case, chosen.values)
 
     path = _opened(chosen)
-    steps = 5 + len(options["engines"] or ENGINES) * (4 * len(str(options["largest"])) + 4)
+    options["largest"] = options["largest"] or (1_000_000 if options["long"] else 100_000)
+    each = 4 * len(str(options["largest"])) + 4 if options["long"] else 3
+    steps = 5 + each * len(options["engines"] or ENGINES)
     with progress_bar(steps) as tell:
         report = bench(path, load, progress=lambda what: tell(what, advance=1), **options)
     if as_json:
@@ -90,7 +95,7 @@ def _tables(report: Report) -> list[Table]:
         )
     for name, cells in times.items():
         batches.add_row(name, *cells)
-    paths = report.methods[0]["paths"] if report.methods else 0
+    paths = report.methods[0]["paths"]
     methods = _table(f"methods, {paths:,} paths", ["time a path", "first call"])
     for row in report.methods:
         name = f"{row['engine']} {row['method']}"
@@ -106,4 +111,4 @@ def _table(title: str, measured: list[str]) -> Table:
     return table
 
 
-bench = PresetGroup("bench", _bench, (LARGEST, ENGINE, THREADS, JSON))
+bench = PresetGroup("bench", _bench, (LARGEST, LONG, ENGINE, THREADS, JSON))

@@ -19,7 +19,7 @@ from optipath.lab.bench.random_values import random_values
 from optipath.lab.bench.timing import race
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
@@ -57,7 +57,8 @@ def bench(
     path: PathGraph,
     load: Callable[[], object],
     *,
-    largest: int = 1_000_000,
+    largest: int = _COMPARED,
+    long: bool = False,
     engines: Iterable[str] = (),
     threads: int = 1,
     progress: Callable[[str], object] = lambda _: None,
@@ -71,7 +72,10 @@ def bench(
     load : callable
         Loads it.
     largest : int
-        The largest batch; batches grow by tens from 1.
+        The largest batch; the other one has a hundredth of its paths.
+    long : bool
+        Whether batches grow by tens from 1, in both precisions, Mueller matrices and all methods
+        are measured, too.
     engines : iterable of str
         Which are measured; all that are installed by default.
     threads : int
@@ -113,19 +117,14 @@ def bench(
     }
     timings = race(single, tick=progress)
     report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
+    kinds = slice(None if long else 1)
     # First, since their first calls tell how long they take to be compiled.
-    size = min(_COMPARED, largest)
-    methods = {
-        f"{engine}, {method}": {"engine": engine, "method": method, "paths": size}
-        for engine, method in product(found, METHODS)
-    }
-    report.methods.extend(_timed(plan_of, methods, progress))
-    for size in [10**power for power in range(20) if 10**power <= largest]:
-        batches = {
-            f"{size} paths, {', '.join(choice)}": dict(zip(_BATCH, (*choice, size), strict=True))
-            for choice in product(found, _DTYPES, _OUTPUTS)
-        }
-        report.batches.extend(_timed(plan_of, batches, progress))
+    methods = product(found, METHODS[kinds], [min(_COMPARED, largest)])
+    report.methods.extend(_timed(plan_of, ("engine", "method", "paths"), methods, progress))
+    tens = [10**power for power in range(len(str(largest)))]
+    for size in tens if long else sorted({max(1, largest // 100), largest}):
+        batches = product(found, _DTYPES[kinds], _OUTPUTS[kinds], [size])
+        report.batches.extend(_timed(plan_of, _BATCH, batches, progress))
     return report
 
 
@@ -142,9 +141,11 @@ def software(names: Iterable[str]) -> dict[str, str]:
 
 def _timed(
     plan_of: Callable[..., Plan],
-    runs: Mapping[str, Mapping[str, Any]],
+    labels: tuple[str, ...],
+    choices: Iterable[tuple[Any, ...]],
     progress: Callable[[str], object],
 ) -> list[dict[str, Any]]:
+    runs = {", ".join(map(str, each)): dict(zip(labels, each, strict=True)) for each in choices}
     contenders: dict[str, Callable[[], object]] = {}
     for name, run in runs.items():
         plan = plan_of(run["engine"], run.get("dtype", "float64"), run.get("method", "stable"))
@@ -152,7 +153,8 @@ def _timed(
         values = {name: value.astype(plan.dtype) for name, value in values.items()}
         action: Callable[..., object] = plan.run_all
         if run.get("output") == "mueller":
-            action = plan.mueller
+            ends = next(iter(plan.whole.sources)), next(iter(plan.whole.readings))
+            action = partial(plan.mueller, *ends)
         contenders[name] = partial(_finished, action, values)
     return [
         {
@@ -168,12 +170,10 @@ def _timed(
 def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
     """Run, and wait for engines that answer before they are done."""
     found = run(**values)
-    lights = found.values() if isinstance(found, dict) else [found]
-    for light in lights:
+    for light in found.values() if isinstance(found, dict) else [found]:
         numbers = light.matrix if hasattr(light, "matrix") else light.stokes
         getattr(numbers, "block_until_ready", bool)()
 
 
 def _import(statement: str) -> Callable[[], object]:
-    command = [sys.executable, "-c", statement]
-    return lambda: subprocess.run(command, check=True)  # noqa: S603 - our own Python
+    return partial(subprocess.run, [sys.executable, "-c", statement], check=True)

@@ -59,12 +59,10 @@ def race(
     for name, action in contenders.items():
         tick(name)
         first[name] = seconds_of(action)
-        once = seconds_of(action)
         # Calls that are too short for the clock are timed several at a time.
-        calls[name] = max(1, int(seconds / 20 / max(once, 1e-9)))
+        calls[name] = max(1, int(seconds / 20 / max(seconds_of(action), 1e-9)))
     taken: dict[str, list[float]] = {name: [] for name in contenders}
-    rounds = 7
-    for turn in range(rounds):
+    for turn in range(20):
         for name, action in contenders.items():
             if turn < 3 or sum(taken[name]) * calls[name] < seconds:
                 taken[name].append(seconds_of(action, calls[name]))
