@@ -6,6 +6,7 @@ import pytest
 
 import optipath as op
 from optipath.cli import main
+from tables import rows
 
 
 def run(capsys, *arguments):
@@ -70,8 +71,8 @@ def test_polarisation_is_told_of_several_cases(capsys):
     assert "npgr026, case 7:" in out
 
 
-@pytest.mark.parametrize("command", ["explain", "bench", "chart", "show"])
-@pytest.mark.parametrize("cases", [["all"], ["1", "3"]])
+@rows("command", ["explain", "bench", "chart", "show"])
+@rows("cases", [["all"], ["1", "3"]])
 def test_commands_about_one_case_say_so(command, cases, capsys):
     asked = [word for case in cases for word in ("--case", case)]
     status, out, err = run(capsys, command, "npgr026", *asked)

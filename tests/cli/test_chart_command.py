@@ -7,6 +7,7 @@ import pytest
 
 from optipath.cli import main
 from optipath.lab.accuracy import chart, critical_chart
+from tables import rows
 
 DOCS = Path(__file__).parents[2] / "docs"
 QUICK = ["chart", "malus", "--engine", "numpy", "--quick"]
@@ -108,8 +109,8 @@ def test_errors_near_a_place_are_measured_drawn_and_drawn_again(monkeypatch):
     assert main(["chart", "npgr026", "--near", "normal", "--out", "c.svg"]) == 0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@rows(
+    "arguments, message",
     [
         (["npgr026", "--near", "normal", "--quick"], "--quick is for times"),
         (["npgr026", "--near", "nirmal"], "'nirmal' is not one of"),

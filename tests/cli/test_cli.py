@@ -12,6 +12,7 @@ import optipath as op
 from optipath.cli import main
 from optipath.lab.accuracy.regions import REGIONS
 from optipath.lab.accuracy.tables import SEARCHED
+from tables import rows
 
 
 def run(capsys, *arguments):
@@ -83,7 +84,7 @@ def test_run_names_what_ran_one_path(capsys):
 
 
 # A process that runs a handful once makes no formula for it.
-@pytest.mark.parametrize(("count", "ran"), [(5, "numpy, step by step"), (2000, "numpy")])
+@rows("count, ran", [(5, "numpy, step by step"), (2000, "numpy")])
 def test_run_names_what_ran_a_batch(count, ran, capsys, tmp_path):
     file = tmp_path / "arrays.toml"
     angles = ", ".join(f'"{90 * place / count} deg"' for place in range(count))
@@ -213,8 +214,8 @@ def test_unread_components_are_null(capsys, tmp_path):
     assert "not read" in out
 
 
-@pytest.mark.parametrize(
-    ("arguments", "messages"),
+@rows(
+    "arguments, messages",
     [
         (["run", "npgr62"], ["'npgr62'", "did you mean 'npgr026'"]),
         (["run", "../x"], ["../x"]),
@@ -255,7 +256,7 @@ def test_all_wrong_options_are_told_at_once(capsys):
         assert part in err
 
 
-@pytest.mark.parametrize("as_json", [True, False])
+@rows("as_json", [True, False])
 def test_arrays_in_a_file_give_a_light_for_each_of_their_values(capsys, tmp_path, as_json):
     file = tmp_path / "arrays.toml"
     text = op.load_preset("malus").to_toml()
@@ -309,16 +310,16 @@ def test_one_fault_of_a_file_stands_on_one_line(capsys, tmp_path):
     )
 
 
-@pytest.mark.parametrize("command", ["run", "explain", "bench", "chart", "polarization"])
-@pytest.mark.parametrize("word", ["--plot", "--n", "--n12"])
+@rows("command", ["run", "explain", "bench", "chart", "polarization"])
+@rows("word", ["--plot", "--n", "--n12"])
 def test_an_option_that_is_near_to_none_has_no_suggestion(command, word, capsys):
     status, _, err = run(capsys, command, "npgr026", word, "3")
     assert status == 2
     assert f"option '{word}' is unknown; there are: --delta, --rho, --phi, --n1," in err
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@rows(
+    "arguments, message",
     [
         (
             ["run", "npgr026", "--detla", "3"],
@@ -333,8 +334,8 @@ def test_what_is_misspelt_is_suggested_and_all_else_is_listed(arguments, message
     assert message in run(capsys, *arguments)[2]
 
 
-@pytest.mark.parametrize("command", ["run", "show", "explain"])
-@pytest.mark.parametrize("case", ["10", "0", "x"])
+@rows("command", ["run", "show", "explain"])
+@rows("case", ["10", "0", "x"])
 def test_an_unknown_case_lists_all_cases(command, case, capsys):
     _, _, err = run(capsys, command, "npgr026", "--case", case)
     assert err == (
@@ -372,7 +373,7 @@ def test_a_parameter_named_like_an_option_is_refused(capsys, tmp_path):
 COMMAND = str(Path(sysconfig.get_path("scripts")) / "optipath")
 
 
-@pytest.mark.parametrize("command", [[COMMAND], [sys.executable, "-m", "optipath"]])
+@rows("command", [[COMMAND], [sys.executable, "-m", "optipath"]])
 def test_the_command_is_installed(command):
     done = subprocess.run([*command, "--version"], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("optipath")
@@ -410,8 +411,8 @@ def test_chart_measures_draws_and_draws_again(tmp_path, capsys):
     assert "wrote" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@rows(
+    "arguments, message",
     [
         (["chart"], "PRESET is missing"),
         (["show"], "PRESET is missing; give a file or one of: absorbing-pile, "),

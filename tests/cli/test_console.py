@@ -1,10 +1,9 @@
 import re
 import xml.etree.ElementTree as ET
 
-import pytest
-
 import optipath as op
 from optipath.cli import main
+from tables import rows
 
 ESCAPE = "\x1b]0;title\x07\x1b[31m\x9b2J\u202e[/b][red]"
 
@@ -40,7 +39,7 @@ def is_tame(text):
     return not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]", text)
 
 
-@pytest.mark.parametrize(
+@rows(
     "command",
     [
         ["run"],
@@ -63,7 +62,7 @@ def test_no_text_of_a_file_commands_the_terminal(command, tmp_path, capsys):
     assert ("\\x1b" if "--json" not in command else "\\u001b") in told
 
 
-@pytest.mark.parametrize(
+@rows(
     "command",
     [
         ["run", "--case", f"x{ESCAPE}"],
@@ -80,7 +79,7 @@ def test_no_fault_that_quotes_a_text_commands_the_terminal(command, tmp_path, ca
     assert is_tame(told)
 
 
-@pytest.mark.parametrize(
+@rows(
     "text",
     [
         r'"\u001b[31m" = 1',
@@ -128,10 +127,8 @@ def words_of(text):
     return {word.rstrip(":,") for word in re.findall(r"[^\s│┃┏┳┓┡╇┩├┼┤└┴┘━─]+", text)}
 
 
-@pytest.mark.parametrize("columns", ["", "0", "1", "20", "-5", "abc", "²", "9" * 5000, "50"])
-@pytest.mark.parametrize(
-    "command", [["presets"], ["show", "npgr026"], ["run", "npgr026", "--case", "3"]]
-)
+@rows("columns", ["", "0", "1", "20", "-5", "abc", "²", "9" * 5000, "50"])
+@rows("command", [["presets"], ["show", "npgr026"], ["run", "npgr026", "--case", "3"]])
 def test_nothing_is_cut_whatever_columns_says(columns, command, monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "300")
     whole = everything(capsys, *command)[1]
@@ -141,7 +138,7 @@ def test_nothing_is_cut_whatever_columns_says(columns, command, monkeypatch, cap
     assert {word for word in words_of(whole) - words_of(found) if word not in joined} == set()
 
 
-@pytest.mark.parametrize(
+@rows(
     "arguments",
     [
         ["show", "malus", "--svg", ""],

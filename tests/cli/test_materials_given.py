@@ -9,6 +9,7 @@ import pytest
 
 import optipath as op
 from optipath.cli.command import main
+from tables import rows
 
 GREEN = ("--wavelength", "516 nm")
 
@@ -43,7 +44,7 @@ def test_an_index_may_be_the_name_of_a_material(capsys):
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize("command", ["run", "explain", "polarization"])
+@rows("command", ["run", "explain", "polarization"])
 def test_all_commands_of_presets_take_materials(capsys, command):
     status, out, err = run(capsys, command, "npgr026", "--n1", "gold", *GREEN)
     assert (status, err) == (0, "")
@@ -70,8 +71,8 @@ def test_a_wavelength_of_which_nothing_depends_is_told_and_not_used(capsys):
     assert json.loads(out) == json.loads(run(capsys, "run", "npgr026", "--json")[1])
 
 
-@pytest.mark.parametrize(
-    ("text", "sentence"),
+@rows(
+    "text, sentence",
     [
         ("516", "'516' has no unit"),
         ("5 m", "no wavelength of light; for nanometres write '5 nm'"),
@@ -82,7 +83,7 @@ def test_a_wavelength_of_which_nothing_depends_is_told_and_not_used(capsys):
         ("-516 nm", "outside its range"),
     ],
 )
-@pytest.mark.parametrize("preset", ["npgr026", "absorbing-pile"])
+@rows("preset", ["npgr026", "absorbing-pile"])
 def test_a_wrong_wavelength_gets_one_clear_sentence(capsys, preset, text, sentence):
     status, out, err = run(capsys, "run", preset, f"--wavelength={text}")
     assert (status, out) == (2, "")
@@ -98,8 +99,8 @@ def test_a_photon_energy_is_a_wavelength(capsys):
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize(
-    ("options", "sentences"),
+@rows(
+    "options, sentences",
     [
         (["--n1", "gld"], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
         (["--n1", "gld", *GREEN], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
@@ -131,7 +132,7 @@ def test_without_the_database_it_is_told_what_to_install():
     assert len(ended.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize("preset", ["npgr026", "absorbing-pile"])
+@rows("preset", ["npgr026", "absorbing-pile"])
 def test_help_lists_the_wavelength(capsys, preset):
     status, out, _ = run(capsys, "run", preset, "--help")
     assert status == 0
@@ -140,8 +141,8 @@ def test_help_lists_the_wavelength(capsys, preset):
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize(
-    ("arguments", "cure"),
+@rows(
+    "arguments, cure",
     [
         (("--n1", "silica", "--wavelength", "3 um"), "or give k, as --k1 1e-4"),
         (("--n1", "main/SiO2/Malitson", *GREEN), "ask for --k1 0.0, or give its k"),
@@ -159,7 +160,7 @@ def test_a_material_that_does_not_do_is_told_with_options_that_there_are(capsys,
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize("material", ["silica", "main/SiO2/Malitson"])
+@rows("material", ["silica", "main/SiO2/Malitson"])
 def test_the_k_of_a_material_may_be_given_by_its_own_option(capsys, material):
     own = ("--n1", material, "--k1", "1e-4", "--wavelength", "3 um", "--json")
     status, out, err = run(capsys, "run", "npgr026", *own)
@@ -191,7 +192,7 @@ def test_help_writes_a_wavelength_as_it_may_be_typed(capsys):
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize(
+@rows(
     "command",
     [
         ["run", "npgr026", "--wavelength", "500 nm, 600 nm"],

@@ -2,13 +2,12 @@
 
 import shlex
 
-import pytest
-
 from optipath.cli import main
+from tables import rows
 
 
-@pytest.mark.parametrize(
-    ("line", "told"),
+@rows(
+    "line, told",
     [
         (
             "run npgr026 --filter 30 deg",
@@ -30,10 +29,7 @@ from optipath.cli import main
         ("run npgr026 --del 30", "option '--del' is unknown; did you mean '--delta'?"),
         ("run npgr026 --n1 0,170", "write '0.170' for one, and '0, 170' for two"),
         ("run npgr026 --n1 0,17", "write '0.17' for one, and '0, 17' for two"),
-        (
-            "run npgr026 --delta '30,5 deg'",
-            "write '30.5 deg' for one, and '30 deg, 5 deg' for two",
-        ),
+        ("run npgr026 --delta '30,5 deg'", "write '30.5 deg' for one, and '30 deg, 5 deg' for two"),
     ],
 )
 def test_a_word_without_a_place_is_told_what_it_was_meant_for(capsys, line, told):

@@ -4,13 +4,12 @@ import re
 from itertools import pairwise
 from xml.etree import ElementTree as ET
 
-import pytest
-
 import optipath as op
 from drawn_paths import SPACE, Box, faults_of, page_of
 from optipath.cli import main
 from optipath.cli.path_picture import path_picture
 from optipath.values.cases import Case
+from tables import rows
 
 
 def upright_lines(drawn):
@@ -37,7 +36,7 @@ def links_of(svg):
     return [tag.get("d") for tag in tags if "link" in tag.get("class")]
 
 
-@pytest.mark.parametrize("name", op.preset_names())
+@rows("name", op.preset_names())
 def test_nothing_of_a_preset_is_cut_or_lies_over_something_else(name):
     path = op.load_preset(name)
     svg = path_picture(path, name)
@@ -68,9 +67,7 @@ def test_a_chain_of_sixty_elements_hangs_straight():
     assert len({round((node.left + node.right) / 2, 6) for node in nodes}) == 1
 
 
-@pytest.mark.parametrize(
-    "name", ["偏光子{}", "e\u0301\u0301\u0301{}", "<&>{}", "\u202e{}", "w" * 200 + "{}"]
-)
+@rows("name", ["偏光子{}", "e\u0301\u0301\u0301{}", "<&>{}", "\u202e{}", "w" * 200 + "{}"])
 def test_names_in_any_letters_stay_in_their_boxes(name):
     svg = path_picture(chain_of(3, name), name)
     assert faults_of(svg) == []
@@ -78,10 +75,7 @@ def test_names_in_any_letters_stay_in_their_boxes(name):
 
 
 def test_long_values_and_helps_go_on_in_the_next_line():
-    path = op.PathGraph(
-        "word " * 100,
-        {"a" * 90: Case({}), "b": Case({}, note="n" * 500)},
-    )
+    path = op.PathGraph("word " * 100, {"a" * 90: Case({}), "b": Case({}, note="n" * 500)})
     n = op.Parameter("n" * 120, 1.5, help="h" * 300)
     stack = op.LayerStack([1.0, *[n, 1.0] * 20], incidence=0.5)
     path.add("lamp", op.Source()) >> path.add("pile", stack)
@@ -155,7 +149,7 @@ def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, capsys):
         assert len({"default", "value"} & {*texts}) == 1
 
 
-@pytest.mark.parametrize("name", ["x.png", "x", "x.svg.gz"])
+@rows("name", ["x.png", "x", "x.svg.gz"])
 def test_a_file_that_does_not_end_in_svg_is_refused(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["show", "malus", "--svg", name]) == 2

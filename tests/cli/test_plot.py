@@ -18,6 +18,7 @@ from optipath.cli.plot_kinds import KINDS, drawn
 from optipath.cli.plot_request import request_of
 from optipath.values.axis_texts import AxisValues
 from pictures import faults_of, texts_of
+from tables import rows
 
 pytest.importorskip("matplotlib")
 
@@ -81,7 +82,7 @@ def leaves_a_plane(preset, case):
     return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
 
 
-@pytest.mark.parametrize(("preset", "case", "kind", "given"), EVERY)
+@rows("preset, case, kind, given", EVERY)
 def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, given):
     if kind == "bench" and leaves_a_plane(preset, case):
         with pytest.raises(op.OptipathError, match="geometry"):
@@ -96,7 +97,7 @@ def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, giv
     assert labels - {""} or kind in {"geometry", "bench", "energy", "poincare"}
 
 
-@pytest.mark.parametrize(
+@rows(
     "arguments",
     [
         ["--kind", "ellipse", "--case", "8"],
@@ -110,7 +111,7 @@ def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, giv
         ["--kind", "geometry", "--n1", "1.5"],
     ],
 )
-@pytest.mark.parametrize("ending", ["svg"])
+@rows("ending", ["svg"])
 def test_a_picture_is_drawn_into_a_file(arguments, ending, capsys):
     assert main(["plot", "npgr026", *arguments, "--out", f"a.{ending}"]) == 0
     told = capsys.readouterr()
@@ -188,7 +189,7 @@ def test_a_long_title_goes_on_in_the_next_line():
     assert path.parameters.keys() >= many.keys()
 
 
-@pytest.mark.parametrize("kind", ["stokes", "mueller"])
+@rows("kind", ["stokes", "mueller"])
 def test_lines_of_a_title_break_between_values_and_stay_within_the_picture(kind):
     values = {"intensity": 123456789.123456, "n1": 0.123456789012345}
     values |= dict.fromkeys(("delta", "rho", "phi", "filter", "n2", "k2"), 0.5812345678901)
@@ -207,7 +208,7 @@ def test_a_name_longer_than_the_picture_is_wide_goes_on_in_the_next_line(tmp_pat
     assert str(file) in figure.get_suptitle().replace("\n", "")
 
 
-@pytest.mark.parametrize("kind", [*KINDS])
+@rows("kind", [*KINDS])
 def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(kind, tmp_path, capsys):
     path = op.PathGraph()
     lamp, glass = (
@@ -260,8 +261,8 @@ def test_the_line_by_default_is_that_of_the_case():
     assert float(asked.path.parameters["delta"].default) == float(case.parameters["delta"].default)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
+@rows(
+    "arguments, sentence",
     [
         ([], "--kind is missing; say what is drawn, one of ellipse, poincare"),
         (["--kind", "ellipse", "--out", ""], "is no name of a file"),

@@ -10,6 +10,7 @@ import optipath as op
 from optipath.cli import main
 from optipath.engines.code_cache import CodeCache
 from optipath.lab.bench.timing import duration
+from tables import rows
 
 
 def told(capsys, *arguments):
@@ -23,8 +24,8 @@ def test_numbers_have_six_digits_and_all_of_them_in_json(capsys):
     assert len(repr(found["detectors"]["E"]["stokes"][0])) > 15
 
 
-@pytest.mark.parametrize("digits", [3, 9])
-@pytest.mark.parametrize(
+@rows("digits", [3, 9])
+@rows(
     "command",
     [
         ["run", "npgr026", "--case", "7"],
@@ -63,8 +64,8 @@ def test_light_too_faint_for_a_float_has_its_logarithm(capsys, tmp_path):
     assert re.search(r"log10 S0 +│ -400 ", told(capsys, "run", str(file)))
 
 
-@pytest.mark.parametrize("columns", ["20", "40", "80", "120"])
-@pytest.mark.parametrize(
+@rows("columns", ["20", "40", "80", "120"])
+@rows(
     "command",
     [
         ["presets"],
@@ -80,7 +81,7 @@ def test_no_line_is_wider_than_the_terminal(columns, command, capsys, monkeypatc
     assert max(map(len, told(capsys, *command).splitlines())) <= int(columns)
 
 
-@pytest.mark.parametrize("columns", ["40", "80"])
+@rows("columns", ["40", "80"])
 def test_descriptions_are_whole(columns, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", columns)
     listed = " ".join(told(capsys, "presets").split())
@@ -120,8 +121,8 @@ def test_a_share_that_is_rounding_is_printed_as_0(capsys):
     assert [shares[head] for head in ("difference", "at least", "at most")] == ["0 %"] * 3
 
 
-@pytest.mark.parametrize(
-    ("command", "asked"),
+@rows(
+    "command, asked",
     [
         ("run", "parameter 'angle_1' has no value; give one, --angle-1 ..."),
         ("polarization", "parameter 'angle_1' has no value; give one, --angle-1 ..."),
@@ -161,8 +162,8 @@ def refuse(_):
     raise ValueError("stop")
 
 
-@pytest.mark.parametrize(
-    ("seconds", "text"),
+@rows(
+    "seconds, text",
     [
         (1.05e-6, "1.05 us"),
         (999.6e-9, "1 us"),

@@ -8,6 +8,8 @@ import time
 
 import pytest
 
+from tables import rows
+
 START = [sys.executable, "-m", "optipath"]
 WAITS = "import sys, time; print('waits', flush=True); time.sleep(600)\n"
 
@@ -49,10 +51,7 @@ def interrupted(arguments, environment, sent, start=START):
 def script(folder):
     """Write the script that pip makes of the entry point."""
     file = folder / "optipath"
-    file.write_text(
-        "import sys\nfrom optipath.cli import main\nsys.exit(main())\n",
-        "utf-8",
-    )
+    file.write_text("import sys\nfrom optipath.cli import main\nsys.exit(main())\n", "utf-8")
     return [sys.executable, str(file)]
 
 
@@ -109,7 +108,7 @@ def test_a_script_that_is_run_by_its_path_imports_the_library(tmp_path):
     assert done.stdout == "1.0\n"
 
 
-@pytest.mark.parametrize("arguments", [["presets"], ["explain", "malus"]])
+@rows("arguments", [["presets"], ["explain", "malus"]])
 def test_a_broken_pipe_ends_it_in_silence(arguments):
     reader, writer = os.pipe()
     os.close(reader)
@@ -120,8 +119,8 @@ def test_a_broken_pipe_ends_it_in_silence(arguments):
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.parametrize(
-    ("closed", "status", "told"),
+@rows(
+    "closed, status, told",
     [
         (">&-", 2, "optipath: the output cannot be written: standard output is closed\n"),
         ("<&- >/dev/null", 0, ""),

@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.cli import main
+from tables import rows
 
 ANGLES = "angle (deg)\n0\n30\n60\n"
 
@@ -23,9 +24,7 @@ def found(capsys, *arguments):
     return json.loads(out)
 
 
-@pytest.mark.parametrize(
-    "text", ["0:60:3", "0, 30, 60", "0 deg:60 deg:3", "0,30,60", "@angles.csv"]
-)
+@rows("text", ["0:60:3", "0, 30, 60", "0 deg:60 deg:3", "0,30,60", "@angles.csv"])
 def test_each_way_of_writing_several_values_gives_malus_law(text, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "angles.csv").write_text(ANGLES, "utf-8")
@@ -99,8 +98,8 @@ def test_all_that_is_wrong_is_told_at_once(capsys):
     assert len(err.splitlines()) == 5
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         (["--delta", "0:90"], "does not say how many values there are"),
         (["--delta", "30,5"], "may be a number with a comma, or two"),
@@ -139,7 +138,7 @@ def test_a_path_with_several_values_of_its_own_takes_no_axis_besides(capsys, tmp
     assert run(capsys, "run", str(file), "--intensity", "1:2:2", "--angle", "0")[0] == 0
 
 
-@pytest.mark.parametrize("command", ["explain", "polarization", "bench", "chart"])
+@rows("command", ["explain", "polarization", "bench", "chart"])
 def test_a_command_of_one_value_says_so(command, capsys):
     status, out, err = run(capsys, command, "malus", "--angle", "0:90:3")
     assert (status, out) == (2, "")

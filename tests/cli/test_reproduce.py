@@ -12,6 +12,7 @@ from optipath.cli.reproduce_command import reproduce
 from optipath.cli.surface_command import surface
 from optipath.engines.automatic import is_installed
 from optipath.lab.published import reproduction
+from tables import rows
 
 COMPILED = pytest.mark.skipif(not is_installed("numba"), reason="needs the extra fast")
 MIRROR = "wang-2017-table-2-alpha-0-1"
@@ -118,8 +119,8 @@ def test_an_interrupt_keeps_what_is_done(capsys, monkeypatch):
     assert {one["incidence"] for one in found["experiments"][0]["measurements"]} == {"0 deg"}
 
 
-@pytest.mark.parametrize(
-    ("given", "wrong"),
+@rows(
+    "given, wrong",
     [
         (["wang-2017-tabel-1"], "did you mean 'wang-2017-table-1'?"),
         (["none.toml"], "'none.toml' cannot be read: No such file or directory"),

@@ -16,6 +16,7 @@ from optipath.cli.surface_command import surface
 from optipath.engines.automatic import is_installed
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk import walk_code
+from tables import rows
 
 BLOCK = 16384
 COMPILED = pytest.mark.skipif(not is_installed("numba"), reason="needs the extra fast")
@@ -238,8 +239,8 @@ def test_an_interrupt_before_all_keeps_the_directions_that_are_done(capsys, monk
     assert [each["incidence"] for each in json.loads(out)["directions"]] == [10.0]
 
 
-@pytest.mark.parametrize(
-    ("given", "wrong"),
+@rows(
+    "given, wrong",
     [
         (["glass-roug"], "sample 'glass-roug' is unknown; did you mean 'glass-rough'?"),
         (["none.toml"], "'none.toml' cannot be read: No such file or directory"),
@@ -254,8 +255,8 @@ def test_a_wrong_sample_is_told(given, wrong, capsys):
     assert wrong in refused(capsys, *given)
 
 
-@pytest.mark.parametrize(
-    ("given", "wrong"),
+@rows(
+    "given, wrong",
     [
         ("--incidence 90", "incidence is 90 deg, along the sample"),
         ("--incidence -5", "incidence is -5 deg; give a real angle of incidence within 0 deg"),

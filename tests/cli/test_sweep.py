@@ -11,6 +11,7 @@ import pytest
 import optipath as op
 from optipath.cli import main, sweep_command
 from optipath.sweeps.labels.table_texts import regions
+from tables import rows
 
 
 @pytest.fixture(autouse=True)
@@ -112,7 +113,7 @@ def test_columns_of_a_file_vary_together(capsys, tmp_path):
     np.testing.assert_allclose(stokes, alone, rtol=1e-13, atol=1e-15)
 
 
-@pytest.mark.parametrize("name", ["result.zarr", "result.nc"])
+@rows("name", ["result.zarr", "result.nc"])
 def test_stores_have_the_axes_in_the_units_given(name, capsys):
     xarray = pytest.importorskip("xarray")
     given = ["--delta", "0:90:4", "--filter", "0:90:3", "--out", name]
@@ -221,8 +222,8 @@ def test_all_that_is_wrong_with_options_and_values_is_told_at_once(capsys):
         assert part in err
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         ([], "a sweep has an axis at least; give --angle START:STOP:COUNT or --coords FILE.csv"),
         (["--angle", "45"], "a sweep has an axis at least"),
@@ -260,7 +261,7 @@ def test_help_says_how_several_values_are_written(capsys):
     assert sweep_command.sweep.name == "sweep"
 
 
-@pytest.mark.parametrize("most", [1, 2, 5, 6, 7, 100])
+@rows("most", [1, 2, 5, 6, 7, 100])
 def test_regions_cover_a_grid_in_the_order_of_its_points(most):
     points = np.arange(2 * 3 * 4).reshape(2, 3, 4)
     parts = [points[region].ravel() for region in regions(points.shape, most)]

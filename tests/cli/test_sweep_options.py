@@ -6,6 +6,7 @@ import pytest
 
 from optipath.cli import main
 from optipath.cli.block_bar import block_bar
+from tables import rows
 
 ANGLE = ("--angle", "0:90:3")
 
@@ -26,7 +27,7 @@ def test_a_slash_behind_a_file_does_not_change_its_form(capsys, tmp_path):
     assert (tmp_path / "a.csv").read_text("utf-8").startswith("angle (deg),S0,")
 
 
-@pytest.mark.parametrize("names", ["sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"])
+@rows("names", ["sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"])
 def test_zip_takes_names_as_options_have_them(names, capsys):
     given = ["--sky-angle", "0:30:3", "--theta", "0:60:3", "--zip", names, "--json"]
     status, out, err = told(capsys, "sweep", "sky-and-window", *given)
@@ -48,7 +49,7 @@ def test_an_interrupt_says_that_blocks_of_netcdf_are_beside_it(capsys):
     assert lines[1].startswith("optipath: 1 of 3 blocks is in .x.nc.blocks; the same command")
 
 
-@pytest.mark.parametrize("word", ["light,between,eye", "@places.csv", "light:eye:2"])
+@rows("word", ["light,between,eye", "@places.csv", "light:eye:2"])
 def test_a_choice_of_places_takes_one_word(word, capsys):
     status, _, err = told(capsys, "sweep", "npgr026", "--delta", "0:90:3", "--place", word)
     assert status == 2
@@ -56,7 +57,7 @@ def test_a_choice_of_places_takes_one_word(word, capsys):
     assert err == f"optipath: {told_of_it}; give one, and write a command for each\n"
 
 
-@pytest.mark.parametrize("text", ["nan", "NaN", "10, nan, 30"])
+@rows("text", ["nan", "NaN", "10, nan, 30"])
 def test_nan_is_not_finite_rather_than_a_word(text, capsys):
     _, _, err = told(capsys, "sweep", "npgr026", "--delta", text)
     assert err.count("cannot be 'nan', which is not finite; give an angle such as '45 deg'") + (

@@ -2,13 +2,12 @@
 
 import shlex
 
-import pytest
-
 from optipath.cli import main
+from tables import rows
 
 
-@pytest.mark.parametrize(
-    ("line", "told"),
+@rows(
+    "line, told",
     [
         ("run --case 8 npgr026", "unknown here; write it at the end: optipath run npgr026 --case"),
         ("run --detla 30 npgr026", "here; write it at the end: optipath run npgr026 --delta ..."),
@@ -34,9 +33,9 @@ def test_an_option_without_a_place_is_told_where_it_belongs(capsys, line, told):
     assert len(error.splitlines()) == 1
 
 
-@pytest.mark.parametrize("command", ["run", "explain"])
-@pytest.mark.parametrize(
-    ("words", "meant"),
+@rows("command", ["run", "explain"])
+@rows(
+    "words, meant",
     [
         ("--import mine own.toml", "--import mine {} own.toml"),
         ("own.toml --import mine", "--import mine {} own.toml"),

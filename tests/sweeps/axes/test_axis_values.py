@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.sweeps.axes.read_axes import grid_of
+from tables import rows
 
 NPGR = op.load_preset("npgr026").compose()
 TURNED = (
@@ -61,7 +62,7 @@ def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
         numbers[1] = 0.2
 
 
-@pytest.mark.parametrize("several", [[0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)])
+@rows("several", [[0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)])
 def test_lists_ranges_and_arrays_are_axes(several):
     axis = axis_of({"k1": several})
     assert axis.given.tolist() == [0.0, 1.0]
@@ -190,13 +191,13 @@ def test_a_sweep_takes_what_a_single_run_takes_for_the_number_with_its_unit():
         assert np.array_equal(plan.run(a=text).stokes, plan.run(a=float(number)).stokes)
 
 
-@pytest.mark.parametrize("unit", ["", "1", "dimensionless", None])
+@rows("unit", ["", "1", "dimensionless", None])
 def test_numbers_without_a_dimension_need_no_unit(unit):
     assert axis_of({"n1": labelled([1.3, 1.5], unit)}).unit == ""
 
 
-@pytest.mark.parametrize(
-    ("unit", "told"),
+@rows(
+    "unit, told",
     [
         (None, "is a DataArray without a unit; write one of deg, rad"),
         ("1", "is a DataArray without a unit"),
@@ -213,8 +214,8 @@ def test_complex_numbers_with_a_unit_are_told():
     assert "'(10+1j) deg' is not a quantity" in refused({"delta": labelled([10 + 1j], "deg")})
 
 
-@pytest.mark.parametrize(
-    ("value", "told"),
+@rows(
+    "value, told",
     [
         (np.zeros((2, 3)), "has the shape (2, 3), and an axis has one dimension"),
         ([["1 deg"], ["2 deg"]], "has the shape (2, 1), and an axis has one dimension"),

@@ -9,6 +9,7 @@ import pytest
 import optipath as op
 from optipath.cli import main
 from optipath.values.axis_texts import IdleValues
+from tables import rows
 
 WAVELENGTHS = np.linspace(400e-9, 700e-9, 4)
 DELTA = np.linspace(0.1, 1.4, 5)
@@ -33,8 +34,8 @@ def path():
     return op.load_preset("npgr026")
 
 
-@pytest.mark.parametrize("first", [True, False])
-@pytest.mark.parametrize("chunks", [None, 2, {"wavelength": 1}])
+@rows("first", [True, False])
+@rows("chunks", [None, 2, {"wavelength": 1}])
 def test_all_is_the_same_along_an_idle_axis_to_the_last_bit(first, chunks, path, idle):
     axes = {"wavelength": idle} if first else {}
     axes |= {"delta": DELTA, "filter": np.array([0.3, 1.5]), "wavelength": idle}

@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.sweeps.axes.read_axes import grid_of
+from tables import rows
 
 NPGR = op.load_preset("npgr026").compose()
 TWO = {"delta": [0.1, 0.2], "rho": [0.3, 0.4]}
@@ -51,8 +52,8 @@ def test_zip_names_a_dimension():
     assert grid(TWO, zip={"point": ("delta", "rho")}).sizes == {"point": 2}
 
 
-@pytest.mark.parametrize(
-    ("zipped", "told"),
+@rows(
+    "zipped, told",
     [
         (("delta", "phi"), "there are 2 of 'delta' and 3 of 'phi'; give as many each"),
         ([("delta", "rho"), ("rho", "phi")], "zip names 'rho' twice"),
@@ -87,7 +88,7 @@ def test_all_faults_are_told_at_once():
         assert any(told in fault for fault in faults), told
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@rows("bad", [np.nan, np.inf, -np.inf])
 def test_what_is_not_finite_is_told_with_its_place(bad):
     (fault,) = refused({"k1": np.array([0.0, 1.0, bad])})
     assert fault.startswith(f"parameter 'k1' is {bad} at 2; give a finite number")
@@ -183,8 +184,8 @@ def test_the_only_column_of_a_file_is_an_axis_of_its_own(tmp_path):
     assert grid(coords=str(written(tmp_path, "n1\n1.3\n1.4\n"))).sizes == {"n1": 2}
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@rows(
+    "text, told",
     [
         ("delta\n10\n", "column 'delta' has no unit; write its name as 'delta (deg)'"),
         ("detla (deg)\n10\n", "parameter 'detla' is unknown; did you mean 'delta'?"),

@@ -19,6 +19,7 @@ from optipath.errors import JobError, StoreWarning
 from optipath.sweeps.blocks import block_store
 from optipath.sweeps.blocks.block_marks import clear
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
+from tables import rows
 
 HUGE = 1 << 40
 
@@ -71,14 +72,11 @@ def another_folder(store):
     (store / "thesis.tex").write_text("light")
 
 
-@pytest.mark.parametrize(
-    ("put", "told"),
+@rows(
+    "put, told",
     [
         (other_job, "holds blocks of another job: it has 'other powers', where this one has 'po"),
-        (
-            other_layout,
-            "another job: it has blocks 3, where this one has 2; take another name",
-        ),
+        (other_layout, "another job: it has blocks 3, where this one has 2; take another name"),
         (newer_format, "has format 3, and this version of optipath knows 2; use the version"),
         (older_format, "has format 1, and this version of optipath knows 2; use the version"),
         (damaged_record, r"the record '.*\.zattrs' is damaged; take another name, or delete it"),
@@ -166,7 +164,7 @@ DAMAGES = [
 ]
 
 
-@pytest.mark.parametrize("name", ["power/3.0", "total/1", "blocks/done/1.0"])
+@rows("name", ["power/3.0", "total/1", "blocks/done/1.0"])
 def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path, name):
     job = Powers(3, log=str(tmp_path / "log"))
     keep_blocks(job, store, "synchronous")
@@ -233,7 +231,7 @@ def test_of_many_damaged_blocks_twenty_are_named(store):
         keep_blocks(Powers(25), store)
 
 
-@pytest.mark.parametrize(
+@rows(
     "name",
     [
         *(".zgroup", ".zmetadata", ".zattrs", "blocks/.zgroup", "blocks/files", "called/.zattrs"),
@@ -272,8 +270,8 @@ def test_a_damaged_record_is_told_and_nothing_is_changed(store):
         keep_blocks(Powers(2), store)
 
 
-@pytest.mark.parametrize("content", ["{", "[]", '{"shape": [3]}'])
-@pytest.mark.parametrize("name", [".zmetadata", "power/.zarray"])
+@rows("content", ["{", "[]", '{"shape": [3]}'])
+@rows("name", [".zmetadata", "power/.zarray"])
 def test_metadata_that_are_garbage_are_told(store, name, content):
     keep_blocks(Powers(2), store)
     (store / name).write_text(content)
@@ -312,7 +310,7 @@ def test_a_store_in_no_folder_is_told(tmp_path):
     assert not [*tmp_path.iterdir()]
 
 
-@pytest.mark.parametrize("name", [3, "", None])
+@rows("name", [3, "", None])
 def test_what_is_no_name_is_told(name):
     with pytest.raises(JobError, match="name"):
         keep_blocks(Powers(2), name)
@@ -341,7 +339,7 @@ def test_half_a_store_of_who_was_killed_is_in_nobodys_way(store, monkeypatch):
     assert marked(store) == {0, 1}
 
 
-@pytest.mark.parametrize("title", ["powers", "other powers"])
+@rows("title", ["powers", "other powers"])
 def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monkeypatch, title):
     make = block_store.make_group
 
@@ -360,8 +358,8 @@ def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monke
     assert [file.name for file in store.parent.iterdir()] == [store.name]
 
 
-@pytest.mark.parametrize("scheduler", ["synchronous", "threads"])
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES, errno.EROFS])
+@rows("scheduler", ["synchronous", "threads"])
+@rows("number", [errno.ENOSPC, errno.EACCES, errno.EROFS])
 def test_a_disk_that_takes_no_more_is_told_and_finished_blocks_stay(
     store, monkeypatch, number, scheduler
 ):
@@ -398,7 +396,7 @@ def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):
     assert powers(2).shape == found.shape
 
 
-@pytest.mark.parametrize("stood", [True, False])
+@rows("stood", [True, False])
 def test_a_new_store_without_blocks_goes_where_its_job_fails(store, stood):
     if stood:
         store.mkdir()

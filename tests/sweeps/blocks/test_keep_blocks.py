@@ -17,6 +17,7 @@ from optipath.sweeps.blocks.block_store import BlockStore
 from optipath.sweeps.blocks.executors import AtOnce
 from optipath.sweeps.blocks.keep_blocks import _handed_out, _keep_block, keep_blocks
 from optipath.sweeps.blocks.workers import Workers
+from tables import rows
 
 
 @pytest.fixture
@@ -29,7 +30,7 @@ def store(tmp_path):
     return tmp_path / "powers.zarr"
 
 
-@pytest.mark.parametrize("scheduler", [None, "synchronous", "threads"])
+@rows("scheduler", [None, "synchronous", "threads"])
 def test_all_blocks_are_computed_once_and_kept(store, log, scheduler):
     assert keep_blocks(Powers(7, str(log)), store, scheduler) == store
     assert sorted(computed(log)) == list(range(7))
@@ -80,7 +81,7 @@ def test_an_error_in_a_thread_ends_the_job(store, log):
     assert len(computed(log)) < 50
 
 
-@pytest.mark.parametrize("scheduler", ["synchronous", "threads"])
+@rows("scheduler", ["synchronous", "threads"])
 def test_who_interrupts_keeps_what_is_done(store, log, scheduler):
     def interrupt(done, _):
         if done == 3:
@@ -137,8 +138,8 @@ def test_two_runs_at_a_time_come_to_the_same_bits(store):
         assert np.array_equal(found.power, powers(30))
 
 
-@pytest.mark.parametrize(
-    ("scheduler", "told"),
+@rows(
+    "scheduler, told",
     [
         ("thread", "scheduler 'thread' is unknown; did you mean 'threads'"),
         ("10.0.0.1:8786", "the address of a cluster begins with 'tcp://'"),

@@ -4,6 +4,7 @@ import pytest
 
 import optipath as op
 from optipath.sweeps.chunked.chunk_sizes import BLOCK, chunk_sizes
+from tables import rows
 
 SIZES = {"delta": 3000, "rho": 1000, "phi": 500}
 
@@ -38,7 +39,7 @@ def test_a_dimension_may_be_auto_itself():
     assert chunk_sizes({"rho": "auto", "phi": 10}, SIZES) == chunk_sizes({"phi": 10}, SIZES)
 
 
-@pytest.mark.parametrize("chunks", [0, -2, 1.5, True, "big", None, [10]])
+@rows("chunks", [0, -2, 1.5, True, "big", None, [10]])
 def test_what_is_no_size_is_refused_with_what_would_be(chunks):
     with pytest.raises(op.ParameterError, match=r"give 'auto', a number .* or {'delta': 10}"):
         chunk_sizes(chunks, SIZES)

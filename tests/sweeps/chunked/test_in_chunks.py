@@ -14,6 +14,7 @@ import xarray as xr
 import optipath as op
 from optipath.sweeps.chunked import chunked_light, in_chunks
 from optipath.sweeps.chunked.block_light import run_block
+from tables import rows
 
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
 AXES = {
@@ -43,7 +44,7 @@ def assert_same_bits(found, expected):
         assert bits_of(found[name]) == bits_of(each)
 
 
-@pytest.mark.parametrize("chunks", ["auto", 1, 4, {"rho": 2}, {"delta": 3, "phi": -1}])
+@rows("chunks", ["auto", 1, 4, {"rho": 2}, {"delta": 3, "phi": -1}])
 def test_a_sweep_in_chunks_is_that_in_memory_however_it_is_cut(chunks):
     assert_same_bits(swept(chunks=chunks).compute(scheduler="synchronous"), swept())
 

@@ -12,9 +12,10 @@ import optipath as op
 from optipath.sweeps.chunked.own_class import OwnClass
 from optipath.sweeps.chunked.plan_recipe import PlanRecipe
 from random_paths import Draw
+from tables import rows
 
 
-@pytest.mark.parametrize("seed", range(30))
+@rows("seed", range(30))
 def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
     draw = Draw(seed)
     path = draw.path(loops=seed % 3 == 0)

@@ -16,6 +16,7 @@ import xarray as xr
 import optipath as op
 from optipath.errors import JobError
 from optipath.sweeps.kept.sweep_block import SweepBlock
+from tables import rows
 
 ANGLES = np.linspace(0.0, 1.5, 11)
 DELTAS = np.linspace(0.1, 1.4, 4)
@@ -207,13 +208,13 @@ def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     assert file.read_bytes() == content
 
 
-@pytest.mark.parametrize("store", ["sweep.csv", "sweep", "", 3, True])
+@rows("store", ["sweep.csv", "sweep", "", 3, True])
 def test_a_store_of_no_known_form_is_refused_with_one_that_is(store):
     with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
         kept(store)
 
 
-@pytest.mark.parametrize("store", [".zarr", ".nc"])
+@rows("store", [".zarr", ".nc"])
 def test_an_ending_alone_is_no_name(store):
     with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
         kept(store)
@@ -236,8 +237,8 @@ def test_what_was_kept_can_be_written_elsewhere_in_any_version(tmp_path):
         assert_same_bits(xr.open_zarr(copy), swept())
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
+@rows(
+    "given, told",
     [
         ({"scheduler": "threads"}, "scheduler= is for"),
         ({"progress": True}, "progress= is for"),

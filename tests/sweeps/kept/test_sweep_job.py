@@ -11,6 +11,7 @@ import optipath as op
 from optipath.sweeps.axes.read_axes import grid_of
 from optipath.sweeps.chunked.in_chunks import swept_in_chunks
 from optipath.sweeps.kept.sweep_job import SweepJob
+from tables import rows
 
 
 def job_of(chunks=4, **given):
@@ -49,7 +50,7 @@ def test_the_same_values_have_one_identity():
     assert job_of(n1=0.2).identity == job_of(n1=np.float64(0.2)).identity
 
 
-@pytest.mark.parametrize(
+@rows(
     "other",
     [
         {"n1": 0.2 + 1e-15},

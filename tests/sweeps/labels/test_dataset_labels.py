@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 pytest.importorskip("xarray")
 
@@ -33,7 +34,7 @@ def test_what_is_fixed_is_a_coordinate_as_it_was_given_or_is_by_default():
     assert found["filter"] == "none"
 
 
-@pytest.mark.parametrize("word", ["horizontal", "none", "30 deg", 0.3])
+@rows("word", ["horizontal", "none", "30 deg", 0.3])
 def test_a_single_value_is_labelled_as_an_axis_of_that_value(word):
     path, given = op.load_preset("npgr026"), {"delta": ["10 deg", "20 deg"], "n1": 1}
     fixed, axis = path.sweep(**given, filter=word), path.sweep(**given, filter=[word])

@@ -3,6 +3,7 @@
 import pytest
 
 import optipath as op
+from tables import rows
 
 pytest.importorskip("xarray")
 
@@ -17,7 +18,7 @@ def path_of(name, detectors=1):
     return path
 
 
-@pytest.mark.parametrize("name", ["psi", "delta"])
+@rows("name", ["psi", "delta"])
 def test_both_ellipsometric_angles_have_capitals_beside_a_parameter_of_either_name(name):
     found = path_of(name).sweep(**{name: [0.2, 0.4]})
     assert {"Psi", "Delta"} <= {*found.data_vars}
@@ -28,7 +29,7 @@ def test_otherwise_they_have_small_letters():
     assert {"psi", "delta"} <= {*path_of("share").sweep(share=[0.2, 0.4]).data_vars}
 
 
-@pytest.mark.parametrize("name", ["S0", "DoP", "log10_intensity"])
+@rows("name", ["S0", "DoP", "log10_intensity"])
 def test_a_parameter_called_as_a_variable_is_refused(name):
     with pytest.raises(op.ParameterError, match=f"'{name}' is what a sweep calls a variable"):
         path_of(name).sweep(**{name: [0.2, 0.4]})

@@ -1,6 +1,7 @@
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def refused(correlation):
@@ -16,8 +17,8 @@ def refused(correlation):
     return fault.value.faults
 
 
-@pytest.mark.parametrize(
-    ("correlation", "words"),
+@rows(
+    "correlation, words",
     [
         ({("n1", "k2"): 0.1}, "names 'k2', which has no uncertainty here"),
         ({("n1", "n1"): 1.0}, 'is of pairs of parameters, such as {("n1", "k1"): 0.3}'),
@@ -43,7 +44,7 @@ def test_coefficients_that_no_values_can_have_together_are_refused():
     assert "has the eigenvalue -0.8" in fault
 
 
-@pytest.mark.parametrize("method", ["differences", "monte-carlo"])
+@rows("method", ["differences", "monte-carlo"])
 def test_what_is_wholly_correlated_may_cancel(method):
     # Two turns against each other: only their sum is seen.
     path = (

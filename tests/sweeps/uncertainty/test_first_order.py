@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from chains import ENGINES
+from tables import rows
 
 METHODS = ["differences", *(["gradients"] if "jax" in ENGINES else [])]
 each_method = pytest.mark.parametrize("method", METHODS)
@@ -143,7 +144,7 @@ def test_a_batch_is_each_of_its_paths_alone():
 
 
 @pytest.mark.skipif("jax" not in ENGINES, reason="JAX is not installed")
-@pytest.mark.parametrize("preset", ["lyot-filter", "ellipsometer-pcsa"])
+@rows("preset", ["lyot-filter", "ellipsometer-pcsa"])
 def test_differences_are_the_gradients(preset):
     path = op.load_preset(preset)
     numbers = {n: p.default for n, p in path.compose().inputs.open.items()}
@@ -154,11 +155,7 @@ def test_differences_are_the_gradients(preset):
 
 
 @settings(max_examples=20, deadline=None)
-@given(
-    angle=st.floats(0.05, 1.5),
-    sigma=st.floats(1e-9, 1e-3),
-    factor=st.floats(0.1, 100.0),
-)
+@given(angle=st.floats(0.05, 1.5), sigma=st.floats(1e-9, 1e-3), factor=st.floats(0.1, 100.0))
 def test_uncertainties_are_proportional_to_sigma(angle, sigma, factor):
     one = malus().propagate(angle=(angle, sigma), method="differences")
     more = malus().propagate(angle=(angle, sigma * factor), method="differences")

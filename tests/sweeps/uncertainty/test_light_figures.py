@@ -1,9 +1,9 @@
 import numpy as np
-import pytest
 
 import optipath as op
 from optipath.sweeps.labels.light_quantities import QUANTITIES
 from optipath.sweeps.uncertainty.light_figures import difference, figures_of, gradients_of
+from tables import rows
 
 
 def test_every_quantity_has_its_gradient():
@@ -12,10 +12,10 @@ def test_every_quantity_has_its_gradient():
     assert gradients_of(light).shape == (2, len(QUANTITIES), 4)
 
 
-@pytest.mark.parametrize(
+@rows(
     "stokes", [[1.0, 0.1, 0.2, 0.3], [2.0, -0.3, 0.1, -0.5], [1.0, 0.6, 0.8, 0.0], [3.0, 0, 1, 1]]
 )
-@pytest.mark.parametrize("scale", [1.0, 1e-100])
+@rows("scale", [1.0, 1e-100])
 def test_gradients_are_what_small_changes_do(stokes, scale):
     step = 1e-6
     for place in range(4):

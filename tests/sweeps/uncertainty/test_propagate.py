@@ -9,6 +9,7 @@ import pytest
 import optipath as op
 from optipath.errors import MissingExtraError
 from optipath.values.arrays import memory
+from tables import rows
 
 
 def malus():
@@ -94,8 +95,8 @@ def test_one_of_several_detectors_is_named():
             np.testing.assert_allclose(found.uncertainty_of("S0"), 0.05 * light.intensity)
 
 
-@pytest.mark.parametrize("method", ["differences", "monte-carlo"])
-@pytest.mark.parametrize("options", [{"dtype": "float32"}, {"composing": "jones"}])
+@rows("method", ["differences", "monte-carlo"])
+@rows("options", [{"dtype": "float32"}, {"composing": "jones"}])
 def test_a_composer_is_asked_for_the_light(method, options):
     composer = op.Composer(**options)
     found = malus().propagate(angle=(0.5, 0.01), method=method, composer=composer)
@@ -104,8 +105,8 @@ def test_a_composer_is_asked_for_the_light(method, options):
     np.testing.assert_allclose(found.uncertainty_of("S0"), 0.005 * np.sin(1.0), **rough)
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
+@rows(
+    "options, words",
     [
         ({"method": "gradient"}, "did you mean 'gradients'?"),
         ({"method": np.eye(2)}, "is unknown"),

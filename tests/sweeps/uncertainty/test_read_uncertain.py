@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def malus():
@@ -95,7 +96,7 @@ def test_nothing_uncertain_is_refused():
     assert "give a value and its standard uncertainty, such as angle=(0.8, 0.001)" in fault
 
 
-@pytest.mark.parametrize("value", [1.5 + 0.1j, op.Material(1.5, 0.1)])
+@rows("value", [1.5 + 0.1j, op.Material(1.5, 0.1)])
 def test_complex_values_have_parts_with_an_uncertainty_each(value):
     (fault,) = refused(glass(), m=(value, 0.1))
     assert (
@@ -115,7 +116,7 @@ def test_a_list_that_may_be_one_index_is_asked_about():
     assert "may be n and k, or the indices of two paths" in fault
 
 
-@pytest.mark.parametrize("sigma", [1j, None, "wide", [0.1, [0.2]], True])
+@rows("sigma", [1j, None, "wide", [0.1, [0.2]], True])
 def test_what_is_no_uncertainty_is_refused(sigma):
     (fault,) = refused(malus(), intensity=(1.0, sigma))
     assert fault.startswith("the standard uncertainty of parameter 'intensity'")
@@ -146,8 +147,8 @@ def test_an_angle_beyond_a_turn_is_warned_of_once_and_with_a_unit_not_at_all():
     assert len(told) == 1
 
 
-@pytest.mark.parametrize("method", ["differences", "monte-carlo"])
-@pytest.mark.parametrize("sigma", [10, [0.1, 10.0]])
+@rows("method", ["differences", "monte-carlo"])
+@rows("sigma", [10, [0.1, 10.0]])
 def test_an_uncertainty_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_user(
     method, sigma
 ):
@@ -159,8 +160,8 @@ def test_an_uncertainty_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_t
     assert warning.filename == __file__
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
+@rows(
+    "options, words",
     [
         ({"seed": -1, "correlation": 2}, ["seed", "correlation must be a mapping"]),
         ({"samples": 1, "correlation": 4}, ["samples", "correlation must be a mapping"]),

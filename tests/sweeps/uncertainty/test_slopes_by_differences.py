@@ -2,9 +2,9 @@
 
 import mpmath
 import numpy as np
-import pytest
 
 import optipath as op
+from tables import rows
 
 RIGHT = np.pi / 2
 
@@ -31,8 +31,8 @@ def slope_in_50_digits(values, place, inwards):
         return float((above - below) / (upper + lower))
 
 
-@pytest.mark.parametrize("angle", [1e-9, 1e-6, 1e-3, 0.5, 0.98, RIGHT - 1e-3, RIGHT - 1e-6, RIGHT])
-@pytest.mark.parametrize("index", [(1.5, 0.0), (0.6, 2.1), (1.2, 1e-6)])
+@rows("angle", [1e-9, 1e-6, 1e-3, 0.5, 0.98, RIGHT - 1e-3, RIGHT - 1e-6, RIGHT])
+@rows("index", [(1.5, 0.0), (0.6, 2.1), (1.2, 1e-6)])
 def test_slopes_go_to_the_ends_of_ranges(angle, index):
     material = op.Material(op.Parameter("n"), op.Parameter("k"))
     path = op.Source() >> op.Interface(material, op.Parameter("angle")) >> op.Detector()
@@ -45,7 +45,7 @@ def test_slopes_go_to_the_ends_of_ranges(angle, index):
         np.testing.assert_allclose(found, 1e-3 * abs(slope), rtol=1e-7, atol=1e-10)
 
 
-@pytest.mark.parametrize("waves", [1, 20, 1000, 12345.25])
+@rows("waves", [1, 20, 1000, 12345.25])
 def test_retarders_of_many_waves_do_not_repeat_themselves(waves):
     # I = (1 + cos p) / 2, the phase p = 2 pi W l / l0 plus an eighth of a wave.
     length, phase = 2e-3, 2 * np.pi * waves

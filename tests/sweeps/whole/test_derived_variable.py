@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.light.light import Light
+from tables import rows
 
 xr = pytest.importorskip("xarray")
 
@@ -51,7 +52,7 @@ def test_what_was_computed_is_kept(asked):
     assert len(asked) == 1
 
 
-@pytest.mark.parametrize(
+@rows(
     "key",
     [
         np.s_[2],

@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.sweeps.whole import free_memory as memory_of
+from tables import rows
 
 pytest.importorskip("xarray")
 
@@ -31,7 +32,7 @@ def test_axes_whose_product_no_machine_holds_are_refused():
         op.load_preset("npgr026").sweep(**given)
 
 
-@pytest.mark.parametrize("options", [{}, {"dtype": "float32"}, {"composing": "jones"}])
+@rows("options", [{}, {"dtype": "float32"}, {"composing": "jones"}])
 def test_a_run_takes_little_more_than_was_told(options):
     plan = op.Composer(engine="numpy", **options).compose(op.load_preset("npgr026"))
     axis, points = np.linspace(0.1, 1.0, 400), 400**2

@@ -11,6 +11,7 @@ import optipath as op
 from chains import ENGINES
 from optipath.plan.answers import Answers
 from random_paths import Draw
+from tables import rows
 
 pytest.importorskip("xarray")
 
@@ -106,8 +107,8 @@ def test_words_are_the_values_of_a_coordinate():
     assert found["filter"].values.tolist() == ["none", "horizontal"]
 
 
-@pytest.mark.parametrize(
-    ("path", "names"),
+@rows(
+    "path, names",
     [(op.load_preset("malus"), ["angle"]), (with_two_detectors(), ["angle", "theta"])],
 )
 def test_components_are_views_of_one_array_that_cannot_be_written_to(path, names):

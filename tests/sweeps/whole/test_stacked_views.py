@@ -1,12 +1,12 @@
 """Arrays at equal distances as one."""
 
 import numpy as np
-import pytest
 
 from optipath.sweeps.whole.stacked_views import stacked
+from tables import rows
 
 
-@pytest.mark.parametrize("places", [[0], [0, 1], [1, 3, 5], [4, 2]])
+@rows("places", [[0], [0, 1], [1, 3, 5], [4, 2]])
 def test_rows_at_equal_distances_are_a_view(places):
     rows = np.random.default_rng(1).normal(size=(6, 4, 3))
     found = stacked([rows[place] for place in places])
@@ -14,7 +14,7 @@ def test_rows_at_equal_distances_are_a_view(places):
     assert np.may_share_memory(found, rows) or len(places) == 1
 
 
-@pytest.mark.parametrize(
+@rows(
     "parts",
     [
         [np.arange(3.0), np.arange(3.0)],
