@@ -130,8 +130,8 @@ def test_what_cannot_be_imported_is_told_in_a_line(name, text, expected, folder,
     assert sys.modules.get("broken") is None
 
 
-@rows(
-    "method, share, expected",
+@pytest.mark.parametrize(
+    ("method", "share", "expected"),
     [
         (
             POST_INIT,

@@ -1,4 +1,4 @@
-"""``optipath sweep``: tables, and files of every form."""
+"""optipath sweep: tables, files of every form, and how names and endings are written."""
 
 import json
 import os
@@ -10,6 +10,7 @@ import pytest
 
 import optipath as op
 from optipath.cli import main, sweep_command
+from optipath.cli.block_bar import block_bar
 from optipath.sweeps.labels.table_texts import regions
 from tables import rows
 
@@ -267,3 +268,72 @@ def test_regions_cover_a_grid_in_the_order_of_its_points(most):
     parts = [points[region].ravel() for region in regions(points.shape, most)]
     assert all(len(part) <= most for part in parts)
     np.testing.assert_array_equal(np.concatenate(parts), points.ravel())
+
+
+ANGLE = ("--angle", "0:90:3")
+
+
+def ran(capsys, *arguments):
+    status = main([*arguments])
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+def test_a_slash_behind_a_file_does_not_change_its_form(capsys, tmp_path):
+    assert ran(capsys, "sweep", "malus", *ANGLE, "--out", "a.csv/")[0] == 0
+    assert (tmp_path / "a.csv").read_text("utf-8").startswith("angle (deg),S0,")
+
+
+@rows("names", ["sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"])
+def test_zip_takes_names_as_options_have_them(names, capsys):
+    given = ["--sky-angle", "0:30:3", "--theta", "0:60:3", "--zip", names, "--json"]
+    status, out, err = ran(capsys, "sweep", "sky-and-window", *given)
+    assert (status, err) == (0, "")
+    dimensions = {axis["dimension"] for axis in json.loads(out)["axes"].values()}
+    assert dimensions == {"sky_angle_theta"}
+
+
+def test_an_interrupt_says_that_blocks_of_netcdf_are_beside_it(capsys):
+    def interrupted():
+        with block_bar("x.nc") as tell:
+            tell(1, 3)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "optipath: 1 of 3 blocks is in .x.nc.blocks already"
+    assert lines[1].startswith("optipath: 1 of 3 blocks is in .x.nc.blocks; the same command")
+
+
+@rows("word", ["light,between,eye", "@places.csv", "light:eye:2"])
+def test_a_choice_of_places_takes_one_word(word, capsys):
+    status, _, err = ran(capsys, "sweep", "npgr026", "--delta", "0:90:3", "--place", word)
+    assert status == 2
+    told_of_it = f"--place takes one word of light, between and eye, and '{word}' is several"
+    assert err == f"optipath: {told_of_it}; give one, and write a command for each\n"
+
+
+@rows("text", ["nan", "NaN", "10, nan, 30"])
+def test_nan_is_not_finite_rather_than_a_word(text, capsys):
+    _, _, err = ran(capsys, "sweep", "npgr026", "--delta", text)
+    assert err.count("cannot be 'nan', which is not finite; give an angle such as '45 deg'") + (
+        err.count("cannot be 'NaN', which is not finite")
+    )
+    assert "word" not in err
+
+
+def test_a_column_without_a_unit_is_told_once_with_its_file(capsys, tmp_path):
+    (tmp_path / "a.csv").write_text("delta\n10\n20\n30\n", "utf-8")
+    status, _, err = ran(capsys, "sweep", "npgr026", "--delta", "@a.csv")
+    assert status == 2
+    assert err == (
+        "optipath: a.csv: column 'delta' has no unit; write its name as 'delta (deg)' if that is "
+        "its unit\n"
+    )
+
+
+def test_faults_of_cells_name_their_file(capsys, tmp_path):
+    (tmp_path / "a.csv").write_text("delta (deg)\n10\nnan\n30\n", "utf-8")
+    _, _, err = ran(capsys, "sweep", "npgr026", "--delta", "@a.csv")
+    assert err.startswith("optipath: a.csv: parameter 'delta' cannot be 'nan'")
