@@ -1,8 +1,8 @@
 """optipath plot and chart: pictures of presets, their light, and their errors."""
 
 import json
-import os
 import re
+import shlex
 import subprocess
 import sys
 import warnings
@@ -24,8 +24,15 @@ from pictures import faults_of, texts_of
 from tables import rows
 
 pytest.importorskip("matplotlib")
-WHOLE = "OPTIPATH_PICTURES" in os.environ
-"""Whether all is drawn: each kind of each case of each preset, which takes minutes."""
+
+
+def pictures_of(preset):
+    """Each kind with what it needs."""
+    x = next(iter(op.load_preset(preset).compose().inputs.open))  # Its values are numbers.
+    yield from ((kind, {}) for kind in KINDS if 0 in KINDS[kind].counts)
+    yield "curve", {"x": (x,), "y": "S0,AoP"}
+
+
 
 
 @pytest.fixture(autouse=True)
@@ -47,36 +54,6 @@ def words(figure):
     return [text.get_text() for text in texts_of(figure)]
 
 
-def open_parameter(path):
-    """A parameter whose values are numbers."""
-    return next(iter(path.compose().inputs.open))
-
-
-def pictures_of(preset):
-    """Each kind with what it needs."""
-    x = open_parameter(op.load_preset(preset))
-    yield from ((kind, {}) for kind in KINDS if 0 in KINDS[kind].counts)
-    yield "curve", {"x": (x,), "y": "S0,AoP"}
-
-
-def some_of(preset, case):
-    """Each third picture: all kinds are drawn of some presets, and all presets in some kinds."""
-    place = op.preset_names().index(preset)
-    return [
-        (preset, case, kind, given)
-        for number, (kind, given) in enumerate(pictures_of(preset))
-        if WHOLE or (place + number) % 3 == 0
-    ]
-
-
-EVERY = [each for preset in op.preset_names() for each in some_of(preset, None)]
-if WHOLE:
-    CASES = [
-        (preset, case) for preset in op.preset_names() for case in op.load_preset(preset).cases
-    ]
-    EVERY += [each for preset, case in CASES for each in some_of(preset, case)]
-
-
 def leaves_a_plane(preset, case):
     """Whether one plane of incidence is turned against another."""
     parameters = op.load_preset(preset, case=case).parameters
@@ -84,8 +61,7 @@ def leaves_a_plane(preset, case):
     return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
 
 
-@rows("preset, case, kind, given", EVERY)
-def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, given):
+def assert_whole_and_readable(preset, case, kind, given):
     if kind == "bench" and leaves_a_plane(preset, case):
         with pytest.raises(op.OptipathError, match="geometry"):
             picture(preset, kind, case, **given)
@@ -99,31 +75,66 @@ def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, giv
     assert labels - {""} or kind in {"geometry", "bench", "energy", "poincare"}
 
 
-@rows(
-    "arguments",
-    [
-        ["--kind", "ellipse", "--case", "8"],
-        ["--kind", "poincare", "--x", "delta"],
-        ["--kind", "poincare", "--delta", "20:40:5"],
-        ["--kind", "curve", "--x", "delta", "--y", "s0,dolp", "--rho", "10"],
-        ["--kind", "curve", "--delta", "0:90:10"],
-        ["--kind", "curve", "--delta", "0:90:5", "--x", "phi", "--y", "dop"],
-        ["--kind", "stokes", "--filter", "none", "--place", "eye"],
-        ["--kind", "mueller", "--detector", "E"],
-        ["--kind", "geometry", "--n1", "1.5"],
-    ],
-)
-@rows("ending", ["svg"])
-def test_a_picture_is_drawn_into_a_file(arguments, ending, capsys):
-    assert main(["plot", "npgr026", *arguments, "--out", f"a.{ending}"]) == 0
-    told = capsys.readouterr()
-    assert told.out == f"wrote a.{ending}\n"
-    assert told.err == ""
+@rows("preset, case", [("npgr026", "8"), ("sky-and-window", None)])
+def test_every_picture_of_some_presets_is_whole_and_readable(preset, case):
+    for kind, given in pictures_of(preset):
+        assert_whole_and_readable(preset, case, kind, given)
+
+
+@pytest.mark.report
+@pytest.mark.parametrize("preset", op.preset_names())
+def test_every_picture_of_a_preset_is_whole_and_readable(preset):
+    for case in (None, *op.load_preset(preset).cases):
+        for kind, given in pictures_of(preset):
+            assert_whole_and_readable(preset, case, kind, given)
+
+
+DRAWN = [
+    "--kind ellipse --case 8",
+    "--kind curve --x delta --y s0,dolp --rho 10",
+    "--kind poincare --delta 20:40:5",
+    "--kind stokes --filter none --place eye",
+    "--kind mueller --detector E",
+    "--kind geometry --n1 1.5",
+]
+DRAWN_AS_WELL = [
+    "--kind poincare --x delta",
+    "--kind curve --delta 0:90:10",
+    "--kind curve --delta 0:90:5 --x phi --y dop",
+]
+
+
+@pytest.mark.parametrize("table", [DRAWN, pytest.param(DRAWN_AS_WELL, marks=pytest.mark.slow)])
+def test_a_picture_is_drawn_into_a_file(table, capsys):
+    for line in table:
+        assert main(["plot", "npgr026", *line.split(), "--out", "a.svg"]) == 0
+        told = capsys.readouterr()
+        assert (told.out, told.err) == ("wrote a.svg\n", ""), line
 
 
 def test_the_title_says_preset_case_and_what_was_changed():
     figure = picture("npgr026", "stokes", "8", delta=0.5235987755982988, filter="none")
     assert figure.get_suptitle() == "npgr026, case 8, delta 30 deg, filter none"
+
+
+def test_a_long_title_breaks_between_values_and_stays_within_the_picture(tmp_path):
+    many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)
+    figure = picture("npgr026", "stokes", "8", **many)
+    assert "\n" in figure.get_suptitle()
+    assert faults_of(figure) == []
+    values = {"intensity": 123456789.123456, "n1": 0.123456789012345}
+    values |= dict.fromkeys(("delta", "rho", "phi", "filter", "n2", "k2"), 0.5812345678901)
+    for kind in ("stokes", "mueller"):
+        figure = picture("npgr026", kind, None, **values)
+        assert faults_of(figure) == []
+        lines = figure.get_suptitle().split("\n")
+        assert len(lines) > 3
+        assert all(line.endswith(",") for line in lines[:-1])
+    file = tmp_path / ("w" * 150 + ".toml")
+    file.write_text(op.load_preset("malus").to_toml(), "utf-8")
+    figure = picture(str(file), "stokes", angle=0.5)
+    assert faults_of(figure) == []
+    assert str(file) in figure.get_suptitle().replace("\n", "")
 
 
 def test_values_along_an_axis_keep_the_unit_they_are_given_in():
@@ -182,48 +193,18 @@ def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_p
         assert main(["plot", "x.toml", "--kind", kind, "--power", "2", "--out", "a.svg"]) == 0
 
 
-def test_a_long_title_goes_on_in_the_next_line():
-    path = op.load_preset("npgr026")
-    many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)
-    figure = picture("npgr026", "stokes", "8", **many)
-    assert "\n" in figure.get_suptitle()
-    assert faults_of(figure) == []
-    assert path.parameters.keys() >= many.keys()
-
-
-@rows("kind", ["stokes", "mueller"])
-def test_lines_of_a_title_break_between_values_and_stay_within_the_picture(kind):
-    values = {"intensity": 123456789.123456, "n1": 0.123456789012345}
-    values |= dict.fromkeys(("delta", "rho", "phi", "filter", "n2", "k2"), 0.5812345678901)
-    figure = picture("npgr026", kind, None, **values)
-    assert faults_of(figure) == []
-    lines = figure.get_suptitle().split("\n")
-    assert len(lines) > 3
-    assert all(line.endswith(",") for line in lines[:-1])
-
-
-def test_a_name_longer_than_the_picture_is_wide_goes_on_in_the_next_line(tmp_path):
-    file = tmp_path / ("w" * 150 + ".toml")
-    file.write_text(op.load_preset("malus").to_toml(), "utf-8")
-    figure = picture(str(file), "stokes", angle=0.5)
-    assert faults_of(figure) == []
-    assert str(file) in figure.get_suptitle().replace("\n", "")
-
-
-@rows("kind", [*KINDS])
-def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(kind, tmp_path, capsys):
+def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_path, capsys):
+    sheet = op.Polarizer(op.Parameter("a", 0.3))
     path = op.PathGraph()
-    lamp, glass = (
-        path.add("\u706f", op.Source()),
-        path.add("\u504f", op.Polarizer(op.Parameter("a", 0.3))),
-    )
+    lamp, glass = path.add("\u706f", op.Source()), path.add("\u504f", sheet)
     lamp >> glass >> path.add("\u5149", op.Detector())
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
-    x = ["--x", "a"] if kind == "curve" else []
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        assert main(["plot", "x.toml", "--kind", kind, *x, "--out", "a.svg"]) == 0
-    assert capsys.readouterr().err == ""
+    for kind in KINDS:
+        x = ["--x", "a"] if kind == "curve" else []
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert main(["plot", "x.toml", "--kind", kind, *x, "--out", "a.svg"]) == 0
+        assert capsys.readouterr().err == ""
 
 
 def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(tmp_path, capsys):
@@ -243,81 +224,76 @@ def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(
     assert main([*asked, "--detector", "eye0"]) == 0
 
 
-def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
-    def told(case, reads=None, **values):
-        given = {"x": (), "y": None, "detector": None, "reads": reads}
-        about = chosen("npgr026", case, **values)
-        return request_of(about, "stokes", KINDS["stokes"].counts, **given).published
+def request(kind, case, x=(), reads=None, **values):
+    given = {"x": x, "y": None, "detector": None, "reads": reads}
+    return request_of(chosen("npgr026", case, **values), kind, KINDS[kind].counts, **given)
 
-    assert told("8") == op.load_preset("npgr026").cases["8"].published
-    assert told(None) == {}
-    assert told("8", delta=0.5) == {}
-    assert told("8", reads="intensity") == {}
+
+def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
+    assert request("stokes", "8").published == op.load_preset("npgr026").cases["8"].published
+    assert request("stokes", None).published == {}
+    assert request("stokes", "8", delta=0.5).published == {}
+    assert request("stokes", "8", reads="intensity").published == {}
 
 
 def test_the_line_by_default_is_that_of_the_case():
-    given = {"x": ("delta",), "y": None, "detector": None, "reads": None}
-    asked = request_of(chosen("npgr026", "8"), "curve", KINDS["curve"].counts, **given)
+    asked = request("curve", "8", ("delta",))
     case = op.load_preset("npgr026", case="8")
     assert asked.path.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
     assert float(asked.path.parameters["delta"].default) == float(case.parameters["delta"].default)
 
 
 @rows(
-    "arguments, sentence",
+    "line, sentence",
     [
-        ([], "--kind is missing; say what is drawn, one of ellipse, poincare"),
-        (["--kind", "ellipse", "--out", ""], "is no name of a file"),
-        (["--kind", "ellipse", "--out", "a.jpg"], "cannot be drawn; use one of: .png, .svg, .pdf"),
-        (["--kind", "ellipse", "--out", "none/a.png"], "there is no such folder"),
-        (["--kind", "elipse"], "'elipse' is not one of"),
-        (["--kind", "ellipse", "--x", "delta"], "--x is of poincare or curve, and --kind ellipse"),
-        (["--kind", "stokes", "--y", "S0"], "--y is of curve, and --kind stokes has none"),
-        (["--kind", "ellipse", "--y", ""], "--y is of curve, and --kind ellipse has none"),
-        (["--kind", "bench", "--detector", ""], "--detector is of ellipse or"),
-        (["--kind", "stokes", "--kind", "ellipse"], "--kind is given 2 times; give it once"),
+        ("", "--kind is missing; say what is drawn, one of ellipse, poincare"),
+        ("--kind ellipse --out ''", "is no name of a file"),
+        ("--kind ellipse --out a.jpg", "cannot be drawn; use one of: .png, .svg, .pdf"),
+        ("--kind ellipse --out none/a.png", "there is no such folder"),
+        ("--kind elipse", "'elipse' is not one of"),
+        ("--kind ellipse --x delta", "--x is of poincare or curve, and --kind ellipse"),
+        ("--kind stokes --y S0", "--y is of curve, and --kind stokes has none"),
+        ("--kind ellipse --y ''", "--y is of curve, and --kind ellipse has none"),
+        ("--kind bench --detector ''", "--detector is of ellipse or"),
+        ("--kind stokes --kind ellipse", "--kind is given 2 times; give it once"),
+        ("--kind stokes --detector E --detector X", "--detector is given 2 times; give it once"),
+        ("--kind stokes --out a.png --out b.png", "--out is given 2 times"),
+        ("--kind energy --detector E", "--detector is of ellipse or"),
+        ("--kind poincare --detector E", "add --x NAME, or leave --detector out"),
+        ("--kind ellipse --detector X1", "detector 'X1' is unknown"),
+        ("--kind curve", "name it, --x delta, or give it several values"),
+        ("--kind curve --x delt", "'delt' is unknown; did you mean 'delta'"),
+        ("--kind curve --x place", "is a place, of which no axis has several"),
+        ("--kind curve --x delta --x delta", "--x delta is given 2 times"),
         (
-            ["--kind", "stokes", "--detector", "E", "--detector", "X", "--out", "a.png"],
-            "--detector is given 2 times; give it once",
-        ),
-        (["--kind", "stokes", "--out", "a.png", "--out", "b.png"], "--out is given 2 times"),
-        (["--kind", "energy", "--detector", "E"], "--detector is of ellipse or"),
-        (["--kind", "poincare", "--detector", "E"], "add --x NAME, or leave --detector out"),
-        (["--kind", "ellipse", "--detector", "X1"], "detector 'X1' is unknown"),
-        (["--kind", "curve"], "name it, --x delta, or give it several values"),
-        (["--kind", "curve", "--x", "delt"], "'delt' is unknown; did you mean 'delta'"),
-        (["--kind", "curve", "--x", "place"], "is a place, of which no axis has several"),
-        (["--kind", "curve", "--x", "delta", "--x", "delta"], "--x delta is given 2 times"),
-        (
-            ["--kind", "curve", "--x", "delta", "--delta", "30"],
+            "--kind curve --x delta --delta 30",
             "--x delta varies what --delta gives one value; leave one of them out",
         ),
-        (["--kind", "curve", "--x", "delta", "--y", "S9"], "'S9' is unknown"),
-        (["--kind", "curve", "--x", "delta", "--y", ""], "unknown"),
+        ("--kind curve --x delta --y S9", "'S9' is unknown"),
+        ("--kind curve --x delta --y ''", "unknown"),
         (
-            ["--kind", "curve", "--x", "delta", "--x", "rho", "--y", "S0,S1"],
+            "--kind curve --x delta --x rho --y S0,S1",
             "a map is of one quantity, and --y names 2; give one",
         ),
         (
-            ["--kind", "curve", "--x", "delta", "--x", "rho", "--x", "phi"],
+            "--kind curve --x delta --x rho --x phi",
             "--kind curve is along two parameters at most",
         ),
-        (["--kind", "poincare", "--x", "delta", "--x", "rho"], "one parameter at most"),
-        (["--kind", "curve", "--filter", "none,0,20"], "--filter has the word 'none', and an axis"),
-        (["--kind", "bench", "--rho", "30"], "--kind geometry draws this path in space"),
-        (["--kind", "ellipse", "--delta", "0:90:4"], "--delta is given several values"),
-        (["--kind", "ellipse", "--case", "8", "--case", "7"], "plot takes one case"),
-        (["--kind", "ellipse", "--case", "77"], "'77'"),
-        (["--kind", "ellipse", "--delta", "north"], "north"),
-        (["--kind", "ellipse", "--json"], "--json"),
+        ("--kind poincare --x delta --x rho", "one parameter at most"),
+        ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
+        ("--kind bench --rho 30", "--kind geometry draws this path in space"),
+        ("--kind ellipse --delta 0:90:4", "--delta is given several values"),
+        ("--kind ellipse --case 8 --case 7", "plot takes one case"),
+        ("--kind ellipse --case 77", "'77'"),
+        ("--kind ellipse --delta north", "north"),
+        ("--kind ellipse --json", "--json"),
     ],
 )
-def test_what_cannot_be_drawn_is_refused_in_a_line(arguments, sentence, capsys, tmp_path):
-    out = [] if "--out" in arguments else ["--out", "a.png"]
-    assert main(["plot", "npgr026", *arguments, *out]) == 2
+def test_what_cannot_be_drawn_is_refused_in_a_line(line, sentence, capsys, tmp_path):
+    out = "" if "--out" in line else " --out a.png"
+    assert main(["plot", "npgr026", *shlex.split(line + out)]) == 2
     told = capsys.readouterr()
-    assert told.out == ""
-    assert told.err.count("\n") == 1
+    assert (told.out, told.err.count("\n")) == ("", 1)
     assert sentence in told.err
     assert not [*tmp_path.iterdir()]
 
@@ -337,19 +313,12 @@ def test_without_the_extra_it_says_which(monkeypatch, capsys):
     assert 'pip install "optipath[plot]"' in capsys.readouterr().err
 
 
-def test_kinds_are_completed_by_a_shell():
-    line = {"COMP_WORDS": "optipath plot npgr026 --kind po", "COMP_CWORD": "4"}
-    found = subprocess.run(
-        [sys.executable, "-c", "from optipath.cli import main; main()"],
-        env={**os.environ, **line, "_OPTIPATH_COMPLETE": "bash_complete"},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert found.stdout == "plain,poincare\n"
-
-
-def test_help_tells_the_kinds():
+def test_kinds_are_completed_by_a_shell_and_told_by_help(monkeypatch, capsys):
+    monkeypatch.setenv("_OPTIPATH_COMPLETE", "bash_complete")
+    monkeypatch.setenv("COMP_WORDS", "optipath plot npgr026 --kind po")
+    monkeypatch.setenv("COMP_CWORD", "4")
+    assert main([]) == 0
+    assert capsys.readouterr().out == "plain,poincare\n"
     told = CliRunner().invoke(cli, ["plot", "npgr026", "--help"]).output
     assert re.search(r"--kind \[" + r"\|".join(KINDS), told)
 
@@ -417,28 +386,19 @@ def test_nothing_is_written_where_nothing_was_measured_yet(monkeypatch):
 
 
 WITHOUT_MPMATH = """
-import subprocess
 import sys
 sys.modules["mpmath"] = None
 from optipath.cli import main
-sys.exit(main(sys.argv[1:]))
+drawn = main(["chart", "--from", sys.argv[1], "--out", "a.png"])
+sys.exit([drawn, main(sys.argv[2:])] != [0, 2])
 """
 
 
-def without_mpmath(*arguments):
-    command = [sys.executable, "-c", WITHOUT_MPMATH, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
-
-
-def test_a_chart_is_drawn_again_without_mpmath():
-    done = without_mpmath("chart", "--from", str(DOCS / "chart.json"), "--out", "a.png")
+def test_a_chart_is_drawn_again_without_mpmath_and_what_measures_says_that_it_needs_it():
+    command = [sys.executable, "-c", WITHOUT_MPMATH, str(DOCS / "chart.json"), *QUICK]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
-
-
-def test_what_measures_says_that_it_needs_mpmath():
-    done = without_mpmath(*QUICK)
-    assert done.returncode == 2
     assert 'pip install "optipath[chart]"' in done.stderr
 
 
@@ -455,24 +415,22 @@ def test_errors_near_a_place_are_measured_drawn_and_drawn_again(monkeypatch):
 
 
 @rows(
-    "arguments, message",
+    "line, message",
     [
-        (["npgr026", "--near", "normal", "--quick"], "--quick is for times"),
-        (["npgr026", "--near", "nirmal"], "'nirmal' is not one of"),
-        (["--interface", "--near", "normal", "--quick"], "--quick is for times"),
-        (["--quick", "npgr026"], "--quick stands behind the preset"),
-        (["--interface", "--peers", "r.json"], "--peers stand beside a path"),
-        (["--from", "r.json", "--near", "normal"], "leave them out of --from"),
-        (["npgr026", "--peers", "none.json"], "none.json"),
-        (["malus", "--near", "normal"], "has no interface"),
-        (["npgr026", "--peers", "r.json", "--quick"], "is no whole race"),
+        ("npgr026 --near normal --quick", "--quick is for times"),
+        ("npgr026 --near nirmal", "'nirmal' is not one of"),
+        ("--interface --near normal --quick", "--quick is for times"),
+        ("--quick npgr026", "--quick stands behind the preset"),
+        ("--interface --peers r.json", "--peers stand beside a path"),
+        ("--from r.json --near normal", "leave them out of --from"),
+        ("npgr026 --peers none.json", "none.json"),
+        ("malus --near normal", "has no interface"),
+        ("npgr026 --peers r.json --quick", "is no whole race"),
     ],
 )
-def test_what_does_not_go_together_is_refused_before_anything_is_measured(
-    arguments, message, capsys
-):
+def test_what_does_not_go_together_is_refused_before_anything_is_measured(line, message, capsys):
     Path("r.json").write_text("{}", "utf-8")
-    assert main(["chart", *arguments]) == 2
+    assert main(["chart", *line.split()]) == 2
     captured = capsys.readouterr()
     assert message in captured.err
     assert captured.err.count("\n") == 1

@@ -41,13 +41,14 @@ def store(tmp_path):
     return tmp_path / "powers.zarr"
 
 
-@rows("scheduler", [None, "synchronous", "threads"])
-def test_all_blocks_are_computed_once_and_kept(store, log, scheduler):
-    assert keep_blocks(Powers(7, str(log)), store, scheduler) == store
-    assert sorted(computed(log)) == list(range(7))
-    with xr.open_zarr(store) as found:
-        assert np.array_equal(found.power, powers(7))
-        assert np.array_equal(found.total, powers(7).reshape(7, -1).sum(axis=1))
+def test_all_blocks_are_computed_once_and_kept(tmp_path):
+    for scheduler in (None, "synchronous", "threads"):
+        log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
+        assert keep_blocks(Powers(7, str(log)), store, scheduler) == store
+        assert sorted(computed(log)) == list(range(7))
+        with xr.open_zarr(store) as found:
+            assert np.array_equal(found.power, powers(7))
+            assert np.array_equal(found.total, powers(7).reshape(7, -1).sum(axis=1))
 
 
 def test_a_store_is_a_dataset_with_names_and_units_and_without_the_record(store):
@@ -64,17 +65,12 @@ def test_a_store_is_a_dataset_with_names_and_units_and_without_the_record(store)
         assert found.total.dtype == "int64"
 
 
-def test_what_is_not_done_yet_is_nan(store):
-    with pytest.raises(op.ValueFault):
-        keep_blocks(Powers(3, fails_at=1), store, "synchronous")
-    with xr.open_zarr(store) as found:
-        assert np.isnan(found.power).values.sum() == 2 * powers(1).size
-
-
 def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(store, log):
     with pytest.raises(op.ValueFault, match="block 4 is dark"):
         keep_blocks(Powers(7, str(log), fails_at=4), store, "synchronous")
     assert marked(store) == {0, 1, 2, 3}
+    with xr.open_zarr(store) as found:
+        assert np.isnan(found.power).values.sum() == 3 * powers(1).size
     keep_blocks(Powers(7, str(log)), store, "synchronous")
     assert computed(log) == [0, 1, 2, 3, 4, 4, 5, 6]
 
@@ -93,7 +89,9 @@ def test_an_error_in_a_thread_ends_the_job(store, log):
 
 
 @rows("scheduler", ["synchronous", "threads"])
-def test_who_interrupts_keeps_what_is_done(store, log, scheduler):
+def test_who_interrupts_keeps_what_is_done(tmp_path, scheduler):
+    log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
+
     def interrupt(done, _):
         if done == 3:
             raise KeyboardInterrupt
@@ -164,10 +162,12 @@ def test_what_is_no_scheduler_is_told(store, scheduler, told):
     assert not store.exists()
 
 
-def test_nobody_answers_at_a_dead_address(store, monkeypatch):
+def test_nobody_answers_at_a_dead_address_or_without_certificates(store, monkeypatch):
     monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
     with pytest.raises(JobError, match=r"no cluster answers at 'tcp://127.0.0.1:1'.*runs"):
         keep_blocks(Powers(2), store, "tcp://127.0.0.1:1")
+    with pytest.raises(JobError, match=r"tls://.* give a client that has the certificates"):
+        keep_blocks(Powers(2), store, "tls://127.0.0.1:9")
 
 
 def test_after_an_interrupt_the_blocks_that_came_to_their_end_are_counted(tmp_path):
@@ -183,16 +183,11 @@ def test_after_an_interrupt_the_blocks_that_came_to_their_end_are_counted(tmp_pa
     assert told[-1] == len(marked(store)) > told[-2]
 
 
-def test_an_address_that_wants_certificates_is_told(tmp_path):
-    with pytest.raises(JobError, match=r"tls://.* give a client that has the certificates"):
-        keep_blocks(Powers(2), tmp_path / "powers.zarr", "tls://127.0.0.1:9")
-
-
 TESTS = Path(__file__).parents[1]
 
 
 @pytest.fixture(scope="module")
-def client():
+def cluster_client():
     """Two processes of one thread, which nannies start again when they die."""
     with (
         distributed.LocalCluster(
@@ -208,6 +203,13 @@ def client():
         yield client
 
 
+@pytest.fixture
+def client(cluster_client):
+    """The cluster with both its workers, whoever died in the test before."""
+    cluster_client.wait_for_workers(2)
+    return cluster_client
+
+
 def holds_powers(store, blocks):
     with xr.open_zarr(store) as found:
         return np.array_equal(found.power, powers(blocks)) and marked(store) == {*range(blocks)}
@@ -221,15 +223,14 @@ def test_a_cluster_computes_every_block_once(store, log, client):
     assert told == [(done, 9) for done in range(10)]
 
 
-def test_the_address_of_a_cluster_is_enough(store, client):
+def test_the_address_of_a_cluster_is_enough_and_the_client_that_is_active_is_taken(
+    tmp_path, store, client, monkeypatch
+):
     keep_blocks(Powers(3), store, client.scheduler.address)
     assert holds_powers(store, 3)
-
-
-def test_the_client_that_is_active_is_taken(store, client, monkeypatch):
     monkeypatch.setattr(distributed, "default_client", lambda: client)
-    keep_blocks(WhoComputes(3), store)
-    with xr.open_zarr(store) as found:
+    keep_blocks(WhoComputes(3), tmp_path / "who.zarr")
+    with xr.open_zarr(tmp_path / "who.zarr") as found:
         pids = {*found.power.values.ravel().astype(int)}
     assert pids <= {*client.run(os.getpid).values()}
 
@@ -298,14 +299,11 @@ def test_a_cluster_that_is_lost_is_told_and_finished_blocks_stay(store):
     assert 5 <= len(marked(store)) < 40
 
 
-def test_a_closed_client_is_told(store, client):
+def test_a_closed_client_and_a_cluster_itself_are_told(store, client):
     closed = distributed.Client(client.scheduler.address, set_as_default=False)
     closed.close()
     with pytest.raises(JobError, match="client of the cluster is closed; give one that is conn"):
         keep_blocks(Powers(3), store, closed)
-
-
-def test_a_cluster_itself_is_no_scheduler(store, client):
     with pytest.raises(JobError, match=r"give cluster.get_client\(\)"):
         keep_blocks(Powers(3), store, client.cluster)
 
@@ -347,7 +345,9 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.parametrize("scheduler", ["threads", "processes"])
+@pytest.mark.parametrize(
+    "scheduler", ["threads", pytest.param("processes", marks=pytest.mark.slow)]
+)
 def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path, store, log, scheduler):
     script = tmp_path / "run.py"
     script.write_text(RUN)

@@ -8,6 +8,8 @@ import sys
 import dask
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 import xarray as xr
 
 import optipath as op
