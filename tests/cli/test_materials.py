@@ -1,6 +1,7 @@
 """optipath materials, and options that name materials and say wavelengths."""
 
 import json
+import shlex
 import subprocess
 import sys
 
@@ -66,9 +67,15 @@ def test_all_words_of_a_search_are_there_in_any_letters(capsys):
     assert found[0]["source"].startswith("Magnozzi et al. 2019")
 
 
-def test_ranges_of_n_and_k_that_do_not_meet_are_both_told(capsys, monkeypatch):
+def test_numbers_and_ranges_of_a_material_are_a_table(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     assert "n 388.87 .. 2058.1 nm; k 280 .. 290 nm" in materials(capsys, "J-SF03HS")[1]
+    monkeypatch.setenv("COLUMNS", "120")
+    _, out, _ = materials(capsys, "fused", "silica", "--at", "589.3 nm", "--digits", "5")
+    assert out.startswith("silica (Malitson 1965): 210 nm .. 2100 nm\n")
+    assert "589.3 nm" in out
+    # The yellow line of sodium, as handbooks have it.
+    assert " 1.4584 " in out
 
 
 def test_a_material_at_a_wavelength(capsys):
@@ -93,45 +100,47 @@ def test_at_normal_incidence_the_effective_index_is_n_and_k(capsys):
     assert len(found["n"]) == 2
 
 
-def test_numbers_of_a_material_are_a_table(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "120")
-    _, out, _ = materials(capsys, "fused", "silica", "--at", "589.3 nm", "--digits", "5")
-    assert out.startswith("silica (Malitson 1965): 210 nm .. 2100 nm\n")
-    assert "589.3 nm" in out
-    # The yellow line of sodium, as handbooks have it.
-    assert " 1.4584 " in out
-
-
 def test_n_and_k_may_be_given_where_a_page_lacks_them(capsys):
     given = ("--page", "Malitson", "--at", "600 nm")
     assert "has no k" in refusal(capsys, "SiO2", *given)
     assert as_json(capsys, "SiO2", *given, "--k", "0")["k"] == [0.0]
 
 
-def test_vacuum_has_no_range(capsys):
+def test_what_the_command_tells_is_what_a_material_is(capsys):
+    found = as_json(capsys, "copper", "--at", "516 nm")
+    there = op.Material.named("copper", wavelength="516 nm")
+    assert (found["n"], found["k"]) == ([there.n], [there.k])
+
+
+def test_vacuum_is_found_without_a_page_and_has_no_range(capsys):
+    status, out, _ = materials(capsys, "vacuum")
+    assert status == 0
+    assert " ".join(out.split("\n")[1].split()) == "vacuum any wavelength n = 1, k = 0"
+    assert as_json(capsys, "vacuum")["materials"][0]["range"] is None
     assert as_json(capsys, "vacuum", "--at", "600 nm")["range"] is None
+    assert "did you mean 'vacuum'?" in refusal(capsys, "vacum")
 
 
 @rows(
-    "arguments, told",
+    "line, told",
     [
-        (["gould"], "no page has 'gould'; did you mean 'gold'?"),
-        (["gould", "--at", "516 nm"], "material 'gould' is unknown; did you mean 'gold'?"),
-        (["Au", "--at", "516 nm"], "'Au' has "),
-        (["gold", "--at", "516"], "--at: '516' has no unit"),
-        (["gold", "--at", "5 um"], "within 187.9 nm .. 1937 nm, for which gold"),
-        (["Au", "--at", "516 nm"], "name one by --page, or say 'gold'"),
-        (["main/SiO2/Malitson", "--at", "2.3 um"], "ask for --k 0.0, or give its k"),
-        (["gold", "--at", "5 um"], "or choose another page with --page"),
-        (["gold", "--at", "500 nm", "--incidence", "100"], "--incidence is 100 deg"),
-        (["gold", "--page", "McPeak"], "--page goes with --at; write --at '550 nm' as well"),
-        (["gold", "--k", "0"], "--k goes with --at"),
-        (["--at", "516 nm"], "--at needs the name of a material"),
-        (["gold", "--att", "516 nm"], "option '--att' is unknown; did you mean '--at'?"),
+        ("gould", "no page has 'gould'; did you mean 'gold'?"),
+        ("gould --at '516 nm'", "material 'gould' is unknown; did you mean 'gold'?"),
+        ("Au --at '516 nm'", "'Au' has "),
+        ("gold --at 516", "--at: '516' has no unit"),
+        ("gold --at '5 um'", "within 187.9 nm .. 1937 nm, for which gold"),
+        ("Au --at '516 nm'", "name one by --page, or say 'gold'"),
+        ("main/SiO2/Malitson --at '2.3 um'", "ask for --k 0.0, or give its k"),
+        ("gold --at '5 um'", "or choose another page with --page"),
+        ("gold --at '500 nm' --incidence 100", "--incidence is 100 deg"),
+        ("gold --page McPeak", "--page goes with --at; write --at '550 nm' as well"),
+        ("gold --k 0", "--k goes with --at"),
+        ("--at '516 nm'", "--at needs the name of a material"),
+        ("gold --att '516 nm'", "option '--att' is unknown; did you mean '--at'?"),
     ],
 )
-def test_what_cannot_be_told_ends_with_one_line(capsys, arguments, told):
-    assert told in refusal(capsys, *arguments)
+def test_what_cannot_be_told_ends_with_one_line(capsys, line, told):
+    assert told in refusal(capsys, *shlex.split(line))
 
 
 def test_without_the_extra_one_line_says_what_to_install(capsys, monkeypatch):
@@ -154,30 +163,6 @@ def test_no_line_is_wider_than_the_terminal(columns, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", columns)
     for arguments in (["gold"], ["gold", "--at", "516 nm"]):
         assert max(map(len, materials(capsys, *arguments)[1].splitlines())) <= int(columns)
-
-
-def test_what_the_command_tells_is_what_a_material_is(capsys):
-    found = as_json(capsys, "copper", "--at", "516 nm")
-    there = op.Material.named("copper", wavelength="516 nm")
-    assert (found["n"], found["k"]) == ([there.n], [there.k])
-
-
-def test_vacuum_is_found_without_a_page(capsys):
-    status, out, _ = materials(capsys, "vacuum")
-    assert status == 0
-    assert out.split("\n")[1].split() == [
-        "vacuum",
-        "any",
-        "wavelength",
-        "n",
-        "=",
-        "1,",
-        "k",
-        "=",
-        "0",
-    ]
-    assert as_json(capsys, "vacuum")["materials"][0]["range"] is None
-    assert "did you mean 'vacuum'?" in refusal(capsys, "vacum")
 
 
 GREEN = ("--wavelength", "516 nm")
@@ -240,16 +225,16 @@ def test_a_wavelength_of_which_nothing_depends_is_told_and_not_used(capsys):
         ("2.4 ev", "did you mean 'eV'?"),
         ("516 NM", "did you mean 'nm'?"),
         ("blue", "no word 'blue'"),
-        ("0 eV", "stands for no wavelength"),
+        ("0 eV", "optipath: parameter 'wavelength': '0 eV' stands for no wavelength;"),
         ("-516 nm", "outside its range"),
     ],
 )
-@rows("preset", ["npgr026", "absorbing-pile"])
-def test_a_wrong_wavelength_gets_one_clear_sentence(capsys, preset, text, sentence):
-    status, out, err = run(capsys, "run", preset, f"--wavelength={text}")
-    assert (status, out) == (2, "")
-    assert sentence in err
-    assert len(err.splitlines()) == 1
+def test_a_wrong_wavelength_gets_one_clear_sentence(capsys, text, sentence):
+    for preset in ("npgr026", "absorbing-pile"):
+        status, out, err = run(capsys, "run", preset, f"--wavelength={text}")
+        assert (status, out) == (2, "")
+        assert sentence in err
+        assert len(err.splitlines()) == 1
 
 
 def test_a_photon_energy_is_a_wavelength(capsys):
@@ -262,21 +247,29 @@ def test_a_photon_energy_is_a_wavelength(capsys):
 @rows(
     "options, sentences",
     [
-        (["--n1", "gld"], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
-        (["--n1", "gld", *GREEN], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
-        (["--n1", "Au", *GREEN], ["--n1: 'Au' has", "name one by --n1 'Au/PAGE'"]),
-        (["--n1", "gold"], ["parameter 'wavelength' has no value; give one, --wavelength"]),
-        (["--n1", "gold", "--wavelength", "5 um"], ["5000 nm", "within 187.9 nm .. 1937 nm"]),
-        (["--k1", "gold", *GREEN], ["'k1' knows no word 'gold'"]),
-        (["--delta", "gold", *GREEN], ["'delta' knows no word 'gold'"]),
+        ("--n1 gld", ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
+        ("--n1 gld {green}", ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
+        ("--n1 Au {green}", ["--n1: 'Au' has", "name one by --n1 'Au/PAGE'"]),
+        ("--n1 gold", ["parameter 'wavelength' has no value; give one, --wavelength"]),
+        ("--n1 gold --wavelength '5 um'", ["5000 nm", "within 187.9 nm .. 1937 nm"]),
+        ("--k1 gold {green}", ["'k1' knows no word 'gold'"]),
+        ("--delta gold {green}", ["'delta' knows no word 'gold'"]),
+        ("--n1 silica --wavelength '3 um'", ["or give k, as --k1 1e-4"]),
+        ("--n1 main/SiO2/Malitson {green}", ["ask for --k1 0.0, or give its k"]),
+        ("--n1 silica --k1 -1 {green}", ["parameter 'k1' is -1, outside its range"]),
+        ("--n1 silica --k1 x {green}", ["parameter 'k1' knows no word 'x'"]),
+        ("--n1 gold --wavelength '10 um'", ["is known, or name another page"]),
     ],
 )
 def test_what_is_wrong_with_a_material_is_one_sentence(capsys, options, sentences):
-    status, out, err = run(capsys, "run", "npgr026", *options)
+    given = shlex.split(options.replace("{green}", "--wavelength '516 nm'"))
+    status, out, err = run(capsys, "run", "npgr026", *given)
     assert (status, out) == (2, "")
+    assert err.count("optipath: ") == 1
     assert len(err.splitlines()) == 1
     for sentence in sentences:
         assert sentence in err
+    assert "extrapolate" not in err
 
 
 def test_without_the_database_it_is_told_what_to_install():
@@ -292,30 +285,13 @@ def test_without_the_database_it_is_told_what_to_install():
     assert len(ended.stderr.splitlines()) == 1
 
 
-@rows("preset", ["npgr026", "absorbing-pile"])
-def test_help_lists_the_wavelength(capsys, preset):
-    status, out, _ = run(capsys, "run", preset, "--help")
-    assert status == 0
-    assert "--wavelength" in out
-    assert "wavelength in vacuum" in out
-
-
-@rows(
-    "arguments, cure",
-    [
-        (("--n1", "silica", "--wavelength", "3 um"), "or give k, as --k1 1e-4"),
-        (("--n1", "main/SiO2/Malitson", *GREEN), "ask for --k1 0.0, or give its k"),
-        (("--n1", "silica", "--k1", "-1", *GREEN), "parameter 'k1' is -1, outside its range"),
-        (("--n1", "silica", "--k1", "x", *GREEN), "parameter 'k1' knows no word 'x'"),
-        (("--n1", "gold", "--wavelength", "10 um"), "is known, or name another page"),
-    ],
-)
-def test_a_material_that_does_not_do_is_told_with_options_that_there_are(capsys, arguments, cure):
-    status, _, err = run(capsys, "run", "npgr026", *arguments)
-    assert status == 2
-    assert err.count("optipath: ") == 1
-    assert cure in err
-    assert "extrapolate" not in err
+def test_help_lists_the_wavelength_as_it_may_be_typed(capsys):
+    for preset in ("npgr026", "absorbing-pile"):
+        status, out, _ = run(capsys, "run", preset, "--help")
+        assert status == 0
+        assert "--wavelength" in out
+        assert "wavelength in vacuum" in out
+    assert "--wavelength '516 nm'" in run(capsys, "run", "npgr026", "--help")[1]
 
 
 @rows("material", ["silica", "main/SiO2/Malitson"])
@@ -334,19 +310,6 @@ def test_vacuum_is_told_by_its_name(capsys):
     assert json.loads(out)["materials"] == {"n1": {"name": "vacuum", "n": 1.0, "k": 0.0}}
     out = run(capsys, "run", "npgr026", "--n1", "vacuum")[1]
     assert [line.split()[1] for line in out.splitlines() if line[:4] == " n1 "] == ["vacuum"]
-
-
-def test_what_is_no_wavelength_is_told_with_the_parameter(capsys):
-    status, _, err = run(capsys, "run", "npgr026", "--wavelength", "0 eV")
-    assert (status, err.split(";")[0]) == (
-        2,
-        "optipath: parameter 'wavelength': '0 eV' stands for no wavelength",
-    )
-
-
-def test_help_writes_a_wavelength_as_it_may_be_typed(capsys):
-    shown = run(capsys, "run", "npgr026", "--help")[1]
-    assert "--wavelength '516 nm'" in shown
 
 
 @rows(

@@ -3,6 +3,7 @@
 import json
 import logging
 import re
+import shlex
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -23,6 +24,17 @@ def test_numbers_have_six_digits_and_all_of_them_in_json(capsys):
     assert "33.9959 " in told(capsys, "run", "npgr026", "--case", "7")
     found = json.loads(told(capsys, "run", "npgr026", "--case", "7", "--json"))
     assert len(repr(found["detectors"]["E"]["stokes"][0])) > 15
+    # Crossed polarisers: what is left is the rounding of cos(90 deg).
+    table = dict(re.findall(r"│ (S\d) +│ (\S+) ", told(capsys, "run", "malus", "--angle", "90")))
+    assert set(table.values()) == {"0"}
+
+
+def test_psi_and_delta_are_those_of_ellipsometry_with_their_units(capsys):
+    out = told(capsys, "run", "ellipsometer-pcsa")
+    # Silicon at 70 degrees, by r_p / r_s of the textbooks.
+    assert re.search(r"Psi \(ellipsometry\) +│ 10.5727 deg ", out)
+    assert re.search(r"Delta \(ellipsometry\) +│ 179.23 deg ", out)
+    assert re.search(r"AoP +│ \S+ deg ", out)
 
 
 @rows("digits", [3, 9])
@@ -40,20 +52,6 @@ def test_digits_are_as_many_as_are_asked_for(digits, command, capsys, monkeypatc
     assert f" {exact:.{digits}g} " in told(capsys, *command, "--digits", str(digits))
 
 
-def test_psi_and_delta_are_those_of_ellipsometry_with_their_units(capsys):
-    out = told(capsys, "run", "ellipsometer-pcsa")
-    # Silicon at 70 degrees, by r_p / r_s of the textbooks.
-    assert re.search(r"Psi \(ellipsometry\) +│ 10.5727 deg ", out)
-    assert re.search(r"Delta \(ellipsometry\) +│ 179.23 deg ", out)
-    assert re.search(r"AoP +│ \S+ deg ", out)
-
-
-def test_rounding_is_printed_as_nothing(capsys):
-    # Crossed polarisers: what is left is the rounding of cos(90 deg).
-    rows = dict(re.findall(r"│ (S\d) +│ (\S+) ", told(capsys, "run", "malus", "--angle", "90")))
-    assert set(rows.values()) == {"0"}
-
-
 def test_light_too_faint_for_a_float_has_its_logarithm(capsys, tmp_path):
     path = op.PathGraph()
     node = path.add("lamp", op.Source())
@@ -67,19 +65,26 @@ def test_light_too_faint_for_a_float_has_its_logarithm(capsys, tmp_path):
 
 @rows("columns", ["20", "40", "80", "120"])
 @rows(
-    "command",
+    "line",
     [
-        ["presets"],
-        ["run", "npgr026", "--case", "6"],
-        ["run", "npgr026", "--case", "all"],
-        ["polarization", "npgr026"],
-        ["explain", "npgr026"],
-        ["explain", "glass-slab"],
+        "presets",
+        "run npgr026 --case 6",
+        "run npgr026 --case all",
+        "polarization npgr026",
+        "explain npgr026",
+        "explain glass-slab",
     ],
 )
-def test_no_line_is_wider_than_the_terminal(columns, command, capsys, monkeypatch):
+def test_no_line_is_wider_than_the_terminal(columns, line, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", columns)
-    assert max(map(len, told(capsys, *command).splitlines())) <= int(columns)
+    assert max(map(len, told(capsys, *line.split()).splitlines())) <= int(columns)
+
+
+def test_what_a_preset_is_made_of_fits_a_narrow_terminal(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    shown = told(capsys, "show", "glass-slab")
+    assert max(map(len, shown.splitlines())) <= 40
+    assert "incidence=follows  outside=follows" in shown
 
 
 @rows("columns", ["40", "80"])
@@ -109,13 +114,6 @@ def test_explanations_go_on_in_indented_lines(capsys, monkeypatch):
     assert re.search("\nfewer than 58 paths .*\n    ", wrapped)
 
 
-def test_what_a_preset_is_made_of_fits_a_narrow_terminal(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "40")
-    shown = told(capsys, "show", "glass-slab")
-    assert max(map(len, shown.splitlines())) <= 40
-    assert "incidence=follows  outside=follows" in shown
-
-
 def test_a_share_that_is_rounding_is_printed_as_0(capsys):
     rows = told(capsys, "polarization", "npgr026", "--case", "4").splitlines()
     shares = {row.split("│")[1].strip(): row.split("│")[2].strip() for row in rows if "│" in row}
@@ -138,43 +136,37 @@ def test_a_value_that_is_missing_is_asked_for_by_its_option(capsys, tmp_path, co
     assert asked in "".join(capsys.readouterr())
 
 
-def test_that_something_is_compiled_is_told_once(caplog, monkeypatch, tmp_path):
-    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path))
-    cache = CodeCache()
+def compiling(cache, caplog, monkeypatch, *texts):
+    """What is told in compiling some texts with a folder for a cache."""
+
+    def refuse(_):
+        raise ValueError("stop")
+
+    monkeypatch.setenv("OPTIPATH_CACHE", str(cache))
+    caplog.clear()
+    code = CodeCache()
     with caplog.at_level(logging.WARNING, "optipath"):
-        for text in ("first", "second"):
+        for text in texts:
             with pytest.raises(ValueError, match="stop"):
-                cache.function(text, refuse)
-    assert [record.message for record in caplog.records if "compiling" in record.message] == [
+                code.function(text, refuse)
+    return [record.message for record in caplog.records]
+
+
+def test_that_something_is_compiled_is_told_once_and_whether_it_is_kept(
+    caplog, monkeypatch, tmp_path
+):
+    messages = compiling(tmp_path, caplog, monkeypatch, "first", "second")
+    assert [message for message in messages if "compiling" in message] == [
         "compiling for Numba, which takes some seconds a path; what is compiled is kept"
     ]
-
-
-def test_that_nothing_is_kept_is_not_contradicted(caplog, monkeypatch):
-    monkeypatch.setenv("OPTIPATH_CACHE", "/dev/null")
-    with caplog.at_level(logging.WARNING, "optipath"), pytest.raises(ValueError, match="stop"):
-        CodeCache().function("first", refuse)
-    not_kept, compiling = [record.message for record in caplog.records]
+    not_kept, told_of_it = compiling("/dev/null", caplog, monkeypatch, "first")
     assert not_kept.startswith("compiled code is not kept: ")
-    assert compiling == "compiling for Numba, which takes some seconds a path"
+    assert told_of_it == "compiling for Numba, which takes some seconds a path"
 
 
-def refuse(_):
-    raise ValueError("stop")
-
-
-@rows(
-    "seconds, text",
-    [
-        (1.05e-6, "1.05 us"),
-        (999.6e-9, "1 us"),
-        (0.0457, "45.7 ms"),
-        (59.9, "59.9 s"),
-        (4321.0, "4,320 s"),
-    ],
-)
-def test_times_have_the_unit_that_suits_them(seconds, text):
-    assert duration(seconds) == text
+def test_times_have_the_unit_that_suits_them():
+    seconds = [1.05e-6, 999.6e-9, 0.0457, 59.9, 4321.0]
+    assert [*map(duration, seconds)] == ["1.05 us", "1 us", "45.7 ms", "59.9 s", "4,320 s"]
 
 
 def test_parameters_have_as_many_digits_as_results(capsys):
@@ -218,9 +210,9 @@ def is_tame(text):
     return not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]", text)
 
 
-@rows(
-    "command",
-    [
+def test_no_text_of_a_file_commands_the_terminal(tmp_path, capsys):
+    file = hostile(tmp_path)
+    for options in (
         ["run"],
         ["run", "--case", f"case{ESCAPE}"],
         ["run", "--json"],
@@ -231,31 +223,26 @@ def is_tame(text):
         ["explain", "--json"],
         ["polarization"],
         ["polarization", "--json"],
-    ],
-)
-def test_no_text_of_a_file_commands_the_terminal(command, tmp_path, capsys):
+    ):
+        status, told = everything(capsys, options[0], file, *options[1:])
+        assert status == 0
+        assert is_tame(told)
+        assert ("\\x1b" if "--json" not in options else "\\u001b") in told
+
+
+def test_no_fault_that_quotes_a_text_commands_the_terminal(tmp_path, capsys):
     file = hostile(tmp_path)
-    status, told = everything(capsys, command[0], file, *command[1:])
-    assert status == 0
-    assert is_tame(told)
-    assert ("\\x1b" if "--json" not in command else "\\u001b") in told
-
-
-@rows(
-    "command",
-    [
+    for options in (
         ["run", "--case", f"x{ESCAPE}"],
         ["run", "--angle", f"x{ESCAPE}"],
         ["run", f"--x{ESCAPE}"],
         ["show", "--case", f"x{ESCAPE}"],
         ["show", "--svg", f"/no{ESCAPE}/x.svg"],
-    ],
-)
-def test_no_fault_that_quotes_a_text_commands_the_terminal(command, tmp_path, capsys):
-    status, told = everything(capsys, command[0], hostile(tmp_path), *command[1:])
-    assert status == 2
-    assert told.count("\n") == 1
-    assert is_tame(told)
+    ):
+        status, told = everything(capsys, options[0], file, *options[1:])
+        assert status == 2
+        assert told.count("\n") == 1
+        assert is_tame(told)
 
 
 @rows(
@@ -306,46 +293,46 @@ def words_of(text):
     return {word.rstrip(":,") for word in re.findall(r"[^\s│┃┏┳┓┡╇┩├┼┤└┴┘━─]+", text)}
 
 
-@rows("columns", ["", "0", "1", "20", "-5", "abc", "²", "9" * 5000, "50"])
-@rows("command", [["presets"], ["show", "npgr026"], ["run", "npgr026", "--case", "3"]])
-def test_nothing_is_cut_whatever_columns_says(columns, command, monkeypatch, capsys):
+@rows("line", ["presets", "show npgr026", "run npgr026 --case 3"])
+def test_nothing_is_cut_whatever_columns_says(line, monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "300")
-    whole = everything(capsys, *command)[1]
-    monkeypatch.setenv("COLUMNS", columns)
-    found = everything(capsys, *command)[1]
-    joined = re.sub(r"\s", "", found)  # A word that is longer than a line stands on two.
-    assert {word for word in words_of(whole) - words_of(found) if word not in joined} == set()
+    whole = everything(capsys, *line.split())[1]
+    for columns in ("", "0", "1", "20", "-5", "abc", "²", "9" * 5000, "50"):
+        monkeypatch.setenv("COLUMNS", columns)
+        found = everything(capsys, *line.split())[1]
+        joined = re.sub(r"\s", "", found)  # A word that is longer than a line stands on two.
+        missing = {word for word in words_of(whole) - words_of(found) if word not in joined}
+        assert missing == set(), columns
 
 
 @rows(
-    "arguments",
+    "line",
     [
-        ["show", "malus", "--svg", ""],
-        ["show", "malus", "--svg", "{folder}"],
-        ["show", "malus", "--svg", "{folder}/none/x.svg"],
-        ["show", "malus", "--svg", "{folder}/file/x.svg"],
-        ["show", "malus", "--svg", "/dev/full"],
-        ["show", "malus", "--svg", "{folder}/" + "x" * 300],
-        ["show", "malus", "--svg", "a\0b"],
-        ["chart", "malus", "--out", ""],
-        ["chart", "malus", "--out", "{folder}"],
-        ["chart", "malus", "--out", "{folder}/none/x.png"],
-        ["chart", "malus", "--data", ""],
-        ["chart", "malus", "--data", "{folder}"],
-        ["accuracy", "--write", ""],
-        ["accuracy", "--write", "{folder}"],
-        ["chart", "--from", ""],
-        ["show", ""],
-        ["run", ""],
-        ["run", "{folder}"],
-        ["run", "{folder}/none.toml"],
-        ["run", "a\0b.toml"],
+        "show malus --svg ''",
+        "show malus --svg '{folder}'",
+        "show malus --svg '{folder}/none/x.svg'",
+        "show malus --svg '{folder}/file/x.svg'",
+        "show malus --svg /dev/full",
+        "show malus --svg '{folder}/" + "x" * 300 + "'",
+        "show malus --svg 'a\0b'",
+        "chart malus --out ''",
+        "chart malus --out '{folder}'",
+        "chart malus --out '{folder}/none/x.png'",
+        "chart malus --data ''",
+        "chart malus --data '{folder}'",
+        "accuracy --write ''",
+        "accuracy --write '{folder}'",
+        "chart --from ''",
+        "show ''",
+        "run ''",
+        "run '{folder}'",
+        "run '{folder}/none.toml'",
+        "run 'a\0b.toml'",
     ],
 )
-def test_places_that_take_no_file_are_refused_in_one_line(arguments, tmp_path, capsys):
+def test_places_that_take_no_file_are_refused_in_one_line(line, tmp_path, capsys):
     (tmp_path / "file").touch()
-    arguments = [argument.replace("{folder}", str(tmp_path)) for argument in arguments]
-    status, told = everything(capsys, *arguments)
+    status, told = everything(capsys, *shlex.split(line.replace("{folder}", str(tmp_path))))
     assert status == 2
     assert told.startswith("optipath: ")
     assert told.count("\n") == 1

@@ -68,8 +68,18 @@ def assert_same_bits(found, expected):
         assert found[name].to_numpy().tobytes() == each.to_numpy().tobytes()
 
 
-@pytest.mark.parametrize("scheduler", [None, "synchronous", "threads"])
-def test_what_is_kept_is_the_sweep_in_memory(store, scheduler):
+def test_what_is_kept_is_the_sweep_in_memory_and_opened_when_it_is_there(store, computed):
+    found = kept(str(store))
+    assert_same_bits(found, swept())
+    assert found.S0.chunks == ((2, 2), (5, 5, 1))
+    assert sorted(computed) == list(range(6))
+    assert_same_bits(kept(store), swept())
+    assert len(computed) == 6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheduler", ["synchronous", "threads"])
+def test_what_any_scheduler_keeps_is_the_sweep_in_memory(store, scheduler):
     assert_same_bits(kept(store, scheduler=scheduler), swept())
 
 
@@ -78,21 +88,6 @@ def test_a_precision_that_stores_do_not_have_is_refused(store):
     with pytest.raises(op.ParameterError, match="stores have no numbers of dtype 'longdouble'"):
         kept(store, composer=op.Composer(dtype="longdouble"))
     assert not store.exists()
-
-
-def test_what_is_kept_is_read_block_by_block(store):
-    assert kept(store).S0.chunks == ((2, 2), (5, 5, 1))
-
-
-def test_a_name_may_be_a_text(tmp_path):
-    assert_same_bits(kept(str(tmp_path / "sweep.zarr")), swept())
-
-
-def test_a_sweep_that_is_there_is_opened_and_not_computed(store, computed):
-    kept(store)
-    assert sorted(computed) == list(range(6))
-    assert_same_bits(kept(store), swept())
-    assert len(computed) == 6
 
 
 def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, computed):
@@ -112,30 +107,20 @@ def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, compu
     assert sorted(computed) == list(range(6))
 
 
-@pytest.mark.parametrize(
-    "other",
-    [
-        {"n": 1.6},
-        {"delta": DELTAS + 1e-15},
-        {"chunks": 3},
-        {"composer": op.Composer(dtype="float32")},
-    ],
-)
-def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store, other):
+def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store):
     kept(store)
-    with pytest.raises((JobError, op.ParameterError), match=store.name):
-        kept(store, **other)
+    others = [{"n": 1.6}, {"delta": DELTAS + 1e-15}, {"chunks": 3}]
+    for other in (*others, {"composer": op.Composer(dtype="float32")}):
+        with pytest.raises((JobError, op.ParameterError), match=store.name):
+            kept(store, **other)
     assert_same_bits(kept(store), swept())
 
 
-def test_what_is_no_sweep_is_refused_and_left_alone(store):
+def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path):
     store.write_text("mine")
     with pytest.raises((JobError, op.ParameterError), match="is there"):
         kept(store)
     assert store.read_text() == "mine"
-
-
-def test_a_pipe_or_a_device_in_the_place_of_a_file_is_refused_and_not_opened(tmp_path):
     os.mkfifo(tmp_path / "pipe.nc")
     (tmp_path / "device.nc").symlink_to("/dev/zero")
     for name in ("pipe.nc", "device.nc"):
@@ -143,9 +128,11 @@ def test_a_pipe_or_a_device_in_the_place_of_a_file_is_refused_and_not_opened(tmp
             kept(tmp_path / name)
 
 
-def test_the_store_beside_a_file_is_gone_when_the_file_is_there(tmp_path):
+def test_the_store_beside_a_file_is_gone_when_the_file_is_there_and_the_users_own_stays(tmp_path):
+    kept(tmp_path / "sweep.nc.zarr")
     kept(tmp_path / "sweep.nc")
-    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
+    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
+    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())
 
 
 def test_a_file_that_cannot_be_written_whole_is_not_there(tmp_path, monkeypatch):
@@ -186,13 +173,9 @@ def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
     assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
 
 
-def test_a_store_of_the_users_own_beside_a_file_stays(tmp_path):
-    kept(tmp_path / "sweep.nc.zarr")
-    kept(tmp_path / "sweep.nc")
-    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())
-
-
-@pytest.mark.parametrize("place", [0, 0.01, 0.05, 0.3])
+@pytest.mark.parametrize(
+    "place", [0.01, *(pytest.param(place, marks=pytest.mark.slow) for place in (0, 0.05, 0.3))]
+)
 def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     file, angles = tmp_path / "sweep.nc", np.linspace(0.0, 1.5, 1000)
     op.load_preset("malus").sweep(angle=angles, store=file).close()
@@ -211,16 +194,13 @@ def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     assert file.read_bytes() == content
 
 
-@rows("store", ["sweep.csv", "sweep", "", 3, True])
-def test_a_store_of_no_known_form_is_refused_with_one_that_is(store):
-    with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
-        kept(store)
-
-
-@rows("store", [".zarr", ".nc"])
-def test_an_ending_alone_is_no_name(store):
-    with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
-        kept(store)
+def test_a_store_of_no_known_form_is_refused_with_one_that_is():
+    for store in ("sweep.csv", "sweep", "", 3, True):
+        with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
+            kept(store)
+    for store in (".zarr", ".nc"):
+        with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
+            kept(store)
 
 
 def test_what_was_kept_lends_its_axes_in_their_order(store):
@@ -260,9 +240,13 @@ def test_a_bar_ends_with_all_blocks(store, capsys):
     assert shown.endswith(f"[{'#' * 40}] 6 of 6 blocks\n")
 
 
-def test_numbers_of_numpy_and_of_python_are_one_sweep(tmp_path, computed):
+def test_a_store_that_was_moved_is_still_the_sweep_of_numbers_of_numpy_and_of_python(
+    tmp_path, computed
+):
     kept(tmp_path / "a.zarr")
     kept(tmp_path / "a.zarr", n=np.float64(1.5), delta=DELTAS.tolist())
+    shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
+    assert_same_bits(kept(tmp_path / "b.zarr"), swept())
     assert len(computed) == 6
 
 
@@ -276,13 +260,6 @@ def test_several_detectors_are_kept(store):
     assert found.detector.values.tolist() == ["reflected", "transmitted"]
     assert found.S0.dims == ("detector", "share")
     assert np.array_equal(found.S0, path.sweep(share=[0.1, 0.2, 0.3]).S0)
-
-
-def test_a_store_that_was_moved_is_still_the_sweep(tmp_path, computed):
-    kept(tmp_path / "a.zarr")
-    shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
-    assert_same_bits(kept(tmp_path / "b.zarr"), swept())
-    assert len(computed) == 6
 
 
 def job_of(chunks=4, **given):
