@@ -83,9 +83,15 @@ def test_without_a_sample_those_that_there_are_are_listed(capsys):
     assert found(capsys)["glass-rough"] == op.load_sample("glass-rough").description
 
 
-def test_a_shell_completes_names_of_samples():
-    completed = surface.params[0].shell_complete(click.Context(surface), "glass-on")
-    assert [one.value for one in completed] == ["glass-on-glass", "glass-on-gold"]
+def test_a_shell_completes_names_of_samples_and_of_experiments():
+    def completed(command, word):
+        found = command.params[0].shell_complete(click.Context(command), word)
+        return [one.value for one in found]
+
+    assert completed(surface, "glass-on") == ["glass-on-glass", "glass-on-gold"]
+    assert completed(surface, "repr") == ["reproduce"]
+    experiments = ["wang-2017-figure-4", "wang-2017-figures-7-9"]
+    assert completed(reproduce, "wang-2017-f") == experiments
 
 
 @COMPILED
@@ -247,19 +253,19 @@ def test_an_interrupt_before_all_keeps_the_directions_that_are_done(capsys, monk
 
 
 @rows(
-    "given, wrong",
+    "line, wrong",
     [
-        (["glass-roug"], "sample 'glass-roug' is unknown; did you mean 'glass-rough'?"),
-        (["none.toml"], "'none.toml' cannot be read: No such file or directory"),
-        (["flat.txt"], "see the names with `optipath surface`"),
-        (["flat.toml"], "--incidence is missing; give the angle of incidence: --incidence 60"),
-        (["--incidence", "60"], "SAMPLE is missing, beside --incidence; give a file or one of: "),
-        (["absorbs.toml", "--incidence", "60"], "absorbs.toml"),
-        (["silver.toml", "--incidence", "60"], "give one, --wavelength '550 nm'"),
+        ("glass-roug", "sample 'glass-roug' is unknown; did you mean 'glass-rough'?"),
+        ("none.toml", "'none.toml' cannot be read: No such file or directory"),
+        ("flat.txt", "see the names with `optipath surface`"),
+        ("flat.toml", "--incidence is missing; give the angle of incidence: --incidence 60"),
+        ("--incidence 60", "SAMPLE is missing, beside --incidence; give a file or one of: "),
+        ("absorbs.toml --incidence 60", "absorbs.toml"),
+        ("silver.toml --incidence 60", "give one, --wavelength '550 nm'"),
     ],
 )
-def test_a_wrong_sample_is_told(given, wrong, capsys):
-    assert wrong in refused(capsys, *given)
+def test_a_wrong_sample_is_told(line, wrong, capsys):
+    assert wrong in refused(capsys, *line.split())
 
 
 @rows(
@@ -316,14 +322,12 @@ def test_a_mesh_larger_than_memory_is_refused(capsys):
 
 
 @COMPILED
-def test_forbidden_compilation_is_told(capsys, monkeypatch):
+def test_forbidden_compilation_and_a_missing_extra_are_told(capsys, monkeypatch):
     walk_code.walk_code.cache_clear()
-    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    wrong = refused(capsys, "flat.toml", "--incidence", "60")
+    with monkeypatch.context() as patch:
+        patch.setenv("NUMBA_DISABLE_JIT", "1")
+        wrong = refused(capsys, "flat.toml", "--incidence", "60")
     assert wrong.startswith("NUMBA_DISABLE_JIT is set")
-
-
-def test_a_missing_extra_is_told(capsys, monkeypatch):
     walk_code.walk_code.cache_clear()
     monkeypatch.setitem(sys.modules, "numba", None)
     wrong = refused(capsys, "flat.toml", "--incidence", "60")
@@ -336,6 +340,7 @@ def decided(capsys, *arguments):
     return status, captured.out, captured.err
 
 
+@pytest.mark.slow
 def test_the_model_is_told_with_its_evidence(capsys):
     given = ["glass-on-glass", "--incidence", "60", "--photons", "5e4"]
     status, out, _ = decided(capsys, *given)
@@ -345,16 +350,22 @@ def test_the_model_is_told_with_its_evidence(capsys):
 
 
 def test_json_has_one_object_for_each_angle(capsys):
-    given = ["glass-on-glass", "--incidence", "50, 60", "--photons", "2e4", "--tolerance", "0.9"]
+    given = ["glass-on-glass", "--incidence", "50, 60", "--photons", "5e3", "--tolerance", "0.9"]
     status, out, _ = decided(capsys, *given, "--json")
     found = json.loads(out)["directions"]
     assert (status, [each["incidence"] for each in found]) == (0, [50.0, 60.0])
     assert {each["tolerance"] for each in found} == {0.9}
+    status, out, _ = decided(capsys, *given)
+    assert status == 0
+    assert "5,000 photons, " in out
 
 
-def test_a_polarised_source_is_refused(capsys):
+def test_a_polarised_source_and_that_no_pixel_counts_are_told_in_a_sentence(capsys):
     status, _, err = decided(capsys, "glass-rough", "--incidence", "30", "--stokes", "1,1,0,0")
     assert (status, err) == (2, "optipath: --decide is of unpolarised light; leave --stokes out\n")
+    status, _, err = decided(capsys, "glass-rough", "--incidence", "0", "--photons", "1")
+    assert status == 2
+    assert err.splitlines()[-1].startswith("optipath: no pixel counts: of 1 photon none is ref")
 
 
 def test_light_may_be_looked_at_below(capsys):
@@ -362,12 +373,6 @@ def test_light_may_be_looked_at_below(capsys):
     status, out, _ = decided(capsys, *given, "--side", "transmitted")
     assert status == 0
     assert "polarisation changes all transmitted light" in out
-
-
-def test_that_no_pixel_counts_is_one_sentence(capsys):
-    status, _, err = decided(capsys, "glass-rough", "--incidence", "0", "--photons", "1")
-    assert status == 2
-    assert err.splitlines()[-1].startswith("optipath: no pixel counts: of 1 photon none is ref")
 
 
 FEW = ["--photons", "2000", "--incidence", "50"]
@@ -394,34 +399,30 @@ def test_a_map_is_of_the_light_and_the_wavelength_that_are_given(tmp_path):
 @rows(
     "sample, options, sentence",
     [
-        ("flat", ["--map", "S0"], "--map draws into a file; name it, --out map.png"),
-        ("flat", ["--out", "map.png"], "--out is of a map; say of what, --map S0"),
-        ("flat", ["--map", "S0", "--out", "a.jpg"], "cannot be drawn; use one of: .png, .svg"),
-        ("flat", ["--map", "DoL", "--out", "a.png"], "'DoL' is unknown; did you mean 'DoLP'"),
-        ("flat", ["--map", "S0", "--out", "a.png", "--json"], "--json is of tables"),
-        ("flat", ["--map", "S0", "--out", "a.png", "--incidence", "20"], "give --incidence once"),
-        ("flat", ["--map", "ADM", "--out", "a.png", "--stokes", "1,1,0,0"], "leave --stokes out"),
+        ("flat", "--map S0", "--map draws into a file; name it, --out map.png"),
+        ("flat", "--out map.png", "--out is of a map; say of what, --map S0"),
+        ("flat", "--map S0 --out a.jpg", "cannot be drawn; use one of: .png, .svg"),
+        ("flat", "--map DoL --out a.png", "'DoL' is unknown; did you mean 'DoLP'"),
+        ("flat", "--map S0 --out a.png --json", "--json is of tables"),
+        ("flat", "--map S0 --out a.png --incidence 20", "give --incidence once"),
+        ("flat", "--map ADM --out a.png --stokes 1,1,0,0", "leave --stokes out"),
         (
             "silver",
-            ["--map", "S0", "--out", "a.png", "--wavelength", "500 nm", "--side", "transmitted"],
+            "--map S0 --out a.png --wavelength 500nm --side transmitted",
             "nothing goes through an opaque sample; leave --side out",
         ),
         (
             "silver",
-            ["--map", "S0", "--out", "a.png", "--wavelength", "500 nm:600 nm:2"],
+            "--map S0 --out a.png --wavelength 500nm:600nm:2",
             "a map of S0 is of one wavelength",
         ),
-        (
-            "flat",
-            ["--map", "S0", "--out", "nowhere/a.png"],
-            "cannot be written: there is no such folder",
-        ),
+        ("flat", "--map S0 --out nowhere/a.png", "cannot be written: there is no such folder"),
     ],
 )
 def test_what_goes_with_no_map_is_refused_before_photons_are_walked(
     sample, options, sentence, capsys, tmp_path
 ):
-    assert main(["surface", f"{sample}.toml", *FEW, *options]) == 2
+    assert main(["surface", f"{sample}.toml", *FEW, *options.split()]) == 2
     told = capsys.readouterr()
     assert told.out == ""
     assert sentence in told.err
@@ -543,21 +544,11 @@ def test_what_is_wrong_is_told(given, wrong, capsys):
     assert wrong in err
 
 
-def test_options_before_the_word_are_refused(capsys):
+def test_the_word_comes_first_and_has_a_help_of_its_own(capsys):
     assert main(["surface", "--json", "reproduce"]) == 2
     assert "write optipath surface reproduce first" in capsys.readouterr().err
-
-
-def test_help_is_its_own_and_that_of_surface_names_it(capsys):
     assert reproduced(capsys, "--help")[1].startswith(
         "Usage: optipath surface reproduce [OPTIONS] [NAME]..."
     )
     assert main(["surface", "--help"]) == 0
     assert "optipath surface reproduce [NAME]..." in capsys.readouterr().out
-
-
-def test_a_shell_completes_the_word_and_the_names():
-    words = surface.params[0].shell_complete(click.Context(surface), "repr")
-    assert [one.value for one in words] == ["reproduce"]
-    names = reproduce.params[0].shell_complete(click.Context(reproduce), "wang-2017-f")
-    assert [one.value for one in names] == ["wang-2017-figure-4", "wang-2017-figures-7-9"]

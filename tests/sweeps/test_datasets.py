@@ -330,7 +330,6 @@ def test_rows_at_equal_distances_are_a_view(places):
         [np.arange(3.0), np.arange(3.0)],
         [*np.arange(12.0).reshape(4, 3)[[0, 1]], np.arange(3.0)],
         [np.arange(9.0)[:3], np.arange(9.0)[:6:2]],
-        [*np.arange(12.0).reshape(4, 3)[[0, 1, 3]]],
         [np.arange(12.0).reshape(4, 3)[place] for place in (0, 1, 3)],
     ],
 )

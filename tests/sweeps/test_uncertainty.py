@@ -18,25 +18,13 @@ def malus():
     return op.load_preset("malus")
 
 
-@pytest.fixture
-def _without_jax(monkeypatch):
-    monkeypatch.setitem(sys.modules, "jax", None)
-
-
-@pytest.mark.usefixtures("_without_jax")
-def test_without_jax_slopes_are_by_differences_and_it_says_so():
-    assert malus().propagate(angle=(0.5, 0.01)).method == "differences"
-
-
-@pytest.mark.usefixtures("_without_jax")
-def test_gradients_without_jax_say_what_brings_it():
-    with pytest.raises(MissingExtraError, match=r"optipath\[jax\]"):
-        malus().propagate(angle=(0.5, 0.01), method="gradients")
-
-
-def test_with_jax_slopes_are_by_jax_and_it_says_so():
+def test_slopes_are_by_jax_where_it_is_there_and_it_says_so(monkeypatch):
     pytest.importorskip("jax")
     assert malus().propagate(angle=(0.5, 0.01)).method == "gradients by JAX"
+    monkeypatch.setitem(sys.modules, "jax", None)
+    assert malus().propagate(angle=(0.5, 0.01)).method == "differences"
+    with pytest.raises(MissingExtraError, match=r"optipath\[jax\]"):
+        malus().propagate(angle=(0.5, 0.01), method="gradients")
 
 
 class Untraced(op.Element, kind="untraced"):
@@ -147,7 +135,7 @@ def test_a_quantity_that_is_none_is_refused():
         found.uncertainty_of("intensty")
 
 
-def test_the_answer_is_a_table():
+def test_the_answer_is_a_table_with_its_notes_below():
     found = malus().propagate(
         angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
     )
@@ -157,16 +145,10 @@ def test_the_answer_is_a_table():
     assert lines[2].split() == ["S0", "0.3750", "0.0011", "50", "%", "50", "%"]
     assert lines[8].split() == ["AoP", "30.00", "deg", "0.10", "deg", "100", "%", "0", "%"]
     assert len(lines) == 12
-
-
-def test_the_table_of_a_batch_says_from_where_to_where():
     found = malus().propagate(angle=(["30 deg", "45 deg"], "0.1 deg"), method="differences")
     lines = str(found).splitlines()
     assert lines[0] == "differences, shape (2,): angle, shape (2,)"
     assert "0.25 .. 0.375" in lines[2]
-
-
-def test_notes_stand_below_the_table():
     found = malus().propagate(angle=("0 deg", "1 deg"), method="differences")
     assert str(found).splitlines()[12:] == list(found.notes)
 
@@ -185,24 +167,16 @@ def arrays_of(made):
     return [*own, made.uncertainty, value.value, value.sigma]
 
 
-@pytest.mark.parametrize("angle", [0.3, 0.0, [0.1, 0.2]], ids=["one", "with NaN", "several"])
-def test_an_uncertainty_equals_that_of_the_same_and_its_copies(angle):
-    made = found(angle)
-    assert made == found(angle)
-    for copied in COPIES:
-        again = copied(made)
-        assert again == made
-        assert not any(array.flags.writeable for array in arrays_of(again))
-
-
-def test_an_uncertainty_is_not_that_of_another_value_or_seed():
-    assert found() != found(seed=1)
-    assert found() != found(0.4)
-    assert found() != found([0.3])
-    assert found() != "light"
-
-
-def test_an_uncertainty_has_no_hash():
+def test_an_uncertainty_equals_that_of_the_same_and_its_copies():
+    for angle in (0.3, 0.0, [0.1, 0.2]):  # One, with NaN, several.
+        made = found(angle)
+        assert made == found(angle)
+        for copied in COPIES:
+            again = copied(made)
+            assert again == made
+            assert not any(array.flags.writeable for array in arrays_of(again))
+    for other in (found(seed=1), found(0.4), found([0.3]), "light"):
+        assert found() != other
     with pytest.raises(TypeError, match="unhashable"):
         hash(found())
 
@@ -299,17 +273,33 @@ def test_a_value_that_is_missing_is_told_beside_others():
     )
 
 
-def test_nothing_uncertain_is_refused():
-    (fault,) = refused(malus(), angle=0.3)
-    assert "give a value and its standard uncertainty, such as angle=(0.8, 0.001)" in fault
+VERTICES = op.path_from_vertices(op.Parameter("points"), materials=[1.5])
+POINTS = np.array([[0.0, 0, 2], [0, 0, 0], [0, 2, 0]])
+IN_PARTS = "op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
 
 
-@rows("value", [1.5 + 0.1j, op.Material(1.5, 0.1)])
-def test_complex_values_have_parts_with_an_uncertainty_each(value):
-    (fault,) = refused(glass(), m=(value, 0.1))
-    assert (
-        "op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k" in fault
-    )
+@rows(
+    "path, given, told",
+    [
+        (malus(), {"angle": 0.3}, "a value and its standard uncertainty, such as angle=(0.8, 0.00"),
+        (malus(), {"angle": ([0.1, 0.2, 0.3], [0.1, 0.2])}, "do not broadcast together"),
+        (glass(), {"m": ([1.5, 0.2], 0.1)}, "may be n and k, or the indices of two paths"),
+        (glass(), {"m": (1.5 + 0.1j, 0.1)}, IN_PARTS),
+        (glass(), {"m": (op.Material(1.5, 0.1), 0.1)}, IN_PARTS),
+        (
+            VERTICES,
+            {"points": (POINTS, 0.1)},
+            "several numbers, which have no uncertainty here; give them exactly",
+        ),
+        *(
+            (malus(), {"intensity": (1.0, sigma)}, "the standard uncertainty of parameter 'intens")
+            for sigma in (1j, None, "wide", [0.1, [0.2]], True)
+        ),
+    ],
+)
+def test_what_has_no_uncertainty_is_refused(path, given, told):
+    (fault,) = refused(path, **given)
+    assert told in fault
 
 
 def test_the_cure_for_complex_values_works():
@@ -317,29 +307,6 @@ def test_the_cure_for_complex_values_works():
     path = op.Source() >> op.Interface(index, 0.3) >> op.Detector()
     found = path.propagate(n=(1.5, 0.1), k=(0.1, 0.01), method="differences")
     assert found.uncertainty_of("S0") > 0.0
-
-
-def test_a_list_that_may_be_one_index_is_asked_about():
-    (fault,) = refused(glass(), m=([1.5, 0.2], 0.1))
-    assert "may be n and k, or the indices of two paths" in fault
-
-
-@rows("sigma", [1j, None, "wide", [0.1, [0.2]], True])
-def test_what_is_no_uncertainty_is_refused(sigma):
-    (fault,) = refused(malus(), intensity=(1.0, sigma))
-    assert fault.startswith("the standard uncertainty of parameter 'intensity'")
-
-
-def test_shapes_that_do_not_broadcast_are_refused():
-    (fault,) = refused(malus(), angle=([0.1, 0.2, 0.3], [0.1, 0.2]))
-    assert "do not broadcast together" in fault
-
-
-def test_points_have_no_uncertainty():
-    path = op.path_from_vertices(op.Parameter("points"), materials=[1.5])
-    points = np.array([[0.0, 0, 2], [0, 0, 0], [0, 2, 0]])
-    (fault,) = refused(path, points=(points, 0.1))
-    assert "several numbers, which have no uncertainty here; give them exactly" in fault
 
 
 def test_a_value_by_its_place_is_refused():
@@ -424,13 +391,11 @@ def test_what_is_no_correlation_is_refused(correlation, words):
     assert words in fault
 
 
-def test_every_wrong_pair_is_told():
+def test_every_wrong_pair_is_told_and_what_no_values_can_have_together():
     assert len(refused_correlation({("n1", "k2"): 0.1, ("n1", "k1"): 2.0})) == 2
-
-
-def test_coefficients_that_no_values_can_have_together_are_refused():
     # 1, -1 and 1: what goes with n1 and against k1 cannot go with both.
-    (fault,) = refused_correlation({("n1", "k1"): -0.9, ("n1", "n2"): 0.9, ("k1", "n2"): 0.9})
+    together = {("n1", "k1"): -0.9, ("n1", "n2"): 0.9, ("k1", "n2"): 0.9}
+    (fault,) = refused_correlation(together)
     assert "has the eigenvalue -0.8" in fault
 
 
@@ -515,23 +480,16 @@ def test_total_reflection_within_the_uncertainty_is_told():
     assert found_for(path, t=(edge, 1e-3)).is_doubtful("S0")
 
 
-def test_unpolarised_light_has_a_corner_of_its_degree_of_polarisation():
-    path = lamp() >> op.Depolarizer(op.Parameter("d")) >> op.Detector()
-    found = found_for(path, d=(1.0, 0.01))
+def test_corners_of_degrees_and_angles_have_no_uncertainty():
+    unpolarised = lamp() >> op.Depolarizer(op.Parameter("d")) >> op.Detector()
+    found = found_for(unpolarised, d=(1.0, 0.01))
     assert np.isnan(found.uncertainty_of("dop"))
     assert any(note.startswith("nan: DoP and DoLP: a corner") for note in found.notes)
-
-
-def test_unpolarised_light_that_stays_so_is_certain_of_it():
-    path = op.Source(op.Parameter("i")) >> op.Detector()
-    found = found_for(path, i=(1.0, 0.1))
-    assert found.uncertainty_of("dop") == 0.0
+    found = found_for(op.Source(op.Parameter("i")) >> op.Detector(), i=(1.0, 0.1))
+    assert found.uncertainty_of("dop") == 0.0  # It stays unpolarised.
     assert np.isnan(found.uncertainty_of("aop"))
-
-
-def test_circular_light_has_a_corner_of_its_ellipticity():
-    path = lamp() >> op.Retarder(op.Parameter("r"), np.pi / 4) >> op.Detector()
-    found = found_for(path, r=(np.pi / 2, 0.01))
+    circular = lamp() >> op.Retarder(op.Parameter("r"), np.pi / 4) >> op.Detector()
+    found = found_for(circular, r=(np.pi / 2, 0.01))
     assert np.isnan(found.uncertainty_of("ellipticity"))
 
 
