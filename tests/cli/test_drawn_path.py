@@ -5,6 +5,8 @@ from itertools import combinations, pairwise
 from typing import NamedTuple
 from xml.etree import ElementTree as ET
 
+import pytest
+
 import optipath as op
 from optipath.cli import main
 from optipath.cli.path_picture import path_picture
@@ -89,8 +91,7 @@ def links_of(svg):
     return [tag.get("d") for tag in tags if "link" in tag.get("class")]
 
 
-@rows("name", op.preset_names())
-def test_nothing_of_a_preset_is_cut_or_lies_over_something_else(name):
+def assert_whole(name):
     path = op.load_preset(name)
     svg = path_picture(path, name)
     assert faults_of(svg) == []
@@ -100,6 +101,17 @@ def test_nothing_of_a_preset_is_cut_or_lies_over_something_else(name):
     assert len(page_of(svg)[2]) == len(path)
     leaves = sum(text.endswith("leaves the path") for text in texts_of(svg))
     assert len(links_of(svg)) == path.graph.number_of_edges() + leaves
+
+
+@rows("name", ["npgr026", "glass-slab", "ellipsometer-rough", "sky-and-window"])
+def test_nothing_of_some_presets_is_cut_or_lies_over_something_else(name):
+    assert_whole(name)
+
+
+@pytest.mark.report
+@rows("name", op.preset_names())
+def test_nothing_of_a_preset_is_cut_or_lies_over_something_else(name):
+    assert_whole(name)
 
 
 def chain_of(count, name="{}", kind=op.Rotator):
@@ -167,10 +179,14 @@ def test_light_that_goes_round_is_led_back_upwards():
     assert places[1] < places[2] < places[0]
 
 
-def test_a_tap_is_dashed_and_named_and_a_turn_is_told():
+def test_taps_turns_and_notes_are_told_once_and_no_legend_of_nothing():
     svg = path_picture(op.load_preset("ellipsometer-rough"), "ellipsometer-rough")
     assert 'class="link tap"' in svg
     assert {"out, a tap", "in, turned by -90 deg"} <= {*texts_of(svg)}
+    texts = texts_of(path_picture(op.load_preset("npgr026"), "npgr026"))
+    assert "7, 8, 9" in texts
+    assert sum(text.startswith("X1 is copper") for text in texts) == 1
+    assert "parameter" not in texts_of(path_picture(chain_of(1), "bare"))
 
 
 def test_a_reader_of_screens_is_told_the_path_in_words():
@@ -178,16 +194,6 @@ def test_a_reader_of_screens_is_told_the_path_in_words():
     assert root.get("role") == "img"
     assert root.find(f"{SPACE}title").text == "The path malus"
     assert "| out --> " in root.find(f"{SPACE}desc").text
-
-
-def test_a_path_without_parameters_has_no_legend():
-    assert "parameter" not in texts_of(path_picture(chain_of(1), "bare"))
-
-
-def test_equal_notes_of_cases_are_told_once():
-    texts = texts_of(path_picture(op.load_preset("npgr026"), "npgr026"))
-    assert "7, 8, 9" in texts
-    assert sum(text.startswith("X1 is copper") for text in texts) == 1
 
 
 def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, capsys):

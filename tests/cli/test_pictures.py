@@ -33,8 +33,6 @@ def pictures_of(preset):
     yield "curve", {"x": (x,), "y": "S0,AoP"}
 
 
-
-
 @pytest.fixture(autouse=True)
 def _folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
