@@ -132,7 +132,8 @@ def test_a_long_title_breaks_between_values_and_stays_within_the_picture(tmp_pat
     file.write_text(op.load_preset("malus").to_toml(), "utf-8")
     figure = picture(str(file), "stokes", angle=0.5)
     assert faults_of(figure) == []
-    assert str(file) in figure.get_suptitle().replace("\n", "")
+    # Where a line breaks at a space, the space is not drawn.
+    assert "".join(str(file).split()) in "".join(figure.get_suptitle().split())
 
 
 def test_values_along_an_axis_keep_the_unit_they_are_given_in():

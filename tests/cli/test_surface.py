@@ -40,7 +40,6 @@ alpha = 0
 @pytest.fixture(autouse=True)
 def _files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
     texts = {"flat": FLAT, "metal": METAL, "coated": COATED, "absorbs": ABSORBS, "silver": SILVER}
     texts |= {"rough": FLAT.replace("alpha = 0", "alpha = 0.4")}
     texts |= {"finite": texts["rough"].replace("format = 1", "format = 1\nperiodic = false")}
