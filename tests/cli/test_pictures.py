@@ -88,6 +88,7 @@ def test_every_picture_of_a_preset_is_whole_and_readable(preset):
 
 
 DRAWN = [
+    "--kind curve --delta 0:90:5 --x phi --y dop",
     "--kind ellipse --case 8",
     "--kind curve --x delta --y s0,dolp --rho 10",
     "--kind poincare --delta 20:40:5",
@@ -98,7 +99,6 @@ DRAWN = [
 DRAWN_AS_WELL = [
     "--kind poincare --x delta",
     "--kind curve --delta 0:90:10",
-    "--kind curve --delta 0:90:5 --x phi --y dop",
 ]
 
 
