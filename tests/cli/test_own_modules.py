@@ -7,6 +7,7 @@ import pytest
 
 from optipath.cli.command import main
 from optipath.elements.registry import KINDS
+from tables import rows
 
 MODULE = """
 import optipath as op
@@ -62,7 +63,7 @@ def folder(tmp_path, monkeypatch):
     sys.modules.pop("imported_foils", None)
 
 
-@pytest.mark.parametrize(
+@rows(
     "modules",
     [["imported_foils"], ["imported_foils.py"], ["./imported_foils.py", "imported_foils"]],
 )
@@ -103,8 +104,8 @@ def test_a_file_never_says_what_is_imported(folder, capsys):
     assert "imported_foils" not in sys.modules
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "expected"),
+@rows(
+    "name, text, expected",
     [
         ("broken", "def (", "'broken' raises SyntaxError: invalid syntax (broken.py, line 1)"),
         ("broken.py", "1 / 0", "'broken.py' raises ZeroDivisionError: division by zero"),

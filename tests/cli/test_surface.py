@@ -1,4 +1,4 @@
-"""``optipath surface``: samples by name or file, tables of energies, and what is refused."""
+"""optipath surface: tables of energies, models, maps and experiments, and what is refused."""
 
 import json
 import re
@@ -12,11 +12,17 @@ import pytest
 import optipath as op
 from optipath.cli import main
 from optipath.cli.printed_energy import measured
+from optipath.cli.reproduce_command import reproduce
 from optipath.cli.surface_command import surface
 from optipath.engines.automatic import is_installed
+from optipath.lab.published import reproduction
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk import walk_code
+from tables import rows
 
+pytest.importorskip("numba")
+pytest.importorskip("xarray")
+pytest.importorskip("matplotlib")
 BLOCK = 16384
 COMPILED = pytest.mark.skipif(not is_installed("numba"), reason="needs the extra fast")
 FLAT = "format = 1\n[[layers]]\nindex = 1.5\nalpha = 0\n"
@@ -37,6 +43,7 @@ def _files(tmp_path, monkeypatch):
     texts = {"flat": FLAT, "metal": METAL, "coated": COATED, "absorbs": ABSORBS, "silver": SILVER}
     texts |= {"rough": FLAT.replace("alpha = 0", "alpha = 0.4")}
     texts |= {"finite": texts["rough"].replace("format = 1", "format = 1\nperiodic = false")}
+    texts |= {"pane": op.Sample([(1.5, 0)]).to_toml(), "own": OWN}
     for name, text in texts.items():
         (tmp_path / f"{name}.toml").write_text(text, "utf-8")
 
@@ -75,9 +82,15 @@ def test_without_a_sample_those_that_there_are_are_listed(capsys):
     assert found(capsys)["glass-rough"] == op.load_sample("glass-rough").description
 
 
-def test_a_shell_completes_names_of_samples():
-    completed = surface.params[0].shell_complete(click.Context(surface), "glass-on")
-    assert [one.value for one in completed] == ["glass-on-glass", "glass-on-gold"]
+def test_a_shell_completes_names_of_samples_and_of_experiments():
+    def completed(command, word):
+        found = command.params[0].shell_complete(click.Context(command), word)
+        return [one.value for one in found]
+
+    assert completed(surface, "glass-on") == ["glass-on-glass", "glass-on-gold"]
+    assert completed(surface, "repr") == ["reproduce"]
+    experiments = ["wang-2017-figure-4", "wang-2017-figures-7-9"]
+    assert completed(reproduce, "wang-2017-f") == experiments
 
 
 @COMPILED
@@ -238,24 +251,24 @@ def test_an_interrupt_before_all_keeps_the_directions_that_are_done(capsys, monk
     assert [each["incidence"] for each in json.loads(out)["directions"]] == [10.0]
 
 
-@pytest.mark.parametrize(
-    ("given", "wrong"),
+@rows(
+    "line, wrong",
     [
-        (["glass-roug"], "sample 'glass-roug' is unknown; did you mean 'glass-rough'?"),
-        (["none.toml"], "'none.toml' cannot be read: No such file or directory"),
-        (["flat.txt"], "see the names with `optipath surface`"),
-        (["flat.toml"], "--incidence is missing; give the angle of incidence: --incidence 60"),
-        (["--incidence", "60"], "SAMPLE is missing, beside --incidence; give a file or one of: "),
-        (["absorbs.toml", "--incidence", "60"], "absorbs.toml"),
-        (["silver.toml", "--incidence", "60"], "give one, --wavelength '550 nm'"),
+        ("glass-roug", "sample 'glass-roug' is unknown; did you mean 'glass-rough'?"),
+        ("none.toml", "'none.toml' cannot be read: No such file or directory"),
+        ("flat.txt", "see the names with `optipath surface`"),
+        ("flat.toml", "--incidence is missing; give the angle of incidence: --incidence 60"),
+        ("--incidence 60", "SAMPLE is missing, beside --incidence; give a file or one of: "),
+        ("absorbs.toml --incidence 60", "absorbs.toml"),
+        ("silver.toml --incidence 60", "give one, --wavelength '550 nm'"),
     ],
 )
-def test_a_wrong_sample_is_told(given, wrong, capsys):
-    assert wrong in refused(capsys, *given)
+def test_a_wrong_sample_is_told(line, wrong, capsys):
+    assert wrong in refused(capsys, *line.split())
 
 
-@pytest.mark.parametrize(
-    ("given", "wrong"),
+@rows(
+    "given, wrong",
     [
         ("--incidence 90", "incidence is 90 deg, along the sample"),
         ("--incidence -5", "incidence is -5 deg; give a real angle of incidence within 0 deg"),
@@ -308,15 +321,233 @@ def test_a_mesh_larger_than_memory_is_refused(capsys):
 
 
 @COMPILED
-def test_forbidden_compilation_is_told(capsys, monkeypatch):
+def test_forbidden_compilation_and_a_missing_extra_are_told(capsys, monkeypatch):
     walk_code.walk_code.cache_clear()
-    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    wrong = refused(capsys, "flat.toml", "--incidence", "60")
+    with monkeypatch.context() as patch:
+        patch.setenv("NUMBA_DISABLE_JIT", "1")
+        wrong = refused(capsys, "flat.toml", "--incidence", "60")
     assert wrong.startswith("NUMBA_DISABLE_JIT is set")
-
-
-def test_a_missing_extra_is_told(capsys, monkeypatch):
     walk_code.walk_code.cache_clear()
     monkeypatch.setitem(sys.modules, "numba", None)
     wrong = refused(capsys, "flat.toml", "--incidence", "60")
     assert wrong.endswith('need numba, which is not installed; pip install "optipath[fast]"')
+
+
+def decided(capsys, *arguments):
+    status = main(["surface", *arguments, "--decide"])
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+@pytest.mark.slow
+def test_the_model_is_told_with_its_evidence(capsys):
+    given = ["glass-on-glass", "--incidence", "60", "--photons", "5e4"]
+    status, out, _ = decided(capsys, *given)
+    assert status == 0
+    assert "the polarised model is needed for a tolerance of 2 %" in out
+    assert "50,000 photons, 64 x 64 pixels" in out
+
+
+def test_json_has_one_object_for_each_angle(capsys):
+    given = ["glass-on-glass", "--incidence", "50, 60", "--photons", "5e3", "--tolerance", "0.9"]
+    status, out, _ = decided(capsys, *given, "--json")
+    found = json.loads(out)["directions"]
+    assert (status, [each["incidence"] for each in found]) == (0, [50.0, 60.0])
+    assert {each["tolerance"] for each in found} == {0.9}
+    status, out, _ = decided(capsys, *given)
+    assert status == 0
+    assert "5,000 photons, " in out
+
+
+def test_a_polarised_source_and_that_no_pixel_counts_are_told_in_a_sentence(capsys):
+    status, _, err = decided(capsys, "glass-rough", "--incidence", "30", "--stokes", "1,1,0,0")
+    assert (status, err) == (2, "optipath: --decide is of unpolarised light; leave --stokes out\n")
+    status, _, err = decided(capsys, "glass-rough", "--incidence", "0", "--photons", "1")
+    assert status == 2
+    assert err.splitlines()[-1].startswith("optipath: no pixel counts: of 1 photon none is ref")
+
+
+def test_light_may_be_looked_at_below(capsys):
+    given = ["glass-rough", "--incidence", "30", "--photons", "2e3", "--tolerance", "0.5"]
+    status, out, _ = decided(capsys, *given, "--side", "transmitted")
+    assert status == 0
+    assert "polarisation changes all transmitted light" in out
+
+
+FEW = ["--photons", "2000", "--incidence", "50"]
+
+
+@COMPILED
+def test_a_map_is_drawn_into_a_file(capsys, tmp_path):
+    drawn = ["surface", "flat.toml", *FEW, "--map", "S0", "--side", "transmitted"]
+    assert main([*drawn, "--out", "map.svg"]) == 0
+    assert capsys.readouterr().out == "wrote map.svg\n"
+    assert ">S0, transmitted, incidence 50°</text>" in (tmp_path / "map.svg").read_text("utf-8")
+
+
+@COMPILED
+def test_a_map_is_of_the_light_and_the_wavelength_that_are_given(tmp_path):
+    light = ["--stokes", "1,0,1,0", "--wavelength", "500 nm"]
+    drawn = ["surface", "silver.toml", *FEW, *light, "--map", "S3"]
+    assert main([*drawn, "--out", "map.svg"]) == 0
+    written = (tmp_path / "map.svg").read_text("utf-8")
+    assert "S3, reflected, incidence 50°, 500 nm" in written
+    assert "source (1, 0, 1, 0)" in written
+
+
+@rows(
+    "sample, options, sentence",
+    [
+        ("flat", "--map S0", "--map draws into a file; name it, --out map.png"),
+        ("flat", "--out map.png", "--out is of a map; say of what, --map S0"),
+        ("flat", "--map S0 --out a.jpg", "cannot be drawn; use one of: .png, .svg"),
+        ("flat", "--map DoL --out a.png", "'DoL' is unknown; did you mean 'DoLP'"),
+        ("flat", "--map S0 --out a.png --json", "--json is of tables"),
+        ("flat", "--map S0 --out a.png --incidence 20", "give --incidence once"),
+        ("flat", "--map ADM --out a.png --stokes 1,1,0,0", "leave --stokes out"),
+        (
+            "silver",
+            "--map S0 --out a.png --wavelength 500nm --side transmitted",
+            "nothing goes through an opaque sample; leave --side out",
+        ),
+        (
+            "silver",
+            "--map S0 --out a.png --wavelength 500nm:600nm:2",
+            "a map of S0 is of one wavelength",
+        ),
+        ("flat", "--map S0 --out nowhere/a.png", "cannot be written: there is no such folder"),
+    ],
+)
+def test_what_goes_with_no_map_is_refused_before_photons_are_walked(
+    sample, options, sentence, capsys, tmp_path
+):
+    assert main(["surface", f"{sample}.toml", *FEW, *options.split()]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert sentence in told.err
+    assert not [*tmp_path.glob("*.png")]
+
+
+MIRROR = "wang-2017-table-2-alpha-0-1"
+OWN = """\
+format = 1
+description = "a pane"
+source = "a notebook"
+sample = "pane.toml"
+
+[[measurements]]
+measure = "R"
+incidence = ["0 deg", "56.31 deg"]
+text = "four per cent"
+published = [0.04, [0.2, 0.3]]
+
+[[measurements]]
+measure = "T"
+incidence = ["0 deg"]
+text = "the rest"
+"""
+
+
+def reproduced(capsys, *arguments):
+    status = main(["surface", "reproduce", *arguments])
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+def test_a_list_has_all_experiments_and_what_they_are(capsys):
+    status, out, err = reproduced(capsys, "--list", "--json")
+    assert (status, err) == (0, "")
+    names = [name for name in op.sample_names() if name.startswith("wang-2017-")]
+    assert [*json.loads(out)] == names
+    assert json.loads(out)["wang-2017-simulation-01"] == "1.5 on 2.4, alpha 0.1 each"
+    assert MIRROR in reproduced(capsys, "--list")[1]
+
+
+@COMPILED
+def test_what_is_published_stands_beside_what_is_computed(capsys):
+    status, out, err = reproduced(capsys, "own.toml", "--photons", "1e5")
+    assert (status, err) == (0, "")
+    assert out.startswith("own.toml: a pane\na notebook; 100,000 photons a direction\n")
+    assert '"four per cent"' in out
+    rows = [line.split() for line in out.splitlines()]
+    assert ["measured", "incidence", "published", "computed", "agrees"] in rows
+    (first,) = (row for row in rows if row[:4] == ["R", "0", "deg", "0.04"])
+    assert re.fullmatch(r"0\.0\d+\(\d+\)", first[4])
+    assert first[5] == "yes"
+    (second,) = (row for row in rows if row[:3] == ["R", "56.31", "deg"])
+    assert (second[3:6], second[7]) == (["0.2", "to", "0.3"], "no")
+    assert "R: share reflected" in out
+
+
+@COMPILED
+def test_json_has_all_of_it_with_all_digits(capsys):
+    status, out, err = reproduced(capsys, "own.toml", "--photons", "1e5", "--json")
+    assert (status, err) == (0, "")
+    found = json.loads(out)
+    assert found["interrupted"] is False
+    (experiment,) = found["experiments"]
+    assert (experiment["experiment"], experiment["source"]) == ("own.toml", "a notebook")
+    known = [(one["measure"], one["incidence"]) for one in experiment["measurements"]]
+    assert known == [("R", "0 deg"), ("T", "0 deg"), ("R", "56.31 deg")]
+    first, rest, _ = experiment["measurements"]
+    assert first["value"] + rest["value"] == pytest.approx(1.0, abs=1e-12)
+    assert first["published"] == [0.04, 0.04]
+    assert abs(first["value"] - 0.04) < 6.0 * first["standard_error"]
+    assert (first["agrees"], first["photons"], first["text"]) == (True, 100_000, "four per cent")
+
+
+@COMPILED
+def test_several_may_be_named(capsys):
+    given = [MIRROR, "own.toml", "--photons", "2000", "--threads", "1", "--seed", "2"]
+    status, out, _ = reproduced(capsys, *given)
+    assert status == 0
+    assert out.index(MIRROR) < out.index("own.toml: a pane")
+    assert out.count(" yes") >= 3
+
+
+@COMPILED
+def test_an_interrupt_keeps_what_is_done(capsys, monkeypatch):
+    share = reproduction.MEASURES["R"]
+
+    def one_alone(walked, measurement):
+        if walked.walks.incidence != "0 deg":
+            raise KeyboardInterrupt
+        return share.of(walked, measurement)
+
+    monkeypatch.setitem(reproduction.MEASURES, "R", share._replace(of=one_alone))
+    status, out, err = reproduced(capsys, "own.toml", "--photons", "1000")
+    assert (status, err) == (130, "optipath: interrupted\n")
+    assert "four per cent" in out
+    status, out, _ = reproduced(capsys, "own.toml", "--photons", "1000", "--json")
+    found = json.loads(out)
+    assert (status, found["interrupted"]) == (130, True)
+    assert {one["incidence"] for one in found["experiments"][0]["measurements"]} == {"0 deg"}
+
+
+@rows(
+    "given, wrong",
+    [
+        (["wang-2017-tabel-1"], "did you mean 'wang-2017-table-1'?"),
+        (["none.toml"], "'none.toml' cannot be read: No such file or directory"),
+        (["Own"], "see the names with `optipath surface reproduce --list`"),
+        (["pane.toml"], "the experiment: 'source' is missing"),
+        (["own.toml", "--photons", "0"], "photons must be a whole number of 1 or more, not 0"),
+        (["own.toml", "--photons", "0", "--json"], "photons must be a whole number of 1 or more"),
+        (["own.toml", "--photons", "x"], "'x' is no whole number"),
+        (["own.toml", "--incidence", "3"], "option '--incidence' is unknown"),
+    ],
+)
+def test_what_is_wrong_is_told(given, wrong, capsys):
+    status, out, err = reproduced(capsys, *given)
+    assert (status, out) == (2, "")
+    assert wrong in err
+
+
+def test_the_word_comes_first_and_has_a_help_of_its_own(capsys):
+    assert main(["surface", "--json", "reproduce"]) == 2
+    assert "write optipath surface reproduce first" in capsys.readouterr().err
+    assert reproduced(capsys, "--help")[1].startswith(
+        "Usage: optipath surface reproduce [OPTIONS] [NAME]..."
+    )
+    assert main(["surface", "--help"]) == 0
+    assert "optipath surface reproduce [NAME]..." in capsys.readouterr().out

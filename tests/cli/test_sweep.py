@@ -1,4 +1,4 @@
-"""``optipath sweep``: tables, and files of every form."""
+"""optipath sweep: tables, files of every form, and how names and endings are written."""
 
 import json
 import os
@@ -10,13 +10,14 @@ import pytest
 
 import optipath as op
 from optipath.cli import main, sweep_command
+from optipath.cli.block_bar import block_bar
 from optipath.sweeps.labels.table_texts import regions
+from tables import rows
 
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
 
 
 def sweep(capsys, *arguments):
@@ -31,7 +32,7 @@ def written(file):
     return dict(zip(header, np.array(rows, float).T, strict=True))
 
 
-def test_one_axis_is_a_table_with_what_light_is_told_of(capsys):
+def test_one_axis_is_a_table_two_are_a_plane_and_large_grids_are_summed_up(capsys):
     status, out, err = sweep(capsys, "malus", "--angle", "0:90:3")
     lines = [line.split() for line in out.splitlines()]
     assert (status, err) == (0, "")
@@ -40,17 +41,11 @@ def test_one_axis_is_a_table_with_what_light_is_told_of(capsys):
     assert any(line[:8] == ["45", "0.25", "0", "0.25", "0", "1", "1", "45"] for line in lines)
     assert any(line[:7] == ["90", "0", "0", "0", "0", "-", "-"] for line in lines)
     assert all(len(line) <= 80 for line in out.splitlines())
-
-
-def test_two_small_axes_are_a_plane_of_intensities(capsys):
     _, out, _ = sweep(capsys, "malus", "--angle", "0:90:3", "--intensity", "1:2:2")
     lines = [line.split() for line in out.splitlines()]
     assert ["angle", "(deg)", "\\", "intensity", "1", "2"] in lines
     assert ["45", "0.25", "0.5"] in lines
-    assert "--out FILE" in lines[-1][-5:] or "--out FILE" in out
-
-
-def test_large_grids_are_summed_up(capsys):
+    assert "--out FILE" in out
     _, out, _ = sweep(capsys, "malus", "--angle", "0:90:31", "--intensity", "1:4:31")
     assert "961 points (angle 31, intensity 31)" in out
     assert out.split("light at eye")[1].split()[:2] == ["0", "2"]
@@ -62,9 +57,6 @@ def test_json_has_axes_units_and_all_values(capsys):
     assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
     stokes = np.array(told["detectors"]["eye"]["stokes"])
     np.testing.assert_allclose(stokes[..., 0], [[0.5, 1], [0.375, 0.75], [0.125, 0.25]], atol=1e-15)
-
-
-def test_what_is_zipped_varies_along_one_axis(capsys):
     given = ["--angle", "0:60:3", "--intensity", "1:3:3", "--zip", "angle,intensity"]
     told = json.loads(sweep(capsys, "malus", *given, "--json")[1])
     intensities = [stokes[0] for stokes in told["detectors"]["eye"]["stokes"]]
@@ -86,16 +78,12 @@ def test_a_table_has_a_line_for_each_point_and_units_in_its_headings(capsys, tmp
     np.testing.assert_allclose(found["AoP (deg)"], found["angle (deg)"], atol=1e-12)
 
 
-def test_a_table_that_is_written_is_read_back_as_an_axis(capsys):
+def test_a_table_that_is_written_is_read_back_as_an_axis_or_as_points(capsys):
     sweep(capsys, "malus", "--angle", "0:60:3", "--out", "result.csv")
     told = json.loads(sweep(capsys, "malus", "--angle", "@result.csv", "--json")[1])
     assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
-
-
-def test_the_points_of_a_table_are_given_again(capsys):
-    given = ["--delta", "10:20:2", "--rho", "5:10:2", "--out", "result.csv"]
-    sweep(capsys, "npgr026", *given)
-    told = json.loads(sweep(capsys, "npgr026", "--coords", "result.csv", "--json")[1])
+    sweep(capsys, "npgr026", "--delta", "10:20:2", "--rho", "5:10:2", "--out", "points.csv")
+    told = json.loads(sweep(capsys, "npgr026", "--coords", "points.csv", "--json")[1])
     assert told["axes"]["delta"]["values"] == [10.0, 10.0, 20.0, 20.0]
     assert told["axes"]["rho"] == {"dimension": "point", "unit": "deg", "values": [5, 10, 5, 10]}
 
@@ -105,14 +93,12 @@ def test_columns_of_a_file_vary_together(capsys, tmp_path):
     given = ["--coords", "points.csv", "--case", "8", "--json"]
     stokes = json.loads(sweep(capsys, "npgr026", *given)[1])["detectors"]["E"]["stokes"]
     path = op.load_preset("npgr026", case="8")
-    alone = [
-        path.trace(delta=delta, rho=rho).stokes
-        for delta, rho in (("10 deg", "0 deg"), ("20 deg", "5 deg"))
-    ]
+    points = (("10 deg", "0 deg"), ("20 deg", "5 deg"))
+    alone = [path.trace(delta=delta, rho=rho).stokes for delta, rho in points]
     np.testing.assert_allclose(stokes, alone, rtol=1e-13, atol=1e-15)
 
 
-@pytest.mark.parametrize("name", ["result.zarr", "result.nc"])
+@rows("name", ["result.zarr", "result.nc"])
 def test_stores_have_the_axes_in_the_units_given(name, capsys):
     xarray = pytest.importorskip("xarray")
     given = ["--delta", "0:90:4", "--filter", "0:90:3", "--out", name]
@@ -183,16 +169,16 @@ def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, mo
     assert numbers == [2, 3]
 
 
-@pytest.mark.parametrize("name", ["a.csv", "a.json", "a.nc", "a.zarr"])
-def test_nothing_that_is_there_is_overwritten(name, capsys, tmp_path):
-    if name in ("a.nc", "a.zarr"):
-        pytest.importorskip("xarray")
-    (tmp_path / name).write_text("mine", "utf-8")
-    status, out, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", name)
-    assert (status, out, len(err.splitlines())) == (2, "", 1)
-    assert name in err
-    assert (tmp_path / name).read_text("utf-8") == "mine"
-    assert [file.name for file in tmp_path.iterdir()] == [name]
+def test_nothing_that_is_there_is_overwritten(capsys, tmp_path):
+    pytest.importorskip("xarray")
+    for name in ("a.csv", "a.json", "a.nc", "a.zarr"):
+        (tmp_path / name).write_text("mine", "utf-8")
+        status, out, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", name)
+        assert (status, out, len(err.splitlines())) == (2, "", 1)
+        assert name in err
+        assert (tmp_path / name).read_text("utf-8") == "mine"
+        (tmp_path / name).unlink()
+        assert not [*tmp_path.iterdir()]
 
 
 def test_a_table_is_whole_or_not_there(capsys, monkeypatch, tmp_path):
@@ -221,8 +207,8 @@ def test_all_that_is_wrong_with_options_and_values_is_told_at_once(capsys):
         assert part in err
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         ([], "a sweep has an axis at least; give --angle START:STOP:COUNT or --coords FILE.csv"),
         (["--angle", "45"], "a sweep has an axis at least"),
@@ -240,7 +226,13 @@ def test_a_fault_is_one_sentence(given, sentence, capsys):
     assert len(err.splitlines()) == 1
 
 
-@pytest.mark.parametrize("missing", ["xarray", "dask", "zarr"])
+@pytest.mark.parametrize(
+    "missing",
+    [
+        "xarray",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("dask", "zarr")),
+    ],
+)
 def test_a_missing_extra_is_told_with_its_cure(missing):
     program = (
         f"import sys; sys.modules['{missing}'] = None; from optipath.cli.command import main; "
@@ -260,9 +252,63 @@ def test_help_says_how_several_values_are_written(capsys):
     assert sweep_command.sweep.name == "sweep"
 
 
-@pytest.mark.parametrize("most", [1, 2, 5, 6, 7, 100])
+@rows("most", [1, 2, 5, 6, 7, 100])
 def test_regions_cover_a_grid_in_the_order_of_its_points(most):
     points = np.arange(2 * 3 * 4).reshape(2, 3, 4)
     parts = [points[region].ravel() for region in regions(points.shape, most)]
     assert all(len(part) <= most for part in parts)
     np.testing.assert_array_equal(np.concatenate(parts), points.ravel())
+
+
+ANGLE = ("--angle", "0:90:3")
+
+
+def test_endings_and_names_are_taken_as_they_are_written(capsys, tmp_path):
+    assert sweep(capsys, "malus", *ANGLE, "--out", "a.csv/")[0] == 0
+    assert (tmp_path / "a.csv").read_text("utf-8").startswith("angle (deg),S0,")
+    for names in ("sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"):
+        given = ["--sky-angle", "0:30:3", "--theta", "0:60:3", "--zip", names, "--json"]
+        status, out, err = sweep(capsys, "sky-and-window", *given)
+        assert (status, err) == (0, "")
+        dimensions = {axis["dimension"] for axis in json.loads(out)["axes"].values()}
+        assert dimensions == {"sky_angle_theta"}
+
+
+def test_an_interrupt_says_that_blocks_of_netcdf_are_beside_it(capsys):
+    def interrupted():
+        with block_bar("x.nc") as tell:
+            tell(1, 3)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "optipath: 1 of 3 blocks is in .x.nc.blocks already"
+    assert lines[1].startswith("optipath: 1 of 3 blocks is in .x.nc.blocks; the same command")
+
+
+def test_a_choice_of_places_takes_one_word(capsys):
+    for word in ("light,between,eye", "@places.csv", "light:eye:2"):
+        status, _, err = sweep(capsys, "npgr026", "--delta", "0:90:3", "--place", word)
+        assert status == 2
+        told_of_it = f"--place takes one word of light, between and eye, and '{word}' is several"
+        assert err == f"optipath: {told_of_it}; give one, and write a command for each\n"
+
+
+def test_faults_of_values_and_of_cells_are_told_as_what_they_are(capsys, tmp_path):
+    for text in ("nan", "NaN", "10, nan, 30"):
+        _, _, err = sweep(capsys, "npgr026", "--delta", text)
+        cures = err.count("cannot be 'nan', which is not finite; give an angle such as '45 deg'")
+        assert cures + err.count("cannot be 'NaN', which is not finite")
+        assert "word" not in err
+    file = tmp_path / "a.csv"
+    file.write_text("delta (deg)\n10\nnan\n30\n", "utf-8")
+    _, _, err = sweep(capsys, "npgr026", "--delta", "@a.csv")
+    assert err.startswith("optipath: a.csv: parameter 'delta' cannot be 'nan'")
+    file.write_text("delta\n10\n20\n30\n", "utf-8")
+    status, _, err = sweep(capsys, "npgr026", "--delta", "@a.csv")
+    assert status == 2
+    assert err == (
+        "optipath: a.csv: column 'delta' has no unit; write its name as 'delta (deg)' if that is "
+        "its unit\n"
+    )

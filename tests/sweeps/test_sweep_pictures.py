@@ -9,6 +9,7 @@ import xarray as xr
 import optipath as op
 import optipath.sweeps.sweep_pictures
 from optipath.errors import OptipathError
+from tables import rows
 
 SWEEP = op.load_preset("malus").sweep(angle="0 deg:90 deg:7", intensity=[1.0, 2.0])
 SPLIT = op.PathGraph()
@@ -88,6 +89,7 @@ def test_which_of_several_detectors_is_asked():
 
 
 def test_the_sphere_is_coloured_by_the_coordinate(monkeypatch):
+    assert SWEEP.isel(intensity=0).optipath.poincare().name == "3d"
     told = {}
     monkeypatch.setattr(op.plots, "poincare", lambda *given, **by: told.update(by, given=given))
     SWEEP.isel(intensity=0).optipath.poincare()
@@ -96,31 +98,33 @@ def test_the_sphere_is_coloured_by_the_coordinate(monkeypatch):
     np.testing.assert_allclose(light.intensity[:2], [0.5, 0.5 * np.cos(np.radians(15)) ** 2])
     np.testing.assert_allclose(told["by"], np.linspace(0.0, 90.0, 7))
     assert told["label"] == "angle (°)"
-
-
-def test_a_sphere_is_drawn():
-    ax = SWEEP.isel(intensity=0).optipath.poincare()
-    assert ax.name == "3d"
-
-
-def test_components_that_are_not_read_are_no_place_on_the_sphere():
     sweep = op.load_preset("malus").reading("linear").sweep(angle="0 deg:90 deg:3")
     with pytest.raises(OptipathError, match="components that are not read"):
         sweep.optipath.poincare()
 
 
-def test_what_is_wrong_is_told():
-    with pytest.raises(OptipathError, match=r"has 'angle' and 'intensity'; choose a value"):
-        SWEEP.optipath.curve()
-    with pytest.raises(OptipathError, match="coordinate 'angel' is unknown"):
-        SWEEP.optipath.curve("S0", "angel")
-    with pytest.raises(OptipathError, match="no dimension with several values"):
-        SWEEP.isel(angle=0, intensity=0).optipath.curve()
-    with pytest.raises(OptipathError, match="variable 'DoP' is unknown"):
-        SWEEP[["S0"]].isel(intensity=0).optipath.curve("DoP")
-    words = op.load_preset("npgr026").sweep(filter=["none", "30 deg"])
-    with pytest.raises(OptipathError, match="has words among its values"):
-        words.optipath.curve()
+@rows(
+    "draw, told",
+    [
+        (SWEEP.optipath.curve, r"has 'angle' and 'intensity'; choose a value"),
+        (lambda: SWEEP.optipath.curve("S0", "angel"), "coordinate 'angel' is unknown"),
+        (
+            SWEEP.isel(angle=0, intensity=0).optipath.curve,
+            "no dimension with several values",
+        ),
+        (
+            lambda: SWEEP[["S0"]].isel(intensity=0).optipath.curve("DoP"),
+            "variable 'DoP' is unknown",
+        ),
+        (
+            op.load_preset("npgr026").sweep(filter=["none", "30 deg"]).optipath.curve,
+            "has words among its values",
+        ),
+    ],
+)
+def test_what_is_wrong_is_told(draw, told):
+    with pytest.raises(OptipathError, match=told):
+        draw()
 
 
 def test_to_register_twice_is_no_warning():

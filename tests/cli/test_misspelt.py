@@ -1,15 +1,38 @@
-"""Options that a command does not have are told where they belong."""
+"""Words and options without a place are told where they belong."""
 
 import shlex
 
-import pytest
-
 from optipath.cli import main
+from tables import rows
 
 
-@pytest.mark.parametrize(
-    ("line", "told"),
+@rows(
+    "line, told",
     [
+        (
+            "run npgr026 --filter 30 deg",
+            "'deg' is cut off from its number; quote them: --filter '30 deg'",
+        ),
+        ("run npgr026 --filter=30 degrees", "quote them: --filter '30 deg'"),
+        ("run npgr026 --case 1 2", "give each case its own: --case 1 --case 2"),
+        ("run npgr026 --delta 30 malus", "'malus' belongs to no option; leave it out, or quote"),
+        ("show npgr026 malus", "'malus' belongs to no option; leave it out, or quote"),
+        ("run npgr026 delta=30", "'delta=30' is no option; write --delta 30"),
+        ("run npgr026 —delta 30", "'—delta' is no option; write --delta 30"),
+        ("run npgr026 delta '30 deg'", "'delta' is no option; write --delta '30 deg'"),
+        ("run npgr026 json", "'json' is no option; write --json\n"),
+        ("run npgr026 delta --rho 3", "'delta' is no option; write --delta VALUE"),
+        ("run npgr026 --delta= 30", "'30' is cut off from --delta=; write --delta 30"),
+        ("run --hepl", "option '--hepl' is unknown; did you mean '--help'?"),
+        ("run npgr026 -delta 30", "option '-delta' is unknown; did you mean '--delta'?"),
+        ("run npgr026 -delta=30", "option '-delta' is unknown; did you mean '--delta'?"),
+        ("run npgr026 --del 30", "option '--del' is unknown; did you mean '--delta'?"),
+        ("run npgr026 --n1 0,170", "write '0.170' for one, and '0, 170' for two"),
+        ("run npgr026 --n1 0,17", "write '0.17' for one, and '0, 17' for two"),
+        (
+            "run npgr026 --delta '30,5 deg'",
+            "write '30.5 deg' for one, and '30 deg, 5 deg' for two",
+        ),
         ("run --case 8 npgr026", "unknown here; write it at the end: optipath run npgr026 --case"),
         ("run --detla 30 npgr026", "here; write it at the end: optipath run npgr026 --delta ..."),
         ("run --case 8", "unknown here; write it at the end: optipath run PRESET --case ..."),
@@ -26,17 +49,19 @@ from optipath.cli import main
         ("chart npgr026 --from a.json", "it stands alone: optipath chart --from a.json"),
     ],
 )
-def test_an_option_without_a_place_is_told_where_it_belongs(capsys, line, told):
+def test_a_word_or_an_option_without_a_place_is_told_where_it_belongs(capsys, line, told):
     assert main(shlex.split(line)) == 2
     error = capsys.readouterr().err
-    assert error.startswith("optipath: option ")
+    assert error.startswith("optipath: ")
     assert told in error
+    if "unknown" in told or "stands alone" in told:
+        assert error.startswith("optipath: option ")
     assert len(error.splitlines()) == 1
 
 
-@pytest.mark.parametrize("command", ["run", "explain"])
-@pytest.mark.parametrize(
-    ("words", "meant"),
+@rows("command", ["run", "explain"])
+@rows(
+    "words, meant",
     [
         ("--import mine own.toml", "--import mine {} own.toml"),
         ("own.toml --import mine", "--import mine {} own.toml"),

@@ -1,22 +1,26 @@
 """Sweeps that are kept in a Zarr store or a file of NetCDF, and go on where they stopped."""
 
 import os
+import pickle
 import shutil
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-
-pytest.importorskip("zarr")
-pytest.importorskip("h5netcdf")
-
 import xarray as xr
 
 import optipath as op
 from optipath.errors import JobError
+from optipath.sweeps.axes.read_axes import grid_of
+from optipath.sweeps.chunked.in_chunks import swept_in_chunks
 from optipath.sweeps.kept.sweep_block import SweepBlock
+from optipath.sweeps.kept.sweep_job import SweepJob
+from tables import rows
 
+pytest.importorskip("zarr")
+pytest.importorskip("h5netcdf")
+pytest.importorskip("dask")
 ANGLES = np.linspace(0.0, 1.5, 11)
 DELTAS = np.linspace(0.1, 1.4, 4)
 
@@ -64,8 +68,18 @@ def assert_same_bits(found, expected):
         assert found[name].to_numpy().tobytes() == each.to_numpy().tobytes()
 
 
-@pytest.mark.parametrize("scheduler", [None, "synchronous", "threads"])
-def test_what_is_kept_is_the_sweep_in_memory(store, scheduler):
+def test_what_is_kept_is_the_sweep_in_memory_and_opened_when_it_is_there(store, computed):
+    found = kept(str(store))
+    assert_same_bits(found, swept())
+    assert found.S0.chunks == ((2, 2), (5, 5, 1))
+    assert sorted(computed) == list(range(6))
+    assert_same_bits(kept(store), swept())
+    assert len(computed) == 6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheduler", ["synchronous", "threads"])
+def test_what_any_scheduler_keeps_is_the_sweep_in_memory(store, scheduler):
     assert_same_bits(kept(store, scheduler=scheduler), swept())
 
 
@@ -74,21 +88,6 @@ def test_a_precision_that_stores_do_not_have_is_refused(store):
     with pytest.raises(op.ParameterError, match="stores have no numbers of dtype 'longdouble'"):
         kept(store, composer=op.Composer(dtype="longdouble"))
     assert not store.exists()
-
-
-def test_what_is_kept_is_read_block_by_block(store):
-    assert kept(store).S0.chunks == ((2, 2), (5, 5, 1))
-
-
-def test_a_name_may_be_a_text(tmp_path):
-    assert_same_bits(kept(str(tmp_path / "sweep.zarr")), swept())
-
-
-def test_a_sweep_that_is_there_is_opened_and_not_computed(store, computed):
-    kept(store)
-    assert sorted(computed) == list(range(6))
-    assert_same_bits(kept(store), swept())
-    assert len(computed) == 6
 
 
 def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, computed):
@@ -108,30 +107,20 @@ def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, compu
     assert sorted(computed) == list(range(6))
 
 
-@pytest.mark.parametrize(
-    "other",
-    [
-        {"n": 1.6},
-        {"delta": DELTAS + 1e-15},
-        {"chunks": 3},
-        {"composer": op.Composer(dtype="float32")},
-    ],
-)
-def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store, other):
+def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store):
     kept(store)
-    with pytest.raises((JobError, op.ParameterError), match=store.name):
-        kept(store, **other)
+    others = [{"n": 1.6}, {"delta": DELTAS + 1e-15}, {"chunks": 3}]
+    for other in (*others, {"composer": op.Composer(dtype="float32")}):
+        with pytest.raises((JobError, op.ParameterError), match=store.name):
+            kept(store, **other)
     assert_same_bits(kept(store), swept())
 
 
-def test_what_is_no_sweep_is_refused_and_left_alone(store):
+def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path):
     store.write_text("mine")
     with pytest.raises((JobError, op.ParameterError), match="is there"):
         kept(store)
     assert store.read_text() == "mine"
-
-
-def test_a_pipe_or_a_device_in_the_place_of_a_file_is_refused_and_not_opened(tmp_path):
     os.mkfifo(tmp_path / "pipe.nc")
     (tmp_path / "device.nc").symlink_to("/dev/zero")
     for name in ("pipe.nc", "device.nc"):
@@ -139,9 +128,11 @@ def test_a_pipe_or_a_device_in_the_place_of_a_file_is_refused_and_not_opened(tmp
             kept(tmp_path / name)
 
 
-def test_the_store_beside_a_file_is_gone_when_the_file_is_there(tmp_path):
+def test_the_store_beside_a_file_is_gone_when_the_file_is_there_and_the_users_own_stays(tmp_path):
+    kept(tmp_path / "sweep.nc.zarr")
     kept(tmp_path / "sweep.nc")
-    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
+    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
+    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())
 
 
 def test_a_file_that_cannot_be_written_whole_is_not_there(tmp_path, monkeypatch):
@@ -182,13 +173,9 @@ def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
     assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
 
 
-def test_a_store_of_the_users_own_beside_a_file_stays(tmp_path):
-    kept(tmp_path / "sweep.nc.zarr")
-    kept(tmp_path / "sweep.nc")
-    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())
-
-
-@pytest.mark.parametrize("place", [0, 0.01, 0.05, 0.3])
+@pytest.mark.parametrize(
+    "place", [0.01, *(pytest.param(place, marks=pytest.mark.slow) for place in (0, 0.05, 0.3))]
+)
 def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     file, angles = tmp_path / "sweep.nc", np.linspace(0.0, 1.5, 1000)
     op.load_preset("malus").sweep(angle=angles, store=file).close()
@@ -207,16 +194,13 @@ def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     assert file.read_bytes() == content
 
 
-@pytest.mark.parametrize("store", ["sweep.csv", "sweep", "", 3, True])
-def test_a_store_of_no_known_form_is_refused_with_one_that_is(store):
-    with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
-        kept(store)
-
-
-@pytest.mark.parametrize("store", [".zarr", ".nc"])
-def test_an_ending_alone_is_no_name(store):
-    with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
-        kept(store)
+def test_a_store_of_no_known_form_is_refused_with_one_that_is():
+    for store in ("sweep.csv", "sweep", "", 3, True):
+        with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
+            kept(store)
+    for store in (".zarr", ".nc"):
+        with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
+            kept(store)
 
 
 def test_what_was_kept_lends_its_axes_in_their_order(store):
@@ -236,8 +220,8 @@ def test_what_was_kept_can_be_written_elsewhere_in_any_version(tmp_path):
         assert_same_bits(xr.open_zarr(copy), swept())
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
+@rows(
+    "given, told",
     [
         ({"scheduler": "threads"}, "scheduler= is for"),
         ({"progress": True}, "progress= is for"),
@@ -256,9 +240,13 @@ def test_a_bar_ends_with_all_blocks(store, capsys):
     assert shown.endswith(f"[{'#' * 40}] 6 of 6 blocks\n")
 
 
-def test_numbers_of_numpy_and_of_python_are_one_sweep(tmp_path, computed):
+def test_a_store_that_was_moved_is_still_the_sweep_of_numbers_of_numpy_and_of_python(
+    tmp_path, computed
+):
     kept(tmp_path / "a.zarr")
     kept(tmp_path / "a.zarr", n=np.float64(1.5), delta=DELTAS.tolist())
+    shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
+    assert_same_bits(kept(tmp_path / "b.zarr"), swept())
     assert len(computed) == 6
 
 
@@ -274,8 +262,78 @@ def test_several_detectors_are_kept(store):
     assert np.array_equal(found.S0, path.sweep(share=[0.1, 0.2, 0.3]).S0)
 
 
-def test_a_store_that_was_moved_is_still_the_sweep(tmp_path, computed):
-    kept(tmp_path / "a.zarr")
-    shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
-    assert_same_bits(kept(tmp_path / "b.zarr"), swept())
-    assert len(computed) == 6
+def job_of(chunks=4, **given):
+    path = op.load_preset("npgr026")
+    plan = path.compose()
+    axes = {"delta": np.linspace(0.0, 1.0, 10), "phi": np.linspace(0.0, 1.0, 6)}
+    grid = grid_of(plan.inputs, {**axes, **given})
+    return SweepJob.of(swept_in_chunks(path, plan, grid, chunks))
+
+
+def test_blocks_are_disjoint_and_cover_the_grid():
+    job, seen = job_of(), np.zeros((10, 6), int)
+    for number in range(job.blocks):
+        seen[job.region(number)] += 1
+    assert job.blocks == 6
+    assert np.all(seen == 1)
+
+
+def test_a_block_has_every_variable_in_its_part():
+    job = job_of()
+    found = job.compute(5)
+    assert found.keys() == job.arrays.keys()
+    for region, values in found.values():
+        assert region == (slice(8, 10), slice(4, 6))
+        assert values.shape == (2, 2)
+
+
+def test_a_job_that_was_pickled_is_the_same():
+    job = job_of()
+    there = pickle.loads(pickle.dumps(job))
+    assert there.identity == job.identity
+    assert there.compute(2)["S1"][1].tobytes() == job.compute(2)["S1"][1].tobytes()
+
+
+def test_the_same_values_have_one_identity():
+    assert job_of(n1=0.2).identity == job_of(n1=np.float64(0.2)).identity
+
+
+@rows(
+    "other",
+    [
+        {"n1": 0.2 + 1e-15},
+        {"phi": np.nextafter(np.linspace(0.0, 1.0, 6), 2.0)},
+        {"phi": np.degrees(np.linspace(0.0, 1.0, 6)).tolist()},
+        {"chunks": 5},
+        {"filter": "vertical"},
+    ],
+)
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_whatever_changes_the_bits_is_another_identity(other):
+    if isinstance(other.get("phi"), list):
+        other = {"phi": [f"{value} deg" for value in other["phi"]]}
+    assert job_of(**{"n1": 0.2, **other}).identity != job_of(n1=0.2).identity
+
+
+def test_one_value_in_two_units_is_two_sweeps():
+    assert job_of(rho="10 deg").identity != job_of(rho=np.radians(10.0)).identity
+    assert job_of(rho=0.5).identity == job_of(rho=np.array(0.5)).identity
+
+
+def test_the_first_line_that_differs_says_what_is_another():
+    lines = zip(*(job_of(n1=n).identity.splitlines() for n in (0.2, 0.3)), strict=True)
+    assert [pair for pair in lines if pair[0] != pair[1]] == [("fixed n1: 0.2", "fixed n1: 0.3")]
+
+
+def test_a_block_is_sent_without_the_axes_of_the_others():
+    angle = np.linspace(0.0, 1.0, 20_000)
+    path = op.load_preset("malus")
+    plan = path.compose()
+    grid = grid_of(plan.inputs, {"angle": angle})
+    job = SweepJob.of(swept_in_chunks(path, plan, grid, 100))
+    whole, part = (len(pickle.dumps(each)) for each in (job, job.part(7)))
+    assert whole > angle.nbytes
+    assert part < angle.nbytes / 10
+    (region,), numbers = job.part(7).compute(7)["S0"]
+    assert region == slice(700, 800)
+    assert numbers.tolist() == path.sweep(angle=angle[region]).S0.values.tolist()

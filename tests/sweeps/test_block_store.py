@@ -19,6 +19,7 @@ from optipath.errors import JobError, StoreWarning
 from optipath.sweeps.blocks import block_store
 from optipath.sweeps.blocks.block_marks import clear
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
+from tables import rows
 
 HUGE = 1 << 40
 
@@ -71,8 +72,8 @@ def another_folder(store):
     (store / "thesis.tex").write_text("light")
 
 
-@pytest.mark.parametrize(
-    ("put", "told"),
+@rows(
+    "put, told",
     [
         (other_job, "holds blocks of another job: it has 'other powers', where this one has 'po"),
         (
@@ -92,6 +93,7 @@ def test_what_stands_in_the_place_is_told_and_left_as_it_is(store, put, told):
     with pytest.raises(JobError, match=told):
         keep_blocks(Powers(2), store)
     assert content_of(store) == before
+    clear(store)
 
 
 def lose(file):
@@ -166,18 +168,20 @@ DAMAGES = [
 ]
 
 
-@pytest.mark.parametrize("name", ["power/3.0", "total/1", "blocks/done/1.0"])
-def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path, name):
-    job = Powers(3, log=str(tmp_path / "log"))
+def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path):
+    job, count = Powers(3, log=str(tmp_path / "log")), 0
     keep_blocks(job, store, "synchronous")
     before = content_of(store)
-    for count, harm in enumerate(DAMAGES, 1):
-        harm(store / name)
-        with pytest.warns(StoreWarning, match=r"blocks of '.*' are damaged and computed anew: 1$"):
-            keep_blocks(job, store, "synchronous")
-        assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count]
-        assert content_of(store) == before
-        assert not [each for each in store.rglob("*") if each.is_symlink()]
+    for name in ("power/3.0", "total/1", "blocks/done/1.0"):
+        for harm in DAMAGES:
+            harm(store / name)
+            count += 1
+            told = r"blocks of '.*' are damaged and computed anew: 1$"
+            with pytest.warns(StoreWarning, match=told):
+                keep_blocks(job, store, "synchronous")
+            assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count]
+            assert content_of(store) == before
+            assert not [each for each in store.rglob("*") if each.is_symlink()]
 
 
 def test_a_lost_chunk_is_damage_and_a_lost_mark_is_a_block_that_is_not_done(store, tmp_path):
@@ -194,13 +198,14 @@ def test_a_lost_chunk_is_damage_and_a_lost_mark_is_a_block_that_is_not_done(stor
 
 
 @pytest.mark.filterwarnings("ignore::optipath.errors.StoreWarning")
-def test_every_bit_of_a_store_is_looked_at(store):
+@pytest.mark.parametrize("step", [pytest.param(25, marks=pytest.mark.slow), 401])
+def test_every_bit_of_a_store_is_looked_at(store, step):
     job = Powers(1)
     keep_blocks(job, store)
     accepted, mark = [], (store / "blocks" / "done" / "0.0").read_bytes()
     for file in sorted(each for each in store.rglob("*") if each.is_file()):
         content = file.read_bytes()
-        for place in range(0, 8 * len(content), 25):  # It has no factor in common with 8.
+        for place in range(0, 8 * len(content), step):  # It has no factor in common with 8.
             damaged = bytearray(content)
             damaged[place // 8] ^= 1 << place % 8
             file.write_bytes(damaged)
@@ -233,7 +238,7 @@ def test_of_many_damaged_blocks_twenty_are_named(store):
         keep_blocks(Powers(25), store)
 
 
-@pytest.mark.parametrize(
+@rows(
     "name",
     [
         *(".zgroup", ".zmetadata", ".zattrs", "blocks/.zgroup", "blocks/files", "called/.zattrs"),
@@ -272,13 +277,15 @@ def test_a_damaged_record_is_told_and_nothing_is_changed(store):
         keep_blocks(Powers(2), store)
 
 
-@pytest.mark.parametrize("content", ["{", "[]", '{"shape": [3]}'])
-@pytest.mark.parametrize("name", [".zmetadata", "power/.zarray"])
-def test_metadata_that_are_garbage_are_told(store, name, content):
+def test_metadata_that_are_garbage_are_told(store):
     keep_blocks(Powers(2), store)
-    (store / name).write_text(content)
-    with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone"):
-        keep_blocks(Powers(2), store)
+    for name in (".zmetadata", "power/.zarray"):
+        whole = (store / name).read_bytes()
+        for content in ("{", "[]", '{"shape": [3]}'):
+            (store / name).write_text(content)
+            with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone"):
+                keep_blocks(Powers(2), store)
+        (store / name).write_bytes(whole)
 
 
 def test_attributes_may_be_added_by_hand(store):
@@ -306,16 +313,13 @@ def test_an_empty_folder_and_a_link_to_one_are_taken(tmp_path):
     assert marked(tmp_path / "empty") == {0, 1}
 
 
-def test_a_store_in_no_folder_is_told(tmp_path):
+def test_a_store_in_no_folder_or_without_a_name_is_told(tmp_path):
     with pytest.raises(JobError, match=r"there is no folder '.*nowhere' for a store; make it"):
         keep_blocks(Powers(2), tmp_path / "nowhere" / "a.zarr")
     assert not [*tmp_path.iterdir()]
-
-
-@pytest.mark.parametrize("name", [3, "", None])
-def test_what_is_no_name_is_told(name):
-    with pytest.raises(JobError, match="name"):
-        keep_blocks(Powers(2), name)
+    for name in (3, "", None):
+        with pytest.raises(JobError, match="name"):
+            keep_blocks(Powers(2), name)
 
 
 def test_who_is_interrupted_in_making_a_store_leaves_none(store, monkeypatch):
@@ -341,27 +345,28 @@ def test_half_a_store_of_who_was_killed_is_in_nobodys_way(store, monkeypatch):
     assert marked(store) == {0, 1}
 
 
-@pytest.mark.parametrize("title", ["powers", "other powers"])
-def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monkeypatch, title):
+def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monkeypatch):
     make = block_store.make_group
 
-    def slower(job, *given):
-        make(job, *given)
-        monkeypatch.setattr(block_store, "make_group", make)
-        block_store.BlockStore.of(Powers(2, title=title), store)
+    def together_with(title):
+        def slower(job, *given):
+            make(job, *given)
+            monkeypatch.setattr(block_store, "make_group", make)
+            block_store.BlockStore.of(Powers(2, title=title), store)
 
-    monkeypatch.setattr(block_store, "make_group", slower)
-    if title == "powers":
+        monkeypatch.setattr(block_store, "make_group", slower)
         keep_blocks(Powers(2), store)
-        assert marked(store) == {0, 1}
-    else:
-        with pytest.raises(JobError, match="another job"):
-            keep_blocks(Powers(2), store)
+
+    together_with("powers")
+    assert marked(store) == {0, 1}
+    clear(store)
+    with pytest.raises(JobError, match="another job"):
+        together_with("other powers")
     assert [file.name for file in store.parent.iterdir()] == [store.name]
 
 
-@pytest.mark.parametrize("scheduler", ["synchronous", "threads"])
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES, errno.EROFS])
+@rows("scheduler", ["synchronous", "threads"])
+@rows("number", [errno.ENOSPC, errno.EACCES, errno.EROFS])
 def test_a_disk_that_takes_no_more_is_told_and_finished_blocks_stay(
     store, monkeypatch, number, scheduler
 ):
@@ -381,6 +386,7 @@ def test_a_disk_that_takes_no_more_is_told_and_finished_blocks_stay(
     assert before >= ({0, 1, 2} if scheduler == "synchronous" else set())
     keep_blocks(Powers(5), store)
     assert marked(store) == {*range(5)}
+    clear(store)
 
 
 def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):
@@ -398,15 +404,16 @@ def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):
     assert powers(2).shape == found.shape
 
 
-@pytest.mark.parametrize("stood", [True, False])
-def test_a_new_store_without_blocks_goes_where_its_job_fails(store, stood):
-    if stood:
-        store.mkdir()
-    with pytest.raises(op.ValueFault):
-        keep_blocks(Powers(3, fails_at=0), store, "synchronous")
-    assert store.exists() == stood
-    keep_blocks(Powers(2, title="mended"), store, "synchronous")
-    assert marked(store) == {0, 1}
+def test_a_new_store_without_blocks_goes_where_its_job_fails(store):
+    for stood in (True, False):
+        if stood:
+            store.mkdir()
+        with pytest.raises(op.ValueFault):
+            keep_blocks(Powers(3, fails_at=0), store, "synchronous")
+        assert store.exists() == stood
+        keep_blocks(Powers(2, title="mended"), store, "synchronous")
+        assert marked(store) == {0, 1}
+        clear(store)
 
 
 def test_a_store_that_was_there_before_or_has_a_block_stays(store):

@@ -1,0 +1,438 @@
+"""Blocks that are kept, by threads, processes and clusters, of which workers die."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from multiprocessing import resource_tracker
+from multiprocessing.resource_tracker import ResourceTracker
+from pathlib import Path
+
+import distributed
+import numpy as np
+import psutil
+import pytest
+import xarray as xr
+
+import optipath as op
+from large_jobs import Powers, WhoComputes, computed, marked, powers
+from optipath.errors import JobError
+from optipath.sweeps.blocks.block_store import BlockStore
+from optipath.sweeps.blocks.cluster import _interrupts_put_off
+from optipath.sweeps.blocks.executors import AtOnce
+from optipath.sweeps.blocks.keep_blocks import _handed_out, _keep_block, keep_blocks
+from optipath.sweeps.blocks.workers import Workers
+from optipath.sweeps.kept.sweep_block import SweepBlock
+from tables import rows
+
+pytest.importorskip("zarr")
+pytest.importorskip("distributed")
+
+
+@pytest.fixture
+def log(tmp_path):
+    return tmp_path / "log"
+
+
+@pytest.fixture
+def store(tmp_path):
+    return tmp_path / "powers.zarr"
+
+
+def test_all_blocks_are_computed_once_and_kept(tmp_path):
+    for scheduler in (None, "synchronous", "threads"):
+        log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
+        assert keep_blocks(Powers(7, str(log)), store, scheduler) == store
+        assert sorted(computed(log)) == list(range(7))
+        with xr.open_zarr(store) as found:
+            assert np.array_equal(found.power, powers(7))
+            assert np.array_equal(found.total, powers(7).reshape(7, -1).sum(axis=1))
+
+
+def test_a_store_is_a_dataset_with_names_and_units_and_without_the_record(store):
+    keep_blocks(Powers(3), store)
+    with xr.open_zarr(store) as found:
+        assert {*found.data_vars} == {"power", "total"}
+        assert {*found.coords} == {"number", "called"}
+        assert found.power.dims == ("number", "exponent")
+        assert found.power.attrs == {"units": "1", "long_name": "power"}
+        assert found.number.attrs == {"units": "m"}
+        assert found.called.values.tolist() == ["itself", "square", "cube"]
+        assert found.attrs == {"path": "[vertices]\n", "title": "powers"}
+        assert found.power.dtype == "float64"
+        assert found.total.dtype == "int64"
+
+
+def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(store, log):
+    with pytest.raises(op.ValueFault, match="block 4 is dark"):
+        keep_blocks(Powers(7, str(log), fails_at=4), store, "synchronous")
+    assert marked(store) == {0, 1, 2, 3}
+    with xr.open_zarr(store) as found:
+        assert np.isnan(found.power).values.sum() == 3 * powers(1).size
+    keep_blocks(Powers(7, str(log)), store, "synchronous")
+    assert computed(log) == [0, 1, 2, 3, 4, 4, 5, 6]
+
+
+def test_an_error_of_a_block_travels_as_a_value_since_clusters_log_what_is_raised(store):
+    job = Powers(2, fails_at=1)
+    fault = _keep_block(job, BlockStore.of(job, store), 1)
+    assert isinstance(fault, op.ValueFault)
+    assert str(fault) == "block 1 is dark"
+
+
+def test_an_error_in_a_thread_ends_the_job(store, log):
+    with pytest.raises(op.ValueFault, match="block 4 is dark"):
+        keep_blocks(Powers(500, str(log), fails_at=4), store, "threads")
+    assert len(computed(log)) < 50
+
+
+@rows("scheduler", ["synchronous", "threads"])
+def test_who_interrupts_keeps_what_is_done(tmp_path, scheduler):
+    log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
+
+    def interrupt(done, _):
+        if done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        keep_blocks(Powers(40, str(log)), store, scheduler, interrupt)
+    before = marked(store)
+    assert 3 <= len(before) < 40
+    already = len(computed(log))
+    keep_blocks(Powers(40, str(log)), store, scheduler)
+    assert sorted(computed(log)[already:]) == sorted({*range(40)} - before)
+
+
+def test_progress_is_told_from_what_was_done_to_the_end(store):
+    told = []
+    with pytest.raises(op.ValueFault):
+        keep_blocks(Powers(4, fails_at=2), store, "synchronous", lambda *how: told.append(how))
+    keep_blocks(Powers(4), store, "synchronous", lambda *how: told.append(how))
+    assert told == [(0, 4), (1, 4), (2, 4), (2, 4), (3, 4), (4, 4)]
+    keep_blocks(Powers(4), store, "synchronous", lambda *how: told.append(how))
+    assert told[6:] == [(4, 4)]
+
+
+class Counting(AtOnce):
+    """Counts what it is given."""
+
+    given = 0
+
+    def submit(self, fn, /, *args, **kwargs):
+        self.given += 1
+        return super().submit(fn, *args, **kwargs)
+
+
+def test_no_more_is_handed_out_than_there_may_be_at_a_time(store):
+    executor, job = Counting(), Powers(20)
+    found = _handed_out(job, BlockStore.of(job, store), [*range(20)], Workers(executor, lambda: 6))
+    ahead = [executor.given - place for place, _ in enumerate(found)]
+    assert ahead[0] == 6
+    assert max(ahead) == 6
+    assert executor.given == 20
+
+
+def test_two_runs_at_a_time_come_to_the_same_bits(store):
+    runs = [
+        threading.Thread(target=keep_blocks, args=(Powers(30, slow=0.002), store)) for _ in "ab"
+    ]
+    for run in runs:
+        run.start()
+    for run in runs:
+        run.join()
+    assert marked(store) == {*range(30)}
+    with xr.open_zarr(store) as found:
+        assert np.array_equal(found.power, powers(30))
+
+
+@rows(
+    "scheduler, told",
+    [
+        ("thread", "scheduler 'thread' is unknown; did you mean 'threads'"),
+        ("10.0.0.1:8786", "the address of a cluster begins with 'tcp://'"),
+        (4, "not 4; of a cluster, give cluster.get_client"),
+        ("tcpp://127.0.0.1:1", "no cluster answers at 'tcpp://127.0.0.1:1'"),
+    ],
+)
+def test_what_is_no_scheduler_is_told(store, scheduler, told):
+    with pytest.raises(JobError, match=told):
+        keep_blocks(Powers(2), store, scheduler)
+    assert not store.exists()
+
+
+def test_nobody_answers_at_a_dead_address_or_without_certificates(store, monkeypatch):
+    monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
+    with pytest.raises(JobError, match=r"no cluster answers at 'tcp://127.0.0.1:1'.*runs"):
+        keep_blocks(Powers(2), store, "tcp://127.0.0.1:1")
+    with pytest.raises(JobError, match=r"tls://.* give a client that has the certificates"):
+        keep_blocks(Powers(2), store, "tls://127.0.0.1:9")
+
+
+def test_after_an_interrupt_the_blocks_that_came_to_their_end_are_counted(tmp_path):
+    told, store = [], tmp_path / "powers.zarr"
+
+    def progress(done, _):
+        told.append(done)
+        if len(told) == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        keep_blocks(Powers(40, slow=0.05), store, "threads", progress)
+    assert told[-1] == len(marked(store)) > told[-2]
+
+
+TESTS = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="module")
+def cluster_client():
+    """Two processes of one thread, which nannies start again when they die."""
+    with (
+        distributed.LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address=None,
+            silence_logs="CRITICAL",
+            scheduler_kwargs={"allowed_failures": 1, "dashboard_address": "127.0.0.1:0"},
+        ) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
+        yield client
+
+
+@pytest.fixture
+def client(cluster_client):
+    """The cluster with both its workers, whoever died in the test before."""
+    cluster_client.wait_for_workers(2)
+    return cluster_client
+
+
+def holds_powers(store, blocks):
+    with xr.open_zarr(store) as found:
+        return np.array_equal(found.power, powers(blocks)) and marked(store) == {*range(blocks)}
+
+
+def test_a_cluster_computes_every_block_once(store, log, client):
+    told = []
+    keep_blocks(Powers(9, str(log)), store, client, lambda *how: told.append(how))
+    assert holds_powers(store, 9)
+    assert sorted(computed(log)) == list(range(9))
+    assert told == [(done, 9) for done in range(10)]
+
+
+def test_the_address_of_a_cluster_is_enough_and_the_client_that_is_active_is_taken(
+    tmp_path, store, client, monkeypatch
+):
+    keep_blocks(Powers(3), store, client.scheduler.address)
+    assert holds_powers(store, 3)
+    monkeypatch.setattr(distributed, "default_client", lambda: client)
+    keep_blocks(WhoComputes(3), tmp_path / "who.zarr")
+    with xr.open_zarr(tmp_path / "who.zarr") as found:
+        pids = {*found.power.values.ravel().astype(int)}
+    assert pids <= {*client.run(os.getpid).values()}
+
+
+def test_an_error_of_a_block_comes_from_a_cluster_as_it_is(store, client):
+    with pytest.raises(op.ValueFault, match="block 1 is dark"):
+        keep_blocks(Powers(3, fails_at=1), store, client)
+    keep_blocks(Powers(3), store, client)
+    assert holds_powers(store, 3)
+
+
+def test_a_worker_that_dies_loses_nothing(store, log, client):
+    def kill(done, _):
+        if done == 5:
+            pid = next(iter(client.run(os.getpid).values()))
+            os.kill(pid, signal.SIGKILL)
+
+    keep_blocks(Powers(20, str(log), slow=0.02), store, client, kill)
+    assert holds_powers(store, 20)
+    assert 20 <= len(computed(log)) <= 22
+
+
+def test_a_block_that_kills_its_workers_is_told_and_the_others_stay(store, log, client):
+    with pytest.raises(JobError, match=r"block . was lost again and again.* start again"):
+        keep_blocks(Powers(12, str(log), kills_at=8), store, client)
+    kept = marked(store)
+    assert kept
+    client.wait_for_workers(2)
+    already = len(computed(log))
+    keep_blocks(Powers(12, str(log)), store, client)
+    assert holds_powers(store, 12)
+    # What a worker was at when the job ended may have been finished.
+    assert kept.isdisjoint(computed(log)[already:])
+
+
+def test_a_job_that_a_worker_cannot_load_is_told(store, client):
+    # The module of a test, as pytest imports it, is there in its own process alone.
+    class Elsewhere(Powers):
+        pass
+
+    Elsewhere.__module__, Elsewhere.__qualname__ = "elsewhere", "Elsewhere"
+    sys.modules["elsewhere"] = type(sys)("elsewhere")
+    sys.modules["elsewhere"].Elsewhere = Elsewhere
+    with pytest.raises(JobError, match="a worker cannot load the job: No module named 'elsewhere'"):
+        keep_blocks(Elsewhere(2), store, client)
+    del sys.modules["elsewhere"]
+
+
+def test_a_job_with_long_axes_is_sent_without_a_warning(store, client):
+    keep_blocks(Powers(2, axis=b"p" * 12_000_000), store, client)
+    assert holds_powers(store, 2)
+
+
+def test_a_cluster_that_is_lost_is_told_and_finished_blocks_stay(store):
+    options = {"processes": False, "dashboard_address": None, "silence_logs": "CRITICAL"}
+    with (
+        distributed.LocalCluster(
+            n_workers=1, scheduler_kwargs={"dashboard_address": "127.0.0.1:0"}, **options
+        ) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+        pytest.raises(JobError, match=r"the cluster was lost.*; start again when it is back"),
+    ):
+        keep_blocks(
+            Powers(40, slow=0.02), store, client, lambda *how: how[0] == 5 and cluster.close()
+        )
+    assert 5 <= len(marked(store)) < 40
+
+
+def test_a_closed_client_and_a_cluster_itself_are_told(store, client):
+    closed = distributed.Client(client.scheduler.address, set_as_default=False)
+    closed.close()
+    with pytest.raises(JobError, match="client of the cluster is closed; give one that is conn"):
+        keep_blocks(Powers(3), store, closed)
+    with pytest.raises(JobError, match=r"give cluster.get_client\(\)"):
+        keep_blocks(Powers(3), store, client.cluster)
+
+
+def test_processes_are_of_this_machine_and_gone_afterwards(store, log):
+    seen = set()
+
+    def look(*_):
+        own = [psutil.Process(), *psutil.Process().children(recursive=True)]
+        ports = [each for process in own for each in process.net_connections("inet")]
+        seen.update(each.laddr.ip for each in ports if each.status == "LISTEN")
+
+    before = {each.pid for each in psutil.Process().children(recursive=True)}
+    keep_blocks(Powers(5, str(log)), store, "processes", look)
+    assert holds_powers(store, 5)
+    assert seen == {"127.0.0.1"}
+    left = [each for each in psutil.Process().children(recursive=True) if each.pid not in before]
+    assert [each for each in left if "resource_tracker" not in " ".join(each.cmdline())] == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no masks of signals")
+def test_processes_that_are_started_never_hear_ctrl_c(monkeypatch):
+    tracker = ResourceTracker()  # As if none had been started, which lets signals through.
+    monkeypatch.setattr(resource_tracker, "ensure_running", tracker.ensure_running)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    with _interrupts_put_off():
+        tracker.ensure_running()
+        assert signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    assert signal.pthread_sigmask(signal.SIG_BLOCK, []) == before
+    tracker._stop()
+
+
+RUN = """
+import sys
+from large_jobs import Powers
+from optipath.sweeps.blocks.keep_blocks import keep_blocks
+if __name__ == "__main__":
+    keep_blocks(Powers(30, sys.argv[1], slow=0.05), sys.argv[2], sys.argv[3])
+"""
+
+
+@pytest.mark.parametrize(
+    "scheduler", ["threads", pytest.param("processes", marks=pytest.mark.slow)]
+)
+def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path, store, log, scheduler):
+    script = tmp_path / "run.py"
+    script.write_text(RUN)
+    places = os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")])
+    run = subprocess.Popen(
+        [sys.executable, script, log, store, scheduler],
+        env={**os.environ, "PYTHONPATH": places},
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    while len(computed(log)) < 6:
+        time.sleep(0.01)
+        assert run.poll() is None
+    os.killpg(run.pid, signal.SIGKILL)
+    run.wait()
+    kept, already = marked(store), len(computed(log))
+    assert 0 < len(kept) < 30
+    keep_blocks(Powers(30, str(log)), store)
+    assert holds_powers(store, 30)
+    assert sorted(computed(log)[already:]) == sorted({*range(30)} - kept)
+
+
+GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4, "filter": "horizontal"}
+AXES = {
+    "delta": np.linspace(0.01, 1.5, 40),
+    "rho": np.linspace(0.0, 3.1, 50),
+    "phi": np.linspace(0.01, 1.5, 50),
+}
+CHUNKS = {"delta": 4, "rho": -1, "phi": -1}
+
+
+@pytest.fixture(scope="module")
+def alone():
+    return swept().compute()
+
+
+def swept(**options):
+    return op.load_preset("npgr026").sweep(**AXES, **GOLD, **options)
+
+
+def assert_same_bits(found, expected):
+    for name, each in expected.data_vars.items():
+        assert found[name].to_numpy().tobytes() == each.to_numpy().tobytes()
+
+
+def test_a_cluster_keeps_the_bits_of_one_process(tmp_path, client, alone):
+    found = swept(store=tmp_path / "sweep.zarr", chunks=CHUNKS, scheduler=client)
+    assert_same_bits(found, alone)
+
+
+def test_a_cluster_computes_dask_arrays_without_a_change(client, alone):
+    with client.as_current():
+        found = swept(chunks=CHUNKS)[["S0", "Delta"]].compute()
+    assert_same_bits(found, alone[["S0", "Delta"]])
+
+
+def test_a_worker_that_dies_takes_no_block_with_it(tmp_path, client, alone):
+    victims = [*client.run(os.getpid).values()]
+
+    def tell(done, _):
+        if done == 3:
+            os.kill(victims[0], signal.SIGKILL)
+
+    found = swept(store=tmp_path / "sweep.zarr", chunks=CHUNKS, scheduler=client, progress=tell)
+    assert not psutil.pid_exists(victims[0])
+    assert_same_bits(found, alone)
+
+
+def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, alone, monkeypatch):
+    store, computed, compute = tmp_path / "sweep.zarr", [], SweepBlock.compute
+
+    def stopped(done, _):
+        if done == 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        swept(store=store, chunks=CHUNKS, scheduler=client, progress=stopped)
+    there = {each.stem for each in (store / "blocks" / "done").glob("*.0")}
+
+    def counted(job, number):
+        computed.append(str(number))
+        return compute(job, number)
+
+    monkeypatch.setattr(SweepBlock, "compute", counted)
+    found = swept(store=store, chunks=CHUNKS, scheduler="synchronous")
+    assert len(there) >= 4
+    assert not there & {*computed}
+    assert_same_bits(found, alone)

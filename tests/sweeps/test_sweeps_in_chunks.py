@@ -1,0 +1,325 @@
+"""Sweeps in chunks, and plans that travel as texts."""
+
+import importlib
+import pickle
+import subprocess
+import sys
+
+import dask
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import optipath as op
+from optipath.sweeps.chunked import chunked_light, in_chunks
+from optipath.sweeps.chunked.block_light import run_block
+from optipath.sweeps.chunked.chunk_sizes import BLOCK, chunk_sizes
+from optipath.sweeps.chunked.own_class import OwnClass
+from optipath.sweeps.chunked.plan_recipe import PlanRecipe
+from random_paths import Draw
+from tables import rows
+
+pytest.importorskip("dask")
+SIZES = {"delta": 3000, "rho": 1000, "phi": 500}
+
+
+def test_blocks_of_a_size_of_their_own_are_of_about_a_million_and_whole_inside():
+    assert chunk_sizes("auto", SIZES) == {"delta": 2, "rho": 1000, "phi": 500}
+    (size,) = chunk_sizes("auto", {"delta": BLOCK + 2}).values()
+    assert size == BLOCK // 2 + 1
+    four_detectors = chunk_sizes("auto", {"delta": 10, "rho": BLOCK}, 4)
+    assert four_detectors["rho"] == BLOCK // 4
+
+
+@rows(
+    "chunks, sizes",
+    [
+        (700, {"delta": 700, "rho": 700, "phi": 500}),
+        ({"delta": 3000}, {"delta": 3000, "rho": 1, "phi": 250}),
+        ({"rho": -1, "phi": 10}, chunk_sizes({"phi": 10}, SIZES) | {"rho": 1000}),
+        (-1, SIZES),
+        ({"rho": "auto", "phi": 10}, chunk_sizes({"phi": 10}, SIZES)),
+    ],
+)
+def test_sizes_that_are_given_are_kept_and_the_rest_is_cut_in_the_room_that_is_left(chunks, sizes):
+    assert chunk_sizes(chunks, SIZES) == sizes
+
+
+def test_what_is_no_size_is_refused_with_what_would_be():
+    for chunks in (0, -2, 1.5, True, "big", None, [10]):
+        with pytest.raises(op.ParameterError, match=r"give 'auto', a number .* or {'delta': 10}"):
+            chunk_sizes(chunks, SIZES)
+    with pytest.raises(op.ParameterError) as caught:
+        chunk_sizes({"dleta": 10, "rho": "x", "phi": 0, 3: 1}, SIZES)
+    assert len(caught.value.faults) == 4
+    assert "did you mean 'delta'?" in caught.value.faults[0]
+    with pytest.raises(op.ParameterError, match="there is no axis"):
+        chunk_sizes("auto", {})
+
+
+GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
+AXES = {
+    "delta": np.linspace(0.01, 1.5, 7),
+    "rho": np.linspace(0.0, 3.0, 5),
+    "phi": np.linspace(0.0, 1.5, 6),
+}
+
+
+def swept(**given):
+    return op.load_preset("npgr026").sweep(**{**AXES, **GOLD, "filter": "horizontal", **given})
+
+
+def bits_of(variable):
+    """Words as they are, of which an array has but addresses."""
+    values = variable.to_numpy()
+    return values.tolist() if values.dtype.kind == "O" else values.tobytes()
+
+
+def assert_same_bits(found, expected):
+    assert list(found.variables) == list(expected.variables)
+    assert found.attrs == expected.attrs
+    for name, each in expected.variables.items():
+        assert found[name].dims == each.dims
+        assert found[name].attrs == each.attrs
+        assert found[name].dtype == each.dtype
+        assert bits_of(found[name]) == bits_of(each)
+
+
+@rows("chunks", ["auto", 1, 4, {"rho": 2}, {"delta": 3, "phi": -1}])
+def test_a_sweep_in_chunks_is_that_in_memory_however_it_is_cut(chunks):
+    assert_same_bits(swept(chunks=chunks).compute(scheduler="synchronous"), swept())
+
+
+def test_threads_have_the_same_bits():
+    assert_same_bits(swept(chunks=4).compute(scheduler="threads", num_workers=4), swept())
+
+
+def test_nothing_is_computed_before_somebody_asks(monkeypatch):
+    monkeypatch.setattr(chunked_light, "run_block", None)
+    assert swept(chunks=4).S0.chunks == ((4, 3), (4, 1), (4, 2))
+
+
+def test_the_blocks_that_are_touched_are_run_once_for_all_that_is_asked_of_them(monkeypatch):
+    blocks = []
+
+    def counted(recipe, block):
+        blocks.append(block.shape)
+        return run_block(recipe, block)
+
+    monkeypatch.setattr(chunked_light, "run_block", counted)
+    swept(chunks={"delta": 4}).compute(scheduler="synchronous")
+    assert sorted(blocks) == [(3, 5, 6), (4, 5, 6)]
+    blocks.clear()
+    found = swept(chunks={"delta": 1}).DoP.isel(delta=3).compute(scheduler="synchronous")
+    assert blocks == [(1, 5, 6)]
+    assert np.array_equal(found, swept().DoP.isel(delta=3))
+
+
+def test_the_same_sweep_has_the_same_names_and_another_has_others():
+    one, same, other = swept(chunks=4), swept(chunks=4), swept(chunks=4, n1=0.2)
+    assert one.S0.data.name == same.S0.data.name != other.S0.data.name
+
+
+def test_several_detectors_are_in_one_block():
+    path = op.PathGraph()
+    half = path.add("half", op.BeamSplitter(0.3))
+    path.add("lamp", op.Source(2.0)) >> half
+    path.add("sheet", op.Polarizer(op.Parameter("angle"))) >> path.add("on", op.Detector())
+    path.add("up", op.Detector())
+    path.connect("half.reflected", "up.in")
+    path.connect("half.transmitted", "sheet.in")
+    angles = np.linspace(0.0, 1.0, 9)
+    found = path.sweep(angle=angles, chunks=2)
+    assert found.S0.chunks == ((2,), (2, 2, 2, 2, 1))
+    assert_same_bits(found.compute(scheduler="synchronous"), path.sweep(angle=angles))
+
+
+def test_axes_that_vary_together_are_cut_together():
+    given = {"delta": AXES["delta"], "phi": AXES["delta"] / 2, "zip": ("delta", "phi")}
+    found = swept(**given, chunks=3)
+    assert_same_bits(found.compute(scheduler="synchronous"), swept(**given))
+
+
+def test_axes_of_words_are_cut():
+    words = ["none", "horizontal", "vertical"]
+    found = swept(filter=words, chunks=2)
+    xr.testing.assert_identical(
+        found.compute(scheduler="synchronous"), swept(filter=words).compute()
+    )
+
+
+def test_single_precision_stays_single():
+    composer = op.Composer(dtype="float32")
+    found = swept(chunks=4, composer=composer)
+    assert {each.dtype for each in found.data_vars.values()} == {np.dtype("float32")}
+    assert_same_bits(found.compute(scheduler="synchronous"), swept(composer=composer))
+
+
+def test_a_chunk_does_not_keep_the_light_that_it_is_of():
+    with dask.config.set(scheduler="synchronous"):
+        found = swept(chunks=-1).S0.persist().data.compute()
+    whole = found
+    while whole.base is not None:
+        whole = whole.base
+    assert whole.nbytes == found.nbytes
+
+
+def test_the_memory_of_light_is_that_of_its_numbers():
+    recipe, grid = _recipe_and_grid()
+    block = run_block(recipe, grid)
+    assert sys.getsizeof(block) >= 4 * 8 * grid.points
+    there = pickle.loads(pickle.dumps(block))
+    assert sys.getsizeof(there) == sys.getsizeof(block)
+
+
+def test_a_path_without_a_form_in_toml_is_refused_with_its_reason():
+    class Bare(op.Element):
+        angle: op.Angle = 0.0
+
+        @staticmethod
+        def mueller_rows(xp, angle):
+            return [[1.0 * (i == j) for j in range(4)] for i in range(4)]
+
+    path = op.Source() >> Bare(op.Parameter("angle")) >> op.Detector()
+    with pytest.raises(op.PathError, match="kind"):
+        path.sweep(angle=[0.0, 1.0], chunks=1)
+
+
+def _recipe_and_grid():
+    path = op.load_preset("malus")
+    plan = path.compose()
+    found = in_chunks.swept_in_chunks(path, plan, _grid(plan), "auto")
+    return found.recipe, found.grid
+
+
+def _grid(plan):
+    from optipath.sweeps.axes.read_axes import grid_of  # noqa: PLC0415 - for this alone
+
+    return grid_of(plan.inputs, {"angle": np.linspace(0.0, 1.0, 1000)})
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 29))
+def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
+    draw = Draw(seed)
+    path = draw.path(loops=seed % 3 == 0)
+    here, there = path.compose(), pickle.loads(pickle.dumps(PlanRecipe.of(path))).plan
+    lights, others = here.run_all(**draw.values), there.run_all(**draw.values)
+    assert lights.keys() == others.keys()
+    for name, light in lights.items():
+        assert light.stokes.tobytes() == others[name].stokes.tobytes()
+        assert light.noise.tobytes() == others[name].noise.tobytes()
+
+
+def test_options_of_the_composer_travel():
+    composer = op.Composer(dtype="float32", engine="numpy", method="textbook")
+    recipe = PlanRecipe.of(op.load_preset("malus"), composer)
+    plan = pickle.loads(pickle.dumps(recipe)).plan
+    assert (plan.dtype, plan.chosen, plan.method) == ("float32", "numpy", "textbook")
+
+
+def test_a_plan_is_made_once_a_process():
+    one, same = (PlanRecipe.of(op.load_preset("malus")) for _ in range(2))
+    assert one.plan is same.plan
+
+
+def test_a_module_that_is_not_there_is_told():
+    recipe = PlanRecipe.of(op.load_preset("malus"))
+    lost = PlanRecipe(recipe.text, own=(OwnClass("elements_of_nobody", "Half"),))
+    with pytest.raises(op.PathError, match="'elements_of_nobody', which cannot be imported here"):
+        _ = lost.plan
+
+
+SCRIPT = """
+import pickle, sys
+import optipath as op
+from optipath.sweeps.chunked.plan_recipe import PlanRecipe
+
+class Half(op.Element, kind="half-of-a-script"):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return [[0.5 * (i == j) for j in range(4)] for i in range(4)]
+
+path = op.Source() >> Half(op.Parameter("angle")) >> op.Detector()
+recipe = PlanRecipe.of(path)
+assert recipe.plan.run(angle=0.0).intensity == 0.5
+sys.stdout.buffer.write(pickle.dumps(recipe))
+"""
+
+
+def test_a_class_of_a_script_is_there_in_its_process_and_told_of_in_others():
+    done = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, check=True)
+    recipe = pickle.loads(done.stdout)
+    with pytest.raises(op.PathError, match="defined in the script itself are not there in another"):
+        _ = recipe.plan
+
+
+def test_a_module_with_elements_is_imported(tmp_path, monkeypatch):
+    (tmp_path / "halving.py").write_text(
+        SCRIPT.split("path =", maxsplit=1)[0].replace("script", "module")
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    text = """
+format = 1
+
+[elements.lamp]
+kind = "source"
+
+[elements.half]
+kind = "half-of-a-module"
+
+[elements.eye]
+kind = "detector"
+
+[[links]]
+from = "lamp.out"
+to = "half.in"
+
+[[links]]
+from = "half.out"
+to = "eye.in"
+"""
+    other = PlanRecipe(text, own=(OwnClass("halving", "Half", "0123"),))
+    with pytest.raises(op.PathError, match="'Half' of module 'halving' is another one on the work"):
+        _ = other.plan
+    own = OwnClass.of(importlib.import_module("halving").Half)
+    assert np.isclose(PlanRecipe(text, own=(own,)).plan.run().intensity, 0.5)
+
+
+def rotator(times):
+    """A path with a class that is defined anew, as by a cell of a notebook that is run again."""
+
+    class Turn(op.Element, kind="turn-of-a-test"):
+        angle: op.Angle = 0.0
+
+        @staticmethod
+        def mueller_rows(xp, angle):
+            c, s = xp.cos(times * angle), xp.sin(times * angle)
+            return (1, 0, 0, 0), (0, c, s, 0), (0, -s, c, 0), (0, 0, 0, 1)
+
+    return op.Source(stokes=[1, 1, 0, 0]) >> Turn(op.Parameter("angle")) >> op.Detector()
+
+
+def test_a_class_that_is_defined_anew_is_another_sweep(tmp_path):
+    angles = [0.1, 0.2]
+    paths = [rotator(4), rotator(2)]
+    for times, path, name in zip((4, 2), paths, "ab", strict=True):
+        expected = np.cos(times * np.array(angles))
+        for chosen in ({}, {"chunks": 1}, {"store": tmp_path / f"{name}.zarr"}):
+            assert np.allclose(path.sweep(angle=angles, **chosen).S1, expected, rtol=0, atol=1e-15)
+    with pytest.raises(op.errors.JobError, match=r"another job: it has 'element class .*Turn"):
+        paths[1].sweep(angle=angles, store=tmp_path / "a.zarr")
+    paths[0].sweep(angle=angles, store=tmp_path / "a.zarr")
+
+
+def test_where_a_plan_is_not_made_yet_it_is_made_of_the_same_classes_or_not_at_all():
+    old, _ = PlanRecipe.of(rotator(4)), rotator(2)
+    assert np.isclose(old.plan.run(angle=0.1).stokes[1], np.cos(0.4))
+    with pytest.raises(op.PathError, match="is another one on the worker"):
+        _ = pickle.loads(pickle.dumps(old)).plan
+    again = pickle.loads(pickle.dumps(PlanRecipe.of(rotator(2)))).plan
+    assert np.isclose(again.run(angle=0.1).stokes[1], np.cos(0.2))
