@@ -254,7 +254,7 @@ def test_an_element_that_does_not_act_on_light_says_why():
         op.Polarizer(0.1) @ [1.0, 0.0, 0.0, 0.0]
 
 
-@pytest.mark.parametrize(
+@rows(
     "done",
     [
         lambda light: 2 * light,
