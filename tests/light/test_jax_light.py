@@ -221,25 +221,27 @@ def test_numpy_is_told_where_traced_light_has_its_numbers():
         jax.jit(lambda s: jnp.asarray(op.Light(s)))(STOKES)
 
 
-@rows(
-    "done",
-    [
-        lambda light, _: (2 * light).stokes,
-        lambda light, _: (light / 3 + 2 * light).stokes,
-        lambda light, _: light[0].stokes,
-        lambda light, _: jnp.stack([one.stokes for one in light]),
-        lambda light, _: light.reshape(2, 1)[:, 0].stokes,
-        lambda _, matrix: matrix.matrix,
-        lambda _, matrix: matrix[0].matrix,
-    ],
-)
+FROM_VERTICES = [
+    lambda light, _: (2 * light).stokes,
+    lambda light, _: (light / 3 + 2 * light).stokes,
+    lambda light, _: light[0].stokes,
+    lambda light, _: jnp.stack([one.stokes for one in light]),
+    lambda light, _: light.reshape(2, 1)[:, 0].stokes,
+    lambda _, matrix: matrix.matrix,
+    lambda _, matrix: matrix[0].matrix,
+]
+
+
 @pytest.mark.usefixtures("x64")
-def test_frames_of_traced_vertices_are_made_where_somebody_asks_alone(done):
+def test_frames_of_traced_vertices_are_made_where_somebody_asks_alone():
     plan = op.path_from_vertices(op.Parameter("points"), materials=[1.5, 1.3 + 3.4j]).compose()
     points = np.array([[0, 0, 2], [0, 0, 0], [0, 2, 0], [1, 2, 1.0]])
     both = np.stack([points, points * [1, 2, 1]])
 
     def found(points):
-        return done(plan.run(points=points), plan.mueller(points=points))
+        return [
+            done(plan.run(points=points), plan.mueller(points=points)) for done in FROM_VERTICES
+        ]
 
-    np.testing.assert_allclose(jax.jit(found)(both), found(both), rtol=1e-12, atol=1e-14)
+    for traced, known in zip(jax.jit(found)(both), found(both), strict=True):
+        np.testing.assert_allclose(traced, known, rtol=1e-12, atol=1e-14)
