@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 ANGLES = np.array([[0.0, 0.1, 0.2], [0.3, 0.4, 0.5]])
 SHEETS = op.Interface(1.5, 0.8, azimuth=ANGLES).mueller()
@@ -22,7 +23,7 @@ def test_a_matrix_has_the_shape_of_its_batch():
     assert op.Mueller(np.eye(4)).shape == ()
 
 
-@pytest.mark.parametrize("key", [0, (1, 2), (..., 1), slice(1), ANGLES > 0.2, (None, 0)])
+@rows("key", [0, (1, 2), (..., 1), slice(1), ANGLES > 0.2, (None, 0)])
 def test_a_part_of_a_batch_of_matrices_is_that_of_its_values(key):
     expected = op.Interface(1.5, 0.8, azimuth=ANGLES[key]).mueller()
     np.testing.assert_allclose(
@@ -33,7 +34,7 @@ def test_a_part_of_a_batch_of_matrices_is_that_of_its_values(key):
     np.testing.assert_allclose(RETARDERS[key].matrix, expected, rtol=1e-15, atol=1e-16)
 
 
-@pytest.mark.parametrize("call", [len, iter, list, bool, lambda m: m[0, 1], lambda m: m.reshape(2)])
+@rows("call", [len, iter, list, bool, lambda m: m[0, 1], lambda m: m.reshape(2)])
 def test_a_single_matrix_is_no_batch_and_says_so(call):
     with pytest.raises(op.OptipathError, match=r"Mueller matri(x|ces).*(mueller\.matrix|shape 2)"):
         call(op.Mueller(np.eye(4)))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 THREE = [[1.0, 0.0, 0.0, 0.0], [2.0, 1.0, 0.0, -1.0], [4.0, 0.0, 3.0, 0.0]]
 FAINT = op.Light([1.0, 0.6, 0.0, 0.8], exponent=-5000)
@@ -34,7 +35,7 @@ def test_shape_and_length_are_those_of_the_batch():
         light.reshape(4)
 
 
-@pytest.mark.parametrize(
+@rows(
     "key",
     [1, -1, slice(1, None), [2, 0], (..., 0), (None, 1), np.array([True, False, True]), ..., ()],
 )
@@ -75,14 +76,14 @@ def test_a_batch_is_gone_through_light_by_light():
     assert [float(light.S0) for light in op.Light(THREE)] == [1.0, 2.0, 4.0]
 
 
-@pytest.mark.parametrize("call", [len, iter, list, bool])
+@rows("call", [len, iter, list, bool])
 def test_a_single_light_is_no_batch_and_says_so(call):
     with pytest.raises(op.LightError, match="light"):
         call(op.Light(THREE[0]))
     assert issubclass(op.LightError, TypeError)
 
 
-@pytest.mark.parametrize(
+@rows(
     "key",
     [
         *[0, (..., 0), "S0", 1.5, [True, False]],
@@ -97,7 +98,7 @@ def test_an_index_that_does_not_fit_names_the_components(key):
             light[key]
 
 
-@pytest.mark.parametrize("factor", [2, 2.0, np.float64(2), np.float32(2), np.array(2), True + True])
+@rows("factor", [2, 2.0, np.float64(2), np.float32(2), np.array(2), True + True])
 def test_light_times_a_number_is_light(factor):
     light = op.Light(THREE, op.Frame().turned(0.3))
     doubled = op.Light(2 * np.array(THREE), op.Frame().turned(0.3))
@@ -121,8 +122,8 @@ def test_multiples_neither_fade_nor_lose_precision():
     assert (0.1 * single).stokes.dtype == np.float32
 
 
-@pytest.mark.parametrize(
-    ("wrong", "sentence"),
+@rows(
+    "wrong, sentence",
     [
         (lambda light: -1 * light, "no -1-fold"),
         (lambda light: np.array([1.0, -0.5]) * light, "no -0.5-fold"),
@@ -253,7 +254,7 @@ def test_an_element_that_does_not_act_on_light_says_why():
         op.Polarizer(0.1) @ [1.0, 0.0, 0.0, 0.0]
 
 
-@pytest.mark.parametrize(
+@rows(
     "done",
     [
         lambda light: 2 * light,
@@ -282,8 +283,8 @@ def test_factors_that_jax_traces_are_taken():
     assert slope == 2.0
 
 
-@pytest.mark.parametrize("shape", [-1, (12,), (4, 3), (2, -1, 2)])
-@pytest.mark.parametrize("order", ["C", "F"])
+@rows("shape", [-1, (12,), (4, 3), (2, -1, 2)])
+@rows("order", ["C", "F"])
 def test_numpy_gives_light_another_shape(shape, order):
     places = np.arange(12.0).reshape(3, 4)
     light = op.Light(np.stack([places, places, 0 * places, 0 * places], axis=-1))
@@ -295,7 +296,7 @@ def test_numpy_gives_light_another_shape(shape, order):
 SINGLE = op.Light(np.array([[1.0, 0.6, 0.0, 0.8]] * 2, np.float32))
 
 
-@pytest.mark.parametrize(
+@rows(
     "made",
     [
         SINGLE + SINGLE,
@@ -316,8 +317,8 @@ def test_light_keeps_the_coarser_precision_and_is_light(made):
 HALF = np.array([[1.0, 0.25, 0.125, 0.5], [60000.0, 0.0, 0.0, 0.0]], np.float16)
 
 
-@pytest.mark.parametrize(
-    ("made", "factor"),
+@rows(
+    "made, factor",
     [
         (lambda light: light + light, 2.0),
         (lambda light: sum([light, light, light]), 3.0),
@@ -353,8 +354,8 @@ def test_light_in_less_precision_keeps_its_range():
     assert (SINGLE[0] * 1e-300).log10_intensity == pytest.approx(-300)
 
 
-@pytest.mark.parametrize(
-    ("bright", "decimal"),
+@rows(
+    "bright, decimal",
     [
         (op.Light([1.0, 0.5, 0.0, 0.2]) / 1e-310, 310),
         (op.Light([1.0, 0.5, 0.0, 0.2]) * 1e300 * 1e300, 600),
@@ -373,7 +374,7 @@ def test_light_brighter_than_floats_has_an_exponent(bright, decimal):
     assert eval(repr(bright), {"Light": op.Light}).exponent == bright.exponent  # noqa: S307
 
 
-@pytest.mark.parametrize("factor", [1e-320, 5e-324, 1e-30])
+@rows("factor", [1e-320, 5e-324, 1e-30])
 def test_light_that_is_dimmed_keeps_its_digits(factor):
     light = op.Light([1.0, 0.5, 0.0, 0.2])
     for dimmed in (light * factor, light * factor * factor, light * factor / 3.0):

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 
 LIGHT = op.Light([1.0, 0.0, 0.6, 0.8])
 
 
-@pytest.mark.parametrize("kind", ["ellipse", "poincare", "stokes"])
+@rows("kind", ["ellipse", "poincare", "stokes"])
 def test_each_kind_is_the_function_of_its_name(kind):
     titles = [drawn.get_title() for drawn in (LIGHT.plot(kind), getattr(op.plots, kind)(LIGHT))]
     assert titles[0] == titles[1]
@@ -28,8 +29,8 @@ def test_options_are_those_of_the_kind():
     assert [each.get_ylabel() for each in ax.figure.axes[1:]] == ["turns"]
 
 
-@pytest.mark.parametrize(
-    ("kind", "options", "told"),
+@rows(
+    "kind, options, told",
     [
         ("elipse", {}, "kind of picture 'elipse' is unknown; did you mean 'ellipse'"),
         ("map", {}, "there are: ellipse, poincare, stokes"),

@@ -9,6 +9,7 @@ import pytest
 import optipath as op
 from optipath.light.conventions import CONVENTIONS, changed_delta
 from random_matrices import jones, of_jones
+from tables import rows
 
 STOKES = np.array([[2.0, 0.7, -0.4, 1.1], [1.0, 0.0, 0.0, -1.0]])
 every_convention = pytest.mark.parametrize("name", sorted(CONVENTIONS))
@@ -120,7 +121,7 @@ def test_what_is_given_is_not_changed():
     assert light == op.Light(STOKES)
 
 
-@pytest.mark.parametrize("delta", [-np.pi / 2, -0.3, 0.0, 0.3, np.pi / 2, np.pi])
+@rows("delta", [-np.pi / 2, -0.3, 0.0, 0.3, np.pi / 2, np.pi])
 def test_delta_of_tmm_is_180_degrees_minus_ours(delta):
     # The phase of E_p over E_s is Delta in exp(+i w t), and so -Delta in our field.
     light = op.Light([1.0, 0.0, np.cos(delta), -np.sin(delta)])

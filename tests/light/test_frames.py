@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import optipath as op
+from tables import rows
 
 ANGLES = st.floats(-2.0 * np.pi, 2.0 * np.pi)
 VECTORS = hnp.arrays(float, 3, elements=st.floats(-1.0, 1.0)).filter(
@@ -73,7 +74,7 @@ def test_directions_may_differ_by_rounding_and_no_more():
         op.Frame().turn_to(off)
 
 
-@pytest.mark.parametrize("angle", ["2e-08", "1e-05"])
+@rows("angle", ["2e-08", "1e-05"])
 def test_directions_that_differ_by_little_are_told_with_their_angle(angle):
     off = op.Frame.from_direction(z=(0, float(angle), 1), x=(1, 0, 0))
     with pytest.raises(op.FrameError, match=f", {angle} rad beside it; only frames"):
@@ -118,7 +119,7 @@ def test_axes_of_doubles_may_say_what_they_were_rounded_to():
             op.Frame(rounding=wrong)
 
 
-@pytest.mark.parametrize("stretch", [1e-7, -1e-7])
+@rows("stretch", [1e-7, -1e-7])
 def test_axes_are_unit_vectors_to_1e_8(stretch):
     op.Frame(x=(1 + 1e-9, 0, 0))
     with pytest.raises(op.FrameError, match="unit vectors"):
@@ -131,8 +132,8 @@ def test_opposite_directions_are_refused():
         op.Frame().turn_to(back)
 
 
-@pytest.mark.parametrize(
-    ("axes", "message"),
+@rows(
+    "axes, message",
     [
         ({"x": (2, 0, 0)}, "unit vectors"),
         ({"y": (0, -1, 0)}, "right-handed"),
@@ -173,7 +174,7 @@ def test_a_frame_does_not_change():
         op.Frame().x[0] = 2.0
 
 
-@pytest.mark.parametrize("length", [1e-300, 1e-13, 1e300])
+@rows("length", [1e-300, 1e-13, 1e300])
 def test_a_direction_may_have_any_length(length):
     assert np.array_equal(op.Frame.from_direction((0, 0, length), (length, 0, 0)).z, [0, 0, 1])
 

@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 UP = (0.0, 0.0, 1.0)
 
@@ -19,7 +20,7 @@ def exact_axis(normal, direction):
     return np.array([float(x / length) for x in across])
 
 
-@pytest.mark.parametrize("angle", [1e-8, 1e-4, 0.7, np.pi / 2 - 1e-9])
+@rows("angle", [1e-8, 1e-4, 0.7, np.pi / 2 - 1e-9])
 def test_the_azimuth_of_the_plane_is_exact_at_any_incidence(angle):
     rng = np.random.default_rng(1)
     normal = unit(rng, (200, 3))
@@ -80,8 +81,8 @@ def test_only_the_degenerate_ones_of_a_batch_keep_it():
     assert meets.incidence.tolist() == [0.0, np.pi / 4]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@rows(
+    "arguments, message",
     [
         (((0, 0, -1), UP), "give keep="),
         (((0, 0, 0), UP), "direction of light has no length"),

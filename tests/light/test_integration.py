@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from dispersive import GRID, line, on_line
+from tables import rows
 
 NM = 1e-9
 EVEN = np.arange(380.0, 701.0, 40.0) * NM
@@ -101,7 +102,7 @@ def test_dark_light_of_which_intensity_alone_is_read_costs_nothing_either():
     assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
 
 
-@pytest.mark.parametrize("dtype", ["f4", "f8"])
+@rows("dtype", ["f4", "f8"])
 def test_the_precision_stays(dtype):
     light = op.Light(np.ones((3, 4), dtype) * [[1, 0, 0, 0]], wavelength=EVEN[:3])
     light = op.Light(light.stokes.astype(dtype), wavelength=EVEN[:3])
@@ -127,7 +128,7 @@ def test_a_response_of_one_number_is_that_of_each_wavelength():
     assert light.integrate(response=2.0).intensity == pytest.approx(900.0, rel=1e-14)
 
 
-@pytest.mark.parametrize(
+@rows(
     "power",
     [
         op.Spectrum.line("500 nm"),
@@ -145,8 +146,8 @@ def test_a_response_that_is_power_is_refused_as_a_detector_refuses_it(power):
     assert str(found.value) == str(of_detector.value).replace("Detector r", "the r")
 
 
-@pytest.mark.parametrize(
-    ("shape", "wavelength", "expected"),
+@rows(
+    "shape, wavelength, expected",
     [
         ((), 5e-7, ()),
         ((1,), [5e-7], ()),
@@ -170,9 +171,7 @@ def test_light_of_one_wavelength_fills_one_bin(shape, wavelength, expected):
         light.integrate(edges=["400 nm", "450 nm"])
 
 
-@pytest.mark.parametrize(
-    "grid", [EVEN, EVEN[::-1], np.array([400.0, 401, 450, 640, 700]) * NM], ids=str
-)
+@rows("grid", [EVEN, EVEN[::-1], np.array([400.0, 401, 450, 640, 700]) * NM])
 def test_a_line_keeps_its_power(grid):
     path = op.Source(2.5, spectrum=op.Spectrum.line("633 nm")) >> op.Detector()
     np.testing.assert_allclose(path.trace(wavelength=grid).integrate().S0, 2.5, rtol=1e-14)
@@ -198,8 +197,8 @@ def test_light_in_frames_that_differ_by_wavelength_is_refused():
     assert light.in_frame(op.Frame()).integrate().dop < 0.5
 
 
-@pytest.mark.parametrize(
-    ("light", "sentence"),
+@rows(
+    "light, sentence",
     [
         (op.Light([[1, 0, 0, 0]] * 3), "light of no known wavelengths has no spectrum"),
         (light_of(1.0, 5e-7), "light of one wavelength, 500 nm, has no spectrum"),
@@ -217,8 +216,8 @@ def test_light_that_is_no_spectrum_is_refused(light, sentence):
         light.integrate()
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         ({"response": [1.0, 2.0]}, r"the response has the shape \(2,\), and there are 3"),
         ({"response": [1.0, -2.0, 1.0]}, "the response is -2"),

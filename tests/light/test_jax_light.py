@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from light_figures import FIGURES as LIGHT
+from tables import rows
 
 jax = pytest.importorskip("jax")
 jnp = jax.numpy
@@ -52,7 +53,7 @@ def doubles(values):
         jax.config.update("jax_enable_x64", val=False)
 
 
-@pytest.mark.parametrize("name", LIGHT)
+@rows("name", LIGHT)
 def test_figures_of_known_light_keep_its_precision(name):
     found = getattr(op.Light(doubles(STOKES)), name)
     expected = getattr(op.Light(STOKES), name)
@@ -60,7 +61,7 @@ def test_figures_of_known_light_keep_its_precision(name):
     assert found.dtype == expected.dtype
 
 
-@pytest.mark.parametrize("name", MUELLER)
+@rows("name", MUELLER)
 def test_figures_of_a_known_matrix_keep_its_precision(name):
     found, expected = (getattr(op.Mueller(m), name) for m in (doubles(matrix()), matrix()))
     np.testing.assert_array_equal(found, expected)
@@ -81,7 +82,7 @@ def test_what_is_done_to_known_light_keeps_its_precision():
     assert same_metal.nearest_physical() == metal.nearest_physical()
 
 
-@pytest.mark.parametrize("figure", NOT_TRACED)
+@rows("figure", NOT_TRACED)
 def test_what_takes_numbers_says_so_where_jax_traces(figure):
     with pytest.raises(op.ParameterError, match="numbers, not values that JAX traces"):
         jax.jit(lambda m: figure(op.Mueller(m)))(matrix())
@@ -98,7 +99,7 @@ def test_a_tolerance_that_jax_traces_is_refused():
         jax.jit(lambda t: op.Mueller(np.eye(4)).is_physical(t))(1e-9)
 
 
-@pytest.mark.parametrize(
+@rows(
     "done",
     [
         lambda light, _: light.log10_intensity,
@@ -127,7 +128,7 @@ def test_the_degree_of_polarisation_has_a_slope_at_unpolarised_light():
     np.testing.assert_allclose(found, [-1.0, 0.6, 0.0, 0.8], rtol=1e-5, atol=1e-7)
 
 
-@pytest.mark.parametrize(
+@rows(
     "ask",
     [
         lambda a: op.Interface(a + 3.4j, 1.1).mueller().delta,
@@ -189,7 +190,7 @@ def test_a_traced_index_of_light_with_an_exponent_is_refused_for_it():
         jax.jit(lambda i: lights[i].stokes)(0)
 
 
-@pytest.mark.parametrize("done", [lambda light, x: light * x, lambda light, x: light / x])
+@rows("done", [lambda light, x: light * x, lambda light, x: light / x])
 def test_a_factor_that_light_does_not_have_makes_it_nan_with_its_slopes(done):
     light = op.Light(STOKES[1])
     for made in (lambda x: done(light, x).S0, lambda x: done(op.Light(abs(x) * STOKES[1]), x).S0):
@@ -220,25 +221,27 @@ def test_numpy_is_told_where_traced_light_has_its_numbers():
         jax.jit(lambda s: jnp.asarray(op.Light(s)))(STOKES)
 
 
-@pytest.mark.parametrize(
-    "done",
-    [
-        lambda light, _: (2 * light).stokes,
-        lambda light, _: (light / 3 + 2 * light).stokes,
-        lambda light, _: light[0].stokes,
-        lambda light, _: jnp.stack([one.stokes for one in light]),
-        lambda light, _: light.reshape(2, 1)[:, 0].stokes,
-        lambda _, matrix: matrix.matrix,
-        lambda _, matrix: matrix[0].matrix,
-    ],
-)
+FROM_VERTICES = [
+    lambda light, _: (2 * light).stokes,
+    lambda light, _: (light / 3 + 2 * light).stokes,
+    lambda light, _: light[0].stokes,
+    lambda light, _: jnp.stack([one.stokes for one in light]),
+    lambda light, _: light.reshape(2, 1)[:, 0].stokes,
+    lambda _, matrix: matrix.matrix,
+    lambda _, matrix: matrix[0].matrix,
+]
+
+
 @pytest.mark.usefixtures("x64")
-def test_frames_of_traced_vertices_are_made_where_somebody_asks_alone(done):
+def test_frames_of_traced_vertices_are_made_where_somebody_asks_alone():
     plan = op.path_from_vertices(op.Parameter("points"), materials=[1.5, 1.3 + 3.4j]).compose()
     points = np.array([[0, 0, 2], [0, 0, 0], [0, 2, 0], [1, 2, 1.0]])
     both = np.stack([points, points * [1, 2, 1]])
 
     def found(points):
-        return done(plan.run(points=points), plan.mueller(points=points))
+        return [
+            done(plan.run(points=points), plan.mueller(points=points)) for done in FROM_VERTICES
+        ]
 
-    np.testing.assert_allclose(jax.jit(found)(both), found(both), rtol=1e-12, atol=1e-14)
+    for traced, known in zip(jax.jit(found)(both), found(both), strict=True):
+        np.testing.assert_allclose(traced, known, rtol=1e-12, atol=1e-14)

@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from light_figures import FIGURES
+from tables import rows
 
 
 def test_horizontal_light_seen_from_a_diagonal_frame_is_antidiagonal():
@@ -46,7 +47,7 @@ def test_shapes_that_do_not_broadcast_are_named():
         op.Mueller(np.ones((3, 4, 4))) @ op.Mueller(np.ones((2, 4, 4)))
 
 
-@pytest.mark.parametrize(
+@rows(
     "make",
     [
         lambda: op.Light([1.0, 0, 0, 0], "frame"),
@@ -67,7 +68,7 @@ def test_a_frame_is_turned_by_an_angle_and_nothing_else():
         op.Frame().turned("a bit")
 
 
-@pytest.mark.parametrize("stokes", [[1.0, 0.0, 0.0], 1.0, [1j, 0, 0, 0], "abcd"])
+@rows("stokes", [[1.0, 0.0, 0.0], 1.0, [1j, 0, 0, 0], "abcd"])
 def test_what_is_no_stokes_vector_is_refused(stokes):
     with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4\)"):
         op.Light(stokes)
@@ -135,7 +136,7 @@ def test_a_light_shows_what_makes_it_again_and_cannot_change():
         light.stokes = np.zeros(4)
 
 
-@pytest.mark.parametrize("size", [1e-170, 1e-300, 1e300])
+@rows("size", [1e-170, 1e-300, 1e300])
 def test_the_degree_of_polarisation_neither_fades_nor_runs_over(size):
     assert op.Light([1.0, size, 0.0, 0.0], physical=False).dop == pytest.approx(
         size, rel=1e-15, abs=0.0
@@ -144,8 +145,8 @@ def test_the_degree_of_polarisation_neither_fades_nor_runs_over(size):
     assert light.dop == pytest.approx(7 * size, rel=1e-15, abs=0.0)
 
 
-@pytest.mark.parametrize("place", range(4))
-@pytest.mark.parametrize("infinite", [np.inf, -np.inf, 1.7e308])
+@rows("place", range(4))
+@rows("infinite", [np.inf, -np.inf, 1.7e308])
 def test_what_is_infinite_makes_no_warning(place, infinite):
     for rest in (0.0, 1.0, np.inf, 1.7e308):
         stokes = np.full(4, rest)

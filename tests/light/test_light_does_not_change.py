@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 STATE = [1.0, 0.6, 0.0, 0.8]
 PATH = op.Source(op.Parameter("i")) >> op.Polarizer("30 deg") >> op.Detector()
@@ -30,7 +31,7 @@ LIGHTS = {
 }
 
 
-@pytest.mark.parametrize("name", LIGHTS)
+@rows("name", LIGHTS)
 def test_components_may_be_scaled_in_place(name):
     light = LIGHTS[name]()
     before = light.stokes.copy()
@@ -56,7 +57,7 @@ def test_components_of_very_many_lights_are_read_only_and_no_copies():
     assert np.shares_memory(light.S1, light.stokes)
 
 
-@pytest.mark.parametrize("name", LIGHTS)
+@rows("name", LIGHTS)
 def test_the_arrays_of_light_are_read_only(name):
     light = LIGHTS[name]()
     arrays = [light.stokes, np.asarray(light), light.mantissa, light.exponent]
@@ -73,7 +74,7 @@ def test_an_array_that_light_is_made_of_may_change():
     assert light.dop == 1.0
 
 
-@pytest.mark.parametrize(
+@rows(
     "made",
     [
         op.Mueller,

@@ -8,6 +8,7 @@ import pytest
 
 import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights
+from tables import rows
 
 OF_DARK = ["dop", "dolp", "docp", "aop", "ellipticity", "ellipticity_angle", "psi", "delta"]
 CROSSED = [(a, a + np.pi / 2) for a in np.radians([0, 7, 30, 45, 60, 75, 100, 130])]
@@ -34,10 +35,8 @@ def assert_dark(light):
     assert np.all(light.handedness == 0)
 
 
-@pytest.mark.parametrize("pair", CROSSED)
-@pytest.mark.parametrize(
-    "before", [[], [op.Retarder(1.0, 0.3)], [op.Interface(1.5, 0.6)], [op.Rotator(0.4)]]
-)
+@rows("pair", CROSSED)
+@rows("before", [[], [op.Retarder(1.0, 0.3)], [op.Interface(1.5, 0.6)], [op.Rotator(0.4)]])
 def test_light_behind_crossed_polarisers_has_no_polarisation(pair, before):
     assert_dark(chain(*before, *map(op.Polarizer, pair)).trace())
 
@@ -46,7 +45,7 @@ def test_light_that_aligned_polarisers_let_through_is_as_dark_behind_a_crossed_o
     assert_dark(chain(*[op.Polarizer(0.3)] * 6, op.Polarizer(0.3 + np.pi / 2)).trace())
 
 
-@pytest.mark.parametrize(
+@rows(
     "options",
     [
         {"dtype": "float32"},
@@ -97,7 +96,7 @@ def test_elements_one_by_one_leave_no_more_behind_crossed_polarisers():
         assert_dark(op.Polarizer(b) @ (op.Polarizer(a) @ op.Light([1.0, 0.0, 0.0, 0.0])))
 
 
-@pytest.mark.parametrize("count", [1, 2, 60])
+@rows("count", [1, 2, 60])
 def test_light_that_is_dimmed_keeps_all_its_figures(count):
     light = chain(*[op.Attenuator(1e-200)] * count, stokes=(1.0, 0.6, 0.0, 0.8)).trace()
     assert light.log10_intensity == pytest.approx(-200 * count)
@@ -116,7 +115,7 @@ def test_light_that_hardly_is_reflected_keeps_all_its_figures():
     assert light.dop == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("index", [1.33, 1.5, 1.6, 1.7, 2.4, 4.0, 0.66])
+@rows("index", [1.33, 1.5, 1.6, 1.7, 2.4, 4.0, 0.66])
 def test_what_is_left_at_brewsters_angle_itself_has_no_figures(index):
     # Exactly there nothing is; the angle is rounded, and so are the waves that cancel.
     assert_dark(chain(op.Interface(index, np.arctan(index)), stokes=(1.0, -1.0, 0.0, 0.0)).trace())
@@ -152,7 +151,7 @@ def test_a_component_of_noise_gives_no_angle():
     assert op.Light(np.float32([1.0, 0.0, 0.0, 0.0])).noise == 2.0**-23
 
 
-@pytest.mark.parametrize("seed", range(12))
+@rows("seed", range(12))
 def test_no_component_is_off_by_more_than_the_noise(seed):
     rng = np.random.default_rng(seed)
     angle = rng.choice([0.0, 0.3, 0.3 + np.pi / 2, np.pi / 2, np.pi / 4, 1.1])
@@ -203,7 +202,7 @@ def test_light_brighter_than_a_number_can_be_makes_no_warning():
     assert (1e300 * (1e300 * op.Light([1.0, 0.0, 0.0, 0.0]))).noise == np.inf
 
 
-@pytest.mark.parametrize("factor", [1e-310, 5e-324, 1e300])
+@rows("factor", [1e-310, 5e-324, 1e300])
 def test_light_that_comes_back_from_any_factor_has_its_noise_and_its_ellipse(factor):
     light = op.Light([1.0, 0.5, 0.0, 0.2])
     back = (light * factor) / factor

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
-@pytest.mark.parametrize(
-    ("stokes", "sentence"),
+@rows(
+    "stokes, sentence",
     [
         ([1.0, 1.0, 1.0, 1.0], r"light is \[1.0, 1.0, 1.0, 1.0\], polarised by 173.205 %"),
         ([1.0, 1.0 + 1e-9, 0.0, 0.0], "polarised by 100 % and a little"),
@@ -29,7 +30,7 @@ def test_what_no_light_can_be_is_refused_with_the_numbers_and_the_cure(stokes, s
         op.Light(stokes)
 
 
-@pytest.mark.parametrize(
+@rows(
     "stokes",
     [
         [1.0, 0.6, 0.0, 0.8],
@@ -65,8 +66,8 @@ def test_faint_noise_is_judged_like_any_other():
     assert op.Light([1.0, 1.0, 1.0, 1.0], exponent=-4000, physical=False).dop > 1.7
 
 
-@pytest.mark.parametrize(
-    ("noisy", "nearest"),
+@rows(
+    "noisy, nearest",
     [
         ([1.0, 3.0, 0.0, -4.0], [1.0, 0.6, 0.0, -0.8]),
         ([2.0, 0.6, 0.0, 0.8], [2.0, 0.6, 0.0, 0.8]),
@@ -76,7 +77,7 @@ def test_faint_noise_is_judged_like_any_other():
         ([1e300, 3e300, 0.0, 4e300], [1e300, 0.6e300, 0.0, 0.8e300]),
     ],
 )
-@pytest.mark.parametrize("exponent", [0, -5000])
+@rows("exponent", [0, -5000])
 def test_the_nearest_light_keeps_its_intensity_and_its_ellipse(noisy, nearest, exponent):
     found = op.Light(noisy, exponent=exponent, physical=False).nearest_physical()
     np.testing.assert_allclose(found.mantissa, nearest, rtol=1e-15)

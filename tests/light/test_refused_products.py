@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 LIGHT = op.Light([1.0, 0.6, 0.0, 0.8])
 ELEMENT = op.Polarizer(0.3)
@@ -17,8 +18,8 @@ def test_a_matrix_acts_on_an_element_as_on_its_matrix():
     np.testing.assert_allclose(found.stokes, (MATRIX @ (plate @ LIGHT)).stokes, atol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("product", "expected"),
+@rows(
+    "product, expected",
     [
         (lambda: MATRIX @ [1, 0, 0, 0], r"has no frames; .* optipath.Light\(numbers\) for light"),
         (lambda: MATRIX @ np.eye(4), r"has no frames; write .* optipath.Mueller\(matrix\)"),

@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from dispersive import GRID, line
+from tables import rows
 
 WAVELENGTHS = np.array([4e-7, 5e-7, 6e-7])
 LIGHT = op.Light([[1.0, 0.2, 0, 0], [2.0, 0, 0.5, 0], [3.0, 0, 0, 1]], wavelength=WAVELENGTHS)
@@ -74,7 +75,7 @@ def test_wavelengths_are_read_only():
         LIGHT.wavelength[0] = 1.0
 
 
-@pytest.mark.parametrize(
+@rows(
     "made",
     [
         2.0 * LIGHT,
@@ -152,8 +153,8 @@ def test_wavelengths_are_said_of_light_that_has_none():
     assert said == light
 
 
-@pytest.mark.parametrize(
-    ("wavelengths", "sentence"),
+@rows(
+    "wavelengths, sentence",
     [
         ([4e-7, 5e-7, 6e-7], r"shape \(3,\) do not fit light of shape \(2,\)"),
         ([[4e-7], [5e-7]], r"shape \(2, 1\) do not fit light of shape \(2,\)"),

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 D, Q = op.Parameter("d"), op.Parameter("q")
 TEN_DEG = math.radians(10.0)
 
 
-@pytest.mark.parametrize(
-    ("parameter", "scale", "offset"),
+@rows(
+    "parameter, scale, offset",
     [
         (2 * D + 0.1, 2.0, 0.1),
         (D / 2, 0.5, 0.0),
@@ -64,8 +65,8 @@ def test_default_range_words_and_unit_are_those_of_the_value_itself():
     assert affine.alone() == parameter
 
 
-@pytest.mark.parametrize(
-    ("parameter", "formula"),
+@rows(
+    "parameter, formula",
     [
         (D, "d"),
         (-D, "-d"),
@@ -107,14 +108,14 @@ MORE = {
 }
 
 
-@pytest.mark.parametrize("refused", MORE.values(), ids=MORE)
+@rows("refused", MORE.values())
 def test_anything_else_is_refused_with_the_way_out(refused):
     with pytest.raises(op.ParameterError, match=r"parameter 'd' .*(give them|give numbers)"):
         refused()
 
 
-@pytest.mark.parametrize("operation", [*PRODUCTS, *COMPARED], ids=lambda one: one.__name__)
-@pytest.mark.parametrize("other", OTHERS, ids=map(str, range(len(OTHERS))))
+@rows("operation", [*PRODUCTS, *COMPARED])
+@rows("other", OTHERS)
 def test_what_is_no_real_number_is_refused_on_either_side(operation, other):
     for pair in ((D, other), (other, D)):
         with pytest.raises(op.OptipathError):
@@ -156,20 +157,18 @@ def test_a_text_without_a_unit_is_an_offset_of_pure_numbers():
         D + "10" + "1 deg"
 
 
-@pytest.mark.parametrize("imaginary", [lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j])
+@rows("imaginary", [lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j])
 def test_an_index_of_two_parameters_is_told_to_be_a_material(imaginary):
     with pytest.raises(op.ParameterError, match=r"write op.Material\(n, k\)"):
         imaginary()
 
 
-@pytest.mark.parametrize("shape", [{"scale": 0}, {"scale": "2"}, {"offset": np.nan}, {"scale": 1j}])
+@rows("shape", [{"scale": 0}, {"scale": "2"}, {"offset": np.nan}, {"scale": 1j}])
 def test_a_scale_and_an_offset_that_cannot_be_are_refused(shape):
     with pytest.raises(op.ParameterError, match="finite real numbers and a scale other than 0"):
         op.Parameter("d", **shape)
 
 
-@pytest.mark.parametrize(
-    "copied", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))]
-)
+@rows("copied", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
 def test_a_multiple_with_an_offset_can_be_copied_and_pickled(copied):
     assert copied(2 * D + "10 deg") == 2 * D + "10 deg"

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 P = op.Parameter
 
@@ -56,8 +57,8 @@ def test_no_number_of_one_path_is_offered_to_many():
     assert "give 'back' an incidence of op.FOLLOWS (" in several
 
 
-@pytest.mark.parametrize(
-    ("parameter", "given", "words"),
+@rows(
+    "parameter, given, words",
     [
         (P("x", minimum=0.1), [0.5, 0.05], "is 0.05 at 1, outside its range; give 0.1 or more"),
         (P("x"), [[0.5], [2.0]], r"is 2 at \(1, 0\); give a real fraction"),
@@ -76,8 +77,8 @@ def test_an_index_that_is_not_allowed_is_told_with_its_place():
         op.Interface(np.array([1.5, 1.5 - 1j]), 0.3)
 
 
-@pytest.mark.parametrize("angle", [89.97722848292891, 89.9999999, 40.0, 1e-9])
-@pytest.mark.parametrize(("n", "outside"), [(1.561013496050288, 1.290977624), (1.4, 1.4 + 1e-13)])
+@rows("angle", [89.97722848292891, 89.9999999, 40.0, 1e-9])
+@rows("n, outside", [(1.561013496050288, 1.290977624), (1.4, 1.4 + 1e-13)])
 def test_the_cure_of_an_angle_passes_as_it_is_written(angle, n, outside):
     front = op.Interface(n, f"{angle} deg", outside=outside)
 

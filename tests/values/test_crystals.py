@@ -9,6 +9,7 @@ from mpmath import mpf
 
 import optipath as op
 from crystal_optics import QUARTZ, sellmeier
+from tables import rows
 
 HANDBOOK = {
     "quartz": (1.54424, 1.55335),
@@ -32,7 +33,7 @@ SORET_AND_SARASIN = {
 Physik of A. Winkelmann has it."""
 
 
-@pytest.mark.parametrize(("name", "indices"), HANDBOOK.items())
+@rows("name, indices", HANDBOOK.items())
 def test_indices_are_those_of_handbooks(name, indices):
     crystal = op.Crystal.named(name)
     found = [ray.n.at("589.3 nm") for ray in (crystal.ordinary, crystal.extraordinary)]
@@ -63,7 +64,7 @@ def test_slopes_of_the_birefringence_are_those_of_its_closed_form(jax):
         assert float(jax.grad(birefringence)(4.3e-7)) == pytest.approx(float(exact), rel=1e-13)
 
 
-@pytest.mark.parametrize(("wavelength", "degrees"), SORET_AND_SARASIN.items())
+@rows("wavelength, degrees", SORET_AND_SARASIN.items())
 def test_quartz_turns_light_as_it_was_measured(wavelength, degrees):
     power = op.Crystal.named("quartz").rotatory_power
     assert math.degrees(power.at(wavelength)) / 1e3 == pytest.approx(degrees, rel=5e-3)

@@ -8,6 +8,7 @@ import pytest
 import optipath as op
 from optipath.cli.command import main
 from paths import chain
+from tables import rows
 
 
 def warned(action):
@@ -73,7 +74,7 @@ def test_other_numbers_at_one_line_are_warned_of_once():
     assert len(of_turns) == 1
 
 
-@pytest.mark.parametrize(
+@rows(
     "action",
     [
         lambda: op.Polarizer("720 deg"),
@@ -98,7 +99,7 @@ def test_what_is_said_to_be_in_degrees_or_is_in_radians_is_no_reason_to_warn(act
     assert warned(action) == []
 
 
-@pytest.mark.parametrize(
+@rows(
     "ask",
     [
         lambda path, angle: path.trace(turn=angle),
@@ -112,14 +113,14 @@ def test_what_is_said_to_be_in_degrees_or_is_in_radians_is_no_reason_to_warn(act
         lambda path, angle: op.Composer(engine="numpy").compose(path).run(turn=angle),
     ],
 )
-@pytest.mark.parametrize("angle", [45, 45.0, np.linspace(0.0, 180.0, 4)])
+@rows("angle", [45, 45.0, np.linspace(0.0, 180.0, 4)])
 def test_what_is_given_to_a_run_is_warned_of_once(ask, angle):
     path = chain([op.Rotator(op.Parameter("turn"))])
     (sentence,) = warned(lambda: ask(path, angle))
     assert sentence.startswith("parameter 'turn' ")
 
 
-@pytest.mark.parametrize("first", [0.1, np.linspace(0.0, 1.0, 5)])
+@rows("first", [0.1, np.linspace(0.0, 1.0, 5)])
 def test_a_path_that_has_been_run_often_warns_of_degrees_all_the_same(first):
     path = chain([op.Rotator(op.Parameter("turn"))])
     for _ in range(10):
@@ -127,8 +128,8 @@ def test_a_path_that_has_been_run_often_warns_of_degrees_all_the_same(first):
     assert len(warned(lambda: path.trace(turn=first * 100.0 + 50.0))) == 1
 
 
-@pytest.mark.parametrize("plan", [chain([op.Rotator(op.Parameter("turn"))]).compose()])
-@pytest.mark.parametrize("angle", [45, 60.0, [0.1, 45.0], np.arange(180.0)], ids=str)
+@rows("plan", [chain([op.Rotator(op.Parameter("turn"))]).compose()])
+@rows("angle", [45, 60.0, [0.1, 45.0], np.arange(180.0)])
 def test_each_run_that_is_given_degrees_is_warned_of(plan, angle):
     for _ in range(2):
         assert len(warned(lambda: plan.run(turn=angle))) == 1
@@ -137,7 +138,7 @@ def test_each_run_that_is_given_degrees_is_warned_of(plan, angle):
 A = op.Parameter("a")
 
 
-@pytest.mark.parametrize("angle", [10 * A, 2 * A - "10 deg", -A])
+@rows("angle", [10 * A, 2 * A - "10 deg", -A])
 def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn(angle):
     path = chain([op.Rotator(angle)])
     for give in (path.trace, path.bind):
@@ -145,8 +146,8 @@ def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn(angle):
             assert warned(lambda: give(a=given)) == [f"parameter 'a' {WARNED}"]  # noqa: B023
 
 
-@pytest.mark.parametrize(
-    ("angle", "given"),
+@rows(
+    "angle, given",
     [
         (A * (np.pi / 180), [10.0, 45.0, 720.0]),
         (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
@@ -175,7 +176,7 @@ def test_a_unit_for_what_the_path_turns_into_radians_is_warned_of():
     assert warned(lambda: path.trace(a=[10.0, 45.0, 720.0])) == []
 
 
-@pytest.mark.parametrize("default", [45, 0.5, None])
+@rows("default", [45, 0.5, None])
 def test_a_default_of_plain_degrees_that_become_radians_is_no_reason_to_warn(default):
     path = chain([op.Rotator(op.Parameter("a", default) * (np.pi / 180))])
     assert warned(lambda: path.bind(a=1.0) if default is None else path.trace()) == []
@@ -188,7 +189,7 @@ def test_large_arrays_are_looked_at_in_many_places():
     assert len(warned(lambda: path.trace(turn=angles))) == 1
 
 
-@pytest.mark.parametrize(
+@rows(
     "action",
     [
         lambda: op.load_preset("npgr026").trace(delta=48),
@@ -210,8 +211,8 @@ def test_degrees_that_are_refused_are_offered_with_their_unit(action):
     assert str(error.value).endswith("; did you mean '48 deg' or np.radians(48)?")
 
 
-@pytest.mark.parametrize("angle", [2 * A - "20 deg", "90 deg" - A])
-@pytest.mark.parametrize("given", [48, [0.3, 48.0]])
+@rows("angle", [2 * A - "20 deg", "90 deg" - A])
+@rows("given", [48, [0.3, 48.0]])
 def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(angle, given):
     path = chain([op.Interface(1.5, angle)])
     for give in (path.trace, path.bind):
@@ -220,9 +221,7 @@ def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(a
     path.trace(a="48 deg")
 
 
-@pytest.mark.parametrize(
-    "angle", [A * (np.pi / 180), "90 deg" - A * (np.pi / 180), 2 * (np.pi / 180) * A]
-)
+@rows("angle", [A * (np.pi / 180), "90 deg" - A * (np.pi / 180), 2 * (np.pi / 180) * A])
 def test_degrees_that_become_radians_in_the_path_are_offered_without_a_unit_to_add(angle):
     path = chain([op.Interface(1.5, angle)])
     for give in (path.trace, path.bind):
@@ -238,7 +237,7 @@ def test_a_range_of_plain_degrees_is_told_as_it_was_given():
             give(d=85)
 
 
-@pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 200.0])
+@rows("delta", ["100 deg", np.radians(100.0), 1.6, 200.0])
 def test_a_slip_of_radians_and_what_was_in_degrees_already_are_not(delta):
     with pytest.raises(op.ParameterError) as error:
         op.load_preset("npgr026").trace(delta=delta)

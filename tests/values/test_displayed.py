@@ -2,18 +2,17 @@
 
 import math
 
-import pytest
-
 import optipath as op
 from optipath.values.displayed import format_range
+from tables import rows
 
 
 def test_the_default_of_a_parameter_is_displayed_without_noise():
     assert op.Parameter("p", "3 deg", unit="arcmin").default_text() == "180 arcmin"
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "unit", "written"),
+@rows(
+    "low, high, unit, written",
     [
         (0.0, math.radians(3.0), "arcmin", "0 arcmin .. 180 arcmin"),
         (-2.0 * math.pi, math.inf, "rad", "-6.283185307179586 rad or more"),

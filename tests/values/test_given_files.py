@@ -10,6 +10,7 @@ import pytest
 import optipath as op
 from optipath.values.given_files import LARGEST
 from optipath.values.text_tables import columns_of
+from tables import rows
 
 
 class _InBytes(os.PathLike):
@@ -17,11 +18,11 @@ class _InBytes(os.PathLike):
         return b"lamp.csv"
 
 
-@pytest.mark.parametrize(
+@rows(
     "read",
     [op.Spectrum.from_csv, op.Material.from_csv, op.Material.from_yaml],
 )
-@pytest.mark.parametrize("path", [None, 5, b"x.csv", "", "a\0b.toml", _InBytes(), ["a.csv"]])
+@rows("path", [None, 5, b"x.csv", "", "a\0b.toml", _InBytes(), ["a.csv"]])
 def test_what_is_no_name_of_a_file_is_refused(read, path):
     with pytest.raises(op.OptipathError, match="name of a file"):
         read(path)

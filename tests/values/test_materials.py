@@ -8,6 +8,7 @@ import pytest
 
 import optipath as op
 from optipath.errors import OptipathError
+from tables import rows
 
 WAVELENGTHS = ["188 nm", "500 nm", "521 nm", "1937 nm"]
 N = [1.28, 0.97, 0.62, 0.92]
@@ -64,8 +65,8 @@ def test_the_range_can_be_read():
     assert bk7(span=("310 nm", "2.5 um")).span == (310e-9, 2.5e-6)
 
 
-@pytest.mark.parametrize(
-    ("material", "written"),
+@rows(
+    "material, written",
     [
         (op.Material(1.5, 0.1), "Material(n=1.5, k=0.1)"),
         (gold(), "Material 'gold', 188 nm .. 1937 nm"),
@@ -134,8 +135,8 @@ def test_a_file_is_a_material(tmp_path):
     assert op.Material.from_csv(file, k=0.0).at("400 nm") == op.Material(1.5, 0.0)
 
 
-@pytest.mark.parametrize(
-    ("ask", "words"),
+@rows(
+    "ask, words",
     [
         (
             lambda: gold().refractive_index,
@@ -216,8 +217,8 @@ def test_a_wavelength_that_jax_traces_may_be_bound(jax):
     assert float(bound) == pytest.approx(float(by_run), rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("make", "whole", "real"),
+@rows(
+    "make, whole, real",
     [
         (op.Material.cauchy, ([1, 2],), ([1.0, 2.0],)),
         (op.Material.sellmeier, ([1], [0]), ([1.0], [-0.0])),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 NPGR026 = op.load_preset("npgr026")
 BOUNDS = "(in a fit, give the optimiser bounds=)"
@@ -38,7 +39,7 @@ def test_many_shapes_that_do_not_broadcast_are_told():
     assert "make their axes equal or 1" in fault(path.trace)
 
 
-@pytest.mark.parametrize("number", [-0.01, np.float64(-0.01), np.float32(-0.01), np.array([-0.01])])
+@rows("number", [-0.01, np.float64(-0.01), np.float32(-0.01), np.array([-0.01])])
 def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs(number):
     assert f"give 0 or more {BOUNDS}" in fault(NPGR026.trace, k1=number)
     of_material = layered(op.Material(1.5, op.Parameter("k")))
@@ -52,7 +53,7 @@ def test_one_complex_index_beyond_its_domain_is_told_with_what_a_fit_needs():
     assert BOUNDS in fault(outside.trace, m=1.5 - 0.1j)
 
 
-@pytest.mark.parametrize("give", ["trace", "bind"])
+@rows("give", ["trace", "bind"])
 def test_a_number_that_is_wrong_in_several_places_is_told_once(give):
     n = op.Parameter("n")
     path = op.PathGraph()

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def test_a_text_with_a_unit_is_a_value():
@@ -15,8 +16,8 @@ def test_words_stand_for_values_and_none_for_absence():
     np.testing.assert_array_equal(resolved.present, [True, False, True])
 
 
-@pytest.mark.parametrize(
-    ("keywords", "message"),
+@rows(
+    "keywords, message",
     [
         ({"name": "not a name"}, "letters, digits"),
         ({"name": "a", "offset": "D65", "offset_dimension": ["length"]}, "must be a text, not"),
@@ -61,8 +62,8 @@ def test_a_complex_default_is_shown_as_it_is_read():
     assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j
 
 
-@pytest.mark.parametrize("number", [-1.0, 0.0, 1.0, 1.0 + 2**-52, np.nan, np.inf, -np.inf])
-@pytest.mark.parametrize("limits", [(-1.0, 1.0), (-np.inf, 0.0), (-np.inf, np.inf)])
+@rows("number", [-1.0, 0.0, 1.0, 1.0 + 2**-52, np.nan, np.inf, -np.inf])
+@rows("limits", [(-1.0, 1.0), (-np.inf, 0.0), (-np.inf, np.inf)])
 def test_a_float_is_judged_as_an_array_of_it_is(number, limits):
     parameter = op.Parameter("a", minimum=limits[0], maximum=limits[1])
     if limits[0] <= number <= limits[1] and np.isfinite(number):

@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from optipath.values.precision import precision, precision_name
+from tables import rows
 
 LONG = np.finfo(np.longdouble).eps < np.finfo(np.float64).eps
 
@@ -14,7 +15,7 @@ class WithDtype:
         self.dtype = dtype
 
 
-@pytest.mark.parametrize("given", ["float32", "f4", "f", "single", np.float32, np.dtype("f4")])
+@rows("given", ["float32", "f4", "f", "single", np.float32, np.dtype("f4")])
 def test_single_precision_goes_by_every_name_that_numpy_has_for_it(given):
     assert op.Composer(dtype=given) == op.Composer(dtype="float32")
     plan = op.Composer(dtype=given).compose(op.load_preset("malus"))
@@ -24,9 +25,7 @@ def test_single_precision_goes_by_every_name_that_numpy_has_for_it(given):
     assert op.fresnel_transmission(1.5, 1.0, 0.0, dtype=given)[0].dtype == np.float32
 
 
-@pytest.mark.parametrize(
-    "given", [float, "float", "f8", "double", "d", np.float64, np.dtype(float)]
-)
+@rows("given", [float, "float", "f8", "double", "d", np.float64, np.dtype(float)])
 def test_double_precision_goes_by_every_name_that_numpy_and_python_have_for_it(given):
     assert op.Composer(dtype=given).dtype == "float64"
     assert op.fresnel_reflection(1.5, 1.0, 0.0, dtype=given)[0].dtype == np.float64
@@ -49,7 +48,7 @@ ODD = [int, "f2", np.float16, complex, "c8", "i4", bool, str, None, "", "f4,f4",
 ODD += [[], np.floating, OTHER_ORDER, np.ones(3), WithDtype(3)]
 
 
-@pytest.mark.parametrize("given", ODD, ids=map(str, range(len(ODD))))
+@rows("given", ODD)
 def test_any_other_dtype_is_refused_and_the_three_are_named(given):
     with pytest.raises(
         op.ComposerError, match=r"is unknown; give 'float64', 'float32' or 'longdouble'"

@@ -8,6 +8,7 @@ import optipath as op
 from optipath.values.counted_ranges import texts_of_range
 from optipath.values.several_texts import several_texts
 from optipath.values.units import parse_quantity
+from tables import rows
 
 DELTA = op.Parameter("delta", unit="deg")
 NUMBER = op.Parameter("n")
@@ -57,12 +58,12 @@ def test_a_list_has_its_texts_one_by_one():
     assert several_texts(DELTA, "10,20,30") == ["10", "20", "30"]
 
 
-@pytest.mark.parametrize("text", ["30 deg", "horizontal", "0.5", "-1e-3 rad", "30 degs"])
+@rows("text", ["30 deg", "horizontal", "0.5", "-1e-3 rad", "30 degs"])
 def test_a_single_value_is_no_list(text):
     assert several_texts(DELTA, text) is None
 
 
-@pytest.mark.parametrize("text", ["1000:1", "1:50", "inf"])
+@rows("text", ["1000:1", "1:50", "inf"])
 def test_a_ratio_to_one_is_a_single_number(text):
     assert several_texts(NUMBER, text) is None
 
@@ -74,8 +75,8 @@ def test_a_ratio_that_may_be_a_range_without_a_count_is_asked_about():
     assert len(several_texts(NUMBER, "1.2:1.6:11")) == 11
 
 
-@pytest.mark.parametrize(
-    ("text", "told", "cure"),
+@rows(
+    "text, told, cure",
     [
         ("0 deg:90 deg", "does not say how many values", "0 deg:90 deg:11"),
         ("0:90:0.5", "for steps of 0.5", "0:90:181"),
@@ -96,8 +97,8 @@ def test_what_is_wrong_is_told_with_a_cure_that_works(text, told, cure):
     assert len(several_texts(DELTA, cure)) > 1
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@rows(
+    "text, told",
     [
         ("0:90:0", "counts no values"),
         ("0:90:nan", "is no count, which is a whole number"),

@@ -5,6 +5,7 @@ import pytest
 import optipath as op
 from optipath.errors import UnitError
 from optipath.values.spectral_units import wavelength_of
+from tables import rows
 
 
 def test_an_energy_stands_for_the_wavelength_of_codata():
@@ -17,18 +18,18 @@ def test_a_wave_number_is_a_reciprocal_and_a_frequency_the_speed_of_light_over_i
     assert wavelength_of("299.792458 THz") == pytest.approx(1e-6, rel=1e-15)
 
 
-@pytest.mark.parametrize("text", ["516 nm", "gold", "", "2 eV 3"])
+@rows("text", ["516 nm", "gold", "", "2 eV 3"])
 def test_what_has_another_unit_is_left_to_others(text):
     assert wavelength_of(text) is None
 
 
-@pytest.mark.parametrize("text", ["0 eV", "-2 eV", "1e999 THz"])
+@rows("text", ["0 eV", "-2 eV", "1e999 THz"])
 def test_what_is_not_above_0_is_refused(text):
     with pytest.raises(UnitError, match="above 0"):
         wavelength_of(text)
 
 
-@pytest.mark.parametrize("text", ["516", "516 deg"])
+@rows("text", ["516", "516 deg"])
 def test_all_units_of_a_wavelength_are_named_where_one_is_missing(text):
     for read in (op.Wavelength().resolve, op.Material.cauchy([1.5, 0.004]).at, op.Spectrum.line):
         with pytest.raises(

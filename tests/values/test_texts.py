@@ -5,12 +5,13 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 THIRTY = 30.0 * (np.pi / 180.0)
 
 
-@pytest.mark.parametrize(
-    ("by_texts", "by_numbers"),
+@rows(
+    "by_texts, by_numbers",
     [
         (lambda: op.Polarizer("30 deg", "100 mrad", "0.5"), op.Polarizer(THIRTY, 0.1, 0.5)),
         (lambda: op.Retarder("180 deg", angle="1 rad"), op.Retarder(np.pi, 1.0)),
@@ -45,8 +46,8 @@ def test_a_text_is_the_number_that_it_stands_for(by_texts, by_numbers):
     assert by_texts() == by_numbers
 
 
-@pytest.mark.parametrize(
-    ("word", "degrees"),
+@rows(
+    "word, degrees",
     [("horizontal", 0), ("vertical", 90), ("diagonal", 45), ("antidiagonal", -45)],
 )
 def test_axes_have_names(word, degrees):
@@ -75,8 +76,8 @@ def test_a_file_knows_the_names_of_axes(tmp_path):
         op.load_preset(file)
 
 
-@pytest.mark.parametrize(
-    ("give", "sentence"),
+@rows(
+    "give, sentence",
     [
         (lambda: op.Polarizer("30"), "angle: '30' has no unit, but an angle is asked for; add one"),
         (lambda: op.Polarizer("30 nm"), "Polarizer angle: '30 nm' is no angle; use one of deg"),

@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 import optipath as op
 from optipath.errors import UnitError
 from optipath.values.units import UNITS, format_quantity, in_unit, parse_quantity
+from tables import rows
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "value"),
+@rows(
+    "text, dimension, value",
     [
         ("90 deg", "angle", math.pi / 2),
         ("-1.5rad", "angle", -1.5),
@@ -37,8 +38,8 @@ def test_quantities_are_read_in_their_units(text, dimension, value):
     assert parse_quantity(text, dimension) == pytest.approx(value, rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "message"),
+@rows(
+    "text, dimension, message",
     [
         ("30 dgr", "angle", "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
         ("30°", "angle", "'°' of '30°' is unknown; did you mean 'deg'"),
@@ -84,8 +85,8 @@ def test_writing_and_reading_gives_the_very_same_number(value, unit):
     assert parse_quantity(format_quantity(value, unit), dimension) == value
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "unit", "written"),
+@rows(
+    "text, dimension, unit, written",
     [
         ("20 um", "length", "mm", "0.02 mm"),
         ("30 cm", "length", "dm", "3 dm"),
@@ -111,8 +112,8 @@ def test_reading_and_writing_gives_the_very_same_text(places, number, unit):
     assert format_quantity(parse_quantity(text, UNITS[unit].dimension), unit) == text
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
+@rows(
+    "text, value",
     [
         ("0.3+0.4j", 0.3 + 0.4j),
         ("0.4j", 0.4j),
@@ -126,7 +127,7 @@ def test_numbers_without_dimension_may_be_complex(text, value):
     assert parse_quantity(format_quantity(value, ""), "") == value
 
 
-@pytest.mark.parametrize("text", ["0.3+0.4", "0.30.4j", "(0.3+0.4j", "1_0+2j", "0.3+0.4j deg"])
+@rows("text", ["0.3+0.4", "0.30.4j", "(0.3+0.4j", "1_0+2j", "0.3+0.4j deg"])
 def test_what_is_no_complex_number_is_refused(text):
     with pytest.raises(UnitError):
         parse_quantity(text, "")
@@ -146,8 +147,8 @@ LONG = [
 ]
 
 
-@pytest.mark.parametrize("text", LONG, ids=range(len(LONG)))
-@pytest.mark.parametrize("dimension", ["", "length"])
+@rows("text", LONG)
+@rows("dimension", ["", "length"])
 def test_long_texts_are_read_in_time_that_grows_with_their_length(text, dimension):
     # Where digits could be read in two ways, the first of them took half a minute.
     with suppress(UnitError):
@@ -160,7 +161,7 @@ def test_a_long_text_is_told_by_its_ends():
     assert len(str(error.value)) < 300
 
 
-@pytest.mark.parametrize("text", ["1e5000 nm", "-1e400 mm", "1e999999999 m", "1e-999999999 m"])
+@rows("text", ["1e5000 nm", "-1e400 mm", "1e999999999 m", "1e-999999999 m"])
 def test_numbers_beyond_floats_are_infinite_or_0(text):
     assert parse_quantity(text, "length") in (math.inf, -math.inf, 0.0)
 
@@ -179,8 +180,8 @@ def test_the_table_of_units_in_the_documents_is_that_of_the_library():
     assert told == {name: unit.dimension for name, unit in UNITS.items()}
 
 
-@pytest.mark.parametrize(
-    ("name", "unit"),
+@rows(
+    "name, unit",
     [
         ("degrees", "deg"),
         ("Degree", "deg"),
@@ -206,8 +207,8 @@ def test_of_an_unknown_unit_all_that_there_are_are_listed():
     assert set(str(told.value).partition("there are: ")[2].split(", ")) == set(UNITS)
 
 
-@pytest.mark.parametrize(
-    ("text", "readings"),
+@rows(
+    "text, readings",
     [
         ("30 grad", "a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg"),
         ("30 gon", "a gon is 0.9 deg; write it in deg"),

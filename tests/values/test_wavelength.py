@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def test_texts_of_all_kinds_stand_for_metres():
@@ -22,8 +23,8 @@ def test_a_number_of_nanometres_is_refused_with_the_cure():
         op.Wavelength().resolve(516)
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
+@rows(
+    "given, said",
     [
         ("516", "has no unit"),
         (np.nan, "finite"),
@@ -43,9 +44,7 @@ def test_one_by_another_name_is_given_by_that():
     assert path.trace(probe="516 nm").stokes[0] == 1.0
 
 
-@pytest.mark.parametrize(
-    ("most", "written"), [("700 nm", "700 nm"), ("20 um", "20 um"), ("1 mm", "1 mm")]
-)
+@rows("most, written", [("700 nm", "700 nm"), ("20 um", "20 um"), ("1 mm", "1 mm")])
 def test_the_ends_of_a_range_are_told_in_units_of_their_size(most, written):
     wavelength = op.Wavelength(minimum="380 nm", maximum=most)
     with pytest.raises(op.ParameterError, match=f"light goes from 380 nm to {written}$"):

@@ -10,6 +10,7 @@ import optipath as op
 from optipath.light.colour.adaptation import DISPLAY_WHITE, adapted
 from optipath.light.colour.srgb import FROM_XYZ, encoded
 from optipath.light.colour.triples import times
+from tables import rows
 
 FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour" / "colour_science.json"
 COMPUTED = json.loads(FIGURES.read_text("utf-8"))["displayed"]
@@ -67,7 +68,7 @@ def test_colours_out_of_gamut_are_refused_with_how_many_and_how_far():
         lights.to_srgb(white=light_of(np.ones(81)))
 
 
-@pytest.mark.parametrize("way", ["clip", "scale"])
+@rows("way", ["clip", "scale"])
 def test_colours_are_brought_into_the_gamut_where_that_is_asked_for(way):
     lights = light_of([peak(centre, 10.0) for centre in (400, 450, 520, 580, 640)])
     colours = lights.to_srgb(white=D65 / 100.0, out_of_gamut=way)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour" / "colour_science.json"
 COMPUTED = json.loads(FIGURES.read_text("utf-8"))
@@ -31,7 +32,7 @@ def chromaticity(xyz):
 
 
 @pytest.mark.filterwarnings("ignore::optipath.ColourWarning")
-@pytest.mark.parametrize("asked", COMPUTED["xyz"], ids=lambda a: f"{a['name']}-{a['outside']}")
+@rows("asked", COMPUTED["xyz"])
 def test_tristimulus_values_are_those_of_colour_science(asked):
     grid = np.array(asked["nm"])
     found = light_of(smooth(grid), grid * NM).to_xyz(outside=asked["outside"]) / 683.0
@@ -41,8 +42,8 @@ def test_tristimulus_values_are_those_of_colour_science(asked):
     np.testing.assert_allclose(found, asked["xyz"], rtol=slack)
 
 
-@pytest.mark.parametrize(
-    ("illuminant", "white_point", "step"),
+@rows(
+    "illuminant, white_point, step",
     [
         ("D65", (0.31272, 0.32903), 5),
         ("D65", (0.31272, 0.32903), 1),
@@ -71,7 +72,7 @@ def test_y_of_a_line_at_555_nm_is_in_lumens_of_its_watts():
     np.testing.assert_allclose(found[1], 3.0 * 683.0, rtol=1e-4)
 
 
-@pytest.mark.parametrize("step", [0.03, 0.5, 1.7, 4.04, 12.3])
+@rows("step", [0.03, 0.5, 1.7, 4.04, 12.3])
 def test_a_line_keeps_its_power_however_the_grid_lies(step):
     grid = np.arange(380.2, 790.0, step)
     place = np.argmin(np.abs(grid - 555.0))
@@ -133,8 +134,8 @@ def test_warnings_are_of_the_line_that_asks():
         assert {warning.filename for warning in caught} == {__file__}
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         ({"observer": "CIE 1931"}, "observer 'CIE 1931' is unknown; did you mean 'CIE 1931 2 deg'"),
         ({"outside": "bright"}, "outside 'bright' is unknown; there are: dark, nearest"),

@@ -5,12 +5,13 @@ from hypothesis import strategies as st
 
 import optipath as op
 from random_matrices import jones, of_jones
+from tables import rows
 
 PAULI = np.array([[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]])
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
-@pytest.mark.parametrize("scale", [1e-290, 1.0, 1e290])
+@rows("count", [1, 2, 3, 4, 6])
+@rows("scale", [1e-290, 1.0, 1e290])
 def test_a_mixture_has_an_eigenvalue_for_each_jones_matrix(count, scale):
     rng = np.random.default_rng(count)
     weights = rng.uniform(0.1, 1.0, (20, count, 1, 1))
@@ -38,7 +39,7 @@ def test_an_ideal_depolariser_is_all_jones_matrices_alike():
     np.testing.assert_allclose(op.Mueller(np.diag([1.0, 0, 0, 0])).cloude_eigenvalues, 0.25)
 
 
-@pytest.mark.parametrize(
+@rows(
     "matrix",
     [
         np.diag([1.0, 1.0, 1.0, -1.0]),
@@ -83,14 +84,14 @@ def test_the_default_tolerance_is_that_of_the_precision():
         assert not op.Mueller(np.diag([1.0, 1.0, 1.0, 1.0 + 1e-4]).astype(dtype)).is_physical()
 
 
-@pytest.mark.parametrize("tolerance", [-1e-9, np.nan, np.inf, "1e-9", [1e-9], True, 1j, 10**400])
+@rows("tolerance", [-1e-9, np.nan, np.inf, "1e-9", [1e-9], True, 1j, 10**400])
 def test_a_tolerance_is_a_finite_number_of_at_least_0(tolerance):
     with pytest.raises(op.ValueFault, match=r"finite number >= 0, not .*; leave it out") as fault:
         op.Mueller(np.eye(4)).is_physical(tolerance)
     assert repr(tolerance)[:20] in str(fault.value)
 
 
-@pytest.mark.parametrize("tolerance", [0, 0.0, 1e-9, np.float32(1e-9), np.array(1e-9)])
+@rows("tolerance", [0, 0.0, 1e-9, np.float32(1e-9), np.array(1e-9)])
 def test_any_number_may_be_a_tolerance(tolerance):
     assert op.Mueller(np.eye(4)).is_physical(tolerance)
 

@@ -6,6 +6,7 @@ from hypothesis.extra.numpy import arrays
 
 import optipath as op
 from random_matrices import bordered, diattenuator, jones, of_jones, parts, turn, unit_vectors
+from tables import rows
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 AWKWARD = st.sampled_from([0.0, -0.0, 1.0, -1.0, 1e-9, 5e-324, 1e300, 1.7e308, -1.7e308])
@@ -23,7 +24,7 @@ def is_rotation(matrices):
     np.testing.assert_array_equal(matrices[..., 0, :] - [1.0, 0, 0, 0], 0.0)
 
 
-@pytest.mark.parametrize("scale", [1e-300, 1e-160, 1.0, 1e160, 1e300])
+@rows("scale", [1e-300, 1e-160, 1.0, 1e160, 1e300])
 def test_the_parts_of_a_product_come_back(scale):
     depolarizer, retarder, first = parts(np.random.default_rng(4), 2000)
     found = op.Mueller(scale * (depolarizer @ retarder @ first)).lu_chipman()
@@ -50,8 +51,8 @@ def test_the_figures_are_those_of_the_parts(seed, power):
     np.testing.assert_allclose(found.polarizance_vector, 0.0, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("retardance", [1e-9, 0.3, np.pi / 2, 3.0, np.pi - 1e-9, np.pi])
-@pytest.mark.parametrize("angle", [0.0, 0.5, -1.2])
+@rows("retardance", [1e-9, 0.3, np.pi / 2, 3.0, np.pi - 1e-9, np.pi])
+@rows("angle", [0.0, 0.5, -1.2])
 def test_a_retarder_has_its_retardance_and_its_fast_axis(retardance, angle):
     found = op.Retarder(retardance, angle).mueller().lu_chipman()
     axis = [np.cos(2 * angle), np.sin(2 * angle), 0.0]
@@ -80,7 +81,7 @@ def test_a_rotator_is_a_circular_retarder_of_twice_its_angle(angle):
         np.testing.assert_allclose(matrix.lu_chipman().fast_axis, [0.0, 0.0, np.sign(angle)])
 
 
-@pytest.mark.parametrize("incidence", [0.1, 0.8, 1.4])
+@rows("incidence", [0.1, 0.8, 1.4])
 def test_a_metal_retards_s_against_p_and_diattenuates(incidence):
     m, c, s = 0.6 + 2.1j, np.cos(incidence), np.sin(incidence)
     g = np.sqrt(m**2 - s**2)
@@ -104,7 +105,7 @@ def test_parts_stand_in_the_frames_of_their_light():
     np.testing.assert_allclose(product(found), metal.matrix, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize(("first", "second"), [(0.0, 0.0), (0.2, 0.9), (0.0, np.pi / 2), (1.0, -1)])
+@rows("first, second", [(0.0, 0.0), (0.2, 0.9), (0.0, np.pi / 2), (1.0, -1)])
 def test_a_polariser_retards_by_the_least_turn_between_its_states(first, second):
     matrix = op.Rotator(second - first).mueller() @ op.Polarizer(first).mueller()
     found = matrix.lu_chipman()
@@ -138,7 +139,7 @@ def test_polarisers_however_near_ideal_still_make_up_their_matrix(seed, gap):
     np.testing.assert_allclose(product(found), matrix, rtol=0, atol=3e-14 * 10 ** (gap / 2))
 
 
-@pytest.mark.parametrize("left", [(0.5, 0.3, 0.0), (0.5, 0.0, 0.0), (0.0, 0.0, 0.0)])
+@rows("left", [(0.5, 0.3, 0.0), (0.5, 0.0, 0.0), (0.0, 0.0, 0.0)])
 def test_a_depolariser_that_leaves_fewer_axes_is_found(left):
     rng = np.random.default_rng(5)
     for axis, angle in zip(unit_vectors(rng, 50), rng.uniform(0, np.pi, 50), strict=True):
@@ -212,7 +213,7 @@ def test_matrices_of_few_numbers_make_up_themselves_where_the_diattenuation_allo
         np.testing.assert_allclose(product(found), matrix, rtol=0, atol=1e-11)
 
 
-@pytest.mark.parametrize("noise", [1e-16, 1e-12, 1e-3, 0.1])
+@rows("noise", [1e-16, 1e-12, 1e-3, 0.1])
 def test_noise_on_elements_is_borne(noise):
     rng = np.random.default_rng(6)
     elements = [op.Polarizer(0.3), op.Retarder(np.pi, 0.2), op.Interface(1.5, np.arctan(1.5))]
@@ -244,7 +245,7 @@ def test_what_is_not_known_stays_so_beside_what_is():
         np.testing.assert_array_equal(np.isnan(values).all(axis=1), [False, True, True])
 
 
-@pytest.mark.parametrize("batch", [(), (5,), (2, 1, 0)])
+@rows("batch", [(), (5,), (2, 1, 0)])
 def test_each_figure_has_the_shape_of_the_batch(batch):
     found = op.Mueller(np.ones((*batch, 4, 4))).lu_chipman()
     for name in FIGURES:
@@ -252,7 +253,7 @@ def test_each_figure_has_the_shape_of_the_batch(batch):
         assert getattr(found, name).shape == (*batch, *tail), name
 
 
-@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+@rows("dtype", [np.float32, np.float64, np.longdouble])
 def test_matrices_of_any_precision_are_taken_apart_in_double(dtype):
     found = op.Mueller(np.eye(4, dtype=dtype)).lu_chipman()
     assert found.retarder.matrix.dtype == np.float64

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 BRIGHT = op.Light([1.0, 0.0, 0.0, 1.0])
 TOO_MUCH = op.Mueller(np.diag([3.0, 0.0, 0.0, 5.0]))
 
 
-@pytest.mark.parametrize(
-    ("matrix", "light", "problem"),
+@rows(
+    "matrix, light, problem",
     [
         (TOO_MUCH, BRIGHT, r"\[1.0, 0.0, 0.0, 1.0\] becomes \[3.0, .* 166.667 %"),
         (op.Mueller([[0.1, 0, 0, 0], [3, 0, 0, 0], [0] * 4, [0] * 4]), BRIGHT, "3000 %"),
@@ -50,7 +51,7 @@ def test_light_that_an_unphysical_matrix_leaves_light_is_taken():
     assert (TOO_MUCH @ op.Light([1.0, 0.0, 0.0, 0.5])).S0 == 3.0
 
 
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@rows("dtype", [np.float32, np.float64])
 def test_a_physical_matrix_is_never_refused_for_its_rounding(dtype):
     rng = np.random.default_rng(5)
     states = rng.normal(size=(500, 3))
@@ -65,8 +66,8 @@ def test_a_physical_matrix_is_never_refused_for_its_rounding(dtype):
     assert (given @ op.Light(np.zeros(4))).S0.max() == 0.0
 
 
-@pytest.mark.parametrize(
-    ("matrix", "light"),
+@rows(
+    "matrix, light",
     [  # Their least eigenvalues are -0.75e-9, -0.75e-9 and -0.5e-9 of the largest.
         (np.diag([1.0, 1.0, 1.0, 1.0 + 3e-9]), [1.0, 0.0, 0.0, 1.0]),
         (1e20 * np.diag([1.0, 1.0, 1.0 + 3e-9, 1.0]), [1.0, 0.0, -1.0, 0.0]),
@@ -80,7 +81,7 @@ def test_a_matrix_that_is_physical_to_its_tolerance_is_not_refused(matrix, light
     assert (given @ op.Light(light)).frame == op.Frame()
 
 
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@rows("dtype", [np.float32, np.float64])
 def test_what_roundings_have_left_of_crossed_polarisers_is_not_refused(dtype):
     angles = np.linspace(0.0, 3.0, 50)
     behind, before = (op.Polarizer(angles + a).mueller().matrix for a in (np.pi / 2, 0.0))

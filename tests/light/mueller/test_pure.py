@@ -1,12 +1,12 @@
 """What does not depolarise, taken apart however little of the light it lets through."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
 from random_matrices import bordered, jones, of_jones, parts, turn, unit_vectors
+from tables import rows
 
 ANGLES = np.linspace(0.1, 1.4, 200)
 NEAR = [0.05, 1e-2, 1e-3, 1e-4, 1e-5]
@@ -20,7 +20,7 @@ def nearly_crossed(e):
     return op.Polarizer(ANGLES + np.pi / 2 - e).mueller() @ op.Polarizer(ANGLES).mueller()
 
 
-@pytest.mark.parametrize("e", NEAR)
+@rows("e", NEAR)
 def test_polarisers_nearly_crossed_depolarise_nothing_and_turn_least(e):
     matrix = nearly_crossed(e)
     found = matrix.lu_chipman()
@@ -33,8 +33,8 @@ def test_polarisers_nearly_crossed_depolarise_nothing_and_turn_least(e):
     np.testing.assert_allclose(product(found) / over, matrix.matrix / over, rtol=0, atol=rounding)
 
 
-@pytest.mark.parametrize("e", NEAR)
-@pytest.mark.parametrize("retardance", [0.5, 1.5, 3.0])
+@rows("e", NEAR)
+@rows("retardance", [0.5, 1.5, 3.0])
 def test_a_retarder_between_polarisers_near_extinction_does_not_depolarise(e, retardance):
     between = op.Retarder(retardance, ANGLES + e).mueller()
     last = op.Polarizer(ANGLES + np.pi / 2 - e).mueller()
@@ -44,7 +44,7 @@ def test_a_retarder_between_polarisers_near_extinction_does_not_depolarise(e, re
     np.testing.assert_allclose(found.retardance, np.pi - 2 * e, rtol=0, atol=1e-14 / e**2)
 
 
-@pytest.mark.parametrize("e", NEAR)
+@rows("e", NEAR)
 def test_a_depolariser_behind_polarisers_nearly_crossed_keeps_its_degree(e):
     depolarizer = op.Mueller(np.diag([1.0, 0.6, 0.6, 0.6]))
     found = (depolarizer @ nearly_crossed(e)).lu_chipman()
@@ -70,7 +70,7 @@ def test_a_jones_matrix_near_a_polariser_keeps_its_turn(seed, gap):
     np.testing.assert_allclose(product(found), matrix, rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("scale", [1e-300, 1e-12, 1.0, 1e300])
+@rows("scale", [1e-300, 1e-12, 1.0, 1e300])
 def test_no_scale_makes_a_depolariser_pure_or_takes_from_what_is(scale):
     rng = np.random.default_rng(8)
     depolarizer, retarder, first = parts(rng, 200)

@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.light.mueller.reciprocity import reciprocal
+from tables import rows
 
 Q = np.diag([1.0, 1.0, -1.0, 1.0])
 
@@ -53,7 +54,7 @@ def test_a_product_is_reversed_factor_by_factor():
     np.testing.assert_allclose(both.matrix, apart.matrix, atol=1e-15)
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.3, -1.2])
+@rows("angle", [0.0, 0.3, -1.2])
 def test_a_turn_between_frames_has_the_same_numbers_on_the_way_back(angle):
     before, behind = op.Frame(), op.Frame().turned(angle)
     there = before.turn_to(behind)

@@ -8,6 +8,7 @@ import pytest
 
 import optipath as op
 from optipath.values.arrays.read_only import same
+from tables import rows
 
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
 
@@ -212,7 +213,7 @@ PAIRS = (
 PLACES = {**{name: (use, [0.5, 0.25]) for name, use in SCALARS.items()}, **VECTORS}
 
 
-@pytest.mark.parametrize("place", PLACES)
+@rows("place", PLACES)
 def test_masks_labels_and_units_are_refused_with_the_cure(place):
     use, values = PLACES[place]
     for given, made in MORE_THAN_NUMBERS.items():
@@ -231,7 +232,7 @@ FITTING = {
 }
 
 
-@pytest.mark.parametrize("place", PLACES)
+@rows("place", PLACES)
 def test_whatever_is_no_number_is_refused_in_words(place):
     for given, value in NO_NUMBERS.items():
         if (place, given) not in FITTING:
@@ -240,7 +241,7 @@ def test_whatever_is_no_number_is_refused_in_words(place):
             assert all(c.isprintable() or c == "\n" for c in str(error.value)), given
 
 
-@pytest.mark.parametrize(
+@rows(
     "given",
     [
         np.ma.masked_array([0.5, 0.25]),
@@ -252,7 +253,6 @@ def test_whatever_is_no_number_is_refused_in_words(place):
         (0.5, 0.25),
         [np.float32(0.5), 0.25],
     ],
-    ids=lambda given: type(given).__name__,
 )
 def test_arrays_that_say_no_more_than_their_numbers_are_taken_for_them(given):
     for name, use in SCALARS.items():
@@ -282,7 +282,7 @@ def test_an_array_that_is_made_of_something_else_does_not_change_with_it():
     assert np.array_equal(element.mueller().matrix, before)
 
 
-@pytest.mark.parametrize(
+@rows(
     "use",
     [
         lambda v: op.Composer(method=v),
@@ -345,7 +345,7 @@ def test_what_cannot_be_compared_is_not_equal():
     assert not same((Raises(),), (0.5,))
 
 
-@pytest.mark.parametrize("endless", [range(10**12), range(2**62)])
+@rows("endless", [range(10**12), range(2**62)])
 def test_more_numbers_than_there_is_memory_for_are_refused_before_they_are_made(endless):
     for give in (
         lambda: path().trace(theta=endless),
@@ -382,14 +382,14 @@ def test_a_number_of_jax_is_taken_wherever_a_number_is():
         op.Interface(jnp.array(1.5 - 0.5j), 0.3)
 
 
-@pytest.mark.parametrize(
-    ("given", "cure"),
+@rows(
+    "given, cure",
     [
         (op.Light([1.0, 0.0, 1.0, 0.0]), r"is a Light, .* op\.Source\(stokes=light\.stokes\)"),
         (op.Mueller(np.eye(4)), r"is a Mueller, .* op\.MuellerElement\(mueller\.matrix\)"),
     ],
 )
-@pytest.mark.parametrize("take", [op.Source, op.Polarizer, op.Frame().turned, op.Light, op.Mueller])
+@rows("take", [op.Source, op.Polarizer, op.Frame().turned, op.Light, op.Mueller])
 def test_light_and_matrices_with_frames_are_no_numbers(given, cure, take):
     with pytest.raises(op.OptipathError, match=cure):
         take(given)
@@ -430,7 +430,7 @@ HOSTILE = [
 ]
 
 
-@pytest.mark.parametrize(
+@rows(
     "take",
     [
         lambda value: op.load_preset("malus").trace(angle=value),

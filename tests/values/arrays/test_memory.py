@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.values.arrays import memory
+from tables import rows
 
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
 ALONG = np.linspace(0.0, 1.5, 10**6)
@@ -53,7 +54,7 @@ def test_a_batch_too_large_for_the_machine_is_refused_with_the_cure(engine):
                 use(**values)
 
 
-@pytest.mark.parametrize(
+@rows(
     "use",
     [
         lambda: plan(keep="all").run_all(**GOLD, **WIDE),
@@ -129,7 +130,7 @@ def test_memory_that_runs_out_on_the_way_is_told_in_the_same_words():
         raise MemoryError
 
 
-@pytest.mark.parametrize("axes", [31, 33, 64])
+@rows("axes", [31, 33, 64])
 def test_a_batch_has_thirty_axes_at_most(axes):
     for use in (plan().run, plan().mueller, plan().certificate, plan().paths):
         with pytest.raises(op.ParameterError, match=f"delta has {axes} axes, .* 30 at most"):

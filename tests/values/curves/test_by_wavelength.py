@@ -8,6 +8,7 @@ import pytest
 
 import optipath as op
 from dispersive import line, on_line
+from tables import rows
 
 
 def test_a_table_has_its_unit_from_texts_or_beside_it():
@@ -24,15 +25,15 @@ def test_a_table_of_another_dimension_is_refused_where_it_stands():
         op.Rotator(op.tabulated(["500 nm", "600 nm"], [25, 20], "deg/mm"))
 
 
-@pytest.mark.parametrize("values", [[1.0, math.nan], [1.0, "x"], [1.0], [1.0, 2.0, 3.0], None])
-@pytest.mark.parametrize("unit", ["", "deg/mm"])
+@rows("values", [[1.0, math.nan], [1.0, "x"], [1.0], [1.0, 2.0, 3.0], None])
+@rows("unit", ["", "deg/mm"])
 def test_what_is_no_table_is_refused_in_words(values, unit):
     with pytest.raises(op.OptipathError):
         op.tabulated(["500 nm", "600 nm"], values, unit)
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         ({"values": np.zeros(0)}, "must be a row of real numbers, not of shape"),
         ({"values": [1.0, 2.0j]}, "must be a row of real numbers, not"),
@@ -51,8 +52,8 @@ def test_what_makes_no_table_is_named(given, sentence):
         op.tabulated(**usual | given)
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         ({"strengths": 1.0}, "strengths of the rotation must be a row of one coefficient or more"),
         ({"poles": 1.0}, "poles of the rotation must be a row of one coefficient or more"),
@@ -69,7 +70,7 @@ def test_what_makes_no_rotation_is_named(given, sentence):
         op.drude_rotation(**{"strengths": [1.0], "poles": [0.1]} | given)
 
 
-@pytest.mark.parametrize("bound", [{}, {"A": [1.5, 1.6, 1.7]}, {"wavelength": [5e-7, 6e-7]}])
+@rows("bound", [{}, {"A": [1.5, 1.6, 1.7]}, {"wavelength": [5e-7, 6e-7]}])
 def test_coefficients_and_wavelengths_that_do_not_broadcast_are_named(bound):
     glass = op.Material.cauchy([op.Parameter("A"), 0.004])
     path = (op.Source() >> op.Interface(glass, 0.3) >> op.Detector()).bind(**bound)
@@ -148,15 +149,15 @@ KNOWN = [
 ]
 
 
-@pytest.mark.parametrize("made", KNOWN)
+@rows("made", KNOWN)
 def test_a_wavelength_that_is_known_may_be_a_text(made):
     assert made("450 nm") == made(450e-9) == pytest.approx(made(None).at("450 nm"), rel=1e-13)
     several = np.array([4.2e-7, 4.5e-7])
     np.testing.assert_allclose(made(several), made(None).at(several), rtol=1e-13)
 
 
-@pytest.mark.parametrize("made", KNOWN)
-@pytest.mark.parametrize("when", ["5 um", 5e-6, [4.5e-7, 5e-6], 450, -4.5e-7, 0.0, np.nan, "red"])
+@rows("made", KNOWN)
+@rows("when", ["5 um", 5e-6, [4.5e-7, 5e-6], 450, -4.5e-7, 0.0, np.nan, "red"])
 def test_a_wavelength_that_is_known_is_within_the_range(made, when):
     with pytest.raises(op.OptipathError, match="wavelength"):
         made(when)
@@ -170,7 +171,7 @@ def test_what_no_value_by_wavelength_may_be_is_refused_by_the_name_of_its_curve(
         op.Interface((glass.n, glass.n), 0.3)
 
 
-@pytest.mark.parametrize("place", [op.Rotator, op.Retarder])
+@rows("place", [op.Rotator, op.Retarder])
 def test_plain_samples_beyond_a_whole_turn_are_told_where_they_are_angles(place):
     with pytest.warns(op.AngleWarning, match="angle|retardance is a plain number"):
         place(op.tabulated(["400 nm", "700 nm"], [95, 78]))

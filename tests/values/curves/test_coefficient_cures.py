@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 P = op.Parameter
 
@@ -54,7 +55,7 @@ def test_a_formula_below_0_names_its_coefficients_besides_the_wavelength():
     assert "bounds=" not in words
 
 
-@pytest.mark.parametrize("a", [1.5 + 1j, np.array([1.5 + 1j, 1.5]), "1.5+1j"])
+@rows("a", [1.5 + 1j, np.array([1.5 + 1j, 1.5]), "1.5+1j"])
 def test_a_complex_coefficient_is_refused_before_anything_is_made_of_it(a):
     path = path_of(op.Material.cauchy([P("a"), 0.004]))
     wanted = "parameter 'a' (at interface.index.n.coefficients[0]) is complex; give a real"

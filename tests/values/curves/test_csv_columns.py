@@ -8,6 +8,7 @@ import pytest
 import optipath as op
 from optipath.errors import ValueFault
 from optipath.values.curves.csv_columns import read_columns
+from tables import rows
 
 NK = ["n", "k"]
 
@@ -22,7 +23,7 @@ def read(tmp_path):
     return read
 
 
-@pytest.mark.parametrize(
+@rows(
     "text",
     [
         "wavelength (nm),n,k\n500,0.97,1.87\n521,0.62,2.08\n",
@@ -46,8 +47,8 @@ def test_columns_are_found_by_their_names_and_units(read, text):
     assert found.columns["k"].tolist() == [1.87, 2.08]
 
 
-@pytest.mark.parametrize(
-    ("head", "cell"),
+@rows(
+    "head, cell",
     [("energy (eV)", "2.4"), ("wavenumber (1/cm)", "19357.305"), ("frequency (THz)", "580.317")],
 )
 def test_a_photon_energy_a_wave_number_or_a_frequency_is_a_wavelength(read, head, cell):
@@ -78,8 +79,8 @@ def test_a_unit_may_be_given_where_the_file_has_none(read):
     assert read("wavelength,n\n500,1\n", ["n"], unit="nm").wavelengths.tolist() == [5e-7]
 
 
-@pytest.mark.parametrize(
-    ("text", "least"),
+@rows(
+    "text, least",
     [
         ("wavelength,n\n400 um,1\n500 um,1\n", 400e-6),
         ("wavelength (nm),n\n0.4 nm,1\n0.5 nm,1\n", 0.4e-9),
@@ -99,8 +100,8 @@ def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):
         read("400,1\n500,2\n", ["power"])
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
+@rows(
+    "text, words",
     [
         ("", "gold.csv: it is empty; write a line for each wavelength"),
         ("# nothing\n", "it is empty"),

@@ -3,9 +3,10 @@
 import pytest
 
 import optipath as op
+from tables import rows
 
 
-@pytest.mark.parametrize(
+@rows(
     "make",
     [
         lambda span: op.Material.cauchy([1.5], span=span, name="x"),

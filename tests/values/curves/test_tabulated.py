@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from optipath.errors import ValueFault
 from optipath.values.curves.tabulated import Tabulated
+from tables import rows
 
 PLACES = np.array([188e-9, 300e-9, 310e-9, 500e-9, 1.2e-6])
 N = np.array([1.3, 1.8, 1.7, 0.9, 0.2])
@@ -25,7 +26,7 @@ def rising(count):
     return steps.map(lambda each: 1e-7 + np.cumsum(each))
 
 
-@pytest.mark.parametrize("interpolation", ["linear", "monotone"])
+@rows("interpolation", ["linear", "monotone"])
 def test_samples_are_exact(interpolation):
     n, k = table(interpolation).evaluated(PLACES)
     assert np.array_equal(n, N)
@@ -63,7 +64,7 @@ def test_monotone_curves_stay_between_their_samples(places, values):
         assert np.all((found >= low - 1e-13) & (found <= high + 1e-13))
 
 
-@pytest.mark.parametrize("interpolation", ["linear", "monotone"])
+@rows("interpolation", ["linear", "monotone"])
 def test_slopes_by_jax_are_those_of_differences(jax, interpolation):
     curve = table(interpolation)
     slope = jax.grad(lambda w: curve.numbers(jax.numpy, w)[1])
@@ -74,7 +75,7 @@ def test_slopes_by_jax_are_those_of_differences(jax, interpolation):
         assert float(slope(wavelength)) == pytest.approx(float(expected), rel=1e-5, abs=10.0)
 
 
-@pytest.mark.parametrize("interpolation", ["linear", "monotone"])
+@rows("interpolation", ["linear", "monotone"])
 def test_a_wavelength_comes_to_the_same_bits_alone_and_among_others(interpolation):
     curve = table(interpolation)
     wavelengths = np.linspace(PLACES[0], PLACES[-1], 300)
@@ -117,8 +118,8 @@ def test_equal_samples_are_equal_curves():
     assert pickle.loads(pickle.dumps(table())) == table()
 
 
-@pytest.mark.parametrize(
-    ("wavelengths", "n", "words"),
+@rows(
+    "wavelengths, n, words",
     [
         ([500, 600], [1, 2], "500 metres, which is no wavelength of light"),
         ([5e-7, 5e-7], [1, 2], "has the wavelength 500 nm twice"),

@@ -1,6 +1,5 @@
-"""All pages of the database against the package's own reader; by OPTIPATH_PAGES=1, not always."""
+"""All pages of the database against the package's own reader."""
 
-import os
 import warnings
 
 import numpy as np
@@ -12,9 +11,7 @@ from optipath.values.database.catalog_pages import catalog_pages
 from optipath.values.database.named_pages import of_page
 from optipath.values.database.named_parts import curve_of
 
-pytestmark = pytest.mark.skipif(
-    "OPTIPATH_PAGES" not in os.environ, reason="reads 3,559 pages; OPTIPATH_PAGES=1 asks for it"
-)
+pytestmark = pytest.mark.slow  # 3,559 pages are read.
 
 
 def curve_or_refusal(page):

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 pytest.importorskip("yaml")
 
@@ -48,8 +49,8 @@ def test_a_table_is_linear_between_its_samples(written):
     assert np.allclose([there.n, there.k], [1.45, 0.3], rtol=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("row", "words"),
+@rows(
+    "row, words",
     [
         ("0.4 1.7 0.1", "mine.yml has the wavelength 400 nm twice, in the rows 1 and 3; give each"),
         ("0 1.7 0.1", "row 3 of mine.yml has the wavelength 0; give lengths above 0"),
@@ -97,8 +98,8 @@ def test_a_file_is_named_by_its_sentences(written):
         op.Material.from_yaml(file, wavelength="700 nm")
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@rows(
+    "text, told",
     [
         ("", "it has no list DATA of tables and formulas"),
         ("DATA: 3", "it has no list DATA"),

@@ -10,6 +10,7 @@ from optipath.values.database.catalog_pages import catalog_pages
 from optipath.values.database.curated_names import CURATED, curated_names
 from optipath.values.database.named_pages import named_page, of_curated
 from optipath.values.database.search import pages_with
+from tables import rows
 
 NANOMETRE = 1e-9
 
@@ -43,7 +44,7 @@ def test_gold_of_johnson_and_christy_at_516_nm():
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize("curated", CURATED, ids=lambda one: one.names[0])
+@rows("curated", CURATED)
 def test_every_short_name_is_the_page_that_it_names(curated):
     material = op.Material.named(curated.names[0])
     low, high = material.span
@@ -83,8 +84,8 @@ def refusal(name, **given):
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize(
-    ("name", "measured"),
+@rows(
+    "name, measured",
     [
         ("silica", "specs/CRYSTRAN-optical/fused_silica-uv"),
         ("silica", "main/SiO2/Franta"),
@@ -113,8 +114,8 @@ def test_vacuum_needs_no_database():
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize(
-    ("name", "page"),
+@rows(
+    "name, page",
     [
         ("GOLD", ""),
         ("gold", "Johnson"),
@@ -136,8 +137,8 @@ def test_a_glass_is_found_by_its_own_name_and_spaces_count_as_underscores():
 
 
 @pytest.mark.usefixtures("database")
-@pytest.mark.parametrize(
-    ("name", "given", "told"),
+@rows(
+    "name, given, told",
     [
         ("gould", {}, "material 'gould' is unknown; did you mean 'gold'?"),
         ("N-BK8", {}, "did you mean 'N-BK7'?"),

@@ -5,6 +5,7 @@ import re
 import pytest
 
 import optipath as op
+from tables import rows
 
 GRID = [4e-7, 5e-7, 6e-7]
 ABSORBING = op.Material.tabulated(GRID, 1.5, [1e-8, 2e-8, 3e-8], name="glass")
@@ -30,7 +31,7 @@ CURE = "take the medium without its k, such as Material(glass.n)"
 
 
 @PLACES
-@pytest.mark.parametrize("medium", [ABSORBING, CONSTANT])
+@rows("medium", [ABSORBING, CONSTANT])
 def test_a_medium_that_absorbs_everywhere_is_refused_when_it_is_placed(place, medium):
     with pytest.raises(op.OptipathError, match=re.escape(CURE)) as refused:
         place(medium)
@@ -38,7 +39,7 @@ def test_a_medium_that_absorbs_everywhere_is_refused_when_it_is_placed(place, me
 
 
 @PLACES
-@pytest.mark.parametrize("medium", [ABSORBING, CONSTANT])
+@rows("medium", [ABSORBING, CONSTANT])
 def test_the_cure_of_a_medium_that_absorbs_works(place, medium):
     assert place(op.Material(medium.n)) is not None
 

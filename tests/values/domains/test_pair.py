@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 
 def glass(**index):
@@ -19,14 +20,14 @@ WAYS = {
 }
 
 
-@pytest.mark.parametrize("way", WAYS)
+@rows("way", WAYS)
 def test_a_pair_is_asked_about_however_it_is_given_and_written(way):
     for pair in ([1.5, 1.6], ["1.5", "1.6"], (1.5, "1.6")):
         with pytest.raises(op.OptipathError, match=r"may be n and k.*write Material\(1.5, 1.6\)"):
             WAYS[way](pair)
 
 
-@pytest.mark.parametrize("way", WAYS)
+@rows("way", WAYS)
 def test_a_list_of_media_is_that_of_their_indices(way):
     indices = np.array([1.5, 1.6 + 0.1j, 2.0])
     media = [op.Material(1.5), op.Material(1.6, 0.1), 2.0]

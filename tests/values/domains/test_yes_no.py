@@ -4,6 +4,7 @@ import pytest
 import optipath as op
 from optipath.values.domains.quantities import YesOrNo
 from paths import chain
+from tables import rows
 
 
 class Shutter(op.Element, kind="test-shutter"):
@@ -15,7 +16,7 @@ class Shutter(op.Element, kind="test-shutter"):
         return [[through * (row == column) for column in range(4)] for row in range(4)]
 
 
-@pytest.mark.parametrize(("shut", "through"), [(True, 0.0), (False, 1.0)])
+@rows("shut, through", [(True, 0.0), (False, 1.0)])
 def test_a_yes_no_field_gives_its_rows_1_or_0(shut, through):
     assert chain([Shutter(shut)]).trace().stokes[0] == through
 
@@ -25,7 +26,7 @@ def test_a_bool_of_numpy_is_a_bool():
     assert Shutter(np.array([True])[0]) == Shutter(shut=True) != Shutter(shut=False)
 
 
-@pytest.mark.parametrize("value", [1, 0.0, "yes", None, [True], np.array([True, False])])
+@rows("value", [1, 0.0, "yes", None, [True], np.array([True, False])])
 def test_anything_else_is_refused_in_words(value):
     with pytest.raises(op.OptipathError, match=r"shut is .*; give True or False"):
         chain([Shutter(value)]).check()

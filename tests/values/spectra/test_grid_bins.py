@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from optipath.values.spectra.grid_bins import grid_edges, grid_fault, grid_widths
+from tables import rows
 
 UNEVEN = np.array([380.0, 395.0, 500.0, 512.5, 700.0]) * 1e-9
 
 
-@pytest.mark.parametrize("grid", [UNEVEN, UNEVEN[::-1]])
+@rows("grid", [UNEVEN, UNEVEN[::-1]])
 def test_widths_are_the_weights_of_the_trapezoidal_rule(grid):
     density = np.random.default_rng(7).uniform(0.0, 3.0, grid.size)
     steps = np.abs(np.diff(grid * 1e9))
@@ -23,8 +24,8 @@ def test_bins_reach_halfway_to_neighbours_and_end_with_the_grid():
     np.testing.assert_allclose(grid_edges(UNEVEN), expected, rtol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("wavelengths", "fault"),
+@rows(
+    "wavelengths, fault",
     [
         (5e-7, "one wavelength alone"),
         ([], "none at all"),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 PLACES = op.wavelengths("400 nm", "700 nm", "50 nm")
 LAMP = op.Spectrum.sampled(PLACES, np.linspace(1.0, 4.0, 7))
@@ -17,14 +18,14 @@ KINDS = [LAMP, BINS, LED, op.Spectrum.black_body(3000.0), op.Spectrum.illuminant
 BETWEEN = np.linspace(405e-9, 695e-9, 17)
 
 
-@pytest.mark.parametrize("first", KINDS)
-@pytest.mark.parametrize("second", KINDS)
+@rows("first", KINDS)
+@rows("second", KINDS)
 def test_sums_are_sums_at_each_wavelength(first, second):
     expected = first.at(BETWEEN) + second.at(BETWEEN)
     np.testing.assert_allclose((first + second).at(BETWEEN), expected, rtol=1e-14)
 
 
-@pytest.mark.parametrize("spectrum", [*KINDS, LASER, LAMP + LASER, op.Spectrum.constant(3.0)])
+@rows("spectrum", [*KINDS, LASER, LAMP + LASER, op.Spectrum.constant(3.0)])
 def test_multiples_have_as_much_more_power(spectrum):
     whole = spectrum.power("400 nm", "700 nm")
     for multiple in (2.5 * spectrum, spectrum * 2.5, spectrum / 0.4):
@@ -57,8 +58,8 @@ def test_a_line_behind_a_filter_has_its_power_times_the_value_there():
     )
 
 
-@pytest.mark.parametrize(
-    ("make", "sentence"),
+@rows(
+    "make, sentence",
     [
         (lambda: BINS * LASER, "a histogram is power in bins"),
         (lambda: LASER * LASER, "the line at 633 nm is power at single wavelengths"),
@@ -86,8 +87,8 @@ def test_the_sum_of_a_list_of_spectra_is_their_sum():
     assert sum([LAMP, LED, LASER]) == LAMP + LED + LASER
 
 
-@pytest.mark.parametrize(
-    ("make", "sentence"),
+@rows(
+    "make, sentence",
     [
         (lambda: LASER - LED, r"power of the line at 633 nm is no spectrum.*\.at\("),
         (lambda: 1.0 - LED, r"power of the diode at 530 nm is no spectrum"),

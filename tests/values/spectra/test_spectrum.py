@@ -9,6 +9,7 @@ import pytest
 
 import optipath as op
 from optipath.values.spectra.grid_bins import grid_widths
+from tables import rows
 
 SI = {"h": 6.62607015e-34, "c": 299792458.0, "k": 1.380649e-23}
 STEFAN_BOLTZMANN = 2 * math.pi**5 * SI["k"] ** 4 / (15 * SI["h"] ** 3 * SI["c"] ** 2)
@@ -43,7 +44,7 @@ def test_a_histogram_has_its_power_spread_evenly_over_each_bin():
     assert turned == lamp
 
 
-@pytest.mark.parametrize("temperature", [300.0, 2856.0, 5772.0])
+@rows("temperature", [300.0, 2856.0, 5772.0])
 def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
     lamp = op.Spectrum.black_body(temperature)
     # What is beyond 1 mm is (15 / pi^4) x^3 / 3 of all, x = h c / (L k T).
@@ -105,8 +106,8 @@ def test_a_diode_has_its_power_and_half_of_its_peak_at_half_its_width():
 HC_EV_NM = SI["h"] * SI["c"] / 1.602176634e-19 * 1e9
 
 
-@pytest.mark.parametrize(
-    ("peak", "width", "low", "high"),
+@rows(
+    "peak, width, low, high",
     [
         ("2 eV", "0.1 eV", HC_EV_NM / 2.05, HC_EV_NM / 1.95),
         ("2 eV", "100 meV", HC_EV_NM / 2.05, HC_EV_NM / 1.95),
@@ -120,8 +121,8 @@ def test_a_width_of_a_diode_is_that_between_its_edges_in_the_unit_given(peak, wi
     assert led.kind.width * 1e9 == pytest.approx(high - low, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("width", "sentence"),
+@rows(
+    "width, sentence",
     [
         ("4 eV", r"'4 eV' around a peak at 619.92.* nm reaches down to 0"),
         ("30", "'30' has no unit"),
@@ -134,7 +135,7 @@ def test_what_is_no_width_is_said(width, sentence):
         op.Spectrum.led("2 eV", width)
 
 
-@pytest.mark.parametrize("name", ["A", "D65", "E"])
+@rows("name", ["A", "D65", "E"])
 def test_illuminants_agree_with_colour_science(name, colour):
     table = colour.SDS_ILLUMINANTS[name]
     places = np.arange(360, 781, 5)
@@ -158,7 +159,7 @@ def test_illuminants_are_100_at_560_nm():
         assert op.Spectrum.illuminant(name).at("560 nm") == pytest.approx(100.0, rel=1e-14)
 
 
-@pytest.mark.parametrize(
+@rows(
     "grid",
     [
         GRID,
@@ -189,8 +190,8 @@ def test_values_of_samples_and_powers_of_bins_are_told_apart():
         lamp.rebin([4e-7, 5e-7]).values  # noqa: B018
 
 
-@pytest.mark.parametrize(
-    ("make", "sentence"),
+@rows(
+    "make, sentence",
     [
         (lambda: op.Spectrum(1.0), "use Spectrum.sampled"),
         (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, -1.0]), "is -1 at 1; give numbers of 0"),
@@ -215,7 +216,7 @@ def test_what_is_no_spectrum_is_said(make, sentence):
         make()
 
 
-@pytest.mark.parametrize(
+@rows(
     "lamp",
     [
         op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0]),

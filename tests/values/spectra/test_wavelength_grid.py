@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def test_each_is_the_number_that_its_text_stands_for():
@@ -17,8 +18,8 @@ def test_numbers_are_in_metres():
     assert op.wavelengths(4e-7, 5e-7, 5e-8).tolist() == [4e-7, 4.5e-7, 5e-7]
 
 
-@pytest.mark.parametrize(
-    ("given", "sentence"),
+@rows(
+    "given, sentence",
     [
         (("380 nm", "700 nm", "45 nm"), "7.11111 steps of 45 nm; .* as up to 695 nm"),
         (("700 nm", "380 nm", "40 nm"), "do not rise"),
