@@ -6,6 +6,9 @@ import inspect
 import pytest
 
 
+FAULTS = (Exception, BaseExceptionGroup, pytest.fail.Exception)
+
+
 def rows(names, table):
     """Call a test once for each row of a table, as ``pytest.mark.parametrize`` does, in one item.
 
@@ -26,7 +29,7 @@ def rows(names, table):
                 given = dict(zip(keys, values, strict=True))
                 try:
                     test(**given, **fixtures)
-                except (Exception, pytest.fail.Exception) as fault:  # noqa: BLE001 - reported below
+                except FAULTS as fault:
                     fault.add_note(f"row {number}: {given}")
                     failed.append(fault)
             if failed:
