@@ -5,7 +5,6 @@ import inspect
 
 import pytest
 
-
 FAULTS = (Exception, BaseExceptionGroup, pytest.fail.Exception)
 
 
