@@ -25,6 +25,20 @@ def test_tables_multiply_and_leave_fixtures_to_pytest(base, product, power, tmp_
     assert tmp_path.is_dir()
 
 
+def test_a_test_is_skipped_where_all_of_its_rows_are():
+    seen = []
+
+    def even(number):
+        if number % 2:
+            pytest.skip("odd")
+        seen.append(number)
+
+    rows("number", [0, 1, 2])(even)()
+    assert seen == [0, 2]
+    with pytest.raises(pytest.skip.Exception, match="odd"):
+        rows("number", [1, 3])(even)()
+
+
 def test_a_row_in_which_nothing_is_refused_fails():
     @rows("text", ["1", "one"])
     def refused(text):

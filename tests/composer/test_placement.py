@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 SIDE = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
 THETA = float(np.radians(40.0))
@@ -57,7 +58,7 @@ def test_a_port_in_space_without_a_frame_is_told():
         path.check()
 
 
-@pytest.mark.parametrize("placed", [{}, {"in": op.Frame()}])
+@rows("placed", [{}, {"in": op.Frame()}])
 def test_light_from_directions_that_differ_cannot_meet(placed):
     path = op.PathGraph()
     for name, frame in (("a", op.Frame()), ("b", SIDE)):

@@ -1,4 +1,3 @@
-import os
 from dataclasses import replace
 
 import numpy as np
@@ -8,9 +7,7 @@ import optipath as op
 from optipath.composer.reduce import MODELS, passes_for
 from paths import chain
 from random_paths import Draw
-
-# The environment asks for more, such as the 10,000 that were looked at once.
-SEEDS = range(int(os.environ.get("OPTIPATH_RANDOM_PATHS", "400")))
+from tables import rows, slow
 
 
 def brightest(path):
@@ -19,9 +16,9 @@ def brightest(path):
     return sum(float(source.intensity) for source in sources)
 
 
-@pytest.mark.parametrize("chunk", range(8))
-def test_every_reduction_equals_the_full_composition(chunk):
-    for seed in SEEDS[chunk::8]:
+@pytest.mark.parametrize("seeds", [range(60), range(60, 120), slow(range(120, 2000))])
+def test_every_reduction_equals_the_full_composition(seeds):
+    for seed in seeds:
         draw = Draw(seed)
         path = draw.path(loops=seed % 3 == 0)
         full = op.Composer(model="full").compose(path).run_all(**draw.values)
@@ -38,10 +35,10 @@ def test_every_reduction_equals_the_full_composition(chunk):
 PASSES = passes_for("auto", "stokes", "float64")[0]
 
 
-@pytest.mark.parametrize("one", PASSES, ids=lambda one: one.name)
+@rows("one", PASSES)
 def test_each_pass_by_itself_leaves_the_lights_equal(one):
     told = 0
-    for seed in SEEDS[:40]:
+    for seed in range(40):
         draw = Draw(1000 + seed)
         path = draw.path(loops=seed % 3 == 0)
         plan = op.Composer(model="full").compose(path)
@@ -72,8 +69,8 @@ def test_constants_are_not_multiplied_in_more_digits_than_doubles_have():
 ANGLES = np.random.default_rng(5).uniform(-3.0, 3.0, (2, 50))
 
 
-@pytest.mark.parametrize(
-    ("elements", "state", "reads", "model"),
+@rows(
+    "elements, state, reads, model",
     [
         ([op.Retarder(op.Parameter("a"), 0.3)], (1, 0, 0, 0), "stokes", "scalar"),
         ([op.Interface(1.5, 0.7)], (1, 0, 0, 0), "intensity", "scalar"),
@@ -117,8 +114,8 @@ def test_a_scene_without_s3_carries_none_and_says_so():
     assert plan.run(b=0.7).stokes[3] == 0.0
 
 
-@pytest.mark.parametrize(
-    ("elements", "labels"),
+@rows(
+    "elements, labels",
     [
         ([op.Rotator(0.1), op.Rotator(0.2)], ["e0.out, e1.out"]),
         ([op.Rotator(op.Parameter("a")), op.Rotator(-op.Parameter("a"))], []),
@@ -171,7 +168,7 @@ def test_values_that_nothing_needs_are_checked_all_the_same():
     assert path.trace(a=np.linspace(0, 1, 5)).stokes.shape == (5, 4)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_components_that_nobody_asked_for_are_nan_in_large_batches(engine):
     path = chain([op.Polarizer(op.Parameter("a"))], [1.0, 0.3, 0.4, 0.0], reads="intensity")
     light = op.Composer(engine=engine).compose(path).run(a=np.linspace(0, 3, 5000))
@@ -180,8 +177,8 @@ def test_components_that_nobody_asked_for_are_nan_in_large_batches(engine):
     np.testing.assert_array_equal(light.intensity, light.stokes[:, 0])
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@rows("engine", ["numpy", "numba"])
+@rows("dtype", ["float32", "float64"])
 def test_what_does_not_depend_on_the_batch_has_its_shape_all_the_same(engine, dtype):
     for elements, state in (
         ([op.Polarizer(op.Parameter("a"))], (1.0, 0.0, 0.0, 0.0)),
@@ -217,7 +214,7 @@ class Half(op.Element):
         return (t, 0.1, 0, 0), (0.1, t, 0, 0), (0, 0, u, 0), (0, 0, 0, u)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_ranges_of_what_a_formula_does_not_read_are_checked_in_float32_too(engine):
     element = Half(op.Parameter("t"), op.Parameter("u", minimum=0.0, maximum=0.2))
     path = chain([element, op.Polarizer(0.0, leakage=0.1)], reads="intensity")
@@ -247,7 +244,7 @@ class Branch(op.Element):
         return (t, 0.1, 0, 0), (0.1, t, 0, 0), (0, 0, 0.9 * t, 0), (0, 0, 0, 0.9 * t)
 
 
-@pytest.mark.parametrize("model", ["auto", "full"])
+@rows("model", ["auto", "full"])
 def test_elements_that_ask_what_their_numbers_are_run_where_these_are_known(model):
     path = chain([Branch(2.0), op.Polarizer(op.Parameter("x"))], reads="intensity")
     plan = op.Composer(model=model).compose(path)
@@ -275,8 +272,8 @@ def test_evaluations_count_every_step_of_an_element_and_angles_by_their_cosine()
     assert turned.compose().evaluations(a=angle)["e0.out"] == 500
 
 
-@pytest.mark.parametrize("reads", ["stokes", "linear", "intensity"])
-@pytest.mark.parametrize("angle", [np.pi / 2, 0.0, 0.3])
+@rows("reads", ["stokes", "linear", "intensity"])
+@rows("angle", [np.pi / 2, 0.0, 0.3])
 def test_a_polariser_halves_circular_light_however_it_stands(angle, reads):
     # Each turn is idle by itself, one since nobody needs what it does, the other since nothing
     # reaches it; without the first, something would.
@@ -285,7 +282,7 @@ def test_a_polariser_halves_circular_light_however_it_stands(angle, reads):
     assert path.trace().intensity == pytest.approx(0.5, rel=1e-15)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@rows("seed", range(40))
 def test_elements_at_angles_that_are_exact_give_what_every_step_gives(seed):
     rng = np.random.default_rng(seed)
     angles = [0.0, np.pi / 4, np.pi / 2, -np.pi / 4]

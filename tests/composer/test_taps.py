@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.paths.drawing import draw
+from tables import rows
 
 
 def filtered_before_the_eye(**link):
@@ -97,9 +98,7 @@ def test_a_tap_in_a_loop_reads_what_has_added_up_there():
     np.testing.assert_allclose(lights["inside"].stokes[:2], expected, rtol=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("leaves", "enters"), [("X1.reflected", "X2.in"), ("X2.reflected", "E.in")]
-)
+@rows("leaves, enters", [("X1.reflected", "X2.in"), ("X2.reflected", "E.in")])
 def test_a_tap_may_not_lead_to_where_other_light_goes(leaves, enters):
     path = op.load_preset("npgr026")
     path.connect(leaves, enters, tap=True)
@@ -173,7 +172,7 @@ def test_paths_that_differ_in_a_tap_are_not_equal():
     assert one != other
 
 
-@pytest.mark.parametrize("tap", [1, None, "yes"])
+@rows("tap", [1, None, "yes"])
 def test_a_tap_is_one_or_is_none(tap):
     path = op.load_preset("npgr026")
     path.add("state", op.Detector())

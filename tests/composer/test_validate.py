@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from optipath.values.made import checked_later
+from tables import rows
 
 
 def chain(*elements):
@@ -21,8 +22,8 @@ def faults_of(path):
     return error.value.faults
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
+@rows(
+    "make, message",
     [
         (lambda: op.Interface(1.5, -0.1), "e0.incidence is -5.72"),
         (lambda: op.Interface(1.5, 1.6), "within 0 deg .. 90 deg"),
@@ -52,8 +53,8 @@ def test_a_value_out_of_its_domain_is_named_with_its_node_where_a_path_is_checke
     assert message in fault
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
+@rows(
+    "make, message",
     [
         (lambda: op.Source(-1.0), "lamp.intensity is -1"),
         (lambda: op.Source(stokes=[1.0, 1.0, 0.1, 0.0]), "more than 100 %"),
@@ -234,7 +235,7 @@ def test_one_optional_parameter_is_enough_for_an_element():
     assert "several optional parameters (a, b)" in fault
 
 
-@pytest.mark.parametrize("reads", ["stoke", 3, None, op.Parameter("reads")])
+@rows("reads", ["stoke", 3, None, op.Parameter("reads")])
 def test_a_reading_that_does_not_exist_is_refused(reads):
     with pytest.raises(op.ValueFault, match="Detector reads"):
         op.Detector(reads=reads)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 PAINT = (["400 nm", "600 nm"], [1.5, 1.7], [0.1, 0.3])
 GREEN = op.Wavelength(default="500 nm", minimum="450 nm", maximum="550 nm", help="colour")
@@ -17,7 +18,7 @@ def path_of(*wavelengths):
     return path >> op.Detector()
 
 
-@pytest.mark.parametrize("wavelengths", [(op.Wavelength(), GREEN), (GREEN, op.Wavelength())])
+@rows("wavelengths", [(op.Wavelength(), GREEN), (GREEN, op.Wavelength())])
 def test_a_bare_wavelength_takes_over_default_range_and_help(wavelengths):
     path = path_of(*wavelengths)
     found = path.parameters["wavelength"]

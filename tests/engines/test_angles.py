@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights
+from tables import rows
 
 OFF = 10.0 ** -np.arange(1.0, 16.0, 1.5)
 GRAZING = [*(np.pi / 2 - OFF), np.nextafter(np.pi / 2, 0.0), *OFF, np.pi / 4]
@@ -61,19 +62,19 @@ def filled(value, count):
     return np.full(count, value)
 
 
-@pytest.mark.parametrize(("engine", "dtype"), WAYS)
+@rows("engine, dtype", WAYS)
 def test_a_batch_next_to_grazing_incidence_is_like_a_single_run(engine, dtype):
     for theta in GRAZING:
         assert_like_a_single_run(engine, dtype, theta=theta)
 
 
-@pytest.mark.parametrize(("engine", "dtype"), WAYS)
+@rows("engine, dtype", WAYS)
 def test_a_batch_next_to_crossed_filters_is_like_a_single_run(engine, dtype):
     for angle in CROSSED:
         assert_like_a_single_run(engine, dtype, angle=angle)
 
 
-@pytest.mark.parametrize(("engine", "dtype"), OTHER_WAYS)
+@rows("engine, dtype", OTHER_WAYS)
 def test_a_batch_of_cosines_and_sines_is_like_a_single_run(engine, dtype):
     for off in OFF:
         grazing, steep = (op.CosSin(off, np.sqrt(1 - off**2)), op.CosSin(np.sqrt(1 - off**2), off))
@@ -82,7 +83,7 @@ def test_a_batch_of_cosines_and_sines_is_like_a_single_run(engine, dtype):
     assert_like_a_single_run(engine, dtype, theta=op.CosSin(1e-18, 1.0))
 
 
-@pytest.mark.parametrize(("engine", "dtype"), OTHER_WAYS)
+@rows("engine, dtype", OTHER_WAYS)
 def test_one_grazing_angle_beside_many_indices_is_like_a_single_run(engine, dtype):
     plan, single = plan_of(engine, dtype), plan_of("auto", dtype)
     indices, slack = np.linspace(1.4, 1.6, 1100), 100 * np.finfo(dtype).eps
@@ -92,7 +93,7 @@ def test_one_grazing_angle_beside_many_indices_is_like_a_single_run(engine, dtyp
         assert abs(float(found) - float(wanted)) <= slack * float(wanted)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_next_to_grazing_incidence_the_light_is_that_of_fifty_digits(dtype):
     for engine in ("numpy", "numba"):
         plan = plan_of(engine, dtype)
@@ -102,7 +103,7 @@ def test_next_to_grazing_incidence_the_light_is_that_of_fifty_digits(dtype):
             assert abs(found - exact) <= 100 * np.finfo(dtype).eps * exact
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_parts_of_a_grid_next_to_grazing_incidence_are_like_the_whole(engine):
     theta, n = np.pi / 2 - OFF[:, np.newaxis], np.linspace(1.3, 1.8, 1100)
     wanted = plan_of("numpy", "float64").run(theta=theta, n=n).intensity
@@ -114,7 +115,7 @@ def test_parts_of_a_grid_next_to_grazing_incidence_are_like_the_whole(engine):
         list(plan.stream(1100, theta=theta, n=n))
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_one_angle_beside_a_grid_of_others_is_like_a_single_run_in_single_precision(engine):
     angles = [op.Parameter(name) for name in ("a", "b", "u")]
     turned = op.Interface(1.5, angles[2], azimuth=angles[1])

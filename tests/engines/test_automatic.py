@@ -11,6 +11,7 @@ from optipath.engines.engine import Engine
 from optipath.engines.known_engines import REGISTRY
 from optipath.engines.numpy_engine import NumpyEngine
 from optipath.plan.running import shared
+from tables import rows
 
 
 class Paths:
@@ -172,8 +173,8 @@ def test_a_new_engine_is_given_nothing_beyond_its_limits(toy):
     assert not toy.compilations
 
 
-@pytest.mark.parametrize(
-    ("dtype", "engine", "words"),
+@rows(
+    "dtype, engine, words",
     [
         ("float64", FLOATS, "fewer than 58 paths are run as floats one by one, more by numpy"),
         ("float32", NUMPY_STEPS, "fewer than 58 paths are run step by step, more by numpy"),

@@ -15,6 +15,7 @@ import pytest
 from optipath.engines import cache_folder, code_cache, code_key
 from optipath.engines.code_cache import CodeCache
 from optipath.errors import CacheError
+from tables import rows
 
 pytest.importorskip("llvmlite")
 posix = pytest.mark.skipif(not hasattr(os, "getuid"), reason="folders of others are a POSIX matter")
@@ -82,7 +83,7 @@ def test_one_flipped_bit_anywhere_is_seen(kept):
         assert not kept.exists()
 
 
-@pytest.mark.parametrize("length", [0, 1, 31, 32, 33, 100, -1])
+@rows("length", [0, 1, 31, 32, 33, 100, -1])
 def test_a_file_of_another_length_is_not_used(kept, length):
     whole = kept.read_bytes()
     kept.write_bytes(whole[:length] if length >= 0 else whole + b"\0")

@@ -12,6 +12,7 @@ import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights
 from optipath.lab.bench.random_values import random_values
 from paths import chain
+from tables import rows, slow, slow_except
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}
 
@@ -39,8 +40,8 @@ def off(found, expected):
     return np.max(np.abs(found - expected) / np.maximum(expected[..., :1], 1e-300))
 
 
-@pytest.mark.parametrize(
-    ("engine", "composing", "values"),
+@rows(
+    "engine, composing, values",
     [
         ("numpy", "stokes", {}),
         ("numpy", "stokes", METAL),
@@ -66,8 +67,8 @@ def test_an_engine_gives_what_the_steps_give(rng, engine, composing, values):
         ("numpy", "compensated"),
         ("numpy", "amplitude"),
         ("numpy", "textbook"),
-        ("numba", "compensated"),
         ("numba", "textbook"),
+        slow(("numba", "compensated")),
     ],
 )
 def test_every_method_is_the_same_by_every_engine(rng, engine, method):
@@ -77,7 +78,7 @@ def test_every_method_is_the_same_by_every_engine(rng, engine, method):
     assert off(plan.run(**given).stokes, step_by_step(path, given, method=method)) < 1e-12
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_each_component_is_right_to_50_digits_as_far_as_the_angles_allow(rng, engine):
     path = op.load_preset("npgr026", **METAL)
     given = angles(rng, 2000)
@@ -92,8 +93,8 @@ def test_each_component_is_right_to_50_digits_as_far_as_the_angles_allow(rng, en
             assert abs(float(component - exact)) <= allowed * max(abs(float(exact)), 1e-300)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("kind", ["float32", "float64"])
+@rows("engine", ["numpy", "numba"])
+@rows("kind", ["float32", "float64"])
 def test_float32_is_float32_from_arrays_of_either_precision(rng, engine, kind):
     path = op.load_preset("npgr026", **METAL)
     given = angles(rng, 2000, kind)
@@ -103,7 +104,7 @@ def test_float32_is_float32_from_arrays_of_either_precision(rng, engine, kind):
     assert off(found, exact) < 3e-6
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_a_matrix_is_what_the_steps_give(rng, engine):
     path = op.load_preset("npgr026", **METAL)
     given = angles(rng, 2000)
@@ -118,9 +119,13 @@ def test_a_matrix_is_what_the_steps_give(rng, engine):
 PRESETS = [(engine, name) for engine in ("numpy", "numba") for name in op.preset_names()]
 PRESETS.remove(("numba", "pile-of-plates"))
 PRESETS.remove(("numba", "absorbing-pile"))
+QUICK = ("npgr026-3d", "glass-slab", "coated-metal", "crystal-plate", "faraday-isolator")
 
 
-@pytest.mark.parametrize(("engine", "name"), PRESETS)
+@pytest.mark.parametrize(
+    ("engine", "name"),
+    slow_except([(e, n) for e, n in PRESETS if e == "numpy" or n in QUICK], PRESETS),
+)
 def test_every_preset_runs_by_every_engine(engine, name):
     path = op.load_preset(name)
     plan = op.Composer(engine=engine).compose(path)
@@ -132,10 +137,8 @@ def test_every_preset_runs_by_every_engine(engine, name):
         np.testing.assert_allclose(found[end].stokes[:9], light.stokes, rtol=0, atol=4e-15 * scale)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize(
-    "shapes", [((40, 1), (1, 50)), ((2000,), ()), ((50, 40), (40,)), ((0,), ()), ((1,), (1,))]
-)
+@rows("engine", ["numpy", "numba"])
+@rows("shapes", [((40, 1), (1, 50)), ((2000,), ()), ((50, 40), (40,)), ((0,), ()), ((1,), (1,))])
 def test_arrays_broadcast_as_in_numpy(rng, engine, shapes):
     path = op.load_preset("npgr026", **METAL)
     delta, phi = (rng.uniform(0.1, 1.5, shape) for shape in shapes)
@@ -149,7 +152,7 @@ def test_arrays_broadcast_as_in_numpy(rng, engine, shapes):
         assert off(found[index], path.trace(**one, rho=0.3).stokes) < 4e-15
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_arrays_may_lie_in_memory_as_they_like(rng, engine):
     plan = op.Composer(engine=engine).compose(op.load_preset("npgr026", **METAL))
     given = angles(rng, 4000)
@@ -160,7 +163,7 @@ def test_arrays_may_lie_in_memory_as_they_like(rng, engine):
     np.testing.assert_array_equal(plan.run(**backwards).stokes, expected[::-1])
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_light_that_is_too_faint_is_done_with_more_care(engine):
     elements = [op.Attenuator(op.Parameter("t"))] * 4
     plan = op.Composer(engine=engine).compose(chain(elements, [1.0, 0.6, 0.0, 0.8]))
@@ -170,8 +173,8 @@ def test_light_that_is_too_faint_is_done_with_more_care(engine):
     np.testing.assert_allclose(light.normalized[7], [1.0, 0.6, 0.0, 0.8], rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("bad", [2.0, -0.1, np.nan, np.inf])
+@rows("engine", ["numpy", "numba"])
+@rows("bad", [2.0, -0.1, np.nan, np.inf])
 def test_one_bad_value_among_many_is_refused_in_the_same_words(engine, bad):
     plan = op.Composer(engine=engine).compose(op.load_preset("npgr026"))
     values = np.full(3000, 0.5)
@@ -186,7 +189,7 @@ def test_one_bad_value_among_many_is_refused_in_the_same_words(engine, bad):
 
 
 @pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_angles_of_many_turns_are_right(engine):
     path = chain([op.Polarizer(op.Parameter("angle"))], [1.0, 0.5, 0.0, 0.5])
     plan = op.Composer(engine=engine).compose(path)
@@ -195,7 +198,7 @@ def test_angles_of_many_turns_are_right(engine):
     np.testing.assert_allclose(plan.run(angle=turns).stokes[:3], expected, rtol=1e-13, atol=1e-16)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_words_in_arrays_say_where_an_element_is(engine):
     path = op.load_preset("npgr026", **METAL)
     words = np.tile(np.array(["none", "horizontal", "diagonal"], dtype=object), 1000)
@@ -204,7 +207,7 @@ def test_words_in_arrays_say_where_an_element_is(engine):
         assert off(found[place], path.trace(filter=word).stokes) < 4e-15
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_angles_by_cosine_and_sine_are_the_angles(rng, engine):
     path = op.load_preset("npgr026", **METAL)
     given = angles(rng, 2000)
@@ -216,8 +219,8 @@ def test_angles_by_cosine_and_sine_are_the_angles(rng, engine):
     assert off(op.Composer(engine="numpy").compose(path).run(**few).stokes, expected[:7]) < 1e-14
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("count", [1, 2000])
+@rows("engine", ["numpy", "numba"])
+@rows("count", [1, 2000])
 def test_a_cosine_that_no_angle_can_have_keeps_its_digits(engine, count):
     path = op.load_preset("npgr026", n1=1.5)
     cosines = np.full(count, 1e-40)
@@ -229,8 +232,8 @@ def test_a_cosine_that_no_angle_can_have_keeps_its_digits(engine, count):
     np.testing.assert_allclose(abs(found), expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("values", "message"),
+@rows(
+    "values, message",
     [
         ({"delta": op.CosSin(1.0, 1.0)}, "belong to no angle"),
         ({"delta": op.CosSin(-1.0, 0.0)}, "outside its range"),
@@ -244,7 +247,7 @@ def test_cosines_and_sines_that_cannot_be_are_refused(values, message):
         plan.run(**values)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_threads_change_nothing(rng, engine):
     path = op.load_preset("npgr026", **METAL)
     given = angles(rng, 200_000)
@@ -308,15 +311,15 @@ def test_a_batch_streams_part_by_part(rng):
     np.testing.assert_allclose(out, whole, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("size", [0, -1, 1.5, True])
+@rows("size", [0, -1, 1.5, True])
 def test_a_part_has_a_path_at_least(size):
     plan = op.load_preset("malus").compose()
     with pytest.raises(op.ParameterError, match="a whole number of 1 or more"):
         next(plan.stream(size, angle=[0.1, 0.2]))
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
+@rows(
+    "options, message",
     [
         ({"engine": "fortran"}, "'fortran' is unknown"),
         ({"threads": 0}, "threads must be a whole number of 1 or more"),
@@ -402,7 +405,7 @@ def test_a_matrix_has_the_rows_that_its_detector_reads():
     assert np.all(np.isfinite(full))
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_streams_cut_what_elements_hold(engine):
     elements = [op.Polarizer(np.linspace(0, 1, 4000)), op.Attenuator(op.Parameter("t"))]
     plan = op.Composer(engine=engine).compose(chain(elements, [1.0, 0.6, 0.0, 0.8]))
@@ -415,9 +418,9 @@ def test_streams_cut_what_elements_hold(engine):
     )
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("bad", [0.0, 0.1 - 1e-12, 1.0 + 1e-12])
+@rows("engine", ["numpy", "numba"])
+@rows("dtype", ["float64", "float32"])
+@rows("bad", [0.0, 0.1 - 1e-12, 1.0 + 1e-12])
 def test_no_rounding_brings_a_value_into_its_range(engine, dtype, bad):
     path = chain([op.Attenuator(op.Parameter("t", minimum=0.1, maximum=1.0))], [1.0, 0, 0, 0])
     plan = op.Composer(engine=engine, dtype=dtype).compose(path)
@@ -426,8 +429,8 @@ def test_no_rounding_brings_a_value_into_its_range(engine, dtype, bad):
             plan.run(t=given)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("dtype", [">f8", "longdouble", "float16", "int64"])
+@rows("engine", ["numpy", "numba"])
+@rows("dtype", [">f8", "longdouble", "float16", "int64"])
 def test_numbers_of_any_sort_are_taken(engine, dtype):
     plan = op.Composer(engine=engine).compose(op.load_preset("malus"))
     given = np.ones(2000).astype(dtype)
@@ -436,7 +439,7 @@ def test_numbers_of_any_sort_are_taken(engine, dtype):
     )
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_an_empty_batch_of_vectors_is_empty_light(engine):
     path = op.PathGraph()
     path.add("lamp", op.Source(stokes=op.Parameter("s"))) >> path.add("eye", op.Detector())
@@ -484,7 +487,7 @@ class Branching(op.Element, kind="test-branching"):
         return (1, 0, 0, 0), (0, c, -s, 0), (0, s, c, 0), (0, 0, 0, 1)
 
 
-@pytest.mark.parametrize("engine", ["auto", "numpy", "numba"])
+@rows("engine", ["auto", "numpy", "numba"])
 def test_an_element_that_cannot_be_compiled_is_run_step_by_step(engine):
     path = chain([Branching(op.Parameter("angle"))], [1.0, 1.0, 0.0, 0.0])
     plan = op.Composer(engine=engine).compose(path)

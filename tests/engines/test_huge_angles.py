@@ -7,6 +7,7 @@ import pytest
 import optipath as op
 from optipath.engines.automatic import is_installed
 from paths import chain
+from tables import rows
 
 # They are meant in radians.
 pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
@@ -41,8 +42,8 @@ def angles(dtype):
     return np.concatenate([found, -found, next_to])
 
 
-@pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("dtype", ROUNDINGS)
+@rows("element", ELEMENTS)
+@rows("dtype", ROUNDINGS)
 def test_batches_and_runs_agree_on_angles_of_any_size(element, dtype):
     given = angles(dtype)
     plan = op.Composer(engine="numpy", dtype=dtype).compose(chain([ELEMENTS[element]], STATE))
@@ -55,8 +56,8 @@ def test_batches_and_runs_agree_on_angles_of_any_size(element, dtype):
     assert_alike(found, dtype)
 
 
-@pytest.mark.parametrize("element", ["rotator", "retardance", "azimuth"])
-@pytest.mark.parametrize("dtype", ROUNDINGS)
+@rows("element", ["rotator", "retardance", "azimuth"])
+@rows("dtype", ROUNDINGS)
 def test_engines_agree_on_angles_of_any_size(element, dtype):
     path, given = chain([ELEMENTS[element]], STATE), angles(dtype)
     compiled = ["numba"] if (element, dtype) == ("rotator", "float64") else []
@@ -74,7 +75,7 @@ def assert_alike(found, dtype):
         assert np.all(polarised <= stokes[:, 0] * (1.0 + ROUNDINGS[dtype])), name
 
 
-@pytest.mark.parametrize("batch", [False, True])
+@rows("batch", [False, True])
 def test_a_rotator_turns_by_the_exact_double_of_its_angle_and_loses_nothing(batch):
     given = angles("float64")
     plan = op.Composer(engine="numpy").compose(chain([op.Rotator(A)], (1.0, 1.0, 0.0, 0.0)))

@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 jax = pytest.importorskip("jax")
 jnp = jax.numpy
@@ -87,7 +88,7 @@ def path_of(field, value):
     return chain([element], STATE)
 
 
-@pytest.mark.parametrize("field", FIELDS)
+@rows("field", FIELDS)
 def test_inside_a_domain_jax_gives_what_numpy_gives_and_outside_nan(field):
     _, inside, outside = FIELDS[field]
     path = path_of(field, V)
@@ -101,7 +102,7 @@ def test_inside_a_domain_jax_gives_what_numpy_gives_and_outside_nan(field):
         assert np.isnan(traced(value)).all(), value
 
 
-@pytest.mark.parametrize("field", ["incidence", "k", "transmittance", "stokes", "layer", "outside"])
+@rows("field", ["incidence", "k", "transmittance", "stokes", "layer", "outside"])
 def test_a_path_that_is_built_of_traced_values_is_nan_outside_their_domains(field):
     _, (inside, *_), (outside, *_) = FIELDS[field]
     built = jax.jit(lambda v: path_of(field, v).trace().stokes)
@@ -111,7 +112,7 @@ def test_a_path_that_is_built_of_traced_values_is_nan_outside_their_domains(fiel
         assert np.isnan(traced(outside)).all()
 
 
-@pytest.mark.parametrize("field", ["incidence", "k", "transmittance", "index", "attenuation"])
+@rows("field", ["incidence", "k", "transmittance", "index", "attenuation"])
 def test_slopes_are_nan_outside_a_domain_and_finite_inside_and_at_its_ends(field):
     _, inside, outside = FIELDS[field]
     slope = jax.jacobian(lambda v: path_of(field, V).trace(v=v).stokes)
@@ -176,7 +177,7 @@ def ring(reflectance=0.9):
     return path
 
 
-@pytest.mark.parametrize("gain", [1.0, 1.111, 1.1111, 1.5])
+@rows("gain", [1.0, 1.111, 1.1111, 1.5])
 def test_known_loops_are_judged_as_by_numpy(gain):
     found = [judged(engine, gain * np.eye(4)) for engine in ("numpy", "jax")]
     assert found[0][1:] == found[1][1:]
@@ -234,7 +235,7 @@ def test_random_rings_are_nan_exactly_where_they_are_refused():
         np.testing.assert_allclose(traced(gain), expected, rtol=1e-9, atol=1e-9 * expected[0])
 
 
-@pytest.mark.parametrize("method", ["stable", "amplitude"])
+@rows("method", ["stable", "amplitude"])
 def test_a_traced_right_angle_of_single_precision_is_grazing_incidence(method):
     path = op.PathGraph()
     for name, element in {

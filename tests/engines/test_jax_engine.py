@@ -1,12 +1,11 @@
 """Gradients by JAX, against differences and closed forms; needs the extra [jax]."""
 
-import os
-
 import numpy as np
 import pytest
 
 import optipath as op
 from optipath.lab.bench.random_values import random_values
+from tables import rows, slow_except
 
 jax = pytest.importorskip("jax")
 jnp = jax.numpy
@@ -26,14 +25,17 @@ PRESETS = {*op.preset_names()} - {"pile-of-plates", "absorbing-pile"}
 # Light that goes round, or through a stack, has no one Jones vector; others have no Jones matrix.
 NO_MATRIX = {"dichroic-sheet", "ellipsometer-rough"}
 WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window"} - NO_MATRIX
-# Each is compiled for seconds; all of them where OPTIPATH_SETS is set.
-FEW = {"npgr026", "fresnel-rhomb", "faraday-isolator", "copper-gold-spectrum"}
+# Each is compiled for seconds.
+QUICK = [("npgr026", "jones"), ("glass-slab", "stokes"), ("copper-gold-spectrum", "stokes")]
 
 
 @pytest.mark.parametrize(
     ("name", "composing"),
-    [(name, "stokes") for name in sorted(PRESETS)]
-    + [(name, "jones") for name in sorted(WITH_JONES if "OPTIPATH_SETS" in os.environ else FEW)],
+    slow_except(
+        QUICK,
+        [(name, "stokes") for name in sorted(PRESETS)]
+        + [(name, "jones") for name in sorted(WITH_JONES)],
+    ),
 )
 def test_every_preset_gives_what_numpy_gives(name, composing):
     path = op.load_preset(name)
@@ -50,7 +52,7 @@ def test_every_preset_gives_what_numpy_gives(name, composing):
         np.testing.assert_allclose(jax_matrix, numpy_matrix, rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
 def test_slopes_are_those_of_differences(method):
     plan = op.Composer(method=method).compose(op.load_preset("npgr026"))
 
@@ -85,9 +87,7 @@ def test_normal_incidence_has_the_slope_of_the_closed_form():
     np.testing.assert_allclose(slope, 100 * 0.04 * 4 * 0.5 / 2.5**3, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("k1", 0.0), ("delta", 0.0), ("phi", np.arctan(1.5)), ("rho", 0.0)]
-)
+@rows("name, value", [("k1", 0.0), ("delta", 0.0), ("phi", np.arctan(1.5)), ("rho", 0.0)])
 def test_where_methods_fail_slopes_are_finite(name, value):
     path = op.load_preset("npgr026")
     slope = jax.jacobian(lambda x: path.trace(**{name: x}).stokes)(value)
@@ -135,7 +135,7 @@ def surface(incidence, stokes=None):
     return path
 
 
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@rows("composing", ["stokes", "jones"])
 def test_slopes_where_the_polarisations_are_equally_bright_are_those_of_50_digits(composing):
     # dS0/dk and dS1/dk at total reflection, n = 0.6, k = 0, 1.2 rad: central differences of the
     # Fresnel equations in mpmath with 50 digits.
@@ -162,7 +162,7 @@ def exact_slope(n, k, angle):
         return [float((ds + dp) / 2), float((ds - dp) / 2)]
 
 
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@rows("composing", ["stokes", "jones"])
 def test_slopes_at_brewsters_angle_are_those_of_differences(composing):
     path = surface(float(np.arctan(1.5)), stokes=[1.0, 0.3, 0.8, 0.4])
     plan = op.Composer(composing=composing).compose(path)

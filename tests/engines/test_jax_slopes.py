@@ -1,6 +1,5 @@
 """Slopes by JAX at every edge and singular point, against differences in 100 digits."""
 
-import os
 from functools import cache
 
 import mpmath
@@ -11,6 +10,7 @@ import optipath as op
 from optipath.kernels.catalogue import METHODS, REFLECTION, TRANSMISSION
 from optipath.lab.accuracy.boundary_reference import boundary, mueller_numbers, powers, stack
 from optipath.lab.accuracy.many_digits import cos_sin, exact_angle
+from tables import rows, slow_except
 
 jax = pytest.importorskip("jax")
 sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
@@ -18,11 +18,6 @@ sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40
 PORTS = {"reflection": "reflected", "transmission": "transmitted"}
-
-
-def all_or_some(combinations, *some):
-    """All where somebody has set OPTIPATH_SETS, and takes the time."""
-    return combinations if "OPTIPATH_SETS" in os.environ else some
 
 
 @pytest.fixture(autouse=True)
@@ -166,9 +161,8 @@ def singular_points(seed):
 
 
 NAMES = ("n1", "n", "k", "angle")
-SEED = int(os.environ.get("OPTIPATH_SEED", "1"))
-SETS = int(os.environ.get("OPTIPATH_SETS", "1"))
-"""Random partners: other ones, and how many of each kind."""
+SEED, SETS = 1, 1
+"""Random partners: which, and how many of each kind."""
 
 
 @cache
@@ -182,12 +176,9 @@ def points_of(seed):
 
 @pytest.mark.parametrize(
     ("what", "method"),
-    all_or_some(
+    slow_except(
+        [("transmission", "stable"), ("reflection", "textbook")],
         [(what, method) for what in PORTS for method in METHODS],
-        ("reflection", "stable"),
-        ("transmission", "stable"),
-        ("reflection", "textbook"),
-        ("transmission", "compensated"),
     ),
 )
 def test_slopes_are_those_of_many_digits_at_every_singular_point(what, method):
@@ -197,9 +188,9 @@ def test_slopes_are_those_of_many_digits_at_every_singular_point(what, method):
 
 @pytest.mark.parametrize(
     ("what", "composing"),
-    all_or_some(
+    slow_except(
+        [("reflection", "jones")],
         [(what, composing) for what in PORTS for composing in ("stokes", "jones")],
-        ("reflection", "jones"),
     ),
 )
 def test_slopes_backwards_are_those_of_many_digits_too(what, composing):
@@ -209,9 +200,8 @@ def test_slopes_backwards_are_those_of_many_digits_too(what, composing):
 
 @pytest.mark.parametrize(
     ("what", "build"),
-    all_or_some(
-        [(what, build) for what in PORTS for build in (slab, layers)],
-        ("reflection", layers),
+    slow_except(
+        [("reflection", layers)], [(what, build) for what in PORTS for build in (slab, layers)]
     ),
 )
 def test_slopes_of_stacks_and_loops_are_those_of_many_digits(what, build):
@@ -270,7 +260,7 @@ def test_matrices_have_the_slopes_of_lights():
     np.testing.assert_allclose(matrix(np.pi / 2) @ np.array(LIGHT), expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("what", all_or_some(list(PORTS), "transmission"))
+@pytest.mark.parametrize("what", slow_except(["transmission"], PORTS))
 def test_second_slopes_are_those_of_many_digits(what):
     points = [point for point in points_of(SEED) if point[1] > 0.0 and point[:2] != (1.0, 0.2)]
     points = [p for p in points if p[2] > 0.0 or abs(p[1] - p[0]) > 1e-3]
@@ -308,8 +298,8 @@ def test_single_precision_has_slopes_at_the_edges_too():
     agree(slopes(plan, NAMES, near, jax.jacfwd), expected, near, limit=2e-3)
 
 
-@pytest.mark.parametrize("kernel", [REFLECTION, TRANSMISSION])
-@pytest.mark.parametrize("absorbing", [True, False])
+@rows("kernel", [REFLECTION, TRANSMISSION])
+@rows("absorbing", [True, False])
 def test_infinite_slopes_are_no_number_that_could_be_one(kernel, absorbing):
     # sin = n: g is 0, and its slope in whatever changes it is infinite.
     chosen = kernel.by_method("stable")

@@ -11,6 +11,7 @@ from optipath.engines import code_key, machine_code
 from optipath.engines.array_address import address
 from optipath.engines.code_cache import CodeCache
 from optipath.engines.machine_code import MachineCode, compiled
+from tables import rows
 
 TEXT = """
 def path(count: 'int64', factor: 'float64', given: '*float64', flags: '*uint8', out: '*float64'):
@@ -27,7 +28,7 @@ def code():
     return compiled(TEXT.format(number=0.5))
 
 
-@pytest.mark.parametrize("last", [True, False])
+@rows("last", [True, False])
 def test_machine_code_reads_and_writes_arrays(code, last):
     given, flags, out = np.arange(100.0), np.ones(100, bool), np.empty(100)
     flags[-1] = last

@@ -12,6 +12,7 @@ from paths import chain
 numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
 from optipath.engines.machine_code import assembly  # noqa: E402 - needs numba
 from optipath.engines.numba_engine import source  # noqa: E402
+from tables import rows  # noqa: E402
 
 
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
@@ -27,12 +28,12 @@ def test_a_path_is_computed_many_at_a_time():
     assert packed >= single / 2
 
 
-@pytest.mark.parametrize("number", [1.0, 0.75, -3e-310, 5e-324, 1e308, 0.0])
+@rows("number", [1.0, 0.75, -3e-310, 5e-324, 1e308, 0.0])
 def test_the_exponent_is_that_of_frexp(number):
     assert numba_helpers.exponent(number) == np.frexp(number)[1]
 
 
-@pytest.mark.parametrize("power", [0, 5, -1070, 900, -3000, 3000])
+@rows("power", [0, 5, -1070, 900, -3000, 3000])
 def test_powers_of_two_are_taken_times_exactly(power):
     with np.errstate(over="ignore", under="ignore"):
         assert numba_helpers.ldexp(0.75, power) == np.ldexp(0.75, power)
@@ -47,7 +48,7 @@ def test_what_a_product_loses_is_kept():
 SINGLE = np.linspace(0.1, 1.0, 5, dtype=np.float32)
 
 
-@pytest.mark.parametrize("kind", [np.float32, np.float16, ">f4", ">f8"])
+@rows("kind", [np.float32, np.float16, ">f4", ">f8"])
 def test_arrays_of_any_precision_are_read_as_the_numbers_that_they_are(kind):
     plan = op.Composer(engine="numba").compose(op.load_preset("malus"))
     given = SINGLE.astype(kind)

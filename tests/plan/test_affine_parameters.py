@@ -8,6 +8,7 @@ import pytest
 
 import optipath as op
 from optipath.paths.drawing import draw
+from tables import rows, slow
 
 D = op.Parameter("d")
 OFFSET = op.Parameter("any", unit="deg").parse("80 deg")
@@ -59,7 +60,7 @@ def assert_as_if_given(options, several):
             np.testing.assert_array_equal(found, expected)
 
 
-@pytest.mark.parametrize(
+@rows(
     "options",
     [
         {"engine": "numpy"},
@@ -67,14 +68,18 @@ def assert_as_if_given(options, several):
         {"composing": "jones"},
         {"method": "textbook"},
     ],
-    ids=str,
 )
 def test_it_is_as_if_the_numbers_had_been_given_themselves_bit_for_bit(options):
     assert_as_if_given(options, GIVEN)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("engine", ["numba", "jax"])
+@pytest.mark.parametrize(
+    ("engine", "dtype"),
+    [
+        ("numba", "float64"),
+        *map(slow, [("numba", "float32"), ("jax", "float64"), ("jax", "float32")]),
+    ],
+)
 def test_every_engine_gives_as_if_the_numbers_had_been_given_themselves(engine, dtype):
     pytest.importorskip(engine)
     assert_as_if_given({"engine": engine, "dtype": dtype}, [ARRAY])
@@ -121,7 +126,7 @@ def test_a_field_that_would_leave_its_domain_is_told_with_both():
         op.Interface(1.5, 2 * op.Parameter("d", 1.1) + "10 deg")
 
 
-@pytest.mark.parametrize("degrees", range(0, 91, 3))
+@rows("degrees", range(0, 91, 3))
 def test_a_sum_of_a_right_angle_is_one(degrees):
     path = through(op.Interface(1.5, D + f"{degrees} deg"))
     for d in (f"{90 - degrees} deg", np.radians(90.0 - degrees), [np.radians(90.0 - degrees)]):
@@ -199,7 +204,7 @@ def test_an_offset_of_another_dimension_is_a_fault():
         op.Attenuator(D + "1 deg")
 
 
-@pytest.mark.parametrize("angle", [2 * D + 45.0, 45.0 - D, op.Parameter("d", unit="deg") + 45.0])
+@rows("angle", [2 * D + 45.0, 45.0 - D, op.Parameter("d", unit="deg") + 45.0])
 def test_an_offset_that_looks_like_degrees_is_warned_of(angle):
     with pytest.warns(op.AngleWarning, match="offset of parameter 'd' .* is a plain number"):
         op.Polarizer(angle)

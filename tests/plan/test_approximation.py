@@ -6,6 +6,7 @@ import pytest
 import optipath as op
 from paths import chain
 from random_paths import Draw
+from tables import rows
 
 
 def two_panes(n=1.5, k=0.0, reads="intensity"):
@@ -18,7 +19,7 @@ def two_panes(n=1.5, k=0.0, reads="intensity"):
     return chain(elements, reads=reads)
 
 
-@pytest.mark.parametrize("seed", range(150))
+@rows("seed", range(150))
 def test_no_certificate_is_violated_by_any_path(seed):
     draw = Draw(seed)
     path = draw.path()
@@ -32,8 +33,8 @@ def test_no_certificate_is_violated_by_any_path(seed):
         assert np.all(light.intensity[~lit] == 0.0)
 
 
-@pytest.mark.parametrize("size", [(), (5,), (3000,), (70_000,), (40, 1, 50)])
-@pytest.mark.parametrize("tolerance", [1e-4, 0.01, 0.3])
+@rows("size", [(), (5,), (3000,), (70_000,), (40, 1, 50)])
+@rows("tolerance", [1e-4, 0.01, 0.3])
 def test_a_tolerated_intensity_is_as_near_as_it_may_be(size, tolerance):
     draw = np.random.default_rng(3).uniform
     values = {name: draw(0.0, 1.4, size) for name in ("a", "b", "turn")}
@@ -50,7 +51,7 @@ def test_a_tolerated_intensity_is_as_near_as_it_may_be(size, tolerance):
     np.testing.assert_array_equal(found.intensity[~beyond], certificate.scalar[~beyond])
 
 
-@pytest.mark.parametrize("size", [(), (5,), (3000,)])
+@rows("size", [(), (5,), (3000,)])
 def test_each_of_several_tolerated_intensities_is_as_near_as_it_may_be(rng, size):
     path = op.PathGraph()
     path.add("lamp", op.Source()) >> path.add("first", op.Interface(1.5, op.Parameter("a")))
@@ -83,7 +84,7 @@ def test_the_certificate_of_two_interfaces_is_reached():
     assert crossed == pytest.approx(found.lower * found.scalar, rel=1e-12)
 
 
-@pytest.mark.parametrize("model", ["sp", "linear"])
+@rows("model", ["sp", "linear"])
 def test_a_model_by_name_may_be_tolerated_too(model):
     metal = op.Material(0.2, 3.0)
     elements = [op.Interface(metal, op.Parameter("a"), azimuth=0.4) for _ in range(4)]
@@ -107,13 +108,13 @@ def test_where_more_is_read_than_the_intensity_the_plan_stays_exact():
         op.Composer(model="scalar", tolerance=0.5).compose(path)
 
 
-@pytest.mark.parametrize("tolerance", [0, 1.0, -0.1, "0.1", True, np.nan])
+@rows("tolerance", [0, 1.0, -0.1, "0.1", True, np.nan])
 def test_tolerances_that_cannot_be_are_refused(tolerance):
     with pytest.raises(op.ComposerError, match="tolerance must be a number between 0 and 1"):
         op.Composer(tolerance=tolerance)
 
 
-@pytest.mark.parametrize("options", [{"model": "full"}, {"composing": "jones"}])
+@rows("options", [{"model": "full"}, {"composing": "jones"}])
 def test_a_tolerance_beside_what_is_exact_is_refused(options):
     with pytest.raises(op.ComposerError, match="takes no tolerance"):
         op.Composer(tolerance=0.1, **options)
@@ -144,7 +145,7 @@ def test_out_of_range_values_are_refused_by_tolerated_plans_too():
         plan.run(a=3.0, b=0.1, turn=0.0)
 
 
-@pytest.mark.parametrize("size", [(), (3000,)])
+@rows("size", [(), (3000,)])
 def test_tolerated_light_has_the_precision_of_the_plan(size):
     plan = op.Composer(tolerance=0.05, dtype="float32").compose(two_panes())
     values = {"a": np.linspace(0.0, 1.2, 3000) if size else 0.2, "b": 0.3, "turn": 0.3}

@@ -1,4 +1,3 @@
-import os
 from typing import ClassVar
 
 import numpy as np
@@ -7,8 +6,9 @@ import pytest
 import optipath as op
 from paths import chain
 from random_matrices import bordered, jones, of_jones, unit_vectors
+from tables import rows
 
-ROUNDS = int(os.environ.get("OPTIPATH_CLIMB", "8"))
+ROUNDS = 8
 ROOT = 1.0 / np.sqrt(3.0)
 NO_ROW_TOO_LONG = bordered(np.full((3, 3), ROOT))
 REFUSED = r"'e0' is unphysical, having a coherency eigenvalue of -.*Mueller\(matrix\)\.nearest_phys"
@@ -57,7 +57,7 @@ def unphysical_with_short_rows(rng, count):
     return found[values[:, 3] < -1e-6][:count]
 
 
-@pytest.mark.parametrize("element", [measured(NO_ROW_TOO_LONG), OwnElement()])
+@rows("element", [measured(NO_ROW_TOO_LONG), OwnElement()])
 def test_no_bound_is_given_for_an_unphysical_matrix(element):
     path = chain([element, op.Polarizer(0.3)], [1.0, *[ROOT] * 3], reads="intensity")
     for asked in asked_in_every_way(path):
@@ -65,8 +65,8 @@ def test_no_bound_is_given_for_an_unphysical_matrix(element):
             asked()
 
 
-@pytest.mark.parametrize("size", [(), (3,), (2500,)])
-@pytest.mark.parametrize("own", [True, False])
+@rows("size", [(), (3,), (2500,)])
+@rows("own", [True, False])
 def test_one_unphysical_matrix_of_a_batch_is_refused(size, own):
     values = {"M": np.broadcast_to(np.eye(4), (*size, 4, 4)).copy()}
     values["M"][-1 if size else ...] = NO_ROW_TOO_LONG
@@ -80,7 +80,7 @@ def test_one_unphysical_matrix_of_a_batch_is_refused(size, own):
             asked()
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32", "longdouble"])
+@rows("dtype", ["float64", "float32", "longdouble"])
 def test_every_matrix_with_a_negative_eigenvalue_is_refused_however_short_its_rows(dtype):
     plan = op.Composer(dtype=dtype).compose(chain([measured(op.Parameter("M"))]))
     for matrix in unphysical_with_short_rows(np.random.default_rng(1), 100):
@@ -99,7 +99,7 @@ def test_compiled_bounds_refuse_one_unphysical_matrix_of_many():
         plan.certificate(M=matrices)
 
 
-@pytest.mark.parametrize("terms", [1, 2, 3, 4])
+@rows("terms", [1, 2, 3, 4])
 def test_no_physical_matrix_is_refused_whatever_engine_bounds_it(terms):
     rng = np.random.default_rng(terms)
     scale = rng.choice([1e-150, 1e-3, 1.0], (20_000, 1, 1))
@@ -126,9 +126,9 @@ def drawn(rng, count, length, terms):
     return state, jones(rng, length, count, terms)
 
 
-@pytest.mark.parametrize("terms", [1, 2, 3, 4])
-@pytest.mark.parametrize("length", [2, 3])
-@pytest.mark.parametrize("end", ["lower", "upper"])
+@rows("terms", [1, 2, 3, 4])
+@rows("length", [2, 3])
+@rows("end", ["lower", "upper"])
 def test_no_physical_matrices_found_by_climbing_violate_a_bound(terms, length, end):
     rng, count = np.random.default_rng([terms, length]), 500
     names = [f"M{i}" for i in range(length)]
@@ -158,7 +158,7 @@ def test_no_physical_matrices_found_by_climbing_violate_a_bound(terms, length, e
     assert best.max() > 0.3
 
 
-@pytest.mark.parametrize("share", [1e-12, 1e-10, 0.9e-9])
+@rows("share", [1e-12, 1e-10, 0.9e-9])
 def test_what_a_rounded_matrix_lacks_is_given_away_and_no_more(share):
     rng = np.random.default_rng(5)
     for _ in range(30):
@@ -177,7 +177,7 @@ def test_what_a_rounded_matrix_lacks_is_given_away_and_no_more(share):
         np.testing.assert_allclose(found.upper, exact.upper, rtol=50.0 * share)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_light_polarised_by_a_rounding_too_much_stays_within_its_bounds(engine):
     rng = np.random.default_rng(8)
     axes = unit_vectors(rng, 20_000) * [1.0, 1.0, 1e-7]

@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows, slow_except
 
 
 def long_path(count):
@@ -58,11 +59,11 @@ WITHOUT_JONES = {"glass-slab", "dichroic-sheet", "ellipsometer-rough", *STACKS}
 WITH_JONES = sorted({*op.preset_names()} - WITHOUT_JONES)
 
 
-@pytest.mark.parametrize(
-    ("name", "options"),
-    [(name, options) for name in op.preset_names() for options in ({}, {"model": "full"})]
-    + [(name, {"composing": "jones"}) for name in WITH_JONES],
-)
+EXPLAINED = [(name, options) for name in op.preset_names() for options in ({}, {"model": "full"})]
+EXPLAINED += [(name, {"composing": "jones"}) for name in sorted(WITH_JONES)]
+
+
+@pytest.mark.parametrize(("name", "options"), slow_except(EXPLAINED[::5], EXPLAINED))
 def test_every_preset_is_explained_as_json_too(name, options):
     found = op.Composer(**options).compose(op.load_preset(name)).explanation()
     text = json.dumps(found.as_dict(), allow_nan=False)
@@ -70,13 +71,13 @@ def test_every_preset_is_explained_as_json_too(name, options):
     assert len(str(found).splitlines()) < 60
 
 
-@pytest.mark.parametrize("name", sorted(WITHOUT_JONES))
+@rows("name", sorted(WITHOUT_JONES))
 def test_presets_without_a_jones_vector_are_refused_one(name):
     with pytest.raises(op.ComposerError, match=r"no Jones .*compose with composing='stokes'"):
         op.Composer(composing="jones").compose(op.load_preset(name))
 
 
-@pytest.mark.parametrize("intensity", [0.0, 1e-300])
+@rows("intensity", [0.0, 1e-300])
 def test_light_however_faint_is_bounded(intensity):
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source(intensity))
@@ -97,8 +98,8 @@ def test_matrices_that_cannot_be_leave_the_explanation_json():
     json.dumps(found.as_dict(), allow_nan=False)
 
 
-@pytest.mark.parametrize(
-    ("reads", "model", "words"),
+@rows(
+    "reads, model, words",
     [
         (
             "stokes",

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.kernels.catalogue import METHODS
+from tables import rows
 
 RANGES = {
     "delta": (0.0, np.pi / 2),
@@ -112,8 +113,8 @@ def test_float32_is_carried_as_float32():
     np.testing.assert_allclose(light.stokes, NPGR026.trace(filter="diagonal").stokes, rtol=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("values", "messages"),
+@rows(
+    "values, messages",
     [
         ({"detla": 1.0}, ["'detla'", "did you mean 'delta'"]),
         ({"delta": 2.0}, ["'delta'", "114.59", "0 deg .. 90 deg"]),
@@ -155,9 +156,7 @@ def test_a_parameter_may_have_any_name():
     assert path.bind(self=3.0).trace().intensity == 3.0
 
 
-@pytest.mark.parametrize(
-    "copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))]
-)
+@rows("copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))])
 def test_paths_and_plans_can_be_copied_and_pickled(copied):
     path = op.load_preset("npgr026", filter=[0.1, "none"])
     assert copied(path) == path
@@ -210,7 +209,7 @@ def test_several_detectors_are_read_by_name():
         path.mueller("lmap", "a")
 
 
-@pytest.mark.parametrize("option", ["method", "model", "engine", "dtype"])
+@rows("option", ["method", "model", "engine", "dtype"])
 def test_unknown_composer_options_are_refused(option):
     with pytest.raises(op.ComposerError, match=f"{option} 'x' is unknown"):
         op.Composer(**{option: "x"})
@@ -223,15 +222,15 @@ def test_the_explanation_lists_steps_readings_and_what_leaves():
         assert part in text
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@rows("method", METHODS)
+@rows("composing", ["stokes", "jones"])
 def test_plans_of_every_method_can_be_pickled(method, composing):
     plan = op.Composer(method=method, composing=composing).compose(NPGR026)
     again = pickle.loads(pickle.dumps(plan))
     assert again.run() == plan.run()
 
 
-@pytest.mark.parametrize("composing", ["jonse", "mueller", None])
+@rows("composing", ["jonse", "mueller", None])
 def test_an_unknown_way_of_composing_is_refused(composing):
     with pytest.raises(op.ComposerError, match="composing"):
         op.Composer(composing=composing)
@@ -253,21 +252,21 @@ def test_a_longdouble_that_is_no_more_than_float64_is_refused():
         op.Composer(dtype="longdouble")
 
 
-@pytest.mark.parametrize("odd", [np.eye(2), [1], {}, 1.5, object(), op.CosSin(1.0, 0.0)])
-@pytest.mark.parametrize("option", ["method", "model", "engine", "dtype", "composing", "keep"])
+@rows("odd", [np.eye(2), [1], {}, 1.5, object(), op.CosSin(1.0, 0.0)])
+@rows("option", ["method", "model", "engine", "dtype", "composing", "keep"])
 def test_an_option_that_is_no_word_is_refused(option, odd):
     with pytest.raises(op.ComposerError, match=f"{option} .* is unknown"):
         op.Composer(**{option: odd})
 
 
-@pytest.mark.parametrize("odd", [np.eye(2), "two", None, [1], 2.5, -1])
+@rows("odd", [np.eye(2), "two", None, [1], 2.5, -1])
 def test_what_is_no_number_of_paths_is_refused(odd):
     plan = op.load_preset("malus").compose()
     with pytest.raises(op.ParameterError, match="number of paths must be a whole number"):
         plan.engine_for(odd)
 
 
-@pytest.mark.parametrize("odd", [np.eye(2), [1], {}, 1.5])
+@rows("odd", [np.eye(2), [1], {}, 1.5])
 def test_what_is_no_name_of_a_source_or_detector_is_refused(odd):
     plan = op.load_preset("malus").compose()
     for names in [(odd,), (None, odd)]:
@@ -275,7 +274,7 @@ def test_what_is_no_name_of_a_source_or_detector_is_refused(odd):
             plan.mueller(*names, angle=0.3)
 
 
-@pytest.mark.parametrize("odd", [np.eye(3), "words", 0.5, None])
+@rows("odd", [np.eye(3), "words", 0.5, None])
 def test_a_case_of_what_is_no_mapping_is_refused(odd):
     with pytest.raises(op.ParameterError, match="values of a case must be a mapping"):
         op.Case(odd)
@@ -285,7 +284,7 @@ def test_a_case_of_what_is_no_mapping_is_refused(odd):
         op.Case({}, {"eye": odd if isinstance(odd, str) else "words"})
 
 
-@pytest.mark.parametrize("give", ["threads", "tolerance", "limit", "count", "size"])
+@rows("give", ["threads", "tolerance", "limit", "count", "size"])
 def test_a_duration_is_no_number(give):
     days = np.timedelta64(3, "D")
     path = op.load_preset("malus")

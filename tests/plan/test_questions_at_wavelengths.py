@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 HALF = ["500 nm", "600 nm"], [0.5, 0.6]
 AT = {"550 nm": 0.55, "510 nm": 0.51}
@@ -57,9 +58,9 @@ QUESTIONS = {
 }
 
 
-@pytest.mark.parametrize("wavelength", GIVEN, ids=["one", "row", "column"])
-@pytest.mark.parametrize("path_of", [dimmed, lit])
-@pytest.mark.parametrize("question", QUESTIONS)
+@rows("wavelength", GIVEN)
+@rows("path_of", [dimmed, lit])
+@rows("question", QUESTIONS)
 def test_a_curve_is_answered_as_its_numbers_are(question, path_of, wavelength):
     ask = QUESTIONS[question]
     found = ask(path_of(op.tabulated(*HALF)), {"wavelength": wavelength})

@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.engines.automatic import is_installed
+from tables import rows
 
 
 class Watching(op.Element):
@@ -87,21 +88,21 @@ def steps_seen(plan, run, rng, shape):
     return Watching.seen
 
 
-@pytest.mark.parametrize("shape", [(3000,), (60, 50)])
-@pytest.mark.parametrize("question", RUNS)
+@rows("shape", [(3000,), (60, 50)])
+@rows("question", RUNS)
 def test_of_ordinary_values_no_formula_leaves_any_to_the_steps(rng, question, shape):
     options, reads, run = RUNS[question]
     plan = op.Composer(engine="numpy", **options).compose(watched(reads))
     assert steps_seen(plan, run, rng, shape) == []
 
 
-@pytest.mark.parametrize("shape", [(), (3000,), (60, 50)])
+@rows("shape", [(), (3000,), (60, 50)])
 def test_of_loops_no_formula_leaves_any_to_the_steps(rng, shape):
     plan = op.Composer(engine="numpy").compose(watched(loops=True))
     assert steps_seen(plan, lambda plan: plan.run_all, rng, shape) == []
 
 
-@pytest.mark.parametrize("shape", [(), (2,), (10,), (300,)])
+@rows("shape", [(), (2,), (10,), (300,)])
 def test_of_few_paths_that_have_run_before_no_formula_leaves_any_to_the_steps(rng, shape):
     plan = watched().compose()
     assert steps_seen(plan, lambda plan: plan.run, rng, shape) == []

@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 SEEN = [1.0, 1.0, 0.0, 0.0]
 
@@ -34,9 +35,9 @@ def repeated(value, count):
     return np.full(count, value)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize("rotator", [op.Rotator, Turning])
-@pytest.mark.parametrize("angle", [0.3, 1.2, 2.0, -0.7])
+@rows("sign", [1, -1])
+@rows("rotator", [op.Rotator, Turning])
+@rows("angle", [0.3, 1.2, 2.0, -0.7])
 def test_an_angle_and_its_pair_turn_light_alike(rotator, sign, angle):
     parameter = op.Parameter("a") if sign > 0 else -op.Parameter("a")
     pair = op.CosSin(float(np.cos(angle)), float(np.sin(angle)))
@@ -47,8 +48,8 @@ def test_an_angle_and_its_pair_turn_light_alike(rotator, sign, angle):
 
 
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")  # Of each run, as one test says.
-@pytest.mark.parametrize("most", [1.5, 3.0, 6.0, 1e3])
-@pytest.mark.parametrize("least", [0.0, -1.0])
+@rows("most", [1.5, 3.0, 6.0, 1e3])
+@rows("least", [0.0, -1.0])
 def test_angles_up_to_any_limit_are_right(least, most):
     angles = np.linspace(least, most, 3001)
     limits = {"minimum": f"{least} rad", "maximum": f"{most} rad"}

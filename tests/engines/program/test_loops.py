@@ -11,6 +11,7 @@ from lossless import networks
 from optipath.engines.automatic import is_installed
 from optipath.lab.accuracy.path_reference import exact_lights
 from slabs import slab
+from tables import rows, slow
 
 # Light in front of n = 1.5 over 0.608 + 2.12i at 40 deg: A, B, C and S of the sum over all
 # rounds, r + t^2 q / (1 - r q) for s, for p and for r_s conj(r_p), in mpmath with 50 digits.
@@ -43,7 +44,7 @@ def test_a_slab_is_its_closed_series():
         np.testing.assert_allclose(found["R"].intensity, 1 - expected[:, 0], rtol=1e-14, atol=1e-15)
 
 
-@pytest.mark.parametrize("apart", [1e-3, 1e-5])
+@rows("apart", [1e-3, 1e-5])
 def test_a_slab_keeps_its_digits_next_to_grazing_incidence(apart):
     theta = float(np.pi / 2 - apart)
     expected = closed_slab(mp.mpf(1.5), mp.mpf(theta))
@@ -77,8 +78,9 @@ def test_a_layer_stack_is_the_same_sum():
         )
 
 
-def test_no_energy_gets_lost_in_networks_without_losses():
-    for network in networks(150):
+@pytest.mark.parametrize("count", [40, slow(150)])
+def test_no_energy_gets_lost_in_networks_without_losses(count):
+    for network in networks(count):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", op.LoopWarning)
             lights = network.path.trace_all()
@@ -180,7 +182,7 @@ def test_loops_are_refused_unless_asked_for():
         op.Composer(loops="add")
 
 
-@pytest.mark.parametrize("gain", [1.0, 1.5])
+@rows("gain", [1.0, 1.5])
 def test_a_gain_of_one_or_more_is_an_error(gain):
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(1.0)) >> path.add("join", op.Combiner())
@@ -260,7 +262,7 @@ def test_light_from_behind_is_reflected_totally_into_a_gap_as_well():
     np.testing.assert_allclose(light.stokes, exact, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("model", ["auto", "full"])
+@rows("model", ["auto", "full"])
 def test_light_that_cannot_be_keeps_its_energy(model):
     # At this angle no light travels in either medium.
     face = op.Interface(2.097, 1.0957, outside=1.238, incidence_in=2.4934)

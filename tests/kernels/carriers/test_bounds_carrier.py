@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from tables import rows
 
 SHARES = st.floats(0.0, 1.0)
 
@@ -26,7 +27,7 @@ def behind(dop, diattenuations, axes):
     return s0
 
 
-@pytest.mark.parametrize("length", range(2, 11))
+@rows("length", range(2, 11))
 def test_no_chain_leaves_its_bounds_and_some_reach_them(rng, length):
     count = 112_000  # A million for all lengths together.
     dop = rng.choice([0.0, 1.0, -1.0], count, p=[0.3, 0.1, 0.6])
@@ -65,8 +66,8 @@ def test_bounds_enclose_one_and_do_not_depend_on_the_sign(dop, shares):
     assert (lower, upper) == op.intensity_bounds(dop, [-share for share in shares])
 
 
-@pytest.mark.parametrize(
-    ("dop", "shares", "message"),
+@rows(
+    "dop, shares, message",
     [
         (1.5, [], "source_dop"),
         (0.0, [0.1, -2.0], r"diattenuations\[1\]"),

@@ -10,6 +10,7 @@ from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.kernels.numbers.primitives import FLOAT
+from tables import rows
 
 ALL = [
     StokesCarrier,
@@ -21,14 +22,14 @@ ALL = [
 ]
 
 
-@pytest.mark.parametrize("carrier", ALL)
+@rows("carrier", ALL)
 def test_every_carrier_keeps_the_contract(carrier):
     for name in ("emit", "act", "add", "meet", "read"):
         promised = inspect.signature(getattr(Carrier, name)).parameters
         assert list(inspect.signature(getattr(carrier, name)).parameters) == list(promised)
 
 
-@pytest.mark.parametrize("carrier", [JonesCarrier, IntensityCarrier, BoundsCarrier])
+@rows("carrier", [JonesCarrier, IntensityCarrier, BoundsCarrier])
 def test_a_carrier_that_goes_through_no_loop_says_so(carrier):
     with pytest.raises(NotImplementedError, match=f"{carrier.__name__} carries no light"):
         carrier(FLOAT).meet(None, {})

@@ -1,10 +1,10 @@
 import numpy as np
-import pytest
 
 import optipath as op
 from optipath.kernels.carriers.coherency import is_physical
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from random_matrices import jones, of_jones
+from tables import rows
 
 ROUNDING = 20 * np.finfo(float).eps
 
@@ -18,8 +18,8 @@ def with_a_negative_eigenvalue(rng, least, terms):
     return found / found[:, :1, :1]
 
 
-@pytest.mark.parametrize("terms", [1, 2, 3, 4])
-@pytest.mark.parametrize("least", [-0.1, -1e-6, -1e-13])
+@rows("terms", [1, 2, 3, 4])
+@rows("least", [-0.1, -1e-6, -1e-13])
 def test_the_sign_of_the_least_eigenvalue_is_told_to_a_few_roundings(terms, least):
     matrices = with_a_negative_eigenvalue(np.random.default_rng(terms), least, terms)
     values = op.Mueller(matrices).cloude_eigenvalues[:, 3]
@@ -30,9 +30,9 @@ def test_the_sign_of_the_least_eigenvalue_is_told_to_a_few_roundings(terms, leas
         assert not np.any(found[values < -spare - ROUNDING])
 
 
-@pytest.mark.parametrize("size", [1e-300, 1.0, 1e300])
-@pytest.mark.parametrize(
-    ("diagonal", "physical"),
+@rows("size", [1e-300, 1.0, 1e300])
+@rows(
+    "diagonal, physical",
     [
         ([1, 1, 1, 1], True),
         ([1, 1, -1, -1], True),

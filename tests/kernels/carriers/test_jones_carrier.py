@@ -11,6 +11,7 @@ from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.kernels.carriers.structures import BLOCK, ROTATION, SCALE
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 SHARES = st.floats(-1.0, 1.0)
 ANGLES = st.floats(-4.0, 4.0)
@@ -111,8 +112,8 @@ def test_what_may_depolarise_is_refused_by_jones_columns_with_its_name():
         op.Composer(composing="jones").compose(path)
 
 
-@pytest.mark.parametrize("carrier", [StokesCarrier, ScaledCarrier, JonesCarrier, MatrixCarrier])
-@pytest.mark.parametrize("dtype", ["float32", "longdouble"])
+@rows("carrier", [StokesCarrier, ScaledCarrier, JonesCarrier, MatrixCarrier])
+@rows("dtype", ["float32", "longdouble"])
 def test_no_number_changes_its_precision_on_the_way(dtype, carrier):
     paths = [op.load_preset(name) for name in op.preset_names()]
     paths += [branches(), op.load_preset("npgr026", filter=["none", "horizontal"])]

@@ -6,6 +6,7 @@ import pytest
 from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 from optipath.kernels.carriers.structures import SCALE
 from optipath.kernels.numbers.primitives import NUMPY
+from tables import rows
 
 
 class _Emptied:
@@ -18,7 +19,7 @@ class _Emptied:
         return dict(arriving)
 
 
-@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+@rows("dtype", [np.float32, np.float64, np.longdouble])
 def test_exponents_of_dark_light_stay_integers_of_the_size_that_frexp_gives(dtype):
     # NumPy from 2.5 refuses integers that do not fit the others.
     way = ScaledCarrier(NUMPY)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from optipath.kernels.dispersion.database_formulas import DATABASE_FORMULAS, coefficients_fit
+from tables import rows
 
 mp = pytest.importorskip("mpmath")
 
@@ -66,8 +67,8 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("number", CASES)
-@pytest.mark.parametrize("w", [0.45, 0.5893, 1.0, 1.7])
+@rows("number", CASES)
+@rows("w", [0.45, 0.5893, 1.0, 1.7])
 def test_a_formula_is_right_to_rounding(number, w):
     reference, c = CASES[number]
     found = DATABASE_FORMULAS[number](np, np.array([w]), c)[0]
@@ -76,8 +77,8 @@ def test_a_formula_is_right_to_rounding(number, w):
         assert abs((mp.mpf(float(found)) - exact) / exact) < 4e-16
 
 
-@pytest.mark.parametrize("number", CASES)
-@pytest.mark.parametrize("w", [0.45, 0.5893, 1.0, 1.7])
+@rows("number", CASES)
+@rows("w", [0.45, 0.5893, 1.0, 1.7])
 def test_the_slope_of_a_formula_is_right(jax, number, w):
     reference, c = CASES[number]
     slope = jax.grad(lambda x: DATABASE_FORMULAS[number](jax.numpy, x, c))(w)
@@ -95,8 +96,8 @@ def test_where_a_formula_comes_to_no_index_it_is_nan():
     assert np.isnan(DATABASE_FORMULAS[2](np, np.array([0.5]), [0.0, 1.0, 0.25])[0])
 
 
-@pytest.mark.parametrize(
-    ("number", "counts", "others"),
+@rows(
+    "number, counts, others",
     [
         (1, (1, 3, 17), (0, 2, 18)),
         (4, (1, 5, 9, 11, 17), (0, 3, 7, 10)),

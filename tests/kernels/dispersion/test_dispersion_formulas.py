@@ -7,6 +7,7 @@ from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
 from optipath.kernels.dispersion.permittivity import index_of_permittivity
 from optipath.kernels.dispersion.sellmeier import cauchy_index, index_of_square, sellmeier_square
 from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
+from tables import rows
 
 mp = pytest.importorskip("mpmath")
 
@@ -93,7 +94,7 @@ FORMULAS = {
 CASES = [(name, at) for name, (*_, places) in FORMULAS.items() for at in places]
 
 
-@pytest.mark.parametrize(("name", "at"), CASES)
+@rows("name, at", CASES)
 def test_values_have_fourteen_digits(name, at):
     formula, published, coefficients, _ = FORMULAS[name]
     expected = published(*map(mp.mpf, (at, *coefficients)))
@@ -101,7 +102,7 @@ def test_values_have_fourteen_digits(name, at):
         assert float(found) == pytest.approx(float(exact), rel=2e-14, abs=0.0)
 
 
-@pytest.mark.parametrize(("name", "at"), CASES)
+@rows("name, at", CASES)
 def test_slopes_in_every_argument_have_twelve_digits(jax, name, at):
     formula, published, coefficients, _ = FORMULAS[name]
     arguments = (at, *coefficients)
@@ -116,7 +117,7 @@ def test_slopes_in_every_argument_have_twelve_digits(jax, name, at):
             assert float(slope) == pytest.approx(wanted, rel=1e-12, abs=1e-13 * scale)
 
 
-@pytest.mark.parametrize("part", [0, 1])
+@rows("part", [0, 1])
 def test_at_the_gap_an_oscillator_and_its_slopes_are_those_next_to_it(jax, part):
     gap = SILICON[-1]
     found = tauc_lorentz_permittivity(np, gap, *SILICON)[part]
@@ -147,8 +148,8 @@ def test_an_oscillator_keeps_the_relation_of_kramers_and_kronig():
         assert float(found) == pytest.approx(2.0 / np.pi * (near + far), rel=1e-6)
 
 
-@pytest.mark.parametrize("real", [-3.0, -1e-100, 0.0, 1e-100, 2.0])
-@pytest.mark.parametrize("imaginary", [0.0, 1e-90, 1e-9, 4.0])
+@rows("real", [-3.0, -1e-100, 0.0, 1e-100, 2.0])
+@rows("imaginary", [0.0, 1e-90, 1e-9, 4.0])
 def test_the_index_of_a_permittivity_squares_to_it(real, imaginary):
     n, k = [float(part) for part in index_of_permittivity(np, np.float64(real), imaginary)]
     exact = mp.sqrt(mp.mpc(real, imaginary))
@@ -158,7 +159,7 @@ def test_the_index_of_a_permittivity_squares_to_it(real, imaginary):
     assert k == pytest.approx(float(exact.imag), rel=1e-15, abs=1e-150)
 
 
-@pytest.mark.parametrize(("real", "imaginary"), [(0.0, 2.0), (-2.0, 0.0), (2.0, 0.0)])
+@rows("real, imaginary", [(0.0, 2.0), (-2.0, 0.0), (2.0, 0.0)])
 def test_slopes_of_an_index_are_right_where_a_part_of_the_permittivity_is_0(jax, real, imaginary):
     exact = mp.sqrt(mp.mpc(real, imaginary))
     along = 0.5 / exact

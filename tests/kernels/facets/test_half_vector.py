@@ -5,6 +5,7 @@ import pytest
 
 from optipath.kernels.facets.half_vector import facet_between
 from optipath.kernels.numbers.primitives import FLOAT
+from tables import rows
 
 ACROSS = (0.0, 1.0, 0.0)
 
@@ -24,13 +25,13 @@ def test_the_normal_is_halfway_between_and_the_incidence_half_of_the_angle():
     assert met.slopes == pytest.approx((-math.tan(0.4), 0.0), rel=1e-15)
 
 
-@pytest.mark.parametrize("small", [1e-3, 1e-7, 1e-11])
+@rows("small", [1e-3, 1e-7, 1e-11])
 def test_next_to_the_normal_the_sine_keeps_its_digits(small):
     met = facet_between(FLOAT)(down(small), ACROSS, up(0.5 * small), ACROSS)
     assert met.sin == pytest.approx(math.sin(0.75 * small), rel=4e-16)
 
 
-@pytest.mark.parametrize("small", [1e-3, 1e-7, 1e-11])
+@rows("small", [1e-3, 1e-7, 1e-11])
 def test_next_to_grazing_incidence_the_cosine_keeps_its_digits(small):
     k_in, k_out = (math.cos(small), 0.0, -math.sin(small)), (math.cos(small), 0.0, math.sin(small))
     met = facet_between(FLOAT)(k_in, ACROSS, k_out, ACROSS)
@@ -54,7 +55,7 @@ def test_light_that_goes_back_the_way_it_came_keeps_its_x():
     assert met.turn_in == met.turn_out == (1.0, 0.0)
 
 
-@pytest.mark.parametrize("apart", [1e-4, 1e-9, 1e-14, 1e-17, 1e-200])
+@rows("apart", [1e-4, 1e-9, 1e-14, 1e-17, 1e-200])
 def test_light_that_nearly_goes_back_is_turned_as_if_it_did(apart):
     # Light down along y's side of the normal, and up along the normal: from x to y.
     met = facet_between(FLOAT)((0.0, apart, -1.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), ACROSS)

@@ -7,6 +7,7 @@ import pytest
 from exact_facets import exact_lambda
 from optipath.kernels.facets.smith_masking import MASKINGS, masked_cosines, smith_cosine
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 ANGLES = [0.0, 1e-9, 0.2, 0.7, 1.2, 1.5, 1.5707]
 ALPHAS = [1e-3, 0.1, 0.5, 2.0, 30.0]
@@ -17,8 +18,8 @@ def direction(theta, azimuth=0.0):
     return s * math.cos(azimuth), s * math.sin(azimuth), math.cos(theta)
 
 
-@pytest.mark.parametrize("alpha", ALPHAS)
-@pytest.mark.parametrize("theta", ANGLES)
+@rows("alpha", ALPHAS)
+@rows("theta", ANGLES)
 def test_the_cosine_is_the_projected_area_of_all_facets_that_face_the_direction(theta, alpha):
     k = direction(theta)
     with mp.workdps(40):
@@ -30,7 +31,7 @@ def test_the_cosine_is_the_projected_area_of_all_facets_that_face_the_direction(
     assert smith_cosine(FLOAT)(k, alpha, alpha) == pytest.approx(area, rel=1e-15)
 
 
-@pytest.mark.parametrize("alpha", ALPHAS)
+@rows("alpha", ALPHAS)
 def test_lambda_is_that_of_fifty_digits(alpha):
     for theta in ANGLES[2:]:
         k = direction(theta)
@@ -47,7 +48,7 @@ def test_the_roughness_along_the_direction_is_what_counts():
     assert found == pytest.approx(smith_cosine(FLOAT)(k, alpha, alpha), rel=1e-15)
 
 
-@pytest.mark.parametrize("masking", MASKINGS)
+@rows("masking", MASKINGS)
 def test_nothing_is_masked_along_the_normal(masking):
     up, down = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
     assert masked_cosines(FLOAT, masking)(down, up, 0.5, 0.5) == 1.0

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from tables import rows
 
 ANGLES = st.floats(-4.0, 4.0)
 
@@ -73,7 +74,7 @@ def test_a_quarter_wave_plate_makes_diagonal_light_positive_helicity():
     np.testing.assert_allclose(light.stokes, [1, 0, 0, 1], rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("port", ["reflected", "transmitted"])
+@rows("port", ["reflected", "transmitted"])
 def test_a_beam_splitter_shares_the_intensity(port):
     share = {"reflected": 0.3, "transmitted": 0.7}[port]
     light = op.BeamSplitter(0.3).mueller(leaves=port) @ op.Light([1.0, 0.5, 0.2, 0.1])

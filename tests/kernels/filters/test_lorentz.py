@@ -1,7 +1,6 @@
 """The exponentials of dichroism and retardance, against 4 x 4 matrices in many digits."""
 
 import math
-import os
 
 import mpmath
 import numpy as np
@@ -14,6 +13,7 @@ from optipath.kernels.filters.lorentz_depolarizing import (
     depolarizing_lorentz,
 )
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 
 def pure(p, q):
@@ -60,7 +60,7 @@ def drawn(rng, most):
     return p.tolist(), q.tolist()
 
 
-@pytest.mark.parametrize("seed", range(8))
+@rows("seed", range(8))
 def test_a_pure_medium_is_the_exponential_to_13_digits(seed):
     rng = np.random.default_rng(seed)
     for _ in range(8):
@@ -68,7 +68,7 @@ def test_a_pure_medium_is_the_exponential_to_13_digits(seed):
         assert error(pure(p, q), p, q) < 1e-13
 
 
-@pytest.mark.parametrize("seed", range(4))
+@rows("seed", range(4))
 def test_a_depolarizing_medium_is_the_exponential_to_13_digits(seed):
     rng = np.random.default_rng(seed)
     for _ in range(4):
@@ -77,7 +77,7 @@ def test_a_depolarizing_medium_is_the_exponential_to_13_digits(seed):
         assert error(depolarizing(p, q, d), p, q, d) < 1e-13
 
 
-@pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="a search of a minute")
+@pytest.mark.slow
 @pytest.mark.parametrize("depolarizes", [False, True])
 def test_no_climb_finds_a_worse_medium(depolarizes):
     rng = np.random.default_rng(11)
@@ -98,7 +98,7 @@ def test_no_climb_finds_a_worse_medium(depolarizes):
         assert worst < 1e-13
 
 
-@pytest.mark.parametrize("size", [0.0, 5e-324, 1e-200, 1e-160, 1e-3, 1e3, 1e160, 1e300])
+@rows("size", [0.0, 5e-324, 1e-200, 1e-160, 1e-3, 1e3, 1e160, 1e300])
 def test_numbers_of_any_size_give_numbers(size):
     one, other = (size, 0.3 * size, -0.2 * size), (0.5 * size, -size, 0.1 * size)
     for p, q in ((one, other), (one, (0.0, 0.0, 0.0)), ((0.0, 0.0, 0.0), other)):

@@ -22,6 +22,7 @@ from optipath.kernels.catalogue import (
     TRANSMISSION_FROM_BEHIND,
 )
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 FAMILIES = REFLECTION_FROM_ABSORBING, TRANSMISSION_FROM_ABSORBING, TRANSMISSION_FROM_BEHIND
 INDICES = st.floats(0.5, 4.0)
@@ -77,8 +78,8 @@ def computed(family, media, angle, n0, method="stable"):
     return kernel(*media, *before, math.cos(angle), math.sin(angle))
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated"])
-@pytest.mark.parametrize("family", range(3))
+@rows("method", ["stable", "compensated"])
+@rows("family", range(3))
 @given(
     media=st.tuples(INDICES, FRONT, INDICES, BEHIND),
     angle=ANGLES,
@@ -98,9 +99,9 @@ def test_kernels_agree_with_50_digits(family, method, media, angle, n0):
         assert max(errors) <= 1e-13 * size * (1 + 1e-2 / near)
 
 
-@pytest.mark.parametrize("k1", [1e-12, 1e-9, 1e-6, 1e-3, 0.03, 0.3])
-@pytest.mark.parametrize(
-    ("n", "k", "angle"),
+@rows("k1", [1e-12, 1e-9, 1e-6, 1e-3, 0.03, 0.3])
+@rows(
+    "n, k, angle",
     [
         (1.0 / 1.5, 0.0, math.atan(1.0 / 1.5)),
         (1.5 * math.sin(0.7) * (1 + 1e-3), 0.0, 0.7),
@@ -109,7 +110,6 @@ def test_kernels_agree_with_50_digits(family, method, media, angle, n0):
         (0.2, 3.4, 1.2),
         (1.2, 1e-9, 1e-8),
     ],
-    ids=["Brewster", "within critical", "beyond critical", "equal media", "metal", "normal"],
 )
 def test_what_is_reflected_has_all_digits_in_every_region(n, k, angle, k1):
     with mpmath.workdps(50):
@@ -122,7 +122,7 @@ def test_what_is_reflected_has_all_digits_in_every_region(n, k, angle, k1):
     assert found[1] == pytest.approx(float(exact[1]), rel=1e-12, abs=1e-15 * found[0])
 
 
-@pytest.mark.parametrize("method", METHODS)
+@rows("method", METHODS)
 def test_every_method_computes_the_same(method):
     media, angle = (1.5, 0.2, 0.9, 0.05), 0.3
     with mpmath.workdps(50):
@@ -142,7 +142,7 @@ def test_without_absorption_in_front_it_is_the_usual_kernel_bit_for_bit(n1, n, k
         assert computed(general, (n1, 0.0, n, k), angle, n0) == plain
 
 
-@pytest.mark.parametrize("method", METHODS)
+@rows("method", METHODS)
 def test_known_zeros_take_the_usual_kernels(method):
     def cheapest(family, *media):
         kernel = family.by_method(method)
@@ -191,7 +191,7 @@ def test_only_p_may_be_reflected_by_more_than_arrives_and_by_a_bounded_share(med
     assert 0.0 <= R[1] <= (1.0 + math.sqrt(2.0)) ** 2 * (1.0 + 1e-6)
 
 
-@pytest.mark.parametrize("k1", [1e-12, 1e-3, 0.5])
+@rows("k1", [1e-12, 1e-3, 0.5])
 def test_next_to_grazing_incidence_nothing_is_nan(k1):
     for family in FAMILIES:
         for c in (0.0, 1e-300, 1e-17, 1e-9):

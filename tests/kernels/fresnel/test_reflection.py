@@ -12,6 +12,7 @@ from optipath.kernels.catalogue import (
     TRANSMISSION,
 )
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 8.0))
@@ -42,13 +43,13 @@ def test_stable_reflection_agrees_with_50_digit_amplitudes(n, k, angle):
     np.testing.assert_allclose(numbers, by_amplitudes(n, k, c, s), rtol=0, atol=slack)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@rows("method", METHODS)
 def test_a_metal_agrees_with_50_digit_amplitudes_by_every_method(method):
     numbers = op.fresnel_reflection(0.608 + 2.12j, 0.8, 0.6, method=method)
     np.testing.assert_allclose(numbers, by_amplitudes(0.608, 2.12, 0.8, 0.6), rtol=1e-13)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@rows("method", METHODS)
 @given(n=INDICES, k=EXTINCTIONS, angle=ANGLES)
 def test_reflection_never_gives_more_than_it_gets(method, n, k, angle):
     A, B, C, S = op.fresnel_reflection(complex(n, k), np.cos(angle), np.sin(angle), method)
@@ -58,7 +59,7 @@ def test_reflection_never_gives_more_than_it_gets(method, n, k, angle):
     assert abs(A * A - B * B - C * C - S * S) <= 1e-14
 
 
-@pytest.mark.parametrize("method", METHODS)
+@rows("method", METHODS)
 def test_normal_incidence_gives_the_closed_form_and_turns_y(method):
     A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0, method)
     assert pytest.approx(0.04, abs=1e-16) == A
@@ -86,12 +87,12 @@ def test_total_reflection_is_total_to_the_last_bit(n, angle):
     assert pytest.approx(1.0, abs=1e-14) == C * C + S * S
 
 
-@pytest.mark.parametrize("index", [1.5, 0.5, 0.608 + 2.12j, 1e6, 1.0 + 1e-9j])
+@rows("index", [1.5, 0.5, 0.608 + 2.12j, 1e6, 1.0 + 1e-9j])
 def test_exactly_grazing_light_is_reflected_whole(index):
     assert [float(x) for x in op.fresnel_reflection(index, 0.0, 1.0)] == [1.0, 0.0, 1.0, 0.0]
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.7, 1.570796, np.pi / 2])
+@rows("angle", [0.0, 0.7, 1.570796, np.pi / 2])
 def test_an_equal_medium_reflects_nothing(angle):
     A, B, C, S = op.fresnel_reflection(1.0, np.cos(angle), np.sin(angle))
     assert max(abs(A), abs(B), abs(C), abs(S)) <= 1e-15
@@ -124,7 +125,7 @@ def test_only_the_ratio_of_the_indices_matters(n, k, outside, angle):
     np.testing.assert_allclose(given_outside.matrix, relative.matrix, rtol=0, atol=slack)
 
 
-@pytest.mark.parametrize("index", [1e-200, 1e-100 + 1e-100j])
+@rows("index", [1e-200, 1e-100 + 1e-100j])
 def test_an_index_that_vanishes_reflects_everything(index):
     A, B, C, S = op.fresnel_reflection(index, [1.0, 0.8], [0.0, 0.6])
     np.testing.assert_array_equal(A, [1.0, 1.0])
@@ -138,8 +139,8 @@ def test_an_unknown_method_is_refused_with_a_suggestion():
         op.fresnel_reflection(1.5, 1.0, 0.0, method="stabel")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@rows(
+    "arguments, message",
     [
         ((-1.5, 1.0, 0.0), "index is"),
         ((1.5 - 0.1j, 1.0, 0.0), "absorbs"),
@@ -162,8 +163,8 @@ def test_b_never_exceeds_a_next_to_brewsters_angle(n, off):
     assert abs(B) <= A
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated"])
-@pytest.mark.parametrize("family", [REFLECTION, TRANSMISSION], ids=["reflection", "transmission"])
+@rows("method", ["stable", "compensated"])
+@rows("family", [REFLECTION, TRANSMISSION])
 @given(n=INDICES, outside=st.floats(0.5, 3.0), angle=ANGLES)
 def test_the_cheaper_kernel_for_lossless_media_gives_the_same_bits(
     family, method, n, outside, angle
@@ -200,7 +201,7 @@ def test_an_index_that_absorbs_nothing_takes_the_cheaper_kernel():
     assert "Fresnel reflection (stable)" in names
 
 
-@pytest.mark.parametrize("method", METHODS)
+@rows("method", METHODS)
 @given(n=INDICES, k=EXTINCTIONS, angle=st.floats(0.0, 1.5))
 def test_what_is_let_through_and_what_is_reflected_is_all_the_light(method, n, k, angle):
     given_ = (complex(n, k), np.cos(angle), np.sin(angle), method)
@@ -230,8 +231,8 @@ def test_nothing_passes_in_total_reflection():
     np.testing.assert_array_equal(found, np.zeros((4, 2)))
 
 
-@pytest.mark.parametrize("dtype", ["float32", "float64"])
-@pytest.mark.parametrize("method", METHODS)
+@rows("dtype", ["float32", "float64"])
+@rows("method", METHODS)
 def test_the_result_has_the_precision_that_was_asked_for(method, dtype):
     for function in (op.fresnel_reflection, op.fresnel_transmission):
         for index in (1.5, [1.5, 0.2 + 3j]):
@@ -248,8 +249,8 @@ LOST = (2.1601279950827297, 1.2841725811036993, 0.8035599507794031)
 """n, an index in front that light from n0 = 3 does not get into at an angle, and the angle."""
 
 
-@pytest.mark.parametrize("k", [0.0, 1e-12, 0.3])
-@pytest.mark.parametrize("n", [0.5, LOST[1], LOST[0], 3.0 * np.sin(LOST[2])])
+@rows("k", [0.0, 1e-12, 0.3])
+@rows("n", [0.5, LOST[1], LOST[0], 3.0 * np.sin(LOST[2])])
 def test_what_was_all_reflected_before_is_all_reflected_by_every_kernel(n, k):
     _, n1, angle = LOST
     given = (3.0, np.cos(angle), np.sin(angle))

@@ -8,6 +8,7 @@ from chains import random_rotation
 from histories import exact_coherency, exact_stokes_in
 from optipath.kernels.catalogue import REFRACTION
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 ANGLES = [1e-9, 1e-6, 1e-3, 0.1, 0.7, np.arctan(1.5), np.arctan(1.5) + 1e-8, 1.3, 1.5]
 
@@ -28,7 +29,7 @@ def off(points, n1, n2):
     return np.max(np.abs(light.stokes - exact)) / exact[0]
 
 
-@pytest.mark.parametrize("n2", [1.0, 1.5 * (1.0 + 1e-13), 1.5 * (1.0 + 1e-7), 1.5001, 1.6, 3.0])
+@rows("n2", [1.0, 1.5 * (1.0 + 1e-13), 1.5 * (1.0 + 1e-7), 1.5001, 1.6, 3.0])
 def test_light_has_its_digits_next_to_the_normal_at_brewsters_angle_and_in_nearly_one_medium(n2):
     rng = np.random.default_rng(1)
     below = [angle for angle in ANGLES if np.sin(angle) < 0.99 * n2 / 1.5]
@@ -36,14 +37,14 @@ def test_light_has_its_digits_next_to_the_normal_at_brewsters_angle_and_in_nearl
     assert max(found) <= 1e-14
 
 
-@pytest.mark.parametrize("legs", [(1e-60, 1e60), (1e60, 1e-60), (1e-60, 1e-60)])
+@rows("legs", [(1e-60, 1e60), (1e60, 1e-60), (1e-60, 1e-60)])
 def test_long_and_short_legs_lose_nothing(legs):
     points = around(1.0, 1.0, 1.5, np.random.default_rng(2), legs)
     assert off(points, 1.0, 1.5) <= 2e-15
 
 
-@pytest.mark.parametrize("left", [1e-1, 1e-3, 1e-5])
-@pytest.mark.parametrize("out", [False, True])
+@rows("left", [1e-1, 1e-3, 1e-5])
+@rows("out", [False, True])
 def test_next_to_grazing_light_is_known_as_well_as_the_angle_that_is_left(left, out):
     rng, grazing = np.random.default_rng(3), np.pi / 2 - left
     angle = np.arcsin(np.sin(grazing) / 1.5) if out else grazing
@@ -60,8 +61,8 @@ def test_the_angle_is_that_in_the_rarer_medium_whichever_way_light_goes():
     np.testing.assert_allclose(back, there, rtol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("n1", "n2", "turned", "fits"),
+@rows(
+    "n1, n2, turned, fits",
     [
         (1.0, 1.5, np.arccos(1 / 1.5) - 1e-9, True),
         (1.0, 1.5, np.arccos(1 / 1.5) + 1e-9, False),

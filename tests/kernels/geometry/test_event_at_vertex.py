@@ -1,11 +1,11 @@
 import math
 
 import numpy as np
-import pytest
 
 from optipath.kernels.catalogue import EVENT_AT_VERTEX, INCIDENCE, REFRACTION
 from optipath.kernels.geometry.events import Event
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 AROUND = (0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, -2.0)
 NOWHERE = (math.nan,) * 3
@@ -19,8 +19,8 @@ def test_the_angle_is_that_of_what_happens():
     assert refracted == REFRACTION.made_for(FLOAT)(1.0, 1.5, *AROUND)
 
 
-@pytest.mark.parametrize(
-    ("k", "event", "points"),
+@rows(
+    "k, event, points",
     [
         (0.0, Event.CANNOT, AROUND),
         (0.5, Event.REFRACTS, AROUND),

@@ -6,6 +6,7 @@ import pytest
 from optipath.kernels.catalogue import ARRIVING, INCIDENCE, REFLECTED, TURN_BETWEEN_PLANES
 from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from tables import rows
 
 
 def at_angle(theta):
@@ -13,7 +14,7 @@ def at_angle(theta):
     return (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, math.sin(2 * theta), 1.0 - math.cos(2 * theta))
 
 
-@pytest.mark.parametrize("theta", [1e-12, 1e-6, 0.3, 1.0, math.pi / 2 - 1e-6, math.pi / 2 - 1e-12])
+@rows("theta", [1e-12, 1e-6, 0.3, 1.0, math.pi / 2 - 1e-6, math.pi / 2 - 1e-12])
 def test_cosine_and_sine_of_the_incidence_keep_their_digits_where_they_are_small(theta):
     cos, sin = INCIDENCE.made_for(FLOAT)(*at_angle(theta))
     assert cos == pytest.approx(math.cos(theta), rel=1e-15 if theta < 1 else 1e-4 * theta)
@@ -59,7 +60,7 @@ def test_points_by_angles_have_these_angles():
         assert found == pytest.approx((math.cos(2 * turn), math.sin(2 * turn)))
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@rows("count", [1, 2, 3, 4])
 def test_some_of_the_points_by_angles_are_those_of_all(count):
     rng = np.random.default_rng(count)
     numbers = [float(f(a)) for a in rng.uniform(0, 1.5, 2 * count - 1) for f in (np.cos, np.sin)]
@@ -69,8 +70,8 @@ def test_some_of_the_points_by_angles_are_those_of_all(count):
         assert some == whole[3 * first : 3 * first + 9]
 
 
-@pytest.mark.parametrize("length", [1e-200, 1e-75, 1e75, 1e155, 1e200])
-@pytest.mark.parametrize("kind", [np.float32, np.float64])
+@rows("length", [1e-200, 1e-75, 1e75, 1e155, 1e200])
+@rows("kind", [np.float32, np.float64])
 def test_legs_that_keep_no_digits_are_not_finite(length, kind):
     with np.errstate(all="ignore"):
         points = map(kind, (0.0, 0.0, 0.0, 0.0, 0.0, length, 0.0, 2.0, length))
@@ -78,7 +79,7 @@ def test_legs_that_keep_no_digits_are_not_finite(length, kind):
     assert all(math.isnan(number) and number.dtype == kind for number in found)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 5])
+@rows("count", [1, 2, 3, 4, 5])
 def test_the_axes_of_angles_are_across_the_planes_of_their_points(count):
     rng = np.random.default_rng(count)
     angles = [*rng.uniform(0.1, 1.4, count), *rng.uniform(-3.0, 3.0, count - 1)]
@@ -90,7 +91,7 @@ def test_the_axes_of_angles_are_across_the_planes_of_their_points(count):
         assert across[3 * vertex : 3 * vertex + 3] == pytest.approx(x, abs=1e-13)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@rows("count", [1, 2, 3, 4])
 def test_points_by_angles_are_the_same_in_the_other_order_backwards(count):
     rng = np.random.default_rng(count)
     numbers = [float(f(a)) for a in rng.uniform(0, 1.5, 2 * count - 1) for f in (np.cos, np.sin)]

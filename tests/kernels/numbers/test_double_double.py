@@ -1,12 +1,12 @@
 import mpmath
 import numpy as np
-import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.kernels.numbers.twice import twice
+from tables import rows
 
 NUMBERS = st.floats(1e-20, 1e20)
 PAIRS = st.tuples(NUMBERS, st.floats(-0.4, 0.4)).map(lambda p: (p[0], p[1] * 2.0**-53 * p[0]))
@@ -22,7 +22,7 @@ def off(number, exact):
         return float(abs(exactly(number) / exact - 1))
 
 
-@pytest.mark.parametrize("xp", [FLOAT, NUMPY], ids=["float", "numpy"])
+@rows("xp", [FLOAT, NUMPY])
 @given(first=PAIRS, second=PAIRS)
 def test_sums_products_quotients_and_roots_have_twice_the_digits(xp, first, second):
     kind = float if xp is FLOAT else np.float64
@@ -45,7 +45,7 @@ def test_the_root_of_nothing_is_nothing():
     assert DoubleDouble(FLOAT, 0.0).sqrt().high == 0.0
 
 
-@pytest.mark.parametrize("dtype", ["float32", "float64", "longdouble"])
+@rows("dtype", ["float32", "float64", "longdouble"])
 def test_a_product_and_its_rounding_are_exact_in_every_precision(dtype):
     rng = np.random.default_rng(0)
     a, b = rng.uniform(0.5, 2, (2, 1000)).astype(dtype)
@@ -60,7 +60,7 @@ def test_a_product_and_its_rounding_are_exact_in_every_precision(dtype):
             assert p + r == x * y
 
 
-@pytest.mark.parametrize("xp", [FLOAT, NUMPY], ids=["float", "numpy"])
+@rows("xp", [FLOAT, NUMPY])
 @given(
     angle=st.one_of(st.floats(-10, 10), st.floats(1e-300, 1e-3), st.floats(-1e15, 1e15)),
     rest=st.floats(-0.4, 0.4),
@@ -78,7 +78,7 @@ def test_sines_and_cosines_have_twice_the_digits(xp, angle, rest):
             assert abs(exactly(function(number)) - exact) <= 16 * UNIT * UNIT * abs(exact) + 1e-305
 
 
-@pytest.mark.parametrize("xp", [FLOAT, NUMPY], ids=["float", "numpy"])
+@rows("xp", [FLOAT, NUMPY])
 @given(number=st.floats(-600, 600), y=st.floats(-1e9, 1e9), x=st.floats(-1e9, 1e9))
 def test_exponentials_and_angles_have_twice_the_digits(xp, number, y, x):
     with mpmath.workdps(80):

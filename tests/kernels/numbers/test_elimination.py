@@ -6,6 +6,7 @@ from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.elimination import Elimination
 from optipath.kernels.numbers.primitives import FLOAT
 from optipath.kernels.numbers.twice import twice
+from tables import rows
 
 
 def system(rng, size, leak):
@@ -31,8 +32,8 @@ def exact(back, leaves, arriving):
         return [float(x) for x in mp.lu_solve(matrix, mp.matrix(arriving))]
 
 
-@pytest.mark.parametrize("leak", [0.3, 1e-6, 1e-12])
-@pytest.mark.parametrize("size", [1, 2, 5, 12])
+@rows("leak", [0.3, 1e-6, 1e-12])
+@rows("size", [1, 2, 5, 12])
 def test_every_digit_stays_however_little_leaves(size, leak):
     rng = np.random.default_rng(size)
     back, leaves = system(rng, size, leak)

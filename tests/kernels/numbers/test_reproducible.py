@@ -2,12 +2,12 @@
 
 import mpmath
 import numpy as np
-import pytest
 
 from optipath.kernels.numbers.arc_tangent import arc_tangent
 from optipath.kernels.numbers.exponential import exponential
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.kernels.numbers.reproducible import reproducible_numpy
+from tables import rows
 
 
 def ulps(found, exact):
@@ -19,7 +19,7 @@ def ulps(found, exact):
     )
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_exponentials_are_right_to_one_unit_in_the_last_place(rng, dtype):
     numbers = np.concatenate([rng.uniform(-80, 80, 600), rng.uniform(-1, 1, 600)]).astype(dtype)
     with mpmath.workdps(50):
@@ -29,7 +29,7 @@ def test_exponentials_are_right_to_one_unit_in_the_last_place(rng, dtype):
         assert ulps(found, exact) < 1.0
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_exponentials_end_where_floats_do(dtype):
     numbers = np.array([0.0, -np.inf, -1e30, 1e30, np.inf, np.nan], dtype)
     with np.errstate(all="ignore"):
@@ -37,7 +37,7 @@ def test_exponentials_end_where_floats_do(dtype):
     assert np.array_equal(found, [1.0, 0.0, 0.0, np.inf, np.inf, np.nan], equal_nan=True)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_angles_of_points_are_right_to_three_units_in_the_last_place(rng, dtype):
     y, x = (10.0 ** rng.uniform(-6, 6, (2, 600)) * rng.choice([-1, 1], (2, 600))).astype(dtype)
     with mpmath.workdps(50):

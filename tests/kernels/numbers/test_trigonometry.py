@@ -2,7 +2,6 @@
 
 import mpmath
 import numpy as np
-import pytest
 
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.kernels.numbers.trigonometry import (
@@ -12,6 +11,7 @@ from optipath.kernels.numbers.trigonometry import (
     from_axes,
     from_nearer_axis,
 )
+from tables import rows
 
 
 def ulps(found, exact, dtype):
@@ -26,7 +26,7 @@ def exactly(angles):
         return [mpmath.sin(n) for n in numbers], [mpmath.cos(n) for n in numbers]
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_angles_of_any_size_are_right_to_two_units_in_the_last_place(rng, dtype):
     digits = DIGITS[dtype]
     near = np.round(rng.uniform(-500, 500, 300)) * (np.pi / 2) * (1 + rng.normal(0, 1e-5, 300))
@@ -37,7 +37,7 @@ def test_angles_of_any_size_are_right_to_two_units_in_the_last_place(rng, dtype)
         assert ulps(value, exact, dtype) < 2.0
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_angles_of_the_first_quadrant_are_right_to_two_units_in_the_last_place(rng, dtype):
     near = np.pi / 2 - 10.0 ** rng.uniform(-6, -1, 300)
     angles = np.concatenate([rng.uniform(0, np.pi / 2, 600), near, 10.0 ** rng.uniform(-9, 0, 99)])
@@ -70,7 +70,7 @@ def test_of_multiples_of_a_right_angle_nothing_is_left():
     np.testing.assert_array_equal(from_axes(NUMPY, DIGITS["float64"])(angles), 0.0)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_of_a_right_angle_there_is_no_cosine(dtype):
     right = np.array([np.pi / 2], dtype)
     sine, cosine = first_quadrant(NUMPY, DIGITS[dtype])(right)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def sum_to(path, end, **asked):
@@ -25,7 +26,7 @@ def test_the_ways_through_a_slab_come_the_brightest_first():
     assert ways[0].route == ("lamp.out", "front.transmitted", "down.out", "back.transmitted")
 
 
-@pytest.mark.parametrize("name", ["glass-slab", "coated-metal"])
+@rows("name", ["glass-slab", "coated-metal"])
 def test_their_sum_comes_nearer_by_the_gain_of_a_round_trip(name):
     path = op.load_preset(name, theta=0.0)
     whole = path.trace_all()
@@ -126,8 +127,8 @@ def test_a_way_carries_the_frame_of_its_end():
     assert way.light.frame == op.load_preset("npgr026-3d").trace().frame
 
 
-@pytest.mark.parametrize(
-    ("asked", "message"),
+@rows(
+    "asked, message",
     [
         ({}, "goes round at 'front.transmitted' for ever; give a limit, or a number of bounces"),
         ({"limit": 0}, "limit must be a whole number of 1 or more, not 0"),

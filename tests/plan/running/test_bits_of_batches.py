@@ -1,7 +1,5 @@
 """Whatever a path is made of, it comes to the same bits alone and in any batch."""
 
-import os
-
 import numpy as np
 import pytest
 
@@ -9,9 +7,10 @@ import optipath as op
 from batch_paths import SEVERAL, BatchDraw, at, one_by_one
 from batches_of_chains import random_batch
 from chains import COMPILED, random_chains
+from tables import rows, slow
 
-# The environment asks for more, such as the thousand that were looked at once.
-SEEDS = range(int(os.environ.get("OPTIPATH_RANDOM_PATHS", "8")))
+SEEDS = range(8)
+MORE = pytest.mark.parametrize("more", [0, *map(slow, range(8, 80, 8))])
 METALS = 1.5, 1.12 + 2.16j, 0.608 + 2.12j
 TURNS = np.array([0.0, -0.0, np.pi / 2, np.pi, -3.0, 1e12])
 ANGLES = np.array([0.0, np.pi / 2, 0.982793723247329, 0.3, 1e-9, 1.2])
@@ -53,27 +52,29 @@ def compare(path, values, alone, engine, options, repeats=300):
         assert_same(stokes(lights), alone, many)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("seed", SEEDS)
-def test_random_paths_are_the_same_alone_and_among_others(seed, dtype):
-    path, values, alone = drawn(seed, {"dtype": dtype})
+@rows("dtype", ["float64", "float32"])
+@rows("seed", SEEDS)
+@MORE
+def test_random_paths_are_the_same_alone_and_among_others(seed, dtype, more):
+    path, values, alone = drawn(seed + more, {"dtype": dtype})
     for engine in ("auto", "numpy"):
         compare(path, values, alone, engine, {"dtype": dtype})
 
 
-@pytest.mark.skipif("OPTIPATH_RANDOM_PATHS" not in os.environ, reason="Numba compiles for long")
+@pytest.mark.slow  # Numba compiles for long.
 @pytest.mark.skipif("numba" not in COMPILED, reason="not installed")
 @pytest.mark.parametrize("seed", SEEDS)
 def test_random_paths_are_the_same_by_numba(seed):
     compare(*drawn(seed, {}), "numba", {})
 
 
-@pytest.mark.parametrize("seed", [1000 + seed for seed in SEEDS])
-def test_loops_are_the_same_alone_and_among_others(seed):
-    compare(*drawn(seed, {}, loops=True), "auto", {})
+@rows("seed", SEEDS)
+@MORE
+def test_loops_are_the_same_alone_and_among_others(seed, more):
+    compare(*drawn(1000 + seed + more, {}, loops=True), "auto", {})
 
 
-@pytest.mark.parametrize(
+@rows(
     "options",
     [
         {"method": "textbook"},
@@ -82,9 +83,8 @@ def test_loops_are_the_same_alone_and_among_others(seed):
         {"composing": "jones"},
         {"tolerance": 0.1},
     ],
-    ids=str,
 )
-@pytest.mark.parametrize("seed", SEEDS[:3])
+@rows("seed", SEEDS[:3])
 def test_each_way_of_composing_is_the_same_alone_and_among_others(seed, options):
     compare(*drawn(2000 + seed, options), "auto", options)
 
@@ -122,7 +122,7 @@ def test_a_grid_by_axes_has_the_paths_of_a_batch(seed):
         np.testing.assert_array_equal(found, alone[name])
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@rows("dtype", ["float64", "float32"])
 def test_points_in_space_are_the_same_alone_and_among_others(dtype):
     path = op.path_from_vertices(op.Parameter("points"), METALS)
     values = {"points": random_chains(3, 3, (6,), extreme=True)}
@@ -142,8 +142,8 @@ def test_chains_of_several_histories_are_the_same_alone_and_among_others():
     np.testing.assert_array_equal(plan.run(points=points[1:2]).stokes, alone[1:2])
 
 
-@pytest.mark.parametrize("n", [ANGLES + 1.0, ANGLES + 1.0 + 0j, ANGLES + 1.0 + 1j * (TURNS > 0)])
-@pytest.mark.parametrize("k", [0.0 * TURNS, np.maximum(np.sign(TURNS), 0.0)])
+@rows("n", [ANGLES + 1.0, ANGLES + 1.0 + 0j, ANGLES + 1.0 + 1j * (TURNS > 0)])
+@rows("k", [0.0 * TURNS, np.maximum(np.sign(TURNS), 0.0)])
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 def test_a_medium_without_absorption_is_computed_as_its_neighbours_are(n, k):
     path = op.Source(1.0, [1.0, 0.3, 0.2, 0.1]) >> op.Interface(op.Parameter("n"), 0.4)
@@ -155,8 +155,8 @@ def test_a_medium_without_absorption_is_computed_as_its_neighbours_are(n, k):
     compare(path, values, one_by_one(path.compose(), values, 6), "auto", {})
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("reading", ["stokes", "intensity"])
+@rows("dtype", ["float64", "float32"])
+@rows("reading", ["stokes", "intensity"])
 def test_light_too_faint_beside_other_light_leaves_that_as_it_is(reading, dtype):
     grey = op.Attenuator(op.Parameter("share"))
     path = op.Source() >> grey >> op.Interface(1.5, op.Parameter("t"))

@@ -1,10 +1,10 @@
 """How often the numbers of each step are computed."""
 
 import numpy as np
-import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 ELEMENTS = [
     op.Retarder(op.Parameter("a"), 0.1),
@@ -16,9 +16,7 @@ ELEMENTS = [
 COUNTS = {"e0.out": 40, "e1.reflected": 50, "e2.out": 1, "e3.out": 5, "e4.out": 40 * 50}
 
 
-@pytest.mark.parametrize(
-    "b", [np.full(50, 0.4), op.CosSin(np.full(50, 0.6), 0.8)], ids=["b", "pair"]
-)
+@rows("b", [np.full(50, 0.4), op.CosSin(np.full(50, 0.6), 0.8)])
 def test_a_step_is_evaluated_along_the_axes_of_its_own_values(b):
     values = {"a": np.full((40, 1), 0.3), "b": b, "l": np.full((40, 1), 0.1), "w": np.ones(50)}
     path = chain(ELEMENTS, [1.0, 0.3, 0.2, 0.1])

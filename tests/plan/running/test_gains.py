@@ -1,4 +1,3 @@
-import os
 import re
 
 import numpy as np
@@ -7,11 +6,9 @@ import pytest
 import optipath as op
 from amplifying import drawn, networks, of_jones, radius, ring
 from optipath.lab.accuracy.path_reference import exact_stokes
+from tables import rows, slow
 
 pytestmark = pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
-
-MANY = int(os.environ.get("OPTIPATH_LOOPS", "60"))
-"""How many random networks with elements that amplify are compared with 50 digits."""
 
 
 def exact(path):
@@ -23,9 +20,10 @@ def told_gain(error):
     return max(map(float, re.findall(r"never fades: (\S+) of it comes back", str(error))))
 
 
-def test_what_amplifies_is_summed_where_it_fades_and_refused_with_its_gain_where_not():
+@pytest.mark.parametrize("count", [20, slow(200)])
+def test_what_amplifies_is_summed_where_it_fades_and_refused_with_its_gain_where_not(count):
     summed = 0
-    for network in networks(MANY):
+    for network in networks(count):
         gain = network.radius()
         if gain >= 1.0:
             with pytest.raises(op.ParameterError, match="never fades") as refused:
@@ -37,7 +35,7 @@ def test_what_amplifies_is_summed_where_it_fades_and_refused_with_its_gain_where
         for name, light in lights.items():
             atol = 1e-13 * expected[name][0]
             np.testing.assert_allclose(light.stokes, expected[name], rtol=0, atol=atol)
-    assert 0 < summed < MANY
+    assert 0 < summed < count
 
 
 def test_a_gain_is_judged_however_near_to_one_it_is():
@@ -52,7 +50,7 @@ def test_a_gain_is_judged_however_near_to_one_it_is():
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * expected[0])
 
 
-@pytest.mark.parametrize("gain", [0.7, 1.0, 1.4, 3.0])
+@rows("gain", [0.7, 1.0, 1.4, 3.0])
 def test_what_gains_and_dies_in_the_second_round_is_summed(gain):
     # What comes back of x as x may be all of it, or more: the whole of it is dark next time.
     matrix = gain * of_jones(np.array([[1.0, 1.0], [-1.0, -1.0]]))
@@ -72,7 +70,7 @@ def test_some_polarised_light_may_gain_that_neither_x_nor_y_tells():
     assert told_gain(refused.value) == pytest.approx(1.2, rel=1e-9)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "auto"])
+@rows("engine", ["numpy", "auto"])
 def test_a_batch_that_gains_is_summed_by_every_engine(engine):
     gains = np.linspace(0.1, 0.95, 40)
     matrix = of_jones(np.diag([1.0, 0.5]) @ np.array([[0.8, -0.6], [0.6, 0.8]]))

@@ -9,6 +9,7 @@ import optipath as op
 from chains import ENGINES
 from optipath.lab.accuracy.path_reference import exact_stokes
 from slabs import stack
+from tables import rows
 
 CRITICAL = float(np.arcsin(0.75))
 BELOW = CRITICAL - np.array([0.0, 1e-15, 1e-14, 1e-12, 1e-8, 1e-6, 1e-5, 1e-3])
@@ -29,7 +30,7 @@ WORST = [
 
 
 @pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_light_that_enters_a_closed_gap_next_to_the_critical_angle_all_comes_back(engine):
     path = stack(2.0, 1.5, 1.0, theta=op.Parameter("theta"))
     lights = op.Composer(engine=engine).compose(path).run_all(theta=BELOW)
@@ -40,8 +41,8 @@ def test_light_that_enters_a_closed_gap_next_to_the_critical_angle_all_comes_bac
             np.testing.assert_allclose(path.trace_all(theta=theta)[name].S0, found, rtol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("indices", "theta"),
+@rows(
+    "indices, theta",
     [
         ((2.0, 1.5, 1.0), CRITICAL + 1e-15),
         ((2.001175971082208, 1.588144150911419, 0.8387537698418079), 0.9167120995599567),
@@ -63,7 +64,7 @@ def assert_every_digit(path):
 
 
 @pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
-@pytest.mark.parametrize(("indices", "theta"), WORST)
+@rows("indices, theta", WORST)
 def test_lights_inside_and_outside_of_stacks_keep_every_digit(indices, theta):
     assert_every_digit(stack(*indices, theta=theta, state=STATE))
 

@@ -1,7 +1,5 @@
 """Light of which nearly all comes back each time: every digit of every component stays."""
 
-import os
-
 import numpy as np
 import pytest
 
@@ -10,11 +8,10 @@ from nearly_closed import PLATES, networks, ring
 from optipath.engines.automatic import is_installed
 from optipath.lab.accuracy.path_reference import exact_stokes
 from slabs import slab
+from tables import rows, slow
 
 pytestmark = pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
 
-MANY = int(os.environ.get("OPTIPATH_LOOPS", "40"))
-"""How many random networks are compared with 50 digits."""
 
 STATES = ([1.0, 0.6, 0.64, 0.48], [1.0, 0.0, 0.6, 0.8], [1.0, 0.2, -0.1, 0.3])
 
@@ -30,8 +27,8 @@ def dop_above_one(stokes):
     return np.linalg.norm(stokes[..., 1:], axis=-1) / stokes[..., 0] - 1.0
 
 
-@pytest.mark.parametrize("plates", PLATES.values(), ids=PLATES)
-@pytest.mark.parametrize("leaves", [1e-2, 1e-4, 1e-7, 1e-12, 1e-14, 1e-16])
+@rows("plates", PLATES.values())
+@rows("leaves", [1e-2, 1e-4, 1e-7, 1e-12, 1e-14, 1e-16])
 def test_a_ring_keeps_every_digit_however_little_leaves(leaves, plates):
     for state in STATES:
         path = ring(leaves, state, plates)
@@ -42,8 +39,9 @@ def test_a_ring_keeps_every_digit_however_little_leaves(leaves, plates):
         assert dop_above_one(found) <= 4e-16
 
 
-def test_random_networks_keep_every_digit_however_little_leaves():
-    for network in networks(MANY):
+@pytest.mark.parametrize("count", [20, slow(200)])
+def test_random_networks_keep_every_digit_however_little_leaves(count):
+    for network in networks(count):
         lights, expected = network.path.trace_all(), exact(network.path)
         for name, light in lights.items():
             atol = 2e-14 * expected[name][0]
@@ -90,7 +88,7 @@ def test_matrices_keep_every_digit_too():
             np.testing.assert_allclose(found[place, :, column], expected, rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
 def test_a_slab_next_to_grazing_incidence_keeps_its_polarisation(method):
     theta = float(np.pi / 2 - 1e-6)
     path = slab(1.5, theta, state=STATES[0])

@@ -1,9 +1,9 @@
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from optipath.plan.running.pieces import pieces
+from tables import rows
 
 
 @given(batch=st.lists(st.integers(0, 6), max_size=4).map(tuple), size=st.integers(1, 50))
@@ -17,6 +17,6 @@ def test_pieces_follow_each_other_and_cover_the_batch(batch, size):
     assert sum(piece.stop - piece.start for piece in found) == numbers.size
 
 
-@pytest.mark.parametrize("batch", [(), (1,), (3, 4)])
+@rows("batch", [(), (1,), (3, 4)])
 def test_a_batch_that_is_small_enough_is_one_piece(batch):
     assert len(list(pieces(batch, 100))) == 1

@@ -6,6 +6,7 @@ import pytest
 import optipath as op
 from optipath.plan.running import batch_runner, formula_maker, runner, shared
 from optipath.plan.running import prepared as preparing
+from tables import rows
 
 
 def path(index=1.5):
@@ -38,7 +39,7 @@ def prepared(monkeypatch):
     return counts
 
 
-@pytest.mark.parametrize("shape", [(3000,), (60, 70)])
+@rows("shape", [(3000,), (60, 70)])
 def test_a_second_run_of_a_shape_makes_nothing_anew(prepared, shape):
     plan, theta = path().compose(), np.linspace(0.1, 1.2, np.prod(shape)).reshape(shape)
     first = plan.run(theta=theta)
@@ -74,7 +75,7 @@ def test_an_equal_path_built_anew_is_not_prepared_anew(prepared):
     assert prepared["formulas"] == 1
 
 
-@pytest.mark.parametrize(("one", "other"), [(1.5, 1.6), (0.0, -0.0)])
+@rows("one, other", [(1.5, 1.6), (0.0, -0.0)])
 def test_paths_that_differ_in_a_default_share_nothing(one, other):
     def runner_of(default):
         made = op.PathGraph()

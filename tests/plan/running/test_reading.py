@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
 def path():
@@ -39,7 +40,7 @@ def test_values_in_range_of_shapes_that_do_not_fit_are_named_with_their_shapes()
     assert "power (3,)" in fault
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -0.1, 2.0])
+@rows("bad", [np.nan, np.inf, -0.1, 2.0])
 def test_a_float_out_of_range_is_refused_by_prepared_batches_too(bad):
     plan = path().compose()
     power = np.linspace(1.0, 2.0, 2000)
@@ -49,7 +50,7 @@ def test_a_float_out_of_range_is_refused_by_prepared_batches_too(bad):
         plan.run(theta=bad, power=power)
 
 
-@pytest.mark.parametrize("count", [5, 200, 2000])
+@rows("count", [5, 200, 2000])
 def test_an_array_out_of_range_is_refused_by_prepared_batches_too(count):
     plan = path().compose()
     for _ in range(6):

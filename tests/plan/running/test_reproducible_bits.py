@@ -7,6 +7,7 @@ import optipath as op
 from chains import COMPILED
 from optipath.values.curves.curve_value import curve_values
 from spectral_paths import Ramps, SpectralDraw, run_by_run, wavelengths
+from tables import rows
 
 FLOATS = np.linspace(0.0, np.pi / 2, 4)
 WAVELENGTH = op.Wavelength()
@@ -65,8 +66,8 @@ def compared(path, *, engine="auto", dtype="float64", runs=1, axis="theta", valu
     return [(alone[name], light.stokes) for name, light in lights.items()]
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("engine", COMPILED)
+@rows("dtype", ["float64", "float32"])
+@rows("engine", COMPILED)
 def test_a_grid_is_its_runs_one_by_one_by_every_engine(engine, dtype):
     short = op.Source() >> metal(op.Parameter("theta")) >> op.Medium(0.1, ramp(0.0, 9.0))
     path = short >> op.Rotator(ramp(-3.0, 3.0)) >> op.Polarizer(0.3) >> op.Detector()
@@ -74,8 +75,8 @@ def test_a_grid_is_its_runs_one_by_one_by_every_engine(engine, dtype):
     assert np.array_equal(alone, together)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-@pytest.mark.parametrize("runs", [1, 5])
+@rows("dtype", ["float64", "float32"])
+@rows("runs", [1, 5])
 def test_a_grid_is_its_runs_step_by_step_and_by_a_formula(runs, dtype):
     for alone, together in compared(combined(op.Parameter("theta")), runs=runs, dtype=dtype):
         assert np.array_equal(alone, together)

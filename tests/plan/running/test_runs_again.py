@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 FEW, MANY = np.full(5, 0.5), np.full(3000, 0.5)
 REFUSED = {
@@ -20,7 +21,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("wrong", REFUSED)
+@rows("wrong", REFUSED)
 def test_what_cannot_be_is_refused_however_often_the_plan_has_run(wrong):
     elements = [op.Attenuator(op.Parameter("t")), op.Depolarizer(op.Parameter("d", 0.5))]
     plan = op.Composer(engine="numpy").compose(chain(elements, [1.0, 0.5, 0.3, 0.2]))
@@ -37,7 +38,7 @@ def test_what_cannot_be_is_refused_however_often_the_plan_has_run(wrong):
             plan.run(**given)
 
 
-@pytest.mark.parametrize("value", [1, np.float64(1.0), np.float32(1.0), np.array(1.0), "whole"])
+@rows("value", [1, np.float64(1.0), np.float32(1.0), np.array(1.0), "whole"])
 def test_numbers_of_any_sort_are_numbers_however_often_the_plan_has_run(value):
     plan = chain(
         [op.Attenuator(op.Parameter("t", 0.5, words={"whole": 1.0}))], [1.0, 0.5, 0.3, 0.2]
@@ -48,7 +49,7 @@ def test_numbers_of_any_sort_are_numbers_however_often_the_plan_has_run(value):
         assert plan.trace().intensity == 0.5
 
 
-@pytest.mark.parametrize(
+@rows(
     "amplitude",
     [0.5, -0.5, 0.3 + 0.4j, np.full(5, 0.5), np.full(5, 0.3 - 0.4j), np.full(3000, -0.5)],
 )

@@ -6,6 +6,7 @@ import pytest
 import optipath as op
 from paths import chain
 from random_paths import Draw
+from tables import rows
 
 EXTREME = (5e-324, 1e-310, 1e-150, 1e-20, 1.0, 1e20, 1e150)
 
@@ -35,12 +36,12 @@ def assert_alike(found):
             np.testing.assert_allclose(mantissa / size, light.mantissa / size, rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("name", op.preset_names())
+@rows("name", op.preset_names())
 def test_the_later_runs_of_every_preset_are_the_first(name):
     assert_alike(runs(op.load_preset(name), {}))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@rows("seed", range(40))
 def test_the_later_runs_of_random_paths_with_several_detectors_are_the_first(seed):
     draw = Draw(seed, arrays=False)
     path = draw.path(loops=seed % 3 == 0)
@@ -65,7 +66,7 @@ def splitters(count):
     return path
 
 
-@pytest.mark.parametrize("count", [1, 2, 4])
+@rows("count", [1, 2, 4])
 def test_every_run_brings_each_of_several_detectors_its_own_light(count):
     path = splitters(count)
     for run in range(8):
@@ -82,8 +83,8 @@ def test_every_run_brings_each_of_several_detectors_its_own_light(count):
         )
 
 
-@pytest.mark.parametrize("size", [(), (5,), (3000,)])
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@rows("size", [(), (5,), (3000,)])
+@rows("composing", ["stokes", "jones"])
 def test_every_run_brings_each_of_several_detectors_its_own_exponent(composing, size):
     plan = op.Composer(composing=composing).compose(splitters(2))
     for run in range(1, 9):
@@ -95,7 +96,7 @@ def test_every_run_brings_each_of_several_detectors_its_own_exponent(composing, 
         np.testing.assert_allclose(lights["end"].intensity, 1.0 - 10.0**-run, rtol=1e-15)
 
 
-@pytest.mark.parametrize("shapes", [((1,), ()), ((10,), (10,)), ((3, 1), (4,)), ((40, 1), (1, 30))])
+@rows("shapes", [((1,), ()), ((10,), (10,)), ((3, 1), (4,)), ((40, 1), (1, 30))])
 def test_batches_of_any_size_bring_each_detector_its_own_light(rng, shapes):
     path, state = splitters(2), np.array([1.0, 0.6, 0.0, 0.8])
     over = state * [1.0, 1.0, -1.0, -1.0]
@@ -154,14 +155,14 @@ ELEMENTS = {
 
 
 @pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
-@pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("value", EXTREME)
+@rows("element", ELEMENTS)
+@rows("value", EXTREME)
 def test_the_later_runs_of_extreme_values_are_the_first(element, value):
     state = (1.0, 0.5, 0.3, 0.4)
     assert_alike(runs(chain([ELEMENTS[element]], state), {"v": value}))
 
 
-@pytest.mark.parametrize("intensity", EXTREME)
+@rows("intensity", EXTREME)
 def test_the_later_runs_of_any_intensity_are_the_first(intensity):
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source(op.Parameter("v"), [1.0, 0.5, 0.3, 0.4]))
@@ -207,7 +208,7 @@ def boundary(**values):
 OPEN = {"index": 1.7, "incidence": 0.5, "outside": 1.25, "incidence_in": 1.125}
 
 
-@pytest.mark.parametrize("name", ["index", "outside", "incidence_in"])
+@rows("name", ["index", "outside", "incidence_in"])
 def test_an_open_index_costs_what_a_known_one_does_where_it_is_real(name):
     known = op.Composer().compose(boundary(**OPEN))
     plan = op.Composer().compose(boundary(**OPEN | {name: op.Parameter("m", OPEN[name])}))
@@ -218,8 +219,8 @@ def test_an_open_index_costs_what_a_known_one_does_where_it_is_real(name):
     assert all("imag" not in name for name in next(iter(single.functions.values())).names)
 
 
-@pytest.mark.parametrize("count", [(), 3])
-@pytest.mark.parametrize("name", ["index", "outside", "incidence_in"])
+@rows("count", [(), 3])
+@rows("name", ["index", "outside", "incidence_in"])
 def test_a_complex_index_between_real_ones_is_taken_as_it_is(name, count):
     plan = op.Composer().compose(boundary(**OPEN | {name: op.Parameter("m", OPEN[name])}))
     for _ in range(6):

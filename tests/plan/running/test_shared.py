@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.plan.running import shared
+from tables import rows
 
 FACTOR = {"now": 0.5}
 
@@ -83,7 +84,7 @@ def refracted_in_space(degrees):
     return made
 
 
-@pytest.mark.parametrize("turned_first", [True, False])
+@rows("turned_first", [True, False])
 def test_what_must_agree_is_not_taken_from_a_path_of_equal_steps(turned_first):
     for parallel in (not turned_first, turned_first, not turned_first):
         path = pane(parallel=parallel)

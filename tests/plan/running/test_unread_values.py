@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 ASKED = {
     "an intensity": lambda plan, **given: plan.run(**given),
@@ -12,9 +13,9 @@ ASKED = {
 }
 
 
-@pytest.mark.parametrize("size", [(), (5,), (3000,)])
-@pytest.mark.parametrize("asked", ASKED)
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -0.5, 1.5])
+@rows("size", [(), (5,), (3000,)])
+@rows("asked", ASKED)
+@rows("bad", [np.nan, np.inf, -0.5, 1.5])
 def test_a_value_that_nothing_needs_is_held_to_its_range_however_often_the_plan_has_run(
     asked, size, bad
 ):
