@@ -39,7 +39,7 @@ def prepared(monkeypatch):
     return counts
 
 
-@rows("shape", [(3000,), (60, 70)])
+@pytest.mark.parametrize("shape", [(3000,), (60, 70)])
 def test_a_second_run_of_a_shape_makes_nothing_anew(prepared, shape):
     plan, theta = path().compose(), np.linspace(0.1, 1.2, np.prod(shape)).reshape(shape)
     first = plan.run(theta=theta)
