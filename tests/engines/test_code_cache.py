@@ -15,7 +15,6 @@ import pytest
 from optipath.engines import cache_folder, code_cache, code_key
 from optipath.engines.code_cache import CodeCache
 from optipath.errors import CacheError
-from tables import rows
 
 pytest.importorskip("llvmlite")
 posix = pytest.mark.skipif(not hasattr(os, "getuid"), reason="folders of others are a POSIX matter")
