@@ -6,6 +6,7 @@ import pytest
 import optipath as op
 from paths import chain
 from random_matrices import jones, of_jones, turn
+from tables import rows
 
 X, Y, Z = np.eye(3)
 MIRRORED = np.diag([1.0, 1.0, -1.0, 1.0])
@@ -39,7 +40,7 @@ def test_the_s3_of_born_and_wolf_has_the_other_sign():
         assert 2 * a1 * a2 * np.sin(delta2 - delta1) == pytest.approx(-state[3], abs=1e-14)
 
 
-@pytest.mark.parametrize("stokes", [[1, 0, 0, 1], [1, 0, 0.6, 0.8], [1, 0, 0, -1]])
+@rows("stokes", [[1, 0, 0, 1], [1, 0, 0.6, 0.8], [1, 0, 0, -1]])
 def test_s3_above_0_is_right_handed_to_ieee_and_left_handed_to_hecht(stokes):
     times = np.linspace(0.0, 2.0 * np.pi, 100)
     field = np.real(np.exp(-1j * times)[:, np.newaxis] * field_of(stokes))
@@ -80,9 +81,9 @@ def sugar(angle):
     return op.Medium(0.5, dextrorotation=2.0 * angle)
 
 
-@pytest.mark.parametrize("seed", range(20))
-@pytest.mark.parametrize(
-    ("in_space", "element", "sign_back"),
+@rows("seed", range(20))
+@rows(
+    "in_space, element, sign_back",
     [(plate_in_space, plate, -1), (sugar_in_space, sugar, 1), (faraday_in_space, op.Rotator, -1)],
 )
 def test_what_light_meets_before_and_behind_a_mirror_is_entered_as_the_docs_say(
@@ -108,7 +109,7 @@ def test_two_quarter_wave_plates_at_one_angle_are_no_half_wave_plate_behind_a_mi
     assert np.abs(same.matrix - half.matrix).max() > 0.9
 
 
-@pytest.mark.parametrize("seed", range(10))
+@rows("seed", range(10))
 def test_a_reciprocal_element_met_the_other_way_is_transposed_and_mirrored(seed):
     # Of a Jones matrix T between fields along x and y, reciprocity asks for T transposed on the
     # way back (Jones, 1941), y having turned over.
@@ -126,7 +127,7 @@ def test_a_reciprocal_element_met_the_other_way_is_transposed_and_mirrored(seed)
         np.testing.assert_allclose(again.mueller().matrix, expected, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize(("n1", "n2"), [(1.0, 1.5), (1.5, 1.0), (1.33, 1.7)])
+@rows("n1, n2", [(1.0, 1.5), (1.5, 1.0), (1.33, 1.7)])
 def test_a_boundary_lets_power_through_and_radiance_times_the_squared_ratio_of_indices(n1, n2):
     limit = np.arcsin(min(1.0, n2 / n1))
     angle, width = 0.6 * limit, 1e-6

@@ -5,9 +5,9 @@ import inspect
 import pickle
 
 import numpy as np
-import pytest
 
 import optipath as op
+from tables import rows
 
 CORNER = np.array([[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]])
 PATH = op.load_preset("npgr026")
@@ -67,7 +67,7 @@ CLASSES = [
 COPIES = [lambda made: pickle.loads(pickle.dumps(made)), copy.copy, copy.deepcopy]
 
 
-@pytest.mark.parametrize("name", CLASSES)
+@rows("name", CLASSES)
 def test_an_object_of_a_public_class_equals_its_copies(name):
     made = FOUND[name] if name in FOUND else getattr(op, name)(*GIVEN.get(name, ()))
     for copied in COPIES:
@@ -76,7 +76,7 @@ def test_an_object_of_a_public_class_equals_its_copies(name):
         assert again == made
 
 
-@pytest.mark.parametrize(
+@rows(
     "light",
     [
         PATH.trace(),
@@ -86,7 +86,6 @@ def test_an_object_of_a_public_class_equals_its_copies(name):
         op.Light([1.0, 0.5, 0.0, 0.0], exponent=-5000),
         op.Light([1.0, 0.5, 0.0, 0.0], wavelength=5e-7),
     ],
-    ids=["one", "several", "one in space", "several in space", "faint", "of a wavelength"],
 )
 def test_light_that_was_traced_equals_its_copies(light):
     for copied in COPIES:

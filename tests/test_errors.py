@@ -10,6 +10,7 @@ import pytest
 import optipath as op
 from failing import fails
 from optipath import errors
+from tables import rows
 
 KINDS = [
     kind
@@ -32,9 +33,7 @@ def made(kind):
     return kind("plots", "matplotlib", "plot")
 
 
-@pytest.mark.parametrize(
-    "error", [*map(made, KINDS), OddError(number=3)], ids=lambda error: type(error).__name__
-)
+@rows("error", [*map(made, KINDS), OddError(number=3)])
 def test_an_error_is_the_same_after_a_copy(error):
     error.add_note("while it was looked at")
     for copied in COPIES:
@@ -73,7 +72,7 @@ def deep():
     return found
 
 
-@pytest.mark.parametrize(
+@rows(
     "value",
     [
         Unprintable(),
@@ -90,7 +89,6 @@ def deep():
         Unprintable,
         None,
     ],
-    ids=lambda value: type(value).__name__,
 )
 def test_whatever_is_quoted_is_short_and_on_one_line(value):
     text = errors.shown(value)

@@ -11,6 +11,7 @@ import pytest
 
 import optipath as op
 from pictures import faults_of
+from tables import rows
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 pytest.importorskip("jax")
@@ -24,7 +25,7 @@ def example():
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - as JAX has it
 
 
-@pytest.mark.parametrize("index", [(0.608, 2.12), (0.17, 3.15), (1.5, 0.2), (2.4, 0.1)])
+@rows("index", [(0.608, 2.12), (0.17, 3.15), (1.5, 0.2), (2.4, 0.1)])
 def test_the_index_comes_back_from_light_without_noise(example, index):
     measured = example["ellipsometer"]().trace(n=index[0], k=index[1]).stokes
     found, _ = example["index_from"](measured)

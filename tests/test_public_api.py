@@ -10,6 +10,7 @@ import networkx as nx
 import pytest
 
 import optipath as op
+from tables import rows
 
 SOURCE = Path(op.__file__).parent
 PROJECT = Path(__file__).parents[1] / "pyproject.toml"
@@ -142,7 +143,7 @@ def test_the_library_is_imported_when_it_is_used():
     assert brought_by("import optipath; optipath.Source", ["numpy"]) == "['numpy']"
 
 
-@pytest.mark.parametrize("arguments", [["--version"], ["presets"], ["presets", "--json"]])
+@rows("arguments", [["--version"], ["presets"], ["presets", "--json"]])
 def test_what_needs_no_numbers_is_told_without_numpy(arguments):
     code = f"from optipath.cli import main; main({arguments})"
     assert brought_by(code, ["numpy", "networkx"]) == "[]"

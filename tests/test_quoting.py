@@ -7,6 +7,7 @@ import pytest
 import optipath as op
 from optipath.errors import OptipathError, did_you_mean, printable, shown
 from optipath.spelling import few_suggestions
+from tables import rows
 
 
 def deep(levels):
@@ -36,7 +37,7 @@ VALUES = [
 ]
 
 
-@pytest.mark.parametrize("value", VALUES, ids=lambda value: type(value).__name__)
+@rows("value", VALUES)
 def test_every_value_is_shown_in_few_characters(value):
     assert 0 < len(shown(value)) <= 62
 

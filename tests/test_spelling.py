@@ -1,10 +1,9 @@
-import pytest
-
 from optipath.spelling import closest
+from tables import rows
 
 
-@pytest.mark.parametrize(
-    ("word", "known", "meant"),
+@rows(
+    "word, known, meant",
     [
         ("detla", ["delta", "rho"], "delta"),
         ("--FILTER", ["--filter"], "--filter"),
@@ -20,8 +19,8 @@ def test_a_misspelt_word_has_one_that_was_meant(word, known, meant):
     assert closest(word, known) == meant
 
 
-@pytest.mark.parametrize(
-    ("word", "known"),
+@rows(
+    "word, known",
     [
         ("--plot", ["--delta"]),
         ("10", ["1", "100", "0"]),

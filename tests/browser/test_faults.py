@@ -5,6 +5,8 @@ import pytest
 
 import optipath as op
 
+pytestmark = pytest.mark.slow
+
 playwright = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'")
 expect = playwright.expect
 

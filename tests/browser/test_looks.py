@@ -7,6 +7,8 @@ import pytest
 
 from page_faults import CONTRASTS, CUT, OVER, UNNAMED
 
+pytestmark = pytest.mark.slow
+
 expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'").expect
 
 FOCUSED = """(({ id, ariaLabel, textContent }) => id || ariaLabel || textContent)(

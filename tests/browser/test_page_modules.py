@@ -6,6 +6,8 @@ import pytest
 
 from optipath.values.units import UNITS
 
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'")
 
 

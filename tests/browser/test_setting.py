@@ -5,6 +5,8 @@ import pytest
 
 import optipath as op
 
+pytestmark = pytest.mark.slow
+
 expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'").expect
 
 

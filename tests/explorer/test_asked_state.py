@@ -4,6 +4,7 @@ import pytest
 
 from optipath.errors import OptipathError
 from optipath.explorer.asked_state import AskedCurve, asked_state
+from tables import rows
 
 ALL = ("case", "places", "values", "detector", "curve", "want")
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 181, "y": ["S0"]}
@@ -27,8 +28,8 @@ def test_a_whole_state_is_read():
     assert found.want == ("energy",)
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
+@rows(
+    "given, told",
     [
         ([], "a request is an object"),
         ("malus", "a request is an object"),

@@ -12,6 +12,7 @@ import optipath as op
 from optipath.cli import main
 from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.page_answers import PageAnswers
+from tables import rows
 
 ODD_NAMES = """
 format = 1
@@ -144,7 +145,7 @@ def test_without_a_curve_the_table_is_the_light(answers):
     assert [float(each) for each in row[:2]] == pytest.approx([0.375, 0.1875])
 
 
-@pytest.mark.parametrize("form", ["csv", "toml", "python"])
+@rows("form", ["csv", "toml", "python"])
 def test_what_cannot_be_traced_is_no_file(answers, form):
     state = {"preset": "npgr026", "values": {"delta": "100"}}
     found = answers.export({**state, "form": form})

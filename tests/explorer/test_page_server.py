@@ -10,6 +10,7 @@ from explorer.served import asked, page_server, posted, raw
 from optipath.errors import OptipathError
 from optipath.explorer import page_handler
 from optipath.explorer.page_server import HOST
+from tables import rows
 
 FORBIDDEN = {"error": "this is not the address that optipath explore has printed"}
 
@@ -38,8 +39,8 @@ def test_the_page_comes_with_headers_that_let_nothing_else_in(server):
     assert headers["Server"] == "optipath"
 
 
-@pytest.mark.parametrize(
-    ("name", "kind"),
+@rows(
+    "name, kind",
     [("main.js", "text/javascript"), ("style.css", "text/css"), ("icon.svg", "image/svg+xml")],
 )
 def test_its_files_have_their_types(server, name, kind):
@@ -75,7 +76,7 @@ def test_one_connection_serves_many_questions(server):
     assert raw(server, question * 3 + last).count(b"HTTP/1.1 200 OK") == 4
 
 
-@pytest.mark.parametrize("below", ["/", "", "/favicon.ico", "/{token}", "/{token}x/", "/{other}/"])
+@rows("below", ["/", "", "/favicon.ico", "/{token}", "/{token}x/", "/{other}/"])
 def test_nothing_is_told_without_the_token(server, below):
     other = server.token[:-1] + ("A" if server.token[-1] != "A" else "B")
     below = below.format(token=server.token, other=other)
@@ -86,7 +87,7 @@ def test_nothing_is_told_without_the_token(server, below):
         assert method == "HEAD" or json.loads(answer) == FORBIDDEN
 
 
-@pytest.mark.parametrize(
+@rows(
     "headers",
     [
         {"Host": "evil.example"},
@@ -112,7 +113,7 @@ def test_its_own_page_is_answered_by_both_names(server):
     assert asked(server, "GET", "", **both)[0] == 403
 
 
-@pytest.mark.parametrize(
+@rows(
     "place",
     [
         "page/../request_guards.py",
@@ -133,7 +134,7 @@ def test_no_other_file_is_sent(server, place):
     assert (status, json.loads(answer)) == (404, {"error": "there is nothing at this address"})
 
 
-@pytest.mark.parametrize("method", ["PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "FOO"])
+@rows("method", ["PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "FOO"])
 def test_other_methods_are_refused(server, method):
     status, headers, _ = asked(server, method, "")
     assert (status, headers["Allow"]) == (405, "GET, HEAD, POST")
@@ -145,8 +146,8 @@ def test_questions_are_posted_and_files_are_not(server):
     assert posted(server, "page/none.js", {})[0] == 404
 
 
-@pytest.mark.parametrize(
-    ("headers", "body", "status", "told"),
+@rows(
+    "headers, body, status, told",
     [
         ({}, b"x" * (64 * 1024 + 1), 413, "65536 are the most"),
         ({"Content_Type": "text/plain"}, b"{}", 400, "Content-Type: application/json"),
@@ -178,8 +179,8 @@ def test_a_length_that_is_given_twice_is_refused(server):
     assert raw(server, head.encode()).startswith(b"HTTP/1.1 400 ")
 
 
-@pytest.mark.parametrize(
-    ("sent", "status"),
+@rows(
+    "sent, status",
     [
         (b"\r\n", b""),
         (b"GET\r\n\r\n", b"400"),

@@ -9,6 +9,7 @@ import optipath as op
 from optipath.errors import OptipathError
 from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.page_answers import PageAnswers
+from tables import rows
 
 OWN = """
 format = 1
@@ -105,7 +106,7 @@ def test_choices_cases_detectors_and_links_are_told(answers):
     assert moved["links"][-1] == "P.out -> E.in"
 
 
-@pytest.mark.parametrize("preset", op.preset_names())
+@rows("preset", op.preset_names())
 def test_every_slider_holds_the_default_and_every_case(answers, preset):
     found = answers.open({"preset": preset})
     json.dumps(found, allow_nan=False)

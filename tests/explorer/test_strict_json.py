@@ -4,6 +4,7 @@ import pytest
 
 from optipath.errors import OptipathError
 from optipath.explorer.strict_json import read_json
+from tables import rows
 
 
 def test_what_is_json_is_read():
@@ -12,8 +13,8 @@ def test_what_is_json_is_read():
     }
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
+@rows(
+    "given, told",
     [
         (b"", "no JSON at character 0"),
         (b"{", "no JSON"),

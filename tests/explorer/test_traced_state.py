@@ -10,6 +10,7 @@ from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.light_as_json import end_as_json
 from optipath.explorer.page_answers import PageAnswers
 from optipath.light.printed_numbers import Numbers
+from tables import rows
 
 SEVERAL = """
 format = 1
@@ -64,14 +65,14 @@ def test_a_changed_case_is_not_compared_with_what_was_published(answers):
     assert moved["published_texts"] is None
 
 
-@pytest.mark.parametrize("text", ["0.5 rad", "28.64788975654116", "28.64788975654116 deg"])
+@rows("text", ["0.5 rad", "28.64788975654116", "28.64788975654116 deg"])
 def test_texts_are_read_as_at_the_command_line_and_bare_numbers_in_the_unit(answers, text):
     found = trace(answers, values={"delta": text})
     light = op.load_preset("npgr026").trace(delta=0.5)
     assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(light)
 
 
-@pytest.mark.parametrize("preset", op.preset_names())
+@rows("preset", op.preset_names())
 def test_every_preset_has_the_numbers_of_trace(answers, preset):
     """At values within its sliders, of which a few are drawn."""
     opened = answers.open({"preset": preset})
@@ -137,7 +138,7 @@ def test_unknown_names_are_told_with_what_there_is(answers):
     assert "unknown" in fields(trace(answers, places={"palace": "eye"}))[None]
 
 
-@pytest.mark.parametrize(
+@rows(
     "text", ["", "@/etc/passwd", "0:90:5", "1,2", "nan", "inf", "1e400", "\x1b[31m", "48 deg deg"]
 )
 def test_what_is_no_single_value_is_refused(answers, text):
@@ -184,8 +185,8 @@ def test_a_curve_may_be_in_another_unit_and_over_words(answers):
     assert trace(answers, curve=asked)["curve"]["at"] is None
 
 
-@pytest.mark.parametrize(
-    ("change", "told"),
+@rows(
+    "change, told",
     [
         ({"x": "detla"}, "did you mean 'delta'?"),
         ({"y": ["S4"]}, "quantity 'S4' is unknown"),
@@ -205,8 +206,8 @@ def test_what_is_wrong_with_a_curve_is_told_of_it(answers, change, told):
     assert (found["curve"], found["faults"]) == (None, [])
 
 
-@pytest.mark.parametrize(
-    ("preset", "x", "last", "values"),
+@rows(
+    "preset, x, last, values",
     [
         ("dichroic-sheet", "dichroism", "1", {"intensity": "3"}),
         ("npgr026", "delta", "-5", {"delta": "30"}),
@@ -241,7 +242,7 @@ def test_what_is_wanted_is_there(answers):
     assert sum(e["power"] for part in gone for e in found["energy"][part]) == pytest.approx(given)
 
 
-@pytest.mark.parametrize("preset", ["senarmont", "two-panes", "npgr026", "glass-slab"])
+@rows("preset", ["senarmont", "two-panes", "npgr026", "glass-slab"])
 def test_power_on_links_is_printed_as_the_light_there(answers, preset):
     """Rounding, which the table of light prints as 0, is no power."""
     found = trace(answers, preset, want=["energy"])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from optipath.plots.fine_steps import START, fine_steps
+from tables import rows
 
 X = np.linspace(0.0, 1.0, START)
 
@@ -25,7 +26,7 @@ def test_straight_lines_are_asked_for_once_more():
     assert asked == [START, START - 1]
 
 
-@pytest.mark.parametrize("periods", [50, 500, 1000])
+@rows("periods", [50, 500, 1000])
 def test_waves_are_resolved_to_a_hundredth(periods):
     found, asked = fine(lambda x: 0.5 * np.sin(2.0 * np.pi * periods * x + 0.3))
     x = np.linspace(0.0, 1.0, 100_003)

@@ -10,6 +10,7 @@ import optipath as op
 from optipath.plots import own_axes
 from optipath.plots.own_axes import own_panel
 from optipath.plots.states.poincare_sphere import sphere_axes
+from tables import rows
 
 LIGHT = op.Light([1.0, 0.6, 0.0, 0.8])
 DRAWN = {
@@ -25,8 +26,8 @@ DRAWN = {
 }
 
 
-@pytest.mark.parametrize("projection", ["3d", "polar"])
-@pytest.mark.parametrize("draw", DRAWN.values(), ids=DRAWN)
+@rows("projection", ["3d", "polar"])
+@rows("draw", DRAWN.values())
 def test_a_flat_picture_refuses_axes_in_space_and_of_angles_and_leaves_them_empty(draw, projection):
     ax = figures.Figure().add_subplot(projection=projection)
     with pytest.raises(op.OptipathError, match=f"the projection '{projection}'.*give plain Axes"):
@@ -45,7 +46,7 @@ def test_a_panel_with_axes_in_space_is_refused():
 SIZE = (3.0, 3.0)
 
 
-@pytest.mark.parametrize(
+@rows(
     "made",
     [
         lambda: own_axes.own_axes(None, SIZE),

@@ -6,6 +6,7 @@ import pytest
 
 import optipath as op
 from measured_hemispheres import measured
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 
@@ -89,7 +90,7 @@ def test_a_place_that_takes_no_file_is_told_by_the_name_that_was_given(place, tm
     assert "draft" not in str(told.value)
 
 
-@pytest.mark.parametrize("name", [3, None, b"map.png", ""])
+@rows("name", [3, None, b"map.png", ""])
 def test_what_is_no_name_of_a_file_is_refused(name):
     with pytest.raises(op.OptipathError, match="name of a file"):
         op.plots.save(figures.Figure(), name)

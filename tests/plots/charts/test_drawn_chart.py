@@ -8,6 +8,7 @@ import optipath as op
 from charts import charts, texts_over_marks
 from optipath.lab.accuracy.chart_file import KINDS
 from pictures import faults_of, texts_of
+from tables import rows
 
 pytest.importorskip("matplotlib")
 DOCS = Path(__file__).parents[3] / "docs"
@@ -32,7 +33,7 @@ def assert_clear(panel):
     assert texts_over_marks(figure, texts_of(figure)) == []
 
 
-@pytest.mark.parametrize("name", RECORDED)
+@rows("name", RECORDED)
 def test_no_text_of_a_recorded_chart_is_over_another_or_over_a_mark_or_cut(name):
     assert_clear(op.plots.chart(DOCS / name))
 
@@ -43,7 +44,7 @@ def test_no_text_of_any_chart_is_over_another_or_over_a_mark_or_cut(chart):
     assert_clear(op.plots.chart(chart))
 
 
-@pytest.mark.parametrize("name", RECORDED)
+@rows("name", RECORDED)
 def test_every_contender_has_a_mark_in_each_panel(name):
     chart = recorded(name)
     for ax in op.plots.chart(chart):

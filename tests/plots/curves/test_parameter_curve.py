@@ -9,6 +9,7 @@ from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve
 from optipath.plots.curves.drawn_quantity import drawn_quantities
 from pictures import faults_of, texts_of
+from tables import rows
 
 WAVEPLATE = (
     op.Source(stokes=[1, 1, 0, 0]) >> op.Retarder(np.pi, op.Parameter("turn")) >> op.Detector()
@@ -147,8 +148,8 @@ def test_the_curve_is_open_where_the_path_refuses_values_that_nobody_gave():
         curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
-@pytest.mark.parametrize(
-    ("preset", "x", "size"),
+@rows(
+    "preset, x, size",
     [
         ("npgr026", "rho", (6.4, 4.2)),
         ("npgr026", "rho", (3.2, 2.1)),
@@ -171,7 +172,7 @@ def off_line(ax, path, name, unit):
     return np.abs(np.interp(between, x, y) - true).max()
 
 
-@pytest.mark.parametrize("thickness", ["0.5 mm", "5 mm"])
+@rows("thickness", ["0.5 mm", "5 mm"])
 def test_narrow_lines_of_a_spectrum_are_drawn_as_high_as_they_are(thickness):
     path = op.load_preset("lyot-filter", thickness=thickness)
     assert off_line(curve(path, "wavelength"), path, "wavelength", 1e-9) < 0.01
@@ -235,8 +236,8 @@ def test_which_of_several_detectors_is_asked():
     assert [*lines(curve(path, "power", detector="two"))] == ["S0"]
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
+@rows(
+    "given, told",
     [
         ({"x": "angel"}, "parameter 'angel' is unknown; did you mean 'angle'"),
         ({"x": 3}, "parameter 3 is unknown"),

@@ -9,6 +9,7 @@ from optipath.errors import OptipathError
 from optipath.plots import quantity_map
 from optipath.plots.curves.drawn_quantity import drawn_quantity
 from pictures import faults_of
+from tables import rows
 
 FEW = {"x_values": "0 deg:180 deg:19", "y_values": "0.5, 1, 2"}
 
@@ -40,8 +41,8 @@ def test_values_in_any_order_are_put_in_order(malus):
     np.testing.assert_array_equal(image(malus).get_array(), image(other).get_array())
 
 
-@pytest.mark.parametrize(
-    ("quantity", "colours", "low", "high"),
+@rows(
+    "quantity, colours, low, high",
     [
         ("S0", "viridis", 0.0, 1.0),
         ("dolp", "viridis", 0.0, 1.0),
@@ -88,7 +89,7 @@ def test_what_the_path_refuses_is_grey_where_nobody_gave_it(monkeypatch):
         quantity_map(path, "absorption", "dichroism", y_values="-2 1/um:2 1/um:5")
 
 
-@pytest.mark.parametrize("size", [(6.4, 4.8), (3.2, 2.4)])
+@rows("size", [(6.4, 4.8), (3.2, 2.4)])
 def test_no_text_is_over_another_or_cut_at_either_size(size):
     figure = Figure(figsize=size, layout="constrained")
     path = op.load_preset("copper-gold-spectrum")

@@ -9,6 +9,7 @@ from optipath.errors import OptipathError
 from optipath.plots import reflection
 from optipath.plots.curves.marked_angles import marked_angles, reflected
 from pictures import faults_of
+from tables import rows
 
 
 def marks(index):
@@ -52,7 +53,7 @@ def test_from_within_glass_there_is_a_critical_angle():
     assert "critical angle 41.81°" in curves(reflection(1.0, outside=1.5))
 
 
-@pytest.mark.parametrize("index", [0.608 + 2.12j, 3.882 + 0.019j, 1.5 + 1.0j])
+@rows("index", [0.608 + 2.12j, 3.882 + 0.019j, 1.5 + 1.0j])
 def test_of_metals_the_least_p_and_the_highest_polarisation_are_found(index):
     found = marks(index)
     grid = np.radians(np.linspace(0.0, 90.0, 90_001))
@@ -79,8 +80,8 @@ def test_a_material_is_given_by_its_name_and_a_wavelength():
     assert "gold at 516 nm" in by_name.get_title()
 
 
-@pytest.mark.parametrize(
-    ("given", "title"),
+@rows(
+    "given, title",
     [
         ({"index": 1.00001, "outside": 1.00002}, "n = 1.00001 in n = 1.00002"),
         ({"index": "0.2+3.4j", "outside": "1.33"}, "n = 0.2 + 3.4i in n = 1.33"),
@@ -98,8 +99,8 @@ def test_a_formula_that_holds_at_any_wavelength_is_taken_at_one():
         reflection(op.Material.cauchy([1.5, 0.004]))
 
 
-@pytest.mark.parametrize("size", [(6.4, 4.4), (3.2, 2.2)])
-@pytest.mark.parametrize(
+@rows("size", [(6.4, 4.4), (3.2, 2.2)])
+@rows(
     "given",
     [
         {"index": 1.00000001, "outside": 1.00000002},
@@ -112,8 +113,8 @@ def test_no_text_is_over_another_or_cut_at_either_size(given, size):
     assert faults_of(figure) == []
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
+@rows(
+    "given, told",
     [
         ({"index": "gold"}, "index 'gold' depends on the wavelength; give one"),
         ({"index": 1.5, "wavelength": "500 nm"}, "no index depends on it; leave it out"),

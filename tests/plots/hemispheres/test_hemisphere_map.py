@@ -4,6 +4,7 @@ import pytest
 import optipath as op
 from measured_hemispheres import measured
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 colours = pytest.importorskip("matplotlib")
@@ -22,7 +23,7 @@ def image_of(ax):
     return image
 
 
-@pytest.mark.parametrize("quantity", ["S0", "S3", "AoP", "ADM"])
+@rows("quantity", ["S0", "S3", "AoP", "ADM"])
 def test_maps_are_drawn_without_texts_over_one_another_or_cut(glass, quantity):
     ax = op.plots.hemisphere(glass, quantity, source=[1, 0, 0, 0])
     assert faults_of(ax.figure) == []
@@ -31,7 +32,7 @@ def test_maps_are_drawn_without_texts_over_one_another_or_cut(glass, quantity):
     assert f"{quantity}, reflected, incidence 60°" in words
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@rows("quantity", QUANTITIES)
 def test_colours_of_what_has_a_sign_go_apart_from_zero(glass, quantity):
     image = image_of(op.plots.hemisphere(glass, quantity))
     low, high = image.get_clim()
@@ -63,9 +64,7 @@ def test_the_picture_is_as_it_is_seen_from_above(glass):
     assert 0.5 < x < 0.9
 
 
-@pytest.mark.parametrize(
-    ("projection", "place"), [("equidistant", 2 / 3), ("equal-area", 0.5**0.5)]
-)
+@rows("projection, place", [("equidistant", 2 / 3), ("equal-area", 0.5**0.5)])
 def test_the_specular_direction_is_marked_where_the_projection_has_it(projection, place):
     ax = op.plots.hemisphere(measured("glass on glass", projection=projection))
     marks = [line for line in ax.get_lines() if line.get_marker() == "+"]
@@ -134,8 +133,8 @@ def test_settings_of_matplotlib_stay(glass):
     assert dict(colours.rcParams) == before
 
 
-@pytest.mark.parametrize(
-    ("quantity", "given", "sentence"),
+@rows(
+    "quantity, given, sentence",
     [
         ("DoL", {}, "quantity 'DoL' is unknown; did you mean 'DoLP'"),
         ("S0", {"side": "transmitted"}, "no side is called 'transmitted'"),
@@ -156,8 +155,8 @@ def test_what_does_not_go_together_is_refused(quantity, given, sentence):
         op.plots.hemisphere(measured("mirror"), quantity, **given)
 
 
-@pytest.mark.parametrize(
-    ("wavelength", "sentence"),
+@rows(
+    "wavelength, sentence",
     [
         (None, "wavelength is missing; give one of 500 nm and 600 nm"),
         ("550 nm", "550 nm has not been measured; give a wavelength of 500 nm and 600 nm"),
@@ -174,7 +173,7 @@ def test_all_faults_are_told_at_once(glass):
     assert len(told.value.faults) == 3
 
 
-@pytest.mark.parametrize("wrong", [None, 3, "sample"])
+@rows("wrong", [None, 3, "sample"])
 def test_what_is_no_hemisphere_is_refused(wrong):
     with pytest.raises(op.SurfaceError, match="is no Hemisphere; give what op"):
         op.plots.hemisphere(wrong)
@@ -185,7 +184,7 @@ def test_what_are_no_axes_is_refused(glass):
         op.plots.hemisphere(glass, "S0", 3)
 
 
-@pytest.mark.parametrize("mask", [0.5, 0.0, "noise", np.ones(2)])
+@rows("mask", [0.5, 0.0, "noise", np.ones(2)])
 def test_a_mask_that_is_no_mapping_is_refused(glass, mask):
     with pytest.raises(op.SurfaceError, match=r"give a mapping, such as {'brighter_than': 0\.5}"):
         op.plots.hemisphere(glass, "ADM", mask=mask)

@@ -6,6 +6,7 @@ import pytest
 import optipath as op
 from measured_hemispheres import measured
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 
@@ -70,7 +71,7 @@ def test_panels_are_drawn_into_axes_that_are_given():
     assert axes[0].figure.get_suptitle() == ""
 
 
-@pytest.mark.parametrize("draw", ["mueller_hemisphere", "differences", "beside_facets"])
+@rows("draw", ["mueller_hemisphere", "differences", "beside_facets"])
 def test_axes_of_another_shape_are_refused(draw):
     axes = figures.Figure().subplots(1, 2)
     with pytest.raises(op.OptipathError, match=r"give \d x \d Axes of Matplotlib, as figure.subpl"):

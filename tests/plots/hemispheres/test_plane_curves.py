@@ -6,6 +6,7 @@ from measured_hemispheres import measured
 from optipath.surfaces import Sensor, single_scattering
 from pictures import faults_of, texts_of
 from rough_samples import rough
+from tables import rows
 
 pytest.importorskip("matplotlib")
 QUANTITIES = ["S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "difference"]
@@ -15,7 +16,7 @@ def curve_of(ax):
     return next(line for line in ax.get_lines() if len(line.get_xdata()) > 2)
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@rows("quantity", QUANTITIES)
 def test_every_quantity_has_a_curve_with_names_and_units(quantity):
     ax = op.plots.in_plane(measured("glass on glass"), quantity)
     assert ax.get_title() == f"{quantity}, reflected, incidence 60°"
@@ -53,7 +54,7 @@ def test_bands_reach_two_standard_errors_up_and_down():
     np.testing.assert_allclose(band[:, 1].max(), (mean + 2.0 * error).max())
 
 
-@pytest.mark.parametrize("pixels", [32, 33])
+@rows("pixels", [32, 33])
 def test_curves_are_in_frames_of_the_plane_of_incidence(pixels):
     """The model's light along directions in the plane, beside pixels that hold the model's."""
     found = op.measure(op.Sample([(0.5 + 2.1j, 0.5)]), 0.7, 600, sensor=Sensor(pixels), events=1)
@@ -133,8 +134,8 @@ def test_legends_tell_wavelengths_that_differ():
     assert names_of(ax) == ["a, 450 nm", "b, 600 nm", "c"]
 
 
-@pytest.mark.parametrize(
-    ("names", "given", "sentence"),
+@rows(
+    "names, given, sentence",
     [
         (["silver", "gold"], {}, r"^gold: wavelength is missing; give one of 500 nm and 600 nm$"),
         (["silver", "gold"], {"wavelength": 5.5e-7}, "^gold: 550 nm has not been measured"),

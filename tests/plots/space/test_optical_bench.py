@@ -10,6 +10,7 @@ import optipath as op
 from optipath.plots.line_colours import FAINT
 from optipath.plots.space.bench_symbols import DIAL, ELLIPSE
 from pictures import faults_of
+from tables import rows
 
 PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "coated-metal"]
 PLANE += ["double-pass-waveplate", "faraday-isolator", "fresnel-rhomb", "pile-of-plates"]
@@ -35,8 +36,8 @@ def over_symbols(ax):
     return [text for text, box in boxes for shape in shapes if shape.intersects_bbox(box)]
 
 
-@pytest.mark.parametrize("preset", PLANE)
-@pytest.mark.parametrize("size", [(9.0, 5.4), (4.5, 2.7)])
+@rows("preset", PLANE)
+@rows("size", [(9.0, 5.4), (4.5, 2.7)])
 def test_no_name_is_over_another_or_a_symbol_or_cut(preset, size):
     figure = Figure(figsize=size, layout="constrained")
     op.plots.bench(op.load_preset(preset), figure.add_subplot())
@@ -44,7 +45,7 @@ def test_no_name_is_over_another_or_a_symbol_or_cut(preset, size):
     assert over_symbols(figure.axes[0]) == []
 
 
-@pytest.mark.parametrize("preset", ["glass-slab", "coated-metal", "double-pass-waveplate"])
+@rows("preset", ["glass-slab", "coated-metal", "double-pass-waveplate"])
 def test_light_begins_and_ends_at_what_is_drawn(preset):
     ax = op.plots.bench(op.load_preset(preset))
     beams = [line for line in ax.lines if line.get_zorder() == 3.0 and line.get_color() != FAINT]
@@ -99,8 +100,8 @@ def round_about(head, middle):
     return np.sign(out[0] * way[1] - out[1] * way[0])
 
 
-@pytest.mark.parametrize("s3", [1.0, -1.0])
-@pytest.mark.parametrize("tilt", [0.0, 0.3])
+@rows("s3", [1.0, -1.0])
+@rows("tilt", [0.0, 0.3])
 def test_heads_in_dials_turn_as_the_field_does_to_who_looks_at_the_source(s3, tilt):
     light = op.Source(stokes=[1.0, np.sin(tilt), 0.0, s3 * np.cos(tilt)])
     ax = op.plots.bench(light >> op.Detector())
@@ -146,8 +147,8 @@ def test_the_assignment_in_one_plane_is_drawn():
     }
 
 
-@pytest.mark.parametrize(
-    ("preset", "name", "sine"),
+@rows(
+    "preset, name, sine",
     [
         ("coated-metal", "metal", np.sin(np.radians(40.0)) / 1.5),
         ("glass-slab", "back", np.sin(np.radians(40.0)) / 1.5),
@@ -164,8 +165,8 @@ def test_no_angle_is_told_with_the_sign_of_nothing():
     assert "X1\ndelta = 53 deg\nazimuth -rho = 0 deg" in texts
 
 
-@pytest.mark.parametrize(
-    ("preset", "folded"),
+@rows(
+    "preset, folded",
     [
         ("fresnel-rhomb", {"incidence": "10 deg"}),
         ("npgr026", {"delta": "89.99 deg", "phi": "0.01 deg"}),
@@ -180,7 +181,7 @@ def test_where_symbols_lie_over_one_another_that_is_said_with_the_cure(preset, f
         assert faults_of(ax.figure) == []
 
 
-@pytest.mark.parametrize("preset", ["ellipsometer-rough", "ellipsometer-pcsa"])
+@rows("preset", ["ellipsometer-rough", "ellipsometer-pcsa"])
 def test_no_name_lies_over_a_ray(preset):
     ax = op.plots.bench(op.load_preset(preset))
     beams = [line for line in ax.lines if line.get_zorder() == 3.0]

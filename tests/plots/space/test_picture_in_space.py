@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 import optipath as op
 from pictures import faults_of
+from tables import rows
 
 
 def texts_in(ax):
@@ -16,8 +17,8 @@ def key_of(ax):
     return {text.get_text() for text in ax.get_legend().get_texts()}
 
 
-@pytest.mark.parametrize("preset", ["npgr026", "two-panes", "lyot-filter", "faraday-isolator"])
-@pytest.mark.parametrize("size", [(8.0, 6.0), (4.0, 3.0)])
+@rows("preset", ["npgr026", "two-panes", "lyot-filter", "faraday-isolator"])
+@rows("size", [(8.0, 6.0), (4.0, 3.0)])
 def test_no_name_is_over_another_or_cut(preset, size):
     figure = Figure(figsize=size, layout="constrained")
     op.plots.geometry(op.load_preset(preset), figure.add_subplot())
@@ -43,7 +44,7 @@ def test_what_was_chosen_is_said_below():
     assert "schematic" in note
 
 
-@pytest.mark.parametrize(
+@rows(
     "values",
     [
         {"delta": "0 deg", "phi": "0 deg"},
@@ -79,8 +80,8 @@ def test_from_the_side_a_straight_path_is_a_level_line():
     assert np.allclose(heights, 0.0, atol=1e-12)
 
 
-@pytest.mark.parametrize("s3", [1.0, -1.0])
-@pytest.mark.parametrize(("azimuth", "towards"), [(45.0, 1.0), (225.0, -1.0)])
+@rows("s3", [1.0, -1.0])
+@rows("azimuth, towards", [(45.0, 1.0), (225.0, -1.0)])
 def test_heads_on_ellipses_turn_as_the_field_does(s3, azimuth, towards):
     path = op.Source(stokes=[1.0, 0.0, 0.0, s3]) >> op.Detector()
     ax = op.plots.geometry(path, view=(20.0, azimuth))
@@ -112,7 +113,7 @@ def test_several_paths_are_refused():
         op.plots.geometry(op.load_preset("malus"), angle=[0.1, 0.2])
 
 
-@pytest.mark.parametrize("preset", ["npgr026", "npgr026-3d", "copper-gold-spectrum"])
+@rows("preset", ["npgr026", "npgr026-3d", "copper-gold-spectrum"])
 def test_what_is_left_out_has_its_name_at_its_plate(preset):
     ax = op.plots.geometry(op.load_preset(preset))
     boxes = {text.get_text(): text.get_window_extent() for text in ax.texts}

@@ -11,6 +11,7 @@ import optipath as op
 from optipath.paths.presets.loader import preset_names
 from optipath.plots.space.scene import SceneNode
 from optipath.plots.space.scene_of import scene_of
+from tables import rows
 
 DEGREES = st.floats(0.0, 90.0)
 PANE = [[0, -1, 1], [0, 0, 0], [0, 1, -np.sqrt(3.5)], [0, 2, 0], [0, 3, 1]]
@@ -31,7 +32,7 @@ def turn(first, second):
     return np.arctan2(second[0] @ first[1], second[0] @ first[0])
 
 
-@pytest.mark.parametrize("preset", preset_names())
+@rows("preset", preset_names())
 def test_every_frame_of_every_preset_is_right_handed_along_its_ray(preset):
     scene = scene_of(op.load_preset(preset))
     for axes in [each.axes for each in (*scene.rays, *scene.frames)]:
@@ -41,7 +42,7 @@ def test_every_frame_of_every_preset_is_right_handed_along_its_ray(preset):
         assert np.allclose(direction(ray), ray.axes[2], atol=1e-12), ray.name
 
 
-@pytest.mark.parametrize("preset", preset_names())
+@rows("preset", preset_names())
 def test_what_every_preset_tells_a_page_is_plain_json_with_the_agreed_keys(preset):
     told = scene_of(op.load_preset(preset)).as_json()
     assert json.loads(json.dumps(told, allow_nan=False)) == told
@@ -143,7 +144,7 @@ def test_world_frames_that_ports_are_given_are_the_drawn_ones():
     assert np.allclose(by_name(scene.nodes)["glass"].normal, [0, 0, 1])
 
 
-@pytest.mark.parametrize("theta", [0.0, 30.0, 56.3, 89.0, 90.0])
+@rows("theta", [0.0, 30.0, 56.3, 89.0, 90.0])
 def test_a_slab_refracts_by_snell_and_lets_light_out_parallel(theta):
     scene = scene_of(op.load_preset("glass-slab"), theta=np.radians(theta))
     ways = {name: direction(ray) for name, ray in by_name(scene.rays).items()}
@@ -177,8 +178,8 @@ def test_light_that_a_mirror_sends_back_is_drawn_beside_its_way():
     assert any("beside the way it came" in note for note in scene.notes)
 
 
-@pytest.mark.parametrize("leaves", [("reflected", "transmitted"), ("transmitted", "reflected")])
-@pytest.mark.parametrize("splitter", [op.BeamSplitter, op.PolarizingBeamSplitter])
+@rows("leaves", [("reflected", "transmitted"), ("transmitted", "reflected")])
+@rows("splitter", [op.BeamSplitter, op.PolarizingBeamSplitter])
 def test_light_that_a_mirror_sends_back_keeps_away_from_detectors_and_other_light(leaves, splitter):
     path = op.PathGraph()
     path.add("lamp", op.Source()) >> path.add("cube", splitter())
@@ -270,7 +271,7 @@ def test_arcs_are_as_wide_as_the_angles_they_name():
         assert abs(np.degrees(np.arccos(cosine)) - expected) < 1e-9
 
 
-@pytest.mark.parametrize("preset", preset_names())
+@rows("preset", preset_names())
 def test_the_names_of_angles_belong_to_their_arcs(preset):
     scene = scene_of(op.load_preset(preset))
     for angle in scene.angles:
@@ -298,9 +299,7 @@ def test_an_element_that_is_left_out_on_the_way_back_has_no_sign():
     assert not any(text.startswith("-") for text in texts)
 
 
-@pytest.mark.parametrize(
-    "given", [{"default": "10 arcsec"}, {"default": "10 arcsec", "unit": "arcsec"}]
-)
+@rows("given", [{"default": "10 arcsec"}, {"default": "10 arcsec", "unit": "arcsec"}])
 def test_small_angles_are_told_in_the_unit_of_their_parameter(given):
     tilt = op.Parameter("tilt", **given)
     path = op.Source() >> op.Polarizer(tilt) >> op.Detector()
@@ -324,14 +323,14 @@ def test_dark_light_has_no_ellipse_and_no_nan_in_json():
     assert {ray["intensity"] for ray in told["rays"]} == {0.0}
 
 
-@pytest.mark.parametrize("draw", [op.plots.geometry, op.plots.bench, scene_of])
-@pytest.mark.parametrize("given", ["malus", op.Polarizer(0.0), None])
+@rows("draw", [op.plots.geometry, op.plots.bench, scene_of])
+@rows("given", ["malus", op.Polarizer(0.0), None])
 def test_what_is_no_path_is_refused_with_the_cure(draw, given):
     with pytest.raises(op.OptipathError, match=r"draws a path, not .*give a PathGraph"):
         draw(given)
 
 
-@pytest.mark.parametrize("draw", [op.plots.geometry, op.plots.bench, scene_of])
+@rows("draw", [op.plots.geometry, op.plots.bench, scene_of])
 def test_light_that_goes_a_way_that_there_is_not_is_refused(draw):
     points = [[0, -1, 1], [0, 0, 0], [0, 9, 1]]
     path = op.path_from_vertices(points, [1.5], events="T", bad="mask")

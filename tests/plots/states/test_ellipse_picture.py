@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 patches = pytest.importorskip("matplotlib.patches")
@@ -39,19 +40,19 @@ def circles_of(ax):
     return [patch for patch in ax.patches if isinstance(patch, patches.Circle)]
 
 
-@pytest.mark.parametrize("light", LIGHTS.values(), ids=LIGHTS)
+@rows("light", LIGHTS.values())
 def test_no_text_is_over_another_or_cut(light):
     ax = op.plots.ellipse(light)
     assert faults_of(ax.figure) == []
 
 
-@pytest.mark.parametrize("name", ["elliptical", "not read", "beyond floats", "weak"])
+@rows("name", ["elliptical", "not read", "beyond floats", "weak"])
 def test_no_text_is_over_another_or_cut_on_small_axes(name):
     ax = op.plots.ellipse(LIGHTS[name], axes(2.5, 2.9))
     assert faults_of(ax.figure) == []
 
 
-@pytest.mark.parametrize("size", [(5.0, 7.3), (2.5, 3.7)])
+@rows("size", [(5.0, 7.3), (2.5, 3.7)])
 def test_no_text_of_six_lights_is_over_another_or_cut(size):
     names = ["elliptical", "linear", "circular", "unpolarised", "dark", "down"]
     ax = op.plots.ellipse({name: LIGHTS[name] for name in names}, axes(*size))
@@ -79,7 +80,7 @@ def test_linear_light_is_a_line_along_its_angle():
     assert np.hypot(x, y).max() == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(("s3", "turns"), [(1.0, 1.0), (-1.0, -1.0)])
+@rows("s3, turns", [(1.0, 1.0), (-1.0, -1.0)])
 def test_heads_go_from_x_to_y_where_s3_is_positive(s3, turns):
     ax = op.plots.ellipse(op.Light([1.0, 0.0, 0.0, s3]))
     heads = [text for text in ax.texts if not text.get_text()]
@@ -100,7 +101,7 @@ def test_what_is_unpolarised_is_a_circle_of_its_power():
     assert 2.0 * circle.radius**2 == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize("name", ["unpolarised", "dark", "not read", "negative"])
+@rows("name", ["unpolarised", "dark", "not read", "negative"])
 def test_light_without_an_ellipse_says_why(name):
     ax = op.plots.ellipse(LIGHTS[name])
     assert curves_of(ax) == []
@@ -178,8 +179,8 @@ def test_names_are_told_as_they_are():
     assert op.plots.ellipse(LIGHTS["linear"], labels=names[1]).get_title().startswith(names[1])
 
 
-@pytest.mark.parametrize(
-    ("light", "labels", "told"),
+@rows(
+    "light, labels, told",
     [
         (op.Light(np.tile([1.0, 0.0, 0.0, 0.0], (7, 1))), None, "7 lights are too many"),
         (op.Light(np.ones((2, 2, 1)) * [1.0, 0, 0, 0]), None, r"shape \(2, 2\) is more than a row"),

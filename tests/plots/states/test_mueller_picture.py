@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 colours = pytest.importorskip("matplotlib.colors")
@@ -25,11 +26,10 @@ def digits_of(ax):
     return cells
 
 
-@pytest.mark.parametrize("scale", [1.0, 0.5])
-@pytest.mark.parametrize(
+@rows("scale", [1.0, 0.5])
+@rows(
     "matrix",
     [GOLD, changed((1, 2), np.nan), op.Mueller(np.zeros((4, 4))), op.Mueller(1e-300 * np.eye(4))],
-    ids=["gold", "a NaN", "zeros", "faint"],
 )
 def test_no_text_is_over_another_or_cut(matrix, scale):
     figure = figures.Figure(figsize=(5.2 * scale, 4.6 * scale), layout="constrained")
@@ -112,8 +112,8 @@ def test_noise_is_zero_and_small_elements_have_their_power():
     assert digits_of(op.plots.mueller(changed((2, 2), -3e-17)))[2, 2] == "0"
 
 
-@pytest.mark.parametrize(
-    ("matrix", "told"),
+@rows(
+    "matrix, told",
     [
         (op.Mueller(np.zeros((3, 4, 4))), r"a batch of shape \(3,\).*matrix\[0\]"),
         (np.eye(4), r"is no Mueller matrix; give .* op.Mueller\(array\)"),

@@ -1,12 +1,12 @@
 """Names beside points."""
 
 import numpy as np
-import pytest
 from matplotlib.figure import Figure
 from matplotlib.patheffects import Stroke
 
 import optipath as op
 from optipath.plots.states.named_points import name_points
+from tables import rows
 
 
 def square():
@@ -17,7 +17,7 @@ def square():
     return ax
 
 
-@pytest.mark.parametrize("turn", np.radians([0.0, 30.0, 60.0, 90.0, 120.0]))
+@rows("turn", np.radians([0.0, 30.0, 60.0, 90.0, 120.0]))
 def test_a_name_stands_beside_the_line_through_its_point(turn):
     ax = square()
     across = np.array([np.cos(turn), np.sin(turn)])
@@ -31,7 +31,7 @@ def test_a_name_stands_beside_the_line_through_its_point(turn):
     assert not any(box.contains(x, y) for x, y in line)
 
 
-@pytest.mark.parametrize("preset", ["ellipsometer-pcsa", "dichroic-sheet"])
+@rows("preset", ["ellipsometer-pcsa", "dichroic-sheet"])
 def test_numbers_and_letters_of_a_sphere_are_seen_over_lines(preset):
     ax = op.plots.poincare_path(op.load_preset(preset))
     texts = [text for text in ax.texts if text.get_text()]

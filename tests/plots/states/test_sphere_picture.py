@@ -4,6 +4,7 @@ import pytest
 import optipath as op
 from optipath.plots.states.poincare_sphere import is_near
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 
@@ -26,9 +27,9 @@ def words_of(ax):
     return {text.get_text() for text in texts_of(ax.figure)}
 
 
-@pytest.mark.parametrize("scale", [1.0, 0.5])
-@pytest.mark.parametrize(
-    ("light", "options"),
+@rows("scale", [1.0, 0.5])
+@rows(
+    "light, options",
     [
         (TRAIL[0], {}),
         (TRAIL, {"by": np.degrees(ANGLES), "label": "retardance (deg)"}),
@@ -36,7 +37,6 @@ def words_of(ax):
         (TRAIL[:9], {}),
         (op.Light([[1, -0.6, 0, 0.8], [1, -0.2, -0.9, 0.1], [0, 0, 0, 0], [1, 0, 0, 0]]), {}),
     ],
-    ids=["one", "coloured", "long", "short", "behind"],
 )
 def test_no_text_is_over_another_or_cut(light, options, scale):
     size = (6.4, 5.6) if options else (5.4, 5.6)
@@ -61,7 +61,7 @@ def test_points_are_the_stokes_parameters_over_the_intensity():
     np.testing.assert_allclose(points_of(ax), [[0.5, 0.0, 0.0], [0.0, 0.6, 0.8]])
 
 
-@pytest.mark.parametrize(
+@rows(
     "light", [op.Light([2e-300, 1e-300, 0.0, 0.0]), op.Light([2.0, 1.0, 0.0, 0.0], exponent=-9999)]
 )
 def test_light_of_any_faintness_has_its_point(light):
@@ -104,7 +104,7 @@ def test_light_without_a_point_is_counted():
     assert len(points_of(ax)) == 1
 
 
-@pytest.mark.parametrize("numbers", [[0.0] * 4, [1.0, np.nan, np.nan, np.nan]])
+@rows("numbers", [[0.0] * 4, [1.0, np.nan, np.nan, np.nan]])
 def test_one_light_without_a_point_says_why(numbers):
     ax = op.plots.poincare(op.Light(numbers))
     assert ax.get_title().split("\n")[0] in ("dark", "S1, S2 and S3 are not read")
@@ -118,8 +118,8 @@ def test_a_second_trail_is_drawn_on_the_sphere_that_is_there():
     assert len(ax.get_lines()) == lines
 
 
-@pytest.mark.parametrize(
-    ("light", "options", "told"),
+@rows(
+    "light, options, told",
     [
         (TRAIL.reshape(1, -1), {}, "is no trail"),
         (TRAIL[:0], {}, "is no trail"),
@@ -136,7 +136,7 @@ def test_what_cannot_be_drawn_is_told(light, options, told):
         op.plots.poincare(light, **options)
 
 
-@pytest.mark.parametrize("flat", ["axes", None])
+@rows("flat", ["axes", None])
 def test_flat_axes_are_refused_with_the_cure(flat):
     ax = figures.Figure().add_subplot() if flat else "no axes"
     with pytest.raises(op.OptipathError, match='add_subplot\\(projection="3d"\\)'):

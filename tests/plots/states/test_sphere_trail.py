@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 
@@ -15,8 +16,8 @@ def keys_of(ax):
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
-@pytest.mark.parametrize(
-    ("preset", "scale"),
+@rows(
+    "preset, scale",
     [("npgr026", 1.0), ("faraday-isolator", 1.0), ("senarmont", 0.5), ("two-panes", 0.5)],
 )
 def test_no_text_is_over_another_or_cut(preset, scale):
@@ -81,7 +82,7 @@ def test_a_path_of_dark_light_is_drawn():
     assert faults_of(ax.figure) == []
 
 
-@pytest.mark.parametrize("given", ["malus", op.Polarizer(0.0), None])
+@rows("given", ["malus", op.Polarizer(0.0), None])
 def test_what_is_no_path_is_refused_with_the_cure(given):
     with pytest.raises(op.OptipathError, match=r"a trail is of a path, not of .*give a PathGraph"):
         op.plots.poincare_path(given)

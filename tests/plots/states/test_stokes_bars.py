@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from pictures import faults_of, texts_of
+from tables import rows
 
 figures = pytest.importorskip("matplotlib.figure")
 
@@ -32,9 +33,9 @@ def keys_of(ax):
 ROWS = op.Light([[1.0, np.cos(a), np.sin(a), 0.0] for a in range(6)])
 
 
-@pytest.mark.parametrize("scale", [1.0, 0.5])
-@pytest.mark.parametrize(
-    ("light", "published"),
+@rows("scale", [1.0, 0.5])
+@rows(
+    "light, published",
     [
         (PATH.trace(), PUBLISHED),
         (op.Light([1.0, NAN, NAN, NAN]), None),
@@ -42,7 +43,6 @@ ROWS = op.Light([[1.0, np.cos(a), np.sin(a), 0.0] for a in range(6)])
         (op.Light([1.0, 0.6, 0.0, 0.8], exponent=-332193), None),
         ({"first": PATH.trace(), "second": 0.5 * PATH.trace()}, {"first": PUBLISHED}),
     ],
-    ids=["published", "not read", "faint", "beyond floats", "two"],
 )
 def test_no_text_is_over_another_or_cut(light, published, scale):
     ax = op.plots.stokes(light, axes(5.6 * scale, 4.4 * scale), published=published)
@@ -78,7 +78,7 @@ def test_six_digits_of_what_was_published_are_kept():
     assert [float(each) for each in told] == [19.1245, 10.9873, -13.0076, -8.70795]
 
 
-@pytest.mark.parametrize(("preset", "case"), [("achromatic-rhomb", "green"), ("npgr026", "7")])
+@rows("preset, case", [("achromatic-rhomb", "green"), ("npgr026", "7")])
 def test_long_numbers_stand_by_themselves_on_small_axes(preset, case):
     path = op.load_preset(preset, case=case)
     (published,) = path.cases[case].published.values()
@@ -118,8 +118,8 @@ def test_infinite_light_is_told_as_such():
     assert keys_of(ax) == ["hot: infinite", "lamp"]
 
 
-@pytest.mark.parametrize(
-    ("light", "power"),
+@rows(
+    "light, power",
     [
         (op.Light([3e-300, 0.6e-300, 0.0, 1.5e-300]), "-300"),
         (op.Light([3.0, 0.6, 0.0, 1.5], exponent=0) * 1e300, "300"),
@@ -140,14 +140,14 @@ def test_dark_light_has_no_power_of_ten():
     assert faults_of(ax.figure) == []
 
 
-@pytest.mark.parametrize("stokes", [[0.0, 0.0, 0.0, 0.0], [NAN, NAN, NAN, NAN]])
+@rows("stokes", [[0.0, 0.0, 0.0, 0.0], [NAN, NAN, NAN, NAN]])
 def test_axes_of_dark_light_go_from_0_to_1(stokes):
     assert op.plots.stokes(op.Light(stokes)).get_ylim() == (0.0, 1.0)
     lit = op.plots.stokes(op.Light(stokes), published=[4.0, 0.0, 0.0, 0.0])
     assert lit.get_ylim()[1] > 4.0
 
 
-@pytest.mark.parametrize("scale", [1.0, 0.5])
+@rows("scale", [1.0, 0.5])
 def test_long_names_are_not_cut(scale):
     lights = {"a": ROWS[0], "b" * 60: ROWS[1], "$x_2$": ROWS[2]}
     ax = op.plots.stokes(lights, axes(5.6 * scale, 4.4 * scale))
@@ -160,8 +160,8 @@ def test_a_light_has_the_name_that_it_is_given():
     assert "eye" in {text.get_text() for text in texts_of(ax.figure)}
 
 
-@pytest.mark.parametrize(
-    ("light", "published", "told"),
+@rows(
+    "light, published, told",
     [
         (ROWS[0], [1.0, 0.0], "give S0, S1, S2 and S3"),
         (ROWS[0], ["a", "b", "c", "d"], "published"),
@@ -176,9 +176,7 @@ def test_published_values_that_do_not_fit_are_told(light, published, told):
         op.plots.stokes(light, published=published)
 
 
-@pytest.mark.parametrize(
-    "light", [op.Light(np.zeros(4)), op.Light([0.0, NAN, NAN, NAN]), op.Light([NAN] * 4)]
-)
+@rows("light", [op.Light(np.zeros(4)), op.Light([0.0, NAN, NAN, NAN]), op.Light([NAN] * 4)])
 def test_an_axis_without_bars_goes_from_0_to_1(light):
     ax = op.plots.stokes(light)
     assert ax.get_ylim() == (0.0, 1.0)
