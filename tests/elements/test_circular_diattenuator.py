@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 STATE = [1.0, 0.5, 0.6, 0.4]
 
@@ -30,13 +31,13 @@ def test_right_handed_light_passes_one_that_is_ideal():
     np.testing.assert_array_equal((ideal @ left).stokes, 0.0)
 
 
-@pytest.mark.parametrize("leak", [1e-3, 1e-12, 1e-300])
+@rows("leak", [1e-3, 1e-12, 1e-300])
 def test_what_hardly_passes_keeps_its_digits(leak):
     light = chain([op.CircularDiattenuator(1.0, leak)], [1.0, 0.0, 0.0, -1.0]).trace()
     assert pytest.approx(leak, rel=1e-15) == light.S0
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_every_engine_agrees(engine):
     right, left = np.random.default_rng(1).uniform(0.0, 1.0, (2, 3000))
     path = chain([op.CircularDiattenuator(op.Parameter("r"), op.Parameter("l"))], STATE)

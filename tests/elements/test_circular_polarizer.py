@@ -4,6 +4,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 STATE = (1.0, 0.3, 0.5, 0.6)
 T, L = op.Parameter("t"), op.Parameter("l")
@@ -15,14 +16,14 @@ def homogeneous(sign, t, leakage):
     return np.array([[mean, 0, 0, half], [0, across, 0, 0], [0, 0, across, 0], [half, 0, 0, mean]])
 
 
-@pytest.mark.parametrize(("word", "sign"), [("right", 1), ("left", -1)])
+@rows("word, sign", [("right", 1), ("left", -1)])
 def test_an_ideal_one_is_exact(word, sign):
     found = op.CircularPolarizer(word).mueller().matrix
     np.testing.assert_array_equal(found, homogeneous(sign, 1.0, 0.0))
 
 
-@pytest.mark.parametrize(("word", "sign"), [("right", 1), ("left", -1)])
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("word, sign", [("right", 1), ("left", -1)])
+@rows("engine", ENGINES)
 def test_a_partial_one_has_its_two_transmittances(engine, word, sign):
     rng = np.random.default_rng(2)
     t, leakage = rng.uniform(0, 1, (2, 400))
@@ -32,7 +33,7 @@ def test_a_partial_one_has_its_two_transmittances(engine, word, sign):
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("word", ["right", "left"])
+@rows("word", ["right", "left"])
 def test_its_handedness_is_the_one_that_light_says(word):
     light = chain([op.CircularPolarizer(word)]).trace()
     assert light.handedness == (1 if word == "right" else -1)

@@ -6,30 +6,31 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 
-def rows(_):
+def halves(_):
     return [[0.5 * (row == column) for column in range(4)] for row in range(4)]
 
 
 def make(kind="", annotations=(), **body):
     """A class of elements with such a body."""
-    body = {"mueller_rows": staticmethod(rows), **body, "__annotations__": dict(annotations)}
+    body = {"mueller_rows": staticmethod(halves), **body, "__annotations__": dict(annotations)}
     return type("Own", (op.Element,), body, kind=kind)
 
 
-@pytest.mark.parametrize("kind", [3, ["a"]])
+@rows("kind", [3, ["a"]])
 def test_a_kind_that_is_no_text_is_refused(kind):
     with pytest.raises(op.PathError, match="kind of element class Own must be a text, not"):
         make(kind)
 
 
-@pytest.mark.parametrize(
-    ("function", "cure"),
+@rows(
+    "function, cure",
     [
         ([[1, 0, 0, 0]] * 4, "make it a static method that returns the rows"),
         (np.eye(4), "make it a static method that returns the rows"),
-        (classmethod(rows), "put @staticmethod .* of @classmethod"),
+        (classmethod(halves), "put @staticmethod .* of @classmethod"),
     ],
 )
 def test_rows_that_are_no_static_method_are_refused(function, cure):
@@ -37,8 +38,8 @@ def test_rows_that_are_no_static_method_are_refused(function, cure):
         make(mueller_rows=function)
 
 
-@pytest.mark.parametrize(
-    ("field", "cure"),
+@rows(
+    "field, cure",
     [
         ("kind", r"write class Name\(op.Element, kind="),
         ("outputs", "write outputs: ClassVar"),
@@ -50,16 +51,14 @@ def test_fields_called_like_what_every_element_has_are_refused(field, cure):
         make(annotations={field: op.Real})
 
 
-@pytest.mark.parametrize("annotation", [bool, "bool"])
+@rows("annotation", [bool, "bool"])
 def test_a_class_that_is_not_physical_says_so_for_all_its_elements(annotation):
     with pytest.raises(op.PathError, match=r"'physical'.*write physical: ClassVar\[bool\]"):
         make(annotations={"physical": annotation}, physical=False)
     assert make(annotations={"physical": ClassVar[bool]}, physical=False).domains() == {}
 
 
-@pytest.mark.parametrize(
-    ("which", "ports"), [("inputs", "in"), ("outputs", 3), ("natural", property(lambda _: "out"))]
-)
+@rows("which, ports", [("inputs", "in"), ("outputs", 3), ("natural", property(lambda _: "out"))])
 def test_ports_that_are_no_names_are_refused(which, ports):
     with pytest.raises(op.PathError, match=f"^{which} of element class Own must be the name"):
         make(**{which: ports})
@@ -73,17 +72,17 @@ def test_values_in_another_order_than_that_of_the_fields_are_refused():
         make(
             annotations=LENGTHS,
             mueller_rows=staticmethod(
-                lambda _, absorption, thickness: rows(absorption * thickness)
+                lambda _, absorption, thickness: halves(absorption * thickness)
             ),
         )
 
 
-@pytest.mark.parametrize(
+@rows(
     "function",
     [
-        lambda _, thickness, absorption: rows(absorption * thickness),
-        lambda _, a, b: rows(a * b),
-        lambda *values: rows(values),
+        lambda _, thickness, absorption: halves(absorption * thickness),
+        lambda _, a, b: halves(a * b),
+        lambda *values: halves(values),
     ],
 )
 def test_values_in_the_order_of_the_fields_may_have_any_names(function):
@@ -94,7 +93,7 @@ def test_values_in_the_order_of_the_fields_may_have_any_names(function):
 def test_a_field_of_true_and_false_is_one_or_zero():
     own = make(
         annotations={"on": bool},
-        mueller_rows=staticmethod(lambda _, on: [[on * x for x in row] for row in rows(_)]),
+        mueller_rows=staticmethod(lambda _, on: [[on * x for x in row] for row in halves(_)]),
     )
     assert [own(on).mueller().matrix[0, 0] for on in (True, False)] == [0.5, 0.0]
     with pytest.raises(op.ValueFault, match="give True or False"):
@@ -105,7 +104,7 @@ def test_an_angle_of_ones_own_may_have_the_name_of_an_axis():
     own = make(
         annotations={"angle": op.Axis},
         mueller_rows=staticmethod(
-            lambda xp, angle: [[xp.sin(angle) * x for x in row] for row in rows(xp)]
+            lambda xp, angle: [[xp.sin(angle) * x for x in row] for row in halves(xp)]
         ),
     )
     assert own("vertical").mueller().matrix[0, 0] == 0.5

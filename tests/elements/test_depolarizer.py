@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 STATE = [1.0, 0.5, 0.6, 0.4]
 
@@ -38,7 +39,7 @@ def test_a_depolarizer_that_takes_nothing_is_left_out():
     assert len(chain([op.Depolarizer(0.0)], STATE).compose().program.steps) == 1
 
 
-@pytest.mark.parametrize("depolarization", [-0.1, 1.1])
+@rows("depolarization", [-0.1, 1.1])
 def test_shares_outside_0_to_1_are_refused(depolarization):
     with pytest.raises(op.ValueFault, match=r"^Depolarizer depolarization is"):
         op.Depolarizer(depolarization)

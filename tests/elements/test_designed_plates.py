@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 CRYSTALS = ["quartz", "calcite", "magnesium fluoride", "sapphire", 0.0091, -0.17]
 
@@ -13,8 +14,8 @@ def behind(plate, wavelength):
     return path.trace(wavelength=wavelength).stokes
 
 
-@pytest.mark.parametrize("order", [0, 1, 20])
-@pytest.mark.parametrize("crystal", CRYSTALS)
+@rows("order", [0, 1, 20])
+@rows("crystal", CRYSTALS)
 def test_plates_are_a_quarter_and_a_half_wave_with_the_fast_axis_at_their_angle(crystal, order):
     for made, expected in (
         (op.Waveplate.quarter, [1.0, 0.0, 0.0, 1.0]),
@@ -33,8 +34,8 @@ def test_a_compound_plate_retards_as_one_of_zero_order_does():
     np.testing.assert_allclose(path.trace(wavelength=grid).stokes, zero, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("wrong", "said"),
+@rows(
+    "wrong, said",
     [
         ({"order": -1}, "order is -1; give how many whole waves"),
         ({"order": 0.5}, "order is 0.5"),

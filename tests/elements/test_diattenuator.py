@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 
 def test_light_along_and_across_the_axis_passes_by_the_principal_transmittances():
@@ -32,7 +33,7 @@ def chipman(q, r, angle):
     )
 
 
-@pytest.mark.parametrize("named", [op.Diattenuator, lambda q, r, a, z: op.Polarizer(a, z, q, r)])
+@rows("named", [op.Diattenuator, lambda q, r, a, z: op.Polarizer(a, z, q, r)])
 def test_a_diattenuator_and_a_polariser_that_leaks_are_chipmans(named):
     matrix = named(0.9, 0.05, 0.3, 0.0).mueller().matrix
     np.testing.assert_allclose(matrix, chipman(0.9, 0.05, 0.3), rtol=0, atol=2e-16)

@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from optipath.paths.drawing import draw
+from tables import rows
 
 
 class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
@@ -209,7 +210,7 @@ def in_a_path(*elements):
     return chain >> op.Detector()
 
 
-@pytest.mark.parametrize(
+@rows(
     "found",
     [
         lambda light: CROSSED.mueller() @ light,
@@ -236,7 +237,7 @@ def test_an_azimuth_turns_the_frames_of_the_matrix():
     assert splitter.mueller("in", "transmitted").frame_out == turned
 
 
-@pytest.mark.parametrize("port", ["frame_in", "frame_out"])
+@rows("port", ["frame_in", "frame_out"])
 def test_a_world_frame_and_an_azimuth_are_refused_together(port):
     with pytest.raises(op.PathError, match="world frames and by an azimuth; give one of them"):
         CROSSED.mueller(**{port: op.Frame()})

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 STATE = [1.0, 0.5, 0.6, 0.4]
 
@@ -30,8 +31,8 @@ def matrix_of(vector):
     return path.mueller(**dict(zip(names, vector, strict=True))).matrix
 
 
-@pytest.mark.parametrize("size", [1e-12, 1e-6, 0.3, 1.0, 3.0, 50.0])
-@pytest.mark.parametrize("seed", range(4))
+@rows("size", [1e-12, 1e-6, 0.3, 1.0, 3.0, 50.0])
+@rows("seed", range(4))
 def test_it_turns_the_sphere_about_its_vector(seed, size):
     vector = size * np.random.default_rng(seed).normal(size=3)
     found = op.EllipticalRetarder(*map("{} rad".format, vector)).mueller().matrix
@@ -41,15 +42,15 @@ def test_it_turns_the_sphere_about_its_vector(seed, size):
     np.testing.assert_array_equal(found[:, 0], [1.0, 0.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize("retardance", [0.7, np.pi / 2, np.pi, -2.0])
-@pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 4, -1.1])
+@rows("retardance", [0.7, np.pi / 2, np.pi, -2.0])
+@rows("angle", [0.0, 0.4, np.pi / 4, -1.1])
 def test_one_of_no_s3_is_a_linear_retarder(retardance, angle):
     vector = retardance * np.cos(2 * angle), retardance * np.sin(2 * angle), 0.0
     wanted = op.Retarder(retardance, angle).mueller().matrix
     np.testing.assert_allclose(matrix_of(vector), wanted, rtol=0, atol=7e-16)
 
 
-@pytest.mark.parametrize("angle", [0.3, np.pi / 4, -1.2])
+@rows("angle", [0.3, np.pi / 4, -1.2])
 def test_one_of_s3_alone_is_a_rotator_of_half_the_angle(angle):
     wanted = op.Rotator(angle).mueller().matrix
     np.testing.assert_allclose(matrix_of((0.0, 0.0, 2 * angle)), wanted, rtol=0, atol=3e-16)
@@ -73,8 +74,7 @@ def test_the_state_along_the_vector_is_the_fast_one():
     np.testing.assert_allclose(found, np.cross(fast, across), rtol=0, atol=4e-16)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@rows("engine, dtype", [("numpy", "float32"), *((engine, "float64") for engine in ENGINES)])
 def test_every_engine_and_precision_agrees(engine, dtype):
     values = np.random.default_rng(1).uniform(-3.0, 3.0, (3, 3000))
     names = ("s1", "s2", "s3")
@@ -120,7 +120,7 @@ def test_the_largest_angles_give_numbers():
     assert np.all(np.isfinite(op.EllipticalRetarder(1e15, 1e15, -1e15).mueller().matrix))
 
 
-@pytest.mark.parametrize("vector", [[0.1, 0.2, 0.3], (0.1, 0.2, 0.3), ["6 deg", "12 deg", 0.3]])
+@rows("vector", [[0.1, 0.2, 0.3], (0.1, 0.2, 0.3), ["6 deg", "12 deg", 0.3]])
 def test_three_numbers_of_the_first_component_are_asked_about(vector):
     with pytest.raises(op.OptipathError, match="may be a rotation vector, or s1 of three paths"):
         op.EllipticalRetarder(vector)

@@ -4,6 +4,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 STATE = (1.0, 0.8, 0.1, 0.5)
 V, B, L = (op.Parameter(name) for name in "vbl")
@@ -21,7 +22,7 @@ def test_an_angle_turns_from_x_towards_y():
     np.testing.assert_allclose(light.stokes, turned(0.3), rtol=0, atol=4e-16)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_the_angle_is_verdet_constant_times_field_times_length(engine):
     rng = np.random.default_rng(3)
     v, b, length = rng.uniform(-200, 200, 500), rng.uniform(-2, 2, 500), rng.uniform(0, 0.1, 500)
@@ -52,8 +53,8 @@ def test_on_the_way_back_from_a_mirror_the_turns_add_up_where_the_field_is_seen_
     np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=3e-16)
 
 
-@pytest.mark.parametrize(
-    ("given", "fault"),
+@rows(
+    "given, fault",
     [
         ({}, "angle is missing; give the angle alone, or verdet, field and length"),
         ({"verdet": 2.0, "length": 0.1}, "field is missing; give the angle alone"),

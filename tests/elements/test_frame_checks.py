@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 START = op.Frame()
 SIDE = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
@@ -22,13 +23,13 @@ def faults_of(element, frames, leaves):
     return ""
 
 
-@pytest.mark.parametrize("incidence", [np.pi / 4, [np.pi / 4, np.pi / 4]])
+@rows("incidence", [np.pi / 4, [np.pi / 4, np.pi / 4]])
 def test_an_incidence_that_agrees_with_the_frames_is_allowed(incidence):
     assert faults_of(op.Interface(1.5, incidence), {"reflected": SIDE}, "reflected") == ""
 
 
-@pytest.mark.parametrize(
-    ("incidence", "message"),
+@rows(
+    "incidence, message",
     [
         (np.pi / 4 + 1e-6, "incidence of 45 deg, but its incidence is 45.0000573 deg"),
         (op.Parameter("t"), "incidence of 45 deg; give that, not the parameter 't'"),
@@ -45,8 +46,8 @@ def test_grazing_frames_are_told_from_nearly_grazing_ones():
     assert "but its incidence is 90 deg" in found
 
 
-@pytest.mark.parametrize("element", [op.Interface(1.5, np.pi / 4), op.BeamSplitter()])
-@pytest.mark.parametrize("turn", [1e-4, 0.5])
+@rows("element", [op.Interface(1.5, np.pi / 4), op.BeamSplitter()])
+@rows("turn", [1e-4, 0.5])
 def test_reflected_light_keeps_its_x(element, turn):
     found = faults_of(element, {"reflected": SIDE.turned(turn)}, "reflected")
     assert "must share one x" in found

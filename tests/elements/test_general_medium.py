@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 pytestmark = pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 
@@ -54,8 +55,8 @@ def passive(rates):
     return float(np.hypot(rates.get("dichroism", 0.0), rates.get("circular_dichroism", 0.0)))
 
 
-@pytest.mark.parametrize("names", [RATES[:4], RATES, RATES[:3], ("dichroism", "depolarization")])
-@pytest.mark.parametrize("seed", range(3))
+@rows("names", [RATES[:4], RATES, RATES[:3], ("dichroism", "depolarization")])
+@rows("seed", range(3))
 def test_any_medium_is_the_exponential_to_13_digits(names, seed):
     rng = np.random.default_rng(seed)
     for _ in range(4):
@@ -82,7 +83,7 @@ SPECIAL = {
 }
 
 
-@pytest.mark.parametrize("name", SPECIAL)
+@rows("name", SPECIAL)
 def test_special_directions_are_the_exponential_too(name):
     rates = SPECIAL[name]
     least = passive(rates)
@@ -90,7 +91,7 @@ def test_special_directions_are_the_exponential_too(name):
     assert error(found, exact(absorption=least, **rates)) < 1e-13
 
 
-@pytest.mark.parametrize("size", [1e-12, 1e-8, 1e-4, 1e-2])
+@rows("size", [1e-12, 1e-8, 1e-4, 1e-2])
 def test_small_products_keep_the_digits_of_every_entry(size):
     rates = dict(zip(RATES, (size * np.array([3.0, 2.0, 5.0, 4.0, 1.0])).tolist(), strict=True))
     for names in (RATES, RATES[:4]):
@@ -101,7 +102,7 @@ def test_small_products_keep_the_digits_of_every_entry(size):
             assert entry == pytest.approx(float(wanted[i, j]), rel=2e-13)
 
 
-@pytest.mark.parametrize("retardance", [1e3, 1e4])
+@rows("retardance", [1e3, 1e4])
 def test_large_retardances_are_right_to_the_rounding_of_their_phase(retardance):
     rates = {"retardance": retardance, "rotation": 2.0, "dichroism": 1.0}
     found = op.Medium(1.0, 1.0, **rates, dichroic_angle=0.4).mueller().matrix
@@ -109,7 +110,7 @@ def test_large_retardances_are_right_to_the_rounding_of_their_phase(retardance):
     assert error(found, wanted) < 4e-16 * retardance
 
 
-@pytest.mark.parametrize("size", [1e100, 1e200])
+@rows("size", [1e100, 1e200])
 def test_whatever_is_finite_gives_no_nan(size):
     for rates in ({"retardance": size}, {"dichroism": size}, {"circular_dichroism": size}):
         medium = op.Medium(1.0, size, rotation=1.0, **rates)
@@ -131,8 +132,8 @@ ALONE = [
 ]
 
 
-@pytest.mark.parametrize("rates", ALONE)
-@pytest.mark.parametrize("depolarizes", [False, True])
+@rows("rates", ALONE)
+@rows("depolarizes", [False, True])
 def test_zeros_given_as_parameters_change_nothing(rates, depolarizes):
     names = (*RATES[:4], *RATES[4:][:depolarizes], "angle")
     given_rates = {name: rates.get(name, 0.0) for name in names}
@@ -144,10 +145,7 @@ def test_zeros_given_as_parameters_change_nothing(rates, depolarizes):
     np.testing.assert_allclose(found, wanted, rtol=0, atol=atol)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("dtype", ["float32", "float64"])
-@pytest.mark.parametrize("names", [RATES[:4], RATES])
-def test_every_engine_and_precision_agrees(engine, dtype, names):
+def agrees(engine, dtype, names):
     rng = np.random.default_rng(3)
     names = (*names, "angle", "dichroic_angle")
     values = dict(zip(names, rng.uniform(0.0, 4.0, (len(names), 3000)), strict=True))
@@ -158,6 +156,21 @@ def test_every_engine_and_precision_agrees(engine, dtype, names):
     np.testing.assert_allclose(
         np.asarray(found) / wanted[..., :1], wanted / wanted[..., :1], rtol=0, atol=atol
     )
+
+
+@rows("names", [RATES[:4], RATES])
+def test_engines_and_precisions_agree(names):
+    agrees("numpy", "float32", names)
+    for engine in ENGINES if names == RATES[:4] else ["numpy"]:
+        agrees(engine, "float64", names)
+
+
+@pytest.mark.slow
+@rows("engine", ENGINES)
+@rows("dtype", ["float32", "float64"])
+@rows("names", [RATES[:4], RATES])
+def test_every_engine_agrees_in_every_precision(engine, dtype, names):
+    agrees(engine, dtype, names)
 
 
 rate = st.floats(-50.0, 50.0) | st.sampled_from([0.0, 1e-12, 1e-200, 30.0])
@@ -190,7 +203,7 @@ def test_two_halves_are_the_whole(rates, one, other):
     np.testing.assert_allclose((half @ half).matrix, whole.matrix, rtol=0, atol=2e-13 * scale)
 
 
-@pytest.mark.parametrize("turn", [0.3, -1.2])
+@rows("turn", [0.3, -1.2])
 def test_a_turned_medium_is_the_same_in_its_own_frame(turn):
     rates = dict(zip(RATES, (3.0, 2.0, 5.0, 4.0, 1.0), strict=True))
     turned = chain(
@@ -221,7 +234,7 @@ def test_a_sheet_that_dims_one_axis_to_nothing_keeps_the_digits_of_what_is_left(
     assert circular.trace().intensity == pytest.approx(np.exp(-200.0), rel=1e-13)
 
 
-@pytest.mark.parametrize(
+@rows(
     "rates",
     [
         {"dichroism": 2.0, "retardance": 3.0, "angle": 0.4},
@@ -235,8 +248,8 @@ def test_what_commutes_is_composed_with_jones_columns_too(rates):
     np.testing.assert_allclose(jones, path.trace().stokes, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("rates", "kernels"),
+@rows(
+    "rates, kernels",
     [
         ({"absorption": 1.0}, ["absorption along the way"]),
         ({"rotation": 1.0}, ["rotation along the way"]),
@@ -256,7 +269,7 @@ def test_what_is_not_there_costs_nothing(rates, kernels):
     assert [operation.kernel.name for operation in coupling.operations] == kernels
 
 
-@pytest.mark.parametrize("absorption", [0.5, np.array([2.0, 0.5])])
+@rows("absorption", [0.5, np.array([2.0, 0.5])])
 def test_a_dichroism_beyond_the_absorption_is_refused_and_the_cure_works(absorption):
     with pytest.raises(op.ValueFault, match=r"would amplify .* give an absorption of 0\.01 1/cm"):
         op.Medium(1.0, absorption, dichroism=0.6, circular_dichroism=0.8)
@@ -278,7 +291,7 @@ def test_too_much_beside_a_depolarization_is_refused_and_the_cure_works():
     assert several.dop <= 1.0
 
 
-@pytest.mark.parametrize("rate", ["dichroism", "circular_dichroism", "depolarization"])
+@rows("rate", ["dichroism", "circular_dichroism", "depolarization"])
 def test_what_is_no_float_over_the_whole_length_is_refused(rate):
     with pytest.raises(op.ValueFault, match=rf"{rate} is .*, over a length of 1e\+200 m, within"):
         op.Medium(1e200, **{rate: 1e200})

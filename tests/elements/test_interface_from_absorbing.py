@@ -5,11 +5,13 @@ import numpy as np
 import pytest
 
 import optipath as op
-from chains import ENGINES
+from chains import COMPILED
 from optipath.lab.accuracy.path_reference import exact_lights
+from tables import rows
 
 GLASS = 1.5 + 0.01j
 P, F = op.Parameter, op.FOLLOWS
+BY_ENGINE = [*COMPILED, pytest.param("jax", marks=pytest.mark.slow)]  # JAX compiles long.
 
 
 def through(*faces):
@@ -119,8 +121,8 @@ def test_an_angle_in_an_absorbing_medium_must_obey_snells_law():
     assert "in n = 1.5 and k = 0.01" in fault_of(through(*faces).check)
 
 
-@pytest.mark.parametrize(
-    ("face", "enters", "words"),
+@rows(
+    "face, enters, words",
     [
         (op.Interface(1.5, np.pi / 2, outside=1.3 + 0.01j), "in", "at most 84.987506 deg"),
         (op.Interface(1.0, 0.3, outside=0.2 + 3.4j), "in", "k of at most n = 0.2"),
@@ -131,7 +133,6 @@ def test_an_angle_in_an_absorbing_medium_must_obey_snells_law():
             "at most 53.130075 deg in n = 1.5",
         ),
     ],
-    ids=["grazing", "metal", "metal behind", "behind total reflection"],
 )
 def test_a_wave_that_carries_no_power_is_refused_with_the_cure(face, enters, words):
     fault = fault_of(face.mueller, enters, "reflected")
@@ -172,7 +173,7 @@ def test_real_indices_for_parameters_give_the_same_numbers_bit_for_bit():
         np.testing.assert_allclose(path.trace(**given).stokes, found, rtol=0, atol=2e-16)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", BY_ENGINE)
 def test_engines_agree(engine):
     path = slab(op.Interface(P("m"), P("t")))
     given = {"m": np.linspace(1.3, 1.6, 7) + 1j * np.linspace(0, 0.1, 7), "t": np.linspace(0, 1, 7)}
@@ -182,7 +183,7 @@ def test_engines_agree(engine):
         np.testing.assert_allclose(found[port].stokes, light.stokes, rtol=1e-13, atol=1e-16)
 
 
-@pytest.mark.parametrize("dtype", ["float32", "longdouble"])
+@rows("dtype", ["float32", "longdouble"])
 def test_other_precisions_agree(dtype):
     path = slab(op.Interface(GLASS, P("t")))
     tolerance = 3e-6 if dtype == "float32" else 1e-14

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from mpmath import mp
 
 import optipath as op
+from tables import rows
 
 INDEX = st.floats(0.3, 4.0)
 ANGLE = st.floats(0.0, np.pi / 2)
@@ -59,7 +60,7 @@ def test_one_angle_serves_a_whole_stack():
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
 def test_every_method_refracts_first(method):
     inner = op.Interface(0.6 + 2j, 0.7, outside=1.5, incidence_in=1.0)
     expected = inner.mueller("in", "reflected").matrix
@@ -78,7 +79,7 @@ def test_the_last_face_of_a_slab_keeps_its_digits_next_to_grazing_incidence():
     assert matrix[0, 0] + matrix[0, 1] == pytest.approx(float(along), rel=1e-9)
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, 1.5 - 1j, "air", op.Material(0.0, 0.1)])
+@rows("value", [0.0, -1.0, 1.5 - 1j, "air", op.Material(0.0, 0.1)])
 def test_the_incidence_is_measured_in_a_medium_that_light_comes_from(value):
     with pytest.raises(op.ValueFault, match=r"^Interface incidence_in"):
         op.Interface(1.5, 0.5, incidence_in=value)
@@ -98,9 +99,7 @@ def test_the_azimuth_of_an_element_is_that_of_its_front():
     np.testing.assert_allclose(turned(0.4, 0.9)[1], 0.7 * 0.5 * np.cos(0.8), rtol=1e-14)
 
 
-@pytest.mark.parametrize(
-    "element", [op.Interface(0.1j, 0.3), op.LayerStack([1.0, 1.5, 1.5 + 0.1j], 0.3)]
-)
+@rows("element", [op.Interface(0.1j, 0.3), op.LayerStack([1.0, 1.5, 1.5 + 0.1j], 0.3)])
 def test_an_element_alone_refuses_light_from_behind_as_well(element):
     with pytest.raises(op.PathError, match="since light comes from there"):
         element.mueller("back", "reflected")

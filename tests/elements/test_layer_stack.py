@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
+from tables import rows
 
 
 def path_of(stack, enters="in", leaves="reflected", state=(1.0, 0.3, 0.4, 0.5)):
@@ -17,7 +18,7 @@ def path_of(stack, enters="in", leaves="reflected", state=(1.0, 0.3, 0.4, 0.5)):
     return path
 
 
-@pytest.mark.parametrize("faces", [2, 4, 10])
+@rows("faces", [2, 4, 10])
 def test_a_pile_of_plates_is_stokes_formula(faces):
     theta = np.linspace(0, 1.5, 40)
     pile = op.LayerStack([1.0, 1.5] * (faces // 2) + [1.0], theta)
@@ -28,8 +29,8 @@ def test_a_pile_of_plates_is_stokes_formula(faces):
     np.testing.assert_allclose(matrix[:, 0, 1], (along - across) / 2, rtol=0, atol=2e-15)
 
 
-@pytest.mark.parametrize("ways", [("in", "reflected"), ("in", "transmitted")])
-@pytest.mark.parametrize("layers", [0, 1, 3])
+@rows("ways", [("in", "reflected"), ("in", "transmitted")])
+@rows("layers", [0, 1, 3])
 def test_a_stack_on_metal_is_right_to_the_last_digits(rng, ways, layers):
     for _ in range(5):
         indices = [1.0, *rng.uniform(0.7, 2.5, layers), complex(*rng.uniform(0.2, 3, 2))]
@@ -38,7 +39,7 @@ def test_a_stack_on_metal_is_right_to_the_last_digits(rng, ways, layers):
         np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("ways", [("back", "reflected"), ("back", "transmitted")])
+@rows("ways", [("back", "reflected"), ("back", "transmitted")])
 def test_light_from_behind_is_right_too(rng, ways):
     for _ in range(5):
         indices = rng.uniform(1.0, 2.5, 4).tolist()
@@ -47,7 +48,7 @@ def test_light_from_behind_is_right_too(rng, ways):
         np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("turned", ["reflected", "transmitted"])
+@rows("turned", ["reflected", "transmitted"])
 def test_light_from_behind_is_that_of_the_stack_turned_round(turned):
     # Glass seen from behind reflects all light where it meets the second medium.
     indices, incidence = [1.9, 1.3, 2.4, 2.3], 1.1
@@ -97,8 +98,8 @@ def test_a_stack_goes_into_a_file_and_back():
     assert again.trace() == path.trace(n=1.5)
 
 
-@pytest.mark.parametrize(
-    ("indices", "message"),
+@rows(
+    "indices, message",
     [
         (1.5, r" is 1.5; give a list of two indices or more.* such as \[1, 1.5, 1.33\]"),
         ([1.5], "give a list of two indices or more"),
@@ -148,7 +149,7 @@ def test_all_components_keep_their_digits_though_next_to_nothing_gets_through():
             np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=2e-14 * expected[0])
 
 
-@pytest.mark.parametrize("n", [1e-3, 1e20, 1e45, 1e59])
+@rows("n", [1e-3, 1e20, 1e45, 1e59])
 def test_a_layer_of_any_index_lets_through_what_the_closed_form_says(n):
     # With T of one face, T / (2 - T) of both; T_s = 4 c / n and T_p = 4 / (c n) for large n.
     c = np.cos(0.9)
@@ -158,7 +159,7 @@ def test_a_layer_of_any_index_lets_through_what_the_closed_form_says(n):
     np.testing.assert_allclose(found.matrix[0, 0], expected, rtol=1e-13)
 
 
-@pytest.mark.parametrize("n", [1e61, 1e-61, 1e150])
+@rows("n", [1e61, 1e-61, 1e150])
 def test_an_index_whose_waves_have_squares_that_vanish_is_refused(n):
     with pytest.raises(op.OptipathError, match=r"indices\[1\] is .* within 1e-60 \.\. 1e\+60"):
         op.LayerStack([1.0, n, 1.0], 0.9).mueller("in", "transmitted")

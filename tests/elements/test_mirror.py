@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 METALS = [0.608 + 2.12j, 1.12 + 2.16j, 0.17 + 3.15j, 1.5 + 0j]
 STATE = [1.0, 0.5, 0.6, 0.4]
@@ -14,8 +15,8 @@ def fresnel(m, incidence):
     return (c - g) / (c + g), (m * m * c - g) / (m * m * c + g)
 
 
-@pytest.mark.parametrize("index", METALS)
-@pytest.mark.parametrize("incidence", [0.0, 0.3, 0.9, 1.4])
+@rows("index", METALS)
+@rows("incidence", [0.0, 0.3, 0.9, 1.4])
 def test_a_mirror_of_a_metals_amplitudes_is_the_metal(index, incidence):
     mirror = op.Mirror(*fresnel(index, incidence)).mueller()
     metal = op.Interface(index, incidence).mueller()
@@ -52,7 +53,7 @@ def test_no_mirror_polarises_by_more_than_all():
     assert np.all(found.intensity <= 1.0)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_amplitudes_may_be_parameters_of_complex_numbers(engine):
     given = 0.7 * np.exp(1j * np.linspace(-3, 3, 3000))
     path = chain([op.Mirror(-0.9, op.Parameter("r"))], STATE)
@@ -75,7 +76,7 @@ def test_amplitudes_that_give_light_are_refused():
     assert len(error.value.faults) == 2
 
 
-@pytest.mark.parametrize("r", [1.5, 1j + 0.1, np.full(3000, -1.1), np.full(3000, 0.9 + 0.9j)])
+@rows("r", [1.5, 1j + 0.1, np.full(3000, -1.1), np.full(3000, 0.9 + 0.9j)])
 def test_amplitudes_that_give_light_are_refused_when_a_plan_runs(r):
     path = chain([op.Mirror(-1.0, op.Parameter("r"))])
     with pytest.raises(op.ParameterError, match="size of 1 or less"):
@@ -103,7 +104,7 @@ def test_an_azimuth_turns_the_plane_of_incidence():
     np.testing.assert_allclose(turned, by_hand.stokes, rtol=1e-15, atol=1e-16)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@rows("engine", ["numpy", "numba"])
 def test_the_rounding_of_single_precision_is_no_fault(engine):
     phases = np.exp(1j * np.linspace(0.0, 6.0, 3000)).astype(np.complex64)
     assert np.any(np.abs(phases.astype(complex)) > 1.0 + 1e-9)
@@ -125,8 +126,8 @@ def test_amplitudes_may_be_given_as_texts(tmp_path):
     assert op.load_preset(str(file)) == path
 
 
-@pytest.mark.parametrize("amplitude", [0.9, -0.9, 0.3 - 0.4j, "-0.9+0.1j", np.array([0.1, 0.2])])
-@pytest.mark.parametrize("given", ["r_s", "r_p"])
+@rows("amplitude", [0.9, -0.9, 0.3 - 0.4j, "-0.9+0.1j", np.array([0.1, 0.2])])
+@rows("given", ["r_s", "r_p"])
 def test_where_one_amplitude_is_given_the_other_is_minus_that(given, amplitude):
     matrix = op.Mirror(**{given: amplitude}).mueller().matrix
     share = np.abs(complex(amplitude) if isinstance(amplitude, str) else amplitude) ** 2

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 MATRIX = 0.5 * np.diag([1.0, 0.9, -0.8, -0.8])
 MEETS = op.plane_of_incidence(direction=(1.0, 0.0, -1.0), normal=(0.0, 0.0, 1.0))
@@ -49,7 +50,7 @@ def test_it_stays_so_on_the_way_back():
     assert op.MuellerElement(MATRIX, straight=False).reversed().straight is False
 
 
-@pytest.mark.parametrize("given", ["no", 2, None])
+@rows("given", ["no", 2, None])
 def test_it_is_yes_or_no(given):
     with pytest.raises(op.OptipathError, match="straight"):
         op.MuellerElement(MATRIX, straight=given)

@@ -3,20 +3,20 @@
 import math
 import re
 import warnings
-from importlib.util import find_spec
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
+import chains
 import optipath as op
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import FULL
 from paths import chain
+from tables import rows
 
 STATE = [1.0, 0.5, 0.4, 0.3]
-NO_JAX = pytest.mark.skipif(find_spec("jax") is None, reason="an extra")
-ENGINES = ["auto", "numpy", "numba", pytest.param("jax", marks=NO_JAX)]
+ENGINES = ["auto", *chains.ENGINES]
 EYE = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
 GIVEN = [0.3, np.linspace(0.1, 1.0, 3), np.linspace(0.1, 1.0, 3000)]
 
@@ -187,8 +187,8 @@ def asked(element_class, value, engine="auto"):
     return known.run().stokes, given.run(x=value).stokes
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("value", GIVEN)
+@rows("engine", ENGINES)
+@rows("value", GIVEN)
 def test_complex_numbers_inside_rows_work_for_one_path_as_for_arrays(value, engine):
     expected = chain([op.Retarder(value)], STATE).trace().stokes
     for found in asked(Phase, value, engine):
@@ -208,15 +208,15 @@ def test_matrices_and_certificates_know_complex_rows():
     np.testing.assert_allclose(Phase(0.3).mueller().matrix, expected, atol=1e-15)
 
 
-@pytest.mark.parametrize("engine", ["auto", "numpy", "numba"])
-@pytest.mark.parametrize("element_class", [Array, OneMatrix])
+@rows("engine", ["auto", "numpy", "numba"])
+@rows("element_class", [Array, OneMatrix])
 def test_rows_may_be_a_matrix_of_numpy_for_one_path(element_class, engine):
     for found in asked(element_class, 0.5, engine):
         np.testing.assert_allclose(found, [1.0, 0.25, 0.2, 0.15])
 
 
-@pytest.mark.parametrize(
-    ("element_class", "expected"),
+@rows(
+    "element_class, expected",
     [
         (Array, "Array raises ValueError: .*return four rows, tuples of four entries each"),
         (Branch, r"Branch raises ValueError: .*choose by xp.where\(condition, yes, no\) in place"),
@@ -243,10 +243,10 @@ def test_what_is_not_for_values_that_jax_traces_is_told_with_its_class(element_c
         plan.run(x=0.3)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("value", GIVEN)
-@pytest.mark.parametrize(
-    ("element_class", "expected", "cause"),
+@rows("engine", ENGINES)
+@rows("value", GIVEN)
+@rows(
+    "element_class, expected, cause",
     [
         (Misspelt, "calls xp.coss, which does not exist; did you mean 'cos'", AttributeError),
         (Divides, "raises ZeroDivisionError: division by zero", ZeroDivisionError),
@@ -268,8 +268,8 @@ def test_whatever_rows_raise_is_an_error_of_the_library(
         assert isinstance(told.value.__cause__, cause or type(None))
 
 
-@pytest.mark.parametrize(
-    ("element_class", "expected"),
+@rows(
+    "element_class, expected",
     [
         (WrongCouplings, r"couplings\(\) of element class WrongCouplings raises AttributeError: "),
         (
@@ -287,7 +287,7 @@ def test_whatever_couplings_and_their_kernels_raise_is_an_error_of_the_library(
             act()
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError])
+@rows("error", [KeyboardInterrupt, MemoryError])
 def test_an_interruption_stays_what_it_is(error):
     class Interrupted(op.Element):
         angle: op.Angle = 0.0
@@ -316,8 +316,8 @@ def test_an_own_element_that_amplifies_is_found_when_its_path_is_checked():
         assert part in str(told.value)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("value", GIVEN)
+@rows("engine", ENGINES)
+@rows("value", GIVEN)
 def test_an_own_element_that_amplifies_is_found_with_its_first_values(value, engine):
     plan = op.Composer(engine=engine).compose(chain([Amplifier(op.Parameter("x"))]))
     ask = [lambda: plan.run(x=value), lambda: plan.mueller(x=value)]
@@ -334,7 +334,7 @@ def test_the_first_values_are_told_in_the_unit_of_their_parameter():
         plan.run(x="22.5 deg")
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_the_first_and_the_last_path_of_an_array_are_looked_at(engine):
     plan = op.Composer(engine=engine).compose(chain([Growing(op.Parameter("x"))]))
     plan.run(x=np.linspace(-1.0, 0.0, 1000))
@@ -375,8 +375,8 @@ def test_the_elements_of_the_library_are_not_looked_at():
     assert len(chain([Growing(op.Parameter("x"))]).compose().own_ways) == 1
 
 
-@pytest.mark.parametrize(
-    ("name", "written"),
+@rows(
+    "name, written",
     [
         ("tan", "xp.sin(x) / xp.cos(x)"),
         ("abs", "xp.absolute(x)"),
@@ -434,7 +434,7 @@ class Rounded(op.Element):
         return (c, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "auto"])
+@rows("engine", ["numpy", "auto"])
 def test_one_path_is_given_plain_numbers(engine):
     path = op.Source() >> Rounded(op.Parameter("a")) >> op.Detector()
     plan = op.Composer(engine=engine).compose(path)
@@ -477,7 +477,7 @@ class DeclaredGain(Gain):
     physical: ClassVar[bool] = False
 
 
-@pytest.mark.parametrize(
+@rows(
     "use",
     [
         lambda gain: gain @ op.Light(STATE),
@@ -486,7 +486,7 @@ class DeclaredGain(Gain):
         lambda gain: gain.mueller(),
     ],
 )
-@pytest.mark.parametrize("circular", [5.0, [5.0, 3.0], op.Parameter("c", 5.0, bound=True)])
+@rows("circular", [5.0, [5.0, 3.0], op.Parameter("c", 5.0, bound=True)])
 def test_what_no_light_can_do_is_refused_of_an_element_alone_too(use, circular):
     with pytest.raises(op.PathError, match=r"class Gain.* is unphysical.*physical.*= False"):
         use(Gain(circular))

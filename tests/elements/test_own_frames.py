@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 CHAIN = ((0, 0, 0), (0, 0, 3), (0, 2, 4), (1, 3, 5), (2, 0, 0))
 
@@ -61,7 +62,7 @@ def path(*elements):
 FIRST, SECOND, THIRD = (op.SpecularVertex(1.5, CHAIN, place) for place in (1, 2, 3))
 
 
-@pytest.mark.parametrize("model", ["auto", "full"])
+@rows("model", ["auto", "full"])
 def test_an_element_of_ones_own_is_placed_among_vertices_as_a_vertex_is(model):
     composer = op.Composer(model=model)
     wanted = composer.compose(path(FIRST, SECOND, THIRD)).run()

@@ -6,6 +6,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 
 def operations(share):
@@ -51,8 +52,8 @@ DIMS = op.Attenuator(0.5).couplings()[0].operations[0].kernel
 WRONG = op.Operation(DIMS, ())
 
 
-@pytest.mark.parametrize(
-    ("kernel", "values", "told"),
+@rows(
+    "kernel, values, told",
     [
         (3, (0.5,), r"op\.Operation the kernel 3; give an optipath\.kernels\."),
         (DIMS, 0.5, r"kernel 'attenuator' the values 0\.5; give a tuple"),
@@ -88,7 +89,7 @@ class Parts(op.Element):
         )
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
     path = op.Source() >> Parts(op.Parameter("f", 0.9)) >> op.Detector()
     plan = op.Composer(engine=engine).compose(path)
@@ -103,8 +104,8 @@ def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
     np.testing.assert_allclose(plan.mueller(f=shares).matrix[:, 0, 0], expected[:, 0], atol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("couplings", "told"),
+@rows(
+    "couplings, told",
     [
         ([op.Coupling("in", "out", operations(0.1))] * 2, "from 'in' to 'out' more than once"),
         ([op.Coupling("inn", "out", operations(0.1))], "lead from 'inn'; its inputs are 'in'"),
@@ -149,7 +150,7 @@ HUNDREDTHS = np.float32([0.01, 0.99])
 TENTHS = np.float32([0.6, 0.4])
 
 
-@pytest.mark.parametrize("shares", [THIRDS, HUNDREDTHS, TENTHS])
+@rows("shares", [THIRDS, HUNDREDTHS, TENTHS])
 def test_shares_in_float32_may_make_up_the_whole_to_their_rounding(shares):
     both(*shares).check()
     path = both(op.Parameter("first"), op.Parameter("second"))
@@ -220,7 +221,7 @@ def test_defaults_of_parameters_are_looked_at_when_a_path_is_checked():
         chain([Times(op.Parameter("a", 4.0))]).check()
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
     plan = op.Composer(engine=engine).compose(chain([Times(op.Parameter("a", 4.0))]))
     for _ in range(6):
@@ -230,7 +231,7 @@ def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
             plan.run()
 
 
-@pytest.mark.parametrize("element_class", [Times, TimesAnything])
+@rows("element_class", [Times, TimesAnything])
 def test_rows_that_are_not_finite_are_told_with_their_element(element_class):
     told = r"\(element class Times.*\) has the Mueller matrix \(nan.*not finite; keep divisors"
     with pytest.raises(op.PathError, match=told):

@@ -12,6 +12,7 @@ from chains import ENGINES
 from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.kernels.numbers.twice import twice
+from tables import rows
 
 STATE = (1.0, 0.3, 0.5, 0.6)
 T, R = op.Parameter("t"), op.Parameter("r")
@@ -60,8 +61,8 @@ def test_nothing_is_lost_and_the_ratios_are_those_given(t, r):
         assert op.Mueller(matrix).is_physical()
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("enters", ["in", "back"])
+@rows("engine", ENGINES)
+@rows("enters", ["in", "back"])
 def test_engines_agree_with_50_digits_from_either_side(engine, enters):
     rng = np.random.default_rng(5)
     t, r = 1.0 + 10.0 ** rng.uniform(-2, 6, (2, 300))
@@ -81,7 +82,7 @@ def test_engines_agree_with_50_digits_from_either_side(engine, enters):
             np.testing.assert_allclose(found, np.array(wanted, float), rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("ratio", [math.inf, 1e30, 40.0])
+@rows("ratio", [math.inf, 1e30, 40.0])
 def test_in_twice_the_digits_it_is_the_same(ratio):
     xp = twice(NUMPY)
     for way in op.PolarizingBeamSplitter(ratio, [20.0, math.inf]).couplings():
@@ -150,8 +151,8 @@ def test_a_ratio_may_be_written_as_one(tmp_path):
     assert op.load_preset(tmp_path / "x.toml") == cube(1000.0, math.inf)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "fault"),
+@rows(
+    "ratio, fault",
     [
         (1.0, "is 1; give a real extinction ratio of 1.000001 or more, or infinity"),
         (0.01, "is 0.01; give a real extinction ratio of 1.000001 or more"),
@@ -168,7 +169,7 @@ def test_what_is_no_ratio_beyond_1_is_refused(ratio, fault):
             cube().trace_all(t=ratio, r=10.0)
 
 
-@pytest.mark.parametrize("ratio", ["1000:1", " 1000 : 1 ", ["1000:1"], "1e3"])
+@rows("ratio", ["1000:1", " 1000 : 1 ", ["1000:1"], "1e3"])
 def test_a_ratio_may_be_written_wherever_it_is_given(ratio):
     wanted = cube(1000.0, 5.0).trace_all()["transmitted light"].S0
     given = [
@@ -185,8 +186,8 @@ def test_a_ratio_without_end_may_be_a_text():
     assert op.PolarizingBeamSplitter("inf").extinction_transmitted == math.inf
 
 
-@pytest.mark.parametrize(
-    ("ratio", "sentence"),
+@rows(
+    "ratio, sentence",
     [
         ("30 dB", "write 1000, which is 10 ** (30 / 10), for a ratio of intensities"),
         ("-5:-1", "'-5:-1' is no ratio of two positive numbers; write one such as '1000:1'"),
@@ -205,7 +206,7 @@ def test_what_is_no_ratio_is_told_with_what_to_write(ratio, sentence):
             fault()
 
 
-@pytest.mark.parametrize("ratio", [math.inf, "inf"])
+@rows("ratio", [math.inf, "inf"])
 def test_a_parameter_that_is_infinite_is_told_the_number_to_give(ratio):
     with pytest.raises(op.ParameterError, match="1e30 for an extinction ratio without end"):
         cube(r=5.0).trace_all(t=ratio)

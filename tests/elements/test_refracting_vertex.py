@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
 MIXED = [*INTO_GLASS, [0.0, 2.0, -np.sqrt(3.5) + 1.0]]
@@ -18,7 +19,7 @@ def path_of(*nodes):
     return path
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
 def test_a_vertex_lets_through_what_an_interface_at_its_angle_does(method):
     matrix = op.RefractingVertex(1.5, INTO_GLASS, place=1).mueller(method=method)
     expected = op.Interface(1.5, np.pi / 4).mueller("in", "transmitted", method=method)
@@ -27,7 +28,7 @@ def test_a_vertex_lets_through_what_an_interface_at_its_angle_does(method):
     np.testing.assert_array_equal(matrix.frame_out.x, [1, 0, 0])
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
 def test_light_out_of_glass_is_that_into_it(method):
     back = op.RefractingVertex(1.0, INTO_GLASS[::-1], place=1, outside=1.5)
     angle = np.arcsin(np.sin(np.pi / 4) / 1.5)
@@ -63,8 +64,8 @@ def test_a_medium_that_does_not_follow_is_told():
         path.check()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "others", "message"),
+@rows(
+    "arguments, others, message",
     [
         ((1.5, TURNED, 1), {}, "by 90 deg at 'RefractingVertex', but .* turns it by 48.1896851"),
         ((1.5, INTO_GLASS, 2), {}, "place must be a whole number of 1 .. 1, not 2"),

@@ -8,6 +8,7 @@ from chains import ENGINES
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import SCALE
 from optipath.kernels.numbers.primitives import FLOAT
+from tables import rows
 
 
 def times_one(share):
@@ -40,13 +41,13 @@ LOOK_UPS = [
 ]
 
 
-@pytest.mark.parametrize("look_up", LOOK_UPS)
+@rows("look_up", LOOK_UPS)
 def test_a_value_that_is_looked_up_is_found_in_every_run(look_up):
     plan = plan_of(element(look_up))
     assert [plan.run(a=0.4).S0 for _ in range(6)] == [0.5] * 6
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_looking_up_many_values_is_told_with_the_cure(engine):
     plan = plan_of(element(LOOK_UPS[0]), engine)
     with pytest.raises(op.PathError, match=r"unhashable.*; choose by xp\.where\(.* a look-up"):
@@ -70,8 +71,8 @@ NEGATIONS = [
 ]
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("share", NEGATIONS)
+@rows("engine", ENGINES)
+@rows("share", NEGATIONS)
 def test_what_is_not_so_is_the_same_in_every_run_and_for_many(share, engine):
     plan = plan_of(element(share), engine)
     values = [1.3, 1.3, 1.3, 0.3, 1.3, 0.3]
@@ -90,10 +91,8 @@ def test_the_conjugate_is_told_where_numbers_lack_it():
         plan_of(element(lambda _, a: a * (0.3 + 0.1j).conj().real)).run(a=0.3)
 
 
-@pytest.mark.parametrize(
-    "rows", [lambda a: a * np.eye(4), lambda a: [a * row for row in np.eye(4)]]
-)
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("rows", [lambda a: a * np.eye(4), lambda a: [a * row for row in np.eye(4)]])
+@rows("engine", ENGINES)
 def test_arrays_of_rows_are_for_one_path_since_four_paths_look_the_same(rows, engine):
     class Filter(op.Element):
         a: op.Real = 1.0
@@ -109,7 +108,7 @@ def test_arrays_of_rows_are_for_one_path_since_four_paths_look_the_same(rows, en
             act(a=[0.5, 0.4, 0.3, 0.25])
 
 
-@pytest.mark.parametrize("value", [0.5, [0.5, 0.4, 0.3, 0.25]])
+@rows("value", [0.5, [0.5, 0.4, 0.3, 0.25]])
 def test_rows_may_be_generators_one_within_the_other(value):
     class Filter(op.Element):
         a: op.Real = 1.0
@@ -135,7 +134,7 @@ def test_an_array_of_rows_will_do_where_other_elements_have_many_values():
     np.testing.assert_array_equal(light.S0, [4.0, 2.0, 1.0, 0.5, 0.0])
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_imaginary_parts_are_dropped_that_are_0_in_the_precision_of_the_values(engine):
     def share(xp, a):
         z = xp.exp(1j * a)

@@ -1,13 +1,12 @@
 """Slopes of media, against exact ones of the matrix exponential."""
 
-import os
-
 import mpmath
 import numpy as np
 import pytest
 
 import optipath as op
 from paths import chain
+from tables import rows
 
 jax = pytest.importorskip("jax")
 
@@ -63,9 +62,7 @@ POINTS = {
 }
 
 
-@pytest.mark.parametrize("depolarization", [None, 0.0, 1.3])
-@pytest.mark.parametrize("point", POINTS)
-def test_slopes_are_those_of_the_exponential(point, depolarization):
+def check_slopes(point, depolarization):
     values = POINTS[point] + (() if depolarization is None else (depolarization,))
     names = NAMES + (() if depolarization is None else ("depolarization",))
     parameters = {name: op.Parameter(name) for name in names}
@@ -79,7 +76,18 @@ def test_slopes_are_those_of_the_exponential(point, depolarization):
     np.testing.assert_allclose(slopes, wanted, rtol=0, atol=2e-13 * np.max(np.abs(wanted)))
 
 
-LONG = pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="JAX compiles for long")
+@rows("point", POINTS)
+def test_slopes_are_those_of_the_exponential(point):
+    check_slopes(point, None)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("depolarization", [0.0, 1.3])
+def test_slopes_of_what_may_depolarise_are_those_of_the_exponential(depolarization):
+    for point in POINTS:
+        check_slopes(point, depolarization)
+
+
 AT_ZERO = {
     "linear": {"absorption": 1.0, "dichroism": "d"},
     "linear, retarding": {"absorption": 1.0, "dichroism": "d", "retardance": 2.0},
@@ -92,10 +100,8 @@ AT_ZERO = {
     "far": {"absorption": 60.0, "dichroism": "d", "rotation": 0.7},
 }
 
-CASES = [
-    pytest.param(kind, marks=LONG if "depolarization" in given or "rotation" in given else ())
-    for kind, given in AT_ZERO.items()
-]
+LONG = {kind for kind, given in AT_ZERO.items() if {"depolarization", "rotation"} & {*given}}
+"""JAX compiles them for long."""
 
 
 def exact_light(rates, length):
@@ -111,8 +117,7 @@ def exact_slope(light, at):
     return [float(part) for part in found]
 
 
-@pytest.mark.parametrize("kind", CASES)
-def test_slopes_at_no_dichroism_and_no_length_are_right(kind):
+def check_slopes_at_zero(kind, *, together):
     rates = {"dichroic_angle": 0.0, **AT_ZERO[kind]}
     given = {k: op.Parameter("d") if v == "d" else v for k, v in rates.items()}
     plan = chain([op.Medium(op.Parameter("L"), **given)], STATE).compose()
@@ -124,10 +129,25 @@ def test_slopes_at_no_dichroism_and_no_length_are_right(kind):
         return exact_light({k: d if v == "d" else v for k, v in rates.items()}, length)
 
     points = np.array([[0.0, 1.0], [0.0, 0.0], [0.8, 0.0], [-0.8, 0.0], [-0.8, 1.0]])
-    found = jax.vmap(jax.jacfwd(light, argnums=(0, 1)))(*points.T)
+    slopes_of = jax.jacfwd(light, argnums=(0, 1))
+    if together:
+        found = jax.vmap(slopes_of)(*points.T)
+    else:
+        found = np.swapaxes([slopes_of(*point) for point in points], 0, 1)
     with mpmath.workdps(60):
         wanted = [
             [exact_slope(lambda x, length=length: exact(x, length), d) for d, length in points],
             [exact_slope(lambda x, d=d: exact(d, x), length) for d, length in points],
         ]
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-13 * max(1.0, np.abs(wanted).max()))
+
+
+@rows("kind", [*{*AT_ZERO} - LONG])
+def test_slopes_at_no_dichroism_and_no_length_are_right(kind):
+    check_slopes_at_zero(kind, together=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", AT_ZERO)
+def test_slopes_there_are_right_whatever_else_it_does_and_of_many_at_once(kind):
+    check_slopes_at_zero(kind, together=True)

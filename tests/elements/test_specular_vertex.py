@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
 TWICE = [*CORNER, [2.0, 4.0, 0.0]]
@@ -32,7 +33,7 @@ def test_the_medium_that_light_comes_from_may_be_another():
     np.testing.assert_allclose(vertex.mueller().matrix, expected.matrix, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
 def test_every_method_is_there_for_vertices(method):
     vertex = op.SpecularVertex(0.608 + 2.12j, CORNER, place=1)
     expected = op.Interface(0.608 + 2.12j, np.pi / 4).mueller(method=method)
@@ -84,7 +85,7 @@ def behind_a_vertex(*between, azimuth=None):
     return path, vertex.own_frame("reflected").frame({})
 
 
-@pytest.mark.parametrize("turn", TURNS)
+@rows("turn", TURNS)
 def test_a_turned_link_behind_a_vertex_turns_the_frame_of_the_light(turn):
     path, own = behind_a_vertex(azimuth=turn)
     light = path.trace()
@@ -96,7 +97,7 @@ def test_a_turned_link_behind_a_vertex_turns_the_frame_of_the_light(turn):
     np.testing.assert_allclose(light.in_frame(own).stokes - plain, 0.0, rtol=1e-15, atol=1e-16)
 
 
-@pytest.mark.parametrize("turn", TURNS)
+@rows("turn", TURNS)
 def test_a_turned_element_behind_a_vertex_turns_the_frame_of_the_light(turn):
     path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=turn)))
     assert path.trace().frame.x.shape == (*np.shape(angle_of(turn)), 3)
@@ -139,7 +140,7 @@ def test_light_that_may_come_from_behind_a_beam_splitter_has_no_frame_of_a_verte
     assert path.trace().frame == op.Frame()
 
 
-@pytest.mark.parametrize("turn", TURNS[::2])
+@rows("turn", TURNS[::2])
 def test_light_before_a_vertex_is_told_in_the_frame_that_its_turns_lead_from(turn):
     vertex = op.SpecularVertex(1.5, CORNER, place=1)
     path = path_of(
@@ -176,8 +177,8 @@ def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
     assert path.trace() == expected
 
 
-@pytest.mark.parametrize(
-    ("chain", "place", "others", "message"),
+@rows(
+    "chain, place, others, message",
     [
         (CORNER, 2, {}, r"^SpecularVertex.place must be .* of 1 .. 1, not 2"),
         (CORNER, 0, {}, r"place must be .* not 0"),
@@ -195,7 +196,7 @@ def test_a_vertex_that_is_not_in_its_chain_is_refused(chain, place, others, mess
         op.SpecularVertex(1.5, chain, place, **others)
 
 
-@pytest.mark.parametrize("place", [1, 1.0, np.float64(1.0), "1"])
+@rows("place", [1, 1.0, np.float64(1.0), "1"])
 def test_a_place_is_a_whole_number_however_it_is_given(place):
     vertex = op.SpecularVertex(1.5, CORNER, place)
     assert vertex.place == 1

@@ -4,11 +4,11 @@ import re
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 import optipath as op
 from dispersive import GRID, line, on_line
 from optipath.elements.known_elements import STANDARD
+from tables import rows
 
 POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2]])
 GENERAL = op.Medium(
@@ -78,11 +78,10 @@ def with_value(whole, place, value):
 
 
 def places():
-    for number, element in enumerate(ELEMENTS):
+    for element in ELEMENTS:
         for name, value, domain in element.quantities():
             if isinstance(value, float) and value and not domain.tail:
-                title = f"{number}-{element.kind}-{name}"
-                yield pytest.param(element, name, value, domain, id=title)
+                yield element, name, value, domain
 
 
 def path_of(element, way):
@@ -105,7 +104,7 @@ def test_every_element_that_takes_a_number_is_looked_at():
     assert {type(element) for element in ELEMENTS} | WITHOUT == {*STANDARD}
 
 
-@pytest.mark.parametrize(("element", "name", "value", "domain"), [*places()])
+@rows("element, name, value, domain", [*places()])
 def test_light_is_that_of_the_numbers_at_each_wavelength(element, name, value, domain):
     # Some numbers may not grow, others may not shrink.
     last = next(v for v in (0.98 * value, 1.02 * value) if np.all(domain.allows(np.asarray(v))))

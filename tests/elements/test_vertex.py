@@ -2,14 +2,15 @@ import numpy as np
 import pytest
 
 import optipath as op
+from tables import rows
 
 DOWN = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
 BEND = [[0.0, 0, 1], [0, 0, 0], [0, 1, -2]]
 CORNER = [[0.0, 0, 3], [0, 0, 0], [0, 4, 0]]
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
-@pytest.mark.parametrize("index", [1.5, 0.2 + 3.4j])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("index", [1.5, 0.2 + 3.4j])
 def test_it_reflects_as_a_specular_vertex_does(method, index):
     found = op.Vertex(index, CORNER, 1, events=[0]).mueller(method=method)
     expected = op.SpecularVertex(index, CORNER, 1).mueller(method=method)
@@ -17,8 +18,8 @@ def test_it_reflects_as_a_specular_vertex_does(method, index):
     assert found.frame_out == expected.frame_out
 
 
-@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
-@pytest.mark.parametrize(("front", "behind"), [(1.0, 1.5), (1.5, 1.0)])
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("front, behind", [(1.0, 1.5), (1.5, 1.0)])
 def test_it_refracts_as_a_refracting_vertex_does(method, front, behind):
     found = op.Vertex(behind, BEND, 1, front, events=[1]).mueller(method=method)
     expected = op.RefractingVertex(behind, BEND, 1, front).mueller(method=method)
@@ -44,8 +45,8 @@ def test_a_chain_that_cannot_be_has_no_matrix():
         op.Vertex(1.5, CORNER, 1, events=[3])
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
+@rows(
+    "given, message",
     [
         ({"events": [0.5]}, "events is 0.5"),
         ({"events": [4]}, "events is 4"),

@@ -5,6 +5,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 STATE = (1.0, 0.3, 0.5, 0.6)
 D, N, W = (op.Parameter(name) for name in "dnw")
@@ -29,8 +30,8 @@ def plates(seed, count, turns):
     return thickness, birefringence, wavelength
 
 
-@pytest.mark.parametrize("turns", [5.0, 5e3, 1e8])
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("turns", [5.0, 5e3, 1e8])
+@rows("engine", ENGINES)
 def test_cosine_and_sine_of_a_thick_plate_have_all_digits(engine, turns):
     given = plates(1, 1500, turns)
     path = chain([op.Waveplate(D, N, W)], (1.0, 0.0, 0.0, 1.0))
@@ -101,8 +102,8 @@ def test_in_single_precision_it_has_the_digits_of_its_numbers():
     np.testing.assert_allclose(found, exact, rtol=0, atol=4e-6)
 
 
-@pytest.mark.parametrize(
-    ("given", "fault"),
+@rows(
+    "given, fault",
     [
         ((1e-3, 0.01, 589.0), r"wavelength is 5.89e\+11 nm; give a real wavelength within"),
         ((1e-3, 17.0, 5e-7), "birefringence is 17; give a real birefringence within -10 .. 10"),

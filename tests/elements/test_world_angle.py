@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.elements.world_angle import world_angles
+from tables import rows
 
 P = op.Parameter
 MEETS = op.plane_of_incidence((1, 0, -1), (0, 0, 1))
@@ -38,7 +39,7 @@ THROUGH = {"in": MEETS.arriving, "transmitted": refracted(1.5)}
 NOT_SO = [({"n": 1.5, "t": "10 deg"}, "3.35222291"), ({"n": 1.9, "t": "45 deg"}, "23.1510177")]
 
 
-@pytest.mark.parametrize(("given", "turned"), NOT_SO)
+@rows("given, turned", NOT_SO)
 def test_values_that_are_given_late_are_held_to_the_frames_as_constants_are(given, turned):
     path = lit(op.Interface(P("n"), P("t")), THROUGH, "transmitted")
     s, p = 0.0920134, 0.0920134**2  # Of 45 degrees from air to glass: R_p = R_s^2.
