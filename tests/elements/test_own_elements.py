@@ -3,6 +3,8 @@
 import math
 import re
 import warnings
+from dataclasses import fields
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
@@ -12,12 +14,16 @@ import chains
 import optipath as op
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import FULL
+from optipath.kernels.numbers.primitives import Primitives
 from paths import chain
 from tables import rows
 
 STATE = [1.0, 0.5, 0.4, 0.3]
+
 ENGINES = ["auto", *chains.ENGINES]
+
 EYE = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
+
 GIVEN = [0.3, np.linspace(0.1, 1.0, 3), np.linspace(0.1, 1.0, 3000)]
 
 
@@ -496,3 +502,13 @@ def test_what_no_light_can_do_is_refused_of_an_element_alone_too(use, circular):
 def test_a_measured_matrix_acts_on_light_whatever_it_is():
     light = op.Mueller(np.diag([3.0, 3.0, 3.0, 5.0])) @ op.Light(STATE)
     np.testing.assert_allclose(light.stokes, [3.0, 1.5, 1.2, 1.5])
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "own-elements.md"
+
+
+def test_the_page_lists_every_function_of_xp_and_no_other():
+    section = PAGE.read_text("utf-8").partition("## The functions of `xp`")[2].partition("##")[0]
+    rows = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
+    listed = [name for row in rows for name in re.findall(r"`(\w+)", row)]
+    assert sorted(listed) == sorted(field.name for field in fields(Primitives))

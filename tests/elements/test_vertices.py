@@ -1,10 +1,20 @@
+"""Vertices of chains that reflect, refract, or do what an event says."""
+
 import numpy as np
 import pytest
 
 import optipath as op
+from optipath.elements.vertices.event_fits import EventFits
+from optipath.elements.vertices.vertex_domain import legs_fit
+from optipath.kernels.catalogue import EVENT_AT_VERTEX
+from optipath.kernels.geometry.events import Event
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.values.domains.indices import LIT_INDEX, OUTSIDE
+from optipath.values.domains.wavelengths import WAVELENGTH
 from tables import rows
 
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
+
 TWICE = [*CORNER, [2.0, 4.0, 0.0]]
 
 
@@ -256,3 +266,202 @@ def test_lights_of_several_vertices_do_not_meet():
     path["b"] >> eye
     with pytest.raises(op.PathError, match="several lights meet at 'eye' in frames of vertices"):
         path.check()
+
+
+INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
+
+MIXED = [*INTO_GLASS, [0.0, 2.0, -np.sqrt(3.5) + 1.0]]
+
+TURNED = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+
+
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+def test_a_vertex_lets_through_what_an_interface_at_its_angle_does(method):
+    matrix = op.RefractingVertex(1.5, INTO_GLASS, place=1).mueller(method=method)
+    expected = op.Interface(1.5, np.pi / 4).mueller("in", "transmitted", method=method)
+    np.testing.assert_allclose(matrix.matrix, expected.matrix, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(matrix.frame_in.z, [0, np.sqrt(0.5), -np.sqrt(0.5)], rtol=1e-15)
+    np.testing.assert_array_equal(matrix.frame_out.x, [1, 0, 0])
+
+
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+def test_light_out_of_glass_is_that_into_it(method):
+    back = op.RefractingVertex(1.0, INTO_GLASS[::-1], place=1, outside=1.5)
+    angle = np.arcsin(np.sin(np.pi / 4) / 1.5)
+    expected = op.Interface(1.0, angle, outside=1.5).mueller("in", "transmitted", method=method)
+    np.testing.assert_allclose(
+        back.mueller(method=method).matrix, expected.matrix, rtol=0, atol=1e-14
+    )
+
+
+def test_a_refraction_may_follow_a_reflection_and_go_before_one():
+    path = path_of(
+        ("lamp", op.Source()),
+        ("filter", op.Polarizer(0.3)),
+        ("top", op.RefractingVertex(op.Material(1.5), MIXED, 1)),
+        ("bottom", op.SpecularVertex(0.2 + 3.4j, MIXED, 2, outside=op.FOLLOWS)),
+        ("eye", op.Detector()),
+    )
+    light = path.trace()
+    chain = op.path_from_vertices(MIXED, [1.5, 0.2 + 3.4j], events="TR")
+    polarized = op.Polarizer(0.3).mueller().matrix[:, 0]
+    np.testing.assert_allclose(light.stokes, chain.mueller().matrix @ polarized, rtol=1e-14)
+    assert light.frame == chain.trace().frame
+
+
+def test_a_medium_that_does_not_follow_is_told():
+    path = path_of(
+        ("lamp", op.Source()),
+        ("top", op.RefractingVertex(1.5, MIXED, 1)),
+        ("bottom", op.SpecularVertex(0.2 + 3.4j, MIXED, 2)),
+        ("eye", op.Detector()),
+    )
+    with pytest.raises(op.PathError, match=r"lit from n = 1.5 behind 'top'.*outside is 1; give"):
+        path.check()
+
+
+@rows(
+    "arguments, others, message",
+    [
+        ((1.5, TURNED, 1), {}, "by 90 deg at 'RefractingVertex', but .* turns it by 48.1896851"),
+        ((1.5, INTO_GLASS, 2), {}, "place must be a whole number of 1 .. 1, not 2"),
+        ((1.5, INTO_GLASS, 1), {"count": 0}, "count must be a whole number above 0, not 0"),
+        ((1.5, op.Parameter("p"), 1), {}, "tell the number of vertices of the chain, count=..."),
+        ((1.5 + 1j, INTO_GLASS, 1), {}, "index is complex; give a real index .* light goes on in"),
+        (
+            (op.Material(1.5, 1), INTO_GLASS, 1),
+            {},
+            "index.k is 1; give 0, since light goes on in there",
+        ),
+        ((1.5, op.VerticesByAngles((0.3,)), 1), {}, "are angles, which say reflections alone"),
+    ],
+)
+def test_what_is_no_such_vertex_is_refused(arguments, others, message):
+    with pytest.raises(op.ValueFault, match=message) as error:
+        op.RefractingVertex(*arguments, **others)
+    assert len(error.value.faults) == 1
+
+
+def test_an_absorbing_medium_given_when_the_path_runs_is_refused():
+    path = op.path_from_vertices(INTO_GLASS, [op.Parameter("n")], events="T")
+    with pytest.raises(op.ParameterError, match="light goes on in"):
+        path.trace(n=1.5 + 0.1j)
+
+
+def test_a_refraction_that_does_not_follow_is_refused():
+    first, other = op.RefractingVertex(1.5, MIXED, 1), op.SpecularVertex(2.0, TURNED, 1, 1.5)
+    path = path_of(("lamp", op.Source()), ("a", first), ("b", other), ("eye", op.Detector()))
+    with pytest.raises(op.PathError, match="must lead from a vertex to the next of one chain"):
+        path.check()
+
+
+def test_a_chain_that_refracts_is_explained_and_drawn():
+    path = op.path_from_vertices(INTO_GLASS, [1.5], events="T")
+    assert "Fresnel transmission (stable, lossless)" in path.compose().explain()
+    assert "RefractingVertex" in str(path) or "refracting-vertex" in path.to_toml()
+
+
+DOWN = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
+
+BEND = [[0.0, 0, 1], [0, 0, 0], [0, 1, -2]]
+
+
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("index", [1.5, 0.2 + 3.4j])
+def test_it_reflects_as_a_specular_vertex_does(method, index):
+    found = op.Vertex(index, CORNER, 1, events=[0]).mueller(method=method)
+    expected = op.SpecularVertex(index, CORNER, 1).mueller(method=method)
+    np.testing.assert_allclose(found.matrix, expected.matrix, rtol=0, atol=1e-15)
+    assert found.frame_out == expected.frame_out
+
+
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows("front, behind", [(1.0, 1.5), (1.5, 1.0)])
+def test_it_refracts_as_a_refracting_vertex_does(method, front, behind):
+    found = op.Vertex(behind, BEND, 1, front, events=[1]).mueller(method=method)
+    expected = op.RefractingVertex(behind, BEND, 1, front).mueller(method=method)
+    np.testing.assert_allclose(found.matrix, expected.matrix, rtol=0, atol=4e-15)
+    assert found.frame_out == expected.frame_out
+
+
+def test_behind_the_end_of_a_chain_light_is_exactly_as_it_was():
+    points = np.array([*BEND, [np.nan] * 3, [np.inf] * 3])
+    ended = op.Vertex(0.2 + 3j, points, 2, 1.5, events=[1, 2, 2])
+    np.testing.assert_array_equal(ended.mueller().matrix, np.eye(4))
+    before = op.RefractingVertex(1.5, BEND, 1)
+    assert ended.mueller().frame_out == before.mueller().frame_out
+
+
+def test_a_chain_that_cannot_be_has_no_matrix():
+    masked = op.Vertex(1.5, CORNER, 1, events=[3], bad="mask")
+    path = op.PathGraph()
+    node = path.add("light", op.Source()) >> path.add("vertex", masked)
+    node >> path.add("eye", op.Detector())
+    assert np.all(np.isnan(path.trace().stokes))
+    with pytest.raises(op.ValueFault, match="there is no such chain, says the event at 'Vertex'"):
+        op.Vertex(1.5, CORNER, 1, events=[3])
+
+
+@rows(
+    "given, message",
+    [
+        ({"events": [0.5]}, "events is 0.5"),
+        ({"events": [4]}, "events is 4"),
+        ({"events": [-1]}, "events is -1"),
+        ({"events": [0, 0]}, r"vertices must have shape \(..., 4, 3\)"),
+        ({"events": 0}, r"events must have shape \(..., 1\), not \(\)"),
+        ({"events": "R"}, "events"),
+        ({"events": op.Parameter("e")}, "events cannot be a parameter"),
+        ({"events": [1], "index": 0.2 + 3j}, "into a medium that absorbs, k = 3"),
+        ({"events": [1]}, "light is turned by 90 deg at 'Vertex'"),
+        ({"events": [0], "bad": "no"}, "bad is 'no'"),
+        ({"events": [0], "place": 2}, "place must be a whole number of 1 .. 1"),
+        ({"events": [1], "vertices": op.VerticesByAngles((0.3,))}, "are angles, which say"),
+    ],
+)
+def test_what_is_wrong_is_told_in_words(given, message):
+    with pytest.raises(op.ValueFault, match=message):
+        op.Vertex(**{"index": 1.5, "vertices": CORNER, "place": 1, **given})
+
+
+def test_media_of_two_vertices_agree_for_each_chain():
+    events = [[1.0, 0.0], [0.0, 0.0]]
+    points = [DOWN, DOWN]
+    path = op.PathGraph()
+    first = path.add("first", op.Vertex(1.5, points, 1, events=events))
+    path.add("light", op.Source()) >> first
+    second = op.Vertex(1.2, points, 2, outside=[1.5, 1.5], events=events)
+    first >> path.add("second", second) >> path.add("eye", op.Detector())
+    with pytest.raises(
+        op.PathError, match=r"'second.in' is lit from n = 1 .* \(at 1, of 2 paths\)"
+    ):
+        path.check()
+
+
+def test_light_can_go_so_where_the_kernel_has_an_angle_or_the_chain_has_ended():
+    rng = np.random.default_rng(1)
+    count = 4000
+    event = rng.integers(0, 4, count).astype(float)
+    n1, n2 = rng.choice([1.0, 1.2, 1.5, 2.4], (2, count))
+    k = rng.choice([0.0, 0.0, 0.0, 1.0], count)
+    scale = 10.0 ** rng.choice([-80, -70, -69.9, 0, 0, 0, 69.9, 70, 80], count)
+    start, leg, turn = rng.normal(size=(3, 3, count)) * scale
+    here = start + leg
+    points = np.concatenate([start, here, here + leg + rng.uniform(0, 1, count) * turn])
+    points[rng.integers(0, 9, 50), rng.integers(0, count, 50)] = np.nan
+    given = event, n1, n2, k
+    with np.errstate(all="ignore"):
+        found = EventFits((), "vertex1").fits(np, *given, *points)
+        cos = EVENT_AT_VERTEX.made_for(NUMPY)(n1, n2, k, event, *points)[2]
+    np.testing.assert_array_equal(found, ~np.isnan(cos) | (event == Event.BEHIND))
+    assert 0.3 < np.mean(found) < 0.9
+
+
+@pytest.mark.filterwarnings("error")
+def test_numbers_of_single_precision_are_checked_without_a_word():
+    jax = pytest.importorskip("jax")
+    points = np.array([[0, 0, 0], [0, 0, 0], [0, 0, 1]], np.float32)
+    assert jax.jit(legs_fit)(points).tolist() == [False, True]
+    for domain in (WAVELENGTH, OUTSIDE, LIT_INDEX):
+        for number, allowed in ((0.0, False), (0.5, True)):
+            assert bool(jax.jit(domain.allows)(np.float32(number))) is allowed
