@@ -40,87 +40,53 @@ class Phase(op.Element):
         return (even, odd, 0, 0), (odd, even, 0, 0), (0, 0, c, -s), (0, 0, s, c)
 
 
-class Array(op.Element):
-    share: op.Fraction = 0.5
+def own(name, mueller_rows, quantity=op.Angle, default=0.0):
+    """A class of elements of one number, with such rows."""
+    body = {"a": default, "__annotations__": {"a": quantity}}
+    return type(name, (op.Element,), {**body, "mueller_rows": staticmethod(mueller_rows)})
+
+
+def of_numpy(*_):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PendingDeprecationWarning)
+        return np.matrix(np.diag([1.0, 0.5, 0.5, 0.5]))
+
+
+def times(share):
+    return [[share * (row == column) for column in range(4)] for row in range(4)]
+
+
+Array = own("Array", lambda _, a: np.diag([1.0, a, a, a]), op.Fraction)
+OneMatrix = own("OneMatrix", of_numpy, op.Fraction)
+Branch = own("Branch", lambda _, a: EYE if a > 0.0 else [[0] * 4] * 4)
+Maths = own("Maths", lambda _, a: times(math.cos(a)))
+Misspelt = own("Misspelt", lambda xp, a: ((xp.coss(a), 0, 0, 0), *EYE[1:]))
+Divides = own("Divides", lambda *_: ((1 / 0, 0, 0, 0), *EYE[1:]))
+ThreeRows = own("ThreeRows", lambda *_: EYE[:3])
+Words = own("Words", lambda *_: (("1", 0, 0, 0), *EYE[1:]))
+Imaginary = own("Imaginary", lambda xp, a: (EYE[0], (0, xp.exp(1j * a), 0, 0), *EYE[2:]))
+Missing = own("Missing", lambda *_: {}["rows"])
+Amplifier = own("Amplifier", lambda *_: np.diag([3, 3, 4, 5]).tolist())
+Growing = own("Growing", lambda xp, a: times(xp.exp(a)), float)
+Rounded = own("Rounded", lambda _, a: times(0.5 + 0 * round(a)))
+
+
+class OwnKernel(op.Element):
+    share: float = 0.5
 
     @staticmethod
-    def mueller_rows(xp, share):
-        return np.array([[1, 0, 0, 0], [0, share, 0, 0], [0, 0, share, 0], [0, 0, 0, share]])
+    def factory(_):
+        return lambda share: [share * (n % 5 == 0) for n in range(16)]
+
+    def couplings(self):
+        kernel = Kernel("own", FULL, self.factory)
+        return (op.Coupling("in", "out", (op.Operation(kernel, (self.share,)),)),)
 
 
-class OneMatrix(op.Element):
-    share: op.Fraction = 0.5
-
+class BrokenKernel(OwnKernel):
     @staticmethod
-    def mueller_rows(xp, share):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", PendingDeprecationWarning)
-            return np.matrix(np.diag([1.0, 0.5, 0.5, 0.5]))
-
-
-class Branch(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return EYE if angle > 0.0 else [[0] * 4] * 4
-
-
-class Maths(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        c = math.cos(angle)
-        return (1, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
-
-
-class Misspelt(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (xp.coss(angle), 0, 0, 0), *EYE[1:]
-
-
-class Divides(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (1 / 0, 0, 0, 0), *EYE[1:]
-
-
-class ThreeRows(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return EYE[:3]
-
-
-class Words(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return ("1", 0, 0, 0), *EYE[1:]
-
-
-class Imaginary(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (1, 0, 0, 0), (0, xp.exp(1j * angle), 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)
-
-
-class Missing(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return {}["rows"]
+    def factory(_):
+        return lambda share: [share.no_such_thing] * 16
 
 
 class WrongCouplings(op.Element):
@@ -137,50 +103,10 @@ class NoCouplings(op.Element):
         return [1.5]
 
 
-class Amplifier(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (3, 0, 0, 0), (0, 3, 0, 0), (0, 0, 4, 0), (0, 0, 0, 5)
-
-
-class Growing(op.Element):
-    share: float = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, share):
-        return [[xp.exp(share) * (row == column) for column in range(4)] for row in range(4)]
-
-
 class Measured(op.Element):
     physical: ClassVar[bool] = False
-    angle: op.Angle = 0.0
-    mueller_rows = Amplifier.mueller_rows
-
-
-class OwnKernel(op.Element):
-    share: float = 0.5
-
-    def couplings(self):
-        def factory(_):
-            return lambda share: [share * (n % 5 == 0) for n in range(16)]
-
-        return (
-            op.Coupling("in", "out", (op.Operation(Kernel("own", FULL, factory), (self.share,)),)),
-        )
-
-
-class BrokenKernel(op.Element):
-    share: float = 0.5
-
-    def couplings(self):
-        def factory(_):
-            return lambda share: [share.no_such_thing] * 16
-
-        return (
-            op.Coupling("in", "out", (op.Operation(Kernel("own", FULL, factory), (self.share,)),)),
-        )
+    a: op.Angle = 0.0
+    mueller_rows = staticmethod(Amplifier.mueller_rows)
 
 
 def asked(element_class, value, engine="auto"):
@@ -315,7 +241,7 @@ def test_an_own_element_that_amplifies_is_found_when_its_path_is_checked():
     for part in (
         "'e0'",
         "class Amplifier",
-        "angle=0.3",
+        "a=0.3",
         "(3, 0, 0, 0)",
         "physical: ClassVar[bool]",
     ):
@@ -429,15 +355,6 @@ def test_arguments_are_the_callers_and_cannot_be_written_into():
         path.trace(a=angles)
     assert not angles.any()
     assert pytest.approx(math.cos(1.0)) == path.trace(a=0.0).S1
-
-
-class Rounded(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        c = 0.5 + 0 * round(angle)
-        return (c, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
 
 
 @rows("engine", ["numpy", "auto"])

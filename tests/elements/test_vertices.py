@@ -16,6 +16,9 @@ from tables import rows
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
 
 TWICE = [*CORNER, [2.0, 4.0, 0.0]]
+INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
+MIXED = [*INTO_GLASS, [0.0, 2.0, -np.sqrt(3.5) + 1.0]]
+TURNED = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
 
 
 def path_of(*nodes, links=True):
@@ -28,19 +31,13 @@ def path_of(*nodes, links=True):
     return path
 
 
-def test_a_vertex_reflects_as_an_interface_at_its_angle_does():
-    vertex = op.SpecularVertex(0.608 + 2.12j, CORNER, place=1)
-    matrix = vertex.mueller()
-    expected = op.Interface(0.608 + 2.12j, np.pi / 4).mueller()
+@rows("index, outside", [(0.608 + 2.12j, 1.0), (1.0, 1.5)])
+def test_a_vertex_reflects_as_an_interface_at_its_angle_does(index, outside):
+    matrix = op.SpecularVertex(index, CORNER, place=1, outside=outside).mueller()
+    expected = op.Interface(index, np.pi / 4, outside).mueller()
     np.testing.assert_allclose(matrix.matrix, expected.matrix, rtol=0, atol=1e-15)
     np.testing.assert_array_equal(matrix.frame_in.z, [0, 0, -1])
     np.testing.assert_array_equal(matrix.frame_out.z, [0, 1, 0])
-
-
-def test_the_medium_that_light_comes_from_may_be_another():
-    vertex = op.SpecularVertex(1.0, CORNER, place=1, outside=1.5)
-    expected = op.Interface(1.0, np.pi / 4, outside=1.5).mueller()
-    np.testing.assert_allclose(vertex.mueller().matrix, expected.matrix, rtol=0, atol=1e-15)
 
 
 @rows("method", ["stable", "compensated", "amplitude", "textbook"])
@@ -213,39 +210,46 @@ def test_a_place_is_a_whole_number_however_it_is_given(place):
     assert type(vertex.place) is int
 
 
-def test_a_vertex_takes_no_frames_but_its_own():
+@rows(
+    "framed, frames, sentence",
+    [
+        ("vertex", {"in": op.Frame()}, "'vertex' has its frames from its vertices"),
+        ("lamp", {"out": op.Frame()}, "'lamp' has world frames of its own"),
+    ],
+)
+def test_a_vertex_takes_no_frames_but_its_own(framed, frames, sentence):
     path = op.PathGraph()
-    vertex = op.SpecularVertex(1.5, CORNER, place=1)
-    lamp, eye = path.add("lamp", op.Source()), path.add("eye", op.Detector())
-    lamp >> path.add("vertex", vertex, {"in": op.Frame()}) >> eye
-    with pytest.raises(op.PathError, match="'vertex' has its frames from its vertices"):
+    elements = op.Source(), op.SpecularVertex(1.5, CORNER, 1), op.Detector()
+    for name, element in zip(("lamp", "vertex", "eye"), elements, strict=True):
+        path.add(name, element, frames if name == framed else None)
+    path["lamp"] >> path["vertex"] >> path["eye"]
+    with pytest.raises(op.PathError, match=sentence):
         path.check()
 
 
-def test_vertices_that_do_not_follow_each_other_are_refused():
-    first, other = op.SpecularVertex(1.5, TWICE, 1), op.SpecularVertex(1.5, TWICE[::-1], 2)
-    for second in (first, other):
-        path = path_of(("lamp", op.Source()), ("a", first), ("b", second), ("eye", op.Detector()))
-        with pytest.raises(op.PathError, match="must lead from a vertex to the next of one chain"):
-            path.check()
+FIRST, SECOND = (op.SpecularVertex(1.5, TWICE, place) for place in (1, 2))
+INTO = op.RefractingVertex(1.5, MIXED, 1)
+NO_NEXT = "must lead from a vertex to the next of one chain"
 
 
-def test_what_stands_relatively_between_two_vertices_is_refused():
+@rows(
+    "elements, sentence",
+    [
+        ((FIRST, FIRST), NO_NEXT),
+        ((FIRST, op.SpecularVertex(1.5, TWICE[::-1], 2)), NO_NEXT),
+        ((INTO, op.SpecularVertex(2.0, TURNED, 1, 1.5)), NO_NEXT),
+        ((FIRST, op.Polarizer(), SECOND), "'b' stands relatively between .* 'a' and 'c'"),
+        (
+            (INTO, op.SpecularVertex(0.2 + 3.4j, MIXED, 2)),
+            r"lit from n = 1.5 behind 'a'.*outside is 1; give",
+        ),
+    ],
+)
+def test_vertices_that_do_not_follow_each_other_are_refused(elements, sentence):
     path = path_of(
-        ("lamp", op.Source()),
-        ("a", op.SpecularVertex(1.5, TWICE, 1)),
-        ("filter", op.Polarizer()),
-        ("b", op.SpecularVertex(1.5, TWICE, 2)),
-        ("eye", op.Detector()),
+        ("lamp", op.Source()), *zip("abc", elements, strict=False), ("eye", op.Detector())
     )
-    with pytest.raises(op.PathError, match=r"'filter' stands relatively between .* 'a' and 'b'"):
-        path.check()
-
-
-def test_world_frames_beside_a_vertex_are_refused():
-    path = path_of(("vertex", op.SpecularVertex(1.5, CORNER, 1)), ("eye", op.Detector()))
-    path.add("lamp", op.Source(), {"out": op.Frame()}) >> path["vertex"]
-    with pytest.raises(op.PathError, match="'lamp' has world frames of its own"):
+    with pytest.raises(op.PathError, match=sentence):
         path.check()
 
 
@@ -266,13 +270,6 @@ def test_lights_of_several_vertices_do_not_meet():
     path["b"] >> eye
     with pytest.raises(op.PathError, match="several lights meet at 'eye' in frames of vertices"):
         path.check()
-
-
-INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
-
-MIXED = [*INTO_GLASS, [0.0, 2.0, -np.sqrt(3.5) + 1.0]]
-
-TURNED = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
 
 
 @rows("method", ["stable", "compensated", "amplitude", "textbook"])
@@ -309,17 +306,6 @@ def test_a_refraction_may_follow_a_reflection_and_go_before_one():
     assert light.frame == chain.trace().frame
 
 
-def test_a_medium_that_does_not_follow_is_told():
-    path = path_of(
-        ("lamp", op.Source()),
-        ("top", op.RefractingVertex(1.5, MIXED, 1)),
-        ("bottom", op.SpecularVertex(0.2 + 3.4j, MIXED, 2)),
-        ("eye", op.Detector()),
-    )
-    with pytest.raises(op.PathError, match=r"lit from n = 1.5 behind 'top'.*outside is 1; give"):
-        path.check()
-
-
 @rows(
     "arguments, others, message",
     [
@@ -346,13 +332,6 @@ def test_an_absorbing_medium_given_when_the_path_runs_is_refused():
     path = op.path_from_vertices(INTO_GLASS, [op.Parameter("n")], events="T")
     with pytest.raises(op.ParameterError, match="light goes on in"):
         path.trace(n=1.5 + 0.1j)
-
-
-def test_a_refraction_that_does_not_follow_is_refused():
-    first, other = op.RefractingVertex(1.5, MIXED, 1), op.SpecularVertex(2.0, TURNED, 1, 1.5)
-    path = path_of(("lamp", op.Source()), ("a", first), ("b", other), ("eye", op.Detector()))
-    with pytest.raises(op.PathError, match="must lead from a vertex to the next of one chain"):
-        path.check()
 
 
 def test_a_chain_that_refracts_is_explained_and_drawn():
