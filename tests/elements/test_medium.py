@@ -247,8 +247,12 @@ def test_a_medium_that_is_never_dense_takes_one_step(length, absorption, steps):
     assert len(coupling.operations) == steps
 
 
+RATES = ("absorption", "rotation", "retardance", "dextrorotation")
+MORE_RATES = ("dichroism", "circular_dichroism", "depolarization")
+
+
 @pytest.mark.filterwarnings("error")
-@rows("rate", ["absorption", "rotation", "retardance", "dextrorotation"])
+@rows("rate", [*RATES, *MORE_RATES])
 def test_what_is_no_float_over_the_whole_length_is_refused(rate):
     with pytest.raises(op.ValueFault, match=rf"{rate} is .*, over a length of 1e\+200 m, within"):
         op.Medium(1e200, **{rate: 1e200})
