@@ -9,12 +9,13 @@ import pytest
 
 import optipath as op
 from optipath.elements.vertices.vertex_domain import VerticesDomain
+from tables import rows
 
 A, B = op.Parameter("a"), op.Parameter("b")
 
 
-@pytest.mark.parametrize(
-    ("make", "sentence"),
+@rows(
+    "make, sentence",
     [
         (lambda: op.Detector("S0"), "Detector reads is 'S0'; there are: stokes, linear, intensity"),
         (lambda: op.Polarizer("S0"), "Polarizer angle: axis 'S0' is unknown; there are: hor"),
@@ -130,8 +131,8 @@ def test_a_file_tells_all_faults_at_once_by_the_names_of_its_nodes(tmp_path):
     assert "radians" not in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("make", "sentence"),
+@rows(
+    "make, sentence",
     [
         (lambda: op.Interface((0.2, 3.4), 0.1), r"Material\(0.2, 3.4\) or 0.2\+3.4j .* np.array"),
         (lambda: op.Interface([0.2, 3.4], 0.1), r"Material\(0.2, 3.4\) or 0.2\+3.4j .* np.array"),
@@ -187,8 +188,8 @@ def test_a_material_is_understood_wherever_an_index_is():
         (op.Source() >> op.Rotator(op.Parameter("a")) >> op.Detector()).trace(a=op.Material(1.5))
 
 
-@pytest.mark.parametrize(
-    ("make", "sentence"),
+@rows(
+    "make, sentence",
     [
         (
             lambda: op.Source(stokes=[1, A, B, 0]),
@@ -263,7 +264,7 @@ def test_a_file_asks_once_and_in_its_own_words(tmp_path, default, intensity, r_s
     assert len(error.value.faults) == 1
 
 
-@pytest.mark.parametrize("give", ["trace", "bind", "with_defaults"])
+@rows("give", ["trace", "bind", "with_defaults"])
 def test_a_material_stands_for_an_index_alone(give):
     told, material = "a Material stands for an index of refraction", op.Material(0.5, 0.1)
     path = op.Source() >> op.Mirror(op.Parameter("r"), 0.5) >> op.Detector()

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from tables import rows
 
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(-300.0, 1.0).map(lambda x: 10.0**x))
@@ -98,7 +99,7 @@ def test_slopes_are_those_of_50_digits(jax):
                 np.testing.assert_allclose(there, expected, rtol=1e-12, atol=1e-13)
 
 
-@pytest.mark.parametrize("asked", [op.effective_index, op.refraction_angle])
+@rows("asked", [op.effective_index, op.refraction_angle])
 def test_no_light_arrives_at_a_right_angle_out_of_a_medium_that_absorbs(asked):
     with pytest.raises(op.ValueFault, match="right angle out of a medium that absorbs"):
         asked(1.5, "90 deg", outside=1.5 + 0.1j)
@@ -115,7 +116,7 @@ DIRECTION = np.array([math.sin(0.9), 0.0, -math.cos(0.9)])
 NORMAL = np.array([0.0, 0.0, 1.0])
 
 
-@pytest.mark.parametrize("m", [1.5, 4.2 + 0.04j, 0.7 + 2.03j, 0.9 + 6.2j])
+@rows("m", [1.5, 4.2 + 0.04j, 0.7 + 2.03j, 0.9 + 6.2j])
 def test_the_ray_by_subtraction_has_length_1_and_keeps_the_wave_along_the_face(m):
     n, _ = op.effective_index(m, 0.9, outside=1.2)
     cos = np.cos(op.refraction_angle(m, 0.9, outside=1.2))
@@ -124,7 +125,7 @@ def test_the_ray_by_subtraction_has_length_1_and_keeps_the_wave_along_the_face(m
     np.testing.assert_allclose(np.cross(NORMAL, n * ray), np.cross(NORMAL, 1.2 * DIRECTION))
 
 
-@pytest.mark.parametrize("m", [0.7 + 2.03j, 0.9 + 6.2j])
+@rows("m", [0.7 + 2.03j, 0.9 + 6.2j])
 def test_no_ray_follows_from_the_complex_angle_nor_from_n_alone(m):
     sin = math.sin(0.9)
     cos = np.sqrt(1.0 - (sin / m) ** 2 + 0j)
@@ -166,7 +167,7 @@ def test_of_three_printed_formulas_of_the_angle_two_are_that_of_the_wave_and_one
         assert float(found) == pytest.approx(float(by_wave), rel=1e-13)
 
 
-@pytest.mark.parametrize("m", [1.5, 0.7 + 2.03j])
+@rows("m", [1.5, 0.7 + 2.03j])
 def test_the_real_wave_vector_has_the_parts_of_the_wave_and_by_the_other_root_it_has_not(m):
     n, k, s = complex(m).real, complex(m).imag, math.sin(0.9)
     g = np.sqrt(m * m - s * s + 0j)

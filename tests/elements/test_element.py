@@ -1,8 +1,17 @@
+"""What every element has: values, matrices, frames, and the way back."""
+
+import subprocess
+import sys
+
+import mpmath
 import numpy as np
 import pytest
 
 import optipath as op
+from optipath.elements import chaining
 from optipath.paths.drawing import draw
+from paths import chain
+from tables import rows
 
 
 class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
@@ -40,9 +49,45 @@ def test_an_element_of_ones_own_equals_the_librarys_half_wave_plate():
     np.testing.assert_allclose(own, library, rtol=0, atol=1e-15)
 
 
-def test_an_element_of_ones_own_is_checked_like_any_other():
-    with pytest.raises(op.ValueFault, match=r"^HalfWavePlate angle is nan"):
-        HalfWavePlate(np.nan)
+class Nothing(op.Element):
+    pass
+
+
+class Short(op.Element):
+    @staticmethod
+    def mueller_rows(_):
+        return ((1, 0, 0, 0),)
+
+
+SIDE = {
+    "frame_in": op.Frame(),
+    "frame_out": op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0)),
+}
+
+
+@rows(
+    "act, fault, sentence",
+    [
+        (lambda: HalfWavePlate(np.nan), op.ValueFault, "^HalfWavePlate angle is nan"),
+        (lambda: Nothing().mueller(), op.PathError, "mueller_rows"),
+        (lambda: Short().mueller(), op.PathError, "four rows"),
+        (
+            lambda: op.Polarizer(op.Parameter("a")).mueller(),
+            op.PathError,
+            "parameter 'a' of polarizer",
+        ),
+        (lambda: op.Polarizer().mueller(**SIDE), op.PathError, "one frame"),
+        (lambda: op.Interface(1.5, 0.1).mueller(**SIDE), op.PathError, "incidence of 45 deg"),
+        (
+            lambda: op.Interface(1.5, 0.1).mueller("back", "back"),
+            op.PathError,
+            "there are: in -> reflected, in -> tran",
+        ),
+    ],
+)
+def test_what_an_element_cannot_do_is_refused(act, fault, sentence):
+    with pytest.raises(fault, match=sentence):
+        act()
 
 
 def test_an_element_of_ones_own_goes_to_toml_and_back(tmp_path):
@@ -84,25 +129,6 @@ def test_an_azimuth_of_ones_own_element_turns_its_frame():
     )
 
 
-def test_a_class_that_does_not_say_what_it_does_is_refused():
-    class Nothing(op.Element):
-        pass
-
-    with pytest.raises(op.PathError, match="mueller_rows"):
-        Nothing().mueller()
-
-
-def test_rows_that_are_no_matrix_are_refused():
-    class Short(op.Element):
-        @staticmethod
-        def mueller_rows(xp):
-            del xp
-            return ((1, 0, 0, 0),)
-
-    with pytest.raises(op.PathError, match="four rows"):
-        Short().mueller()
-
-
 def test_two_classes_cannot_share_a_kind():
     with pytest.raises(op.PathError, match="'polarizer' is taken"):
 
@@ -125,11 +151,6 @@ def test_elements_are_equal_by_their_values():
     assert op.Polarizer(0.1) != op.Rotator(0.1)
 
 
-def test_a_matrix_with_open_parameters_is_refused_by_name():
-    with pytest.raises(op.PathError, match="parameter 'a' of polarizer"):
-        op.Polarizer(op.Parameter("a")).mueller()
-
-
 def test_one_frame_will_do_where_light_goes_straight_through():
     frame = op.Frame().turned(0.5)
     light = op.Attenuator(1.0).mueller(frame_in=frame) @ op.Light([1.0, 1.0, 0, 0])
@@ -137,22 +158,9 @@ def test_one_frame_will_do_where_light_goes_straight_through():
     np.testing.assert_allclose(light.in_frame(op.Frame()).stokes, [1, 1, 0, 0], rtol=0, atol=1e-15)
 
 
-def test_frames_that_an_element_cannot_have_are_refused():
-    side = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
-    with pytest.raises(op.PathError, match="one frame"):
-        op.Polarizer().mueller(frame_in=op.Frame(), frame_out=side)
-    with pytest.raises(op.PathError, match="incidence of 45 deg"):
-        op.Interface(1.5, 0.1).mueller(frame_in=op.Frame(), frame_out=side)
-
-
 def test_a_bound_parameter_is_a_value():
     bound = op.Polarizer(op.Parameter("a", 0.3, bound=True)).mueller()
     assert bound == op.Polarizer(0.3).mueller()
-
-
-def test_a_way_that_does_not_exist_is_refused_with_those_that_do():
-    with pytest.raises(op.PathError, match="there are: in -> reflected, in -> tran"):
-        op.Interface(1.5, 0.1).mueller("back", "back")
 
 
 def test_a_mueller_element_does_what_its_matrix_says():
@@ -209,7 +217,7 @@ def in_a_path(*elements):
     return chain >> op.Detector()
 
 
-@pytest.mark.parametrize(
+@rows(
     "found",
     [
         lambda light: CROSSED.mueller() @ light,
@@ -236,7 +244,78 @@ def test_an_azimuth_turns_the_frames_of_the_matrix():
     assert splitter.mueller("in", "transmitted").frame_out == turned
 
 
-@pytest.mark.parametrize("port", ["frame_in", "frame_out"])
+@rows("port", ["frame_in", "frame_out"])
 def test_a_world_frame_and_an_azimuth_are_refused_together(port):
     with pytest.raises(op.PathError, match="world frames and by an azimuth; give one of them"):
         CROSSED.mueller(**{port: op.Frame()})
+
+
+def test_a_chain_without_paths_is_refused_in_words(monkeypatch):
+    source, detector = op.Source(), op.Detector()
+    monkeypatch.setattr(chaining, "_BEGINNINGS", [])
+    with pytest.raises(op.PathError, match="from optipath import PathGraph"):
+        source >> detector
+
+
+def test_elements_are_chained_whatever_else_of_the_library_is_imported():
+    code = (
+        "from optipath import Detector, Source;print((Source(2.0) >> Detector()).trace().intensity)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "2.0"
+
+
+A, B, C = (op.Parameter(name) for name in "abc")
+
+
+def test_slopes_of_a_faraday_rotator_are_those_of_the_product(jax):
+    path = chain([op.FaradayRotator(verdet=A, field=B, length=C)], (1.0, 1.0, 0.0, 0.0))
+    slope = jax.grad(lambda v: path.trace(a=v[0], b=v[1], c=v[2]).S2)(np.array([-134.0, 0.1, 0.02]))
+    expected = 2 * np.cos(2 * -134.0 * 0.1 * 0.02) * np.array([0.002, -134.0 * 0.02, -13.4])
+    np.testing.assert_allclose(slope, expected, rtol=1e-14)
+
+
+@rows("order", [0.0, 0.25, 0.5, 10.25, 2000.37])
+def test_slopes_of_a_plate_are_those_of_its_retardance(jax, order):
+    path = chain([op.Waveplate(A, B, C)], (1.0, 0.0, 1.0, 0.0))
+    given = np.array([order * 1e-6 / 0.01, 0.01, 1e-6])
+    slope = jax.jacobian(lambda v: path.trace(a=v[0], b=v[1], c=v[2]).stokes)(given)
+    with mpmath.workdps(50):
+        d, n, w = map(mpmath.mpf, given.tolist())
+        angle = 2 * mpmath.pi * d * n / w
+        rates = np.array([float(2 * mpmath.pi * r) for r in (n / w, d / w, -d * n / w**2)])
+        cos, sin = float(mpmath.cos(angle)), float(mpmath.sin(angle))
+    # S2 is the cosine, and S3 the sine.
+    expected = np.outer([0.0, 0.0, -sin, cos], rates)
+    scale = np.abs(rates).max(where=rates != 0.0, initial=1.0)
+    np.testing.assert_allclose(slope / scale, expected / scale, rtol=1e-12, atol=1e-15)
+
+
+def test_slopes_of_a_circular_polariser_are_finite_where_nothing_leaks(jax):
+    path = chain([op.CircularPolarizer("right", A, B)], (1.0, 0.3, 0.0, 0.5))
+    slope = jax.jacobian(lambda v: path.trace(a=v[0], b=v[1]).stokes)(np.array([1.0, 0.0]))
+    np.testing.assert_allclose(slope[0], [0.75, 0.25], rtol=0, atol=1e-15)
+    assert np.isfinite(slope).all()
+
+
+def of_a_cube(jax, port):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=(1.0, 0.3, 0.5, 0.6)))
+    path["lamp"] >> path.add("cube", op.PolarizingBeamSplitter(A, B))
+    path.add("eye", op.Detector())
+    path.connect(f"cube.{port}", "eye.in")
+    return jax.jacobian(lambda v: path.trace(a=v[0], b=v[1]).stokes)
+
+
+@rows("port", ["transmitted", "reflected"])
+@rows("ratios", [(1.000001, 1.000001), (1e30, 1e30), (2.0, 1e6)])
+def test_slopes_of_a_polarising_splitter_are_finite_at_every_ratio(jax, port, ratios):
+    assert np.isfinite(of_a_cube(jax, port)(np.array(ratios))).all()
+
+
+def test_slopes_of_a_polarising_splitter_are_those_of_its_transmittances(jax):
+    # With an ideal reflection Ts is 1 / t, and Tp is 1: C is t^(-1/2).
+    slope = of_a_cube(jax, "transmitted")(np.array([10.0, 1e30]))[:, 0]
+    across = -0.5 * 10.0**-1.5
+    expected = [-0.65 / 100, -0.65 / 100, across * 0.5, across * 0.6]
+    np.testing.assert_allclose(slope, expected, rtol=1e-13)

@@ -9,6 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import optipath as op
+from tables import rows
 
 PARTS = ("r_s", "r_p", "t_s", "t_p")
 INDICES = st.floats(0.1, 5.0)
@@ -100,8 +101,8 @@ def test_amplitudes_out_of_an_absorbing_medium_have_all_digits(n, k, n1, share, 
     assert max(units_off((complex(n, k), *angle, outside))) <= 16.0
 
 
-@pytest.mark.parametrize(
-    ("given", "worst"),
+@rows(
+    "given, worst",
     [
         ((5.717117667348051 + 3.37069957e-8j, 0.002373893039514527, 0.9999971823119488, 0.57), 8.0),
         ((0.1 + 1.0759455e-7j, 0.9999999999298715, 1.1843000608717061e-05, 2.13), 11.0),
@@ -115,7 +116,6 @@ def test_amplitudes_out_of_an_absorbing_medium_have_all_digits(n, k, n1, share, 
             13.0,
         ),
     ],
-    ids=["r_s", "r_p", "r_p out of a medium that absorbs"],
 )
 def test_the_worst_that_climbing_found_is_a_few_units(given, worst):
     assert max(units_off(given)) <= worst
@@ -209,8 +209,8 @@ def test_what_jax_traces_and_is_not_allowed_is_nan(jax):
     assert np.isnan(reflected(1.5, 0.7))
 
 
-@pytest.mark.parametrize(
-    ("given", "fault"),
+@rows(
+    "given, fault",
     [
         ((1.5 - 0.1j, 1.0, 0.0), r"index is \(1.5-0.1j\); .*k not negative"),
         ((1.5, 0.5, 0.5), "belong to no angle"),

@@ -1,10 +1,13 @@
 """Stacks of layers against Stokes' pile, 50-digit adding, and their own boundaries."""
 
+import warnings
+
 import numpy as np
 import pytest
 
 import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
+from tables import rows
 
 
 def path_of(stack, enters="in", leaves="reflected", state=(1.0, 0.3, 0.4, 0.5)):
@@ -17,7 +20,7 @@ def path_of(stack, enters="in", leaves="reflected", state=(1.0, 0.3, 0.4, 0.5)):
     return path
 
 
-@pytest.mark.parametrize("faces", [2, 4, 10])
+@rows("faces", [2, 4, 10])
 def test_a_pile_of_plates_is_stokes_formula(faces):
     theta = np.linspace(0, 1.5, 40)
     pile = op.LayerStack([1.0, 1.5] * (faces // 2) + [1.0], theta)
@@ -28,8 +31,8 @@ def test_a_pile_of_plates_is_stokes_formula(faces):
     np.testing.assert_allclose(matrix[:, 0, 1], (along - across) / 2, rtol=0, atol=2e-15)
 
 
-@pytest.mark.parametrize("ways", [("in", "reflected"), ("in", "transmitted")])
-@pytest.mark.parametrize("layers", [0, 1, 3])
+@rows("ways", [("in", "reflected"), ("in", "transmitted")])
+@rows("layers", [0, 1, 3])
 def test_a_stack_on_metal_is_right_to_the_last_digits(rng, ways, layers):
     for _ in range(5):
         indices = [1.0, *rng.uniform(0.7, 2.5, layers), complex(*rng.uniform(0.2, 3, 2))]
@@ -38,7 +41,7 @@ def test_a_stack_on_metal_is_right_to_the_last_digits(rng, ways, layers):
         np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("ways", [("back", "reflected"), ("back", "transmitted")])
+@rows("ways", [("back", "reflected"), ("back", "transmitted")])
 def test_light_from_behind_is_right_too(rng, ways):
     for _ in range(5):
         indices = rng.uniform(1.0, 2.5, 4).tolist()
@@ -47,7 +50,7 @@ def test_light_from_behind_is_right_too(rng, ways):
         np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("turned", ["reflected", "transmitted"])
+@rows("turned", ["reflected", "transmitted"])
 def test_light_from_behind_is_that_of_the_stack_turned_round(turned):
     # Glass seen from behind reflects all light where it meets the second medium.
     indices, incidence = [1.9, 1.3, 2.4, 2.3], 1.1
@@ -97,8 +100,8 @@ def test_a_stack_goes_into_a_file_and_back():
     assert again.trace() == path.trace(n=1.5)
 
 
-@pytest.mark.parametrize(
-    ("indices", "message"),
+@rows(
+    "indices, message",
     [
         (1.5, r" is 1.5; give a list of two indices or more.* such as \[1, 1.5, 1.33\]"),
         ([1.5], "give a list of two indices or more"),
@@ -148,7 +151,7 @@ def test_all_components_keep_their_digits_though_next_to_nothing_gets_through():
             np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=2e-14 * expected[0])
 
 
-@pytest.mark.parametrize("n", [1e-3, 1e20, 1e45, 1e59])
+@rows("n", [1e-3, 1e20, 1e45, 1e59])
 def test_a_layer_of_any_index_lets_through_what_the_closed_form_says(n):
     # With T of one face, T / (2 - T) of both; T_s = 4 c / n and T_p = 4 / (c n) for large n.
     c = np.cos(0.9)
@@ -158,7 +161,7 @@ def test_a_layer_of_any_index_lets_through_what_the_closed_form_says(n):
     np.testing.assert_allclose(found.matrix[0, 0], expected, rtol=1e-13)
 
 
-@pytest.mark.parametrize("n", [1e61, 1e-61, 1e150])
+@rows("n", [1e61, 1e-61, 1e150])
 def test_an_index_whose_waves_have_squares_that_vanish_is_refused(n):
     with pytest.raises(op.OptipathError, match=r"indices\[1\] is .* within 1e-60 \.\. 1e\+60"):
         op.LayerStack([1.0, n, 1.0], 0.9).mueller("in", "transmitted")
@@ -169,3 +172,65 @@ def test_a_stack_has_a_thousand_media_at_most():
     for media in ([1.5] * 1001, np.full(20_000, 1.5)):
         with pytest.raises(op.OptipathError, match="media; give 1,000 at most"):
             op.LayerStack(media, 0.1).mueller()
+
+
+def warned(action):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("default")
+        action()
+    return [one.category for one in told]
+
+
+def stack(length, n=1.5, **others):
+    given = {"lengths": [length], "wavelength": "500 nm"} | others
+    return op.LayerStack([1.0, n, 1.5], 0.3, **given)
+
+
+def test_layers_thinner_than_ten_wavelengths_are_warned_of():
+    path = op.Source() >> stack(op.Parameter("d")) >> op.Detector()
+    by_wavelength = op.Source() >> stack("1 um", wavelength=op.Wavelength()) >> op.Detector()
+    by_index = op.Source() >> stack("1 um", op.Parameter("n")) >> op.Detector()
+    rows = [
+        (lambda: stack("5 nm"), 1),
+        (lambda: stack("3 um"), 1),  # 9 wavelengths in it
+        (lambda: stack("3.4 um"), 0),
+        (lambda: stack("3 um", 2.0), 0),
+        (lambda: stack(np.array([1e-3, 1e-7])), 1),
+        (lambda: stack("5 nm", wavelength=None), 0),
+        (lambda: stack("4 mm"), 0),
+        (lambda: path.bind(d="100 nm"), 1),
+        (lambda: path.bind(d="1 mm").trace(), 0),
+        (lambda: path.trace(d="25 nm"), 1),
+        (lambda: path.trace(d=["1 mm", "25 nm"]), 1),
+        (lambda: path.trace(d="1 mm"), 0),
+        (lambda: by_wavelength.trace(wavelength="500 nm"), 1),
+        (lambda: by_index.trace(n=1.4), 1),
+    ]
+    for number, (action, count) in enumerate(rows):
+        assert warned(action) == [op.CoherenceWarning] * count, number
+
+
+def test_psi_and_delta_of_what_has_no_ratio_of_amplitudes_are_warned_of_once_a_place():
+    glass = op.Interface(1.5, "56 deg").mueller()
+    rows = [
+        (glass, 0),
+        (op.Interface(0.2 + 3.0j, "70 deg").mueller(), 0),
+        (op.Mueller(glass.matrix + 1e-4 * np.eye(4)[::-1] * glass.matrix[0, 0]), 0),
+        (op.Retarder(0.5, 0.0).mueller(), 0),
+        (op.Retarder(0.5, 0.3).mueller(), 1),
+        (op.Depolarizer(0.5).mueller(), 1),
+        (op.Mueller(np.zeros((4, 4))), 0),
+    ]
+    for number, (matrix, count) in enumerate(rows):
+
+        def twice(matrix=matrix):
+            for _ in range(2):
+                matrix.ellipsometric_angles()
+
+        assert warned(twice) == [op.CoherenceWarning] * count, number
+
+
+def test_traced_matrices_are_not_warned_of():
+    jax = pytest.importorskip("jax")
+    angles = jax.jit(lambda m: op.Mueller(m).ellipsometric_angles())
+    assert warned(lambda: angles(np.diag([1.0, 0.5, 0.5, 0.5]).astype("f4"))) == []

@@ -2,7 +2,9 @@ import numpy as np
 import pytest
 
 import optipath as op
+from chains import ENGINES
 from paths import chain
+from tables import rows
 
 STATE = [1.0, 0.5, 0.6, 0.4]
 
@@ -34,7 +36,7 @@ def clockwise(light, frame):
     return np.degrees(np.arctan2(axis @ right, axis @ up))
 
 
-@pytest.mark.parametrize("z", [(0, 0, 1), (0, 0, -1), (0.6, 0.0, 0.8)])
+@rows("z", [(0, 0, 1), (0, 0, -1), (0.6, 0.0, 0.8)])
 def test_a_sugar_solution_turns_light_clockwise_to_who_looks_at_the_source(z):
     # A tube of 2 dm with 0.1 g/ml.
     solution = op.Medium(0.2, dextrorotation=np.radians(SUCROSE * 0.1) / 0.1)
@@ -43,9 +45,8 @@ def test_a_sugar_solution_turns_light_clockwise_to_who_looks_at_the_source(z):
     assert clockwise(light, frame) == pytest.approx(13.3, abs=1e-12)
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba", "jax"])
+@rows("engine", ENGINES)
 def test_a_dextrorotation_is_a_rotation_of_the_other_sign(engine):
-    pytest.importorskip("jax")
     turns = np.linspace(-40.0, 40.0, 3000)
     medium = op.Medium(0.1, 2.0, dextrorotation=op.Parameter("d"))
     plan = op.Composer(engine=engine).compose(chain([medium], STATE))
@@ -88,8 +89,8 @@ def test_presets_and_the_command_line_take_the_chemists_sign_in_the_chemists_uni
     assert "dextrorotation" in path.to_toml()
 
 
-@pytest.mark.parametrize("rotation", [1.0, op.Parameter("a"), np.array([0.0, 1.0]), -0.1])
-@pytest.mark.parametrize("dextrorotation", [1.0, op.Parameter("b"), np.array([1.0, 0.0])])
+@rows("rotation", [1.0, op.Parameter("a"), np.array([0.0, 1.0]), -0.1])
+@rows("dextrorotation", [1.0, op.Parameter("b"), np.array([1.0, 0.0])])
 def test_a_rotation_by_both_signs_is_refused(rotation, dextrorotation):
     with pytest.raises(op.ValueFault, match=r"rotation.*the same rotation with the other sign"):
         op.Medium(0.1, rotation=rotation, dextrorotation=dextrorotation)
@@ -136,9 +137,8 @@ def test_parameters_cannot_be_an_extinction_coefficient():
     assert [fault.split()[0] for fault in error.value.faults] == ["k", "wavelength"]
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("dtype", ["float32", "float64"])
-@pytest.mark.parametrize("acts", ["rotation", "retardance"])
+@rows("engine, dtype", [("numpy", "float32"), ("numpy", "float64"), ("numba", "float64")])
+@rows("acts", ["rotation", "retardance"])
 def test_all_values_may_be_parameters(engine, dtype, acts):
     names = ("length", "absorption", acts, "angle")
     path = chain([op.Medium(**{name: op.Parameter(name) for name in names})], STATE)
@@ -166,7 +166,7 @@ def test_a_medium_that_does_nothing_takes_no_step():
     assert len(chain([op.Medium(op.Parameter("l"))]).compose().program.steps) == 1
 
 
-@pytest.mark.parametrize("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
+@rows("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
 def test_one_of_both_may_be_0(zero):
     found = op.Medium(0.5, rotation=zero, retardance=1.0).mueller().matrix
     several = np.zeros((*np.shape(zero), 1, 1))
@@ -190,8 +190,8 @@ def test_a_parameter_in_a_unit_of_another_dimension_is_refused():
         op.Medium(op.Parameter("l", unit="deg"))
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("size", [3, 3000])
+@rows("engine", ["numpy", "numba"])
+@rows("size", [3, 3000])
 def test_light_behind_a_dense_medium_is_right_however_faint(engine, size):
     absorption = np.linspace(600.0, 2100.0, size)
     names = op.Parameter("l"), op.Parameter("a")
@@ -202,8 +202,8 @@ def test_light_behind_a_dense_medium_is_right_however_faint(engine, size):
         np.testing.assert_allclose(light.dop, np.linalg.norm(STATE[1:]), rtol=1e-14)
 
 
-@pytest.mark.parametrize("dtype", ["float32", "float64"])
-@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@rows("dtype", ["float32", "float64"])
+@rows("composing", ["stokes", "jones"])
 def test_light_too_faint_for_a_medium_is_dark_and_never_polarised_by_more_than_all(
     dtype, composing
 ):
@@ -224,7 +224,7 @@ def test_light_too_faint_for_a_medium_is_dark_and_never_polarised_by_more_than_a
     )
 
 
-@pytest.mark.parametrize("depth", [720.0, 740.0, 744.0, 2000.0])
+@rows("depth", [720.0, 740.0, 744.0, 2000.0])
 def test_a_matrix_too_faint_for_floats_is_dark(depth):
     light = op.Medium(1.0, depth).mueller() @ op.Light([1.0, 0.6, 0.0, 0.8])
     np.testing.assert_array_equal(light.stokes, 0.0)
@@ -232,8 +232,8 @@ def test_a_matrix_too_faint_for_floats_is_dark(depth):
     assert light.log10_intensity == -np.inf
 
 
-@pytest.mark.parametrize(
-    ("length", "absorption", "steps"),
+@rows(
+    "length, absorption, steps",
     [
         (0.1, 100.0, 1),
         (0.1, 1e4, 3),
@@ -247,16 +247,20 @@ def test_a_medium_that_is_never_dense_takes_one_step(length, absorption, steps):
     assert len(coupling.operations) == steps
 
 
+RATES = ("absorption", "rotation", "retardance", "dextrorotation")
+MORE_RATES = ("dichroism", "circular_dichroism", "depolarization")
+
+
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("rate", ["absorption", "rotation", "retardance", "dextrorotation"])
+@rows("rate", [*RATES, *MORE_RATES])
 def test_what_is_no_float_over_the_whole_length_is_refused(rate):
     with pytest.raises(op.ValueFault, match=rf"{rate} is .*, over a length of 1e\+200 m, within"):
         op.Medium(1e200, **{rate: 1e200})
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize(
-    ("options", "message"),
+@rows(
+    "options, message",
     [
         ({"k": 1e300, "wavelength": 1e-12}, "k is up to 1e\\+300, .* give a smaller k"),
         ({"wavelength": 500}, "wavelength is 500 m; give a real wavelength in metres within 1e-12"),

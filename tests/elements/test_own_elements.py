@@ -3,21 +3,27 @@
 import math
 import re
 import warnings
-from importlib.util import find_spec
+from dataclasses import fields
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
+import chains
 import optipath as op
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import FULL
+from optipath.kernels.numbers.primitives import Primitives
 from paths import chain
+from tables import rows
 
 STATE = [1.0, 0.5, 0.4, 0.3]
-NO_JAX = pytest.mark.skipif(find_spec("jax") is None, reason="an extra")
-ENGINES = ["auto", "numpy", "numba", pytest.param("jax", marks=NO_JAX)]
+
+ENGINES = ["auto", *chains.ENGINES]
+
 EYE = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
+
 GIVEN = [0.3, np.linspace(0.1, 1.0, 3), np.linspace(0.1, 1.0, 3000)]
 
 
@@ -34,87 +40,53 @@ class Phase(op.Element):
         return (even, odd, 0, 0), (odd, even, 0, 0), (0, 0, c, -s), (0, 0, s, c)
 
 
-class Array(op.Element):
-    share: op.Fraction = 0.5
+def own(name, mueller_rows, quantity=op.Angle, default=0.0):
+    """A class of elements of one number, with such rows."""
+    body = {"a": default, "__annotations__": {"a": quantity}}
+    return type(name, (op.Element,), {**body, "mueller_rows": staticmethod(mueller_rows)})
+
+
+def of_numpy(*_):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PendingDeprecationWarning)
+        return np.matrix(np.diag([1.0, 0.5, 0.5, 0.5]))
+
+
+def times(share):
+    return [[share * (row == column) for column in range(4)] for row in range(4)]
+
+
+Array = own("Array", lambda _, a: np.diag([1.0, a, a, a]), op.Fraction)
+OneMatrix = own("OneMatrix", of_numpy, op.Fraction)
+Branch = own("Branch", lambda _, a: EYE if a > 0.0 else [[0] * 4] * 4)
+Maths = own("Maths", lambda _, a: times(math.cos(a)))
+Misspelt = own("Misspelt", lambda xp, a: ((xp.coss(a), 0, 0, 0), *EYE[1:]))
+Divides = own("Divides", lambda *_: ((1 / 0, 0, 0, 0), *EYE[1:]))
+ThreeRows = own("ThreeRows", lambda *_: EYE[:3])
+Words = own("Words", lambda *_: (("1", 0, 0, 0), *EYE[1:]))
+Imaginary = own("Imaginary", lambda xp, a: (EYE[0], (0, xp.exp(1j * a), 0, 0), *EYE[2:]))
+Missing = own("Missing", lambda *_: {}["rows"])
+Amplifier = own("Amplifier", lambda *_: np.diag([3, 3, 4, 5]).tolist())
+Growing = own("Growing", lambda xp, a: times(xp.exp(a)), float)
+Rounded = own("Rounded", lambda _, a: times(0.5 + 0 * round(a)))
+
+
+class OwnKernel(op.Element):
+    share: float = 0.5
 
     @staticmethod
-    def mueller_rows(xp, share):
-        return np.array([[1, 0, 0, 0], [0, share, 0, 0], [0, 0, share, 0], [0, 0, 0, share]])
+    def factory(_):
+        return lambda share: [share * (n % 5 == 0) for n in range(16)]
+
+    def couplings(self):
+        kernel = Kernel("own", FULL, self.factory)
+        return (op.Coupling("in", "out", (op.Operation(kernel, (self.share,)),)),)
 
 
-class OneMatrix(op.Element):
-    share: op.Fraction = 0.5
-
+class BrokenKernel(OwnKernel):
     @staticmethod
-    def mueller_rows(xp, share):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", PendingDeprecationWarning)
-            return np.matrix(np.diag([1.0, 0.5, 0.5, 0.5]))
-
-
-class Branch(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return EYE if angle > 0.0 else [[0] * 4] * 4
-
-
-class Maths(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        c = math.cos(angle)
-        return (1, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
-
-
-class Misspelt(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (xp.coss(angle), 0, 0, 0), *EYE[1:]
-
-
-class Divides(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (1 / 0, 0, 0, 0), *EYE[1:]
-
-
-class ThreeRows(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return EYE[:3]
-
-
-class Words(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return ("1", 0, 0, 0), *EYE[1:]
-
-
-class Imaginary(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (1, 0, 0, 0), (0, xp.exp(1j * angle), 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)
-
-
-class Missing(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return {}["rows"]
+    def factory(_):
+        return lambda share: [share.no_such_thing] * 16
 
 
 class WrongCouplings(op.Element):
@@ -131,50 +103,10 @@ class NoCouplings(op.Element):
         return [1.5]
 
 
-class Amplifier(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        return (3, 0, 0, 0), (0, 3, 0, 0), (0, 0, 4, 0), (0, 0, 0, 5)
-
-
-class Growing(op.Element):
-    share: float = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, share):
-        return [[xp.exp(share) * (row == column) for column in range(4)] for row in range(4)]
-
-
 class Measured(op.Element):
     physical: ClassVar[bool] = False
-    angle: op.Angle = 0.0
-    mueller_rows = Amplifier.mueller_rows
-
-
-class OwnKernel(op.Element):
-    share: float = 0.5
-
-    def couplings(self):
-        def factory(_):
-            return lambda share: [share * (n % 5 == 0) for n in range(16)]
-
-        return (
-            op.Coupling("in", "out", (op.Operation(Kernel("own", FULL, factory), (self.share,)),)),
-        )
-
-
-class BrokenKernel(op.Element):
-    share: float = 0.5
-
-    def couplings(self):
-        def factory(_):
-            return lambda share: [share.no_such_thing] * 16
-
-        return (
-            op.Coupling("in", "out", (op.Operation(Kernel("own", FULL, factory), (self.share,)),)),
-        )
+    a: op.Angle = 0.0
+    mueller_rows = staticmethod(Amplifier.mueller_rows)
 
 
 def asked(element_class, value, engine="auto"):
@@ -187,8 +119,8 @@ def asked(element_class, value, engine="auto"):
     return known.run().stokes, given.run(x=value).stokes
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("value", GIVEN)
+@rows("engine", ENGINES)
+@rows("value", GIVEN)
 def test_complex_numbers_inside_rows_work_for_one_path_as_for_arrays(value, engine):
     expected = chain([op.Retarder(value)], STATE).trace().stokes
     for found in asked(Phase, value, engine):
@@ -208,15 +140,15 @@ def test_matrices_and_certificates_know_complex_rows():
     np.testing.assert_allclose(Phase(0.3).mueller().matrix, expected, atol=1e-15)
 
 
-@pytest.mark.parametrize("engine", ["auto", "numpy", "numba"])
-@pytest.mark.parametrize("element_class", [Array, OneMatrix])
+@rows("engine", ["auto", "numpy", "numba"])
+@rows("element_class", [Array, OneMatrix])
 def test_rows_may_be_a_matrix_of_numpy_for_one_path(element_class, engine):
     for found in asked(element_class, 0.5, engine):
         np.testing.assert_allclose(found, [1.0, 0.25, 0.2, 0.15])
 
 
-@pytest.mark.parametrize(
-    ("element_class", "expected"),
+@rows(
+    "element_class, expected",
     [
         (Array, "Array raises ValueError: .*return four rows, tuples of four entries each"),
         (Branch, r"Branch raises ValueError: .*choose by xp.where\(condition, yes, no\) in place"),
@@ -243,10 +175,10 @@ def test_what_is_not_for_values_that_jax_traces_is_told_with_its_class(element_c
         plan.run(x=0.3)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("value", GIVEN)
-@pytest.mark.parametrize(
-    ("element_class", "expected", "cause"),
+@rows("engine", ENGINES)
+@rows("value", GIVEN)
+@rows(
+    "element_class, expected, cause",
     [
         (Misspelt, "calls xp.coss, which does not exist; did you mean 'cos'", AttributeError),
         (Divides, "raises ZeroDivisionError: division by zero", ZeroDivisionError),
@@ -268,8 +200,8 @@ def test_whatever_rows_raise_is_an_error_of_the_library(
         assert isinstance(told.value.__cause__, cause or type(None))
 
 
-@pytest.mark.parametrize(
-    ("element_class", "expected"),
+@rows(
+    "element_class, expected",
     [
         (WrongCouplings, r"couplings\(\) of element class WrongCouplings raises AttributeError: "),
         (
@@ -287,7 +219,7 @@ def test_whatever_couplings_and_their_kernels_raise_is_an_error_of_the_library(
             act()
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError])
+@rows("error", [KeyboardInterrupt, MemoryError])
 def test_an_interruption_stays_what_it_is(error):
     class Interrupted(op.Element):
         angle: op.Angle = 0.0
@@ -309,15 +241,15 @@ def test_an_own_element_that_amplifies_is_found_when_its_path_is_checked():
     for part in (
         "'e0'",
         "class Amplifier",
-        "angle=0.3",
+        "a=0.3",
         "(3, 0, 0, 0)",
         "physical: ClassVar[bool]",
     ):
         assert part in str(told.value)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("value", GIVEN)
+@rows("engine", ENGINES)
+@rows("value", GIVEN)
 def test_an_own_element_that_amplifies_is_found_with_its_first_values(value, engine):
     plan = op.Composer(engine=engine).compose(chain([Amplifier(op.Parameter("x"))]))
     ask = [lambda: plan.run(x=value), lambda: plan.mueller(x=value)]
@@ -334,7 +266,7 @@ def test_the_first_values_are_told_in_the_unit_of_their_parameter():
         plan.run(x="22.5 deg")
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_the_first_and_the_last_path_of_an_array_are_looked_at(engine):
     plan = op.Composer(engine=engine).compose(chain([Growing(op.Parameter("x"))]))
     plan.run(x=np.linspace(-1.0, 0.0, 1000))
@@ -375,8 +307,8 @@ def test_the_elements_of_the_library_are_not_looked_at():
     assert len(chain([Growing(op.Parameter("x"))]).compose().own_ways) == 1
 
 
-@pytest.mark.parametrize(
-    ("name", "written"),
+@rows(
+    "name, written",
     [
         ("tan", "xp.sin(x) / xp.cos(x)"),
         ("abs", "xp.absolute(x)"),
@@ -425,16 +357,7 @@ def test_arguments_are_the_callers_and_cannot_be_written_into():
     assert pytest.approx(math.cos(1.0)) == path.trace(a=0.0).S1
 
 
-class Rounded(op.Element):
-    angle: op.Angle = 0.0
-
-    @staticmethod
-    def mueller_rows(xp, angle):
-        c = 0.5 + 0 * round(angle)
-        return (c, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
-
-
-@pytest.mark.parametrize("engine", ["numpy", "auto"])
+@rows("engine", ["numpy", "auto"])
 def test_one_path_is_given_plain_numbers(engine):
     path = op.Source() >> Rounded(op.Parameter("a")) >> op.Detector()
     plan = op.Composer(engine=engine).compose(path)
@@ -477,7 +400,7 @@ class DeclaredGain(Gain):
     physical: ClassVar[bool] = False
 
 
-@pytest.mark.parametrize(
+@rows(
     "use",
     [
         lambda gain: gain @ op.Light(STATE),
@@ -486,7 +409,7 @@ class DeclaredGain(Gain):
         lambda gain: gain.mueller(),
     ],
 )
-@pytest.mark.parametrize("circular", [5.0, [5.0, 3.0], op.Parameter("c", 5.0, bound=True)])
+@rows("circular", [5.0, [5.0, 3.0], op.Parameter("c", 5.0, bound=True)])
 def test_what_no_light_can_do_is_refused_of_an_element_alone_too(use, circular):
     with pytest.raises(op.PathError, match=r"class Gain.* is unphysical.*physical.*= False"):
         use(Gain(circular))
@@ -496,3 +419,13 @@ def test_what_no_light_can_do_is_refused_of_an_element_alone_too(use, circular):
 def test_a_measured_matrix_acts_on_light_whatever_it_is():
     light = op.Mueller(np.diag([3.0, 3.0, 3.0, 5.0])) @ op.Light(STATE)
     np.testing.assert_allclose(light.stokes, [3.0, 1.5, 1.2, 1.5])
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "own-elements.md"
+
+
+def test_the_page_lists_every_function_of_xp_and_no_other():
+    section = PAGE.read_text("utf-8").partition("## The functions of `xp`")[2].partition("##")[0]
+    rows = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
+    listed = [name for row in rows for name in re.findall(r"`(\w+)", row)]
+    assert sorted(listed) == sorted(field.name for field in fields(Primitives))

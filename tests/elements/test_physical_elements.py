@@ -1,14 +1,15 @@
 """What no passive element can do is refused, beyond rounding; measured noise is let in if asked."""
 
 import math
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
 
+import chains
 import optipath as op
 from paths import chain
 from random_matrices import jones, of_jones
+from tables import rows
 
 TURNED_OVER = np.diag([1.0, 1.0, 1.0, -1.0])
 NO_MATRIX = (
@@ -16,8 +17,7 @@ NO_MATRIX = (
 )
 BRIGHTER = r"makes light up to 2 times as bright .*physical=False .* for amplifiers"
 CASES = [(TURNED_OVER, NO_MATRIX), (2.0 * np.eye(4), BRIGHTER)]
-NO_JAX = pytest.mark.skipif(find_spec("jax") is None, reason="an extra")
-ENGINES = ["auto", "numpy", "numba", pytest.param("jax", marks=NO_JAX)]
+ENGINES = ["auto", *chains.ENGINES]
 
 
 def passive(rng, *shape, terms=1):
@@ -27,7 +27,7 @@ def passive(rng, *shape, terms=1):
     return matrix / (matrix[..., :1, :1] + np.linalg.norm(matrix[..., :1, 1:], axis=-1)[..., None])
 
 
-@pytest.mark.parametrize(("matrix", "expected"), CASES)
+@rows("matrix, expected", CASES)
 def test_a_matrix_that_no_passive_element_has_is_refused(matrix, expected):
     with pytest.raises(op.OptipathError, match=rf"atrix {expected}"):
         chain([op.MuellerElement(matrix)]).check()
@@ -35,9 +35,9 @@ def test_a_matrix_that_no_passive_element_has_is_refused(matrix, expected):
         chain([op.MuellerElement([np.eye(4), matrix])]).check()
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("count", [None, 3, 3000])
-@pytest.mark.parametrize(("matrix", "expected"), CASES)
+@rows("engine", ENGINES)
+@rows("count", [None, 3, 3000])
+@rows("matrix, expected", CASES)
 def test_matrices_that_are_given_when_a_path_runs_are_looked_at_each_time(
     matrix, expected, count, engine
 ):
@@ -51,7 +51,7 @@ def test_matrices_that_are_given_when_a_path_runs_are_looked_at_each_time(
         plan.run(M=bad)
 
 
-@pytest.mark.parametrize("engine", ["auto", "numpy", "numba"])
+@rows("engine", ["auto", "numpy", "numba"])
 def test_states_that_are_given_when_a_path_runs_are_looked_at_each_time(engine):
     path = chain([op.Polarizer(0.2)], op.Parameter("state"))
     plan = op.Composer(engine=engine).compose(path)
@@ -64,7 +64,7 @@ def test_states_that_are_given_when_a_path_runs_are_looked_at_each_time(engine):
         plan.run(state=bad)
 
 
-@pytest.mark.parametrize("matrix", [TURNED_OVER, 2.0 * np.eye(4)])
+@rows("matrix", [TURNED_OVER, 2.0 * np.eye(4)])
 def test_physical_false_takes_a_matrix_as_it_is(matrix):
     state = [1.0, 0.0, 0.6, 0.8]
     for element, given in (
@@ -107,8 +107,8 @@ def test_whether_a_matrix_is_physical_goes_to_toml_and_back(physical, tmp_path):
             op.load_preset(file)
 
 
-@pytest.mark.parametrize("dtype", [np.float64, np.float32])
-@pytest.mark.parametrize("terms", [1, 2, 3, 4])
+@rows("dtype", [np.float64, np.float32])
+@rows("terms", [1, 2, 3, 4])
 def test_no_sum_of_jones_matrices_is_refused_in_the_precision_it_is_computed_in(terms, dtype):
     rng = np.random.default_rng(terms)
     size = 10.0 ** rng.uniform(-12, 0, (20_000, 1, 1))
@@ -169,8 +169,8 @@ COUNTED = np.diag([1.0, 1.0, math.sqrt(0.91), math.sqrt(0.91)])
 COUNTED[0, 1] = COUNTED[1, 0] = 0.3
 
 
-@pytest.mark.parametrize(
-    ("matrix", "cure"),
+@rows(
+    "matrix, cure",
     [
         (1.0000001 * np.eye(4), "give matrix / 1.0000001,"),
         (1.00000000123456 * np.eye(4), "give matrix / 1.000000002,"),

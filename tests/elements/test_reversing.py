@@ -7,6 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.elements.known_elements import STANDARD
+from tables import rows
 
 POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2], [1, -2.0, -1.0]])
 FOIL = (op.Retarder(1.0, 0.3) @ op.Diattenuator(0.9, 0.3, 0.8) @ op.Rotator(0.2)).matrix
@@ -56,7 +57,7 @@ def test_every_kind_of_the_library_is_looked_at():
     assert {type(element) for element in ELEMENTS} | OTHERS == {*STANDARD}
 
 
-@pytest.mark.parametrize("element", ELEMENTS, ids=named)
+@rows("element", ELEMENTS)
 def test_a_reversed_element_does_what_its_reversed_matrix_does(element):
     back, placed = element.reversed(), element.self_placed
     for enters, leaves in ways(element):
@@ -73,7 +74,7 @@ def test_a_reversed_element_does_what_its_reversed_matrix_does(element):
             assert expected.frame_out.turn_to(found.frame_out)[0] == pytest.approx(1.0, abs=1e-14)
 
 
-@pytest.mark.parametrize("element", ELEMENTS, ids=named)
+@rows("element", ELEMENTS)
 def test_back_and_forth_is_the_same_element(element):
     there = element.reversed().reversed()
     if isinstance(element, op.MuellerElement):  # Its parameter is a number then.
@@ -82,7 +83,7 @@ def test_back_and_forth_is_the_same_element(element):
         assert there == element
 
 
-@pytest.mark.parametrize("element", ELEMENTS, ids=named)
+@rows("element", ELEMENTS)
 def test_every_port_goes_back_to_the_other_side(element):
     for port in (*element.inputs, *element.outputs):
         back = element.port_back(port)
@@ -90,7 +91,7 @@ def test_every_port_goes_back_to_the_other_side(element):
         assert element.port_back(back) == port
 
 
-@pytest.mark.parametrize("port", ["inn", 3, None, "transmitted"])
+@rows("port", ["inn", 3, None, "transmitted"])
 def test_a_port_that_is_not_there_is_refused(port):
     with pytest.raises(op.PathError, match=r"port of Mirror .* is unknown"):
         op.Mirror().port_back(port)
@@ -107,7 +108,7 @@ AXES = [
 ]
 
 
-@pytest.mark.parametrize("element", AXES, ids=named)
+@rows("element", AXES)
 def test_an_element_with_an_azimuth_is_met_in_the_frame_that_it_has_turned(element):
     there = element.mueller().reversed()
     light = op.Light([1.0, 0.3, 0.4, -0.5], there.frame_in)
@@ -115,7 +116,7 @@ def test_an_element_with_an_azimuth_is_met_in_the_frame_that_it_has_turned(eleme
     np.testing.assert_allclose(found.stokes, (there @ light).stokes, atol=1e-15)
 
 
-@pytest.mark.parametrize("element", AXES, ids=named)
+@rows("element", AXES)
 def test_a_chain_of_reversed_elements_with_azimuths_is_the_reversed_chain(element):
     there = op.Source() >> element >> op.Retarder(0.7, 0.2, -0.4) >> op.Detector()
     back = op.Source() >> op.Retarder(0.7, 0.2, -0.4).reversed() >> element.reversed()
@@ -183,7 +184,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("element", "sentence"), REFUSED, ids=[text for _, text in REFUSED])
+@rows("element, sentence", REFUSED)
 def test_what_has_no_way_back_by_itself_is_refused_with_the_cure(element, sentence):
     with pytest.raises(op.PathError, match=sentence):
         element.reversed()
@@ -243,7 +244,7 @@ def test_a_class_of_ones_own_names_the_fields_that_change_their_sign():
     assert FastPolarizer(0.3).reversed() == FastPolarizer(-0.3)
 
 
-@pytest.mark.parametrize("element", [Unsaid(), OtherPolarizer(0.3)], ids=named)
+@rows("element", [Unsaid(), OtherPolarizer(0.3)])
 def test_a_class_of_ones_own_that_says_nothing_is_refused(element):
     name = type(element).__name__
     with pytest.raises(op.PathError, match=f"element class {name} does not say what changes"):

@@ -3,9 +3,10 @@ import pytest
 
 import optipath as op
 from chains import ENGINES
+from tables import rows
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 5])
+@rows("count", [1, 2, 3, 4, 5])
 def test_points_have_the_angles_that_they_were_made_of(count):
     rng = np.random.default_rng(count)
     incidences = rng.uniform(0.1, 1.5, (count, 20))
@@ -34,7 +35,7 @@ def test_angles_given_as_arrays_broadcast():
     assert points.shape == (4, 3, 4, 3)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_a_chain_by_angles_is_the_chain_of_its_points(engine):
     rng = np.random.default_rng(1)
     phi, delta, rho = rng.uniform(0.05, 1.5, (3, 2000))
@@ -67,8 +68,8 @@ def test_angles_go_to_toml_and_back(tmp_path):
     assert 'turns = ["-$rho"]' in path.to_toml()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@rows(
+    "arguments, message",
     [
         (((),), "need an incidence for each reflection"),
         (((0.1, 0.2),), "2 incidences take 1 turn, .* not 0"),
@@ -108,9 +109,9 @@ def test_tables_of_angles_with_faults_are_told_by_key(tmp_path):
 EDGES = (0.0, 1e-17, 1e-15, 1e-8, 1e-7, 0.3, np.pi / 2 - 1e-15, np.pi / 2)
 
 
-@pytest.mark.parametrize("rho", [0.0, 0.5, -2.0])
-@pytest.mark.parametrize("axis", ["none", "horizontal", "diagonal", 0.2])
-@pytest.mark.parametrize("metals", [{}, {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}])
+@rows("rho", [0.0, 0.5, -2.0])
+@rows("axis", ["none", "horizontal", "diagonal", 0.2])
+@rows("metals", [{}, {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}])
 def test_the_turn_counts_next_to_the_normal_and_to_grazing_incidence_too(rho, axis, metals):
     delta, phi = np.array(EDGES)[:, np.newaxis], np.array(EDGES)
     given = {"delta": delta, "phi": phi, "rho": rho, "filter": axis, **metals}
@@ -134,7 +135,7 @@ def test_frames_at_vertices_without_a_plane_are_those_of_the_angles():
     np.testing.assert_allclose(light.stokes, near.stokes, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("small", [0.0, 1e-15, 1e-10])
+@rows("small", [0.0, 1e-15, 1e-10])
 def test_a_filter_before_a_long_chain_is_in_the_plane_that_the_angles_say(small):
     turns = (0.4, 1.0, -0.7)
     chain = op.VerticesByAngles((small, 0.5, 0.6, 0.7), turns)

@@ -1,18 +1,28 @@
-"""Sources with a spectrum, and detectors with a response."""
+"""Sources with a spectrum, responses, and values that follow from the wavelength."""
 
 from __future__ import annotations
+
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import optipath as op
 from chains import ENGINES
+from dispersive import GRID as PLACES
+from dispersive import line, on_line
+from optipath.elements.known_elements import STANDARD
 from optipath.lab.accuracy.path_reference import exact_stokes
 from optipath.values.spectra.grid_bins import grid_widths
+from tables import rows
 
 GRID = op.wavelengths("380 nm", "700 nm", "40 nm")
+
 LASER = op.Spectrum.line("633 nm", power=2.0)
+
 LED = op.Spectrum.led("550 nm", "100 nm")
+
 SMOOTH = [
     op.Spectrum.sampled(["300 nm", "500 nm", "800 nm"], [1.0, 2.0, 0.5]),
     op.Spectrum.histogram(np.linspace(300e-9, 800e-9, 11), np.arange(10.0)),
@@ -32,8 +42,13 @@ def seen(spectrum, response=None, stokes=None):
     )
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("spectrum", [*SMOOTH, LASER, SMOOTH[0] + 3.0 * LASER])
+@rows(
+    "spectrum, engine",
+    [
+        *((spectrum, "numpy") for spectrum in [*SMOOTH, LASER]),
+        *((SMOOTH[0] + 3.0 * LASER, engine) for engine in ENGINES),
+    ],
+)
 def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
     plan = op.Composer(engine=engine).compose(seen(spectrum, LED, [1.0, 0.5, 0.0, 0.0]))
     plain = seen(None, None, [1.0, 0.5, 0.0, 0.0]).trace().stokes
@@ -42,7 +57,7 @@ def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
         np.testing.assert_allclose(plan.run(wavelength=GRID).stokes, expected, rtol=1e-14)
 
 
-@pytest.mark.parametrize("spectrum", SMOOTH)
+@rows("spectrum", SMOOTH)
 def test_one_wavelength_alone_has_the_bits_of_the_spectral_run(spectrum):
     path = seen(spectrum, LED)
     together = path.trace(wavelength=GRID).stokes
@@ -50,10 +65,8 @@ def test_one_wavelength_alone_has_the_bits_of_the_spectral_run(spectrum):
     np.testing.assert_array_equal(together, alone)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize(
-    "grid", [GRID, GRID[::-1], np.array([400.0, 630.0, 640.0, 641.0, 700.0]) * 1e-9]
-)
+@rows("engine", ENGINES)
+@rows("grid", [GRID, GRID[::-1], np.array([400.0, 630.0, 640.0, 641.0, 700.0]) * 1e-9])
 def test_a_line_keeps_its_power_on_any_grid(grid, engine):
     plan = op.Composer(engine=engine).compose(seen(LASER))
     light = plan.run(wavelength=grid)
@@ -72,8 +85,8 @@ def test_a_line_keeps_its_power_along_other_axes_and_in_streams():
     np.testing.assert_array_equal(whole, light.intensity.reshape(-1))
 
 
-@pytest.mark.parametrize(
-    ("wavelength", "sentence"),
+@rows(
+    "wavelength, sentence",
     [
         (5e-7, "one wavelength alone"),
         (GRID[:1], "one wavelength alone"),
@@ -117,13 +130,13 @@ def test_beyond_a_spectrum_is_an_error_that_names_the_place():
         path.trace(wavelength="600 nm")
 
 
-@pytest.mark.parametrize("response", [LASER, SMOOTH[1], LED + LASER])
+@rows("response", [LASER, SMOOTH[1], LED + LASER])
 def test_power_is_no_response(response):
     with pytest.raises(op.ValueFault, match="which is power and no response"):
         op.Detector(response=response)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_a_response_may_be_a_number_of_any_size(engine):
     plain, seven = op.Source(3.0) >> op.Detector(), op.Source(3.0) >> op.Detector(response=7.0)
     assert op.Composer(engine=engine).compose(seven).run().intensity == 21.0
@@ -134,7 +147,7 @@ def test_a_response_may_be_a_number_of_any_size(engine):
         op.Detector(response=-1.0)
 
 
-@pytest.mark.parametrize("options", [{"model": "full"}, {"composing": "jones"}])
+@rows("options", [{"model": "full"}, {"composing": "jones"}])
 def test_all_ways_of_composing_read_the_same(options):
     path = seen(SMOOTH[0], LED, [1.0, 0.0, 1.0, 0.0])
     found = op.Composer(**options).compose(path).run(wavelength=GRID).stokes
@@ -149,15 +162,17 @@ def test_the_reference_in_many_digits_has_spectra_and_responses():
     )
 
 
-@pytest.mark.parametrize("spectrum", SMOOTH)
+@rows("spectrum", SMOOTH)
 def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum, jax):
     plan = op.Composer(engine="jax").compose(seen(spectrum, LED))
+    slope_at = jax.jit(jax.grad(lambda w: plan.run(wavelength=w).intensity))
     for place in (4.23e-7, 5.517e-7):
         step = 1e-12
         near = [spectrum.at(at) * LED.at(at) for at in (place - step, place, place + step)]
-        slope = jax.grad(lambda w: plan.run(wavelength=w).intensity)(place)
         expected = (near[2] - near[0]) / (2.0 * step)
-        assert float(slope) == pytest.approx(expected, rel=1e-5, abs=1e-6 * near[1] / place)
+        assert float(slope_at(place)) == pytest.approx(
+            expected, rel=1e-5, abs=1e-6 * near[1] / place
+        )
 
 
 def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
@@ -170,8 +185,8 @@ def test_elements_say_their_spectrum_in_words():
     assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")
 
 
-@pytest.mark.parametrize(
-    ("spectrum", "sentence"),
+@rows(
+    "spectrum, sentence",
     [
         ("D65", r"'D65' is no spectrum by itself; write op.Spectrum.illuminant\(\"D65\"\)"),
         ("d65", r"write op.Spectrum.illuminant\(\"D65\"\)"),
@@ -188,3 +203,117 @@ def test_what_is_no_spectrum_is_told_with_the_one_that_was_meant(spectrum, sente
 def test_a_class_is_no_number():
     with pytest.raises(op.ValueFault, match="is the class Parameter, and none of its kind"):
         op.Attenuator(op.Parameter)
+
+
+POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2]])
+
+GENERAL = op.Medium(
+    0.1,
+    9.0,
+    2.0,
+    7.0,
+    0.3,
+    0.2,
+    dichroism=4.0,
+    dichroic_angle=0.8,
+    circular_dichroism=-3.0,
+    depolarization=5.0,
+)
+
+TINTED = op.LayerStack(
+    [1.0, op.Material(1.5, 1e-6), 1.7], 0.7, 0.2, lengths=[1e-3], wavelength=5e-7
+)
+
+ELEMENTS = [
+    op.Attenuator(0.3),
+    op.BeamSplitter(0.3, 0.2),
+    op.CircularDiattenuator(0.8, 0.3),
+    op.CircularPolarizer("left", 0.9, 0.1),
+    op.Depolarizer(0.3),
+    op.Diattenuator(0.8, 0.3, 0.4, 0.2),
+    op.EllipticalRetarder(0.4, -0.7, 1.1, 0.2),
+    op.FaradayRotator(0.4),
+    op.FaradayRotator(verdet=-134.0, field=-0.2, length=0.02),
+    op.Interface(1.5, 1.1, 1.2, 0.3),
+    op.Interface(op.Material(3.0, 0.2), 1.1, 1.3),
+    op.Interface(1.5, 1.1, op.Material(1.2, 0.01), incidence_in=1.0),
+    op.LayerStack([1.0, 1.5, 1.7], 0.7),
+    TINTED,
+    GENERAL,
+    replace(GENERAL, rotation=0.0, dextrorotation=2.0),
+    op.Medium(0.1, 2.0),
+    op.Medium(0.1, retardance=2.0),
+    op.Medium(0.1, rotation=2.0),
+    op.Mirror(-0.9, 0.8, 0.2),
+    op.Polarizer(0.3, 0.2, 0.9, 0.2),
+    op.PolarizingBeamSplitter(1000.0, 20.0, 0.2),
+    op.RefractingVertex(1.5, POINTS, 1),
+    op.Retarder(0.4, 0.3, 0.2),
+    op.Rotator(0.3),
+    op.Source(2.0),
+    op.SpecularVertex(op.Material(0.2, 3.0), POINTS, 1),
+    op.SpecularVertex(0.2, op.VerticesByAngles((0.3, 0.7), (0.4,)), 1),
+    op.Vertex(op.Material(1.5, 0.0), POINTS, 1, 1.1, events=[0, 0]),
+    op.Waveplate(1e-5, 0.009, 5.89e-7, 0.3, 0.2),
+]
+
+WITHOUT = {op.Combiner, op.Detector, op.Dump, op.MuellerElement}
+"""Those that take no number, or several in one."""
+
+
+def with_value(whole, place, value):
+    """Put a value at a place such as ``indices[1].n`` of an element."""
+    if not place:
+        return value
+    name, number, rest = re.fullmatch(r"\.?(\w*)(?:\[(\d+)\])?(.*)", place).groups()
+    if not name:
+        several = list(whole)
+        several[int(number)] = with_value(several[int(number)], rest, value)
+        return several
+    inner = f"[{number}]{rest}" if number else rest
+    return replace(whole, **{name: with_value(getattr(whole, name), inner, value)})
+
+
+def places():
+    for element in ELEMENTS:
+        for name, value, domain in element.quantities():
+            if isinstance(value, float) and value and not domain.tail:
+                yield element, name, value, domain
+
+
+def path_of(element, way):
+    if isinstance(element, op.Source):
+        return element >> op.Detector()
+    path = op.PathGraph()
+    path.add("lamp", op.Source(2.0, [1.0, 0.3, -0.4, 0.5]))
+    path.add("it", element)
+    path.add("eye", op.Detector())
+    path.connect("lamp", f"it.{way.enters}")
+    path.connect(f"it.{way.leaves}", "eye")
+    return path
+
+
+def ways(element):
+    return element.couplings() or (None,)
+
+
+def test_every_element_that_takes_a_number_is_looked_at():
+    assert {type(element) for element in ELEMENTS} | WITHOUT == {*STANDARD}
+
+
+@rows("element, name, value, domain", [*places()])
+def test_light_is_that_of_the_numbers_at_each_wavelength(element, name, value, domain):
+    # Some numbers may not grow, others may not shrink.
+    last = next(v for v in (0.98 * value, 1.02 * value) if np.all(domain.allows(np.asarray(v))))
+    dispersive = with_value(element, name, line(value, last))
+    for way in ways(element):
+        numbers = on_line(value, last, PLACES)
+        expected = [
+            path_of(with_value(element, name, float(number)), way).trace().stokes
+            for number in numbers
+        ]
+        path = path_of(dispersive, way)
+        alone = [path.trace(wavelength=float(one)).stokes for one in PLACES]
+        np.testing.assert_allclose(alone, expected, rtol=1e-14, atol=4e-16)
+        batch = op.Composer(engine="numpy").compose(path).run(wavelength=PLACES).stokes
+        np.testing.assert_allclose(batch, expected, rtol=1e-13, atol=1e-15)

@@ -1,4 +1,6 @@
-"""The ways through elements of a user's own: whether they fit the ports, and the light."""
+"""The ways through elements of a user's own, and how these stand in space."""
+
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -6,6 +8,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
+from tables import rows
 
 
 def operations(share):
@@ -48,11 +51,12 @@ def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
 
 
 DIMS = op.Attenuator(0.5).couplings()[0].operations[0].kernel
+
 WRONG = op.Operation(DIMS, ())
 
 
-@pytest.mark.parametrize(
-    ("kernel", "values", "told"),
+@rows(
+    "kernel, values, told",
     [
         (3, (0.5,), r"op\.Operation the kernel 3; give an optipath\.kernels\."),
         (DIMS, 0.5, r"kernel 'attenuator' the values 0\.5; give a tuple"),
@@ -88,7 +92,7 @@ class Parts(op.Element):
         )
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
     path = op.Source() >> Parts(op.Parameter("f", 0.9)) >> op.Detector()
     plan = op.Composer(engine=engine).compose(path)
@@ -103,8 +107,8 @@ def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
     np.testing.assert_allclose(plan.mueller(f=shares).matrix[:, 0, 0], expected[:, 0], atol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("couplings", "told"),
+@rows(
+    "couplings, told",
     [
         ([op.Coupling("in", "out", operations(0.1))] * 2, "from 'in' to 'out' more than once"),
         ([op.Coupling("inn", "out", operations(0.1))], "lead from 'inn'; its inputs are 'in'"),
@@ -145,11 +149,13 @@ def test_a_class_without_a_kind_is_called_by_its_name_where_it_gives_no_light():
 
 
 THIRDS = np.float32([1 / 3, 2 / 3])
+
 HUNDREDTHS = np.float32([0.01, 0.99])
+
 TENTHS = np.float32([0.6, 0.4])
 
 
-@pytest.mark.parametrize("shares", [THIRDS, HUNDREDTHS, TENTHS])
+@rows("shares", [THIRDS, HUNDREDTHS, TENTHS])
 def test_shares_in_float32_may_make_up_the_whole_to_their_rounding(shares):
     both(*shares).check()
     path = both(op.Parameter("first"), op.Parameter("second"))
@@ -220,7 +226,7 @@ def test_defaults_of_parameters_are_looked_at_when_a_path_is_checked():
         chain([Times(op.Parameter("a", 4.0))]).check()
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@rows("engine", ENGINES)
 def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
     plan = op.Composer(engine=engine).compose(chain([Times(op.Parameter("a", 4.0))]))
     for _ in range(6):
@@ -230,7 +236,7 @@ def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
             plan.run()
 
 
-@pytest.mark.parametrize("element_class", [Times, TimesAnything])
+@rows("element_class", [Times, TimesAnything])
 def test_rows_that_are_not_finite_are_told_with_their_element(element_class):
     told = r"\(element class Times.*\) has the Mueller matrix \(nan.*not finite; keep divisors"
     with pytest.raises(op.PathError, match=told):
@@ -246,3 +252,88 @@ def test_rows_that_are_not_finite_in_a_later_run_are_a_cause_that_is_named():
     assert plan.run(a=1.0).S0 == 1.0
     with pytest.raises(op.ParameterError, match="or the rows of 'e0' are not finite there"):
         plan.run(a=-1.0)
+
+
+CHAIN = ((0, 0, 0), (0, 0, 3), (0, 2, 4), (1, 3, 5), (2, 0, 0))
+
+
+class Foil(op.Element):
+    """Reflects as glass does, at the second vertex of the chain."""
+
+    outputs: ClassVar[tuple[str, ...]] = ("reflected",)
+    natural: ClassVar[str] = "reflected"
+    straight: ClassVar[bool] = False
+    self_placed: ClassVar[bool] = True
+    like: ClassVar[op.Element] = op.SpecularVertex(1.5, CHAIN, 2)
+    vertices, place = like.vertices, like.place
+
+    def couplings(self):
+        return self.like.couplings()
+
+    def own_frame(self, port):
+        return self.like.own_frame(port)
+
+    def turn_from(self, before):
+        return self.like.turn_from(before)
+
+    def fault_behind(self, before):
+        return "" if getattr(before, "place", 0) == 1 else "must come from the first vertex"
+
+
+class Mute(op.Element):
+    """Has a frame, and does not say how it stands to others."""
+
+    outputs: ClassVar[tuple[str, ...]] = ("reflected",)
+    natural: ClassVar[str] = "reflected"
+    straight: ClassVar[bool] = False
+    self_placed: ClassVar[bool] = True
+
+    def couplings(self):
+        return Foil.like.couplings()
+
+    def own_frame(self, port):
+        return Foil.like.own_frame(port)
+
+
+def path(*elements):
+    """Light along elements, with a turned polariser behind them."""
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for place, element in enumerate(elements):
+        node = node >> path.add(f"e{place}", element)
+    node >> path.add("foil", op.Polarizer(0.3, azimuth=0.2)) >> path.add("eye", op.Detector())
+    return path
+
+
+FIRST, SECOND, THIRD = (op.SpecularVertex(1.5, CHAIN, place) for place in (1, 2, 3))
+
+
+@rows("model", ["auto", "full"])
+def test_an_element_of_ones_own_is_placed_among_vertices_as_a_vertex_is(model):
+    composer = op.Composer(model=model)
+    wanted = composer.compose(path(FIRST, SECOND, THIRD)).run()
+    found = composer.compose(path(FIRST, Foil(), THIRD)).run()
+    np.testing.assert_array_equal(found.stokes, wanted.stokes)
+    for axis in "xyz":
+        np.testing.assert_array_equal(getattr(found.frame, axis), getattr(wanted.frame, axis))
+
+
+def test_light_before_and_behind_it_is_in_its_frames():
+    lights = path(Foil()).trace(keep="all")
+    for link, port in (("lamp.out -> e0.in", "in"), ("e0.reflected -> foil.in", "reflected")):
+        np.testing.assert_array_equal(lights[link].frame.z, Foil().own_frame(port).frame({}).z)
+
+
+def test_it_says_what_light_must_not_come_from():
+    with pytest.raises(op.PathError, match=r"'e0.reflected -> e1.in' must come from the first ver"):
+        path(THIRD, Foil()).check()
+
+
+def test_one_that_does_not_say_how_light_is_turned_is_refused():
+    with pytest.raises(op.PathError, match=r"Mute does not say .* give it a method turn_from"):
+        path(FIRST, Mute()).compose()
+
+
+def test_elements_between_two_such_elements_are_refused():
+    with pytest.raises(op.PathError, match="'e1' stands relatively between the vertices 'e0' and"):
+        path(FIRST, op.Rotator(0.1), Foil()).check()

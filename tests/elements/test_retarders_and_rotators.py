@@ -1,0 +1,398 @@
+"""Wave plates, elliptical retarders and Faraday rotators."""
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from chains import ENGINES
+from paths import chain
+from tables import rows
+
+STATE = [1.0, 0.5, 0.6, 0.4]
+
+D, N, W = (op.Parameter(name) for name in "dnw")
+
+
+def exact_cos_sin(thickness, birefringence, wavelength):
+    """Cosine and sine of the retardance of these very floats, in 50 digits."""
+    with mpmath.workdps(50):
+        path = mpmath.mpf(thickness) * mpmath.mpf(birefringence)
+        retardance = 2 * mpmath.pi * path / mpmath.mpf(wavelength)
+        return float(mpmath.cos(retardance)), float(mpmath.sin(retardance))
+
+
+def plates(seed, count, turns):
+    """Plates of many orders, four in ten of a whole number of quarter waves but for rounding."""
+    rng = np.random.default_rng(seed)
+    birefringence = rng.uniform(0.001, 0.3, count) * rng.choice([-1, 1], count)
+    wavelength = rng.uniform(3e-7, 2e-6, count)
+    orders = turns * 10.0 ** rng.uniform(-4, 0, count)
+    orders = np.where(rng.random(count) < 0.4, np.ceil(4 * orders) / 4, orders)
+    thickness = np.minimum(orders * wavelength / np.abs(birefringence), 1e3)
+    return thickness, birefringence, wavelength
+
+
+@rows("turns", [5.0, 5e3, 1e8])
+@rows("engine", ENGINES)
+def test_cosine_and_sine_of_a_thick_plate_have_all_digits(engine, turns):
+    given = plates(1, 1500, turns)
+    path = chain([op.Waveplate(D, N, W)], (1.0, 0.0, 0.0, 1.0))
+    plan = op.Composer(engine=engine).compose(path)
+    found = [plan.run(**dict(zip("dnw", given, strict=True))).stokes for _ in range(2)][1]
+    exact = np.array([exact_cos_sin(*map(float, one)) for one in zip(*given, strict=True)])
+    # Light of S3 > 0 becomes (1, 0, -sin, cos).
+    np.testing.assert_allclose(found[:, 3], exact[:, 0], rtol=0, atol=5e-16)
+    np.testing.assert_allclose(found[:, 2], -exact[:, 1], rtol=0, atol=5e-16)
+
+
+def test_one_plate_has_the_digits_of_many():
+    given = plates(2, 40, 5e3)
+    path = chain([op.Waveplate(D, N, W, 0.2, 0.1)], STATE)
+    several = path.trace(**dict(zip("dnw", given, strict=True))).stokes
+    for place, one in enumerate(zip(*given, strict=True)):
+        alone = path.trace(**dict(zip("dnw", map(float, one), strict=True))).stokes
+        np.testing.assert_allclose(alone, several[place], rtol=0, atol=4e-16)
+
+
+def test_a_plate_is_the_retarder_of_its_retardance():
+    plate = op.Waveplate(2e-5, 0.0091, 5.89e-7, 0.3, 0.2)
+    retarder = op.Retarder(2 * np.pi * 2e-5 * 0.0091 / 5.89e-7, 0.3, 0.2)
+    found, wanted = (chain([element], STATE).trace().stokes for element in (plate, retarder))
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=6e-16)
+
+
+def test_plates_of_quarter_and_half_a_wave_are_exact():
+    quarter = op.Waveplate(0.25e-6 / 0.01, 0.01, 1e-6).mueller().matrix
+    np.testing.assert_array_equal(quarter[2:, 2:], [[0.0, -1.0], [1.0, 0.0]])
+    half = op.Waveplate(0.5e-6 / 0.01, 0.01, 1e-6).mueller().matrix
+    np.testing.assert_array_equal(half[2:, 2:], [[-1.0, 0.0], [0.0, -1.0]])
+
+
+def test_a_plate_of_no_thickness_or_no_birefringence_does_nothing():
+    for plate in (op.Waveplate(0.0, 0.1, 5e-7), op.Waveplate(1e-3, 0.0, 5e-7, 0.3)):
+        np.testing.assert_allclose(plate.mueller().matrix, np.eye(4), rtol=0, atol=3e-16)
+
+
+def test_of_no_wavelengths_there_is_no_light():
+    assert chain([op.Waveplate(0.0, 0.1, np.zeros(0))]).trace().shape == (0,)
+
+
+def test_a_negative_birefringence_makes_the_axis_the_slow_one():
+    negative = op.Waveplate(1.3e-6, -0.172, 5.89e-7, 0.3).mueller().matrix
+    positive = op.Waveplate(1.3e-6, 0.172, 5.89e-7, 0.3 + np.pi / 2).mueller().matrix
+    np.testing.assert_allclose(negative, positive, rtol=0, atol=1e-15)
+
+
+def test_light_at_45_degrees_becomes_s3_above_0_behind_a_quarter_wave():
+    light = chain([op.Waveplate("10.25 um", "0.1", "100 nm")], (1.0, 0.0, 1.0, 0.0)).trace()
+    assert pytest.approx(1.0, abs=1e-15) == light.S3
+
+
+def test_no_light_becomes_more_polarised_than_wholly():
+    given = plates(3, 20000, 1e4)
+    path = chain([op.Waveplate(D, N, W, 0.3)], (1.0, 0.6, 0.0, 0.8))
+    light = path.trace(**dict(zip("dnw", given, strict=True)))
+    assert np.max(np.linalg.norm(light.stokes[:, 1:], axis=-1)) <= 1.0 + 1e-15
+
+
+def test_in_single_precision_it_has_the_digits_of_its_numbers():
+    given = [np.float32(part) for part in plates(4, 2000, 2.0)]
+    path = chain([op.Waveplate(D, N, W)], STATE)
+    names = dict(zip("dnw", given, strict=True))
+    found = op.Composer(dtype="float32").compose(path).run(**names).stokes
+    exact = path.trace(**{name: part.astype(float) for name, part in names.items()}).stokes
+    np.testing.assert_allclose(found, exact, rtol=0, atol=4e-6)
+
+
+@rows(
+    "given, fault",
+    [
+        ((1e-3, 0.01, 589.0), r"wavelength is 5.89e\+11 nm; give a real wavelength within"),
+        ((1e-3, 17.0, 5e-7), "birefringence is 17; give a real birefringence within -10 .. 10"),
+        ((1e4, 0.01, 5e-7), "thickness is .*; give a real length within 0 mm .. 1000000 mm"),
+        ((-1e-3, 0.01, 5e-7), "thickness is -1 mm"),
+        ((1e-3, 0.01, 0.0), "wavelength is 0 nm"),
+    ],
+)
+def test_values_that_no_plate_has_are_refused(given, fault):
+    with pytest.raises(op.ValueFault, match=fault):
+        op.Waveplate(*given)
+
+
+CRYSTALS = ["quartz", "calcite", "magnesium fluoride", "sapphire", 0.0091, -0.17]
+
+
+def behind(plate, wavelength):
+    path = op.Source(stokes=[1.0, 0.0, 1.0, 0.0]) >> plate >> op.Detector()
+    return path.trace(wavelength=wavelength).stokes
+
+
+@rows("order", [0, 1, 20])
+@rows("crystal", CRYSTALS)
+def test_plates_are_a_quarter_and_a_half_wave_with_the_fast_axis_at_their_angle(crystal, order):
+    for made, expected in (
+        (op.Waveplate.quarter, [1.0, 0.0, 0.0, 1.0]),
+        (op.Waveplate.half, [1.0, 0.0, -1.0, 0.0]),
+    ):
+        plate = made("550 nm", crystal, order=order)
+        np.testing.assert_allclose(behind(plate, "550 nm"), expected, rtol=0, atol=1e-12)
+
+
+def test_a_compound_plate_retards_as_one_of_zero_order_does():
+    thick = op.Waveplate.quarter("550 nm", order=10)
+    whole = op.Waveplate.retarding(0.0, "550 nm", order=10, angle="90 deg")
+    path = op.Source(stokes=[1.0, 0.0, 1.0, 0.0]) >> thick >> whole >> op.Detector()
+    grid = np.linspace(4.5e-7, 6.5e-7, 9)
+    zero = behind(op.Waveplate.quarter("550 nm"), grid)
+    np.testing.assert_allclose(path.trace(wavelength=grid).stokes, zero, rtol=0, atol=1e-12)
+
+
+@rows(
+    "wrong, said",
+    [
+        ({"order": -1}, "order is -1; give how many whole waves"),
+        ({"order": 0.5}, "order is 0.5"),
+        ({"at": 550}, "for nanometres write '550 nm'"),
+        ({"at": ["500 nm", "600 nm"]}, "give one number for one plate"),
+        ({"crystal": "quarz"}, "did you mean 'quartz'"),
+        ({"crystal": 0}, "a birefringence of 0 at 550 nm"),
+        ({"crystal": None}, "give a name such as 'quartz'"),
+    ],
+)
+def test_plates_that_cannot_be_are_refused(wrong, said):
+    with pytest.raises(op.OptipathError, match=said):
+        op.Waveplate.quarter(**{"at": "550 nm", **wrong})
+
+
+def rotation(vector):
+    """The rotation of the sphere about a vector by the right-hand rule, in 50 digits."""
+    x, y, z = map(mpmath.mpf, vector)
+    with mpmath.workdps(50):
+        return np.array(
+            mpmath.expm(
+                mpmath.matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]]), method="taylor"
+            ).tolist(),
+            dtype=float,
+        )
+
+
+def matrix_of(vector):
+    """The matrix of a retarder whose vector is not known to lie along an axis."""
+    names = ("s1", "s2", "s3")
+    path = chain([op.EllipticalRetarder(*map(op.Parameter, names))], STATE)
+    return path.mueller(**dict(zip(names, vector, strict=True))).matrix
+
+
+@rows("size", [1e-12, 1e-6, 0.3, 1.0, 3.0, 50.0])
+@rows("seed", range(4))
+def test_it_turns_the_sphere_about_its_vector(seed, size):
+    vector = size * np.random.default_rng(seed).normal(size=3)
+    found = op.EllipticalRetarder(*map("{} rad".format, vector)).mueller().matrix
+    atol = 1e-15 + 4e-16 * np.linalg.norm(vector)
+    np.testing.assert_allclose(found[1:, 1:], rotation(vector), rtol=0, atol=atol)
+    np.testing.assert_array_equal(found[0], [1.0, 0.0, 0.0, 0.0])
+    np.testing.assert_array_equal(found[:, 0], [1.0, 0.0, 0.0, 0.0])
+
+
+@rows("retardance", [0.7, np.pi / 2, np.pi, -2.0])
+@rows("angle", [0.0, 0.4, np.pi / 4, -1.1])
+def test_one_of_no_s3_is_a_linear_retarder(retardance, angle):
+    vector = retardance * np.cos(2 * angle), retardance * np.sin(2 * angle), 0.0
+    wanted = op.Retarder(retardance, angle).mueller().matrix
+    np.testing.assert_allclose(matrix_of(vector), wanted, rtol=0, atol=7e-16)
+
+
+@rows("angle", [0.3, np.pi / 4, -1.2])
+def test_one_of_s3_alone_is_a_rotator_of_half_the_angle(angle):
+    wanted = op.Rotator(angle).mueller().matrix
+    np.testing.assert_allclose(matrix_of((0.0, 0.0, 2 * angle)), wanted, rtol=0, atol=3e-16)
+    np.testing.assert_array_equal(op.EllipticalRetarder(s3=2 * angle).mueller().matrix, wanted)
+
+
+def test_one_that_is_known_to_be_linear_is_a_retarder_to_the_bit():
+    found = op.EllipticalRetarder(0.7, azimuth=0.3)
+    path, wanted = (chain([one], STATE).trace() for one in (found, op.Retarder(0.7, azimuth=0.3)))
+    np.testing.assert_array_equal(path.stokes, wanted.stokes)
+
+
+def test_the_state_along_the_vector_is_the_fast_one():
+    # What is fast gains less phase: light half of it leads, as behind a quarter-wave plate.
+    fast = np.array([0.48, 0.6, 0.64])
+    plate = op.EllipticalRetarder(*(np.pi / 2 * fast)).mueller()
+    np.testing.assert_allclose((plate @ op.Light([1, *fast])).stokes, [1, *fast], atol=4e-16)
+    across = np.cross(fast, [0.0, 0.0, 1.0])
+    across /= np.linalg.norm(across)
+    found = (plate @ op.Light([1, *across])).stokes[1:]
+    np.testing.assert_allclose(found, np.cross(fast, across), rtol=0, atol=4e-16)
+
+
+@rows("engine, dtype", [("numpy", "float32"), *((engine, "float64") for engine in ENGINES)])
+def test_every_engine_and_precision_agrees(engine, dtype):
+    values = np.random.default_rng(1).uniform(-3.0, 3.0, (3, 3000))
+    names = ("s1", "s2", "s3")
+    path = chain([op.EllipticalRetarder(*map(op.Parameter, names), azimuth=0.2)], STATE)
+    plan = op.Composer(engine=engine, dtype=dtype).compose(path)
+    found = plan.run(**dict(zip(names, values, strict=True))).stokes
+    wanted = chain([op.EllipticalRetarder(*values, azimuth=0.2)], STATE).trace().stokes
+    atol = 2e-6 if "float32" in (dtype, np.asarray(found).dtype.name) else 4e-15
+    np.testing.assert_allclose(np.asarray(found), wanted, rtol=0, atol=atol)
+
+
+component = st.floats(-6.0, 6.0)
+
+
+@given(st.tuples(component, component, component))
+def test_the_opposite_vector_undoes_it_and_no_light_is_lost(vector):
+    there, back = (
+        op.EllipticalRetarder(*(sign * part for part in vector)).mueller().matrix
+        for sign in (1.0, -1.0)
+    )
+    np.testing.assert_allclose(back @ there, np.eye(4), rtol=0, atol=2e-15)
+
+
+def test_an_angle_in_degrees_is_warned_of():
+    with pytest.warns(op.AngleWarning, match="EllipticalRetarder s2 is a plain number beyond 2 pi"):
+        op.EllipticalRetarder(s2=90)
+
+
+def test_it_has_no_jones_matrix_where_its_axis_is_none_of_the_frame():
+    path = chain([op.EllipticalRetarder(0.1, 0.2, 0.3)], STATE)
+    with pytest.raises(op.ComposerError, match="and has no Jones matrix here"):
+        op.Composer(composing="jones").compose(path)
+
+
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_an_angle_that_floats_cannot_tell_is_refused():
+    with pytest.raises(op.ValueFault, match=r"s1 is 1.7e\+308"):
+        op.EllipticalRetarder(1.7e308, 1.7e308, 1.7e308)
+
+
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_the_largest_angles_give_numbers():
+    assert np.all(np.isfinite(op.EllipticalRetarder(1e15, 1e15, -1e15).mueller().matrix))
+
+
+@rows("vector", [[0.1, 0.2, 0.3], (0.1, 0.2, 0.3), ["6 deg", "12 deg", 0.3]])
+def test_three_numbers_of_the_first_component_are_asked_about(vector):
+    with pytest.raises(op.OptipathError, match="may be a rotation vector, or s1 of three paths"):
+        op.EllipticalRetarder(vector)
+    path = chain([op.EllipticalRetarder(op.Parameter("v"))], STATE)
+    with pytest.raises(op.ParameterError, match=r"'v'.* may be a rotation vector"):
+        path.trace(v=vector)
+
+
+def test_what_can_be_of_several_retarders_alone_is_not_asked_about():
+    several = [0.1, 0.2, 0.3]
+    wanted = chain([op.EllipticalRetarder(np.array(several), 0.2)], STATE).trace().stokes
+    path = chain([op.EllipticalRetarder(op.Parameter("v"), 0.2)], STATE)
+    for found in (
+        chain([op.EllipticalRetarder(several, 0.2)], STATE).trace(),
+        path.trace(v=several),
+        path.trace(v=np.array(several)),
+    ):
+        np.testing.assert_allclose(found.stokes, wanted)
+    op.EllipticalRetarder(s3=several)
+    op.EllipticalRetarder(several[:2])
+    path = chain([op.EllipticalRetarder(op.Parameter("v"))], STATE)
+    assert path.trace(v=np.array(several)).shape == (3,)
+
+
+def test_retarders_of_three_paths_are_read_back(tmp_path):
+    path = chain([op.EllipticalRetarder(np.array([0.1, 0.2, 0.3]))], STATE)
+    (tmp_path / "three.toml").write_text(path.to_toml())
+    again = op.load_preset(tmp_path / "three.toml")
+    np.testing.assert_array_equal(again.trace().stokes, path.trace().stokes)
+
+
+V, B, L = (op.Parameter(name) for name in "vbl")
+
+
+def turned(angle):
+    """Light of the state, its axis turned from x towards y."""
+    c, s = np.cos(2 * angle), np.sin(2 * angle)
+    s0, s1, s2, s3 = STATE
+    return np.stack([s0 + 0 * c, s1 * c - s2 * s, s1 * s + s2 * c, s3 + 0 * c], axis=-1)
+
+
+def test_an_angle_turns_from_x_towards_y():
+    light = chain([op.FaradayRotator(0.3)], STATE).trace()
+    np.testing.assert_allclose(light.stokes, turned(0.3), rtol=0, atol=4e-16)
+
+
+@rows("engine", ENGINES)
+def test_the_angle_is_verdet_constant_times_field_times_length(engine):
+    rng = np.random.default_rng(3)
+    v, b, length = rng.uniform(-200, 200, 500), rng.uniform(-2, 2, 500), rng.uniform(0, 0.1, 500)
+    path = chain([op.FaradayRotator(verdet=V, field=B, length=L)], STATE)
+    found = op.Composer(engine=engine).compose(path).run(v=v, b=b, l=length).stokes
+    np.testing.assert_allclose(found, turned(v * b * length), rtol=0, atol=5e-14)
+
+
+def test_light_along_the_field_in_what_has_a_positive_verdet_constant_turns_counter_clockwise():
+    """Hecht, Optics, sec. 8.11.2: to who looks at the source, as seen by angles in space."""
+    for z in [(0, 0, 1), (0, 0.6, -0.8)]:
+        frame = op.Frame.from_direction(z, (1, 0, 0))
+        rod = op.FaradayRotator(verdet=4.0, field=0.5, length=0.2)
+        light = rod.mueller(frame_in=frame) @ op.Light([1.0, 1.0, 0.0, 0.0], frame)
+        axis = np.cos(light.aop) * light.frame.x + np.sin(light.aop) * light.frame.y
+        facing = -frame.z
+        # Counter-clockwise of up is left, which is up cross facing turned about: facing cross up.
+        left = np.cross(-facing, frame.x)
+        assert np.arctan2(axis @ left, axis @ frame.x) == pytest.approx(0.4, abs=1e-15)
+
+
+def test_on_the_way_back_from_a_mirror_the_turns_add_up_where_the_field_is_seen_reversed():
+    there, back = (op.FaradayRotator(verdet=-134.0, field=b, length=0.02) for b in (0.1, -0.1))
+    light = chain([there, op.Mirror(), back], (1.0, 1.0, 0.0, 0.0)).trace()
+    turn = -2 * 134.0 * 0.1 * 0.02
+    # In the frame behind the mirror, y is the other way.
+    expected = [1.0, np.cos(2 * turn), -np.sin(2 * turn), 0.0]
+    np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=3e-16)
+
+
+@rows(
+    "given, fault",
+    [
+        ({}, "angle is missing; give the angle alone, or verdet, field and length"),
+        ({"verdet": 2.0, "length": 0.1}, "field is missing; give the angle alone"),
+        ({"angle": 0.1, "field": 0.2}, "angle is given beside field; give the angle alone"),
+        ({"angle": op.Parameter("a"), "field": B}, "angle is given beside field"),
+        ({"verdet": 2.0, "field": B, "length": -0.1}, "length is -100 mm; give a real length"),
+        ({"verdet": "2 rad", "field": B, "length": L}, "'2 rad' is no Verdet constant; use one of"),
+        ({"verdet": 1.0, "field": "2 tesla", "length": L}, "did you mean 'T'"),
+        ({"verdet": 1.0, "field": 1e7, "length": L}, "field is 1e.07 T; give a real magnetic"),
+    ],
+)
+def test_what_is_given_is_the_angle_or_all_of_the_product(given, fault):
+    with pytest.raises(op.OptipathError, match=fault):
+        op.FaradayRotator(**given)
+
+
+def test_all_that_is_missing_is_told_at_once():
+    with pytest.raises(op.ValueFault) as error:
+        op.FaradayRotator(field=1.0)
+    assert len(error.value.faults) == 2
+
+
+def test_units_of_verdet_constants_and_fields_are_those_of_tables():
+    """0.12 min/(Oe cm), as makers of TGG write it, is 34.9 rad/(T m)."""
+    rod = op.FaradayRotator(verdet="0.12 arcmin/(G cm)", field="5 kG", length="2 cm")
+    assert rod.verdet == pytest.approx(np.radians(0.12 / 60) * 1e4 * 100, rel=1e-15)
+    assert rod == op.FaradayRotator(verdet=rod.verdet, field=0.5, length=0.02)
+    assert op.FaradayRotator(verdet="2 deg/(T cm)", field=1, length=1).verdet == pytest.approx(
+        np.radians(200.0), rel=1e-15
+    )
+
+
+def test_a_file_is_told_by_its_node_which_values_are_missing(tmp_path):
+    path = chain([op.FaradayRotator(verdet=1.0, field="10 mT", length=L)])
+    text = path.to_toml()
+    (tmp_path / "x.toml").write_text(text, "utf-8")
+    assert op.load_preset(tmp_path / "x.toml") == path
+    assert 'verdet = "1 rad/(T m)"' in text
+    (tmp_path / "x.toml").write_text(text.replace('field = "0.01 T"\n', ""), "utf-8")
+    with pytest.raises(op.OptipathError, match=r"e0\.field is missing; give the angle alone"):
+        op.load_preset(tmp_path / "x.toml")
