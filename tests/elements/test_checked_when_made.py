@@ -31,6 +31,7 @@ A, B = op.Parameter("a"), op.Parameter("b")
         (lambda: op.Interface(1.5, 56), "within 0 deg .. 90 deg; did you mean '56 deg' or np.rad"),
         (lambda: op.Interface(1.5 - 2j, 0.1), "Interface index is .*: k > 0 absorbs"),
         (lambda: op.Interface(np.nan, 0.1), "Interface index is nan; give a finite index"),
+        (lambda: op.Interface([1.5, np.nan], 0.3), "index is nan at 1; give a finite"),
         (
             lambda: op.Interface("gold", 0.1),
             "give n and k as numbers, such as Material\\(0.18, 3.4",
@@ -206,11 +207,6 @@ def test_a_material_is_understood_wherever_an_index_is():
 def test_what_cannot_stand_in_an_element_is_told_where_it_can(make, sentence):
     with pytest.raises(op.OptipathError, match=sentence):
         make()
-
-
-def test_two_numbers_of_which_one_is_none_are_no_pair():
-    with pytest.raises(op.ValueFault, match="index is nan at 1; give a finite"):
-        op.Interface([1.5, np.nan], 0.3)
 
 
 def test_four_intensities_that_may_be_a_state_are_asked_about_as_well():

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
-from chains import ENGINES
+from chains import COMPILED, ENGINES
 from paths import chain
 from tables import rows
 
@@ -162,7 +162,7 @@ def agrees(engine, dtype, names):
 @rows("names", [RATES[:4], RATES])
 def test_engines_and_precisions_agree(names):
     agrees("numpy", "float32", names)
-    for engine in ENGINES if names == RATES[:4] else ["numpy"]:
+    for engine in ENGINES if names == RATES[:4] else COMPILED:
         agrees(engine, "float64", names)
 
 
@@ -358,9 +358,9 @@ def check_slopes(jax, point, depolarization):
     np.testing.assert_allclose(slopes, wanted, rtol=0, atol=2e-13 * np.max(np.abs(wanted)))
 
 
-@rows("point", POINTS)
-def test_slopes_are_those_of_the_exponential(jax, point):
-    check_slopes(jax, point, None)
+@rows("point, depolarization", [*((point, None) for point in POINTS), ("anywhere", 1.3)])
+def test_slopes_are_those_of_the_exponential(jax, point, depolarization):
+    check_slopes(jax, point, depolarization)
 
 
 @pytest.mark.slow

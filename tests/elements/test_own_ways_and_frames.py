@@ -324,16 +324,17 @@ def test_light_before_and_behind_it_is_in_its_frames():
         np.testing.assert_array_equal(lights[link].frame.z, Foil().own_frame(port).frame({}).z)
 
 
-def test_it_says_what_light_must_not_come_from():
-    with pytest.raises(op.PathError, match=r"'e0.reflected -> e1.in' must come from the first ver"):
-        path(THIRD, Foil()).check()
-
-
-def test_one_that_does_not_say_how_light_is_turned_is_refused():
-    with pytest.raises(op.PathError, match=r"Mute does not say .* give it a method turn_from"):
-        path(FIRST, Mute()).compose()
-
-
-def test_elements_between_two_such_elements_are_refused():
-    with pytest.raises(op.PathError, match="'e1' stands relatively between the vertices 'e0' and"):
-        path(FIRST, op.Rotator(0.1), Foil()).check()
+@rows(
+    "elements, sentence",
+    [
+        ((THIRD, Foil()), r"'e0.reflected -> e1.in' must come from the first ver"),
+        ((FIRST, Mute()), r"Mute does not say .* give it a method turn_from"),
+        (
+            (FIRST, op.Rotator(0.1), Foil()),
+            "'e1' stands relatively between the vertices 'e0' and",
+        ),
+    ],
+)
+def test_what_does_not_follow_a_vertex_is_refused(elements, sentence):
+    with pytest.raises(op.PathError, match=sentence):
+        path(*elements).compose()
