@@ -1,16 +1,14 @@
 """Hundreds of requests that nobody should send: each gets a sentence, and the next an answer."""
 
 import json
-import os
 import random
 
 import pytest
 
 from explorer.served import page_server, posted, raw
+from tables import slow
 
-COUNT = int(os.environ.get("OPTIPATH_MALFORMED", "300"))
-"""How many of each kind; 10,000 take some minutes."""
-
+COUNTS = pytest.mark.parametrize("count", [300, slow(10_000)])
 STATE = {
     "preset": "malus",
     "case": None,
@@ -55,9 +53,10 @@ def is_sentence(text):
     return text.isprintable() and "Traceback" not in text and "/optipath/" not in text
 
 
-def test_odd_states_are_answered_with_sentences(server):
+@COUNTS
+def test_odd_states_are_answered_with_sentences(server, count):
     draw = random.Random(21)  # noqa: S311 - the same each time
-    for _ in range(COUNT):
+    for _ in range(count):
         state, place = changed(draw, STATE), draw.choice(["open", "trace", "export"])
         if place == "open":
             state = {name: state[name] for name in state if name in ("preset", "places")}
@@ -69,7 +68,8 @@ def test_odd_states_are_answered_with_sentences(server):
         assert all(map(is_sentence, told)), told
 
 
-def test_damaged_bytes_are_answered_or_hung_up_on(server, capfd):
+@COUNTS
+def test_damaged_bytes_are_answered_or_hung_up_on(server, capfd, count):
     draw = random.Random(22)  # noqa: S311 - the same each time
     body = json.dumps(STATE).encode()
     head = (
@@ -77,7 +77,7 @@ def test_damaged_bytes_are_answered_or_hung_up_on(server, capfd):
         f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\n"
         "Connection: close\r\n\r\n"
     ).encode()
-    for _ in range(COUNT):
+    for _ in range(count):
         sent = bytearray(head + body)
         for _ in range(draw.randint(1, 6)):
             place = draw.randrange(len(sent) + 1) % max(len(sent), 1)
