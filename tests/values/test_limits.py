@@ -1,4 +1,4 @@
-"""Limits of what is given: one that is rounded to the precision of a value is inside."""
+"""Limits of values, in each precision."""
 
 from itertools import product
 
@@ -10,6 +10,7 @@ from optipath.paths.presets.loader import preset_names
 from optipath.values.domains import indices, quantities, states
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import INCIDENCE
+from optipath.values.precision import precision, precision_name
 from optipath.values.units import UNITS, format_quantity, parse_quantity
 from tables import rows
 
@@ -232,3 +233,56 @@ def test_axes_of_less_precision_make_a_frame(kind):
 def test_a_number_of_less_precision_is_refused_beyond_a_limit_that_it_cannot_hold():
     with pytest.raises(op.OptipathError, match="give the optimiser bounds="):
         op.load_preset("pile-of-plates").trace(theta=0.1, n=np.float16(-1.5))
+
+
+LONG = np.finfo(np.longdouble).eps < np.finfo(np.float64).eps
+
+
+class WithDtype:
+    """What NumPy asks for a dtype, as scalar types of other libraries are."""
+
+    def __init__(self, dtype):
+        self.dtype = dtype
+
+
+@rows("given", ["float32", "f4", "f", "single", np.float32, np.dtype("f4")])
+def test_single_precision_goes_by_every_name_that_numpy_has_for_it(given):
+    assert op.Composer(dtype=given) == op.Composer(dtype="float32")
+    plan = op.Composer(dtype=given).compose(op.load_preset("malus"))
+    assert plan.dtype == "float32"
+    assert plan.run().stokes.dtype == np.float32
+    assert op.fresnel_reflection(1.5, 1.0, 0.0, dtype=given)[0].dtype == np.float32
+    assert op.fresnel_transmission(1.5, 1.0, 0.0, dtype=given)[0].dtype == np.float32
+
+
+@rows("given", [float, "float", "f8", "double", "d", np.float64, np.dtype(float)])
+def test_double_precision_goes_by_every_name_that_numpy_and_python_have_for_it(given):
+    assert op.Composer(dtype=given).dtype == "float64"
+    assert op.fresnel_reflection(1.5, 1.0, 0.0, dtype=given)[0].dtype == np.float64
+
+
+@pytest.mark.skipif(not LONG, reason="longdouble is float64 here")
+@pytest.mark.parametrize("given", [np.longdouble, "g", "longdouble", np.dtype(np.longdouble)])
+def test_longdouble_goes_by_every_name_that_numpy_has_for_it(given):
+    assert precision_name(given) == "longdouble"
+    with pytest.raises(op.ComposerError, match="jax' has no longdouble"):
+        op.Composer(dtype=given, engine="jax")
+
+
+def test_what_has_a_dtype_of_its_own_goes_by_that():
+    assert precision(WithDtype(np.dtype("f4"))) == np.float32
+
+
+OTHER_ORDER = np.dtype("f8").newbyteorder()
+ODD = [int, "f2", np.float16, complex, "c8", "i4", bool, str, None, "", "f4,f4", "f4,{", "x", 4]
+ODD += [[], np.floating, OTHER_ORDER, np.ones(3), WithDtype(3)]
+
+
+@rows("given", ODD)
+def test_any_other_dtype_is_refused_and_the_three_are_named(given):
+    with pytest.raises(
+        op.ComposerError, match=r"is unknown; give 'float64', 'float32' or 'longdouble'"
+    ):
+        op.Composer(dtype=given)
+    with pytest.raises(op.ComposerError, match="dtype"):
+        op.fresnel_reflection(1.5, 1.0, 0.0, dtype=given)

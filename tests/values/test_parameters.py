@@ -1,3 +1,12 @@
+"""Parameters, and affine expressions of them."""
+
+import copy
+import math
+import operator
+import pickle
+from decimal import Decimal
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -86,3 +95,164 @@ def test_a_negative_parameter_differs_in_its_sign_alone():
     assert not parameter.is_negative
     assert (-parameter).same_specification(parameter)
     assert -parameter != parameter
+
+
+D, Q = op.Parameter("d"), op.Parameter("q")
+TEN_DEG = math.radians(10.0)
+
+
+@rows(
+    "parameter, scale, offset",
+    [
+        (2 * D + 0.1, 2.0, 0.1),
+        (D / 2, 0.5, 0.0),
+        (D - 0.1, 1.0, -0.1),
+        (0.1 - D, -1.0, 0.1),
+        (-(2 * D + 0.1), -2.0, -0.1),
+        (2 * (D + 1) * 3 - 1, 6.0, 5.0),
+        (+D, 1.0, 0.0),
+        (np.float64(2) * D, 2.0, 0.0),
+        (D * np.float32(2), 2.0, 0.0),
+        (np.int64(2) - D, -1.0, 2.0),
+        (np.array(2.0) * D, 2.0, 0.0),
+        (np.add(1.0, -D), -1.0, 1.0),
+        (np.negative(D), -1.0, 0.0),
+        (D / np.float64(4), 0.25, 0.0),
+        (Fraction(1, 4) * D, 0.25, 0.0),
+        (sum([2 * D, 1.0]), 2.0, 1.0),
+        (D + "10 deg", 1.0, TEN_DEG),
+        ("10 deg" - D, -1.0, TEN_DEG),
+        (2 * (D - "10 deg"), 2.0, -2 * TEN_DEG),
+        (op.Parameter("d", scale=2, offset="10 deg"), 2.0, TEN_DEG),
+        (D + "2 mm", 1.0, 0.002),
+    ],
+)
+def test_a_multiple_with_an_offset_of_a_parameter_is_one(parameter, scale, offset):
+    assert (parameter.scale, parameter.offset) == (scale, pytest.approx(offset, rel=1e-15))
+    assert parameter.alone() == D
+    assert parameter == op.Parameter("d", scale=scale, offset=parameter.offset)
+
+
+def test_the_negative_twice_and_the_half_of_the_double_are_the_parameter_itself():
+    negative = -D
+    assert -negative == 2 * D / 2 == D
+    assert -D != D != 2 * D
+    assert math.copysign(1.0, (-D).offset) == 1.0
+
+
+def test_default_range_words_and_unit_are_those_of_the_value_itself():
+    words = {"up": 1.0}
+    parameter = op.Parameter("d", 0.5, "deg", -1.0, 2.0, help="a turn", words=words, optional=True)
+    affine = 3 * parameter + "1 deg"
+    assert affine.same_specification(parameter)
+    assert (affine.default, affine.minimum, affine.maximum, affine.unit) == (0.5, -1.0, 2.0, "deg")
+    assert affine.alone() == parameter
+
+
+@rows(
+    "parameter, formula",
+    [
+        (D, "d"),
+        (-D, "-d"),
+        (2 * D + 0.1, "2 * d + 0.1"),
+        (0.5 - D / 2, "-0.5 * d + 0.5"),
+        (op.Parameter("d", unit="deg") * 2 - "10 deg", "2 * d - 10 deg"),
+    ],
+)
+def test_a_multiple_with_an_offset_is_written_as_people_do(parameter, formula):
+    assert parameter.formula == formula
+
+
+COMPARED = [operator.lt, operator.le, operator.gt, operator.ge]
+PRODUCTS = [operator.mul, operator.truediv, operator.add, operator.sub, operator.pow]
+OTHERS = [Q, D, [1, 2], np.ones(3), 1j, None, "x", True, np.nan, np.inf, 10**400, Decimal(2)]
+MORE = {
+    "the second power": lambda: D**2,
+    "a power of 2": lambda: 2**D,
+    "its inverse": lambda: 1 / D,
+    "over 0": lambda: D / 0,
+    "times 0": lambda: 0 * D,
+    "times a text": lambda: D * "2 deg",
+    "rest": lambda: D % 2,
+    "whole part": lambda: D // 2,
+    "matrix product": lambda: D @ D,
+    "size": lambda: abs(D),
+    "rounded": lambda: round(D),
+    "float": lambda: float(D),
+    "int": lambda: int(D),
+    "sine": lambda: np.sin(D),
+    "sine by math": lambda: math.sin(D),
+    "radians": lambda: np.radians(D),
+    "larger of two": lambda: np.maximum(D, 0.0),
+    "sum by NumPy": lambda: np.sum(D),
+    "into an array": lambda: np.add(D, 1.0, out=np.zeros(1)),
+    "beyond floats": lambda: D * 1e300 * 1e300,
+    "below floats": lambda: D * 1e-300 * 1e-300,
+    "compared by NumPy": lambda: np.float64(1.0) < D,
+}
+
+
+@rows("refused", MORE.values())
+def test_anything_else_is_refused_with_the_way_out(refused):
+    with pytest.raises(op.ParameterError, match=r"parameter 'd' .*(give them|give numbers)"):
+        refused()
+
+
+@rows("operation", [*PRODUCTS, *COMPARED])
+@rows("other", OTHERS)
+def test_what_is_no_real_number_is_refused_on_either_side(operation, other):
+    for pair in ((D, other), (other, D)):
+        with pytest.raises(op.OptipathError):
+            operation(*pair)
+
+
+def test_values_of_jax_are_refused():
+    jax = pytest.importorskip("jax")
+    with pytest.raises(op.ParameterError, match="a value of JAX"):
+        D * jax.numpy.asarray(2.0)
+
+
+def test_equality_is_still_that_of_what_they_are():
+    assert not any((D == Q, D == 2.0, np.float64(2.0) == D))
+    assert D in [Q, D]
+    assert {D: 1}[op.Parameter("d")] == 1
+    assert not np.any(np.ones(3) == D)
+
+
+def test_a_text_is_an_offset_by_its_unit():
+    with pytest.raises(op.UnitError, match="did you mean 'deg'"):
+        D + "10 degg"
+    with pytest.raises(op.UnitError, match="has no unit, but an angle"):
+        op.Parameter("d", unit="deg") + "10"
+    with pytest.raises(op.UnitError, match="'1 nm' is no angle"):
+        D + "1 deg" + "1 nm"
+    with pytest.raises(op.UnitError, match="'2 nm' is no angle"):
+        op.Parameter("d", unit="deg", offset="2 nm")
+
+
+def test_a_text_without_a_unit_is_an_offset_of_pure_numbers():
+    path = op.Source() >> op.Attenuator(D + "0.1") >> op.Detector()
+    assert path.trace(d=0.25).intensity == 0.25 + 0.1
+    index = op.Interface(D - "0.5", 0.0).index
+    assert index.placed(2.0) == 1.5
+    with pytest.raises(op.ValueFault, match=r"the offset of .* is a pure number, but Rotator"):
+        op.Rotator(D + "10")
+    with pytest.raises(op.UnitError, match="'1 deg' has the unit 'deg', but a pure number is"):
+        D + "10" + "1 deg"
+
+
+@rows("imaginary", [lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j])
+def test_an_index_of_two_parameters_is_told_to_be_a_material(imaginary):
+    with pytest.raises(op.ParameterError, match=r"write op.Material\(n, k\)"):
+        imaginary()
+
+
+@rows("shape", [{"scale": 0}, {"scale": "2"}, {"offset": np.nan}, {"scale": 1j}])
+def test_a_scale_and_an_offset_that_cannot_be_are_refused(shape):
+    with pytest.raises(op.ParameterError, match="finite real numbers and a scale other than 0"):
+        op.Parameter("d", **shape)
+
+
+@rows("copied", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_a_multiple_with_an_offset_can_be_copied_and_pickled(copied):
+    assert copied(2 * D + "10 deg") == 2 * D + "10 deg"

@@ -401,7 +401,7 @@ def deep(value):
     return value
 
 
-class Raises:
+class NoArray:
     def __array__(self, dtype=None, copy=None):
         raise RuntimeError("cannot be made an array")
 
@@ -419,8 +419,8 @@ class NoFloat:
 HOSTILE = [
     deep(5e-7),
     [[1.0], [1.0, 2.0]],
-    Raises(),
-    [Raises(), 1.0],
+    NoArray(),
+    [NoArray(), 1.0],
     Itself(),
     NoFloat(),
     [NoFloat(), 1.0],

@@ -8,6 +8,7 @@ import pytest
 
 import optipath as op
 from fake_curves import Metal, metal
+from tables import rows
 
 
 def mirror(*, slope=2e6, wavelength=None):
@@ -139,3 +140,22 @@ def test_equal_curves_are_equal_values_and_others_are_not():
     assert metal()[0] != metal()[1]
     assert metal()[0] != metal(slope=1e6)[0]
     assert metal()[0] != metal(wavelength=op.Wavelength("probe"))[0]
+
+
+@rows(
+    "make",
+    [
+        lambda span: op.Material.cauchy([1.5], span=span, name="x"),
+        lambda span: op.Material.sellmeier([1.2], [0.01], span=span, name="x"),
+        lambda span: op.Material.drude_lorentz(9.0, 0.1, span=span, name="x"),
+        lambda span: op.Material.tauc_lorentz([(100, 3, 2, 1)], span=span, name="x"),
+    ],
+)
+def test_nanometres_that_are_taken_for_metres_are_refused(make):
+    with pytest.raises(op.ValueFault) as fault:
+        make((400, 700))
+    assert str(fault.value) == (
+        "the least wavelength of the span of x is 400 metres, which is no wavelength of light; "
+        "multiply those in nanometres by 1e-9, and those in micrometres by 1e-6"
+    )
+    assert "400 nm .. 700 nm" in repr(make((400e-9, 700e-9)))
