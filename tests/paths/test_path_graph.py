@@ -213,14 +213,8 @@ FRAMES = "a Frame for each port"
     "make, message",
     [
         (lambda path: path["split"] >> split()["eye"], "different paths"),
-        (
-            lambda path: path["split"] >> path["eye"],
-            r"'split\.reflected', 'split\.transmitted'",
-        ),
-        (
-            lambda path: path["eye"] >> path["split"],
-            "'eye' has no way out, since light ends there",
-        ),
+        (lambda path: path["split"] >> path["eye"], r"'split\.reflected', 'split\.transmitted'"),
+        (lambda path: path["eye"] >> path["split"], "'eye' has no way out, since light ends there"),
         *(
             (lambda path, name=name: path.add(name, op.Source()), "node name")
             for name in ("", "a.b", 3, None)

@@ -244,10 +244,7 @@ def test_batches_give_what_single_paths_give(make):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "make",
-    [
-        lambda a: stack([1.0, 1.5, 2.4], a),
-        lambda a: ring([op.Polarizer(a), op.Polarizer(0.3)]),
-    ],
+    [lambda a: stack([1.0, 1.5, 2.4], a), lambda a: ring([op.Polarizer(a), op.Polarizer(0.3)])],
 )
 def test_jax_gives_what_the_others_give(make):
     jax = pytest.importorskip("jax")

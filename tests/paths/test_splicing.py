@@ -152,10 +152,7 @@ def replacing(element):
             inserting(before="X1.back"),
             r"write path\.add\('new', \.\.\.\) and path\.connect\('new', 'X",
         ),
-        (
-            inserting(behind="X2", before="E"),
-            r"no link 'X2\.reflected -> E\.in'; did you mean 'X1",
-        ),
+        (inserting(behind="X2", before="E"), r"no link 'X2\.reflected -> E\.in'; did you mean 'X1"),
         (inserting(name="X1", behind="X2"), "choose another"),
         (inserting(name="a.b", behind="X2"), "choose another"),
         (

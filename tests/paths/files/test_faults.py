@@ -127,11 +127,7 @@ ROOT_CAUSES = [
     ('azimuth = "10 deg"', 'azimuth = "10 nm"', "links[2].azimuth: '10 nm' is no angle"),
     ("values = {", "value = {", "key 'value' is unknown; did you mean 'values'?"),
     ("n = 1.5 }", "m = 1.5 }", "parameter 'm' is unknown"),
-    (
-        'theta = "80 deg"',
-        'thta = "80 deg"',
-        "cases.steep: parameter 'thta' is unknown; did you",
-    ),
+    ('theta = "80 deg"', 'thta = "80 deg"', "cases.steep: parameter 'thta' is unknown; did you"),
     ('theta = "80 deg"', 'theta = "100 deg"', "cases.steep.theta is 100 deg, outside its"),
     ("{ eye = [1, 0, 0, 0] }", "{ ey = [1, 2, 3, 4] }", "did you mean 'eye'"),
     ("{ eye = [1, 0, 0, 0] }", "{ eye = [1, 2] }", "four finite numbers"),
