@@ -8,6 +8,8 @@ import shutil
 import tempfile
 from importlib.util import find_spec
 
+import pytest
+
 OF_JAX = [
     "src/optipath/engines/jax_path.py",
     "src/optipath/sweeps/uncertainty/slopes_by_jax.py",
@@ -17,7 +19,7 @@ OF_JAX = [
 collect_ignore = [] if find_spec("jax") else OF_JAX
 
 
-def pytest_configure(config):
+def pytest_configure(config: pytest.Config) -> None:
     """Keep compiled code in a folder of these tests, which all workers share."""
     if not hasattr(config, "workerinput"):
         folder = tempfile.mkdtemp(prefix="optipath-tests-")
@@ -27,7 +29,7 @@ def pytest_configure(config):
         os.environ["JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS"] = "0"
 
 
-def pytest_xdist_auto_num_workers(config):
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
     """Let benchmarks and tests asked for by name run in this process; None is for xdist to say."""
     alone = config.option.benchmark_only or any("::" in name for name in config.args)
     return 0 if alone else None
