@@ -1,14 +1,13 @@
 """The drawing of a path: what is cut, what collides, and what it says."""
 
 import re
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from typing import NamedTuple
 from xml.etree import ElementTree as ET
 
 import pytest
 
 import optipath as op
-from optipath.cli import main
 from optipath.cli.path_picture import path_picture
 from optipath.values.cases import Case
 from tables import rows
@@ -35,6 +34,10 @@ class Box(NamedTuple):
         across = self.left <= other.left and other.right <= self.right
         return across and self.top <= other.top and other.bottom <= self.bottom
 
+    def cuts(self, other):
+        """Whether another box is neither within this one nor beside it."""
+        return self.overlaps(other) and not self.holds(other)
+
 
 def page_of(svg):
     """The page, the boxes of its texts, and those of its nodes."""
@@ -42,8 +45,7 @@ def page_of(svg):
     page = Box("page", 0.0, 0.0, float(root.get("width")), float(root.get("height")))
     texts, nodes = [], []
     for one in root.iter(f"{SPACE}text"):
-        x, y, size = (float(one.get(name)) for name in ("x", "y", "font-size"))
-        width = float(one.get("textLength"))
+        x, y, size, width = (float(one.get(n)) for n in ("x", "y", "font-size", "textLength"))
         texts.append(Box(one.text, x, y - 0.8 * size, x + width, y + 0.2 * size))
     for one in root.iter(f"{SPACE}rect"):
         if one.get("x") is not None:
@@ -58,13 +60,8 @@ def faults_of(svg):
     faults = [box.told for box in (*texts, *nodes) if not page.holds(box)]
     for group in (texts, nodes):
         faults += [(a.told, b.told) for a, b in combinations(group, 2) if a.overlaps(b)]
-    faults += [
-        text.told
-        for text in texts
-        for node in nodes
-        if node.overlaps(text) and not node.holds(text)
-    ]
-    return faults
+    pairs = product(texts, nodes)
+    return faults + [text.told for text, node in pairs if node.cuts(text)]
 
 
 def upright_lines(drawn):
@@ -158,24 +155,26 @@ def test_a_link_over_several_layers_passes_no_box():
     path.add("meet", op.BeamSplitter())
     path.add("eye", op.Detector())
     lamp >> split
-    path.connect("split.reflected", "a.in")
     a >> b
-    path.connect("b.out", "meet.in")
-    path.connect("split.transmitted", "meet.back")
-    path.connect("meet.transmitted", "eye.in")
+    for leaves, enters in (
+        ("split.reflected", "a.in"),
+        ("b.out", "meet.in"),
+        ("split.transmitted", "meet.back"),
+        ("meet.transmitted", "eye.in"),
+    ):
+        path.connect(leaves, enters)
     svg = path_picture(path, "ways")
     assert faults_of(svg) == []
-    _, _, nodes = page_of(svg)
-    upright = [line for drawn in links_of(svg) for line in upright_lines(drawn)]
-    assert not [line for line in upright for node in nodes if node.overlaps(line)]
-    assert max(map(len, map(upright_lines, links_of(svg)))) == 4
+    nodes = page_of(svg)[2]
+    upright = [upright_lines(drawn) for drawn in links_of(svg)]
+    assert not [line for lines in upright for line in lines if any(n.overlaps(line) for n in nodes)]
+    assert max(map(len, upright)) == 4
 
 
 def test_light_that_goes_round_is_led_back_upwards():
     svg = path_picture(op.load_preset("glass-slab"), "glass-slab")
-    back = [drawn for drawn in links_of(svg) if "H" in drawn and drawn.count("V") == 3]
-    assert len(back) == 1
-    places = [float(part.split("H")[0]) for part in back[0].split("V")[1:]]
+    (back,) = (drawn for drawn in links_of(svg) if "H" in drawn and drawn.count("V") == 3)
+    places = [float(part.split("H")[0]) for part in back.split("V")[1:]]
     assert places[1] < places[2] < places[0]
 
 
@@ -196,24 +195,22 @@ def test_a_reader_of_screens_is_told_the_path_in_words():
     assert "| out --> " in root.find(f"{SPACE}desc").text
 
 
-def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, capsys):
-    file = tmp_path / "x.svg"
-    for words, name, column in (([], "npgr026", "default"), (["8"], "npgr026, case 8", "value")):
-        given = [word for case in words for word in ("--case", case)]
-        assert main(["show", "npgr026", *given, "--svg", str(file)]) == 0
-        texts = texts_of(file.read_text("utf-8"))
+def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, run):
+    for case, name, column in (
+        ("", "npgr026", "default"),
+        ("--case 8", "npgr026, case 8", "value"),
+    ):
+        status, out, _ = run(f"show npgr026 {case} --svg x.svg")
+        assert status == 0
+        texts = texts_of((tmp_path / "x.svg").read_text("utf-8"))
         assert {name, column} <= {*texts}
-        heading = next(line for line in capsys.readouterr().out.splitlines() if "range" in line)
+        heading = next(line for line in out.splitlines() if "range" in line)
         assert heading.split()[:2] == ["parameter", column]
         assert len({"default", "value"} & {*texts}) == 1
 
 
 @rows("name", ["x.png", "x", "x.svg.gz"])
-def test_a_file_that_does_not_end_in_svg_is_refused(name, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main(["show", "malus", "--svg", name]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
+def test_a_file_that_does_not_end_in_svg_is_refused(name, tmp_path, refused):
     wrong = f"--svg draws SVG, and '{name}' ends otherwise; name a file such as 'x.svg'"
-    assert told.err == f"optipath: {wrong}\n"
+    assert refused(f"show malus --svg {name}") == wrong
     assert not [*tmp_path.iterdir()]

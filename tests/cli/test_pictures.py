@@ -2,7 +2,6 @@
 
 import json
 import re
-import shlex
 import subprocess
 import sys
 import warnings
@@ -13,7 +12,6 @@ import pytest
 from click.testing import CliRunner
 
 import optipath as op
-from optipath.cli import main
 from optipath.cli.chosen import Chosen
 from optipath.cli.command import cli
 from optipath.cli.plot_kinds import KINDS, drawn
@@ -24,6 +22,7 @@ from pictures import faults_of, texts_of
 from tables import rows
 
 pytest.importorskip("matplotlib")
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def pictures_of(preset):
@@ -33,23 +32,14 @@ def pictures_of(preset):
     yield "curve", {"x": (x,), "y": "S0,AoP"}
 
 
-@pytest.fixture(autouse=True)
-def _folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def request(preset, kind, case=None, *, x=(), y=None, reads=None, along=None, **values):
+    about = Chosen(preset, op.load_preset(preset), case, values, *([along] if along else []))
+    given = {"x": x, "y": y, "detector": None, "reads": reads}
+    return request_of(about, kind, KINDS[kind].counts, **given)
 
 
-def chosen(preset, case=None, **values):
-    return Chosen(preset, op.load_preset(preset), case, values)
-
-
-def picture(preset, kind, case=None, *, x=(), y=None, detector=None, reads=None, **values):
-    about = chosen(preset, case, **values)
-    given = {"x": x, "y": y, "detector": detector, "reads": reads}
-    return drawn(request_of(about, kind, KINDS[kind].counts, **given))
-
-
-def words(figure):
-    return [text.get_text() for text in texts_of(figure)]
+def picture(*given, **values):
+    return drawn(request(*given, **values))
 
 
 def leaves_a_plane(preset, case):
@@ -59,32 +49,31 @@ def leaves_a_plane(preset, case):
     return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
 
 
-def assert_whole_and_readable(preset, case, kind, given):
-    if kind == "bench" and leaves_a_plane(preset, case):
-        with pytest.raises(op.OptipathError, match="geometry"):
-            picture(preset, kind, case, **given)
-        return
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        figure = picture(preset, kind, case, **given)
-        assert faults_of(figure) == []
-    assert preset in figure.get_suptitle()
-    labels = {axis.get_label_text() for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)}
-    assert labels - {""} or kind in {"geometry", "bench", "energy", "poincare"}
+def assert_whole_and_readable(preset, case):
+    for kind, given in pictures_of(preset):
+        if kind == "bench" and leaves_a_plane(preset, case):
+            with pytest.raises(op.OptipathError, match="geometry"):
+                picture(preset, kind, case, **given)
+            continue
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            figure = picture(preset, kind, case, **given)
+            assert faults_of(figure) == []
+        assert preset in figure.get_suptitle()
+        labels = {axis.get_label_text() for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)}
+        assert labels - {""} or kind in {"geometry", "bench", "energy", "poincare"}
 
 
 @rows("preset, case", [("npgr026", "8"), ("sky-and-window", None)])
 def test_every_picture_of_some_presets_is_whole_and_readable(preset, case):
-    for kind, given in pictures_of(preset):
-        assert_whole_and_readable(preset, case, kind, given)
+    assert_whole_and_readable(preset, case)
 
 
 @pytest.mark.report
 @pytest.mark.parametrize("preset", op.preset_names())
 def test_every_picture_of_a_preset_is_whole_and_readable(preset):
     for case in (None, *op.load_preset(preset).cases):
-        for kind, given in pictures_of(preset):
-            assert_whole_and_readable(preset, case, kind, given)
+        assert_whole_and_readable(preset, case)
 
 
 DRAWN = [
@@ -96,26 +85,18 @@ DRAWN = [
     "--kind mueller --detector E",
     "--kind geometry --n1 1.5",
 ]
-DRAWN_AS_WELL = [
-    "--kind poincare --x delta",
-    "--kind curve --delta 0:90:10",
-]
+DRAWN_AS_WELL = ["--kind poincare --x delta", "--kind curve --delta 0:90:10"]
 
 
 @pytest.mark.parametrize("table", [DRAWN, pytest.param(DRAWN_AS_WELL, marks=pytest.mark.slow)])
-def test_a_picture_is_drawn_into_a_file(table, capsys):
+def test_a_picture_is_drawn_into_a_file(table, told):
     for line in table:
-        assert main(["plot", "npgr026", *line.split(), "--out", "a.svg"]) == 0
-        told = capsys.readouterr()
-        assert (told.out, told.err) == ("wrote a.svg\n", ""), line
+        assert told(f"plot npgr026 {line} --out a.svg") == "wrote a.svg\n"
 
 
-def test_the_title_says_preset_case_and_what_was_changed():
+def test_a_title_says_preset_case_and_changes_and_breaks_between_values_if_it_is_long(tmp_path):
     figure = picture("npgr026", "stokes", "8", delta=0.5235987755982988, filter="none")
     assert figure.get_suptitle() == "npgr026, case 8, delta 30 deg, filter none"
-
-
-def test_a_long_title_breaks_between_values_and_stays_within_the_picture(tmp_path):
     many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)
     figure = picture("npgr026", "stokes", "8", **many)
     assert "\n" in figure.get_suptitle()
@@ -138,75 +119,62 @@ def test_a_long_title_breaks_between_values_and_stays_within_the_picture(tmp_pat
 
 def test_values_along_an_axis_keep_the_unit_they_are_given_in():
     values = AxisValues(np.array([1.7, 2.0]), "eV", np.array([729e-9, 620e-9]))
-    path = op.load_preset("quartz-quarter-wave")
-    about = Chosen("quartz-quarter-wave", path, None, {}, {"wavelength": values})
-    given = {"x": (), "y": "S3", "detector": None, "reads": None}
-    figure = drawn(request_of(about, "curve", KINDS["curve"].counts, **given))
+    figure = picture("quartz-quarter-wave", "curve", y="S3", along={"wavelength": values})
     assert figure.axes[0].get_xlabel().endswith("(eV)")
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx([1.7, 2.0])
 
 
 def test_each_source_has_a_matrix_of_its_own():
-    told = words(picture("sky-and-window", "mueller"))
-    assert sum(text.startswith("heaven to camera") for text in told) == 1
-    assert sum(text.startswith("lamp to camera") for text in told) == 1
+    words = [text.get_text() for text in texts_of(picture("sky-and-window", "mueller"))]
+    assert sum(text.startswith("heaven to camera") for text in words) == 1
+    assert sum(text.startswith("lamp to camera") for text in words) == 1
 
 
-def two_detectors(tmp_path):
-    path = op.PathGraph()
-    path.add("lamp", op.Source()) >> path.add(
-        "glass", op.Interface(1.5, op.Parameter("theta", 0.9))
-    )
+def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, told, refused):
+    path, theta = op.PathGraph(), op.Parameter("theta", 0.9)
+    path.add("lamp", op.Source()) >> path.add("glass", op.Interface(1.5, theta))
     for port in ("reflected", "transmitted"):
         path.add(f"eye-{port}", op.Detector())
         path.connect(f"glass.{port}", f"eye-{port}.in")
     (tmp_path / "two.toml").write_text(path.to_toml(), "utf-8")
-    return tmp_path / "two.toml"
-
-
-def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, capsys):
-    file = two_detectors(tmp_path)
     for kind in ("ellipse", "stokes", "mueller"):
-        assert main(["plot", str(file), "--kind", kind, "--out", f"{kind}.svg"]) == 0
-        drawn_texts = (tmp_path / f"{kind}.svg").read_text("utf-8")
-        assert "eye-reflected" in drawn_texts
-        assert "eye-transmitted" in drawn_texts
-    capsys.readouterr()
+        told(f"plot two.toml --kind {kind} --out a.svg")
+        texts = (tmp_path / "a.svg").read_text("utf-8")
+        assert "eye-reflected" in texts
+        assert "eye-transmitted" in texts
+    several = "the detectors eye-reflected and eye-transmitted, of which this picture has one"
     for kind in ("curve", "poincare"):
-        asked = ["plot", str(file), "--kind", kind, "--x", "theta", "--out", "a.svg"]
-        assert main(asked) == 2
-        told = "the detectors eye-reflected and eye-transmitted, of which this picture has one"
-        assert told in capsys.readouterr().err
-        assert main([*asked, "--detector", "eye-reflected"]) == 0
+        asked = f"plot two.toml --kind {kind} --x theta --out a.svg"
+        assert several in refused(asked)
+        told(f"{asked} --detector eye-reflected")
 
 
-def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_path, capsys):
-    path = op.PathGraph()
-    power = op.Parameter("power", np.array([1.0, 2.0]))
-    path.add("lamp", op.Source(power)) >> path.add("eye", op.Detector())
+def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_path, told, refused):
+    path = op.Source(op.Parameter("power", np.array([1.0, 2.0]))) >> op.Detector()
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
     for kind in ("ellipse", "mueller", "energy"):
-        assert main(["plot", "x.toml", "--kind", kind, "--out", "a.svg"]) == 2
-        told = "parameter 'power' has several values in the file, and a picture is of one"
-        assert told in capsys.readouterr().err
-        assert main(["plot", "x.toml", "--kind", kind, "--power", "2", "--out", "a.svg"]) == 0
+        asked = f"plot x.toml --kind {kind} --out a.svg"
+        several = "parameter 'power' has several values in the file, and a picture is of one"
+        assert several in refused(asked)
+        told(f"{asked} --power 2")
 
 
-def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_path, capsys):
+def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_path, told):
     sheet = op.Polarizer(op.Parameter("a", 0.3))
     path = op.PathGraph()
     lamp, glass = path.add("\u706f", op.Source()), path.add("\u504f", sheet)
     lamp >> glass >> path.add("\u5149", op.Detector())
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
     for kind in KINDS:
-        x = ["--x", "a"] if kind == "curve" else []
+        x = "--x a" if kind == "curve" else ""
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            assert main(["plot", "x.toml", "--kind", kind, *x, "--out", "a.svg"]) == 0
-        assert capsys.readouterr().err == ""
+            told(f"plot x.toml --kind {kind} {x} --out a.svg")
 
 
-def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(tmp_path, capsys):
+def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(
+    tmp_path, told, refused
+):
     path = op.PathGraph()
     path.add("lamp", op.Source())
     last = "lamp.out"
@@ -217,29 +185,20 @@ def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(
         path.connect(f"split{number}.reflected", f"eye{number}.in")
         last = f"split{number}.transmitted"
     (tmp_path / "many.toml").write_text(path.to_toml(), "utf-8")
-    asked = ["plot", "many.toml", "--kind", "stokes", "--out", "a.svg"]
-    assert main(asked) == 2
-    assert "add --detector eye0" in capsys.readouterr().err
-    assert main([*asked, "--detector", "eye0"]) == 0
+    asked = "plot many.toml --kind stokes --out a.svg"
+    assert "add --detector eye0" in refused(asked)
+    told(f"{asked} --detector eye0")
 
 
-def request(kind, case, x=(), reads=None, **values):
-    given = {"x": x, "y": None, "detector": None, "reads": reads}
-    return request_of(chosen("npgr026", case, **values), kind, KINDS[kind].counts, **given)
-
-
-def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
-    assert request("stokes", "8").published == op.load_preset("npgr026").cases["8"].published
-    assert request("stokes", None).published == {}
-    assert request("stokes", "8", delta=0.5).published == {}
-    assert request("stokes", "8", reads="intensity").published == {}
-
-
-def test_the_line_by_default_is_that_of_the_case():
-    asked = request("curve", "8", ("delta",))
-    case = op.load_preset("npgr026", case="8")
-    assert asked.path.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
-    assert float(asked.path.parameters["delta"].default) == float(case.parameters["delta"].default)
+def test_what_a_case_published_and_its_values_are_those_of_the_case_alone():
+    path, case = op.load_preset("npgr026"), op.load_preset("npgr026", case="8")
+    assert request("npgr026", "stokes", "8").published == path.cases["8"].published
+    assert request("npgr026", "stokes", None).published == {}
+    assert request("npgr026", "stokes", "8", delta=0.5).published == {}
+    assert request("npgr026", "stokes", "8", reads="intensity").published == {}
+    asked = request("npgr026", "curve", "8", x=("delta",)).path
+    assert asked.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
+    assert float(asked.parameters["delta"].default) == float(case.parameters["delta"].default)
 
 
 @rows(
@@ -270,14 +229,8 @@ def test_the_line_by_default_is_that_of_the_case():
         ),
         ("--kind curve --x delta --y S9", "'S9' is unknown"),
         ("--kind curve --x delta --y ''", "unknown"),
-        (
-            "--kind curve --x delta --x rho --y S0,S1",
-            "a map is of one quantity, and --y names 2; give one",
-        ),
-        (
-            "--kind curve --x delta --x rho --x phi",
-            "--kind curve is along two parameters at most",
-        ),
+        ("--kind curve --x delta --x rho --y S0,S1", "is of one quantity, and --y names 2; give"),
+        ("--kind curve --x delta --x rho --x phi", "--kind curve is along two parameters at most"),
         ("--kind poincare --x delta --x rho", "one parameter at most"),
         ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
         ("--kind bench --rho 30", "--kind geometry draws this path in space"),
@@ -288,72 +241,62 @@ def test_the_line_by_default_is_that_of_the_case():
         ("--kind ellipse --json", "--json"),
     ],
 )
-def test_what_cannot_be_drawn_is_refused_in_a_line(line, sentence, capsys, tmp_path):
-    out = "" if "--out" in line else " --out a.png"
-    assert main(["plot", "npgr026", *shlex.split(line + out)]) == 2
-    told = capsys.readouterr()
-    assert (told.out, told.err.count("\n")) == ("", 1)
-    assert sentence in told.err
+def test_what_cannot_be_drawn_is_refused_in_a_line(line, sentence, refused, tmp_path):
+    out = "" if "--out" in line else "--out a.png"
+    assert sentence in refused(f"plot npgr026 {line} {out}")
     assert not [*tmp_path.iterdir()]
 
 
-def test_all_that_is_wrong_is_told_at_once(capsys):
-    assert main(["plot", "npgr026", "--delta", "north"]) == 2
-    told = capsys.readouterr().err
-    assert "3 faults:" in told
-    assert "--kind is missing" in told
-    assert "--out is missing, and a picture is drawn into a file; add --out plot.png" in told
-
-
-def test_without_the_extra_it_says_which(monkeypatch, capsys):
+def test_all_that_is_wrong_and_a_missing_extra_are_told(refused, monkeypatch):
+    faults = refused("plot npgr026 --delta north", lines=4)
+    assert "3 faults:" in faults
+    assert "--kind is missing" in faults
+    assert "--out is missing, and a picture is drawn into a file; add --out plot.png" in faults
     monkeypatch.delattr("optipath.plots.save", raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    assert main(["plot", "npgr026", "--kind", "ellipse", "--out", "a.png"]) == 2
-    assert 'pip install "optipath[plot]"' in capsys.readouterr().err
+    missing = refused("plot npgr026 --kind ellipse --out a.png")
+    assert 'pip install "optipath[plot]"' in missing
 
 
-def test_kinds_are_completed_by_a_shell_and_told_by_help(monkeypatch, capsys):
+def test_kinds_are_completed_by_a_shell_and_told_by_help(monkeypatch, told):
     monkeypatch.setenv("_OPTIPATH_COMPLETE", "bash_complete")
     monkeypatch.setenv("COMP_WORDS", "optipath plot npgr026 --kind po")
     monkeypatch.setenv("COMP_CWORD", "4")
-    assert main([]) == 0
-    assert capsys.readouterr().out == "plain,poincare\n"
-    told = CliRunner().invoke(cli, ["plot", "npgr026", "--help"]).output
-    assert re.search(r"--kind \[" + r"\|".join(KINDS), told)
+    assert told("") == "plain,poincare\n"
+    helped = CliRunner().invoke(cli, ["plot", "npgr026", "--help"]).output
+    assert re.search(r"--kind \[" + r"\|".join(KINDS), helped)
 
 
-DOCS = Path(__file__).parents[2] / "docs"
-QUICK = ["chart", "malus", "--engine", "numpy", "--quick"]
+QUICK = "chart malus --engine numpy --quick"
 
 
-@pytest.fixture(autouse=True)
-def _elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def read(name):
+    return json.loads(Path(name).read_text("utf-8"))
 
 
-def test_how_long_it_takes_is_told_before_and_progress_in_lines(capsys):
-    assert main([*QUICK, "--data", "a.json"]) == 0
-    first, *lines = capsys.readouterr().err.splitlines()
+def test_how_long_it_takes_is_told_before_and_progress_in_lines(run):
+    status, _, err = run(f"{QUICK} --data a.json")
+    assert status == 0
+    first, *lines = err.splitlines()
     assert first.startswith("this takes less than a minute")
     shares = [int(line.split(" %")[0]) for line in lines]
     assert shares[0] == 0
     assert shares == sorted(set(shares))
-    assert json.loads(Path("a.json").read_text("utf-8"))["effort"]["samples"] == 3
+    assert read("a.json")["effort"]["samples"] == 3
     assert Path("chart.png").exists()
 
 
-def test_the_title_says_what_was_changed(monkeypatch):
+def test_the_title_of_a_chart_says_what_was_changed(run, monkeypatch):
     monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
-    given = ["--case", "8", "--delta", "30", "--filter", "none", "--near", "normal"]
-    assert main(["chart", "npgr026", *given, "--data", "a.json"]) == 0
-    title = json.loads(Path("a.json").read_text("utf-8"))["title"]
-    assert title == "npgr026, case 8, delta 30 deg, filter none"
     monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:1])
-    assert main([*QUICK, "--angle", "30", "--data", "b.json"]) == 0
-    assert json.loads(Path("b.json").read_text("utf-8"))["title"] == "malus, angle 30 deg"
+    given = "--case 8 --delta 30 --filter none --near normal --data a.json"
+    assert run(f"chart npgr026 {given}")[0] == 0
+    assert read("a.json")["title"] == "npgr026, case 8, delta 30 deg, filter none"
+    assert run(f"{QUICK} --angle 30 --data b.json")[0] == 0
+    assert read("b.json")["title"] == "malus, angle 30 deg"
 
 
-def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(capsys, monkeypatch):
+def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(run, monkeypatch):
     found, errors = [], chart.path_errors
 
     def interrupted(*arguments):
@@ -362,26 +305,24 @@ def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(capsys, mo
             raise KeyboardInterrupt
         return errors(*arguments)
 
-    monkeypatch.setattr(chart, "path_errors", interrupted)
-    monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:3])
-    arguments = ["chart", "npgr026", "--case", "8", "--engine", "numpy", "--quick"]
-    assert main([*arguments, "--data", "a.json", "--out", "a.svg"]) == 130
-    captured = capsys.readouterr()
-    assert "interrupted: 1 of 4 steps are measured, and are kept" in captured.out
-    assert "wrote a.json\nwrote a.svg" in captured.out
-    assert captured.err.endswith("optipath: interrupted\n")
-    assert json.loads(Path("a.json").read_text("utf-8"))["regions"] == {"measured": 1, "of": 4}
-    assert "interrupted: 1 of 4 regions" in Path("a.svg").read_text("utf-8")
-    assert main(["chart", "--from", "a.json", "--out", "b.svg"]) == 0
-
-
-def test_nothing_is_written_where_nothing_was_measured_yet(monkeypatch):
-    def interrupted(*_):
+    def at_once(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(chart, "many_paths", interrupted)
-    assert main([*QUICK, "--data", "a.json"]) == 130
-    assert list(Path().iterdir()) == []
+    monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:3])
+    monkeypatch.setattr(chart, "path_errors", interrupted)
+    with monkeypatch.context() as patch:
+        patch.setattr(chart, "many_paths", at_once)
+        assert run(f"{QUICK} --data a.json")[0] == 130
+        assert list(Path().iterdir()) == []  # Nothing was measured yet.
+    given = "chart npgr026 --case 8 --engine numpy --quick --data a.json --out a.svg"
+    status, out, err = run(given)
+    assert status == 130
+    assert "interrupted: 1 of 4 steps are measured, and are kept" in out
+    assert "wrote a.json\nwrote a.svg" in out
+    assert err.endswith("optipath: interrupted\n")
+    assert read("a.json")["regions"] == {"measured": 1, "of": 4}
+    assert "interrupted: 1 of 4 regions" in Path("a.svg").read_text("utf-8")
+    assert run("chart --from a.json --out b.svg")[0] == 0
 
 
 WITHOUT_MPMATH = """
@@ -394,23 +335,21 @@ sys.exit([drawn, main(sys.argv[2:])] != [0, 2])
 
 
 def test_a_chart_is_drawn_again_without_mpmath_and_what_measures_says_that_it_needs_it():
-    command = [sys.executable, "-c", WITHOUT_MPMATH, str(DOCS / "chart.json"), *QUICK]
+    command = [sys.executable, "-c", WITHOUT_MPMATH, str(DOCS / "chart.json"), *QUICK.split()]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
     assert 'pip install "optipath[chart]"' in done.stderr
 
 
-def test_errors_near_a_place_are_measured_drawn_and_drawn_again(monkeypatch):
+def test_errors_near_a_place_are_measured_drawn_and_drawn_again(run, monkeypatch):
     monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
-    near = ["chart", "--interface", "--near", "all", "--data", "a.json", "--out", "a.svg"]
-    assert main(near) == 0
-    places = json.loads(Path("a.json").read_text("utf-8"))["places"]
-    assert [place["name"] for place in places] == ["brewster", "critical", "grazing", "normal"]
-    assert main(["chart", "--from", "a.json", "--out", "b.svg"]) == 0
+    assert run("chart --interface --near all --data a.json --out a.svg")[0] == 0
+    places = [place["name"] for place in read("a.json")["places"]]
+    assert places == ["brewster", "critical", "grazing", "normal"]
+    assert run("chart --from a.json --out b.svg")[0] == 0
     a, b = (Path(name).read_text("utf-8") for name in ("a.svg", "b.svg"))
     assert a.count("<path") == b.count("<path")
-    assert main(["chart", "npgr026", "--near", "normal", "--out", "c.svg"]) == 0
 
 
 @rows(
@@ -427,10 +366,7 @@ def test_errors_near_a_place_are_measured_drawn_and_drawn_again(monkeypatch):
         ("npgr026 --peers r.json --quick", "is no whole race"),
     ],
 )
-def test_what_does_not_go_together_is_refused_before_anything_is_measured(line, message, capsys):
+def test_what_does_not_go_together_is_refused_before_anything_is_measured(line, message, refused):
     Path("r.json").write_text("{}", "utf-8")
-    assert main(["chart", *line.split()]) == 2
-    captured = capsys.readouterr()
-    assert message in captured.err
-    assert captured.err.count("\n") == 1
+    assert message in refused(f"chart {line}")
     assert not Path("chart.png").exists()

@@ -12,71 +12,12 @@ from urllib.request import Request, urlopen
 
 import pytest
 
-from optipath.cli import explore_command, main
+from optipath.cli import explore_command
 from optipath.explorer.page_server import PageServer
-from tables import rows
+from tables import rows, slow
 
 START = [sys.executable, "-m", "optipath"]
 WAITS = "import sys, time; print('waits', flush=True); time.sleep(600)\n"
-
-
-@pytest.fixture(autouse=True)
-def interrupts_are_heard():
-    """In the background of a shell they are ignored, and so they are by what is started there."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
-def with_library(folder, name, text):
-    """Return an environment in which a library is replaced by a module."""
-    (folder / f"{name}.py").write_text(text, "utf-8")
-    paths = [str(folder), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
-
-
-def interrupted(arguments, environment, sent, start=START):
-    """Start a command, send a signal when it waits; return its status and what it told."""
-    with subprocess.Popen(
-        [*start, *arguments],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment,
-    ) as process:
-        assert process.stdout.readline() == "waits\n"
-        time.sleep(0.05)
-        process.send_signal(sent)
-        try:
-            _, told = process.communicate(timeout=60)
-        finally:
-            process.kill()
-    return process.returncode, told
-
-
-def script(folder):
-    """Write the script that pip makes of the entry point."""
-    file = folder / "optipath"
-    file.write_text("import sys\nfrom optipath.cli import main\nsys.exit(main())\n", "utf-8")
-    return [sys.executable, str(file)]
-
-
-@pytest.mark.parametrize(
-    ("library", "as_script"),
-    [
-        ("difflib", 1),
-        ("click", 0),
-        *(pytest.param(*each, marks=pytest.mark.slow) for each in (("difflib", 0), ("numpy", 1))),
-    ],
-)
-def test_an_interrupt_while_it_starts_is_told_in_one_line(library, as_script, tmp_path):
-    (tmp_path / "bin").mkdir()
-    environment = with_library(tmp_path, library, WAITS)
-    start = script(tmp_path / "bin") if as_script else START
-    found = interrupted(["run", "malus"], environment, signal.SIGINT, start)
-    assert found == (130, "optipath: interrupted\n")
-
-
 # An exception that is raised in a call from compiled code is lost there.
 LOST = """
 import ctypes, time
@@ -87,25 +28,69 @@ def wait():
 
 ctypes.CFUNCTYPE(None)(wait)()
 """
+INTERRUPTED = (130, "optipath: interrupted\n")
+
+
+@pytest.fixture(autouse=True)
+def interrupts_are_heard():
+    """In the background of a shell they are ignored, and so they are by what is started there."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def started(command, environment=None):
+    """Start a command whose lines are read."""
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    return subprocess.Popen(command, **pipes, env=environment)
+
+
+def ended(process, sent):
+    """Send a signal; return the status of a process, and what it told."""
+    process.send_signal(sent)
+    try:
+        _, told = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    return process.returncode, told
+
+
+def interrupted(command, folder, name, text, sent):
+    """End a command when it waits, in a library that is replaced by a module."""
+    (folder / f"{name}.py").write_text(text, "utf-8")
+    paths = [str(folder), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
+    with started(command, environment) as process:
+        assert process.stdout.readline() == "waits\n"
+        time.sleep(0.05)
+        return ended(process, sent)
+
+
+@pytest.mark.parametrize(
+    ("library", "as_script"),
+    [("difflib", 1), ("click", 0), slow(("difflib", 0)), slow(("numpy", 1))],
+)
+def test_an_interrupt_while_it_starts_is_told_in_one_line(library, as_script, tmp_path):
+    (tmp_path / "bin").mkdir()
+    script = tmp_path / "bin" / "optipath"  # As pip makes it of the entry point.
+    script.write_text("import sys\nfrom optipath.cli import main\nsys.exit(main())\n", "utf-8")
+    start = [sys.executable, str(script)] if as_script else START
+    given = [*start, "run", "malus"], tmp_path, library, WAITS, signal.SIGINT
+    assert interrupted(*given) == INTERRUPTED
 
 
 @pytest.mark.parametrize(
     ("text", "sent", "found"),
     [
-        (LOST, signal.SIGINT, (130, "optipath: interrupted\n")),
+        (LOST, signal.SIGINT, INTERRUPTED),
         (WAITS, signal.SIGTERM, (143, "")),
-        *(
-            pytest.param(
-                text, signal.SIGINT, (130, "optipath: interrupted\n"), marks=pytest.mark.slow
-            )
-            for text in (WAITS, f"exec({WAITS!r})")
-        ),
+        slow((WAITS, signal.SIGINT, INTERRUPTED)),
+        slow((f"exec({WAITS!r})", signal.SIGINT, INTERRUPTED)),
     ],
 )
 def test_a_signal_while_it_works_is_told_in_one_line_at_most(text, sent, found, tmp_path):
-    environment = with_library(tmp_path, "matplotlib", text)
-    chart = ["chart", "malus", "--out", str(tmp_path / "x.png")]
-    assert interrupted(chart, environment, sent) == found
+    chart = [*START, "chart", "malus", "--out", str(tmp_path / "x.png")]
+    assert interrupted(chart, tmp_path, "matplotlib", text, sent) == found
 
 
 def test_a_script_imports_the_library_and_keeps_its_own_way_with_interrupts(tmp_path):
@@ -114,35 +99,32 @@ def test_a_script_imports_the_library_and_keeps_its_own_way_with_interrupts(tmp_
         "print(signal.getsignal(signal.SIGINT).__name__)\n"
     )
     code = "import pathlib, runpy; runpy.run_path(pathlib.Path('script.py'))"  # As argv has it.
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "1.0\ndefault_int_handler\n"
 
 
-@rows("arguments", [["presets"], ["explain", "malus"]])
-def test_a_broken_pipe_ends_it_in_silence(arguments):
-    reader, writer = os.pipe()
-    os.close(reader)
-    done = subprocess.run(
-        [*START, *arguments], stdout=writer, stderr=subprocess.PIPE, text=True, check=False
-    )
-    os.close(writer)
-    assert (done.returncode, done.stderr) == (0, "")
-
-
 @rows(
-    "closed, status, told",
+    "command, closed, status, told",
     [
-        (">&-", 2, "optipath: the output cannot be written: standard output is closed\n"),
-        ("<&- >/dev/null", 0, ""),
-        (">&- 2>&-", 2, ""),
+        ("run malus --json", ">&-", 2, "the output cannot be written: standard output is closed"),
+        ("run malus --json", "<&- >/dev/null", 0, ""),
+        ("run malus --json", ">&- 2>&-", 2, ""),
+        ("presets", "| true", 0, ""),
+        ("explain malus", "| true", 0, ""),
     ],
 )
-def test_streams_that_are_closed_or_full_are_told_of(closed, status, told):
-    command = f"exec {' '.join(START)} run malus --json {closed}"
-    done = subprocess.run(["/bin/sh", "-c", command], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (status, told)
+def test_streams_that_are_closed_are_told_of_and_a_broken_pipe_ends_it_in_silence(
+    command, closed, status, told
+):
+    reader, writer = os.pipe()
+    os.close(reader)
+    pipe, closed = (writer, "") if closed == "| true" else (subprocess.PIPE, closed)
+    line = f"exec {' '.join(START)} {command} {closed}"
+    done = subprocess.run(
+        ["/bin/sh", "-c", line], stdout=pipe, stderr=subprocess.PIPE, text=True, check=False
+    )
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (status, f"optipath: {told}\n" if told else "")
 
 
 OWN = """
@@ -158,6 +140,12 @@ class Halved(op.Element, kind="test-halved"):
     def mueller_rows(xp):
         half = [0.5, 0.0, 0.0, 0.0]
         return [[0.5 if row == column else 0.0 for column in range(4)] for row in range(4)]
+"""
+HALVES = """
+format = 1
+description = "Halved"
+elements = { L = { kind = "source" }, H = { kind = "test-halved" }, E = { kind = "detector" } }
+links = [{ from = "L.out", to = "H.in" }, { from = "H.out", to = "E.in" }]
 """
 
 
@@ -186,51 +174,42 @@ class AtOnce:
 
     def __init__(self, target, args, daemon):
         assert daemon
-        self.run = lambda: target(*args)
-
-    def start(self):
-        self.run()
+        self.start = lambda: target(*args)
 
 
-def test_the_address_is_printed_and_opened_where_a_browser_is_wanted(capsys, served, opened):
-    assert main(["explore", "malus"]) == 0
-    out = capsys.readouterr().out
+def test_the_address_is_printed_and_opened_where_a_browser_is_wanted(run, served, opened):
+    status, out, _ = run("explore malus")
+    assert status == 0
     assert served[0].address in out
     assert "Ctrl-C ends it" in out
     assert opened == [served[0].address]
     assert served[0].answers.presets()["opened"] == "malus"
-    assert main(["explore", "--no-browser"]) == 0
-    assert served[1].address in capsys.readouterr().out
+    status, out, _ = run("explore --no-browser")
+    assert status == 0
+    assert served[1].address in out
     assert len(opened) == 1
     assert served[1].answers.presets()["opened"] == "npgr026"
 
 
-@pytest.mark.parametrize("how", [lambda _: False, lambda _: 1 / 0])
-def test_without_a_browser_the_address_is_printed_all_the_same(
-    capsys, served, opened, monkeypatch, how
-):
-    del opened
+@pytest.mark.usefixtures("opened")
+def test_without_a_browser_the_address_is_printed_all_the_same(run, served, monkeypatch):
+    def fails(_):
+        raise webbrowser.Error("could not locate runnable browser")
 
-    def fails(address):
-        try:
-            return how(address)
-        except ZeroDivisionError:
-            raise webbrowser.Error("could not locate runnable browser") from None
-
-    monkeypatch.setattr(webbrowser, "open", fails)
-    assert main(["explore"]) == 0
-    out = capsys.readouterr().out
-    assert served[0].address in out
-    assert "no browser could be opened; open the address above" in out
+    for how in (lambda _: False, fails):
+        monkeypatch.setattr(webbrowser, "open", how)
+        status, out, _ = run("explore")
+        assert status == 0
+        assert served[-1].address in out
+        assert "no browser could be opened; open the address above" in out
 
 
-def test_a_port_that_is_taken_is_told(capsys, served):
+def test_a_port_that_is_taken_is_told(refused, served):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        assert main(["explore", "--no-browser", "--port", str(port)]) == 2
-    told = capsys.readouterr().err
-    assert told.startswith(f"optipath: port {port} cannot be listened at")
-    assert told.endswith("give another, or leave --port out\n")
+        told = refused(f"explore --no-browser --port {port}")
+    assert told.startswith(f"port {port} cannot be listened at")
+    assert told.endswith("give another, or leave --port out")
     assert served == []
 
 
@@ -245,56 +224,36 @@ def test_a_port_that_is_taken_is_told(capsys, served):
         ("bad.toml", "sauce"),
     ],
 )
-def test_what_cannot_be_opened_is_told_at_once(line, told, capsys, served, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_what_cannot_be_opened_is_told_at_once(line, told, refused, served, tmp_path):
     bad = 'format = 1\ndescription = "x"\n[elements.L]\nkind = "sauce"\n'
     (tmp_path / "bad.toml").write_text(bad, "utf-8")
-    assert main(["explore", *line.split()]) == 2
-    error = capsys.readouterr().err
-    assert told in error
-    assert error.count("\n") == 1 or told == "sauce"
+    assert told in refused(f"explore {line}")
     assert served == []
 
 
-def test_elements_of_ones_own_are_traced(served, opened, tmp_path):
-    del opened
-    module = tmp_path / "own_halves.py"
-    module.write_text(OWN, "utf-8")
-    file = tmp_path / "halves.toml"
-    file.write_text(
-        'format = 1\ndescription = "Halved"\n'
-        '[elements.L]\nkind = "source"\n[elements.H]\nkind = "test-halved"\n'
-        '[elements.E]\nkind = "detector"\n'
-        '[[links]]\nfrom = "L.out"\nto = "H.in"\n[[links]]\nfrom = "H.out"\nto = "E.in"\n',
-        "utf-8",
-    )
-    assert main(["--import", str(module), "explore", str(file)]) == 0
+@pytest.mark.usefixtures("opened")
+def test_elements_of_ones_own_are_traced(run, served, tmp_path):
+    (tmp_path / "own_halves.py").write_text(OWN, "utf-8")
+    (tmp_path / "halves.toml").write_text(HALVES, "utf-8")
+    assert run("--import", tmp_path / "own_halves.py", "explore", "halves.toml")[0] == 0
     found = served[0].answers.trace({"preset": "halves.toml", "want": ["scene", "energy"]})
     assert found["detectors"]["E"]["texts"] == ["0.5", "0", "0", "0"]
 
 
-def answer(address, **state):
-    body = json.dumps({"preset": "malus", **state}).encode()
-    headers = {"Content-Type": "application/json"}
-    with urlopen(Request(f"{address}api/trace", body, headers), timeout=30) as found:  # noqa: S310
-        return json.load(found)
-
-
 def test_it_serves_until_an_interrupt_ends_it_in_one_line():
     command = [*START, "explore", "malus", "--no-browser"]
-    environment = {**os.environ, "PYTHONUNBUFFERED": ""}
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
-    ) as process:
+    with started(command, {**os.environ, "PYTHONUNBUFFERED": ""}) as process:
         try:
             address = process.stdout.readline().split()[-1]
-            found = answer(address, values={"angle": "60 deg"})
+            body = json.dumps({"preset": "malus", "values": {"angle": "60 deg"}}).encode()
+            headers = {"Content-Type": "application/json"}
+            request = Request(f"{address}api/trace", body, headers)  # noqa: S310 - our own
+            with urlopen(request, timeout=30) as answer:  # noqa: S310 - our own
+                found = json.load(answer)
             assert found["detectors"]["eye"]["texts"][0] == "0.125"
-            process.send_signal(signal.SIGINT)
-            _, told = process.communicate(timeout=60)
+            assert ended(process, signal.SIGINT) == INTERRUPTED
         finally:
             process.kill()
-    assert (process.returncode, told) == (130, "optipath: interrupted\n")
 
 
 def test_it_needs_no_extra():

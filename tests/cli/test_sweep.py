@@ -1,6 +1,5 @@
 """optipath sweep: tables, files of every form, and how names and endings are written."""
 
-import json
 import os
 import subprocess
 import sys
@@ -9,89 +8,66 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.cli import main, sweep_command
+from optipath.cli import sweep_command
 from optipath.cli.block_bar import block_bar
 from optipath.sweeps.labels.table_texts import regions
 from tables import rows
 
-
-@pytest.fixture(autouse=True)
-def _in_a_folder_of_its_own(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+ZARR = "sweep malus --angle 0:90:10 --out a.zarr --scheduler synchronous --chunks"
 
 
-def sweep(capsys, *arguments):
-    status = main(["sweep", *arguments])
-    captured = capsys.readouterr()
-    return status, captured.out, captured.err
-
-
-def written(file):
-    """Return the columns of a table by their headings."""
-    header, *rows = [line.split(",") for line in file.read_text("utf-8").splitlines()]
-    return dict(zip(header, np.array(rows, float).T, strict=True))
-
-
-def test_one_axis_is_a_table_two_are_a_plane_and_large_grids_are_summed_up(capsys):
-    status, out, err = sweep(capsys, "malus", "--angle", "0:90:3")
+def test_one_axis_is_a_table_two_are_a_plane_and_large_grids_are_summed_up(told, run):
+    out = told("sweep malus --angle 0:90:3")
     lines = [line.split() for line in out.splitlines()]
-    assert (status, err) == (0, "")
     header = ["angle", "(deg)", "S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "(deg)"]
     assert any(line[: len(header)] == header for line in lines)
     assert any(line[:8] == ["45", "0.25", "0", "0.25", "0", "1", "1", "45"] for line in lines)
     assert any(line[:7] == ["90", "0", "0", "0", "0", "-", "-"] for line in lines)
     assert all(len(line) <= 80 for line in out.splitlines())
-    _, out, _ = sweep(capsys, "malus", "--angle", "0:90:3", "--intensity", "1:2:2")
+    out = run("sweep malus --angle 0:90:3 --intensity 1:2:2")[1]
     lines = [line.split() for line in out.splitlines()]
     assert ["angle", "(deg)", "\\", "intensity", "1", "2"] in lines
     assert ["45", "0.25", "0.5"] in lines
     assert "--out FILE" in out
-    _, out, _ = sweep(capsys, "malus", "--angle", "0:90:31", "--intensity", "1:4:31")
+    out = run("sweep malus --angle 0:90:31 --intensity 1:4:31")[1]
     assert "961 points (angle 31, intensity 31)" in out
     assert out.split("light at eye")[1].split()[:2] == ["0", "2"]
 
 
-def test_json_has_axes_units_and_all_values(capsys):
-    _, out, _ = sweep(capsys, "malus", "--angle", "0:60:3", "--intensity", "1, 2", "--json")
-    told = json.loads(out)
-    assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
-    stokes = np.array(told["detectors"]["eye"]["stokes"])
+def test_json_has_axes_units_and_all_values(found):
+    grid = found("sweep malus --angle 0:60:3 --intensity '1, 2'")
+    assert grid["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
+    stokes = np.array(grid["detectors"]["eye"]["stokes"])
     np.testing.assert_allclose(stokes[..., 0], [[0.5, 1], [0.375, 0.75], [0.125, 0.25]], atol=1e-15)
-    given = ["--angle", "0:60:3", "--intensity", "1:3:3", "--zip", "angle,intensity"]
-    told = json.loads(sweep(capsys, "malus", *given, "--json")[1])
-    intensities = [stokes[0] for stokes in told["detectors"]["eye"]["stokes"]]
+    row = found("sweep malus --angle 0:60:3 --intensity 1:3:3 --zip angle,intensity")
+    intensities = [stokes[0] for stokes in row["detectors"]["eye"]["stokes"]]
     assert intensities == pytest.approx([0.5, 0.75, 0.375], abs=1e-15)
-    assert told["axes"]["angle"]["dimension"] == told["axes"]["intensity"]["dimension"]
+    assert row["axes"]["angle"]["dimension"] == row["axes"]["intensity"]["dimension"]
 
 
-def test_a_table_has_a_line_for_each_point_and_units_in_its_headings(capsys, tmp_path):
-    file = tmp_path / "result.csv"
-    given = ["--angle", "0:60:3", "--intensity", "1:2:2", "--out", "result.csv"]
-    status, out, err = sweep(capsys, "malus", *given)
-    assert (status, err) == (0, "")
+def test_a_table_has_a_line_for_each_point_and_units_in_its_headings(told, tmp_path):
+    out = told("sweep malus --angle 0:60:3 --intensity 1:2:2 --out result.csv")
     assert out == "wrote result.csv: 6 points (angle 3, intensity 2)\n"
-    found = written(file)
-    assert [*found][:4] == ["angle (deg)", "intensity", "S0", "S1"]
-    np.testing.assert_allclose(found["angle (deg)"], [0, 0, 30, 30, 60, 60])
-    cosines = np.cos(np.radians(found["angle (deg)"])) ** 2
-    np.testing.assert_allclose(found["S0"], found["intensity"] * cosines / 2, rtol=1e-14)
-    np.testing.assert_allclose(found["AoP (deg)"], found["angle (deg)"], atol=1e-12)
+    lines = (tmp_path / "result.csv").read_text("utf-8").splitlines()
+    header, *points = [line.split(",") for line in lines]
+    assert header[:4] == ["angle (deg)", "intensity", "S0", "S1"]
+    table = dict(zip(header, np.array(points, float).T, strict=True))
+    np.testing.assert_allclose(table["angle (deg)"], [0, 0, 30, 30, 60, 60])
+    cosines = np.cos(np.radians(table["angle (deg)"])) ** 2
+    np.testing.assert_allclose(table["S0"], table["intensity"] * cosines / 2, rtol=1e-14)
+    np.testing.assert_allclose(table["AoP (deg)"], table["angle (deg)"], atol=1e-12)
 
 
-def test_a_table_that_is_written_is_read_back_as_an_axis_or_as_points(capsys):
-    sweep(capsys, "malus", "--angle", "0:60:3", "--out", "result.csv")
-    told = json.loads(sweep(capsys, "malus", "--angle", "@result.csv", "--json")[1])
-    assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
-    sweep(capsys, "npgr026", "--delta", "10:20:2", "--rho", "5:10:2", "--out", "points.csv")
-    told = json.loads(sweep(capsys, "npgr026", "--coords", "points.csv", "--json")[1])
-    assert told["axes"]["delta"]["values"] == [10.0, 10.0, 20.0, 20.0]
-    assert told["axes"]["rho"] == {"dimension": "point", "unit": "deg", "values": [5, 10, 5, 10]}
-
-
-def test_columns_of_a_file_vary_together(capsys, tmp_path):
+def test_a_table_is_read_as_an_axis_or_as_points_whose_columns_vary_together(run, found, tmp_path):
+    run("sweep malus --angle 0:60:3 --out result.csv")
+    axes = found("sweep malus --angle @result.csv")["axes"]
+    assert axes["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
+    run("sweep npgr026 --delta 10:20:2 --rho 5:10:2 --out points.csv")
+    axes = found("sweep npgr026 --coords points.csv")["axes"]
+    assert axes["delta"]["values"] == [10.0, 10.0, 20.0, 20.0]
+    assert axes["rho"] == {"dimension": "point", "unit": "deg", "values": [5, 10, 5, 10]}
     (tmp_path / "points.csv").write_text("delta (deg),rho (deg)\n10,0\n20,5\n", "utf-8")
-    given = ["--coords", "points.csv", "--case", "8", "--json"]
-    stokes = json.loads(sweep(capsys, "npgr026", *given)[1])["detectors"]["E"]["stokes"]
+    stokes = found("sweep npgr026 --coords points.csv --case 8")["detectors"]["E"]["stokes"]
     path = op.load_preset("npgr026", case="8")
     points = (("10 deg", "0 deg"), ("20 deg", "5 deg"))
     alone = [path.trace(delta=delta, rho=rho).stokes for delta, rho in points]
@@ -99,10 +75,10 @@ def test_columns_of_a_file_vary_together(capsys, tmp_path):
 
 
 @rows("name", ["result.zarr", "result.nc"])
-def test_stores_have_the_axes_in_the_units_given(name, capsys):
+def test_stores_have_the_axes_in_the_units_given(name, run):
     xarray = pytest.importorskip("xarray")
-    given = ["--delta", "0:90:4", "--filter", "0:90:3", "--out", name]
-    status, out, _ = sweep(capsys, "npgr026", *given, "--scheduler", "synchronous")
+    given = f"--delta 0:90:4 --filter 0:90:3 --out {name} --scheduler synchronous"
+    status, out, _ = run(f"sweep npgr026 {given}")
     assert (status, out) == (0, f"wrote {name}: 12 points (delta 4, filter 3)\n")
     opened = xarray.open_zarr(name) if name.endswith(".zarr") else xarray.open_dataset(name)
     with opened as dataset:
@@ -114,25 +90,16 @@ def test_stores_have_the_axes_in_the_units_given(name, capsys):
     np.testing.assert_allclose(found, alone, rtol=1e-13, atol=1e-16)
 
 
-def test_a_store_that_is_whole_is_not_computed_again(capsys):
+def test_blocks_of_a_store_that_are_whole_are_kept_and_damaged_ones_computed_anew(run, tmp_path):
     pytest.importorskip("xarray")
-    given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "5"]
-    assert sweep(capsys, *given, "--scheduler", "synchronous")[2] == ""
-    status, _, err = sweep(capsys, *given, "--scheduler", "synchronous")
-    assert (status, err) == (0, "optipath: 2 of 2 blocks are in a.zarr already\n")
-
-
-def test_damaged_blocks_of_a_store_are_named_and_computed_anew(capsys, tmp_path):
-    pytest.importorskip("xarray")
-    given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "2"]
-    given += ["--scheduler", "synchronous"]
-    sweep(capsys, *given)
+    assert run(f"{ZARR} 2")[2] == ""
+    assert run(f"{ZARR} 2")[::2] == (0, "optipath: 5 of 5 blocks are in a.zarr already\n")
     chunk = tmp_path / "a.zarr" / "S0" / "3"
     content = chunk.read_bytes()
     chunk.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
     (tmp_path / "a.zarr" / "DoP" / "1").unlink()
     os.mkfifo(tmp_path / "a.zarr" / "DoP" / "1")
-    status, _, err = sweep(capsys, *given)
+    status, _, err = run(f"{ZARR} 2")
     damaged, kept = err.splitlines()
     assert status == 0
     assert damaged.startswith("optipath: blocks of '")
@@ -140,12 +107,12 @@ def test_damaged_blocks_of_a_store_are_named_and_computed_anew(capsys, tmp_path)
     assert kept == "optipath: 3 of 5 blocks are in a.zarr already"
     assert chunk.read_bytes() == content
     (tmp_path / "a.zarr" / ".zattrs").write_text("[" * 100_000)
-    status, _, err = sweep(capsys, *given)
+    status, _, err = run(f"{ZARR} 2")
     assert (status, len(err.splitlines())) == (2, 1)
     assert ".zattrs' is damaged or gone" in err
 
 
-def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, monkeypatch):
+def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(run, monkeypatch):
     pytest.importorskip("xarray")
     from optipath.sweeps.kept.sweep_block import SweepBlock  # noqa: PLC0415 - an extra
 
@@ -156,45 +123,39 @@ def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, mo
             raise KeyboardInterrupt
         return compute(job, number)
 
-    given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "3"]
-    given += ["--scheduler", "synchronous"]
     with monkeypatch.context() as patch:
         patch.setattr(SweepBlock, "compute", interrupted)
-        status, _, err = sweep(capsys, *given)
+        status, _, err = run(f"{ZARR} 3")
     told = "optipath: 2 of 4 blocks are in a.zarr; the same command goes on from there\n"
     assert (status, err) == (130, f"{told}optipath: interrupted\n")
     numbers = []
     monkeypatch.setattr(SweepBlock, "compute", lambda *a: numbers.append(a[1]) or compute(*a))
-    assert sweep(capsys, *given)[2] == "optipath: 2 of 4 blocks are in a.zarr already\n"
+    assert run(f"{ZARR} 3")[2] == "optipath: 2 of 4 blocks are in a.zarr already\n"
     assert numbers == [2, 3]
 
 
-def test_nothing_that_is_there_is_overwritten(capsys, tmp_path):
+def test_nothing_that_is_there_is_overwritten_and_no_table_is_there_in_part(
+    run, refused, tmp_path, monkeypatch
+):
     pytest.importorskip("xarray")
     for name in ("a.csv", "a.json", "a.nc", "a.zarr"):
         (tmp_path / name).write_text("mine", "utf-8")
-        status, out, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", name)
-        assert (status, out, len(err.splitlines())) == (2, "", 1)
-        assert name in err
+        assert name in refused(f"sweep malus --angle 0:90:3 --out {name}")
         assert (tmp_path / name).read_text("utf-8") == "mine"
         (tmp_path / name).unlink()
         assert not [*tmp_path.iterdir()]
 
-
-def test_a_table_is_whole_or_not_there(capsys, monkeypatch, tmp_path):
     def broken(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("optipath.cli.sweep_files.table_columns", broken)
-    assert sweep(capsys, "malus", "--angle", "0:90:3", "--out", "a.csv")[0] == 130
+    assert run("sweep malus --angle 0:90:3 --out a.csv")[0] == 130
     assert not [*tmp_path.iterdir()]
 
 
-def test_all_that_is_wrong_with_options_and_values_is_told_at_once(capsys):
-    wrong = ["--out", "a.txt", "--chunks", "0", "--scheduler", "hreads", "--zip", "delta"]
-    wrong += ["--coords", "none.csv", "--delta", "0:95:3", "--phi", "95"]
-    status, out, err = sweep(capsys, "npgr026", *wrong)
-    assert (status, out) == (2, "")
+def test_all_that_is_wrong_with_options_and_values_is_told_at_once(refused):
+    wrong = "--out a.txt --chunks 0 --scheduler hreads --zip delta --coords none.csv"
+    sentences = refused(f"sweep npgr026 {wrong} --delta 0:95:3 --phi 95", lines=9)
     for part in (
         "'a.txt' has no ending of a sweep; write 'a.csv', .json, .nc or .zarr",
         "--chunks '0' is no size",
@@ -204,34 +165,28 @@ def test_all_that_is_wrong_with_options_and_values_is_told_at_once(capsys):
         "'delta' is 95 deg at 2",
         "'phi' is 95 deg,",
     ):
-        assert part in err
+        assert part in sentences
 
 
 @rows(
     "given, sentence",
     [
-        ([], "a sweep has an axis at least; give --angle START:STOP:COUNT or --coords FILE.csv"),
-        (["--angle", "45"], "a sweep has an axis at least"),
-        (["--angle", "0:9:3", "--out", "none/a.csv"], "there is no folder"),
-        (["--angle", "0:9:3", "--out", "a.csv", "--json"], "give one of them"),
-        (["--angle", "0:9:3", "--out", "a.csv", "--chunks", "3"], "--chunks belongs to a sweep"),
-        (["--angle", "0:9:3", "--zip", "angle,intensty"], "which has no axis of its own"),
-        (["--angle", "0:9:3", "--case", "1", "--case", "2"], "sweep takes one case"),
+        ("", "a sweep has an axis at least; give --angle START:STOP:COUNT or --coords FILE.csv"),
+        ("--angle 45", "a sweep has an axis at least"),
+        ("--angle 0:9:3 --out none/a.csv", "there is no folder"),
+        ("--angle 0:9:3 --out a.csv --json", "give one of them"),
+        ("--angle 0:9:3 --out a.csv --chunks 3", "--chunks belongs to a sweep"),
+        ("--angle 0:9:3 --zip angle,intensty", "which has no axis of its own"),
+        ("--angle 0:9:3 --case 1 --case 2", "sweep takes one case"),
     ],
 )
-def test_a_fault_is_one_sentence(given, sentence, capsys):
-    status, out, err = sweep(capsys, "malus", *given)
-    assert (status, out) == (2, "")
-    assert sentence in err
-    assert len(err.splitlines()) == 1
+def test_a_fault_is_one_sentence(given, sentence, refused):
+    assert sentence in refused(f"sweep malus {given}")
 
 
 @pytest.mark.parametrize(
     "missing",
-    [
-        "xarray",
-        *(pytest.param(name, marks=pytest.mark.slow) for name in ("dask", "zarr")),
-    ],
+    ["xarray", *(pytest.param(name, marks=pytest.mark.slow) for name in ("dask", "zarr"))],
 )
 def test_a_missing_extra_is_told_with_its_cure(missing):
     program = (
@@ -246,9 +201,10 @@ def test_a_missing_extra_is_told_with_its_cure(missing):
     assert len(ended.stderr.splitlines()) == 1
 
 
-def test_help_says_how_several_values_are_written(capsys):
-    assert "start:stop:count" in sweep(capsys, "malus", "--help")[1]
-    assert "--out FILE" in sweep(capsys, "malus", "--help")[1]
+def test_help_says_how_several_values_are_written(told):
+    helped = told("sweep malus --help")
+    assert "start:stop:count" in helped
+    assert "--out FILE" in helped
     assert sweep_command.sweep.name == "sweep"
 
 
@@ -260,18 +216,13 @@ def test_regions_cover_a_grid_in_the_order_of_its_points(most):
     np.testing.assert_array_equal(np.concatenate(parts), points.ravel())
 
 
-ANGLE = ("--angle", "0:90:3")
-
-
-def test_endings_and_names_are_taken_as_they_are_written(capsys, tmp_path):
-    assert sweep(capsys, "malus", *ANGLE, "--out", "a.csv/")[0] == 0
+def test_endings_and_names_are_taken_as_they_are_written(run, found, tmp_path):
+    assert run("sweep malus --angle 0:90:3 --out a.csv/")[0] == 0
     assert (tmp_path / "a.csv").read_text("utf-8").startswith("angle (deg),S0,")
     for names in ("sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"):
-        given = ["--sky-angle", "0:30:3", "--theta", "0:60:3", "--zip", names, "--json"]
-        status, out, err = sweep(capsys, "sky-and-window", *given)
-        assert (status, err) == (0, "")
-        dimensions = {axis["dimension"] for axis in json.loads(out)["axes"].values()}
-        assert dimensions == {"sky_angle_theta"}
+        given = "--sky-angle 0:30:3 --theta 0:60:3 --zip"
+        axes = found(f"sweep sky-and-window {given}", names)["axes"]
+        assert {axis["dimension"] for axis in axes.values()} == {"sky_angle_theta"}
 
 
 def test_an_interrupt_says_that_blocks_of_netcdf_are_beside_it(capsys):
@@ -287,28 +238,19 @@ def test_an_interrupt_says_that_blocks_of_netcdf_are_beside_it(capsys):
     assert lines[1].startswith("optipath: 1 of 3 blocks is in .x.nc.blocks; the same command")
 
 
-def test_a_choice_of_places_takes_one_word(capsys):
+def test_faults_of_values_and_of_cells_are_told_as_what_they_are(run, refused, tmp_path):
     for word in ("light,between,eye", "@places.csv", "light:eye:2"):
-        status, _, err = sweep(capsys, "npgr026", "--delta", "0:90:3", "--place", word)
-        assert status == 2
-        told_of_it = f"--place takes one word of light, between and eye, and '{word}' is several"
-        assert err == f"optipath: {told_of_it}; give one, and write a command for each\n"
-
-
-def test_faults_of_values_and_of_cells_are_told_as_what_they_are(capsys, tmp_path):
+        several = f"--place takes one word of light, between and eye, and '{word}' is several"
+        fault = refused("sweep npgr026 --delta 0:90:3 --place", word)
+        assert fault == f"{several}; give one, and write a command for each"
     for text in ("nan", "NaN", "10, nan, 30"):
-        _, _, err = sweep(capsys, "npgr026", "--delta", text)
+        err = run("sweep npgr026 --delta", text)[2]
         cures = err.count("cannot be 'nan', which is not finite; give an angle such as '45 deg'")
         assert cures + err.count("cannot be 'NaN', which is not finite")
         assert "word" not in err
-    file = tmp_path / "a.csv"
-    file.write_text("delta (deg)\n10\nnan\n30\n", "utf-8")
-    _, _, err = sweep(capsys, "npgr026", "--delta", "@a.csv")
+    (tmp_path / "a.csv").write_text("delta (deg)\n10\nnan\n30\n", "utf-8")
+    err = run("sweep npgr026 --delta @a.csv")[2]
     assert err.startswith("optipath: a.csv: parameter 'delta' cannot be 'nan'")
-    file.write_text("delta\n10\n20\n30\n", "utf-8")
-    status, _, err = sweep(capsys, "npgr026", "--delta", "@a.csv")
-    assert status == 2
-    assert err == (
-        "optipath: a.csv: column 'delta' has no unit; write its name as 'delta (deg)' if that is "
-        "its unit\n"
-    )
+    (tmp_path / "a.csv").write_text("delta\n10\n20\n30\n", "utf-8")
+    unit = "column 'delta' has no unit; write its name as 'delta (deg)' if that is its unit"
+    assert refused("sweep npgr026 --delta @a.csv") == f"a.csv: {unit}"
