@@ -2,7 +2,7 @@
 
 import json
 import socket
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from http.client import HTTPConnection
 from threading import Thread
 
@@ -45,16 +45,20 @@ def posted(server, place, body, **headers):
     return status, json.loads(answer)
 
 
-def raw(server, sent, *, timeout=20.0, close=False):
+def head_of(server, lines):
+    """The head of a question about a path, with further lines."""
+    place = f"POST /{server.token}/api/trace HTTP/1.1\r\nHost: 127.0.0.1:{server.server_port}\r\n"
+    return f"{place}Content-Type: application/json\r\n{lines}\r\n".encode()
+
+
+def raw(server, sent, *, close=False):
     """Send bytes as they are; return all that comes back."""
-    with socket.create_connection(("127.0.0.1", server.server_port), timeout) as connection:
+    with socket.create_connection(("127.0.0.1", server.server_port), 20.0) as connection:
         found = b""
-        try:
+        with suppress(OSError):  # It has hung up.
             connection.sendall(sent)
             if close:
                 connection.shutdown(socket.SHUT_WR)
             while part := connection.recv(1 << 16):
                 found += part
-        except OSError:  # It has hung up.
-            pass
         return found

