@@ -7,6 +7,7 @@ from threading import Thread
 
 import pytest
 
+import optipath as op
 from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.page_answers import PageAnswers
 from optipath.explorer.page_server import PageServer
@@ -74,12 +75,17 @@ class Visit:
         texts = self.page.locator("#stokes td.value").all_inner_texts()
         return [text.replace("\N{MINUS SIGN}", "-") for text in texts]
 
-    def shows(self, wanted):
-        """Wait until the page shows these numbers."""
+    def shows(self, light):
+        """Wait until the page shows the numbers of a light."""
         from playwright.sync_api import expect  # noqa: PLC0415 - an extra
 
-        texts = [text.replace("-", "\N{MINUS SIGN}") for text in wanted]
+        texts = ["0" if abs(each) < light.noise else f"{each:.6g}" for each in light.stokes]
+        texts = [text.replace("-", "\N{MINUS SIGN}") for text in texts]
         expect(self.page.locator("#stokes td.value")).to_have_text(texts, timeout=15000)
+
+    def shows_npgr026(self, case="8", place="light", **values):
+        """Wait until the page shows the numbers of npgr026 with some values."""
+        self.shows(op.load_preset("npgr026", case=case, place=place).trace(**values))
 
     def imported(self, module, expression):
         """The value of an expression with `it`, a module of the page."""

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import pytest
 
+import optipath as op
 from page_faults import CONTRASTS, CUT, OVER, UNNAMED
 
 pytestmark = pytest.mark.slow
@@ -13,6 +14,7 @@ expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'bro
 
 FOCUSED = """(({ id, ariaLabel, textContent }) => id || ariaLabel || textContent)(
   document.activeElement)"""
+CASE_8 = "preset=npgr026&case=8"
 SIZES = {"phone": (400, 800), "desk": (1280, 900), "wall": (3840, 2160)}
 
 
@@ -22,8 +24,7 @@ def test_nothing_is_cut_or_faint_in_a_window(visited_with, size, scheme):
     width, height = SIZES[size]
     visited = visited_with(viewport={"width": width, "height": height}, color_scheme=scheme)
     page = visited.open("preset=npgr026&case=8&y=S0,S1,S2,S3,DoP,AoP")
-    wide = page.evaluate("document.documentElement.scrollWidth")
-    assert wide <= width
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert page.evaluate(CONTRASTS) == []
     assert page.evaluate(CUT) == []
     assert page.evaluate(OVER) == []
@@ -35,8 +36,7 @@ def test_nothing_is_cut_or_faint_in_a_window(visited_with, size, scheme):
 def test_pictures_and_texts_grow_with_the_window(visited_with):
     sizes = []
     for width, height in (SIZES["desk"], SIZES["wall"]):
-        visited = visited_with(viewport={"width": width, "height": height})
-        page = visited.open("preset=npgr026&case=8")
+        page = visited_with(viewport={"width": width, "height": height}).open(CASE_8)
         box = page.locator("[data-picture=ellipse] svg").bounding_box()
         text = page.evaluate("parseFloat(getComputedStyle(document.body).fontSize)")
         sizes.append((box["width"], text))
@@ -48,16 +48,15 @@ def test_the_light_stands_above_the_controls_on_a_phone_and_beside_them_at_a_des
     for size in ("phone", "desk"):
         width, height = SIZES[size]
         page = visited_with(viewport={"width": width, "height": height}).open()
-        light = page.locator("#light").bounding_box()
-        controls = page.locator("#controls").bounding_box()
+        light, controls = (page.locator(one).bounding_box() for one in ("#light", "#controls"))
         if size == "phone":
             assert light["y"] + light["height"] <= controls["y"]
         else:
             assert controls["x"] + controls["width"] <= light["x"]
 
 
-def test_every_control_and_picture_has_a_name(visited):
-    page = visited.open("preset=npgr026&case=8")
+def test_every_control_and_picture_has_a_name_and_says_in_words_what_it_shows(visited):
+    page = visited.open(CASE_8)
     assert page.evaluate(UNNAMED) == []
     ids = page.evaluate("[...document.querySelectorAll('[id]')].map((each) => each.id)")
     assert len(ids) == len(set(ids))
@@ -70,11 +69,6 @@ def test_every_control_and_picture_has_a_name(visited):
     )
     assert levels[0] == 1
     assert all(after - before <= 1 for before, after in pairwise(levels))
-
-
-def test_pictures_say_in_words_and_numbers_what_they_show(visited):
-    page = visited.open("preset=npgr026&case=8")
-    label = "[data-picture={}] svg"
     for picture, words in {
         "ellipse": "left-handed, axis at \N{MINUS SIGN}24.91",
         "sphere": "X2.reflected",
@@ -82,35 +76,23 @@ def test_pictures_say_in_words_and_numbers_what_they_show(visited):
         "curve": "Against delta (deg) from 0 to 90",
         "energy": "19.1245",
     }.items():
-        said = page.locator(label.format(picture)).get_attribute("aria-label")
+        said = page.locator(f"[data-picture={picture}] svg").get_attribute("aria-label")
         assert words in said, picture
-
-
-def test_results_are_announced_once_they_rest(visited):
-    page = visited.open("preset=npgr026&case=8")
+    # Results are announced once they rest.
     expect(page.locator("#said")).to_contain_text("S0 19.1245")
     assert page.locator("#said").get_attribute("aria-live") == "polite"
 
 
 def test_keys_alone_reach_and_change_everything(visited):
-    page = visited.open("preset=npgr026&case=8")
+    page = visited.open(CASE_8)
     reached = set()
     for _ in range(80):
         page.keyboard.press("Tab")
         reached.add(page.evaluate(FOCUSED))
-    assert {
-        "preset",
-        "case",
-        "reset",
-        "theme",
-        "parameter-delta",
-        "delta, slider",
-        "place-place",
-        "export-copy",
-    } <= reached
+    fields = {"parameter-delta", "delta, slider", "place-place"}
+    assert fields | {"preset", "case", "reset", "theme", "export-copy"} <= reached
     assert any("arrow keys turn it" in each for each in reached)
-    outline = page.evaluate("getComputedStyle(document.activeElement).outlineStyle")
-    assert outline != "none"
+    assert page.evaluate("getComputedStyle(document.activeElement).outlineStyle") != "none"
 
 
 def test_taps_are_dashed_in_space(visited):
@@ -124,7 +106,7 @@ def test_taps_are_dashed_in_space(visited):
 
 @pytest.mark.parametrize("picture", ["sphere", "scene"])
 def test_pictures_in_space_are_turned_by_keys_and_by_dragging(visited, picture):
-    page = visited.open("preset=npgr026&case=8")
+    page = visited.open(CASE_8)
     svg = f"[data-picture={picture}] svg"
     first = page.inner_html(svg)
     canvas = page.locator(f"[data-picture={picture}] .canvas")
@@ -139,12 +121,8 @@ def test_pictures_in_space_are_turned_by_keys_and_by_dragging(visited, picture):
     page.mouse.move(box["x"] + 130, box["y"] + 80, steps=3)
     page.mouse.up()
     assert page.inner_html(svg) != first
-    assert f"view.{picture}" in unescaped(page)
-
-
-def unescaped(page):
     page.wait_for_url(lambda url: "view." in url)
-    return page.url
+    assert f"view.{picture}" in page.url
 
 
 def test_dark_and_light_are_switched_and_remembered(visited):
@@ -164,3 +142,20 @@ def test_nothing_moves_where_motion_is_not_wanted(visited_with):
     moving = """[...document.querySelectorAll('*')].map((each) => getComputedStyle(each))
       .filter((each) => each.transitionDuration !== '0s' || each.animationName !== 'none').length"""
     assert page.evaluate(moving) == 0
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+def test_a_preset_is_shown_whole(stayed, name):
+    page = stayed.page
+    if page.url == "about:blank":
+        stayed.open()
+    page.locator("#preset").select_option(name)
+    path = op.load_preset(name)
+    stayed.shows(next(iter(path.trace_all().values())))
+    expect(page.locator("#description")).to_have_text(path.description)
+    for picture in ("ellipse", "sphere", "scene", "energy"):
+        assert page.locator(f"[data-picture={picture}] svg > *").count() > 1, picture
+    assert "NaN" not in page.locator("main").inner_html()
+    assert page.evaluate(CUT) == []
+    assert page.evaluate(OVER) == []
+    assert stayed.complaints == []

@@ -1,10 +1,12 @@
 """Pure pieces of the page, run in the browser."""
 
 import math
+from itertools import combinations
 
 import pytest
 
 from optipath.values.units import UNITS
+from tables import rows
 
 pytestmark = pytest.mark.slow
 
@@ -29,9 +31,6 @@ def test_a_state_comes_back_from_its_address(it):
     })()"""
     state, again = it("state.js", made)
     assert state == again
-
-
-def test_an_address_without_a_preset_is_no_state(it):
     assert it("state.js", "it.fromHash('#case=8')") is None
 
 
@@ -43,7 +42,7 @@ def test_a_wavelength_that_is_offered_is_left_out_and_one_of_the_path_is_kept(it
     assert it("state.js", made) == [{}, {"wavelength": "500 nm"}]
 
 
-def test_changes_of_one_drag_are_one_step(it):
+def test_a_history_has_one_step_a_drag_and_two_hundred_and_forgets_what_was_undone(it):
     steps = """(() => {
       const history = new it.History(1);
       history.push(2, "slide"); history.push(3, "slide"); history.settle();
@@ -52,18 +51,12 @@ def test_changes_of_one_drag_are_one_step(it):
       return [...back, history.canUndo, history.redo(), history.redo(), history.canRedo];
     })()"""
     assert it("state.js", steps) == [3, 1, 1, False, 3, 4, False]
-
-
-def test_a_new_step_forgets_what_was_undone(it):
     steps = """(() => {
       const history = new it.History(1);
       history.push(2); history.push(3); history.undo(); history.push(4);
       return [...history.states, history.canRedo];
     })()"""
     assert it("state.js", steps) == [1, 2, 4, False]
-
-
-def test_a_history_keeps_two_hundred_steps(it):
     steps = """(() => {
       const history = new it.History(0);
       for (let i = 1; i <= 500; i += 1) history.push(i);
@@ -72,80 +65,60 @@ def test_a_history_keeps_two_hundred_steps(it):
     assert it("state.js", steps) == [500, 201, 300]
 
 
-@pytest.mark.parametrize("unit", UNITS)
+@rows("unit", UNITS)
 def test_units_are_as_large_as_those_of_the_library(it, unit):
     known = UNITS[unit]
     assert it("units.js", f"it.sizeOf({unit!r})") == pytest.approx(known.size * 10.0**known.power)
 
 
-def test_texts_are_cut_into_number_and_unit(it):
-    assert it("units.js", "it.taken(' -1.5e3 deg/mm ')") == {
-        "number": -1500.0,
-        "written": "-1.5e3",
-        "unit": "deg/mm",
-    }
-    assert it("units.js", "it.taken('gold')") is None
+POWER = "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
 
 
-def test_what_is_written_for_the_eye_is_read_back(it):
-    assert it("units.js", "it.plainText(it.typeset('-24.91 deg'))") == "-24.91 deg"
-    assert it("units.js", "it.plainText(it.typeset('1e-9 - 2i'))") == "1e-9 - 2i"
-
-
-def test_steps_of_a_slider_have_no_dust(it):
-    assert it("units.js", "it.stepped(0.1 + 0.2, 0, 0.1)") == "0.3"
-    assert it("units.js", "it.stepped(516.4, 380, 1)") == "516"
-
-
-def test_small_differences_are_powers_of_ten(it):
-    assert (
-        it("units.js", "it.powered(-8.21e-6)")
-        == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
-    )
-    assert it("units.js", "it.powered(0.25)") == "0.25"
+@rows(
+    "module, expression, expected",
+    [
+        (
+            "units.js",
+            "it.taken(' -1.5e3 deg/mm ')",
+            {"number": -1500.0, "written": "-1.5e3", "unit": "deg/mm"},
+        ),
+        ("units.js", "it.taken('gold')", None),
+        ("units.js", "it.plainText(it.typeset('-24.91 deg'))", "-24.91 deg"),
+        ("units.js", "it.plainText(it.typeset('1e-9 - 2i'))", "1e-9 - 2i"),
+        ("units.js", "it.stepped(0.1 + 0.2, 0, 0.1)", "0.3"),
+        ("units.js", "it.stepped(516.4, 380, 1)", "516"),
+        ("units.js", "it.powered(-8.21e-6)", POWER),
+        ("units.js", "it.powered(0.25)", "0.25"),
+        ("projection.js", "it.turned([170, 80, 2], 20, 30)", [-170, 90, 2]),
+        ("ticks.js", "it.ticks(0, 1, 5)", [0, 0.2, 0.4, 0.6, 0.8, 1]),
+        ("ticks.js", "it.degreeTicks(0, 90, 4)", [0, 30, 60, 90]),
+        ("ticks.js", "it.ticks(2, 2)", [2]),
+        ("ticks.js", "it.rangeOf([null])", [0, 1]),
+    ],
+)
+def test_texts_steps_views_and_ticks(it, module, expression, expected):
+    assert it(module, expression) == expected
 
 
 def test_a_projection_keeps_lengths_and_looks_along_its_eye(it):
-    x, y, near = it("projection.js", "it.projected([90, 0])([0, 2, 0])")
-    assert (x, y, near) == (pytest.approx(0.0, abs=1e-12), pytest.approx(0.0, abs=1e-12), 2.0)
+    zero = pytest.approx(0.0, abs=1e-12)
+    assert it("projection.js", "it.projected([90, 0])([0, 2, 0])") == [zero, zero, 2.0]
     x, y, near = it("projection.js", "it.projected([0, 0])([0, 0, 1])")
     assert (x, y) == (0.0, -1.0), near
     seen = it("projection.js", "it.projected([33, 21])([1, -2, 3])")
     assert math.hypot(*seen) == pytest.approx(math.sqrt(14.0))
 
 
-def test_a_view_turns_round_but_not_over(it):
-    assert it("projection.js", "it.turned([170, 80, 2], 20, 30)") == [-170, 90, 2]
-
-
-def test_ticks_are_round_numbers_within_the_axis(it):
-    assert it("ticks.js", "it.ticks(0, 1, 5)") == [0, 0.2, 0.4, 0.6, 0.8, 1]
-    assert it("ticks.js", "it.degreeTicks(0, 90, 4)") == [0, 30, 60, 90]
-    assert it("ticks.js", "it.ticks(2, 2)") == [2]
-
-
 def test_an_axis_of_equal_numbers_has_a_length(it):
     low, high = it("ticks.js", "it.rangeOf([5, 5, null])")
     assert low < 5 < high
-    assert it("ticks.js", "it.rangeOf([null])") == [0, 1]
 
 
-def test_labels_are_not_over_one_another(it):
-    boxes = it(
-        "labels.js",
-        """it.placed(
-      Array.from({ length: 6 }, () => ({ at: [100, 100], words: "delta = 48" })), [400, 400],
-    ).map((each) => each.box)""",
-    )
-    apart = [
-        one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
-        for i, one in enumerate(boxes)
-        for other in boxes[:i]
-    ]
-    assert all(apart)
-
-
-def test_heights_are_spread_in_their_order(it):
+def test_labels_are_not_over_one_another_and_heights_are_spread_in_their_order(it):
+    labels = 'Array.from({ length: 6 }, () => ({ at: [100, 100], words: "delta = 48" }))'
+    boxes = it("labels.js", f"it.placed({labels}, [400, 400]).map((each) => each.box)")
+    for a, b in combinations(boxes, 2):
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
     found = it("labels.js", "it.spread([50, 51, 49], 15, 0, 60)")
     assert sorted(found) == [found[2], found[0], found[1]]
     assert found[1] - found[0] >= 15
@@ -169,15 +142,10 @@ def test_power_that_goes_round_leads_back_once(it):
       { start: "back", end: "front", name: "c", power: 0.1, text: "0.1" },
       { start: "front", end: "eye", name: "d", power: 0.2, text: "0.2" }],
       leaves: [{ name: "back.out", power: 0.8, text: "0.8" }], taken: [], ends: [] }"""
-    found = it(
-        "flow.js",
-        f"""(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(
-          it.flowOf({energy}))""",
-    )
-    assert found == {
-        "layers": [["lamp"], ["front"], ["back", "eye"]],
-        "back": [False, False, True, False],
-    }
+    kept = "({ layers, bands }) => [layers, bands.map((each) => each.back)]"
+    layers, back = it("flow.js", f"({kept})(it.flowOf({energy}))")
+    assert layers == [["lamp"], ["front"], ["back", "eye"]]
+    assert back == [False, False, True, False]
 
 
 def test_of_questions_that_wait_the_newest_is_asked(it):
