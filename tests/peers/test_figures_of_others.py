@@ -11,22 +11,19 @@ import pytest
 
 import optipath as op
 from optipath.light.conventions import CONVENTIONS
+from tables import rows
 
 FIGURES = Path(__file__).parent / "figures"
 P_ALONG_X = ("ellipsometry", "pyelli", "pypolar")
 PLUS_45 = op.Light([1.0, 0.0, 1.0, 0.0])
-
-
-def asked(kind):
-    """Each answer of a kind: its convention, what was asked, and how many digits it has."""
-    for name in sorted(CONVENTIONS):
-        figures = json.loads((FIGURES / f"{name}.json").read_text("utf-8"))
-        for number, setup in enumerate(figures.get(kind, [])):
-            yield pytest.param(name, setup, figures["precision"], id=f"{name}-{number}")
+FILES = {name: json.loads((FIGURES / f"{name}.json").read_text("utf-8")) for name in CONVENTIONS}
 
 
 def figures(kind):
-    return pytest.mark.parametrize(("name", "setup", "precision"), list(asked(kind)))
+    """Each answer of a kind: its convention, what was asked, and how many digits it has."""
+    answers = [(name, file["precision"], file.get(kind, [])) for name, file in FILES.items()]
+    every = [(name, each, precision) for name, precision, found in answers for each in found]
+    return rows("name, setup, precision", every)
 
 
 def azimuth(name, degrees):
@@ -34,10 +31,40 @@ def azimuth(name, degrees):
     return np.radians(degrees + (90.0 if name in P_ALONG_X else 0.0))
 
 
-def interface(setup, leaves="reflected"):
+def interface(_, setup, leaves="reflected"):
     index = complex(setup["n"], setup["k"]) if setup["k"] else setup["n"]
     incidence, outside = np.radians(setup["incidence"]), setup.get("outside", 1.0)
     return op.Interface(index, incidence, outside=outside).mueller("in", leaves)
+
+
+def over_m00(name, setup):
+    matrix = interface(name, setup).matrix
+    return op.Mueller(matrix / matrix[0, 0])
+
+
+def transmission(name, setup):
+    return interface(name, setup, "transmitted")
+
+
+def polarizer(name, setup):
+    return op.Polarizer(azimuth(name, setup["angle"])).mueller()
+
+
+def retarder(name, setup):
+    """Its angle is that of the fast axis."""
+    return op.Retarder(np.radians(setup["retardance"]), azimuth(name, setup["angle"])).mueller()
+
+
+def circular(_, setup):
+    # S3 > 0 of ours is counter-clockwise to who looks at the source (test_conventions.py).
+    return op.Light([1.0, 0.0, 0.0, -1.0 if setup["clockwise"] else 1.0])
+
+
+def ellipse(name, setup):
+    along, round_ = 2.0 * azimuth(name, setup["azimuth"]), 2.0 * np.radians(setup["ellipticity"])
+    s3 = (-1.0 if setup["clockwise"] else 1.0) * np.sin(round_)
+    flat = np.cos(round_)
+    return op.Light([1.0, flat * np.cos(along), flat * np.sin(along), s3])
 
 
 def agree(found, expected, precision):
@@ -57,40 +84,31 @@ def agree_both_ways(name, ours, theirs, precision):
 
 def test_every_convention_has_figures_that_say_how_they_were_made():
     assert {path.stem for path in FIGURES.glob("*.json")} == {*CONVENTIONS}
-    for path in FIGURES.glob("*.json"):
-        figures = json.loads(path.read_text("utf-8"))
-        assert figures["software"]
-        script = figures["made by"].removeprefix("python ")
+    for file in FILES.values():
+        assert file["software"]
+        script = file["made by"].removeprefix("python ")
         assert script == "hand" or (Path(__file__).parents[2] / script).is_file()
 
 
-@figures("reflection")
-def test_a_reflection_is_that_of_the_software(name, setup, precision):
-    agree_both_ways(name, interface(setup), setup["mueller"], precision)
+@pytest.mark.parametrize(
+    ("kind", "made"),
+    [
+        ("reflection", interface),
+        ("normalized_reflection", over_m00),
+        ("transmission", transmission),
+        ("polarizer", polarizer),
+        ("retarder", retarder),
+        ("circular", circular),
+        ("elliptical", ellipse),
+    ],
+)
+def test_matrices_and_states_are_those_of_the_software(kind, made):
+    @figures(kind)
+    def each(name, setup, precision):
+        theirs = setup["stokes" if "stokes" in setup else "mueller"]
+        agree_both_ways(name, made(name, setup), theirs, precision)
 
-
-@figures("normalized_reflection")
-def test_a_reflection_over_m00_is_that_of_the_software(name, setup, precision):
-    ours = interface(setup)
-    whole = op.Mueller(ours.matrix / ours.matrix[0, 0])
-    agree_both_ways(name, whole, setup["mueller"], precision)
-
-
-@figures("transmission")
-def test_a_transmission_is_that_of_the_software(name, setup, precision):
-    agree_both_ways(name, interface(setup, "transmitted"), setup["mueller"], precision)
-
-
-@figures("polarizer")
-def test_a_polariser_at_an_angle_is_that_of_the_software(name, setup, precision):
-    ours = op.Polarizer(azimuth(name, setup["angle"])).mueller()
-    agree_both_ways(name, ours, setup["mueller"], precision)
-
-
-@figures("retarder")
-def test_a_retarder_by_its_fast_axis_is_that_of_the_software(name, setup, precision):
-    angles = np.radians(setup["retardance"]), azimuth(name, setup["angle"])
-    agree_both_ways(name, op.Retarder(*angles).mueller(), setup["mueller"], precision)
+    each()
 
 
 @figures("turned_frame")
@@ -102,35 +120,17 @@ def test_numbers_in_a_turned_frame_are_those_of_the_software(name, setup, precis
         agree(light.to(name), expected, precision)
 
 
-@figures("circular")
-def test_circular_light_has_the_sign_that_the_software_gives_its_hand(name, setup, precision):
-    # S3 > 0 of ours is counter-clockwise to who looks at the source (test_conventions.py).
-    ours = op.Light([1.0, 0.0, 0.0, -1.0 if setup["clockwise"] else 1.0])
-    agree_both_ways(name, ours, setup["stokes"], precision)
-
-
-@figures("elliptical")
-def test_an_ellipse_has_the_numbers_of_the_software(name, setup, precision):
-    along = 2.0 * azimuth(name, setup["azimuth"])
-    flat = np.cos(2.0 * np.radians(setup["ellipticity"]))
-    round_ = np.sin(2.0 * np.radians(setup["ellipticity"]))
-    sign = -1.0 if setup["clockwise"] else 1.0
-    ours = op.Light([1.0, flat * np.cos(along), flat * np.sin(along), sign * round_])
-    agree_both_ways(name, ours, setup["stokes"], precision)
-
-
 @figures("reflected_at_45")
 def test_light_of_45_degrees_is_reflected_as_the_books_have_it(name, setup, precision):
     # +45 degrees from p is -45 degrees from s.
-    light = interface(setup) @ op.Light([1.0, 0.0, -1.0, 0.0])
-    found = light.to(name)
+    found = (interface(name, setup) @ op.Light([1.0, 0.0, -1.0, 0.0])).to(name)
     agree(found / found[0], setup["stokes"], precision)
 
 
 @figures("psi_delta")
 def test_psi_and_delta_are_those_of_the_software(name, setup, precision):
     psi, delta = setup["angles"]
-    ours = interface(setup)
+    ours = interface(name, setup)
     for found in (ours, ours @ PLUS_45):
         own_psi, own_delta = found.ellipsometric_angles(name)
         agree(own_psi, psi, precision)
@@ -141,14 +141,8 @@ def test_psi_and_delta_are_those_of_the_software(name, setup, precision):
 @figures("amplitudes")
 def test_a_reflection_is_made_of_the_amplitudes_of_the_software(name, setup, precision):
     r_s, r_p = (complex(*parts) for parts in setup["r"])
-    mirror = op.Mirror(r_s, r_p).mueller().matrix
-    agree_both_ways(name, interface(setup), mirror, precision)
-
-
-@figures("amplitudes")
-def test_reflected_light_is_that_of_which_the_software_takes_delta(name, setup, precision):
-    r_s, r_p = (complex(*parts) for parts in setup["r"])
-    light = interface(setup) @ PLUS_45
-    _, _, s2, s3 = light.to(name)
+    ours = interface(name, setup)
+    agree_both_ways(name, ours, op.Mirror(r_s, r_p).mueller().matrix, precision)
+    _, _, s2, s3 = (ours @ PLUS_45).to(name)
     # Delta of tmm.ellips is the phase of -r_p / r_s.
     agree(complex(s2, s3), -r_p * r_s.conjugate(), precision)

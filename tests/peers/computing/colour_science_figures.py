@@ -59,11 +59,5 @@ def displayed():
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
-    setups.write(
-        "colour/colour_science",
-        "colour-science",
-        __file__,
-        precision=1e-6,
-        xyz=list(asked()),
-        displayed=list(displayed()),
-    )
+    found = {"xyz": list(asked()), "displayed": list(displayed())}
+    setups.write("colour/colour_science", "colour-science", __file__, 1e-6, **found)

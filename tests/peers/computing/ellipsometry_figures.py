@@ -22,12 +22,5 @@ def light(setup):
     return [1.0, -np.cos(2 * psi), cross * np.cos(delta), -cross * np.sin(delta)]
 
 
-setups.write(
-    "ellipsometry",
-    "pyElli",
-    __file__,
-    precision=1e-12,
-    normalized_reflection=setups.asked(setups.INTERFACES, sample),
-    reflected_at_45=setups.asked(setups.INTERFACES, light, "stokes"),
-    psi_delta=setups.asked(setups.INTERFACES, angles, "angles"),
-)
+kinds = {"normalized_reflection": sample, "reflected_at_45": light, "psi_delta": angles}
+setups.write("ellipsometry", "pyElli", __file__, 1e-12, **kinds)

@@ -5,7 +5,6 @@ numbers refer to Mitsuba's own bases of Stokes vectors, which are written beside
 what it reads out of a table of the usual shape is from the formula, over M00, is there, too.
 """
 
-import json
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -73,10 +72,8 @@ def apart(each, brdf):
 
 def usual_table(folder):
     """How far what is read of a table of the usual shape is from the BRDF, where that is bright."""
-    file, brdf = (
-        Path(folder, "usual.pbsdf"),
-        partial(op.surfaces.single_scattering, 0.9 + 2.2j, 0.2),
-    )
+    file = Path(folder, "usual.pbsdf")
+    brdf = partial(op.surfaces.single_scattering, 0.9 + 2.2j, 0.2)
     op.surfaces.write_measured_polarized(file, brdf)
     read = mitsuba.load_dict({"type": "measured_polarized", "filename": str(file)})
     pairs = zip(directions(), range(400), strict=False)
@@ -97,14 +94,5 @@ with TemporaryDirectory() as folder:
     pairs = zip(directions(), [450.0, 480.0, 550.0, 641.5] * 6, strict=False)
     found = [asked(read, *pair, wavelength) for pair, wavelength in pairs]
     usual = usual_table(folder)
-made = {
-    "software": f"mitsuba {setups.version('mitsuba')}",
-    "made by": "python tests/peers/computing/mitsuba_table_figures.py",
-    "precision": 2e-5,
-    "table": TABLE,
-    "usual shape": usual,
-    "evaluated": found,
-}
-place = setups.FIGURES / "tables/mitsuba.json"
-place.parent.mkdir(exist_ok=True)
-place.write_text(setups._rows_joined(json.dumps(made, indent=1)) + "\n", "utf-8")
+content = {"precision": 2e-5, "table": TABLE, "usual shape": usual, "evaluated": found}
+setups.write_file("tables/mitsuba", "mitsuba", __file__, **content)

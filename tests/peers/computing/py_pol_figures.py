@@ -33,13 +33,5 @@ def ellipse(setup):
     return light.parameters.matrix()[:, 0]
 
 
-setups.write(
-    "py_pol",
-    "py_pol",
-    __file__,
-    precision=1e-12,
-    polarizer=setups.asked(setups.POLARIZERS, polarizer),
-    retarder=setups.asked(setups.RETARDERS, retarder),
-    circular=setups.asked(setups.CIRCULAR, circular, "stokes"),
-    elliptical=setups.asked(setups.ELLIPSES, ellipse, "stokes"),
-)
+kinds = {"polarizer": polarizer, "retarder": retarder, "circular": circular, "elliptical": ellipse}
+setups.write("py_pol", "py_pol", __file__, 1e-12, **kinds)

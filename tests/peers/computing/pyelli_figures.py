@@ -20,14 +20,10 @@ def angles(setup):
     return np.radians([found.psi[0], found.delta[0]])
 
 
+def over_m00(setup):
+    return result(setup).mueller_matrix[0]
+
+
 if __name__ == "__main__":
-    setups.write(
-        "pyelli",
-        "pyElli",
-        __file__,
-        precision=1e-12,
-        normalized_reflection=setups.asked(
-            setups.INTERFACES, lambda setup: result(setup).mueller_matrix[0]
-        ),
-        psi_delta=setups.asked(setups.INTERFACES, angles, "angles"),
-    )
+    kinds = {"normalized_reflection": over_m00, "psi_delta": angles}
+    setups.write("pyelli", "pyElli", __file__, 1e-12, **kinds)

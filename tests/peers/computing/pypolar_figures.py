@@ -12,8 +12,14 @@ def reflection(setup):
 
 def ratio(setup):
     n, k, outside, angle = setups.incidence(setup)
-    rho = ellipsometry.rho_from_m(complex(n, -k) / outside, angle)
+    if outside != 1.0:  # Its rho knows no medium in front but air.
+        return None
+    rho = ellipsometry.rho_from_m(complex(n, -k), angle)
     return [np.arctan(np.abs(rho)), np.angle(rho)]
+
+
+def polarizer(setup):
+    return mueller.op_linear_polarizer(np.radians(setup["angle"]))
 
 
 def retarder(setup):
@@ -36,14 +42,11 @@ setups.write(
     "pypolar",
     "pypolar",
     __file__,
-    precision=1e-12,
-    reflection=setups.asked(setups.INTERFACES, reflection),
-    # Its rho knows no medium in front but air.
-    psi_delta=setups.asked([s for s in setups.INTERFACES if "outside" not in s], ratio, "angles"),
-    polarizer=setups.asked(
-        setups.POLARIZERS, lambda s: mueller.op_linear_polarizer(np.radians(s["angle"]))
-    ),
-    retarder=setups.asked(setups.RETARDERS, retarder),
-    circular=setups.asked(setups.CIRCULAR, circular, "stokes"),
-    elliptical=setups.asked(setups.ELLIPSES, ellipse, "stokes"),
+    1e-12,
+    reflection=reflection,
+    psi_delta=ratio,
+    polarizer=polarizer,
+    retarder=retarder,
+    circular=circular,
+    elliptical=ellipse,
 )

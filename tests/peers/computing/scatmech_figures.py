@@ -46,13 +46,12 @@ setups.write(
     "scatmech",
     "pySCATMECH",
     __file__,
-    # It agrees with tmm and pypolar to some parts in 1e9.
-    precision=1e-8,
-    reflection=setups.asked(setups.INTERFACES, lambda s: FilmStack().R(*asked(s))),
-    transmission=setups.asked(setups.TRANSPARENT, lambda s: FilmStack().T(*asked(s))),
-    polarizer=setups.asked(setups.POLARIZERS, polarizer),
-    retarder=setups.asked(setups.RETARDERS, retarder),
-    circular=setups.asked(setups.CIRCULAR, circular, "stokes"),
-    elliptical=setups.asked(setups.ELLIPSES, ellipse, "stokes"),
-    psi_delta=setups.asked(setups.INTERFACES, angles, "angles"),
+    1e-8,  # It agrees with tmm and pypolar to some parts in 1e9.
+    reflection=lambda setup: FilmStack().R(*asked(setup)),
+    transmission=lambda setup: FilmStack().T(*asked(setup)),
+    polarizer=polarizer,
+    retarder=retarder,
+    circular=circular,
+    elliptical=ellipse,
+    psi_delta=angles,
 )

@@ -39,26 +39,51 @@ def incidence(setup):
     return setup["n"], setup["k"], setup.get("outside", 1.0), np.radians(setup["incidence"])
 
 
-def asked(setups, answer, what="mueller"):
-    """Return the setups, each with what the software answers."""
-    return [{**setup, what: plain(answer(setup))} for setup in setups]
+KINDS = {
+    "reflection": (INTERFACES, "mueller"),
+    "normalized_reflection": (INTERFACES, "mueller"),
+    "transmission": (TRANSPARENT, "mueller"),
+    "polarizer": (POLARIZERS, "mueller"),
+    "retarder": (RETARDERS, "mueller"),
+    "turned_frame": (({"angle": 25.0},), "mueller"),
+    "circular": (CIRCULAR, "stokes"),
+    "elliptical": (ELLIPSES, "stokes"),
+    "reflected_at_45": (INTERFACES, "stokes"),
+    "amplitudes": (INTERFACES, "r"),
+    "psi_delta": (INTERFACES, "angles"),
+}
+"""What is asked for, and what the answers are called, by the kind of figures."""
+
+
+def asked(setups, answer, what):
+    """Return the setups, each with what the software answers; those with None are left out."""
+    answers = [(setup, answer(setup)) for setup in setups]
+    return [{**setup, what: plain(found)} for setup, found in answers if found is not None]
 
 
 def plain(value):
     return value if isinstance(value, float) else np.asarray(value, np.float64).tolist()
 
 
-def write(convention, package, script, *, precision, **answers):
-    """Write the figures of a convention, with how they were made."""
+def write(convention, package, script, precision, **answers):
+    """Write the figures of a convention, with how they were made; kinds by what answers them."""
+    figures = {
+        kind: asked(KINDS[kind][0], answer, KINDS[kind][1]) if callable(answer) else answer
+        for kind, answer in answers.items()
+    }
+    write_file(convention, package, script, precision=precision, **figures)
+
+
+def write_file(name, package, script, **content):
+    """Write what software computes, with how it was made."""
+    script = Path(script).name
     made = {
         "software": f"{package} {version(package)}",
-        "made by": f"python tests/peers/computing/{Path(script).name}",
-        "precision": precision,
+        "made by": f"python tests/peers/computing/{script}",
     }
-    text = json.dumps({**made, **answers}, indent=1)
     # One row of a matrix in a line.
-    text = _rows_joined(text)
-    (FIGURES / f"{convention}.json").write_text(text + "\n", encoding="utf-8")
+    text = _rows_joined(json.dumps({**made, **content}, indent=1))
+    (FIGURES / f"{name}.json").write_text(text + "\n", encoding="utf-8")
 
 
 def _rows_joined(text):

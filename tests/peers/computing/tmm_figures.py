@@ -23,11 +23,4 @@ def angles(setup):
     return [found["psi"], found["Delta"]]
 
 
-setups.write(
-    "tmm",
-    "tmm",
-    __file__,
-    precision=1e-12,
-    amplitudes=setups.asked(setups.INTERFACES, amplitudes, "r"),
-    psi_delta=setups.asked(setups.INTERFACES, angles, "angles"),
-)
+setups.write("tmm", "tmm", __file__, 1e-12, amplitudes=amplitudes, psi_delta=angles)

@@ -89,7 +89,7 @@ setups.write(
     "stacks/tmm",
     "tmm",
     __file__,
-    precision=1e-12,
+    1e-12,
     shares=setups.asked(STACKS, shares, "shares"),
     powers=setups.asked(FACES, powers, "powers"),
 )
