@@ -1,6 +1,6 @@
 """What other software computes for absorbing layers and their faces, against ours.
 
-The script `computing/tmm_stack_figures.py` has made the file in `figures/stacks/`.
+The script `computing/tmm_figures.py` has made the file in `figures/stacks/`.
 """
 
 import json

@@ -5,6 +5,7 @@ is as seen by who looks at the source.
 """
 
 import json
+import re
 from importlib.metadata import version
 from pathlib import Path
 
@@ -22,11 +23,8 @@ INTERFACES = (
 )
 TRANSPARENT = tuple(s for s in INTERFACES if not s["k"] and s["name"] != "total reflection")
 POLARIZERS = ({"angle": 30.0}, {"angle": -70.0})
-RETARDERS = (
-    {"retardance": 90.0, "angle": 20.0},
-    {"retardance": 90.0, "angle": 0.0},
-    {"retardance": 35.0, "angle": -50.0},
-)
+PLATES = ((90.0, 20.0), (90.0, 0.0), (35.0, -50.0))
+RETARDERS = tuple({"retardance": retardance, "angle": angle} for retardance, angle in PLATES)
 CIRCULAR = ({"clockwise": True}, {"clockwise": False})
 ELLIPSES = (
     {"azimuth": 25.0, "ellipticity": 15.0, "clockwise": True},
@@ -76,29 +74,9 @@ def write(convention, package, script, precision, **answers):
 
 def write_file(name, package, script, **content):
     """Write what software computes, with how it was made."""
-    script = Path(script).name
-    made = {
-        "software": f"{package} {version(package)}",
-        "made by": f"python tests/peers/computing/{script}",
-    }
+    made_by = f"python tests/peers/computing/{Path(script).name}"
+    made = {"software": f"{package} {version(package)}", "made by": made_by}
+    text = json.dumps({**made, **content}, indent=1)
     # One row of a matrix in a line.
-    text = _rows_joined(json.dumps({**made, **content}, indent=1))
+    text = re.sub(r"\[\s+([-\d][^][]*?)\s+\]", lambda row: f"[{' '.join(row[1].split())}]", text)
     (FIGURES / f"{name}.json").write_text(text + "\n", encoding="utf-8")
-
-
-def _rows_joined(text):
-    lines, row = [], None
-    for line in text.splitlines():
-        stripped = line.strip()
-        if row is None and stripped.endswith("["):
-            row = [line]
-        elif row is not None and (stripped[:1].isdigit() or stripped[:1] == "-"):
-            row.append(stripped)
-        elif row is not None and stripped.startswith("]") and len(row) > 1:
-            lines.append(row[0] + " ".join(row[1:]) + stripped)
-            row = None
-        else:
-            lines += row or []
-            row = [line] if stripped.endswith("[") else None
-            lines += [] if row else [line]
-    return "\n".join([*lines, *(row or [])])
