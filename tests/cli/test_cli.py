@@ -164,68 +164,6 @@ def test_a_file_of_ones_own_works_wherever_a_name_does(run, told, found, malus_w
     assert "0.375" in told("run", file)
 
 
-@rows(
-    "line, messages",
-    [
-        ("run npgr62", ["'npgr62'", "did you mean 'npgr026'"]),
-        ("run ../x", ["../x"]),
-        ("run npgr026 --detla 3", ["option '--detla' is unknown; did you mean '--delta'?"]),
-        ("run npgr026 --delta 95", ["delta", "95 deg", "0 deg .. 90 deg"]),
-        ("run npgr026 --delta abc", ["delta", "abc"]),
-        ("run npgr026 --delta '3 dge'", ["did you mean 'deg'"]),
-        ("run npgr026 --k1 -1", ["k1", "-1"]),
-        ("run npgr026 --n1 nan", ["n1", "nan"]),
-        ("run npgr026 --n1 inf", ["n1", "inf"]),
-        ("run npgr026 --filter horizontl", ["did you mean 'horizontal'"]),
-        ("run npgr026 --case 10", ["case '10' is unknown"]),
-        ("run npgr026 --delta", ["--delta"]),
-        ("run npgr026 --method exact", ["exact"]),
-        ("run npgr026 more", ["more"]),
-        ("run npgr026 --k2 0.17+3.15j", ["give n by --n2"]),
-        ("run malus --model scalar", ["model 'scalar' is not exact for this path"]),
-        ("run", ["PRESET"]),
-        ("show", ["PRESET is missing; give a file or one of: absorbing-pile, "]),
-        ("show npgr026 --svg /no/such/folder/x.svg", ["cannot be written"]),
-        ("explain no-such.toml", ["no-such.toml"]),
-        ("rnu", ["command 'rnu' is unknown; did you mean 'run'?"]),
-        ("dance", ["command 'dance' is unknown; there are: accuracy, bench, cache,"]),
-        ("--what", ["--what"]),
-        ("--vrsion", ["option '--vrsion' is unknown; did you mean '--version'?"]),
-        ("chart", ["PRESET is missing"]),
-        ("chart --interface malus", ["leave it out"]),
-        ("chart --out x.png malus", ["behind the preset"]),
-        ("chart malus --out x.docx", ["ending"]),
-        ("chart malus --out nowhere/x.png", ["no such folder"]),
-        ("chart malus --out a.svg --data a.svg", ["give two files"]),
-        ("chart malus --angle north", ["angle"]),
-        ("chart --from nothing.json", ["nothing.json"]),
-        ("accuracy --samples 0", ["samples"]),
-        ("accuracy --write nothing.md", ["nothing.md"]),
-    ],
-)
-def test_bad_input_ends_with_status_2_and_one_line(line, messages, refused):
-    sentence = refused(line)
-    for message in messages:
-        assert message in sentence
-
-
-def test_unknown_options_and_cases_are_told_with_all_there_are_and_all_faults_at_once(refused):
-    for command in ("run", "explain", "bench", "chart", "polarization"):
-        for word in ("--plot", "--n", "--n12"):
-            listed = f"option '{word}' is unknown; there are: --delta, --rho, --phi, --n1,"
-            assert listed in refused(f"{command} npgr026 {word} 3")
-    for command in ("run", "show", "explain"):
-        for case in ("10", "0", "x"):
-            unknown = f"case '{case}' is unknown in preset 'npgr026'"
-            listed = f"{unknown}; there are: 1, 2, 3, 4, 5, 6, 7, 8, 9"
-            assert refused(f"{command} npgr026 --case {case}") == listed
-    faults = refused("run npgr026 --delta 91 --n1 x --rho '3 dge' --case 99", lines=5)
-    for part in ("'delta' is 91 deg", "--n1", "did you mean 'deg'", "case '99'"):
-        assert part in faults
-    complex_index = "'0.17+3.15j' is complex, but --n1 takes a real number; give k by --k1"
-    assert refused("run npgr026 --n1 0.17+3.15j") == complex_index
-
-
 def done_by(command, **options):
     return subprocess.run(command, capture_output=True, text=True, check=False, **options)
 

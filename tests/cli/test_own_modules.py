@@ -40,6 +40,7 @@ lamp = { kind = "source" }
 foil = { kind = "test-imported-foil", share = "$share" }
 eye = { kind = "detector" }
 """
+FOIL = "elements.foil"
 ONE_OF = "takes the name of a module or a file that ends in .py, not "
 
 
@@ -108,8 +109,8 @@ def test_what_cannot_be_imported_is_told_in_a_line(name, text, expected, folder,
 @pytest.mark.parametrize(
     ("method", "share", "expected"),
     [
-        (POST_INIT, "0.75", "foil: element class Foil raises ValueError: 0.75 is too much"),
-        (POST_INIT, '"x"', "elements.foil.share: 'x' is not a quantity"),
+        (POST_INIT, "0.75", f"{FOIL}: element class Foil raises ValueError: 0.75 is too much"),
+        (POST_INIT, '"x"', f"{FOIL}.share: 'x' is not a quantity"),
         (ROWS.format("SystemExit(7)"), "0.5", "class Foil raises SystemExit: 7"),
         (ROWS.format("MemoryError"), "0.5", "the memory of this machine does not suffice"),
     ],

@@ -229,7 +229,8 @@ def test_what_a_case_published_and_its_values_are_those_of_the_case_alone():
         ),
         ("--kind curve --x delta --y S9", "'S9' is unknown"),
         ("--kind curve --x delta --y ''", "unknown"),
-        ("--kind curve --x delta --x rho --y S0,S1", "is of one quantity, and --y names 2; give"),
+        ("--kind curve --x delta --x rho --y S0,S1", "a map is of one quantity, and --y names 2;"),
+        ("--kind curve --x delta --x rho --y S0,S1", "--y names 2; give one"),
         ("--kind curve --x delta --x rho --x phi", "--kind curve is along two parameters at most"),
         ("--kind poincare --x delta --x rho", "one parameter at most"),
         ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
@@ -350,23 +351,3 @@ def test_errors_near_a_place_are_measured_drawn_and_drawn_again(run, monkeypatch
     assert run("chart --from a.json --out b.svg")[0] == 0
     a, b = (Path(name).read_text("utf-8") for name in ("a.svg", "b.svg"))
     assert a.count("<path") == b.count("<path")
-
-
-@rows(
-    "line, message",
-    [
-        ("npgr026 --near normal --quick", "--quick is for times"),
-        ("npgr026 --near nirmal", "'nirmal' is not one of"),
-        ("--interface --near normal --quick", "--quick is for times"),
-        ("--quick npgr026", "--quick stands behind the preset"),
-        ("--interface --peers r.json", "--peers stand beside a path"),
-        ("--from r.json --near normal", "leave them out of --from"),
-        ("npgr026 --peers none.json", "none.json"),
-        ("malus --near normal", "has no interface"),
-        ("npgr026 --peers r.json --quick", "is no whole race"),
-    ],
-)
-def test_what_does_not_go_together_is_refused_before_anything_is_measured(line, message, refused):
-    Path("r.json").write_text("{}", "utf-8")
-    assert message in refused(f"chart {line}")
-    assert not Path("chart.png").exists()

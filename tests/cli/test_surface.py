@@ -234,68 +234,78 @@ def test_an_interrupt_keeps_directions_and_measurements_that_are_done(run, monke
     assert [each["incidence"] for each in directions] == [10.0]
 
 
-@rows(
-    "line, wrong",
-    [
-        ("glass-roug", "sample 'glass-roug' is unknown; did you mean 'glass-rough'?"),
-        ("none.toml", "'none.toml' cannot be read: No such file or directory"),
-        ("flat.txt", "see the names with `optipath surface`"),
-        ("flat.toml", "--incidence is missing; give the angle of incidence: --incidence 60"),
-        ("--incidence 60", "SAMPLE is missing, beside --incidence; give a file or one of: "),
-        ("absorbs.toml --incidence 60", "absorbs.toml"),
-        ("silver.toml --incidence 60", "give one, --wavelength '550 nm'"),
-        ("rough.toml --incidence 90", "incidence is 90 deg, along the sample"),
-        ("rough.toml --incidence -5", "-5 deg; give a real angle of incidence within 0 deg"),
-        ("rough.toml --incidence sixty", "give an angle such as '45 deg'"),
-        ("rough.toml --incidence 60nm", "is no angle"),
-        ("rough.toml --incidence nan", "not finite"),
-        ("rough.toml --incidence 0:80:1001", "gives 1,001 values, of which each has tables"),
-        ("reproduce wang-2017-tabel-1", "did you mean 'wang-2017-table-1'?"),
-        ("reproduce none.toml", "'none.toml' cannot be read: No such file or directory"),
-        ("reproduce Own", "see the names with `optipath surface reproduce --list`"),
-        ("reproduce own.toml --photons 0", "photons must be a whole number of 1 or more, not 0"),
-        ("reproduce own.toml --photons 0 --json", "photons must be a whole number of 1 or more"),
-        ("reproduce own.toml --photons x", "'x' is no whole number"),
-        ("reproduce own.toml --incidence 3", "option '--incidence' is unknown"),
-        ("--json reproduce", "write optipath surface reproduce first"),
-    ],
-)
-def test_a_wrong_sample_angle_or_experiment_is_told(line, wrong, refused):
+FEW = "--photons 2000 --incidence 50"
+OPAQUE = "silver.toml --map S0 --out a.png --wavelength 500nm"
+WRONG = {
+    "": {
+        "glass-roug": "sample 'glass-roug' is unknown; did you mean 'glass-rough'?",
+        "none.toml": "'none.toml' cannot be read: No such file or directory",
+        "flat.txt": "see the names with `optipath surface`",
+        "flat.toml": "--incidence is missing; give the angle of incidence: --incidence 60",
+        "--incidence 60": "SAMPLE is missing, beside --incidence; give a file or one of: ",
+        "absorbs.toml --incidence 60": "absorbs.toml",
+        "silver.toml --incidence 60": "give one, --wavelength '550 nm'",
+        "rough.toml --incidence 90": "incidence is 90 deg, along the sample",
+        "rough.toml --incidence -5": "incidence is -5 deg; give a real angle of incidence within 0",
+        "rough.toml --incidence sixty": "give an angle such as '45 deg'",
+        "rough.toml --incidence 60nm": "is no angle",
+        "rough.toml --incidence nan": "not finite",
+        "rough.toml --incidence 0:80:1001": "--incidence gives 1,001 values, of which each has",
+        "reproduce wang-2017-tabel-1": "did you mean 'wang-2017-table-1'?",
+        "reproduce none.toml": "'none.toml' cannot be read: No such file or directory",
+        "reproduce Own": "see the names with `optipath surface reproduce --list`",
+        "reproduce own.toml --photons 0": "photons must be a whole number of 1 or more, not 0",
+        "reproduce own.toml --photons 0 --json": "photons must be a whole number of 1 or more",
+        "reproduce own.toml --photons x": "'x' is no whole number",
+        "reproduce own.toml --incidence 3": "option '--incidence' is unknown",
+        "--json reproduce": "write optipath surface reproduce first",
+    },
+    "rough.toml --incidence 60": {
+        "--wavelength 400nm:700nm:1001": "--wavelength gives 1,001 values",
+        "--photons 0": "photons must be a whole number of 1 or more, not 0",
+        "--photons 1e30": "photons is 1000000000000000019884624838656; give 1,000,000,000,000",
+        "--photons 1e999": "'1e999' is no whole number; write one such as 1000, or 1e6",
+        "--photons 1.5": "'1.5' is no whole number",
+        "--photons many": "'many' is no whole number",
+        "--threads 5000": "threads is 5000; give 1,024 at most",
+        "--tolerance 0": "tolerance is 0.0; give a standard error within 0 .. 1",
+        "--tolerance nan": "tolerance is nan; give a standard error within 0 .. 1",
+        "--tolerance small": "'small' is not a valid float",
+        "--seed -1": "seed must be a whole number of 0 or more, not -1",
+        "--most-events 0": "most_events must be a whole number of 1 or more, not 0",
+        "--azimuth 10,20,30": "--azimuth takes one angle, and '10,20,30' is several; give one",
+        "--stokes 1,0,0": "--stokes takes 4 numbers with commas between, such as 1,0,0,0",
+        "--stokes 0,0,0,0": "stokes has no intensity; give S0 > 0",
+        "--stokes 1,2,0,0": "polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2",
+        "--cells 1": "the sample: cells must be a whole number of 2 or more",
+        "--cells 10,20,30": "--cells takes 1 or 2 numbers with commas between, such as 640",
+        "--cells 10000000": "a mesh of 1e+14 cells",
+        "--surfaces 0": "the sample: surfaces must be a whole number of 1 or more, not 0",
+        "--sample-seed -3": "the sample: seed must be a whole number of 0 or more, not -3",
+        "--wavelength 500": "'500' has no unit",
+        "--wavelength 500nm": "wavelength is given, but no medium depends on it; leave it out",
+        "--azimut 3": "option '--azimut' is unknown; did you mean '--azimuth'?",
+        "60": "'60' belongs to no option",
+    },
+    FEW: {
+        "flat.toml --map S0": "--map draws into a file; name it, --out map.png",
+        "flat.toml --out map.png": "--out is of a map; say of what, --map S0",
+        "flat.toml --map S0 --out a.jpg": "cannot be drawn; use one of: .png, .svg",
+        "flat.toml --map DoL --out a.png": "'DoL' is unknown; did you mean 'DoLP'",
+        "flat.toml --map S0 --out a.png --json": "--json is of tables",
+        "flat.toml --map S0 --out a.png --incidence 20": "give --incidence once",
+        "flat.toml --map ADM --out a.png --stokes 1,1,0,0": "leave --stokes out",
+        f"{OPAQUE} --side transmitted": "nothing goes through an opaque sample; leave --side out",
+        f"{OPAQUE}:600nm:2": "a map of S0 is of one wavelength",
+        "flat.toml --map S0 --out nowhere/a.png": "cannot be written: there is no such folder",
+    },
+}
+
+
+@rows("line, wrong", [(f"{a} {b}", WRONG[a][b]) for a in WRONG for b in WRONG[a]])
+def test_what_is_wrong_is_told_before_photons_are_walked(line, wrong, refused, tmp_path):
     assert wrong in refused(f"surface {line}")
-
-
-@rows(
-    "given, wrong",
-    [
-        ("--wavelength 400nm:700nm:1001", "--wavelength gives 1,001 values"),
-        ("--photons 0", "photons must be a whole number of 1 or more, not 0"),
-        ("--photons 1e30", "photons is 1000000000000000019884624838656; give 1,000,000,000,000"),
-        ("--photons 1e999", "'1e999' is no whole number; write one such as 1000, or 1e6"),
-        ("--photons 1.5", "'1.5' is no whole number"),
-        ("--photons many", "'many' is no whole number"),
-        ("--threads 5000", "threads is 5000; give 1,024 at most"),
-        ("--tolerance 0", "tolerance is 0.0; give a standard error within 0 .. 1"),
-        ("--tolerance nan", "tolerance is nan; give a standard error within 0 .. 1"),
-        ("--tolerance small", "'small' is not a valid float"),
-        ("--seed -1", "seed must be a whole number of 0 or more, not -1"),
-        ("--most-events 0", "most_events must be a whole number of 1 or more, not 0"),
-        ("--azimuth 10,20,30", "--azimuth takes one angle, and '10,20,30' is several; give one"),
-        ("--stokes 1,0,0", "--stokes takes 4 numbers with commas between, such as 1,0,0,0"),
-        ("--stokes 0,0,0,0", "stokes has no intensity; give S0 > 0"),
-        ("--stokes 1,2,0,0", "polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"),
-        ("--cells 1", "the sample: cells must be a whole number of 2 or more"),
-        ("--cells 10,20,30", "--cells takes 1 or 2 numbers with commas between, such as 640"),
-        ("--cells 10000000", "a mesh of 1e+14 cells"),
-        ("--surfaces 0", "the sample: surfaces must be a whole number of 1 or more, not 0"),
-        ("--sample-seed -3", "the sample: seed must be a whole number of 0 or more, not -3"),
-        ("--wavelength 500", "'500' has no unit"),
-        ("--wavelength 500nm", "wavelength is given, but no medium depends on it; leave it out"),
-        ("--azimut 3", "option '--azimut' is unknown; did you mean '--azimuth'?"),
-        ("60", "'60' belongs to no option"),
-    ],
-)
-def test_a_wrong_value_is_told(given, wrong, refused):
-    assert wrong in refused(f"surface rough.toml --incidence 60 {given}")
+    assert not [*tmp_path.glob("*.png")]
 
 
 def test_all_faults_are_told_at_once(refused):
@@ -347,9 +357,6 @@ def test_a_polarised_source_and_that_no_pixel_counts_are_told_in_a_sentence(run,
     assert err.splitlines()[-1].startswith("optipath: no pixel counts: of 1 photon none is ref")
 
 
-FEW = "--photons 2000 --incidence 50"
-
-
 def test_a_map_is_of_the_side_light_and_wavelength_that_are_given(told, tmp_path):
     drawn = told(f"surface flat.toml {FEW} --map S0 --side transmitted --out map.svg")
     assert drawn == "wrote map.svg\n"
@@ -359,31 +366,6 @@ def test_a_map_is_of_the_side_light_and_wavelength_that_are_given(told, tmp_path
     written = (tmp_path / "other.svg").read_text("utf-8")
     assert "S3, reflected, incidence 50°, 500 nm" in written
     assert "source (1, 0, 1, 0)" in written
-
-
-OF_SILVER = "silver.toml --map S0 --out a.png --wavelength 500nm"
-
-
-@rows(
-    "given, sentence",
-    [
-        ("flat.toml --map S0", "--map draws into a file; name it, --out map.png"),
-        ("flat.toml --out map.png", "--out is of a map; say of what, --map S0"),
-        ("flat.toml --map S0 --out a.jpg", "cannot be drawn; use one of: .png, .svg"),
-        ("flat.toml --map DoL --out a.png", "'DoL' is unknown; did you mean 'DoLP'"),
-        ("flat.toml --map S0 --out a.png --json", "--json is of tables"),
-        ("flat.toml --map S0 --out a.png --incidence 20", "give --incidence once"),
-        ("flat.toml --map ADM --out a.png --stokes 1,1,0,0", "leave --stokes out"),
-        (f"{OF_SILVER} --side transmitted", "through an opaque sample; leave --side out"),
-        (f"{OF_SILVER}:600nm:2", "a map of S0 is of one wavelength"),
-        ("flat.toml --map S0 --out nowhere/a.png", "be written: there is no such folder"),
-    ],
-)
-def test_what_goes_with_no_map_is_refused_before_photons_are_walked(
-    given, sentence, refused, tmp_path
-):
-    assert sentence in refused(f"surface {given} {FEW}")
-    assert not [*tmp_path.glob("*.png")]
 
 
 def test_a_list_has_all_experiments_and_what_they_are(told, found):

@@ -168,22 +168,6 @@ def test_all_that_is_wrong_with_options_and_values_is_told_at_once(refused):
         assert part in sentences
 
 
-@rows(
-    "given, sentence",
-    [
-        ("", "a sweep has an axis at least; give --angle START:STOP:COUNT or --coords FILE.csv"),
-        ("--angle 45", "a sweep has an axis at least"),
-        ("--angle 0:9:3 --out none/a.csv", "there is no folder"),
-        ("--angle 0:9:3 --out a.csv --json", "give one of them"),
-        ("--angle 0:9:3 --out a.csv --chunks 3", "--chunks belongs to a sweep"),
-        ("--angle 0:9:3 --zip angle,intensty", "which has no axis of its own"),
-        ("--angle 0:9:3 --case 1 --case 2", "sweep takes one case"),
-    ],
-)
-def test_a_fault_is_one_sentence(given, sentence, refused):
-    assert sentence in refused(f"sweep malus {given}")
-
-
 @pytest.mark.parametrize(
     "missing",
     ["xarray", *(pytest.param(name, marks=pytest.mark.slow) for name in ("dask", "zarr"))],
