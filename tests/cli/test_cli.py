@@ -1,11 +1,8 @@
 """The commands about presets: what they tell, in tables and as JSON, and what they refuse."""
 
 import json
-import os
 import re
-import subprocess
 import sys
-import sysconfig
 import tomllib
 from pathlib import Path
 
@@ -16,8 +13,6 @@ from optipath.cli import main
 from optipath.lab.accuracy.regions import REGIONS
 from optipath.lab.accuracy.tables import SEARCHED
 from tables import rows
-
-COMMAND = str(Path(sysconfig.get_path("scripts")) / "optipath")
 
 
 @pytest.fixture
@@ -164,31 +159,6 @@ def test_a_file_of_ones_own_works_wherever_a_name_does(run, told, found, malus_w
     assert "0.375" in told("run", file)
 
 
-def done_by(command, **options):
-    return subprocess.run(command, capture_output=True, text=True, check=False, **options)
-
-
-def test_the_command_is_installed_and_writes_to_a_terminal_without_the_letters(malus_with):
-    assert done_by([sys.executable, "-m", "optipath", "--version"]).stdout.startswith("optipath")
-    file = malus_with("Malus's law", "Étienne Malus' law")
-    done = done_by([COMMAND, "show", file], env={**os.environ, "PYTHONIOENCODING": "ascii"})
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "?tienne" in done.stdout
-
-
-@pytest.mark.slow
-def test_every_command_writes_to_a_terminal_without_the_letters(malus_with):
-    for command in (["run", malus_with("Malus's law", "Étienne Malus' law")], ["presets"]):
-        done = done_by([COMMAND, *command], env={**os.environ, "PYTHONIOENCODING": "ascii"})
-        assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_output_that_cannot_be_written_ends_with_one_line():
-    done = done_by(["/bin/sh", "-c", f"exec '{sys.executable}' -m optipath run malus > /dev/full"])
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "cannot be written" in done.stderr
-
-
 def test_faults_of_a_file_stand_on_a_line_each(refused, malus_with, tmp_path):
     file = malus_with("source", "sorce", "analyzer.in", "analyzer.inn")
     lamp = "elements.lamp: element kind 'sorce' is unknown; did you mean 'source'?"
@@ -237,15 +207,6 @@ def test_accuracy_prints_its_tables_and_writes_them_into_their_place(
     assert text.startswith(f"a {begin}")
     assert "Worst cases found of compensated, float64" in text
     assert text.count("| generic |") == 3
-
-
-def test_a_feature_whose_extra_is_missing_says_which(run, monkeypatch):
-    monkeypatch.setitem(sys.modules, "mpmath", None)
-    for name in [name for name in sys.modules if name.startswith("optipath.lab.accuracy")]:
-        monkeypatch.delitem(sys.modules, name)
-    status, _, err = run("accuracy --samples 1")
-    assert status == 2
-    assert 'pip install "optipath[chart]"' in err
 
 
 def test_faint_light_is_told_beside_the_zeros_and_a_warning_is_one_line(run, found, tmp_path):

