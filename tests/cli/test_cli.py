@@ -10,6 +10,7 @@ import pytest
 
 import optipath as op
 from optipath.cli import main
+from optipath.cli.plot_kinds import KINDS
 from optipath.lab.accuracy.regions import REGIONS
 from optipath.lab.accuracy.tables import SEARCHED
 from tables import rows
@@ -29,10 +30,9 @@ def malus_with(tmp_path):
     return write
 
 
-def test_presets_lists_every_preset(says, told, found):
+def test_presets_lists_every_preset(told, found):
     assert all(name in told("presets") for name in op.preset_names())
     assert list(found("presets")) == op.preset_names()
-    says("", "presets")
 
 
 def test_run_as_json_has_the_keys_that_others_read(found):
@@ -94,6 +94,8 @@ def test_one_run_calls_few_functions_of_the_library(run):
 @rows(
     "line, parts",
     [
+        ("--version", ["optipath"]),
+        ("", ["presets"]),
         (
             "run npgr026 --case 3",
             ["published", "1.2e-10", "-1.21725e-10", "note: The published S1"],
@@ -101,10 +103,37 @@ def test_one_run_calls_few_functions_of_the_library(run):
         ("show npgr026", ["delta", "53 deg", "0 deg .. 90 deg", "X2.in", "azimuth=-$rho", "0.666"]),
         ("explain npgr026 --case 1 --rho 20", ["1 detector, 4 steps", "X2.reflected"]),
         ("polarization npgr026 --n1 1.5 --n2 1.5 --rho 90", ["polarisation changes S0 by up to"]),
+        ("polarization npgr026 --case 1 --case 7", ["npgr026, case 1:", "npgr026, case 7:"]),
+        ("run npgr026 --case 1 --case 7 --delta 20", ["delta 20 deg"]),
+        ("run npgr026 --case 4", ["note: "]),
+        ("run npgr026 --help", ["--wavelength '516 nm'", "wavelength in vacuum"]),
+        ("run absorbing-pile --help", ["--wavelength", "wavelength in vacuum"]),
+        ("sweep malus --help", ["start:stop:count", "--out FILE"]),
+        ("sweep malus --angle 0:90:31 --intensity 1:4:31", ["961 points (angle 31, intensity 31)"]),
+        ("surface --help", ["optipath surface reproduce [NAME]..."]),
+        ("surface reproduce --help", ["Usage: optipath surface reproduce [OPTIONS] [NAME]..."]),
+        ("plot npgr026 --help", [f"--kind [{'|'.join(KINDS)}"]),
+        ("surface reproduce --list", ["wang-2017-table-2-alpha-0-1"]),
     ],
 )
-def test_what_is_told_of_a_preset(line, parts, says):
+def test_what_is_told(line, parts, says):
     says(line, *parts)
+
+
+@rows(
+    "line, completed",
+    [
+        ("optipath materials qua", ["quartz-o", "quartz-e"]),
+        ("optipath plot npgr026 --kind po", ["poincare"]),
+        ("optipath surface glass-on", ["glass-on-glass", "glass-on-gold"]),
+        ("optipath surface repr", ["reproduce"]),
+    ],
+)
+def test_a_shell_completes_names(line, completed, told, monkeypatch):
+    monkeypatch.setenv("_OPTIPATH_COMPLETE", "bash_complete")
+    monkeypatch.setenv("COMP_WORDS", line)
+    monkeypatch.setenv("COMP_CWORD", str(line.count(" ")))
+    assert told("").split() == [f"plain,{name}" for name in completed]
 
 
 def test_help_tells_every_parameter_and_show_draws(says, tmp_path):

@@ -93,20 +93,6 @@ def test_without_the_extra_one_line_says_what_to_install(refused, monkeypatch):
     installed.database_folder.cache_clear()
 
 
-def test_short_names_are_completed(told, monkeypatch):
-    monkeypatch.setenv("_OPTIPATH_COMPLETE", "bash_complete")
-    monkeypatch.setenv("COMP_WORDS", "optipath materials qua")
-    monkeypatch.setenv("COMP_CWORD", "2")
-    assert told("").split() == ["plain,quartz-o", "plain,quartz-e"]
-
-
-@rows("columns", [20, 40, 80, 120])
-def test_no_line_is_wider_than_the_terminal(columns, run, monkeypatch):
-    monkeypatch.setenv("COLUMNS", str(columns))
-    for line in ("materials gold", "materials gold --at '516 nm'"):
-        assert max(map(len, run(line)[1].splitlines())) <= columns
-
-
 def test_an_index_may_be_the_name_of_a_material(run, found):
     command = f"run npgr026 --case 7 --n1 gold --n2 Au/Johnson {GREEN}"
     light = found(command)
@@ -199,12 +185,6 @@ def test_what_is_wrong_with_a_material_or_a_wavelength_is_one_sentence(refused, 
     assert sentence in wrong
     assert "optipath: " not in wrong
     assert "extrapolate" not in wrong
-
-
-def test_help_lists_the_wavelength_as_it_may_be_typed(says):
-    for preset in ("npgr026", "absorbing-pile"):
-        says(f"run {preset} --help", "--wavelength", "wavelength in vacuum")
-    says("run npgr026 --help", "--wavelength '516 nm'")
 
 
 @rows("material", ["silica", "main/SiO2/Malitson"])

