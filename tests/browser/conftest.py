@@ -1,29 +1,15 @@
 """The page in a real browser, served by this process; skipped where there is no browser."""
 
 import shutil
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
-from threading import Thread
 
 import pytest
 
 import optipath as op
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
-from optipath.explorer.page_server import PageServer
+from explorer.served import page_server
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-
-
-@contextmanager
-def serving(opened):
-    """Serve the page in a thread; its address."""
-    with PageServer(PageAnswers(ExploredPresets(opened))) as server:
-        thread = Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05})
-        thread.start()
-        yield server.address
-        server.shutdown()
-        thread.join()
 
 
 @pytest.fixture(scope="module")
@@ -42,8 +28,8 @@ def browser():
 @pytest.fixture(scope="session")
 def address():
     """Where the page is served, until the tests end."""
-    with serving("npgr026") as found:
-        yield found
+    with page_server("npgr026") as server:
+        yield server.address
 
 
 class Visit:
@@ -123,7 +109,7 @@ def visited_with(browser, address):
     open_ones, served = [], ExitStack()
 
     def make(opened=None, **options):
-        place = address if opened is None else served.enter_context(serving(opened))
+        place = address if opened is None else served.enter_context(page_server(opened)).address
         generator = visit(browser, place, **options)
         open_ones.append(generator)
         return next(generator)

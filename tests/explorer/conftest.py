@@ -1,5 +1,6 @@
 import pytest
 
+from explorer.served import page_server
 from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.page_answers import PageAnswers
 
@@ -8,6 +9,12 @@ from optipath.explorer.page_answers import PageAnswers
 def answers():
     """What answers a page that shows all presets."""
     return PageAnswers(ExploredPresets())
+
+
+@pytest.fixture(scope="module")
+def server():
+    with page_server() as found:
+        yield found
 
 
 @pytest.fixture

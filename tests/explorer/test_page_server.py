@@ -16,12 +16,6 @@ from tables import rows
 FORBIDDEN = {"error": "this is not the address that optipath explore has printed"}
 
 
-@pytest.fixture(scope="module")
-def server():
-    with page_server() as found:
-        yield found
-
-
 def test_it_listens_to_this_machine_alone_at_an_address_that_is_free(server):
     assert server.socket.getsockname()[0] == HOST == "127.0.0.1"
     assert server.address == f"http://127.0.0.1:{server.server_port}/{server.token}/"
@@ -31,7 +25,7 @@ def test_it_listens_to_this_machine_alone_at_an_address_that_is_free(server):
         pass
 
 
-def test_the_page_comes_with_headers_that_let_nothing_else_in(server):
+def test_the_page_comes_with_headers_that_let_nothing_else_in_and_files_with_types(server):
     status, headers, page = asked(server, "GET", "")
     assert status == 200
     assert page.startswith(b"<!doctype html>")
@@ -40,16 +34,11 @@ def test_the_page_comes_with_headers_that_let_nothing_else_in(server):
     names = "X-Content-Type-Options", "Referrer-Policy", "Cache-Control", "Server"
     sent = [headers[name] for name in names]
     assert sent == ["nosniff", "no-referrer", "no-store", "optipath"]
-
-
-@rows(
-    "name, kind",
-    [("main.js", "text/javascript"), ("style.css", "text/css"), ("icon.svg", "image/svg+xml")],
-)
-def test_its_files_have_their_types(server, name, kind):
-    status, headers, content = asked(server, "GET", f"page/{name}")
-    assert (status, headers.get_content_type()) == (200, kind)
-    assert len(content) == int(headers["Content-Length"])
+    kinds = {"main.js": "text/javascript", "style.css": "text/css", "icon.svg": "image/svg+xml"}
+    for name, kind in kinds.items():
+        status, headers, content = asked(server, "GET", f"page/{name}")
+        assert (status, headers.get_content_type()) == (200, kind)
+        assert len(content) == int(headers["Content-Length"])
 
 
 def test_questions_are_answered(server):
@@ -63,14 +52,10 @@ def test_questions_are_answered(server):
     status, headers, content = asked(server, "HEAD", "api/presets")
     assert (status, content) == (200, b"")
     assert int(headers["Content-Length"]) > 100
-
-
-def test_one_connection_serves_many_questions(server):
-    question = (
-        f"GET /{server.token}/api/presets HTTP/1.1\r\nHost: 127.0.0.1:{server.server_port}\r\n\r\n"
-    ).encode()
-    last = question.replace(b"\r\n\r\n", b"\r\nConnection: close\r\n\r\n")
-    assert raw(server, question * 3 + last).count(b"HTTP/1.1 200 OK") == 4
+    # One connection serves many.
+    place = f"GET /{server.token}/api/presets HTTP/1.1\r\nHost: 127.0.0.1:{server.server_port}\r\n"
+    sent = f"{place}\r\n" * 3 + f"{place}Connection: close\r\n\r\n"
+    assert raw(server, sent.encode()).count(b"HTTP/1.1 200 OK") == 4
 
 
 @rows("below", ["/", "", "/favicon.ico", "/{token}", "/{token}x/", "/{other}/"])
@@ -122,13 +107,10 @@ def test_no_other_file_is_sent(server, place):
     assert (status, json.loads(answer)) == (404, {"error": "there is nothing at this address"})
 
 
-@rows("method", ["PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "FOO"])
-def test_other_methods_are_refused(server, method):
-    status, headers, _ = asked(server, method, "")
-    assert (status, headers["Allow"]) == (405, "GET, HEAD, POST")
-
-
-def test_questions_are_posted_and_files_are_not(server):
+def test_files_are_got_questions_are_posted_and_other_methods_are_refused(server):
+    for method in ("PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "FOO"):
+        status, headers, _ = asked(server, method, "")
+        assert (status, headers["Allow"]) == (405, "GET, HEAD, POST"), method
     assert asked(server, "GET", "api/trace")[0] == 405
     assert posted(server, "page/main.js", {})[0] == 405
     assert posted(server, "page/none.js", {})[0] == 404
@@ -162,11 +144,6 @@ def test_what_is_malformed_is_refused_in_a_sentence(server, headers, body, statu
     assert [*found[1]] == ["error"]
 
 
-def test_a_length_that_is_given_twice_is_refused(server):
-    head = head_of(server, "Content-Length: 2\r\nContent-Length: 30\r\n")
-    assert raw(server, head + b"{}").startswith(b"HTTP/1.1 400 ")
-
-
 @rows(
     "sent, status",
     [
@@ -187,6 +164,11 @@ def test_what_is_no_request_gets_a_status_and_nothing_of_it_back(server, sent, s
     assert found[9:12] == status
     assert b"Traceback" not in found
     assert b"aaaa" not in found
+
+
+def test_a_length_that_is_given_twice_is_refused(server):
+    head = head_of(server, "Content-Length: 2\r\nContent-Length: 30\r\n")
+    assert raw(server, head + b"{}").startswith(b"HTTP/1.1 400 ")
 
 
 def test_a_fault_of_its_own_is_a_sentence_there_and_a_line_here(server, monkeypatch, capsys):

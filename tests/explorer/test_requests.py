@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from explorer.served import head_of, page_server, posted, raw
+from explorer.served import head_of, posted, raw
 from optipath.errors import OptipathError
 from optipath.explorer.asked_state import AskedCurve, asked_state
 from optipath.explorer.strict_json import read_json
@@ -129,12 +129,6 @@ def changed(draw, found):
                 break
             part = part[key]
     return state
-
-
-@pytest.fixture(scope="module")
-def server():
-    with page_server() as found:
-        yield found
 
 
 @COUNTS
