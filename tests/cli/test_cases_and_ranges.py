@@ -46,15 +46,16 @@ def test_several_cases_are_the_rows_that_were_asked_for(run, own):
     assert ", 1 case:" in " ".join(out.split())
 
 
-def test_wrong_cases_are_told(refused, own):
-    twice = refused("run npgr026 --delta 3 --delta 4")
-    assert twice == "--delta is given 2 times; give it once"
+def test_wrong_cases_and_all_that_is_wrong_with_ranges_are_told(refused, own):
     first, *faults = refused("run npgr026 --case 10 --case 1 --case 11", lines=3).splitlines()
     assert first == "2 faults:"
     assert "case '10' is unknown" in faults[0]
     assert "case '11' is unknown" in faults[1]
     file = own((op.Source() >> op.Detector()).to_toml())
     assert refused(f"run {file} --case all") == f"preset '{file}' has no cases; leave --case out"
+    faults = refused("run npgr026 --delta 0:95:3 --phi 95 --rho 0:9:0 --n1 nan:1:2", lines=5)
+    for part in ("'delta' is 95 deg at 2", "'phi' is 95 deg,", "'0:9:0' counts", "'nan'"):
+        assert part in faults
 
 
 def test_cases_as_json_are_the_objects_of_each(found):
@@ -179,12 +180,6 @@ def test_the_table_has_the_values_of_the_axes(run):
     assert "801 more" in out
     assert "0 .. 90 deg, 1,001 values" in out
     assert len(out.splitlines()) < 220
-
-
-def test_all_that_is_wrong_is_told_at_once(refused):
-    faults = refused("run npgr026 --delta 0:95:3 --phi 95 --rho 0:9:0 --n1 nan:1:2", lines=5)
-    for part in ("'delta' is 95 deg at 2", "'phi' is 95 deg,", "'0:9:0' counts", "'nan'"):
-        assert part in faults
 
 
 def test_a_path_with_several_values_of_its_own_takes_no_axis_besides(run, refused, own):

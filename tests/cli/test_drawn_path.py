@@ -88,27 +88,22 @@ def links_of(svg):
     return [tag.get("d") for tag in tags if "link" in tag.get("class")]
 
 
-def assert_whole(name):
-    path = op.load_preset(name)
-    svg = path_picture(path, name)
-    assert faults_of(svg) == []
-    shown = "".join("".join(texts_of(svg)).split())
-    for told in [*path, *path.parameters, *path.cases]:
-        assert "".join(told.split()) in shown
-    assert len(page_of(svg)[2]) == len(path)
-    leaves = sum(text.endswith("leaves the path") for text in texts_of(svg))
-    assert len(links_of(svg)) == path.graph.number_of_edges() + leaves
+SOME = ["npgr026", "glass-slab", "ellipsometer-rough", "sky-and-window"]
+EVERY = pytest.param(op.preset_names(), marks=pytest.mark.report)
 
 
-@rows("name", ["npgr026", "glass-slab", "ellipsometer-rough", "sky-and-window"])
-def test_nothing_of_some_presets_is_cut_or_lies_over_something_else(name):
-    assert_whole(name)
-
-
-@pytest.mark.report
-@rows("name", op.preset_names())
-def test_nothing_of_a_preset_is_cut_or_lies_over_something_else(name):
-    assert_whole(name)
+@pytest.mark.parametrize("names", [SOME, EVERY], ids=["some", "every"])
+def test_nothing_of_presets_is_cut_or_lies_over_something_else(names):
+    for name in names:
+        path = op.load_preset(name)
+        svg = path_picture(path, name)
+        assert faults_of(svg) == [], name
+        shown = "".join("".join(texts_of(svg)).split())
+        for told in [*path, *path.parameters, *path.cases]:
+            assert "".join(told.split()) in shown
+        assert len(page_of(svg)[2]) == len(path)
+        leaves = sum(text.endswith("leaves the path") for text in texts_of(svg))
+        assert len(links_of(svg)) == path.graph.number_of_edges() + leaves
 
 
 def chain_of(count, name="{}", kind=op.Rotator):
@@ -207,10 +202,3 @@ def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, run):
         heading = next(line for line in out.splitlines() if "range" in line)
         assert heading.split()[:2] == ["parameter", column]
         assert len({"default", "value"} & {*texts}) == 1
-
-
-@rows("name", ["x.png", "x", "x.svg.gz"])
-def test_a_file_that_does_not_end_in_svg_is_refused(name, tmp_path, refused):
-    wrong = f"--svg draws SVG, and '{name}' ends otherwise; name a file such as 'x.svg'"
-    assert refused(f"show malus --svg {name}") == wrong
-    assert not [*tmp_path.iterdir()]

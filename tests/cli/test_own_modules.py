@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from optipath.elements.registry import KINDS
+from optipath.explorer.page_server import PageServer
 from tables import rows
 
 MODULE = """
@@ -13,6 +14,7 @@ import optipath as op
 
 class Foil(op.Element, kind="test-imported-foil"):
     share: op.Fraction = 0.5
+    straight = True
 
     @staticmethod
     def mueller_rows(xp, share):
@@ -75,6 +77,18 @@ def test_a_file_elsewhere_is_imported_by_its_path(folder, tmp_path_factory, monk
     status, out, _ = run("--import", file, "explain", folder / "path.toml")
     assert status == 0
     assert "1 source" in out
+
+
+def test_the_explorer_traces_elements_of_ones_own(run, monkeypatch):
+    served = []
+
+    def serve(server):
+        served.append(server)
+
+    monkeypatch.setattr(PageServer, "serve_forever", serve)
+    assert run("--import imported_foils explore path.toml --no-browser")[0] == 0
+    found = served[0].answers.trace({"preset": "path.toml", "want": ["scene", "energy"]})
+    assert found["detectors"]["eye"]["texts"] == ["0.5", "0", "0", "0"]
 
 
 def test_without_it_the_kind_is_unknown_and_a_file_never_says_what_is_imported(folder, refused):

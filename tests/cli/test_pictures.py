@@ -3,6 +3,7 @@
 import json
 import sys
 import warnings
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -45,8 +46,15 @@ def leaves_a_plane(preset, case):
     return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
 
 
-def assert_whole_and_readable(preset, case):
-    for kind, given in pictures_of(preset):
+SOME = [("npgr026", ["8"]), ("sky-and-window", [None])]
+EVERY = [(name, (None, *op.load_preset(name).cases)) for name in op.preset_names()]
+
+
+@pytest.mark.parametrize(
+    ("preset", "cases"), [*SOME, *(pytest.param(*one, marks=pytest.mark.report) for one in EVERY)]
+)
+def test_every_picture_of_a_preset_is_whole_and_readable(preset, cases):
+    for case, (kind, given) in product(cases, pictures_of(preset)):
         if kind == "bench" and leaves_a_plane(preset, case):
             with pytest.raises(op.OptipathError, match="geometry"):
                 picture(preset, kind, case, **given)
@@ -58,18 +66,6 @@ def assert_whole_and_readable(preset, case):
         assert preset in figure.get_suptitle()
         labels = {axis.get_label_text() for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)}
         assert labels - {""} or kind in {"geometry", "bench", "energy", "poincare"}
-
-
-@rows("preset, case", [("npgr026", "8"), ("sky-and-window", None)])
-def test_every_picture_of_some_presets_is_whole_and_readable(preset, case):
-    assert_whole_and_readable(preset, case)
-
-
-@pytest.mark.report
-@pytest.mark.parametrize("preset", op.preset_names())
-def test_every_picture_of_a_preset_is_whole_and_readable(preset):
-    for case in (None, *op.load_preset(preset).cases):
-        assert_whole_and_readable(preset, case)
 
 
 DRAWN = [

@@ -179,28 +179,6 @@ def test_a_missing_extra_is_told_with_its_cure_where_it_is_needed(library, lines
     assert extra != "chart" or (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
-OWN = """
-from dataclasses import dataclass
-import optipath as op
-
-class Halved(op.Element, kind="test-halved"):
-    inputs = ("in",)
-    outputs = ("out",)
-    straight = True
-
-    @staticmethod
-    def mueller_rows(xp):
-        half = [0.5, 0.0, 0.0, 0.0]
-        return [[0.5 if row == column else 0.0 for column in range(4)] for row in range(4)]
-"""
-HALVES = """
-format = 1
-description = "Halved"
-elements = { L = { kind = "source" }, H = { kind = "test-halved" }, E = { kind = "detector" } }
-links = [{ from = "L.out", to = "H.in" }, { from = "H.out", to = "E.in" }]
-"""
-
-
 @pytest.fixture
 def served(monkeypatch):
     """Serve nothing; tell what would have been."""
@@ -281,15 +259,6 @@ def test_what_cannot_be_opened_is_told_at_once(line, told, refused, served, tmp_
     (tmp_path / "bad.toml").write_text(bad, "utf-8")
     assert told in refused(f"explore {line}")
     assert served == []
-
-
-@pytest.mark.usefixtures("opened")
-def test_elements_of_ones_own_are_traced(run, served, tmp_path):
-    (tmp_path / "own_halves.py").write_text(OWN, "utf-8")
-    (tmp_path / "halves.toml").write_text(HALVES, "utf-8")
-    assert run("--import", tmp_path / "own_halves.py", "explore", "halves.toml")[0] == 0
-    found = served[0].answers.trace({"preset": "halves.toml", "want": ["scene", "energy"]})
-    assert found["detectors"]["E"]["texts"] == ["0.5", "0", "0", "0"]
 
 
 def test_it_serves_until_an_interrupt_ends_it_in_one_line():

@@ -33,6 +33,11 @@ REFUSED = [
     ("dance", "command 'dance' is unknown; there are: accuracy, bench, cache,"),
     ("--what", "--what"),
     ("--vrsion", "option '--vrsion' is unknown; did you mean '--version'?"),
+    *(
+        (f"show malus --svg {name}", f"'{name}' ends otherwise; name a file such as 'x.svg'\n")
+        for name in ("x.png", "x", "x.svg.gz")
+    ),
+    ("run npgr026 --delta 3 --delta 4", "--delta is given 2 times; give it once\n"),
     ("chart", "PRESET is missing"),
     ("chart --interface malus", "leave it out"),
     ("chart --out x.png malus", "behind the preset"),

@@ -145,56 +145,46 @@ def is_tame(text):
     return not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]", text)
 
 
-@rows(
-    "command, options",
-    [
-        ("run", []),
-        ("run", ["--case", f"case{ESCAPE}"]),
-        ("run", ["--json"]),
-        ("run", ["--help"]),
-        ("run", ["--angle", f"word{ESCAPE}"]),
-        *((command, []) for command in ("show", "explain", "polarization")),
-        *((command, ["--json"]) for command in ("explain", "polarization")),
-    ],
-)
-def test_no_text_of_a_file_commands_the_terminal(command, options, hostile, run):
-    status, out, err = run(command, hostile, *options)
-    assert status == 0
-    assert is_tame(out + err)
-    assert ("\\x1b" if "--json" not in options else "\\u001b") in out + err
+CALM = [
+    ("run", []),
+    ("run", ["--case", f"case{ESCAPE}"]),
+    ("run", ["--json"]),
+    ("run", ["--help"]),
+    ("run", ["--angle", f"word{ESCAPE}"]),
+    *((command, []) for command in ("show", "explain", "polarization")),
+    *((command, ["--json"]) for command in ("explain", "polarization")),
+]
+FAULTS = [
+    ("run", ["--case", f"x{ESCAPE}"]),
+    ("run", ["--angle", f"x{ESCAPE}"]),
+    ("run", [f"--x{ESCAPE}"]),
+    ("show", ["--case", f"x{ESCAPE}"]),
+    ("show", ["--svg", f"/no{ESCAPE}/x.svg"]),
+]
+KEYS = [
+    r'"\u001b[31m" = 1',
+    'format = 1\n[elements."\\u001b[31m"]\nkind = "\\u001b[31m"',
+    'format = 1\n[parameters."\\u001b[31m"]\nunit = "\\u001b[31m"',
+    "x = \x1b[31m",
+    'x = "\x1b[31m"',
+    '[[links]]\nfrom = "\\u001b[31m.out"\nto = "\\u009b.in"',
+    '[cases."\\u001b[31m"]\nvalues = {"\\u001b[31m" = 1}',
+]
 
 
-@rows(
-    "command, options",
-    [
-        ("run", ["--case", f"x{ESCAPE}"]),
-        ("run", ["--angle", f"x{ESCAPE}"]),
-        ("run", [f"--x{ESCAPE}"]),
-        ("show", ["--case", f"x{ESCAPE}"]),
-        ("show", ["--svg", f"/no{ESCAPE}/x.svg"]),
-    ],
-)
-def test_no_fault_that_quotes_a_text_commands_the_terminal(command, options, hostile, refused):
-    assert is_tame(refused(command, hostile, *options))
-
-
-@rows(
-    "text",
-    [
-        r'"\u001b[31m" = 1',
-        r'format = 1\n[elements."\u001b[31m"]\nkind = "\u001b[31m"',
-        r'format = 1\n[parameters."\u001b[31m"]\nunit = "\u001b[31m"',
-        "x = \x1b[31m",
-        'x = "\x1b[31m"',
-        r'[[links]]\nfrom = "\u001b[31m.out"\nto = "\u009b.in"',
-        r'[cases."\u001b[31m"]\nvalues = {"\u001b[31m" = 1}',
-    ],
-)
-def test_no_key_of_a_file_commands_the_terminal(text, tmp_path, run):
-    (tmp_path / "x.toml").write_text(text.replace(r"\n", "\n"), "utf-8")
-    status, out, err = run("run x.toml")
-    assert status == 2
-    assert is_tame(out + err)
+def test_no_text_fault_or_key_of_a_file_commands_the_terminal(hostile, run, refused, tmp_path):
+    for command, options in CALM:
+        status, out, err = run(command, hostile, *options)
+        assert status == 0
+        assert is_tame(out + err)
+        assert ("\\x1b" if "--json" not in options else "\\u001b") in out + err
+    for command, options in FAULTS:
+        assert is_tame(refused(command, hostile, *options))
+    for text in KEYS:
+        (tmp_path / "x.toml").write_text(text, "utf-8")
+        status, out, err = run("run x.toml")
+        assert status == 2
+        assert is_tame(out + err), text
 
 
 def test_a_picture_loads_nothing_and_holds_its_texts_as_texts(tmp_path, hostile, run):
