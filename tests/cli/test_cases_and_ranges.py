@@ -87,7 +87,11 @@ def test_commands_about_one_case_and_one_value_say_so(refused):
         assert f"{command} takes one" in told
 
 
-def test_the_note_of_a_case_is_of_its_own_values_as_what_was_published(run):
+def test_the_note_of_a_case_is_of_its_own_values_which_are_defaults_that_stay_open(run):
+    out = run("show npgr026 --case 7")[1]
+    assert "bound" not in out
+    delta = next(line for line in out.splitlines() if "delta" in line)
+    assert delta.split()[:3] == ["delta", "48", "deg"]
     for given in ("--n1 1.2 --n2 1.3", "--filter diagonal"):
         for form in ("", "--json", "--case 5"):
             status, out, _ = run(f"run npgr026 --case 4 {given} {form}")
@@ -111,13 +115,6 @@ def test_a_fault_of_some_cases_names_them_and_one_of_all_does_not(run, refused, 
     one, several = (run(f"run npgr026 --case {case} --delta 100")[2] for case in ("1", "all"))
     assert several == one
     assert "100 deg" in one
-
-
-def test_a_case_is_shown_as_defaults_which_stay_open(run):
-    out = run("show npgr026 --case 7")[1]
-    assert "bound" not in out
-    delta = next(line for line in out.splitlines() if "delta" in line)
-    assert delta.split()[:3] == ["delta", "48", "deg"]
 
 
 def test_what_was_published_stands_below_the_lights_of_a_batch(run, own):
@@ -146,9 +143,7 @@ def test_several_ranges_are_an_outer_product_in_the_order_of_the_options(found):
     assert stokes.shape == (2, 3, 4)
     alone = op.load_preset("npgr026").trace(rho="20 deg", delta="30 deg").stokes
     np.testing.assert_allclose(stokes[1, 1], alone, rtol=1e-14, atol=1e-17)
-
-
-def test_what_a_case_says_of_an_axis_gives_way_to_it(found):
+    # What a case says of an axis gives way to it.
     batch = found("run npgr026 --case 8 --delta 10:48:2")
     assert batch["parameters"]["rho"] == 34.0
     assert "published" not in batch["detectors"]["E"]

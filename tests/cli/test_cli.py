@@ -103,8 +103,10 @@ def test_one_run_calls_few_functions_of_the_library(run):
         ("show npgr026", ["delta", "53 deg", "0 deg .. 90 deg", "X2.in", "azimuth=-$rho", "0.666"]),
         ("explain npgr026 --case 1 --rho 20", ["1 detector, 4 steps", "X2.reflected"]),
         ("polarization npgr026 --n1 1.5 --n2 1.5 --rho 90", ["polarisation changes S0 by up to"]),
+        ("polarization fresnel-rhomb", ["polarisation changes nothing"]),
         ("polarization npgr026 --case 1 --case 7", ["npgr026, case 1:", "npgr026, case 7:"]),
         ("run npgr026 --case 1 --case 7 --delta 20", ["delta 20 deg"]),
+        ("run npgr026 --case 7 --case 8 --delta 0:90:1001", ["7 981 more", "8 981 more"]),
         ("run npgr026 --case 4", ["note: "]),
         ("run npgr026 --help", ["--wavelength '516 nm'", "wavelength in vacuum"]),
         ("run absorbing-pile --help", ["--wavelength", "wavelength in vacuum"]),
@@ -127,6 +129,7 @@ def test_what_is_told(line, parts, says):
         ("optipath plot npgr026 --kind po", ["poincare"]),
         ("optipath surface glass-on", ["glass-on-glass", "glass-on-gold"]),
         ("optipath surface repr", ["reproduce"]),
+        ("optipath surface reproduce wang-2017-f", ["wang-2017-figure-4", "wang-2017-figures-7-9"]),
     ],
 )
 def test_a_shell_completes_names(line, completed, told, monkeypatch):

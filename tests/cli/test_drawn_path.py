@@ -173,6 +173,13 @@ def test_light_that_goes_round_is_led_back_upwards():
     assert places[1] < places[2] < places[0]
 
 
+def test_a_reader_of_screens_is_told_the_path_in_words():
+    root = ET.fromstring(path_picture(op.load_preset("malus"), "malus"))  # noqa: S314 - our own
+    assert root.get("role") == "img"
+    assert root.find(f"{SPACE}title").text == "The path malus"
+    assert "| out --> " in root.find(f"{SPACE}desc").text
+
+
 def test_taps_turns_and_notes_are_told_once_and_no_legend_of_nothing():
     svg = path_picture(op.load_preset("ellipsometer-rough"), "ellipsometer-rough")
     assert 'class="link tap"' in svg
@@ -181,13 +188,6 @@ def test_taps_turns_and_notes_are_told_once_and_no_legend_of_nothing():
     assert "7, 8, 9" in texts
     assert sum(text.startswith("X1 is copper") for text in texts) == 1
     assert "parameter" not in texts_of(path_picture(chain_of(1), "bare"))
-
-
-def test_a_reader_of_screens_is_told_the_path_in_words():
-    root = ET.fromstring(path_picture(op.load_preset("malus"), "malus"))  # noqa: S314 - our own
-    assert root.get("role") == "img"
-    assert root.find(f"{SPACE}title").text == "The path malus"
-    assert "| out --> " in root.find(f"{SPACE}desc").text
 
 
 def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, run):

@@ -116,18 +116,15 @@ def test_all_commands_of_presets_and_several_cases_take_materials(run, told, say
     assert "published" not in run(command)[1]
 
 
-def test_a_wavelength_of_which_nothing_depends_is_told_and_not_used(run, found):
+def test_a_wavelength_may_be_an_energy_and_is_not_used_where_nothing_depends_on_it(run, found):
     status, out, err = run(f"run npgr026 {GREEN} --json")
     assert status == 0
     unused = "nothing in 'npgr026' depends on the wavelength; --wavelength is not used"
     assert err.splitlines() == [f"optipath: {unused}"]
     assert json.loads(out) == found("run npgr026")
-
-
-def test_a_photon_energy_is_a_wavelength(found):
-    found = found("run absorbing-pile --wavelength '2.4 eV'")["parameters"]["wavelength"]
     # h c / e = 1239.841984... eV nm, by the definitions of the SI.
-    assert found == pytest.approx(1239.8419843320026 / 2.4, rel=1e-15)
+    wavelength = found("run absorbing-pile --wavelength '2.4 eV'")["parameters"]["wavelength"]
+    assert wavelength == pytest.approx(1239.8419843320026 / 2.4, rel=1e-15)
 
 
 NPGR = "run npgr026"

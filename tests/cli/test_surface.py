@@ -5,13 +5,11 @@ import re
 import sys
 from contextlib import contextmanager
 
-import click
 import numpy as np
 import pytest
 
 import optipath as op
 from optipath.cli.printed_energy import measured
-from optipath.cli.reproduce_command import reproduce
 from optipath.lab.published import reproduction
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk import walk_code
@@ -76,16 +74,14 @@ def fresnel(m, degrees):
     return float(abs(r_s) ** 2 + abs(r_p) ** 2) / 2.0
 
 
-def test_without_a_sample_those_that_there_are_are_listed(told, found):
+def test_samples_and_experiments_are_listed_with_what_they_are(told, found):
     listed = told("surface")
     assert all(name in listed for name in op.sample_names())
     assert list(found("surface")) == op.sample_names()
     assert found("surface")["glass-rough"] == op.load_sample("glass-rough").description
-
-
-def test_a_shell_completes_names_of_experiments():
-    completed = reproduce.params[0].shell_complete(click.Context(reproduce), "wang-2017-f")
-    assert [one.value for one in completed] == ["wang-2017-figure-4", "wang-2017-figures-7-9"]
+    experiments = found("surface reproduce --list")
+    assert [*experiments] == [name for name in op.sample_names() if name.startswith("wang-2017-")]
+    assert experiments["wang-2017-simulation-01"] == "1.5 on 2.4, alpha 0.1 each"
 
 
 def test_flat_faces_reflect_by_fresnel(found):
@@ -159,14 +155,11 @@ def test_a_tolerance_is_reached_or_its_absence_told_in_a_line(run, found):
     assert "1,000 photons" in out
 
 
-def test_a_coarse_mesh_is_told_in_a_line_whose_cure_works(run, told):
+def test_a_coarse_mesh_and_lost_photons_are_told_in_a_line(run, told):
     given = "surface rough.toml --incidence 60 --photons 1000 --surfaces 2 --cells"
     status, _, err = run(given, 100)
     assert (status, err.count("\n")) == (0, 1)
-    told(given, re.search(r"--cells (\S+) are enough", err)[1])
-
-
-def test_lost_photons_are_told(run):
+    told(given, re.search(r"--cells (\S+) are enough", err)[1])  # Which cures it.
     given = "--incidence 60 --photons 1000 --surfaces 1 --most-events 1"
     out = " ".join(run(f"surface finite.toml {given}")[1].split())
     assert re.search(r"; \d+ lost beside the field; \d+ lost after 1 event ", out)
@@ -362,13 +355,7 @@ def test_a_map_is_of_the_side_light_and_wavelength_that_are_given(told, tmp_path
     assert "source (1, 0, 1, 0)" in written
 
 
-def test_a_list_has_all_experiments_and_what_they_are(found):
-    listed = found("surface reproduce --list")
-    assert [*listed] == [name for name in op.sample_names() if name.startswith("wang-2017-")]
-    assert listed["wang-2017-simulation-01"] == "1.5 on 2.4, alpha 0.1 each"
-
-
-def test_what_is_published_stands_beside_what_is_computed(told, found):
+def test_what_is_published_stands_beside_what_is_computed(run, told, found):
     given = "surface reproduce own.toml --photons 1e5"
     out = told(given)
     assert out.startswith("own.toml: a pane\na notebook; 100,000 photons a direction\n")
@@ -392,11 +379,8 @@ def test_what_is_published_stands_beside_what_is_computed(told, found):
     assert first["published"] == [0.04, 0.04]
     assert abs(first["value"] - 0.04) < 6.0 * first["standard_error"]
     assert (first["agrees"], first["photons"], first["text"]) == (True, 100_000, "four per cent")
-
-
-def test_several_experiments_may_be_named(run):
-    given = f"{MIRROR} own.toml --photons 2000 --threads 1 --seed 2"
-    status, out, _ = run(f"surface reproduce {given}")
+    # Several may be named.
+    status, out, _ = run(f"surface reproduce {MIRROR} own.toml --photons 2000 --threads 1 --seed 2")
     assert status == 0
     assert out.index(MIRROR) < out.index("own.toml: a pane")
     assert out.count(" yes") >= 3

@@ -12,12 +12,15 @@ from optipath.lab.bench.timing import duration
 from tables import rows
 
 
-def test_numbers_have_six_digits_and_all_of_them_in_json(told, found):
+def test_numbers_have_six_digits_none_of_rounding_and_all_of_them_in_json(told, found):
     assert "33.9959 " in told("run npgr026 --case 7")
     assert len(repr(found("run npgr026 --case 7")["detectors"]["E"]["stokes"][0])) > 15
     # Crossed polarisers: what is left is the rounding of cos(90 deg).
     table = dict(re.findall(r"│ (S\d) +│ (\S+) ", told("run malus --angle 90")))
     assert set(table.values()) == {"0"}
+    rows = told("polarization npgr026 --case 4").splitlines()
+    shares = {row.split("│")[1].strip(): row.split("│")[2].strip() for row in rows if "│" in row}
+    assert [shares[head] for head in ("difference", "at least", "at most")] == ["0 %"] * 3
     for cases in ("", "--case 1 --case 2"):
         given = f"run npgr026 --rho 0.6rad {cases}"
         assert re.search(r"rho +34\.3775 deg", told(given))
@@ -73,12 +76,6 @@ def test_in_a_narrow_terminal_labels_stand_above_values_and_lines_go_on_indented
     wrapped = run("explain npgr026")[1]
     assert wrapped.split() == whole.split()
     assert re.search("\nfewer than 58 paths .*\n    ", wrapped)
-
-
-def test_a_share_that_is_rounding_is_printed_as_0(told):
-    rows = told("polarization npgr026 --case 4").splitlines()
-    shares = {row.split("│")[1].strip(): row.split("│")[2].strip() for row in rows if "│" in row}
-    assert [shares[head] for head in ("difference", "at least", "at most")] == ["0 %"] * 3
 
 
 def test_a_value_that_is_missing_is_asked_for_by_its_option(run, tmp_path):
@@ -197,9 +194,7 @@ def test_a_picture_loads_nothing_and_holds_its_texts_as_texts(tmp_path, hostile,
     shown = "".join(ET.fromstring(text).itertext()).replace("\xa0", " ")  # noqa: S314 - our own
     for word in ("description", "help", "note", "[red]"):
         assert word in shown
-
-
-def test_a_name_that_is_longer_than_a_box_goes_on_in_the_next_line(tmp_path, run):
+    # A name that is longer than a box goes on in the next line.
     path = op.PathGraph()
     path.add("lamp" * 60, op.Source()) >> path.add("eye" * 60, op.Detector())
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
