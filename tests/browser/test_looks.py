@@ -33,26 +33,20 @@ def test_nothing_is_cut_or_faint_in_a_window(visited_with, size, scheme):
     assert (brightness > 600) is (scheme == "light")
 
 
-def test_pictures_and_texts_grow_with_the_window(visited_with):
-    sizes = []
-    for width, height in (SIZES["desk"], SIZES["wall"]):
+def test_pictures_and_texts_grow_with_the_window_and_on_a_phone_the_light_is_above(visited_with):
+    sizes = {}
+    for size, (width, height) in SIZES.items():
         page = visited_with(viewport={"width": width, "height": height}).open(CASE_8)
         box = page.locator("[data-picture=ellipse] svg").bounding_box()
         text = page.evaluate("parseFloat(getComputedStyle(document.body).fontSize)")
-        sizes.append((box["width"], text))
-    assert sizes[1][0] > 2.5 * sizes[0][0]
-    assert sizes[1][1] > 1.4 * sizes[0][1]
-
-
-def test_the_light_stands_above_the_controls_on_a_phone_and_beside_them_at_a_desk(visited_with):
-    for size in ("phone", "desk"):
-        width, height = SIZES[size]
-        page = visited_with(viewport={"width": width, "height": height}).open()
+        sizes[size] = box["width"], text
         light, controls = (page.locator(one).bounding_box() for one in ("#light", "#controls"))
         if size == "phone":
             assert light["y"] + light["height"] <= controls["y"]
         else:
             assert controls["x"] + controls["width"] <= light["x"]
+    assert sizes["wall"][0] > 2.5 * sizes["desk"][0]
+    assert sizes["wall"][1] > 1.4 * sizes["desk"][1]
 
 
 def test_every_control_and_picture_has_a_name_and_says_in_words_what_it_shows(visited):

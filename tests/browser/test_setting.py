@@ -103,16 +103,14 @@ def test_a_wrong_value_is_a_sentence_at_its_field_and_pictures_stay(visited):
     visited.shows(op.load_preset("npgr026").trace())
 
 
-def test_an_unknown_preset_is_said_and_another_can_be_chosen(visited):
+def test_an_unknown_preset_or_place_is_said_and_another_can_be_chosen(visited):
     page = visited.page
     page.goto(f"{visited.address}#preset=npgr027")
     expect(page.locator("#fault")).to_contain_text("did you mean 'npgr026'")
     page.locator("#preset").select_option("malus")
     visited.shows(op.load_preset("malus").trace())
     expect(page.locator("#fault")).to_be_hidden()
-
-
-def test_a_place_that_is_none_and_a_detector_that_is_none_are_cured_by_reset(visited):
+    # A place that is none and a detector that is none are cured by reset.
     page = visited.open(f"{CASE_8}&place.place=zz&detector=yy")
     expect(page.locator("#place-place-fault")).to_contain_text("'zz'")
     page.get_by_role("button", name="Reset", exact=True).click()
@@ -154,9 +152,7 @@ def test_the_address_carries_the_state(visited, visited_with):
     expect(pressed).to_have_text(["S0", "S1", "S2", "S3", "DoLP"])
     sphere = "[data-picture=sphere] svg"
     assert again.inner_html(sphere) == page.inner_html(sphere)
-
-
-def test_another_address_in_the_same_window_is_followed(visited):
+    # Another address in the same window is followed.
     page = visited.open(CASE_8)
     page.evaluate("location.hash = 'preset=malus&value.angle=60+deg'")
     visited.shows(op.load_preset("malus").trace(angle="60 deg"))

@@ -9,7 +9,9 @@ import sys
 import sysconfig
 import time
 import webbrowser
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.request import Request, urlopen
 
 import pytest
@@ -193,18 +195,16 @@ def served(monkeypatch):
 
 @pytest.fixture
 def opened(monkeypatch):
+    """The addresses that a browser is asked to open, by threads that are done before they begin."""
     found = []
-    monkeypatch.setattr(webbrowser, "open", lambda address: found.append(address) or True)
-    monkeypatch.setattr(explore_command, "Thread", AtOnce)
-    return found
 
-
-class AtOnce:
-    """A thread that is done before it begins."""
-
-    def __init__(self, target, args, daemon):
+    def thread(target, args, daemon):
         assert daemon
-        self.start = lambda: target(*args)
+        return SimpleNamespace(start=partial(target, *args))
+
+    monkeypatch.setattr(webbrowser, "open", lambda address: found.append(address) or True)
+    monkeypatch.setattr(explore_command, "Thread", thread)
+    return found
 
 
 def test_the_address_is_printed_and_opened_where_a_browser_is_wanted(run, served, opened):
