@@ -61,42 +61,38 @@ def ended(process, sent):
     return process.returncode, told
 
 
-def interrupted(command, folder, name, text, sent):
-    """End a command when it waits, in a library that is replaced by a module."""
-    (folder / f"{name}.py").write_text(text, "utf-8")
-    paths = [str(folder), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
-    with started(command, environment) as process:
-        assert process.stdout.readline() == "waits\n"
-        time.sleep(0.05)
-        return ended(process, sent)
+RUN, CHART = ["run", "malus"], ["chart", "malus", "--out", "x.png"]
 
 
 @pytest.mark.parametrize(
-    ("library", "as_script"),
-    [("difflib", 1), ("click", 0), slow(("difflib", 0)), slow(("numpy", 1))],
+    ("library", "text", "command", "as_script", "sent", "found"),
+    [
+        # While it starts, and while it works.
+        ("difflib", WAITS, RUN, True, signal.SIGINT, INTERRUPTED),
+        ("click", WAITS, RUN, False, signal.SIGINT, INTERRUPTED),
+        ("matplotlib", LOST, CHART, False, signal.SIGINT, INTERRUPTED),
+        ("matplotlib", WAITS, CHART, False, signal.SIGTERM, (143, "")),
+        slow(("difflib", WAITS, RUN, False, signal.SIGINT, INTERRUPTED)),
+        slow(("numpy", WAITS, RUN, True, signal.SIGINT, INTERRUPTED)),
+        slow(("matplotlib", WAITS, CHART, False, signal.SIGINT, INTERRUPTED)),
+        slow(("matplotlib", f"exec({WAITS!r})", CHART, False, signal.SIGINT, INTERRUPTED)),
+    ],
 )
-def test_an_interrupt_while_it_starts_is_told_in_one_line(library, as_script, tmp_path):
+def test_a_signal_is_told_in_one_line_at_most(
+    library, text, command, as_script, sent, found, tmp_path
+):
+    """It comes when the command waits, in a library that is replaced by a module."""
+    (tmp_path / f"{library}.py").write_text(text, "utf-8")
+    paths = [str(tmp_path), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
     (tmp_path / "bin").mkdir()
     script = tmp_path / "bin" / "optipath"  # As pip makes it of the entry point.
     script.write_text("import sys\nfrom optipath.cli import main\nsys.exit(main())\n", "utf-8")
     start = [sys.executable, str(script)] if as_script else START
-    given = [*start, "run", "malus"], tmp_path, library, WAITS, signal.SIGINT
-    assert interrupted(*given) == INTERRUPTED
-
-
-@pytest.mark.parametrize(
-    ("text", "sent", "found"),
-    [
-        (LOST, signal.SIGINT, INTERRUPTED),
-        (WAITS, signal.SIGTERM, (143, "")),
-        slow((WAITS, signal.SIGINT, INTERRUPTED)),
-        slow((f"exec({WAITS!r})", signal.SIGINT, INTERRUPTED)),
-    ],
-)
-def test_a_signal_while_it_works_is_told_in_one_line_at_most(text, sent, found, tmp_path):
-    chart = [*START, "chart", "malus", "--out", str(tmp_path / "x.png")]
-    assert interrupted(chart, tmp_path, "matplotlib", text, sent) == found
+    with started([*start, *command], environment) as process:
+        assert process.stdout.readline() == "waits\n"
+        time.sleep(0.05)
+        assert ended(process, sent) == found
 
 
 def done(command, **given):
