@@ -6,6 +6,7 @@ With HYPOTHESIS_PROFILE=few they are few: whether all runs with other versions i
 """
 
 import os
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -30,3 +31,11 @@ def jax():
     jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
     yield jax
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
+
+
+@pytest.fixture
+def jax_once(jax, request):
+    """JAX that compiles in slow tests alone: what runs once is sooner done without."""
+    slow = request.node.get_closest_marker("slow") is not None
+    with nullcontext() if slow else jax.disable_jit():
+        yield jax

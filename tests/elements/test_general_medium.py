@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import optipath as op
 from chains import COMPILED, ENGINES
 from paths import chain
-from tables import rows
+from tables import rows, slow, slow_except
 
 pytestmark = pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 
@@ -344,8 +344,8 @@ POINTS = {
 }
 
 
-def check_slopes(jax, point, depolarization):
-    values = POINTS[point] + (() if depolarization is None else (depolarization,))
+@pytest.mark.parametrize("depolarization", [None, slow(0.0), slow(1.3)])
+def test_slopes_are_those_of_the_exponential(jax, depolarization):
     names = NAMES + (() if depolarization is None else ("depolarization",))
     parameters = {name: op.Parameter(name) for name in names}
     plan = chain([op.Medium(1.0, **parameters, dichroic_angle=0.3)], STATE).compose()
@@ -353,21 +353,12 @@ def check_slopes(jax, point, depolarization):
     def light(*given):
         return plan.run(**dict(zip(names, given, strict=True))).stokes
 
-    slopes = np.array(jax.jacfwd(light, argnums=tuple(range(len(values))))(*values)).T
-    wanted = exact_slopes(values, 0.3)
-    np.testing.assert_allclose(slopes, wanted, rtol=0, atol=2e-13 * np.max(np.abs(wanted)))
-
-
-@rows("point, depolarization", [*((point, None) for point in POINTS), ("anywhere", 1.3)])
-def test_slopes_are_those_of_the_exponential(jax, point, depolarization):
-    check_slopes(jax, point, depolarization)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("depolarization", [0.0, 1.3])
-def test_slopes_of_what_may_depolarise_are_those_of_the_exponential(jax, depolarization):
-    for point in POINTS:
-        check_slopes(jax, point, depolarization)
+    slopes_of = jax.jit(jax.jacfwd(light, argnums=tuple(range(len(names)))))
+    for point, rates in POINTS.items():
+        values = rates + (() if depolarization is None else (depolarization,))
+        slopes, wanted = np.array(slopes_of(*values)).T, exact_slopes(values, 0.3)
+        atol = 2e-13 * np.max(np.abs(wanted))
+        np.testing.assert_allclose(slopes, wanted, rtol=0, atol=atol, err_msg=point)
 
 
 AT_ZERO = {
@@ -421,9 +412,11 @@ def check_slopes_at_zero(jax, kind, *, together):
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-13 * max(1.0, np.abs(wanted).max()))
 
 
-@rows("kind", ["linear, retarding", "circular", "two axes"])
-def test_slopes_at_no_dichroism_and_no_length_are_right(jax, kind):
-    check_slopes_at_zero(jax, kind, together=False)
+@pytest.mark.parametrize(
+    "kind", slow_except(["two axes"], ["linear, retarding", "circular", "two axes"])
+)
+def test_slopes_at_no_dichroism_and_no_length_are_right(jax_once, kind):
+    check_slopes_at_zero(jax_once, kind, together=False)
 
 
 @pytest.mark.slow

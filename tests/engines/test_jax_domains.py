@@ -240,7 +240,7 @@ def test_random_rings_are_nan_exactly_where_they_are_refused():
         np.testing.assert_allclose(traced(gain), expected, rtol=1e-9, atol=1e-9 * expected[0])
 
 
-@rows("method", ["stable", "amplitude"])
+@pytest.mark.parametrize("method", ["stable", slow("amplitude")])
 def test_a_traced_right_angle_of_single_precision_is_grazing_incidence(method):
     path = op.PathGraph()
     for name, element in {

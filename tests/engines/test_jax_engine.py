@@ -10,14 +10,8 @@ from tables import rows, slow_except
 jax = pytest.importorskip("jax")
 jnp = jax.numpy
 
+pytestmark = pytest.mark.usefixtures("jax_once")
 METAL = {"k1": 2.16, "n2": 0.608, "k2": 2.12, "delta": 0.8, "rho": 0.5, "phi": 0.4}
-
-
-@pytest.fixture(autouse=True)
-def _double():
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
-    yield
-    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
 
 
 # JAX takes long to compile a pile of plates, which is what a window is many times.

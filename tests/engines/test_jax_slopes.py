@@ -15,16 +15,10 @@ from tables import rows, slow_except
 jax = pytest.importorskip("jax")
 sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
 
+pytestmark = pytest.mark.usefixtures("jax_once")
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40
 PORTS = {"reflection": "reflected", "transmission": "transmitted"}
-
-
-@pytest.fixture(autouse=True)
-def _double():
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
-    yield
-    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
 
 
 def seen(A, B, C, S):
