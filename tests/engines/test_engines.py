@@ -366,24 +366,32 @@ print(plan.run(angle=np.linspace(0, 1, 50)).stokes.sum())
 """
 
 
-def test_compiled_code_survives_in_a_second_process_and_is_announced_once(tmp_path, monkeypatch):
+def printed(code=COMPILES):
+    """What a process of its own prints."""
+    command = [sys.executable, "-c", code]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def test_compiled_code_survives_in_a_second_process_but_not_if_it_is_damaged(tmp_path, monkeypatch):
     monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
-    first, second = (
-        subprocess.run([sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True)
-        for _ in range(2)
-    )
-    assert "compiling" in first.stdout
-    assert "compiling" not in second.stdout
-    assert second.stdout.strip() == first.stdout.splitlines()[-1]
+    first, second = printed(), printed()
+    assert "compiling" in first
+    assert "compiling" not in second
+    assert second.strip() == first.splitlines()[-1]
+    # One flipped bit, and it is compiled anew.
+    (file,) = (tmp_path / "cache").iterdir()
+    damaged = bytearray(file.read_bytes())
+    damaged[-100] ^= 4
+    file.write_bytes(damaged)
+    again = printed()
+    assert "damaged" in again
+    assert again.splitlines()[-1] == first.splitlines()[-1]
 
 
 def test_without_a_place_to_keep_it_code_is_compiled_all_the_same(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "file"))
-    done = subprocess.run(
-        [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
-    )
-    assert done.stdout.count("not kept") == 1
+    assert printed().count("not kept") == 1
 
 
 def two_detectors():
@@ -447,28 +455,10 @@ def test_an_empty_batch_of_vectors_is_empty_light(engine):
     assert plan.run(s=np.empty((0, 4))).stokes.shape == (0, 4)
 
 
-def test_damaged_code_is_compiled_anew(tmp_path, monkeypatch):
-    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
-    first = subprocess.run(
-        [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
-    )
-    (file,) = (tmp_path / "cache").iterdir()
-    damaged = bytearray(file.read_bytes())
-    damaged[-100] ^= 4
-    file.write_bytes(damaged)
-    again = subprocess.run(
-        [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
-    )
-    assert "damaged" in again.stdout
-    assert again.stdout.splitlines()[-1] == first.stdout.splitlines()[-1]
-
-
 def test_where_numba_may_not_compile_numpy_runs_which_is_told_once(tmp_path, monkeypatch):
     monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path))
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    code = f"{COMPILES}plan.run(angle=np.ones((9, 9)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    told, total = done.stdout.splitlines()
+    told, total = printed(f"{COMPILES}plan.run(angle=np.ones((9, 9)))").splitlines()
     plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
     assert "NUMBA_DISABLE_JIT" in told
     assert float(total) == plan.run(angle=np.linspace(0, 1, 50)).stokes.sum()
