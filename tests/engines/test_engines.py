@@ -40,17 +40,17 @@ def off(found, expected):
     return np.max(np.abs(found - expected) / np.maximum(expected[..., :1], 1e-300))
 
 
-@rows(
-    "engine, composing, values",
+@pytest.mark.parametrize(
+    ("engine", "composing", "values"),
     [
         ("numpy", "stokes", {}),
         ("numpy", "stokes", METAL),
         ("numpy", "stokes", {**METAL, "filter": "horizontal"}),
         ("numpy", "jones", {}),
         ("numpy", "jones", METAL),
-        ("numba", "stokes", {}),
         ("numba", "stokes", {**METAL, "filter": "horizontal"}),
-        ("numba", "jones", METAL),
+        slow(("numba", "stokes", {})),
+        slow(("numba", "jones", METAL)),
     ],
 )
 def test_an_engine_gives_what_the_steps_give(rng, engine, composing, values):
@@ -137,19 +137,22 @@ def test_every_preset_runs_by_every_engine(engine, name):
         np.testing.assert_allclose(found[end].stokes[:9], light.stokes, rtol=0, atol=4e-15 * scale)
 
 
-@rows("engine", ["numpy", "numba"])
-@rows("shapes", [((40, 1), (1, 50)), ((2000,), ()), ((50, 40), (40,)), ((0,), ()), ((1,), (1,))])
-def test_arrays_broadcast_as_in_numpy(rng, engine, shapes):
+SHAPES = [((40, 1), (1, 50)), ((0,), ()), ((2000,), ()), ((50, 40), (40,)), ((1,), (1,))]
+
+
+@pytest.mark.parametrize(
+    ("engine", "several"), [("numpy", SHAPES), ("numba", SHAPES[:2]), slow(("numba", SHAPES[2:]))]
+)
+def test_arrays_broadcast_as_in_numpy(rng, engine, several):
     path = op.load_preset("npgr026", **METAL)
-    delta, phi = (rng.uniform(0.1, 1.5, shape) for shape in shapes)
-    found = op.Composer(engine=engine).compose(path).run(delta=delta, phi=phi, rho=0.3).stokes
-    batch = np.broadcast_shapes(*shapes)
-    assert found.shape == (*batch, 4)
-    for index in list(np.ndindex(batch))[::97]:
-        one = {
-            n: float(np.broadcast_to(v, batch)[index]) for n, v in (("delta", delta), ("phi", phi))
-        }
-        assert off(found[index], path.trace(**one, rho=0.3).stokes) < 4e-15
+    plan = op.Composer(engine=engine).compose(path)
+    for shapes in several:
+        given = dict(zip(("delta", "phi"), (rng.uniform(0.1, 1.5, s) for s in shapes), strict=True))
+        found, batch = plan.run(**given, rho=0.3).stokes, np.broadcast_shapes(*shapes)
+        assert found.shape == (*batch, 4)
+        for index in list(np.ndindex(batch))[::97]:
+            one = {n: float(np.broadcast_to(v, batch)[index]) for n, v in given.items()}
+            assert off(found[index], path.trace(**one, rho=0.3).stokes) < 4e-15
 
 
 @rows("engine", ["numpy", "numba"])
@@ -219,7 +222,7 @@ def test_angles_by_cosine_and_sine_are_the_angles(rng, engine):
     assert off(op.Composer(engine="numpy").compose(path).run(**few).stokes, expected[:7]) < 1e-14
 
 
-@rows("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("engine", ["numpy", slow("numba")])
 @rows("count", [1, 2000])
 def test_a_cosine_that_no_angle_can_have_keeps_its_digits(engine, count):
     path = op.load_preset("npgr026", n1=1.5)

@@ -282,6 +282,7 @@ def test_values_are_the_same_whether_slopes_are_taken_or_not():
     assert np.all(np.asarray(beside)[points[3] == np.pi / 2] == 0.0)
 
 
+@pytest.mark.slow
 def test_single_precision_has_slopes_at_the_edges_too():
     plan, points = op.Composer(dtype="float32").compose(surface("transmission")), points_of(SEED)
     # Next to a right angle, and to an equal medium, float32 is somewhere else.

@@ -16,7 +16,7 @@ from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.kernels.catalogue import REFLECTION, UNPOLARIZED
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.values.operands import Operand
-from tables import rows
+from tables import rows, slow
 
 CALLS = []
 
@@ -131,7 +131,7 @@ def plain(wavelength):
 
 
 @rows("options", [{}, {"model": "full"}, {"composing": "jones"}])
-@rows("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("engine", ["numpy", slow("numba")])
 def test_elements_may_be_given_an_index_out_of_a_wavelength(engine, options):
     plan = op.Composer(engine=engine, **options).compose(dispersive(op.Parameter("wavelength")))
     for lengths in (0.5, np.linspace(0.4, 0.7, 5), np.linspace(0.4, 0.7, 3000)):

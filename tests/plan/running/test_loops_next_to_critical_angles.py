@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import optipath as op
-from chains import ENGINES
+from chains import COMPILED, ENGINES
 from optipath.lab.accuracy.path_reference import exact_stokes
 from slabs import stack
-from tables import rows
+from tables import rows, slow_except
 
 CRITICAL = float(np.arcsin(0.75))
 BELOW = CRITICAL - np.array([0.0, 1e-15, 1e-14, 1e-12, 1e-8, 1e-6, 1e-5, 1e-3])
@@ -30,7 +30,7 @@ WORST = [
 
 
 @pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
-@rows("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(COMPILED, ENGINES))
 def test_light_that_enters_a_closed_gap_next_to_the_critical_angle_all_comes_back(engine):
     path = stack(2.0, 1.5, 1.0, theta=op.Parameter("theta"))
     lights = op.Composer(engine=engine).compose(path).run_all(theta=BELOW)

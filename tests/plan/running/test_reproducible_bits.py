@@ -7,7 +7,7 @@ import optipath as op
 from chains import COMPILED
 from optipath.values.curves.curve_value import curve_values
 from spectral_paths import Ramps, SpectralDraw, run_by_run, wavelengths
-from tables import rows
+from tables import rows, slow
 
 FLOATS = np.linspace(0.0, np.pi / 2, 4)
 WAVELENGTH = op.Wavelength()
@@ -66,7 +66,7 @@ def compared(path, *, engine="auto", dtype="float64", runs=1, axis="theta", valu
     return [(alone[name], light.stokes) for name, light in lights.items()]
 
 
-@rows("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("dtype", ["float64", slow("float32")])
 @rows("engine", COMPILED)
 def test_a_grid_is_its_runs_one_by_one_by_every_engine(engine, dtype):
     short = op.Source() >> metal(op.Parameter("theta")) >> op.Medium(0.1, ramp(0.0, 9.0))
