@@ -10,19 +10,8 @@ from chains import ENGINES
 from paths import chain
 from tables import rows
 
-
-def test_light_along_and_across_the_axis_passes_by_the_principal_transmittances():
-    path = chain([op.Diattenuator(0.8, 0.3, angle=0.4)], op.Parameter("state"))
-    along, across = ([1.0, s * np.cos(0.8), s * np.sin(0.8), 0.0] for s in (1, -1))
-    np.testing.assert_allclose(
-        path.trace(state=[along, across]).intensity, [0.8, 0.3], rtol=1e-15, atol=1e-16
-    )
-
-
-def test_unpolarised_light_gains_the_diattenuation():
-    light = chain([op.Diattenuator(0.8, 0.2)]).trace()
-    np.testing.assert_allclose(light.stokes, [0.5, 0.3, 0.0, 0.0], rtol=1e-15, atol=1e-16)
-    assert light.dop == pytest.approx(0.6, abs=1e-15)
+STATE = [1.0, 0.5, 0.6, 0.4]
+T, L = op.Parameter("t"), op.Parameter("l")
 
 
 def chipman(q, r, angle):
@@ -42,18 +31,33 @@ def chipman(q, r, angle):
 def test_a_diattenuator_and_a_polariser_that_leaks_are_chipmans(named):
     matrix = named(0.9, 0.05, 0.3, 0.0).mueller().matrix
     np.testing.assert_allclose(matrix, chipman(0.9, 0.05, 0.3), rtol=0, atol=2e-16)
-    state = np.array([1.0, 0.5, 0.6, 0.4])
     # Light seen in a frame turned by the azimuth.
     c, s = np.cos(0.4), np.sin(0.4)
     seen = [1.0, 0.5 * c + 0.6 * s, 0.6 * c - 0.5 * s, 0.4]
-    found = chain([named(0.9, 0.05, 0.3, 0.2)], state).trace().stokes
+    found = chain([named(0.9, 0.05, 0.3, 0.2)], STATE).trace().stokes
     np.testing.assert_allclose(found, chipman(0.9, 0.05, 0.3) @ seen, rtol=0, atol=4e-16)
 
 
-def test_a_diattenuator_is_an_ideal_polariser_along_x_by_default():
-    expected = np.zeros((4, 4))
-    expected[:2, :2] = 0.5
-    np.testing.assert_array_equal(op.Diattenuator().mueller().matrix, expected)
+def test_a_diattenuator_passes_light_by_its_principal_transmittances():
+    path = chain([op.Diattenuator(0.8, 0.3, angle=0.4)], op.Parameter("state"))
+    along, across = ([1.0, s * np.cos(0.8), s * np.sin(0.8), 0.0] for s in (1, -1))
+    found = path.trace(state=[along, across]).intensity
+    np.testing.assert_allclose(found, [0.8, 0.3], rtol=1e-15, atol=1e-16)
+    light = chain([op.Diattenuator(0.8, 0.2)]).trace()
+    np.testing.assert_allclose(light.stokes, [0.5, 0.3, 0.0, 0.0], rtol=1e-15, atol=1e-16)
+    assert light.dop == pytest.approx(0.6, abs=1e-15)
+    # By default it is an ideal polarizer along x.
+    np.testing.assert_array_equal(op.Diattenuator().mueller().matrix, chipman(1.0, 0.0, 0.0))
+
+
+def test_the_axis_is_that_of_the_first_transmittance_though_it_be_the_lesser():
+    swapped = op.Diattenuator(0.2, 0.7).mueller().matrix
+    turned = op.Diattenuator(0.7, 0.2, angle=np.pi / 2).mueller().matrix
+    np.testing.assert_allclose(swapped, turned, rtol=1e-15, atol=1e-16)
+    assert swapped[0, 1] < -0.2
+
+
+MATRIX = 0.5 * np.diag([1.0, 0.9, -0.8, -0.8])
 
 
 @rows(
@@ -64,9 +68,10 @@ def test_a_diattenuator_is_an_ideal_polariser_along_x_by_default():
         (lambda: op.CircularPolarizer(op.Parameter("h")), "handedness cannot be a parameter"),
         (lambda: op.Depolarizer(-0.1), "^Depolarizer depolarization is"),
         (lambda: op.Depolarizer(1.1), "^Depolarizer depolarization is"),
-        (lambda: op.MuellerElement(MATRIX, straight="no"), "straight"),
-        (lambda: op.MuellerElement(MATRIX, straight=2), "straight"),
-        (lambda: op.MuellerElement(MATRIX, straight=None), "straight"),
+        *(
+            (lambda odd=odd: op.MuellerElement(MATRIX, straight=odd), "straight")
+            for odd in ("no", 2, None)
+        ),
     ],
 )
 def test_values_that_no_such_element_has_are_refused(make, sentence):
@@ -74,34 +79,23 @@ def test_values_that_no_such_element_has_are_refused(make, sentence):
         make()
 
 
-def test_the_axis_is_that_of_the_first_transmittance_though_it_be_the_lesser():
-    swapped = op.Diattenuator(0.2, 0.7).mueller().matrix
-    turned = op.Diattenuator(0.7, 0.2, angle=np.pi / 2).mueller().matrix
-    np.testing.assert_allclose(swapped, turned, rtol=1e-15, atol=1e-16)
-    assert swapped[0, 1] < -0.2
+def test_shares_beyond_1_are_refused_with_both_names():
+    with pytest.raises(op.ValueFault) as error:
+        op.CircularDiattenuator(1.5, -0.1)
+    told = [fault.split(" is ")[0] for fault in error.value.faults]
+    assert told == ["CircularDiattenuator right", "CircularDiattenuator left"]
 
 
-STATE = [1.0, 0.5, 0.6, 0.4]
-
-
-def by_hand(right, left):
+def circular(right, left):
     """The matrix in the books: Chipman, Lam & Young (2018), ch. 6, for S3 > 0 right."""
     a, b, c = (right + left) / 2, (right - left) / 2, np.sqrt(right * left)
     return np.array([[a, 0, 0, b], [0, c, 0, 0], [0, 0, c, 0], [b, 0, 0, a]])
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0))
-def test_the_matrix_is_that_of_the_books(right, left):
+def test_a_circular_diattenuator_is_that_of_the_books(right, left):
     found = op.CircularDiattenuator(right, left).mueller().matrix
-    np.testing.assert_allclose(found, by_hand(right, left), rtol=0, atol=3e-16)
-
-
-def test_right_handed_light_passes_one_that_is_ideal():
-    ideal = op.CircularDiattenuator()
-    right, left = (op.Light([1.0, 0.0, 0.0, s3]) for s3 in (1.0, -1.0))
-    assert right.handedness == 1
-    np.testing.assert_array_equal((ideal @ right).stokes, right.stokes)
-    np.testing.assert_array_equal((ideal @ left).stokes, 0.0)
+    np.testing.assert_allclose(found, circular(right, left), rtol=0, atol=3e-16)
 
 
 @rows("leak", [1e-3, 1e-12, 1e-300])
@@ -110,83 +104,43 @@ def test_what_hardly_passes_keeps_its_digits(leak):
     assert pytest.approx(leak, rel=1e-15) == light.S0
 
 
-@rows("engine", ENGINES)
-def test_every_engine_agrees(engine):
-    right, left = np.random.default_rng(1).uniform(0.0, 1.0, (2, 3000))
-    path = chain([op.CircularDiattenuator(op.Parameter("r"), op.Parameter("l"))], STATE)
-    found = op.Composer(engine=engine).compose(path).run(r=right, l=left).stokes
-    wanted = np.array([by_hand(*pair) @ STATE for pair in zip(right, left, strict=True)])
-    atol = 2e-6 if np.asarray(found).dtype == np.float32 else 1e-15
-    np.testing.assert_allclose(np.asarray(found), wanted, rtol=0, atol=atol)
+PAIRS = {
+    "diattenuator": (op.CircularDiattenuator(T, L), circular),
+    "right": (op.CircularPolarizer("right", T, L), circular),
+    "left": (op.CircularPolarizer("left", T, L), lambda t, leakage: circular(leakage, t)),
+}
 
 
-def test_it_is_composed_with_jones_columns():
-    path = chain([op.CircularDiattenuator(0.7, 0.2)], STATE)
-    found = op.Composer(composing="jones").compose(path).run().stokes
-    np.testing.assert_allclose(found, by_hand(0.7, 0.2) @ STATE, rtol=0, atol=3e-16)
-
-
-def test_shares_beyond_1_are_refused_with_both_names():
-    with pytest.raises(op.ValueFault) as error:
-        op.CircularDiattenuator(1.5, -0.1)
-    assert [fault.split(" is ")[0] for fault in error.value.faults] == [
-        "CircularDiattenuator right",
-        "CircularDiattenuator left",
-    ]
-
-
-T, L = op.Parameter("t"), op.Parameter("l")
-
-
-def homogeneous(sign, t, leakage):
-    """The matrix that is diag(t, leakage) between the two circular states."""
-    mean, half, across = (t + leakage) / 2, sign * (t - leakage) / 2, np.sqrt(t * leakage)
-    return np.array([[mean, 0, 0, half], [0, across, 0, 0], [0, 0, across, 0], [half, 0, 0, mean]])
-
-
-@rows("word, sign", [("right", 1), ("left", -1)])
-def test_an_ideal_one_is_exact(word, sign):
-    found = op.CircularPolarizer(word).mueller().matrix
-    np.testing.assert_array_equal(found, homogeneous(sign, 1.0, 0.0))
-
-
-@rows("word, sign", [("right", 1), ("left", -1)])
-@rows("engine", ENGINES)
-def test_a_partial_one_has_its_two_transmittances(engine, word, sign):
-    rng = np.random.default_rng(2)
-    t, leakage = rng.uniform(0, 1, (2, 400))
-    path = chain([op.CircularPolarizer(word, T, L)], STATE)
-    found = op.Composer(engine=engine).compose(path).run(t=t, l=leakage).stokes
-    expected = [homogeneous(sign, a, b) @ STATE for a, b in zip(t, leakage, strict=True)]
+@rows("name", PAIRS)
+@rows("engine, composing", [*((engine, "stokes") for engine in ENGINES), ("numpy", "jones")])
+def test_every_engine_gives_circular_light_its_two_transmittances(engine, composing, name):
+    element, matrix = PAIRS[name]
+    t, leakage = np.random.default_rng(2).uniform(0, 1, (2, 400))
+    plan = op.Composer(engine=engine, composing=composing).compose(chain([element], STATE))
+    found = plan.run(t=t, l=leakage).stokes
+    expected = [matrix(a, b) @ STATE for a, b in zip(t, leakage, strict=True)]
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
 
 
-@rows("word", ["right", "left"])
-def test_its_handedness_is_the_one_that_light_says(word):
-    light = chain([op.CircularPolarizer(word)]).trace()
-    assert light.handedness == (1 if word == "right" else -1)
-    assert light.intensity == 0.5
-    assert chain([op.CircularPolarizer(word)], light.normalized).trace().intensity == 1.0
-
-
-def test_two_of_other_handedness_are_dark():
-    pair = [op.CircularPolarizer("right"), op.CircularPolarizer("left")]
-    assert chain(pair, STATE).trace().intensity == 0.0
+@rows("word, sign", [("right", 1), ("left", -1)])
+def test_an_ideal_circular_polariser_is_exact_and_of_the_handedness_that_light_says(word, sign):
+    ideal = op.CircularPolarizer(word)
+    expected = circular(*(1.0, 0.0)[::sign])
+    np.testing.assert_array_equal(ideal.mueller().matrix, expected)
+    light = chain([ideal]).trace()
+    assert (light.handedness, light.intensity) == (sign, 0.5)
+    assert chain([ideal], light.normalized).trace().intensity == 1.0
+    other = op.CircularPolarizer("left" if word == "right" else "right")
+    assert chain([ideal, other], STATE).trace().intensity == 0.0
+    right, left = (op.Light([1.0, 0.0, 0.0, s3]) for s3 in (1.0, -1.0))
+    np.testing.assert_array_equal((op.CircularDiattenuator() @ right).stokes, right.stokes)
+    np.testing.assert_array_equal((op.CircularDiattenuator() @ left).stokes, 0.0)
 
 
 def test_a_turn_of_the_light_before_it_is_the_turn_behind_it():
-    circular = op.CircularPolarizer("left", 0.9, 0.2)
-    before, behind = (
-        chain(two, STATE).trace().stokes
-        for two in ([op.Rotator(0.4), circular], [circular, op.Rotator(0.4)])
-    )
+    pair = [op.Rotator(0.4), op.CircularPolarizer("left", 0.9, 0.2)]
+    before, behind = (chain(two, STATE).trace().stokes for two in (pair, pair[::-1]))
     np.testing.assert_allclose(before, behind, rtol=0, atol=3e-16)
-
-
-def test_it_has_jones_matrices():
-    path = chain([op.CircularPolarizer("left", 0.9, T)], STATE)
-    found = op.Composer(composing="jones").compose(path).run(t=0.3).stokes
-    np.testing.assert_allclose(found, homogeneous(-1, 0.9, 0.3) @ STATE, rtol=0, atol=3e-16)
 
 
 def test_a_laminated_sheet_is_another_thing():
@@ -195,38 +149,24 @@ def test_a_laminated_sheet_is_another_thing():
     np.testing.assert_allclose(light.stokes, [0.5, 0.0, 0.0, -0.5], rtol=0, atol=1e-16)
 
 
-def test_what_is_left_of_the_polarisation_is_what_is_not_taken():
-    light = chain([op.Depolarizer(np.array([0.0, 0.25, 1.0]))], STATE).trace()
-    left = np.linalg.norm(STATE[1:]) * np.array([1.0, 0.75, 0.0])
-    np.testing.assert_allclose(light.dop, left, rtol=0, atol=1e-15)
-
-
-def test_no_light_is_lost():
-    light = chain([op.Depolarizer(op.Parameter("d"))], STATE).trace(d=np.linspace(0, 1, 50))
+def test_a_depolarizer_leaves_what_it_does_not_take_and_loses_no_light():
+    taken = np.linspace(0.0, 1.0, 50)
+    light = chain([op.Depolarizer(op.Parameter("d"))], STATE).trace(d=taken)
     np.testing.assert_array_equal(light.intensity, 1.0)
-
-
-def test_jones_columns_cannot_pass():
+    left = np.linalg.norm(STATE[1:]) * (1.0 - taken)
+    np.testing.assert_allclose(light.dop, left, rtol=0, atol=1e-15)
     with pytest.raises(op.ComposerError, match=r"'e0\.out' has a whole Mueller matrix"):
         op.Composer(composing="jones").compose(chain([op.Depolarizer(0.5)]))
 
 
-def test_behind_an_ideal_depolarizer_polarisation_is_not_carried():
+def test_no_more_is_carried_than_a_depolarizer_leaves():
     plan = chain([op.Depolarizer(), op.Rotator(op.Parameter("a"))], STATE).compose()
     assert plan.program.counts[-1] == 1
     assert "left out, since it changes nothing alive: turn back at 'e1.out'" in plan.explain()
-
-
-def test_a_depolarizer_keeps_components_apart():
     path = chain([op.Depolarizer(op.Parameter("d"))], [1.0, 0.5, 0.0, 0.0])
     assert path.compose().model == "sp"
-
-
-def test_a_depolarizer_that_takes_nothing_is_left_out():
     assert len(chain([op.Depolarizer(0.0)], STATE).compose().program.steps) == 1
 
-
-MATRIX = 0.5 * np.diag([1.0, 0.9, -0.8, -0.8])
 
 MEETS = op.plane_of_incidence(direction=(1.0, 0.0, -1.0), normal=(0.0, 0.0, 1.0))
 
@@ -240,13 +180,10 @@ def reflecting(**given):
     return path
 
 
-def test_what_scatters_has_a_frame_for_each_way():
+def test_what_scatters_has_a_frame_for_each_way_and_what_light_goes_straight_through_has_one():
     light = reflecting(straight=False).trace()
     np.testing.assert_array_equal(light.stokes, MATRIX @ [1, 0, 1, 0])
     np.testing.assert_array_equal(light.frame.z, MEETS.reflected.z)
-
-
-def test_what_light_goes_straight_through_has_one():
     with pytest.raises(op.PathError, match="lets light go straight through; give its ports one"):
         reflecting().trace()
 
@@ -259,15 +196,11 @@ def test_alone_light_leaves_in_a_frame_of_its_own():
     np.testing.assert_array_equal(through.frame.z, MEETS.arriving.z)
 
 
-def test_it_is_written_and_read_back(tmp_path):
-    path = reflecting(straight=False)
-    file = tmp_path / "path.toml"
+def test_what_scatters_does_so_in_a_file_and_on_the_way_back(tmp_path):
+    path, file = reflecting(straight=False), tmp_path / "path.toml"
     file.write_text(path.to_toml(), "utf-8")
     assert "straight = false" in path.to_toml()
     assert op.load_preset(file) == path
-
-
-def test_it_stays_so_on_the_way_back():
     assert op.MuellerElement(MATRIX, straight=False).reversed().straight is False
 
 
