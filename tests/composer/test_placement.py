@@ -43,14 +43,11 @@ def test_light_that_passes_a_beam_splitter_keeps_its_frame():
     assert lights["aside"].frame == SIDE
 
 
-def test_a_frame_that_breaks_snells_law_is_refused():
+def test_frames_that_break_snells_law_or_are_missing_are_told():
     wrong = op.plane_of_incidence((0.0, np.sin(THETA), -np.cos(THETA)), (0.0, 0.0, 1.0)).arriving
     path = window(transmitted=wrong)
     with pytest.raises(op.PathError, match=r"'pane\.transmitted' is turned by 0 deg .* 14\.6"):
         path.check()
-
-
-def test_a_port_in_space_without_a_frame_is_told():
     path = window(index=op.Parameter("n"))
     path.add("behind", op.Detector())
     path.connect("pane.transmitted", "behind.in")

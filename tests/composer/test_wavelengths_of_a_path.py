@@ -40,22 +40,16 @@ def test_a_bare_wavelength_takes_over_that_of_a_plate():
     np.testing.assert_array_equal(joined.trace().stokes, path.trace(wavelength="500 nm").stokes)
 
 
-def test_two_wavelengths_that_say_different_things_are_refused():
+def test_wavelengths_that_say_different_things_are_refused():
     red = op.Wavelength(default="590 nm")
     with pytest.raises(op.PathError, match=r"'wavelength' .* differs from the one of that name"):
         path_of(GREEN, red).trace()
-
-
-def test_an_angle_called_wavelength_is_no_wavelength():
-    turn = op.Parameter("wavelength", "50 deg")
-    path = path_of(op.Wavelength()).element("interface")
-    with pytest.raises(op.OptipathError, match="use one Parameter, or two names"):
-        (op.Source() >> path >> op.Rotator(turn) >> op.Detector()).trace()
-
-
-def test_what_follows_from_a_wavelength_out_of_range_is_not_told_as_well():
     with pytest.raises(op.ParameterError) as caught:
         path_of(op.Wavelength()).bind(wavelength="700 nm")
     (fault,) = caught.value.faults
     assert "700 nm" in fault
     assert "for which paint is known" in fault
+    turn = op.Parameter("wavelength", "50 deg")
+    path = path_of(op.Wavelength()).element("interface")
+    with pytest.raises(op.OptipathError, match="use one Parameter, or two names"):
+        (op.Source() >> path >> op.Rotator(turn) >> op.Detector()).trace()

@@ -12,20 +12,17 @@ THREE = [[1.0, 0.0, 0.0, 0.0], [2.0, 1.0, 0.0, -1.0], [4.0, 0.0, 3.0, 0.0]]
 FAINT = op.Light([1.0, 0.6, 0.0, 0.8], exponent=-5000)
 
 
-def test_components_have_their_names():
+def test_components_have_their_names_and_those_that_are_not_read_are_nan():
     light = op.Light(THREE)
     for place, component in enumerate([light.S0, light.S1, light.S2, light.S3]):
         np.testing.assert_array_equal(component, np.array(THREE)[:, place])
     assert op.load_preset("malus").trace(angle=0.0).S1 == 0.5
-
-
-def test_a_component_that_is_not_read_is_nan():
     light = op.load_preset("malus").reading("intensity").trace()
     assert pytest.approx(0.375) == light.S0
     assert np.isnan([light.S1, light.S2, light.S3]).all()
 
 
-def test_shape_and_length_are_those_of_the_batch():
+def test_a_batch_has_a_shape_and_is_gone_through_light_by_light():
     light = op.Light(np.ones((2, 3, 4)) * [1, 0, 0, 0])
     assert (light.shape, light.ndim, light.size, len(light)) == ((2, 3), 2, 6, 2)
     one = op.Light(THREE[0])
@@ -33,6 +30,8 @@ def test_shape_and_length_are_those_of_the_batch():
     assert light.reshape(3, 2).shape == light.reshape((3, -1)).shape == (3, 2)
     with pytest.raises(op.ShapeError, match=r"6 lights of shape \(2, 3\)"):
         light.reshape(4)
+    assert list(op.Light(THREE)) == [op.Light(stokes) for stokes in THREE]
+    assert [float(light.S0) for light in op.Light(THREE)] == [1.0, 2.0, 4.0]
 
 
 @rows(
@@ -54,26 +53,15 @@ def test_frames_and_exponents_are_indexed_along():
     grid = op.Light(np.broadcast_to(THREE, (2, 3, 4)), frames)
     np.testing.assert_array_equal(grid[1, 2].frame.x, op.Frame().turned(0.2).x)
     np.testing.assert_array_equal(grid[:, 1:].frame.x[0], frames.x[1:])
-
-
-def test_each_of_several_frames_has_a_light_of_its_own():
     light = op.Light([1.0, 1.0, 0.0, 0.0], op.Frame().turned([0.0, np.pi / 2]))
     assert light.shape == (2,)
     np.testing.assert_allclose(sum(light).stokes, [2, 0, 0, 0], rtol=0, atol=1e-15)
-
-
-def test_light_of_a_path_is_indexed_with_its_frames():
     chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
     path = op.path_from_vertices(chain, materials=[1.5, 1.5])
     light = path.trace(delta=[0.1, 0.2])
     alone = path.trace(delta=0.2)
     np.testing.assert_allclose(light[1].stokes, alone.stokes, rtol=1e-14)
     np.testing.assert_allclose(light[1].frame.x, alone.frame.x, rtol=1e-14)
-
-
-def test_a_batch_is_gone_through_light_by_light():
-    assert list(op.Light(THREE)) == [op.Light(stokes) for stokes in THREE]
-    assert [float(light.S0) for light in op.Light(THREE)] == [1.0, 2.0, 4.0]
 
 
 @rows("call", [len, iter, list, bool])
@@ -106,20 +94,20 @@ def test_light_times_a_number_is_light(factor):
     assert doubled / factor == light
 
 
-def test_factors_broadcast_over_the_batch():
+def test_factors_broadcast_over_the_batch_and_lose_no_precision():
     light = np.array([1.0, 2.0]) * op.Light(THREE[1])
     assert light == op.Light([THREE[1], [4.0, 2.0, 0.0, -2.0]])
     assert (np.ones((2, 1)) * op.Light(THREE)).shape == (2, 3)
     with pytest.raises(op.ShapeError, match=r"light \(3,\), factor \(2,\)"):
         op.Light(THREE) * [1.0, 2.0]
-
-
-def test_multiples_neither_fade_nor_lose_precision():
     assert (1e-200 * op.Light([1e-200, 0, 0, 0])).log10_intensity == pytest.approx(-400)
     assert op.Light([1.0, 0.6, 0.0, 0.8], exponent=-4999) == 2 * FAINT
     assert (2 * FAINT).dop == pytest.approx(1.0)
     single = op.Light(np.array([1.0, 0.5, 0.0, 0.0], np.float32))
     assert (0.1 * single).stokes.dtype == np.float32
+    jax = pytest.importorskip("jax")
+    slope = jax.grad(lambda factor: (factor * op.Light(THREE[1])).S0)(3.0)
+    assert slope == 2.0
 
 
 @rows(
@@ -169,9 +157,6 @@ def test_lights_are_summed_up_in_the_frame_of_the_first():
     assert total.frame == one.frame
     np.testing.assert_allclose(total.stokes, [6.0, -2.0, 0.0, -1.0], atol=1e-15)
     assert sum(op.Light(THREE)) == op.Light([7.0, 1.0, 3.0, -1.0])
-
-
-def test_what_mixes_no_components_is_done():
     light = op.Light(THREE)
     assert np.shape(light) == (3,)
     np.testing.assert_array_equal(np.concatenate([light, light]), [*THREE, *THREE])
@@ -180,7 +165,7 @@ def test_what_mixes_no_components_is_done():
     assert sum(light) / len(light) == op.Light(np.mean(THREE, axis=0))
 
 
-def test_numpy_reads_the_stokes_numbers():
+def test_numpy_reads_the_numbers_of_light_and_of_matrices():
     light = op.Light(THREE)
     assert np.asarray(light, dtype=np.float32).dtype == np.float32
     np.testing.assert_array_equal(np.array(light), THREE)
@@ -190,12 +175,15 @@ def test_numpy_reads_the_stokes_numbers():
     copy = np.array(light, copy=True)
     copy[...] = 0.0
     assert light.S0[0] == 1.0
-
-
-def test_light_is_no_plain_number_for_what_has_no_frame():
     for make in (op.Light, lambda light: op.load_preset("malus").trace(angle=light)):
         with pytest.raises(op.OptipathError, match=r"as in op\.Source\(stokes=light\.stokes\)"):
             make(op.Light(THREE[0]))
+    np.testing.assert_array_equal(np.asarray(op.Mueller(np.eye(4))), np.eye(4))
+    assert np.asarray(RETARDERS, dtype=np.float32).shape == (2, 3, 4, 4)
+    assert (RETARDERS.shape, RETARDERS.ndim, RETARDERS.size, len(RETARDERS)) == ((2, 3), 2, 6, 2)
+    assert [row.shape for row in RETARDERS] == [(3,), (3,)]
+    assert RETARDERS.reshape(-1).shape == (6,)
+    assert op.Mueller(np.eye(4)).shape == ()
 
 
 def test_light_is_shown_in_a_line_or_a_few():
@@ -204,14 +192,19 @@ def test_light_is_shown_in_a_line_or_a_few():
     many = repr(op.Light(np.ones((1000, 4)) * [1, 0, 0, 0]))
     assert many.count("\n") < 6
     assert many.endswith("shape=(1000,))")
+    path = op.load_preset("npgr026", case=8)
+    light = op.Composer(composing="jones").compose(path).run()
+    assert str(light) == str(path.trace()) == repr(light)
 
 
-def test_parts_of_light_are_kept_and_copied():
+def test_parts_of_light_are_kept_copied_and_compared_by_value():
     part = op.Light(THREE, op.Frame().turned([0.0, 0.1, 0.2]))[1:]
     assert pickle.loads(pickle.dumps(part)) == part
+    assert op.Light([0.5, 0.25, 0.0, 0.0], exponent=1) == op.Light([1.0, 0.5, 0.0, 0.0])
+    assert op.Light([0.5, 0.25, 0.0, 0.0], exponent=2) != op.Light([1.0, 0.5, 0.0, 0.0])
 
 
-def test_an_element_acts_on_light_in_the_frame_of_the_light():
+def test_an_element_acts_on_light_and_on_matrices_as_its_matrix_does():
     frame = op.Frame().turned(0.3)
     behind = op.Polarizer(0.2) @ op.Light([2.0, 0.0, 0.0, 0.0], frame)
     assert behind.frame == frame
@@ -219,9 +212,6 @@ def test_an_element_acts_on_light_in_the_frame_of_the_light():
     # An azimuth turns the element, and the frame behind it with it.
     turned = op.Polarizer(azimuth=0.2) @ op.Light([2.0, 0.0, 0.0, 0.0], frame)
     np.testing.assert_allclose(turned.in_frame(frame), behind, atol=1e-15)
-
-
-def test_elements_one_after_another_do_what_a_path_of_them_does():
     elements = [
         op.Polarizer(0.2, azimuth=0.3),
         op.Interface(1.5 + 0.2j, incidence=[0.4, 1.2], azimuth=0.7),
@@ -236,9 +226,6 @@ def test_elements_one_after_another_do_what_a_path_of_them_does():
         light = element @ light
     last >> path.add("eye", op.Detector())
     np.testing.assert_allclose(light, path.trace(), rtol=0, atol=1e-15)
-
-
-def test_an_element_acts_on_a_matrix():
     light = op.Light([1.0, 0.2, 0.3, 0.4])
     both = op.Retarder(1.0, 0.3) @ op.Polarizer(0.2).mueller()
     np.testing.assert_allclose(both @ light, op.Retarder(1.0, 0.3) @ (op.Polarizer(0.2) @ light))
@@ -275,12 +262,6 @@ def test_jax_does_what_numpy_does(done):
 
     np.testing.assert_allclose(jax.jit(traced)(np.array(THREE)), expected, rtol=1e-6, atol=1e-6)
     assert np.isfinite(jax.jacobian(traced)(jax.numpy.array(THREE))).all()
-
-
-def test_factors_that_jax_traces_are_taken():
-    jax = pytest.importorskip("jax")
-    slope = jax.grad(lambda factor: (factor * op.Light(THREE[1])).S0)(3.0)
-    assert slope == 2.0
 
 
 @rows("shape", [-1, (12,), (4, 3), (2, -1, 2)])
@@ -337,7 +318,7 @@ def test_light_of_half_precision_is_computed_in_single_precision(made, factor):
     assert np.all(found.noise >= 0.99 * 2.0**-10 * found.S0)
 
 
-def test_light_that_has_been_rounded_many_times_is_light():
+def test_light_in_any_precision_stays_light():
     rng = np.random.default_rng(3)
     states = rng.normal(size=(2000, 3))
     states /= np.linalg.norm(states, axis=-1, keepdims=True)
@@ -346,9 +327,6 @@ def test_light_that_has_been_rounded_many_times_is_light():
         light = 0.9 * (op.Retarder(turn, 2.0 * turn) @ light)
         assert op.Light(light.stokes) == light
         assert op.Source(stokes=light.stokes).stokes.dtype == np.float32
-
-
-def test_light_in_less_precision_keeps_its_range():
     faint = op.Light([1e-300, 0.0, 0.0, 0.0]) + op.Light(np.zeros(4, np.float32))
     assert faint.log10_intensity == pytest.approx(-300)
     assert (SINGLE[0] * 1e-300).log10_intensity == pytest.approx(-300)
@@ -389,32 +367,9 @@ def test_several_lights_are_made_one_batch_as_the_sentence_says():
     assert op.Light([a.stokes, b.stokes], a.frame)[1] == b
 
 
-def test_light_carried_as_jones_columns_is_shown_as_its_numbers():
-    path = op.load_preset("npgr026", case=8)
-    light = op.Composer(composing="jones").compose(path).run()
-    assert str(light) == str(path.trace()) == repr(light)
-
-
-def test_one_light_is_equal_to_itself_by_other_powers_of_two():
-    assert op.Light([0.5, 0.25, 0.0, 0.0], exponent=1) == op.Light([1.0, 0.5, 0.0, 0.0])
-    assert op.Light([0.5, 0.25, 0.0, 0.0], exponent=2) != op.Light([1.0, 0.5, 0.0, 0.0])
-
-
 ANGLES = np.array([[0.0, 0.1, 0.2], [0.3, 0.4, 0.5]])
 SHEETS = op.Interface(1.5, 0.8, azimuth=ANGLES).mueller()
 RETARDERS = op.Retarder(ANGLES).mueller()
-
-
-def test_numpy_reads_the_numbers_of_a_matrix():
-    np.testing.assert_array_equal(np.asarray(op.Mueller(np.eye(4))), np.eye(4))
-    assert np.asarray(RETARDERS, dtype=np.float32).shape == (2, 3, 4, 4)
-
-
-def test_a_matrix_has_the_shape_of_its_batch():
-    assert (RETARDERS.shape, RETARDERS.ndim, RETARDERS.size, len(RETARDERS)) == ((2, 3), 2, 6, 2)
-    assert [row.shape for row in RETARDERS] == [(3,), (3,)]
-    assert RETARDERS.reshape(-1).shape == (6,)
-    assert op.Mueller(np.eye(4)).shape == ()
 
 
 @rows("key", [0, (1, 2), (..., 1), slice(1), ANGLES > 0.2, (None, 0)])

@@ -36,20 +36,14 @@ def test_light_comes_back_as_it_was(name):
     assert op.Light.from_(name, light.to(name), light.frame) == light
 
 
-def test_faint_light_is_taken_with_its_exponent():
+def test_faint_and_measured_light_is_taken():
     light = op.Light.from_("hecht", [1.0, 0.6, 0.0, 0.8], exponent=-5000)
     assert light == op.Light([1.0, 0.6, 0.0, -0.8], exponent=-5000)
-
-
-def test_what_no_light_can_be_is_refused_unless_it_is_measured_noise():
     noisy = [1.0, 0.9, 0.0, 0.6]
     with pytest.raises(op.OptipathError, match="physical=False"):
         op.Light.from_("mitsuba", noisy)
     light = op.Light.from_("mitsuba", noisy, physical=False)
     np.testing.assert_array_equal(light.to("mitsuba"), noisy)
-
-
-def test_an_undefined_delta_stays_undefined():
     assert np.isnan(changed_delta("tmm", np.array([np.nan]))).all()
     assert np.isnan(changed_delta("scatmech", np.array([np.nan]))).all()
 
@@ -72,7 +66,7 @@ def test_matrices_act_on_light_and_on_each_other_in_every_convention(name):
     np.testing.assert_allclose((two @ one @ light).to(name), after, rtol=0, atol=1e-12)
 
 
-def test_a_name_that_there_is_not_is_refused_with_the_nearest_one():
+def test_names_and_shapes_that_there_are_not_are_refused():
     light, matrix = op.Light([1.0, 0.0, 0.0, 0.0]), op.Polarizer(0.1).mueller()
     for act in (
         light.to,
@@ -87,34 +81,22 @@ def test_a_name_that_there_is_not_is_refused_with_the_nearest_one():
             act("mitsuba3")
         with pytest.raises(op.OptipathError, match="convention None is unknown"):
             act(None)
-
-
-def test_what_has_no_delta_is_refused_with_those_that_have():
     with pytest.raises(op.OptipathError, match="'hecht' has no psi and Delta; there are: ellips"):
         op.Light([1.0, 0.0, 1.0, 0.0]).ellipsometric_angles("hecht")
-
-
-def test_stokes_vectors_of_another_shape_are_refused():
     with pytest.raises(op.OptipathError, match=r"of shape \(\.\.\., 4\)"):
         op.Light.from_("hecht", [1.0, 0.0, 0.0])
     with pytest.raises(op.OptipathError, match=r"of shape \(\.\.\., 4, 4\)"):
         op.Mueller.from_("hecht", np.eye(3))
 
 
-def test_no_zero_becomes_minus_zero():
+def test_what_is_given_is_not_changed_and_keeps_its_precision():
     light = op.Light([1.0, 0.0, 0.0, 0.0])
     assert not np.signbit(light.to("ellipsometry")).any()
     assert not np.signbit(op.Polarizer(0.0).mueller().to("mitsuba")).any()
-
-
-def test_single_precision_stays_single():
     light = op.Light(STOKES.astype(np.float32))
     assert light.to("mitsuba").dtype == np.float32
     assert op.Light.from_("mitsuba", light.to("mitsuba")).stokes.dtype == np.float32
     assert op.Mueller(np.eye(4, dtype=np.float32)).to("tmm").dtype == np.float32
-
-
-def test_what_is_given_is_not_changed():
     light = op.Light(STOKES)
     light.to("scatmech")[...] = 0.0
     assert light == op.Light(STOKES)
@@ -152,16 +134,15 @@ def test_each_kind_is_the_function_of_its_name(kind):
     assert titles[0] == titles[1]
 
 
-def test_an_ellipse_is_drawn_into_the_axes_that_are_given():
+def test_ellipses_and_matrices_draw_themselves_into_axes_that_are_given():
     ax = figures.Figure().add_subplot()
     assert LIGHT.plot(ax=ax) is ax
     assert ax.get_title().startswith("right-handed elliptical")
-
-
-def test_options_are_those_of_the_kind():
     batch = op.Light([[1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, -1.0]])
     ax = batch.plot("poincare", by=[0.0, 1.0], label="turns")
     assert [each.get_ylabel() for each in ax.figure.axes[1:]] == ["turns"]
+    ax = figures.Figure().add_subplot()
+    assert op.Mueller(np.eye(4)).plot(ax) is ax
 
 
 @rows(
@@ -181,11 +162,6 @@ def test_options_are_those_of_the_kind():
 def test_kinds_and_options_that_are_not_there_are_told(kind, options, told):
     with pytest.raises(op.ParameterError, match=told):
         LIGHT.plot(kind, **options)
-
-
-def test_a_matrix_draws_itself():
-    ax = figures.Figure().add_subplot()
-    assert op.Mueller(np.eye(4)).plot(ax) is ax
 
 
 def test_without_matplotlib_the_extra_is_named(monkeypatch):

@@ -35,12 +35,9 @@ def rotations(draw):
     )
 
 
-def test_the_default_frame_is_the_world():
+def test_a_frame_turns_x_to_y_and_is_that_of_the_world_by_default():
     frame = op.Frame()
     assert np.array_equal([frame.x, frame.y, frame.z], np.eye(3))
-
-
-def test_a_quarter_turn_takes_x_to_y():
     turned = op.Frame().turned(np.pi / 2)
     np.testing.assert_allclose(turned.x, [0, 1, 0], rtol=1e-15, atol=1e-16)
     np.testing.assert_allclose(turned.y, [-1, 0, 0], rtol=1e-15, atol=1e-16)
@@ -63,18 +60,18 @@ def test_the_turn_between_frames_does_not_depend_on_the_world(rotation, common, 
     np.testing.assert_allclose(after, before, rtol=0, atol=1e-14)
 
 
-def test_frames_of_other_directions_are_refused_with_both_named():
+def test_frames_of_other_directions_are_refused_but_for_rounding():
     tilted = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
     with pytest.raises(op.FrameError, match=r"\(0, 0, 1\).*\(0, 1, 0\)"):
         op.Frame().turn_to(tilted)
-
-
-def test_directions_may_differ_by_rounding_and_no_more():
     nearly = op.Frame.from_direction(z=(0, 5e-9, 1), x=(1, 0, 0))
     op.Frame().turn_to(nearly)
     off = op.Frame.from_direction(z=(0, 2e-8, 1), x=(1, 0, 0))
     with pytest.raises(op.FrameError, match="one direction"):
         op.Frame().turn_to(off)
+    back = op.Frame.from_direction(z=(0, 0, -1), x=(1, 0, 0))
+    with pytest.raises(op.FrameError, match="one direction"):
+        op.Frame().turn_to(back)
 
 
 @rows("angle", ["2e-08", "1e-05"])
@@ -129,12 +126,6 @@ def test_axes_are_unit_vectors_to_1e_8(stretch):
         op.Frame(x=(1 + stretch, 0, 0))
 
 
-def test_opposite_directions_are_refused():
-    back = op.Frame.from_direction(z=(0, 0, -1), x=(1, 0, 0))
-    with pytest.raises(op.FrameError, match="one direction"):
-        op.Frame().turn_to(back)
-
-
 @rows(
     "axes, message",
     [
@@ -159,18 +150,18 @@ def test_from_direction_keeps_z_and_puts_x_on_the_side_asked_for(z, x):
     assert frame.x @ x > 0
 
 
-def test_a_direction_along_x_is_refused():
+def test_an_axis_along_the_direction_is_refused_and_one_very_near_to_it_is_taken():
     with pytest.raises(op.FrameError, match="perpendicular"):
         op.Frame.from_direction(z=(1, 0, 0), x=(2, 0, 0))
+    z = np.array([0.3, 0.5, 0.81]) / np.linalg.norm([0.3, 0.5, 0.81])
+    frame = op.Frame.from_direction(z, z + np.array([1e-8, 0, 0]))
+    assert abs(frame.x @ frame.z) <= 1e-15
 
 
-def test_frames_broadcast_over_batches():
+def test_frames_broadcast_over_batches_and_do_not_change():
     frame = op.Frame().turned(np.linspace(0, 1, 5))
     c, s = op.Frame().turn_to(frame)
     assert c.shape == s.shape == (5,)
-
-
-def test_a_frame_does_not_change():
     with pytest.raises(AttributeError, match="new one"):
         op.Frame().x = np.zeros(3)
     with pytest.raises(ValueError, match="read-only"):
@@ -180,12 +171,6 @@ def test_a_frame_does_not_change():
 @rows("length", [1e-300, 1e-13, 1e300])
 def test_a_direction_may_have_any_length(length):
     assert np.array_equal(op.Frame.from_direction((0, 0, length), (length, 0, 0)).z, [0, 0, 1])
-
-
-def test_an_x_very_near_to_z_still_makes_a_frame():
-    z = np.array([0.3, 0.5, 0.81]) / np.linalg.norm([0.3, 0.5, 0.81])
-    frame = op.Frame.from_direction(z, z + np.array([1e-8, 0, 0]))
-    assert abs(frame.x @ frame.z) <= 1e-15
 
 
 @given(ANGLES)
@@ -228,7 +213,7 @@ def test_the_azimuth_of_the_plane_is_exact_at_any_incidence(angle):
     np.testing.assert_allclose(found.incidence, angle, rtol=1e-7)
 
 
-def test_frames_stand_as_the_conventions_say():
+def test_planes_of_incidence_stand_as_the_conventions_say_and_fit_an_interface():
     meets = op.plane_of_incidence((1.0, 0.0, -1.0), UP)
     np.testing.assert_allclose(meets.arriving.x, np.cross(UP, (1, 0, 0)), rtol=0, atol=1e-15)
     np.testing.assert_array_equal(meets.arriving.x, meets.reflected.x)
@@ -236,9 +221,6 @@ def test_frames_stand_as_the_conventions_say():
         meets.reflected.z, np.array([1, 0, 1]) / np.sqrt(2), rtol=0, atol=1e-15
     )
     assert meets.incidence == pytest.approx(np.pi / 4, abs=1e-15)
-
-
-def test_they_fit_an_interface():
     meets = op.plane_of_incidence((0.3, -0.2, -1.0), (0.1, 0.2, 1.0))
     path = op.PathGraph()
     frames = {"in": meets.arriving, "reflected": meets.reflected}
@@ -247,9 +229,6 @@ def test_they_fit_an_interface():
     path["lamp"] >> path["glass"] >> path.add("eye", op.Detector())
     A, B, _, _ = op.fresnel_reflection(1.5, meets.cos, meets.sin)
     np.testing.assert_allclose(path.trace().stokes, [A, B, 0, 0], rtol=0, atol=1e-15)
-
-
-def test_the_side_and_the_length_of_the_vectors_do_not_matter():
     one = op.plane_of_incidence((1.0, 2.0, -3.0), (0.2, 0.1, 1.0))
     other = op.plane_of_incidence((4e200, 8e200, -12e200), (-0.2e-200, -0.1e-200, -1e-200))
     np.testing.assert_allclose(one.arriving.x, other.arriving.x, rtol=0, atol=1e-15)
@@ -264,14 +243,16 @@ def test_a_degenerate_plane_keeps_the_axis_that_the_light_came_with():
     np.testing.assert_array_equal(meets.reflected.x, keep.x)
     np.testing.assert_array_equal(meets.reflected.z, UP)
     assert (meets.cos, meets.sin) == (1.0, 0.0)
-
-
-def test_only_the_degenerate_ones_of_a_batch_keep_it():
     directions = np.array([[0.0, 0, -1], [1, 0, -1]])
     keep = op.Frame.from_direction(directions, (0.0, 1.0, 1.0))
     meets = op.plane_of_incidence(directions, UP, keep=keep)
     np.testing.assert_allclose(meets.arriving.x, [[0, 1, 0], [0, 1, 0]], rtol=0, atol=1e-15)
     assert meets.incidence.tolist() == [0.0, np.pi / 4]
+    keep = op.Frame.from_direction((0, 0, -1), (1.0, 1.0, 0.0))
+    meets = op.plane_of_incidence([[0, 0, -1], [1, 0, -1]], UP, keep=keep)
+    np.testing.assert_allclose(meets.arriving.x, [keep.x, [0, 1, 0]], rtol=0, atol=1e-15)
+    with pytest.raises(op.FrameError, match="must be the Frame"):
+        op.plane_of_incidence((1, 0, -1), UP, keep=(1, 0, 0))
 
 
 @rows(
@@ -305,27 +286,20 @@ def test_frames_are_aligned_within_four_roundings():
             assert abs(mpmath.sin(twice) - float(s[i])) <= 4 * np.finfo(float).eps
 
 
-def test_one_frame_is_kept_by_the_degenerate_ones_of_a_batch():
-    keep = op.Frame.from_direction((0, 0, -1), (1.0, 1.0, 0.0))
-    meets = op.plane_of_incidence([[0, 0, -1], [1, 0, -1]], UP, keep=keep)
-    np.testing.assert_allclose(meets.arriving.x, [keep.x, [0, 1, 0]], rtol=0, atol=1e-15)
-
-
-def test_what_is_kept_is_a_frame():
-    with pytest.raises(op.FrameError, match="must be the Frame"):
-        op.plane_of_incidence((1, 0, -1), UP, keep=(1, 0, 0))
-
-
 LIGHT = op.Light([1.0, 0.6, 0.0, 0.8])
 ELEMENT = op.Polarizer(0.3)
 MATRIX = ELEMENT.mueller()
 PATH = op.Source() >> ELEMENT >> op.Detector()
 
 
-def test_a_matrix_acts_on_an_element_as_on_its_matrix():
+def test_matrices_and_splitters_act_on_elements_and_light_by_their_ports():
     plate = op.Retarder("90 deg", 0.2, azimuth=0.1)
     found = (MATRIX @ plate) @ LIGHT
     np.testing.assert_allclose(found.stokes, (MATRIX @ (plate @ LIGHT)).stokes, atol=1e-15)
+    found = PATH.mueller() @ LIGHT
+    np.testing.assert_allclose(found.stokes, (ELEMENT @ LIGHT).stokes, atol=1e-15)
+    light = op.BeamSplitter(0.3).mueller("in", "transmitted") @ LIGHT
+    np.testing.assert_allclose(light.stokes, 0.7 * LIGHT.stokes, rtol=1e-15)
 
 
 @rows(
@@ -354,13 +328,3 @@ def test_a_matrix_acts_on_an_element_as_on_its_matrix():
 def test_what_cannot_stand_in_a_product_is_told_what_can(product, expected):
     with pytest.raises(op.OptipathError, match=expected):
         product()
-
-
-def test_the_cure_of_a_path_is_what_it_does():
-    found = PATH.mueller() @ LIGHT
-    np.testing.assert_allclose(found.stokes, (ELEMENT @ LIGHT).stokes, atol=1e-15)
-
-
-def test_a_beam_splitter_acts_on_light_by_its_ports():
-    light = op.BeamSplitter(0.3).mueller("in", "transmitted") @ LIGHT
-    np.testing.assert_allclose(light.stokes, 0.7 * LIGHT.stokes, rtol=1e-15)

@@ -36,12 +36,9 @@ def test_a_constant_spectrum_comes_to_the_width(wavelengths, falls):
     np.testing.assert_allclose(found, (grid[-1] - grid[0]) * np.array([1, 0, 0.5, 0]), atol=slack)
 
 
-def test_a_thousand_wavelengths_come_to_the_width_within_1e_15():
+def test_what_is_linear_comes_to_its_mean_times_the_width():
     grid = np.linspace(380.0, 780.0, 1001)
     assert abs(light_of(np.ones(1001), grid * NM).integrate().S0 / 400.0 - 1.0) < 1e-15
-
-
-def test_what_is_linear_comes_to_its_mean_times_the_width():
     path = op.Source(line(0.2, 0.9)) >> op.Detector()
     found = path.trace(wavelength=GRID).integrate()
     np.testing.assert_allclose(found.stokes, [0.55 * 300.0, 0, 0, 0], rtol=1e-14)
@@ -82,24 +79,20 @@ def test_integrated_light_is_light(seed):
     assert light.integrate().dop <= 1.0 + 4e-16
 
 
-def test_light_too_faint_for_floats_is_added_up():
+def test_faint_and_dark_light_is_added_up():
     values = np.array([1.0, 3.0, 2.0])
     grid = np.array([400.0, 500.0, 700.0]) * NM
     faint = light_of(values, grid, exponent=[-5000, -5001, -5000]).integrate()
     total = 50.0 * 1.0 + 150.0 * 1.5 + 100.0 * 2.0
     expected = math.log10(total) - 5000 * math.log10(2.0)
     np.testing.assert_allclose(faint.log10_intensity, expected, rtol=1e-14)
-
-
-def test_dark_light_beside_faint_light_costs_nothing():
     light = light_of([0.0, 1.0, 0.0], np.array([400.0, 500.0, 600.0]) * NM, exponent=[0, -5000, 0])
     assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
-
-
-def test_dark_light_of_which_intensity_alone_is_read_costs_nothing_either():
     stokes = [[s0, np.nan, np.nan, np.nan] for s0 in (0.0, 1.0, 0.0)]
     light = op.Light(stokes, wavelength=[4e-7, 5e-7, 6e-7], exponent=[0, -5000, 0])
     assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
+    with pytest.raises(op.LightError, match="none at all"):
+        op.Light(np.zeros((0, 4)), wavelength=np.zeros(0)).integrate()
 
 
 @rows("dtype", ["f4", "f8"])
@@ -109,23 +102,21 @@ def test_the_precision_stays(dtype):
     assert light.integrate().stokes.dtype == dtype
 
 
-def test_edges_make_bins_of_ones_own():
+def test_edges_and_responses_weigh_what_is_added_up():
     light = light_of([1.0, 2.0, 4.0], np.array([400.0, 500.0, 600.0]) * NM)
     found = light.integrate(edges=["350 nm", "480 nm", "510 nm", "700 nm"])
     np.testing.assert_allclose(found.S0, 130.0 + 2 * 30.0 + 4 * 190.0, rtol=1e-14)
-
-
-def test_a_response_multiplies_what_is_added_up():
     light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"], dop=1.0)
     given = op.Spectrum.sampled(["400 nm", "600 nm"], [0.0, 1.0])
     for response in ([0.0, 0.5, 1.0], np.array([0.0, 0.5, 1.0]), given):
         found = light.integrate(response=response)
         np.testing.assert_allclose(found.stokes, [300.0, 0, 300.0, 0], rtol=1e-12)
-
-
-def test_a_response_of_one_number_is_that_of_each_wavelength():
     light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"])
     assert light.integrate(response=2.0).intensity == pytest.approx(900.0, rel=1e-14)
+    values = on_line(0.2, 0.9, GRID)
+    widths = np.array([30.0, 75.0, 120.0, 75.0])
+    found = light_of(values, GRID).integrate().S0
+    np.testing.assert_allclose(found, values @ widths, rtol=1e-14)
 
 
 @rows(
@@ -177,19 +168,13 @@ def test_a_line_keeps_its_power(grid):
     np.testing.assert_allclose(path.trace(wavelength=grid).integrate().S0, 2.5, rtol=1e-14)
 
 
-def test_the_frame_stays():
+def test_frames_stay_and_those_that_differ_by_wavelength_are_refused():
     frame = op.Frame().turned(0.3)
     light = op.Light(np.eye(4)[[0, 0, 0]], frame, wavelength=EVEN[:3])
     assert light.integrate().frame == frame
-
-
-def test_frames_go_along_axes_that_stay():
     frames = op.Frame().turned([[0.0], [0.5]])
     light = op.Light(np.ones((2, 3, 1)) * [1.0, 0, 0, 0], frames, wavelength=EVEN[:3])
     assert light.integrate().frame == op.Frame().turned([0.0, 0.5])
-
-
-def test_light_in_frames_that_differ_by_wavelength_is_refused():
     frames = op.Frame().turned([0.0, 0.2, 0.4])
     light = op.Light(np.ones((3, 1)) * [1.0, 0.5, 0, 0], frames, wavelength=EVEN[:3])
     with pytest.raises(op.LightError, match=r"a frame of its own.*light\.in_frame\(frame\)"):
@@ -259,15 +244,3 @@ def test_wavelengths_that_jax_traces_are_refused(jax):
     path = op.Source(line(0.2, 0.9)) >> op.Detector()
     with pytest.raises(op.ParameterError, match="wavelengths that light is added up over"):
         jax.grad(lambda w: path.trace(wavelength=w * GRID).integrate().intensity)(1.0)
-
-
-def test_a_power_by_the_bins_is_what_the_rule_comes_to():
-    values = on_line(0.2, 0.9, GRID)
-    widths = np.array([30.0, 75.0, 120.0, 75.0])
-    found = light_of(values, GRID).integrate().S0
-    np.testing.assert_allclose(found, values @ widths, rtol=1e-14)
-
-
-def test_no_light_at_all_has_no_spectrum():
-    with pytest.raises(op.LightError, match="none at all"):
-        op.Light(np.zeros((0, 4)), wavelength=np.zeros(0)).integrate()

@@ -8,34 +8,35 @@ from light_figures import FIGURES
 from tables import rows
 
 
-def test_horizontal_light_seen_from_a_diagonal_frame_is_antidiagonal():
+def test_light_adds_up_and_is_seen_in_the_frame_of_the_first():
     light = op.Light([1.0, 1.0, 0.0, 0.0]).in_frame(op.Frame().turned(np.pi / 4))
     np.testing.assert_allclose(light.stokes, [1, 0, -1, 0], rtol=1e-15, atol=2e-16)
-
-
-def test_a_turn_of_the_frame_leaves_s0_and_s3():
+    vertical = op.Light([1.0, 1.0, 0.0, 0.0], op.Frame().turned(np.pi / 2))
+    total = op.Light([1.0, 1.0, 0.0, 0.0]) + vertical
+    np.testing.assert_allclose(total.stokes, [2, 0, 0, 0], rtol=0, atol=1e-15)
     light = op.Light([2.0, 0.3, 0.4, 0.5]).in_frame(op.Frame().turned(1.2))
     assert light.stokes[0] == 2.0
     assert light.stokes[3] == 0.5
     assert light.dop == pytest.approx(np.sqrt(0.5) / 2, abs=1e-15)
+    with pytest.raises(op.ValueFault, match=r"'a bit' is not a quantity; .* such as '30 deg'"):
+        op.Frame().turned("a bit")
 
 
-def test_light_adds_up_in_the_frame_of_the_first():
-    vertical = op.Light([1.0, 1.0, 0.0, 0.0], op.Frame().turned(np.pi / 2))
-    total = op.Light([1.0, 1.0, 0.0, 0.0]) + vertical
-    np.testing.assert_allclose(total.stokes, [2, 0, 0, 0], rtol=0, atol=1e-15)
-
-
-def test_no_light_has_no_polarisation():
+def test_what_is_dark_or_not_read_or_without_bounds_has_no_known_polarisation():
     assert np.isnan(op.Light([0.0, 0.0, 0.0, 0.0]).dop)
+    light = op.Light([1.0, np.nan, np.nan, np.nan])
+    assert light == op.Light([1.0, np.nan, np.nan, np.nan])
+    assert pickle.loads(pickle.dumps(light)) == light
+    light = op.Light([np.inf, 0.0, 0.0, 0.0], physical=False)
+    for name in ("dop", "dolp", "docp", "aop", "ellipticity", "psi", "delta"):
+        assert np.isnan(getattr(light, name)), name
+    assert light.log10_intensity == np.inf
+    assert op.Light([1.0, np.inf, 0.0, 0.0], physical=False).dop == np.inf
 
 
-def test_batches_of_lights_and_frames_broadcast():
+def test_batches_of_lights_and_frames_broadcast_or_are_named():
     light = op.Light(np.ones((3, 1, 4)), physical=False).in_frame(op.Frame().turned(np.zeros(2)))
     assert light.stokes.shape == (3, 2, 4)
-
-
-def test_shapes_that_do_not_broadcast_are_named():
     two, three = (op.Light(np.ones((n, 4)) * [1, 0, 0, 0]) for n in (2, 3))
     with pytest.raises(op.ShapeError, match=r"light \(2,\), other light \(3,\)"):
         two + three
@@ -63,11 +64,6 @@ def test_what_is_no_frame_is_refused(make):
         make()
 
 
-def test_a_frame_is_turned_by_an_angle_and_nothing_else():
-    with pytest.raises(op.ValueFault, match=r"'a bit' is not a quantity; .* such as '30 deg'"):
-        op.Frame().turned("a bit")
-
-
 @rows("stokes", [[1.0, 0.0, 0.0], 1.0, [1j, 0, 0, 0], "abcd"])
 def test_what_is_no_stokes_vector_is_refused(stokes):
     with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4\)"):
@@ -80,9 +76,6 @@ def test_faint_light_keeps_all_but_its_plain_numbers():
     np.testing.assert_allclose(light.normalized, [[1.0, 0.6, 0.0, 0.8], [np.nan] * 4])
     np.testing.assert_allclose(light.dop, [1.0, np.nan])
     np.testing.assert_allclose(light.log10_intensity, [-4999 * np.log10(2), -np.inf])
-
-
-def test_faint_lights_add_turn_and_pass_matrices():
     faint = op.Light([1.0, 1.0, 0.0, 0.0], exponent=-5000)
     crossed = op.Light([2.0, -2.0, 0.0, 0.0], exponent=-5001)
     np.testing.assert_allclose((faint + crossed).normalized, [1.0, 0.0, 0.0, 0.0])
@@ -94,39 +87,24 @@ def test_faint_lights_add_turn_and_pass_matrices():
     assert halved.log10_intensity == pytest.approx(-5001 * np.log10(2))
     assert pickle.loads(pickle.dumps(faint)) == faint
     assert faint != op.Light([1.0, 1.0, 0.0, 0.0])
-
-
-def test_an_exponent_is_an_integer_and_fits():
-    with pytest.raises(op.ShapeError, match="integer"):
-        op.Light([1.0, 0, 0, 0], exponent=0.5)
-    with pytest.raises(op.ShapeError, match="exponent"):
-        op.Light(np.ones((3, 4)), exponent=[1, 2])
-
-
-def test_an_exponent_gives_the_light_its_shape():
-    light = op.Light([1.0, 0.0, 0.0, 0.0], exponent=[0, 0])
-    assert light.stokes.shape == light.normalized.shape == (2, 4)
-    assert light.dop.shape == light.log10_intensity.shape == (2,)
-
-
-def test_exponents_of_few_bits_do_not_run_over():
-    first, second = (op.Light([1.0, 0, 0, 0], exponent=np.uint8(n)) for n in (3, 5))
-    assert (first + second).intensity == 40.0
-    with pytest.raises(op.ShapeError, match="2\\^40"):
-        op.Light([1.0, 0, 0, 0], exponent=np.int64(-(2**62)))
-
-
-def test_matrices_make_light_faint_and_lose_nothing():
     dark = op.Mueller(np.diag([1e-200] * 4))
     light = dark @ (dark @ op.Light([1.0, 0.6, 0.0, 0.8]))
     assert light.log10_intensity == pytest.approx(-400)
     np.testing.assert_allclose(light.normalized, [1.0, 0.6, 0.0, 0.8])
 
 
-def test_light_that_is_not_read_is_equal_to_itself():
-    light = op.Light([1.0, np.nan, np.nan, np.nan])
-    assert light == op.Light([1.0, np.nan, np.nan, np.nan])
-    assert pickle.loads(pickle.dumps(light)) == light
+def test_exponents_are_integers_that_broadcast_and_do_not_run_over():
+    with pytest.raises(op.ShapeError, match="integer"):
+        op.Light([1.0, 0, 0, 0], exponent=0.5)
+    with pytest.raises(op.ShapeError, match="exponent"):
+        op.Light(np.ones((3, 4)), exponent=[1, 2])
+    light = op.Light([1.0, 0.0, 0.0, 0.0], exponent=[0, 0])
+    assert light.stokes.shape == light.normalized.shape == (2, 4)
+    assert light.dop.shape == light.log10_intensity.shape == (2,)
+    first, second = (op.Light([1.0, 0, 0, 0], exponent=np.uint8(n)) for n in (3, 5))
+    assert (first + second).intensity == 40.0
+    with pytest.raises(op.ShapeError, match="2\\^40"):
+        op.Light([1.0, 0, 0, 0], exponent=np.int64(-(2**62)))
 
 
 def test_a_light_shows_what_makes_it_again_and_cannot_change():
@@ -134,6 +112,13 @@ def test_a_light_shows_what_makes_it_again_and_cannot_change():
     assert repr(light) == "Light([1. , 0.5, 0. , 0. ], exponent=-10)"
     with pytest.raises(AttributeError, match="cannot change"):
         light.stokes = np.zeros(4)
+    turned = op.Light([1.0, 6e-17, 1.0, 0.0])
+    assert str(turned) == "Light([1., 0., 1., 0.])"
+    assert "6.e-17" in repr(turned)
+    crossed = op.Source(100) >> op.Polarizer("30 deg") >> op.Polarizer("-60 deg") >> op.Detector()
+    assert str(crossed.trace()) == "Light([0., 0., 0., 0.])"
+    faint = op.Source(100) >> op.Attenuator(1e-200) >> op.Detector()
+    assert str(faint.trace()) == "Light([1.e-198, 0.e+000, 0.e+000, 0.e+000])"
 
 
 @rows("size", [1e-170, 1e-300, 1e300])
@@ -158,21 +143,3 @@ def test_what_is_infinite_makes_no_warning(place, infinite):
         for other in (light, op.Light(-stokes, physical=False), op.Light([1.0, 0, 0, 0])):
             assert (light + other).stokes.shape == (4,)
         assert (op.Rotator(0.3).mueller() @ light).stokes.shape == (4,)
-
-
-def test_light_without_bounds_has_no_known_polarisation():
-    light = op.Light([np.inf, 0.0, 0.0, 0.0], physical=False)
-    for name in ("dop", "dolp", "docp", "aop", "ellipticity", "psi", "delta"):
-        assert np.isnan(getattr(light, name)), name
-    assert light.log10_intensity == np.inf
-    assert op.Light([1.0, np.inf, 0.0, 0.0], physical=False).dop == np.inf
-
-
-def test_printed_light_has_zeros_where_it_is_but_rounding():
-    turned = op.Light([1.0, 6e-17, 1.0, 0.0])
-    assert str(turned) == "Light([1., 0., 1., 0.])"
-    assert "6.e-17" in repr(turned)
-    crossed = op.Source(100) >> op.Polarizer("30 deg") >> op.Polarizer("-60 deg") >> op.Detector()
-    assert str(crossed.trace()) == "Light([0., 0., 0., 0.])"
-    faint = op.Source(100) >> op.Attenuator(1e-200) >> op.Detector()
-    assert str(faint.trace()) == "Light([1.e-198, 0.e+000, 0.e+000, 0.e+000])"

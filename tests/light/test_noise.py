@@ -41,8 +41,17 @@ def test_light_behind_crossed_polarisers_has_no_polarisation(pair, before):
     assert_dark(chain(*before, *map(op.Polarizer, pair)).trace())
 
 
-def test_light_that_aligned_polarisers_let_through_is_as_dark_behind_a_crossed_one():
+def test_crossed_polarisers_leave_no_light_however_they_are_met():
     assert_dark(chain(*[op.Polarizer(0.3)] * 6, op.Polarizer(0.3 + np.pi / 2)).trace())
+    for a, b in CROSSED:
+        assert_dark(op.Polarizer(b) @ (op.Polarizer(a) @ op.Light([1.0, 0.0, 0.0, 0.0])))
+    dark = polarisers().trace(a=0.3, b=[0.3 + np.pi / 2] * 2)
+    turned = dark.in_frame(op.Frame().turned(0.2))
+    for light in (2 * dark, dark / 3, dark + dark, dark[1], turned, op.Rotator(0.2) @ dark):
+        assert_dark(light)
+    for light in (pickle.loads(pickle.dumps(dark)), copy.copy(dark), dark.nearest_physical()):
+        assert_dark(light)
+    assert (dark + op.Light([1.0, 1.0, 0.0, 0.0])).aop == pytest.approx([0.0, 0.0], abs=1e-15)
 
 
 @rows(
@@ -64,36 +73,19 @@ def test_every_way_to_run_a_path_tells_dark_from_bright(options):
     assert light[2].dop == pytest.approx(1.0, abs=1e-6)
 
 
-def test_light_on_every_link_has_its_own_noise():
+def test_every_link_and_part_and_sum_has_its_own_noise():
     lights = polarisers().trace(keep="all", a=0.3, b=0.3 + np.pi / 2)
     assert_dark(lights["eye"])
     assert lights["e0.out -> e1.in"].aop == pytest.approx(0.3)
-
-
-def test_parts_of_a_batch_have_their_own_noise():
     a = np.linspace(0.1, 3.0, 5)
     for part in polarisers().compose().stream(2, a=a, b=a + np.pi / 2):
         assert_dark(part.light)
-
-
-def test_what_is_made_of_dark_light_is_dark():
-    dark = polarisers().trace(a=0.3, b=[0.3 + np.pi / 2] * 2)
-    turned = dark.in_frame(op.Frame().turned(0.2))
-    for light in (2 * dark, dark / 3, dark + dark, dark[1], turned, op.Rotator(0.2) @ dark):
-        assert_dark(light)
-    for light in (pickle.loads(pickle.dumps(dark)), copy.copy(dark), dark.nearest_physical()):
-        assert_dark(light)
-    assert (dark + op.Light([1.0, 1.0, 0.0, 0.0])).aop == pytest.approx([0.0, 0.0], abs=1e-15)
-
-
-def test_a_sum_of_very_many_lights_has_its_noise():
     many = op.Light(np.broadcast_to([1.0, 0.0, 0.0, 0.0], (3000, 4)))
     assert sum(many).noise == pytest.approx(3000 * 2.0**-52)
-
-
-def test_elements_one_by_one_leave_no_more_behind_crossed_polarisers():
-    for a, b in CROSSED:
-        assert_dark(op.Polarizer(b) @ (op.Polarizer(a) @ op.Light([1.0, 0.0, 0.0, 0.0])))
+    a = np.array([0.3, 0.5])
+    light = polarisers().trace(a=a, b=[0.3, 0.5 + np.pi / 2 - 1e-9])
+    a[:] = 2.0
+    np.testing.assert_array_equal(np.isnan(light.dop), [False, False])
 
 
 @rows("count", [1, 2, 60])
@@ -106,13 +98,17 @@ def test_light_that_is_dimmed_keeps_all_its_figures(count):
     assert light.handedness == 1
 
 
-def test_light_that_hardly_is_reflected_keeps_all_its_figures():
+def test_faint_light_that_is_known_keeps_its_figures():
     # Near Brewster's angle, what lies along y comes back with a share of 1e-10 each time.
     glass = op.Interface(1.5, np.arctan(1.5) + 1e-5)
     light = chain(glass, glass, stokes=(1.0, -1.0, 0.0, 0.0)).trace()
     assert light.S0 < 1e-19
     assert light.aop == pytest.approx(np.pi / 2)
     assert light.dop == pytest.approx(1.0)
+    light = chain(op.Polarizer(0.3), op.Polarizer(0.3 + np.pi / 2 - 1e-6)).trace()
+    assert pytest.approx(0.5e-12, rel=1e-3) == light.S0
+    assert light.aop == pytest.approx(0.3 - np.pi / 2 - 1e-6, abs=1e-3)
+    assert (1e300 * (1e300 * op.Light([1.0, 0.0, 0.0, 0.0]))).noise == np.inf
 
 
 @rows("index", [1.33, 1.5, 1.6, 1.7, 2.4, 4.0, 0.66])
@@ -126,12 +122,6 @@ def test_what_is_left_at_brewsters_angle_itself_has_no_figures(index):
     assert light.dop == pytest.approx(1.0)
 
 
-def test_light_that_nearly_crossed_polarisers_let_through_keeps_its_figures():
-    light = chain(op.Polarizer(0.3), op.Polarizer(0.3 + np.pi / 2 - 1e-6)).trace()
-    assert pytest.approx(0.5e-12, rel=1e-3) == light.S0
-    assert light.aop == pytest.approx(0.3 - np.pi / 2 - 1e-6, abs=1e-3)
-
-
 def test_unpolarised_light_of_two_lamps_has_no_axis():
     path = op.PathGraph()
     both = path.add("both", op.Combiner())
@@ -143,12 +133,19 @@ def test_unpolarised_light_of_two_lamps_has_no_axis():
     assert np.isnan([light.aop, light.ellipticity, light.psi, light.delta]).all()
 
 
-def test_a_component_of_noise_gives_no_angle():
+def test_a_component_of_noise_gives_no_angle_and_turns_no_ellipse():
     light = op.Light([1.0, 1e-17, 0.0, 0.0])
     assert light.dop == 1e-17
     assert np.isnan([light.aop, light.psi, light.delta, light.ellipticity]).all()
     assert light.noise == 2.0**-52
     assert op.Light(np.float32([1.0, 0.0, 0.0, 0.0])).noise == 2.0**-23
+    light = op.Light([1.0, 0.8, 1e-17, -1e-17])
+    assert light.aop == light.ellipticity == light.ellipticity_angle == light.psi == 0.0
+    upright = op.Light([1.0, -0.8, -1e-17, 0.0])
+    assert upright.aop == upright.psi == np.pi / 2
+    delta = op.Light([1.0, 0.0, 1.0, 1e-17]).delta
+    assert delta == 0.0
+    assert not np.signbit(delta)
 
 
 @rows("seed", range(12))
@@ -172,13 +169,6 @@ def test_no_component_is_off_by_more_than_the_noise(seed):
     assert off <= most <= noise.most(whole.reader.read({}))
 
 
-def test_arrays_that_are_written_into_make_no_wrong_noise():
-    a = np.array([0.3, 0.5])
-    light = polarisers().trace(a=a, b=[0.3, 0.5 + np.pi / 2 - 1e-9])
-    a[:] = 2.0
-    np.testing.assert_array_equal(np.isnan(light.dop), [False, False])
-
-
 def test_jax_gives_nan_and_slopes_of_nought():
     jax = pytest.importorskip("jax")
     for stokes in ([0.0] * 4, [1.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0]):
@@ -186,20 +176,6 @@ def test_jax_gives_nan_and_slopes_of_nought():
         assert np.isnan(traced(jax.numpy.array(stokes)))
         slope = jax.grad(lambda s: op.Light(s).aop)(jax.numpy.array(stokes))
         np.testing.assert_array_equal(slope, 0.0)
-
-
-def test_a_component_of_noise_turns_no_ellipse():
-    light = op.Light([1.0, 0.8, 1e-17, -1e-17])
-    assert light.aop == light.ellipticity == light.ellipticity_angle == light.psi == 0.0
-    upright = op.Light([1.0, -0.8, -1e-17, 0.0])
-    assert upright.aop == upright.psi == np.pi / 2
-    delta = op.Light([1.0, 0.0, 1.0, 1e-17]).delta
-    assert delta == 0.0
-    assert not np.signbit(delta)
-
-
-def test_light_brighter_than_a_number_can_be_makes_no_warning():
-    assert (1e300 * (1e300 * op.Light([1.0, 0.0, 0.0, 0.0]))).noise == np.inf
 
 
 @rows("factor", [1e-310, 5e-324, 1e300])

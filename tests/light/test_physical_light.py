@@ -58,9 +58,6 @@ def test_what_is_computed_with_noise_is_not_refused():
     assert (op.Mueller(np.diag([0.5, 1, 1, 1])) @ (noise / 2)).dop == pytest.approx(2 * 3**0.5)
     for again in (pickle.loads(pickle.dumps(noise)), copy.deepcopy(noise)):
         assert again == noise
-
-
-def test_faint_noise_is_judged_like_any_other():
     with pytest.raises(op.ValueFault, match=r"173\.205 %"):
         op.Light([1.0, 1.0, 1.0, 1.0], exponent=-4000)
     assert op.Light([1.0, 1.0, 1.0, 1.0], exponent=-4000, physical=False).dop > 1.7

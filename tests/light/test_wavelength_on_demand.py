@@ -14,32 +14,17 @@ LIGHT = op.Light([[1.0, 0.2, 0, 0], [2.0, 0, 0.5, 0], [3.0, 0, 0, 1]], wavelengt
 DIMMED = op.Source(line(0.2, 0.9)) >> op.Polarizer(op.Parameter("a", 0.0)) >> op.Detector()
 
 
-def test_light_of_a_run_has_its_wavelengths():
+def test_light_of_every_run_end_way_and_part_has_its_wavelengths():
     assert np.array_equal(DIMMED.trace(wavelength=GRID).wavelength, GRID)
     assert DIMMED.trace(wavelength=5e-7).wavelength == 5e-7
     assert DIMMED.trace(wavelength="2.4 eV").wavelength == pytest.approx(516.601e-9, rel=1e-6)
-
-
-def test_wavelengths_broadcast_to_light():
     light = DIMMED.trace(wavelength=GRID[:, None], a=np.zeros(7))
     assert light.wavelength.shape == (4, 1)
     assert np.array_equal(light[2, 3].wavelength, GRID[2])
-
-
-def test_wavelengths_that_a_path_is_bound_to_are_known():
     assert np.array_equal(DIMMED.bind(wavelength=GRID).trace().wavelength, GRID)
-
-
-def test_light_of_every_end_has_its_wavelengths():
     assert np.array_equal(DIMMED.trace_all(wavelength=GRID)["detector"].wavelength, GRID)
-
-
-def test_light_of_each_way_has_its_wavelengths():
     (way,) = DIMMED.compose().paths(wavelength=GRID)
     assert np.array_equal(way.light.wavelength, GRID)
-
-
-def test_parts_of_a_stream_have_their_wavelengths():
     plan = DIMMED.compose()
     given = {"wavelength": GRID[:, None], "a": np.linspace(0.0, 1.0, 3)}
     whole = plan.run(**given)
@@ -48,29 +33,29 @@ def test_parts_of_a_stream_have_their_wavelengths():
         assert np.array_equal(np.broadcast_to(part.light.wavelength, part.light.shape), expected)
 
 
-def test_a_wavelength_may_have_another_name():
+def test_a_wavelength_may_have_another_name_and_be_a_plain_parameter():
     source = op.Source(line(0.2, 0.9, op.Wavelength("pump")))
     assert (source >> op.Detector()).trace(pump=5e-7).wavelength == 5e-7
+    plate = op.Waveplate("1 mm", 0.009, op.Parameter("wavelength"))
+    path = op.Source(stokes=[1, 0, 1, 0]) >> plate >> op.Detector()
+    assert np.array_equal(path.trace(wavelength=WAVELENGTHS).wavelength, WAVELENGTHS)
 
 
-def test_light_of_two_wavelengths_has_no_single_one():
+def test_light_of_no_or_of_two_wavelengths_has_none():
     source = op.Source(line(0.2, 0.9, op.Wavelength("pump")))
     path = source >> op.Attenuator(line(0.2, 0.9, op.Wavelength("probe"))) >> op.Detector()
     assert path.trace(pump=5e-7, probe=6e-7).wavelength is None
-
-
-def test_light_of_a_path_without_wavelength_has_none():
     assert (op.Source() >> op.Detector()).trace().wavelength is None
+    path = op.Source() >> op.Polarizer(op.Parameter("wavelength")) >> op.Detector()
+    assert path.trace(wavelength=0.3).wavelength is None
+    assert LIGHT.integrate().wavelength is None
 
 
-def test_wavelengths_stay_when_what_was_given_is_written_into():
+def test_wavelengths_of_light_do_not_change():
     given = GRID.copy()
     light = DIMMED.trace(wavelength=given)
     given[:] = 5e-7
     assert np.array_equal(light.wavelength, GRID)
-
-
-def test_wavelengths_are_read_only():
     with pytest.raises(ValueError, match="read-only"):
         LIGHT.wavelength[0] = 1.0
 
@@ -121,28 +106,18 @@ def test_lights_of_different_wavelengths_are_not_added():
             add()
 
 
-def test_light_of_no_known_wavelength_adds_to_any():
+def test_lights_of_one_wavelength_or_none_have_it_together():
     plain = op.Light([1.0, 0, 0, 0])
     for light in (LIGHT + plain, plain + LIGHT, sum([LIGHT, plain]), LIGHT + LIGHT.integrate()):
         assert light.wavelength is None
     assert np.array_equal((plain + LIGHT).S0, LIGHT.S0 + 1.0)
-
-
-def test_wavelengths_that_differ_by_rounding_are_one():
+    runs = [DIMMED.trace(wavelength=GRID, a=a) for a in (0.1, 0.2)]
+    assert np.array_equal((runs[0] + runs[1]).wavelength, GRID)
     light = op.Light([1.0, 0, 0, 0], wavelength=830 * 1e-9)
     assert 830 * 1e-9 != 830e-9
     assert (light + light.at_wavelengths(830e-9)).wavelength == pytest.approx(830e-9)
     single = LIGHT.at_wavelengths(WAVELENGTHS.astype(np.float32))
     assert np.array_equal((LIGHT + single).wavelength, WAVELENGTHS)
-
-
-def test_lights_of_one_wavelength_have_it_together():
-    runs = [DIMMED.trace(wavelength=GRID, a=a) for a in (0.1, 0.2)]
-    assert np.array_equal((runs[0] + runs[1]).wavelength, GRID)
-
-
-def test_integrated_light_has_no_wavelength():
-    assert LIGHT.integrate().wavelength is None
 
 
 def test_wavelengths_are_said_of_light_that_has_none():
@@ -169,17 +144,6 @@ def test_what_is_no_wavelength_of_light_is_refused(wavelengths, sentence):
         light.at_wavelengths(wavelengths)
 
 
-def test_a_plain_parameter_of_that_name_is_the_wavelength():
-    plate = op.Waveplate("1 mm", 0.009, op.Parameter("wavelength"))
-    path = op.Source(stokes=[1, 0, 1, 0]) >> plate >> op.Detector()
-    assert np.array_equal(path.trace(wavelength=WAVELENGTHS).wavelength, WAVELENGTHS)
-
-
-def test_an_angle_of_that_name_is_no_wavelength():
-    path = op.Source() >> op.Polarizer(op.Parameter("wavelength")) >> op.Detector()
-    assert path.trace(wavelength=0.3).wavelength is None
-
-
 def test_wavelengths_that_jax_traces_are_those_of_the_run(jax):
     found = jax.jit(lambda w: DIMMED.trace(wavelength=w).wavelength * 2.0)(5e-7)
     np.testing.assert_allclose(found, 1e-6)
@@ -196,6 +160,9 @@ def test_light_is_by_the_wavelength_that_its_spectrum_follows_from():
     assert np.array_equal(path.trace(wavelength=GRID, probe="516 nm").wavelength, 516e-9)
     assert np.array_equal(path.trace(wavelength="516 nm", probe=GRID).wavelength, GRID)
     assert path.bind(probe="516 nm").trace(wavelength=GRID).wavelength == 516e-9
+    dye = op.Material.cauchy([op.Parameter("a"), 0.004], wavelength=5e-7).n
+    light = probed_gold(spectrum=dye).trace(wavelength=GRID, a=1.5)
+    assert np.array_equal(light.wavelength, GRID)
 
 
 def test_light_is_by_no_wavelength_where_several_are_in_doubt():
@@ -208,9 +175,3 @@ def test_light_is_by_no_wavelength_where_several_are_in_doubt():
     known = light.at_wavelengths(GRID).integrate().intensity
     between = (light.intensity[1:] + light.intensity[:-1]) / 2.0
     assert known == pytest.approx(np.sum(between * np.diff(1e9 * GRID)))
-
-
-def test_a_spectrum_at_a_known_wavelength_leaves_the_wavelength_to_others():
-    dye = op.Material.cauchy([op.Parameter("a"), 0.004], wavelength=5e-7).n
-    light = probed_gold(spectrum=dye).trace(wavelength=GRID, a=1.5)
-    assert np.array_equal(light.wavelength, GRID)

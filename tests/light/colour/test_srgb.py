@@ -45,27 +45,31 @@ def test_bradford_adaptation_is_that_of_colour_science(asked):
     np.testing.assert_allclose(found, asked["adapted"], rtol=1e-6)
 
 
-def test_white_of_d65_is_white():
+def test_white_of_d65_of_lamps_and_of_displays_is_white():
     assert under(D65, 1.0).to_srgb(white=D65).hex == "#ffffff"
-
-
-def test_paper_in_the_light_of_a_lamp_is_white_where_that_is_adapted_to():
     paper = under(A, 0.5)
     assert paper.to_srgb(white=A, adapt=True).hex == "#bcbcbc"
     red, green, blue = paper.to_srgb(white=A).values
     assert red > green > blue
-
-
-def test_the_white_of_the_display_stays_as_it_is():
     np.testing.assert_allclose(adapted(DISPLAY_WHITE, DISPLAY_WHITE), DISPLAY_WHITE, rtol=1e-15)
 
 
-def test_colours_out_of_gamut_are_refused_with_how_many_and_how_far():
+def test_all_that_is_wrong_with_a_colour_is_told_at_once():
     lights = light_of([0.2 * np.ones(81), 40.0 * peak(520.0, 5.0)]).reshape(2, 81)
     with pytest.raises(
         op.ValueFault, match=r"1 of 2 colours are out of the gamut of sRGB, by up to \d\.\d+ of its"
     ):
         lights.to_srgb(white=light_of(np.ones(81)))
+    with pytest.raises(op.ValueFault, match="relative to what is white; write white="):
+        light_of(np.ones(81)).to_srgb()
+    with pytest.raises(op.ValueFault) as caught:
+        light_of(np.ones(81)).to_srgb(adapt="yes", out_of_gamut="clipped")
+    assert len(caught.value.faults) == 3
+    colour = under(D65, 0.5).to_srgb(white=D65)
+    with pytest.raises(AttributeError, match="cannot change"):
+        colour.values = 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        colour.values[0] = 0.0
 
 
 @rows("way", ["clip", "scale"])
@@ -77,7 +81,7 @@ def test_colours_are_brought_into_the_gamut_where_that_is_asked_for(way):
     assert np.array_equal(colours.outside, colours.beyond > 0.5 / 255)
 
 
-def test_scaled_colours_keep_their_luminance_where_none_is_too_bright():
+def test_what_is_done_with_colours_out_of_gamut_leaves_those_within():
     light = 0.05 * under(D65, peak(500.0, 20.0))
     colour = light.to_srgb(white=D65, out_of_gamut="scale")
     within = np.where(
@@ -86,17 +90,11 @@ def test_scaled_colours_keep_their_luminance_where_none_is_too_bright():
     weights = [0.2126, 0.7152, 0.0722]
     assert colour.outside
     np.testing.assert_allclose(within @ weights, colour.linear @ weights, rtol=1e-12)
-
-
-def test_kept_colours_are_what_comes_out():
     light = under(D65, peak(500.0, 20.0))
     colour = light.to_srgb(white=D65, out_of_gamut="keep")
     assert colour.values.min() < 0.0
     expected = times(FROM_XYZ, light.to_xyz(white=D65))
     np.testing.assert_array_equal(colour.linear, expected)
-
-
-def test_colours_in_gamut_are_one_whatever_is_done_with_others():
     light = under(D65, 0.3 + 0.1 * peak(600.0, 80.0))
     ways = [
         light.to_srgb(white=D65, out_of_gamut=way).values
@@ -104,25 +102,6 @@ def test_colours_in_gamut_are_one_whatever_is_done_with_others():
     ]
     for found in ways[1:]:
         np.testing.assert_allclose(found, ways[0], rtol=1e-14)
-
-
-def test_a_colour_without_white_is_refused():
-    with pytest.raises(op.ValueFault, match="relative to what is white; write white="):
-        light_of(np.ones(81)).to_srgb()
-
-
-def test_all_that_is_wrong_is_told_at_once():
-    with pytest.raises(op.ValueFault) as caught:
-        light_of(np.ones(81)).to_srgb(adapt="yes", out_of_gamut="clipped")
-    assert len(caught.value.faults) == 3
-
-
-def test_colours_cannot_be_changed():
-    colour = under(D65, 0.5).to_srgb(white=D65)
-    with pytest.raises(AttributeError, match="cannot change"):
-        colour.values = 0.0
-    with pytest.raises(ValueError, match="read-only"):
-        colour.values[0] = 0.0
 
 
 def test_slopes_of_colours_are_finite_where_they_are_dark_or_out_of_gamut(jax):

@@ -57,19 +57,18 @@ def test_illuminants_have_their_published_white_points(illuminant, white_point, 
     np.testing.assert_allclose(chromaticity(light.to_xyz()), white_point, rtol=0, atol=5e-5)
 
 
-def test_white_has_y_1_and_half_of_it_y_half():
+def test_y_is_that_of_white_and_of_lumens():
     path = op.Source(0.5, spectrum=D65) >> op.Detector()
     light = path.trace(wavelength=VISIBLE)
     assert light.to_xyz(white=D65)[1] == 0.5
     assert (light * 2.0).to_xyz(white=light)[1] == 2.0
-
-
-def test_y_of_a_line_at_555_nm_is_in_lumens_of_its_watts():
     path = op.Source(3.0, spectrum=op.Spectrum.line("555 nm")) >> op.Detector()
     light = path.trace(wavelength=np.arange(400.0, 800.5, 0.5)[::-1] * NM)
     with pytest.warns(op.ColourWarning, match="from 400 nm to 800 nm"):
         found = light.to_xyz()
     np.testing.assert_allclose(found[1], 3.0 * 683.0, rtol=1e-4)
+    rising = light_of(smooth(VISIBLE / NM), VISIBLE)
+    np.testing.assert_allclose(rising[::-1].to_xyz(), rising.to_xyz(), rtol=1e-14)
 
 
 @rows("step", [0.03, 0.5, 1.7, 4.04, 12.3])
@@ -82,11 +81,6 @@ def test_a_line_keeps_its_power_however_the_grid_lies(step):
     np.testing.assert_allclose(xyz[1], 1.0, atol=2e-4 + 2e-4 * step**2)
 
 
-def test_falling_wavelengths_are_the_same_colour():
-    rising = light_of(smooth(VISIBLE / NM), VISIBLE)
-    np.testing.assert_allclose(rising[::-1].to_xyz(), rising.to_xyz(), rtol=1e-14)
-
-
 def test_a_colour_is_the_same_alone_and_in_a_batch_to_the_last_bit():
     values = smooth(VISIBLE / NM)[:, None, None] * np.linspace(0.1, 3.0, 35).reshape(5, 7)
     lights = light_of(values, VISIBLE[:, None, None])
@@ -96,13 +90,10 @@ def test_a_colour_is_the_same_alone_and_in_a_batch_to_the_last_bit():
         assert np.array_equal(alone.to_xyz(white=D65), lights.to_xyz(white=D65)[place])
 
 
-def test_light_too_faint_for_floats_has_a_colour_beside_white_as_faint():
+def test_white_may_be_faint_or_light_of_the_path_without_the_sample():
     light = light_of(smooth(VISIBLE / NM), VISIBLE)
     faint = light_of(smooth(VISIBLE / NM), VISIBLE, exponent=-5000)
     np.testing.assert_allclose(faint.to_xyz(white=faint), light.to_xyz(white=light), rtol=1e-14)
-
-
-def test_white_may_be_light_of_the_path_without_the_sample():
     filtered = op.Source(spectrum=D65) >> op.Attenuator(0.3) >> op.Detector()
     lamp = op.Source(spectrum=D65) >> op.Detector()
     light, white = (path.trace(wavelength=VISIBLE) for path in (filtered, lamp))
@@ -113,20 +104,14 @@ def test_white_may_be_light_of_the_path_without_the_sample():
     )
 
 
-def test_wavelengths_that_leave_out_what_is_seen_are_told():
+def test_wavelengths_that_leave_out_what_is_seen_are_told_at_the_line_that_asks():
     light = light_of(np.ones(61), np.linspace(400.0, 700.0, 61) * NM)
     with pytest.warns(op.ColourWarning, match="known from 400 nm to 700 nm, and taken for dark"):
         light.to_xyz()
     light.to_xyz(outside="nearest")
-
-
-def test_wavelengths_far_apart_are_told():
     light = light_of(np.ones(11), np.linspace(380.0, 780.0, 11) * NM)
     with pytest.warns(op.ColourWarning, match="wavelengths are 40 nm apart"):
         light.to_xyz()
-
-
-def test_warnings_are_of_the_line_that_asks():
     light = light_of(np.ones(11), np.linspace(380.0, 780.0, 11) * NM)
     for asked in (light.to_xyz, lambda: light.to_srgb(D65, out_of_gamut="keep")):
         with pytest.warns(op.ColourWarning) as caught:
@@ -149,18 +134,12 @@ def test_what_is_no_white_or_observer_is_refused(given, sentence):
         light_of(np.ones(81), VISIBLE).to_xyz(**given)
 
 
-def test_white_of_another_batch_is_refused():
+def test_light_that_has_no_colour_is_refused():
     lights, whites = (light_of(np.ones((81, n)), VISIBLE[:, None]) for n in (3, 2))
     with pytest.raises(op.ShapeError, match=r"light \(3,\), white \(2,\)"):
         lights.to_xyz(white=whites)
-
-
-def test_light_of_one_wavelength_has_no_colour():
     with pytest.raises(op.LightError, match="light of one wavelength, 500 nm, has no spectrum"):
         light_of(1.0, 5e-7).to_xyz()
-
-
-def test_infrared_light_has_no_colour():
     light = light_of(np.ones(3), np.array([900.0, 910.0, 920.0]) * NM)
     with pytest.raises(op.LightError, match=r"light of 900 nm \.\. 920 nm is not seen"):
         light.to_xyz()

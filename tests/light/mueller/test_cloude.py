@@ -35,10 +35,6 @@ def test_the_coherency_is_the_mean_of_the_products_of_pauli_components():
     np.testing.assert_array_equal(found, found.conj().T)
 
 
-def test_an_ideal_depolariser_is_all_jones_matrices_alike():
-    np.testing.assert_allclose(op.Mueller(np.diag([1.0, 0, 0, 0])).cloude_eigenvalues, 0.25)
-
-
 @rows(
     "matrix",
     [
@@ -53,28 +49,23 @@ def test_what_cannot_exist_is_told(matrix):
     assert not op.Mueller(matrix).is_physical()
 
 
-def test_no_size_hides_what_cannot_exist():
+def test_elements_and_darkness_are_physical_and_no_size_hides_what_cannot_exist():
     for scale in (1.7e308, 1.0, 1e-310):
         unlike = op.Mueller(scale * (np.diag([1.0, 1.0, 1.0, -1.0]) + np.eye(4, k=1)))
         assert not unlike.is_physical(), scale
         assert op.Mueller(scale * np.eye(4)).is_physical(), scale
-
-
-def test_elements_are_physical_and_so_is_darkness():
     for element in (op.Polarizer(0.3), op.Retarder(1.0, 0.2), op.Interface(0.6 + 2.1j, 0.8)):
         assert element.mueller().is_physical()
     assert op.Mueller(np.zeros((4, 4))).is_physical(tolerance=0.0)
+    np.testing.assert_allclose(op.Mueller(np.diag([1.0, 0, 0, 0])).cloude_eigenvalues, 0.25)
 
 
-def test_the_tolerance_is_against_the_largest_eigenvalue():
+def test_the_tolerance_is_against_the_largest_eigenvalue_by_default_of_the_precision():
     slightly = op.Mueller(1e-100 * np.diag([1.0, 1.0, 1.0, 1.0 - 4e-6]))
     slightly_not = op.Mueller(1e-100 * np.diag([1.0, 1.0, 1.0, 1.0 + 4e-6]))
     assert slightly.is_physical(tolerance=1e-5)
     assert slightly_not.is_physical(tolerance=1.1e-6)
     assert not slightly_not.is_physical(tolerance=0.9e-6)
-
-
-def test_the_default_tolerance_is_that_of_the_precision():
     T = jones(np.random.default_rng(9), 300)
     single = of_jones(T).astype(np.float32)
     assert op.Mueller(single).is_physical().all()
@@ -108,14 +99,11 @@ def test_no_physical_matrix_is_nearer_than_the_nearest(seed, power):
     assert np.linalg.norm(between - noisy.matrix / 10.0**power) >= distance - 1e-12
 
 
-def test_what_is_physical_is_its_own_nearest_and_keeps_its_frames():
+def test_what_is_physical_is_its_own_nearest_and_what_is_not_known_stays_so():
     metal = op.Interface(0.6 + 2.1j, 0.8).mueller()
     nearest = metal.nearest_physical()
     np.testing.assert_allclose(nearest.matrix, metal.matrix, rtol=0, atol=1e-15)
     assert (nearest.frame_in, nearest.frame_out) == (metal.frame_in, metal.frame_out)
-
-
-def test_what_is_not_known_stays_so_beside_what_is():
     matrices = np.stack([np.eye(4), np.eye(4), np.eye(4)])
     matrices[1, 3], matrices[2, 0, 0] = np.nan, np.inf
     mixed = op.Mueller(matrices)

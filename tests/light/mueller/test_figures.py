@@ -73,22 +73,16 @@ def test_psi_and_delta_are_those_of_the_ratio_of_amplitudes(m, incidence, scale)
     np.testing.assert_allclose(np.exp(1j * sample.delta), rho / abs(rho), rtol=0, atol=1e-12)
 
 
-def test_delta_falls_from_half_a_turn_to_none_at_a_bare_metal():
+def test_delta_of_metals_and_glass_is_that_of_the_textbook():
     incidence = np.linspace(0.0, np.pi / 2 - 1e-9, 200)
     delta = op.Interface(0.6 + 2.1j, incidence).mueller().delta
     assert delta[0] == np.pi
     assert (np.diff(delta) < 0.0).all()
     assert 0.0 <= delta[-1] < 1e-6
-
-
-def test_delta_jumps_at_brewsters_angle_of_glass():
     brewster = np.arctan(1.5)
     sample = op.Interface(1.5, brewster + np.array([-0.1, 0.1])).mueller()
     np.testing.assert_array_equal(sample.delta, [np.pi, 0.0])
     assert op.Interface(1.5, brewster).mueller().psi == pytest.approx(0.0, abs=1e-15)
-
-
-def test_a_sample_and_the_diagonal_light_it_met_agree():
     sample = op.Interface(0.6 + 2.1j, np.linspace(0.0, 1.5, 7)).mueller()
     light = sample @ op.Light([1.0, 0.0, 1.0, 0.0])
     np.testing.assert_allclose(light.psi, sample.psi, rtol=1e-14)
@@ -102,21 +96,11 @@ def test_no_matrix_has_none_of_it(name):
         np.testing.assert_equal(getattr(op.Mueller(matrix), name), none)
 
 
-def test_a_depolariser_and_a_polariser_have_no_delta():
+def test_what_has_no_delta_or_is_not_read_is_not_known():
     assert np.isnan(op.Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).psi)
     assert np.isnan(op.Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).delta)
     assert np.isnan(op.Polarizer(0.0).mueller().delta)
     assert op.Polarizer(0.0).mueller().psi == 0.0
-
-
-@rows("name", SCALARS + VECTORS)
-def test_each_figure_has_the_shape_of_the_batch(name):
-    tail = (3,) if name in VECTORS else ()
-    for batch in ((), (5,), (2, 1, 0)):
-        assert getattr(op.Mueller(np.ones((*batch, 4, 4))), name).shape == (*batch, *tail)
-
-
-def test_what_is_not_read_is_not_known_and_all_else_is():
     matrix = np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
     whole = op.Mueller(matrix.copy())
     matrix[3] = np.nan
@@ -126,6 +110,13 @@ def test_what_is_not_read_is_not_known_and_all_else_is():
     assert np.isnan(read.polarizance)
     assert np.isnan(read.depolarization_index)
     np.testing.assert_array_equal(np.isnan(read.polarizance_vector), [False, False, True])
+
+
+@rows("name", SCALARS + VECTORS)
+def test_each_figure_has_the_shape_of_the_batch(name):
+    tail = (3,) if name in VECTORS else ()
+    for batch in ((), (5,), (2, 1, 0)):
+        assert getattr(op.Mueller(np.ones((*batch, 4, 4))), name).shape == (*batch, *tail)
 
 
 def test_jax_gives_what_numpy_gives_and_finite_slopes():

@@ -27,23 +27,17 @@ def path():
     )
 
 
-def test_light_behind_a_product_of_crossed_polarisers_is_dark_as_it_is_one_by_one():
+def test_crossed_polarisers_leave_no_light_and_no_figures_but_rounding():
     second, first = crossed()
     for light in (second @ first @ WHITE, second @ (first @ WHITE)):
         assert np.all(light.intensity <= light.noise)
         for figure in ("dop", "aop", "psi", "delta", "ellipticity"):
             assert np.isnan(getattr(light, figure)).all(), figure
-
-
-def test_a_product_of_crossed_polarisers_has_no_figures_but_rounding():
     second, first = crossed()
     dark = (second @ first).matrix[..., 0, 0] == 0.0
     for figure in FIGURES:
         found = getattr(second @ first, figure)
         assert np.isnan(found[~dark]).all(), figure
-
-
-def test_retarders_before_and_behind_do_not_make_rounding_a_state():
     second, first = crossed()
     plate = op.Retarder(0.3, 1.1).mueller()
     assert np.isnan((plate @ second @ first @ plate @ WHITE).dop).all()
@@ -62,6 +56,11 @@ def test_the_matrix_of_a_path_knows_its_rounding():
         assert matrix.matrix[0, 0] == 0.0 or np.isnan(matrix.diattenuation)
     batch = crossed_path.mueller(a=ANGLES, b=ANGLES + np.pi / 2)
     assert np.isnan((batch @ WHITE).dop).all()
+    matrix = path().mueller(angle=0.2, second=1.0)
+    second, first = crossed()
+    for kept in (matrix, second @ first):
+        again = pickle.loads(pickle.dumps(kept))
+        np.testing.assert_array_equal(again.noise, kept.noise)
 
 
 def test_what_is_let_through_keeps_its_figures():
@@ -73,11 +72,3 @@ def test_what_is_let_through_keeps_its_figures():
     weak = filters @ filters @ op.Polarizer(0.3).mueller()
     np.testing.assert_allclose((weak @ WHITE).aop, 0.3, rtol=1e-12)
     np.testing.assert_allclose(weak.diattenuation, 1.0, rtol=1e-12)
-
-
-def test_the_noise_is_kept_when_a_matrix_is_pickled():
-    matrix = path().mueller(angle=0.2, second=1.0)
-    second, first = crossed()
-    for kept in (matrix, second @ first):
-        again = pickle.loads(pickle.dumps(kept))
-        np.testing.assert_array_equal(again.noise, kept.noise)

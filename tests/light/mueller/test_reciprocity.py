@@ -28,30 +28,21 @@ def test_the_jones_matrix_of_what_is_reciprocal_is_transposed_in_space():
         np.testing.assert_allclose(back, mueller_of_jones(over @ jones.T @ over), atol=2e-15)
 
 
-def test_a_batch_is_reversed_matrix_by_matrix():
+def test_products_and_batches_are_reversed_matrix_by_matrix():
     matrices = np.random.default_rng(1).normal(size=(3, 2, 4, 4))
     found = op.Mueller(matrices).reversed().matrix
     expected = [[Q @ matrix.T @ Q for matrix in row] for row in matrices]
     np.testing.assert_array_equal(found, expected)
-
-
-def test_back_and_forth_is_the_same_matrix_between_the_same_frames():
     there = op.Interface(0.2 + 3j, 1.0, azimuth=0.3).mueller()
     assert there.reversed().reversed() == there
-
-
-def test_the_frames_are_those_of_light_that_goes_back():
-    there = op.Mueller(np.eye(4), op.Frame().turned(0.2), op.Frame().turned(-0.4))
-    back = there.reversed()
-    assert back.frame_in == op.Frame().turned(-0.4).reversed()
-    assert back.frame_out == op.Frame().turned(0.2).reversed()
-
-
-def test_a_product_is_reversed_factor_by_factor():
     first = op.Mueller(op.Retarder(1.0, 0.3).mueller().matrix, frame_out=op.Frame().turned(0.7))
     second = op.Polarizer(0.2, leakage=0.3).mueller()
     both, apart = (second @ first).reversed(), first.reversed() @ second.reversed()
     np.testing.assert_allclose(both.matrix, apart.matrix, atol=1e-15)
+    there = op.Mueller(np.eye(4), op.Frame().turned(0.2), op.Frame().turned(-0.4))
+    back = there.reversed()
+    assert back.frame_in == op.Frame().turned(-0.4).reversed()
+    assert back.frame_out == op.Frame().turned(0.2).reversed()
 
 
 @rows("angle", [0.0, 0.3, -1.2])
@@ -61,19 +52,13 @@ def test_a_turn_between_frames_has_the_same_numbers_on_the_way_back(angle):
     np.testing.assert_allclose(behind.reversed().turn_to(before.reversed()), there, atol=1e-15)
 
 
-def test_what_is_noise_stays_noise():
+def test_noise_precision_slopes_and_pickles_go_through():
     crossed = op.Polarizer("90 deg").mueller() @ op.Polarizer(0.0).mueller()
     assert crossed.noise > crossed.matrix[0, 0]
     assert crossed.reversed().noise == crossed.noise
-
-
-def test_single_precision_stays_and_no_zero_is_negative():
     back = op.Mueller(np.eye(4, dtype=np.float32)).reversed()
     assert back.matrix.dtype == np.float32
     assert not np.signbit(back.matrix).any()
-
-
-def test_a_reversed_matrix_is_pickled():
     back = op.Retarder(1.0, 0.3).mueller().reversed()
     assert pickle.loads(pickle.dumps(back)) == back
 
