@@ -273,15 +273,12 @@ def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque(jax):
                 np.testing.assert_allclose(found[:, place], expected, rtol=0, atol=1e-12 * scale)
 
 
-def test_a_thick_pile_of_30_layers_composes():
+def test_a_thick_pile_of_30_layers_composes_and_goes_into_a_file_and_back():
     pile = op.LayerStack(
         [1.0, *[1.5 + 1e-6j, 1.0] * 14, 1.5 + 1e-6j, 1.0], 0.9, lengths=[1e-3] * 29, **WAVE
     )
     out = sum(pile.mueller("in", leaves).matrix[0, 0] for leaves in pile.outputs)
     assert out + pile.absorbed().sum() == pytest.approx(1.0, abs=1e-14)
-
-
-def test_a_stack_with_lengths_goes_into_a_file_and_back():
     path = path_of()
     assert 'lengths = ["$d"]' in path.to_toml()
     given = {"m": 1.5 + 1e-5j, "theta": 0.3, "d": "2 mm", "wavelength": "550 nm"}
@@ -310,13 +307,11 @@ def test_what_is_missing_or_does_not_fit_is_told(given, message):
         op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 0.5, **given)
 
 
-def test_a_parameter_that_turns_out_to_absorb_needs_lengths_too():
+def test_layers_that_must_absorb_all_or_have_a_length_are_told():
     path = op.Source() >> op.LayerStack([1.0, op.Parameter("n"), 1.0], 0.5) >> op.Detector()
     with pytest.raises(op.OptipathError, match=r"give the stack the lengths .* and the wavelength"):
         path.trace(n=1.5 + 1e-6j)
 
-
-def test_a_layer_behind_total_reflection_must_be_opaque():
     # Light would gain by the interference that intensities leave out.
     def stack(length):
         return op.LayerStack([1.5, 1.2 + 1e-3j, 1.5], 1.2, lengths=[length], wavelength=500e-9)
@@ -404,24 +399,6 @@ def test_a_layer_that_is_too_thin_is_told_once_with_its_parameters():
     assert str(told.value).count("light would gain") == str(told.value).count(words) == 1
 
 
-def test_what_is_absorbed_is_asked_with_words():
-    stack = op.LayerStack([1.0, op.Parameter("m"), 1.0], 0.5, **OF_PANE)
-    with pytest.raises(op.PathError, match="parameter 'm' of layer-stack has no value yet"):
-        stack.absorbed()
-    known = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 0.5, **OF_PANE)
-    with pytest.raises(op.PathError, match=r"no in-port .reflected.; light arrives at .in."):
-        known.absorbed(enters="reflected")
-    with pytest.raises(op.OptipathError, match="polarised by 200 %"):
-        known.absorbed([1, 2, 0, 0])
-
-
-def test_lights_that_do_not_fit_to_the_incidences_are_told():
-    stack = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], [0.1, 0.2], **OF_PANE)
-    with pytest.raises(op.ShapeError, match=r"layer-stack \(2,\), the light \(3,\)"):
-        stack.absorbed(np.ones((3, 4)) * [1, 0, 0, 0])
-    assert stack.absorbed(np.ones((3, 1, 4)) * [1, 0, 0, 0]).shape == (3, 2, 1)
-
-
 @rows("indices", [[1, op.FOLLOWS, 1.5], [1, (1.5, 1e-6), 1], op.Parameter("d"), [1.5]])
 def test_what_is_wrong_with_indices_is_all_that_is_told(indices):
     with pytest.raises(op.ValueFault) as told:
@@ -430,10 +407,22 @@ def test_what_is_wrong_with_indices_is_all_that_is_told(indices):
     assert "lengths has" not in str(told.value)
 
 
-def test_what_is_absorbed_is_that_of_light_in_its_own_frame():
+def test_what_is_absorbed_is_that_of_light_in_its_own_frame_and_asked_with_words():
     stack = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 1.0, **OF_PANE)
     turned = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 1.0, "90 deg", **OF_PANE)
     np.testing.assert_allclose(stack.absorbed([1, 1, 0, 0]), turned.absorbed([1, -1, 0, 0]))
     several = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], [0.1, 0.2], **OF_PANE)
     assert several.absorbed().shape == (2, 1)
     assert np.isnan(several.absorbed([0, 0, 0, 0])).all()
+    stack = op.LayerStack([1.0, op.Parameter("m"), 1.0], 0.5, **OF_PANE)
+    with pytest.raises(op.PathError, match="parameter 'm' of layer-stack has no value yet"):
+        stack.absorbed()
+    known = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 0.5, **OF_PANE)
+    with pytest.raises(op.PathError, match=r"no in-port .reflected.; light arrives at .in."):
+        known.absorbed(enters="reflected")
+    with pytest.raises(op.OptipathError, match="polarised by 200 %"):
+        known.absorbed([1, 2, 0, 0])
+    stack = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], [0.1, 0.2], **OF_PANE)
+    with pytest.raises(op.ShapeError, match=r"layer-stack \(2,\), the light \(3,\)"):
+        stack.absorbed(np.ones((3, 4)) * [1, 0, 0, 0])
+    assert stack.absorbed(np.ones((3, 1, 4)) * [1, 0, 0, 0]).shape == (3, 2, 1)

@@ -58,11 +58,20 @@ def test_a_value_that_cannot_be_is_refused_where_it_is_written(make, sentence):
         make()
 
 
-def test_all_faults_of_an_element_are_told_at_once():
+def test_all_faults_of_an_element_and_of_its_copies_are_told_at_once():
     with pytest.raises(op.ValueFault) as error:
         op.Polarizer("up", transmittance=1.5, leakage=-1.0)
     fields = ("Polarizer angle", "Polarizer transmittance", "Polarizer leakage")
     assert [fault.startswith(f) for fault, f in zip(error.value.faults, fields, strict=True)]
+    polarizer = op.Polarizer(0.3)
+    with pytest.raises(op.ValueFault, match="Polarizer leakage is 2"):
+        dataclasses.replace(polarizer, leakage=2)
+    assert copy.deepcopy(polarizer) == pickle.loads(pickle.dumps(polarizer)) == polarizer
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("grey", op.Attenuator(op.Parameter("t")))
+    path["grey"] >> path.add("eye", op.Detector())
+    with pytest.raises(op.ParameterError, match=r"^parameter 't' \(at grey.transmittance\) is 50"):
+        path.bind(t=50)
 
 
 def test_an_element_of_ones_own_is_checked_by_its_class_name():
@@ -77,21 +86,6 @@ def test_an_element_of_ones_own_is_checked_by_its_class_name():
     with pytest.raises(op.ValueFault, match=r"^Foil share is 30; .* did you mean 0\.3"):
         Foil(30)
     assert Foil("0.3") == Foil(0.3)
-
-
-def test_a_copy_with_another_value_is_checked_as_well():
-    polarizer = op.Polarizer(0.3)
-    with pytest.raises(op.ValueFault, match="Polarizer leakage is 2"):
-        dataclasses.replace(polarizer, leakage=2)
-    assert copy.deepcopy(polarizer) == pickle.loads(pickle.dumps(polarizer)) == polarizer
-
-
-def test_a_bound_value_is_named_by_its_parameter():
-    path = op.PathGraph()
-    path.add("lamp", op.Source()) >> path.add("grey", op.Attenuator(op.Parameter("t")))
-    path["grey"] >> path.add("eye", op.Detector())
-    with pytest.raises(op.ParameterError, match=r"^parameter 't' \(at grey.transmittance\) is 50"):
-        path.bind(t=50)
 
 
 def test_a_file_tells_all_faults_at_once_by_the_names_of_its_nodes(tmp_path):
@@ -155,7 +149,7 @@ def test_what_may_mean_two_things_is_asked(make, sentence):
         make()
 
 
-def test_a_pair_that_is_given_for_an_index_is_asked_about_as_well():
+def test_pairs_and_intensities_that_may_be_something_else_are_asked_about():
     path = op.load_preset("npgr026")
     slab = op.Interface(op.Parameter("m", 1.5), 0.1)
     one = op.PathGraph()
@@ -170,6 +164,22 @@ def test_a_pair_that_is_given_for_an_index_is_asked_about_as_well():
         np.testing.assert_array_equal(given.stokes, one.trace(m=0.2 + 3.4j).stokes)
     # Beside a k of its own, n is but one number.
     assert path.trace(n1=(1.5, 1.6)).stokes.shape == path.trace(n1=[1.5, 1.6]).stokes.shape
+    path = op.Source(op.Parameter("i", 1.0)) >> op.Detector()
+    polarised = op.Source(op.Parameter("i", 1.0), stokes=[1, 1, 0, 0]) >> op.Detector()
+    for give in (path.trace, path.bind, path.with_defaults):
+        with pytest.raises(op.ParameterError, match=r"four paths; give stokes=.1, 1, 0, 0") as told:
+            give(i=(1, 1, 0, 0))
+        assert len(told.value.faults) == 1
+    with pytest.raises(op.ParameterError, match="may be a state"):
+        op.load_preset("npgr026", case=8).trace(intensity=[1, 1, 0, 0])
+    for given in (path.trace(i=np.array([1, 1, 0, 0])), path.trace(i=[1, 2, 3, 4])):
+        assert given.shape == (4,)
+    # Beside a state, they are none.
+    assert polarised.trace(i=[1, 1, 0, 0]).shape == (4,)
+    assert op.Interface([1.5, 1.6, 1.7], 0.1).index.shape == (3,)
+    assert op.Interface(np.array([0.2, 3.4]), 0.1).index.shape == (2,)
+    assert op.Source([1.0, 2.0, 3.0, 4.0]).intensity.shape == (4,)
+    assert op.Source(np.array([1.0, 0.0, 0.0, 0.0])).intensity.shape == (4,)
 
 
 def test_a_material_is_understood_wherever_an_index_is():
@@ -207,21 +217,6 @@ def test_a_material_is_understood_wherever_an_index_is():
 def test_what_cannot_stand_in_an_element_is_told_where_it_can(make, sentence):
     with pytest.raises(op.OptipathError, match=sentence):
         make()
-
-
-def test_four_intensities_that_may_be_a_state_are_asked_about_as_well():
-    path = op.Source(op.Parameter("i", 1.0)) >> op.Detector()
-    polarised = op.Source(op.Parameter("i", 1.0), stokes=[1, 1, 0, 0]) >> op.Detector()
-    for give in (path.trace, path.bind, path.with_defaults):
-        with pytest.raises(op.ParameterError, match=r"four paths; give stokes=.1, 1, 0, 0") as told:
-            give(i=(1, 1, 0, 0))
-        assert len(told.value.faults) == 1
-    with pytest.raises(op.ParameterError, match="may be a state"):
-        op.load_preset("npgr026", case=8).trace(intensity=[1, 1, 0, 0])
-    for given in (path.trace(i=np.array([1, 1, 0, 0])), path.trace(i=[1, 2, 3, 4])):
-        assert given.shape == (4,)
-    # Beside a state, they are none.
-    assert polarised.trace(i=[1, 1, 0, 0]).shape == (4,)
 
 
 LAMP_AND_MIRROR = """
@@ -282,13 +277,6 @@ def test_four_intensities_go_to_a_file_and_back(tmp_path, intensity):
     assert op.load_preset(file) == path
     case = {"case": "four"} if path.cases else {}
     np.testing.assert_array_equal(op.load_preset(file, **case).trace().S0, FOUR)
-
-
-def test_several_paths_are_given_by_arrays_and_lists():
-    assert op.Interface([1.5, 1.6, 1.7], 0.1).index.shape == (3,)
-    assert op.Interface(np.array([0.2, 3.4]), 0.1).index.shape == (2,)
-    assert op.Source([1.0, 2.0, 3.0, 4.0]).intensity.shape == (4,)
-    assert op.Source(np.array([1.0, 0.0, 0.0, 0.0])).intensity.shape == (4,)
 
 
 def test_the_vertices_of_a_chain_are_looked_at_once(monkeypatch):

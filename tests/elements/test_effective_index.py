@@ -55,20 +55,14 @@ def test_the_invariants_of_ketteler_hold(n, k, angle, n1):
     assert abs(at.n * at.k * np.cos(refracted) - n * k) <= 1e-13 * (size + at.n * at.k)
 
 
-def test_at_normal_incidence_it_is_the_index_itself():
+def test_waves_are_plain_at_normal_incidence_and_creep_behind_total_reflection():
     n, k = op.effective_index(np.array([1.5, 0.608 + 2.12j, 0.05 + 12j]), 0.0)
     np.testing.assert_allclose(n, [1.5, 0.608, 0.05], rtol=1e-15)
     np.testing.assert_allclose(k, [0.0, 2.12, 12.0], rtol=1e-15)
-
-
-def test_behind_total_reflection_the_wave_goes_along_the_face_and_fades():
     n, k = op.effective_index(1.0, "60 deg", outside=1.5)
     y = 1.5 * math.sin(math.pi / 3)
     assert n == pytest.approx(y, rel=1e-15)
     assert k == pytest.approx(math.sqrt(y * y - 1.0), rel=1e-14)
-
-
-def test_between_parallel_faces_an_absorbing_medium_hands_on_what_it_got():
     first = op.refraction_angle(1.5 + 0.4j, 0.7)
     straight = op.effective_index(0.6 + 2.1j, 0.7)
     through = op.effective_index(0.6 + 2.1j, first, outside=1.5 + 0.4j)

@@ -42,11 +42,28 @@ def traced(element, stokes, **values):
     return path.trace(**values).stokes
 
 
-def test_an_element_of_ones_own_equals_the_librarys_half_wave_plate():
+def test_an_element_of_ones_own_is_one_of_the_library_in_light_files_and_kinds(tmp_path):
     angle, stokes = np.linspace(0, 1, 7), [1.0, 0.6, 0.3, 0.2]
     own = traced(HalfWavePlate(angle=op.Parameter("a")), stokes, a=angle)
     library = traced(op.Retarder(np.pi, angle=op.Parameter("a")), stokes, a=angle)
     np.testing.assert_allclose(own, library, rtol=0, atol=1e-15)
+    path = op.PathGraph("own")
+    (
+        path.add("lamp", op.Source())
+        >> path.add("plate", HalfWavePlate(0.25))
+        >> path.add("eye", op.Detector())
+    )
+    file = tmp_path / "own.toml"
+    file.write_text(path.to_toml(), "utf-8")
+    assert op.load_preset(file) == path
+    with pytest.raises(op.PathError, match="'polarizer' is taken"):
+
+        class Other(op.Element, kind="polarizer"):
+            pass
+
+    dim = traced(Coating(1.5, dimming=0.25), [1.0, 0, 0, 0])
+    bright = traced(Coating(1.5, dimming=1.0), [1.0, 0, 0, 0])
+    np.testing.assert_allclose(dim, 0.25 * bright)
 
 
 class Nothing(op.Element):
@@ -90,24 +107,6 @@ def test_what_an_element_cannot_do_is_refused(act, fault, sentence):
         act()
 
 
-def test_an_element_of_ones_own_goes_to_toml_and_back(tmp_path):
-    path = op.PathGraph("own")
-    (
-        path.add("lamp", op.Source())
-        >> path.add("plate", HalfWavePlate(0.25))
-        >> path.add("eye", op.Detector())
-    )
-    file = tmp_path / "own.toml"
-    file.write_text(path.to_toml(), "utf-8")
-    assert op.load_preset(file) == path
-
-
-def test_couplings_can_put_kernels_of_the_library_in_a_row():
-    dim = traced(Coating(1.5, dimming=0.25), [1.0, 0, 0, 0])
-    bright = traced(Coating(1.5, dimming=1.0), [1.0, 0, 0, 0])
-    np.testing.assert_allclose(dim, 0.25 * bright)
-
-
 def test_an_azimuth_of_ones_own_element_turns_its_frame():
     class Turnable(op.Element):
         axis: op.Angle = 0.0
@@ -129,56 +128,30 @@ def test_an_azimuth_of_ones_own_element_turns_its_frame():
     )
 
 
-def test_two_classes_cannot_share_a_kind():
-    with pytest.raises(op.PathError, match="'polarizer' is taken"):
-
-        class Other(op.Element, kind="polarizer"):
-            pass
-
-
-def test_an_element_does_not_change_when_its_array_does():
+def test_elements_are_equal_by_their_values_which_do_not_change():
     angles = np.zeros(3)
     polarizer = op.Polarizer(angles)
     angles[:] = 1.0
     assert np.array_equal(polarizer.angle, np.zeros(3))
     with pytest.raises(ValueError, match="read-only"):
         polarizer.angle[0] = 1.0
-
-
-def test_elements_are_equal_by_their_values():
     assert op.Polarizer([0.0, 1.0]) == op.Polarizer(np.array([0.0, 1.0]))
     assert op.Polarizer(0.1) != op.Polarizer(0.2)
     assert op.Polarizer(0.1) != op.Rotator(0.1)
-
-
-def test_one_frame_will_do_where_light_goes_straight_through():
-    frame = op.Frame().turned(0.5)
-    light = op.Attenuator(1.0).mueller(frame_in=frame) @ op.Light([1.0, 1.0, 0, 0])
-    assert light.frame == frame
-    np.testing.assert_allclose(light.in_frame(op.Frame()).stokes, [1, 1, 0, 0], rtol=0, atol=1e-15)
-
-
-def test_a_bound_parameter_is_a_value():
     bound = op.Polarizer(op.Parameter("a", 0.3, bound=True)).mueller()
     assert bound == op.Polarizer(0.3).mueller()
 
 
-def test_a_mueller_element_does_what_its_matrix_says():
+def test_matrices_and_states_may_be_batches():
     matrix = np.arange(16.0).reshape(4, 4)
     np.testing.assert_array_equal(
         traced(op.MuellerElement(matrix, physical=False), [1.0, 0.5, 0.25, 0.0]),
         matrix @ [1.0, 0.5, 0.25, 0.0],
     )
-
-
-def test_a_batch_of_matrices_gives_a_batch_of_lights():
     batch = np.random.default_rng(1).normal(size=(5, 4, 4))
     element = op.MuellerElement(op.Parameter("M"), physical=False)
     path_light = traced(element, [1.0, 0.5, 0.25, 0.0], M=batch)
     np.testing.assert_allclose(path_light, batch @ [1.0, 0.5, 0.25, 0.0], rtol=0, atol=1e-15)
-
-
-def test_a_batch_of_stokes_states_gives_a_batch_of_lights():
     states = np.array([[1.0, 1.0, 0, 0], [2.0, 0, 0, 1.0], [0, 0, 0, 0]])
     lights = traced(op.Attenuator(0.5), op.Parameter("state"), state=states)
     np.testing.assert_allclose(lights, 0.5 * states)
@@ -242,6 +215,10 @@ def test_an_azimuth_turns_the_frames_of_the_matrix():
     assert (aside.mueller().frame_in, aside.mueller().frame_out) == (turned, op.Frame())
     assert aside.mueller("back", "reflected").frame_in == op.Frame()
     assert splitter.mueller("in", "transmitted").frame_out == turned
+    frame = op.Frame().turned(0.5)
+    light = op.Attenuator(1.0).mueller(frame_in=frame) @ op.Light([1.0, 1.0, 0, 0])
+    assert light.frame == frame
+    np.testing.assert_allclose(light.in_frame(op.Frame()).stokes, [1, 1, 0, 0], rtol=0, atol=1e-15)
 
 
 @rows("port", ["frame_in", "frame_out"])
@@ -268,11 +245,20 @@ def test_elements_are_chained_whatever_else_of_the_library_is_imported():
 A, B, C = (op.Parameter(name) for name in "abc")
 
 
-def test_slopes_of_a_faraday_rotator_are_those_of_the_product(jax):
+def test_slopes_of_elements_are_those_of_closed_forms(jax):
     path = chain([op.FaradayRotator(verdet=A, field=B, length=C)], (1.0, 1.0, 0.0, 0.0))
     slope = jax.grad(lambda v: path.trace(a=v[0], b=v[1], c=v[2]).S2)(np.array([-134.0, 0.1, 0.02]))
     expected = 2 * np.cos(2 * -134.0 * 0.1 * 0.02) * np.array([0.002, -134.0 * 0.02, -13.4])
     np.testing.assert_allclose(slope, expected, rtol=1e-14)
+    path = chain([op.CircularPolarizer("right", A, B)], (1.0, 0.3, 0.0, 0.5))
+    slope = jax.jacobian(lambda v: path.trace(a=v[0], b=v[1]).stokes)(np.array([1.0, 0.0]))
+    np.testing.assert_allclose(slope[0], [0.75, 0.25], rtol=0, atol=1e-15)
+    assert np.isfinite(slope).all()
+    # With an ideal reflection Ts is 1 / t, and Tp is 1: C is t^(-1/2).
+    slope = of_a_cube(jax, "transmitted")(np.array([10.0, 1e30]))[:, 0]
+    across = -0.5 * 10.0**-1.5
+    expected = [-0.65 / 100, -0.65 / 100, across * 0.5, across * 0.6]
+    np.testing.assert_allclose(slope, expected, rtol=1e-13)
 
 
 @rows("order", [0.0, 0.25, 0.5, 10.25, 2000.37])
@@ -291,13 +277,6 @@ def test_slopes_of_a_plate_are_those_of_its_retardance(jax, order):
     np.testing.assert_allclose(slope / scale, expected / scale, rtol=1e-12, atol=1e-15)
 
 
-def test_slopes_of_a_circular_polariser_are_finite_where_nothing_leaks(jax):
-    path = chain([op.CircularPolarizer("right", A, B)], (1.0, 0.3, 0.0, 0.5))
-    slope = jax.jacobian(lambda v: path.trace(a=v[0], b=v[1]).stokes)(np.array([1.0, 0.0]))
-    np.testing.assert_allclose(slope[0], [0.75, 0.25], rtol=0, atol=1e-15)
-    assert np.isfinite(slope).all()
-
-
 def of_a_cube(jax, port):
     path = op.PathGraph()
     path.add("lamp", op.Source(stokes=(1.0, 0.3, 0.5, 0.6)))
@@ -311,11 +290,3 @@ def of_a_cube(jax, port):
 @rows("ratios", [(1.000001, 1.000001), (1e30, 1e30), (2.0, 1e6)])
 def test_slopes_of_a_polarising_splitter_are_finite_at_every_ratio(jax, port, ratios):
     assert np.isfinite(of_a_cube(jax, port)(np.array(ratios))).all()
-
-
-def test_slopes_of_a_polarising_splitter_are_those_of_its_transmittances(jax):
-    # With an ideal reflection Ts is 1 / t, and Tp is 1: C is t^(-1/2).
-    slope = of_a_cube(jax, "transmitted")(np.array([10.0, 1e30]))[:, 0]
-    across = -0.5 * 10.0**-1.5
-    expected = [-0.65 / 100, -0.65 / 100, across * 0.5, across * 0.6]
-    np.testing.assert_allclose(slope, expected, rtol=1e-13)

@@ -142,16 +142,13 @@ def test_powers_and_phases_follow_from_amplitudes(n, k, angle):
         np.testing.assert_allclose(both, C + 1j * S, rtol=1e-9, atol=1e-9)
 
 
-def test_r_p_is_minus_r_s_at_normal_incidence_and_both_are_minus_1_at_grazing():
+def test_amplitudes_at_the_ends_of_all_angles_and_of_equal_media_are_those_of_the_books():
     indices = np.array([1.5, 0.6, 0.608 + 2.12j])
     normal, grazing = (op.fresnel_amplitudes(indices, *angle) for angle in ((1, 0), (0, 1)))
     assert np.array_equal(normal.r_p, -normal.r_s)
     assert np.array_equal(normal.t_p, normal.t_s)
     np.testing.assert_allclose([grazing.r_s, grazing.r_p], -1.0, rtol=1e-15)
     assert not np.any([grazing.t_s, grazing.t_p])
-
-
-def test_all_is_reflected_beyond_the_critical_angle_and_fields_stand_behind():
     r_s, r_p, t_s, t_p = op.fresnel_amplitudes(1.0, 0.6, 0.8, outside=1.5)
     assert abs(r_s) == pytest.approx(1.0, rel=1e-15) == abs(r_p)
     # Fresnel's rhomb: tan(delta / 2) = cos sqrt(sin^2 - 1/n^2) / sin^2 (Born & Wolf, 1.5.4).
@@ -159,9 +156,6 @@ def test_all_is_reflected_beyond_the_critical_angle_and_fields_stand_behind():
     assert abs(math.tan(delta / 2)) == pytest.approx(0.6 * math.sqrt(0.64 - 1 / 2.25) / 0.64)
     assert t_s == pytest.approx(1.0 + r_s)
     assert abs(t_p) > 1.0
-
-
-def test_equal_media_are_no_boundary():
     for angle in ((1.0, 0.0), (0.8, 0.6), (0.0, 1.0)):
         found = op.fresnel_amplitudes(1.5, *angle, outside=1.5)
         np.testing.assert_allclose(found, (0.0, 0.0, 1.0, 1.0), rtol=4e-16)

@@ -215,20 +215,14 @@ def test_a_turned_medium_is_the_same_in_its_own_frame(turn):
     np.testing.assert_allclose(turned.trace().stokes, whole.trace().stokes, rtol=0, atol=1e-15)
 
 
-def test_light_along_the_dichroic_axis_and_across_it_is_absorbed_as_the_docstring_says():
+def test_light_is_absorbed_along_the_axes_that_the_docstring_says():
     for stokes, absorption in ([1, -1, 0, 0], 1.0), ([1, 1, 0, 0], 5.0):
         light = chain([op.Medium(0.5, 3.0, dichroism=2.0, dichroic_angle="90 deg")], stokes).trace()
         assert light.intensity == pytest.approx(np.exp(-0.5 * absorption), rel=1e-15)
-
-
-def test_light_of_positive_s3_is_absorbed_less_by_a_positive_circular_dichroism():
     for s3, absorption in (1.0, 1.0), (-1.0, 5.0):
         light = chain([op.Medium(0.5, 3.0, circular_dichroism=2.0)], [1.0, 0.0, 0.0, s3]).trace()
         assert light.intensity == pytest.approx(np.exp(-0.5 * absorption), rel=1e-15)
         assert s3 * light.S0 == light.S3
-
-
-def test_a_sheet_that_dims_one_axis_to_nothing_keeps_the_digits_of_what_is_left():
     path = chain([op.Medium(1.0, 100.0, dichroism=100.0), op.Polarizer("vertical")], [1, -1, 0, 0])
     assert path.trace().intensity == pytest.approx(np.exp(-200.0), rel=1e-13)
     circular = chain([op.Medium(1.0, 100.0, circular_dichroism=100.0)], [1, 0, 0, -1])
@@ -277,14 +271,11 @@ def test_a_dichroism_beyond_the_absorption_is_refused_and_the_cure_works(absorpt
     op.Medium(1.0, "0.01 1/cm", dichroism=0.6, circular_dichroism=0.8)
 
 
-def test_a_dichroism_beyond_the_absorption_is_refused_when_it_is_given():
+def test_too_much_dichroism_is_refused_and_the_cure_works():
     path = chain([op.Medium(1.0, op.Parameter("a"), dichroism=op.Parameter("d"))], STATE)
     path.trace(a=1.0, d=[0.5, 1.0])
     with pytest.raises(op.ParameterError, match=r"parameter 'd'.*\(at 1, of 2 paths\)"):
         path.trace(a=1.0, d=[0.5, 1.5])
-
-
-def test_too_much_beside_a_depolarization_is_refused_and_the_cure_works():
     rates = {"dichroism": 100.0, "retardance": 120.0, "depolarization": 10.0}
     with pytest.raises(op.ValueFault, match="put several Media of a part of the length"):
         op.Medium(1.0, 100.0, **rates)

@@ -65,27 +65,21 @@ def test_light_from_behind_is_that_of_the_stack_turned_round(turned):
         np.testing.assert_allclose([float(part) for part in found], expected, rtol=0, atol=4e-15)
 
 
-def test_two_media_are_an_interface():
+def test_a_stack_of_two_media_is_an_interface_and_one_like_its_neighbour_nothing():
     stack, interface = op.LayerStack([1.2, 0.6 + 2j], 0.8), op.Interface(0.6 + 2j, 0.8, 1.2)
     for leaves in ("reflected", "transmitted"):
         found, expected = (e.mueller("in", leaves).matrix for e in (stack, interface))
         np.testing.assert_allclose(found, expected, rtol=1e-15, atol=2e-16)
-
-
-def test_a_layer_like_its_neighbour_changes_nothing():
     plain, twice = op.LayerStack([1.0, 1.5, 1.0], 0.8), op.LayerStack([1.0, 1.5, 1.5, 1.0], 0.8)
     np.testing.assert_allclose(
         twice.mueller().matrix, plain.mueller().matrix, rtol=1e-15, atol=2e-16
     )
 
 
-def test_beyond_the_critical_angle_nothing_passes_a_gap():
+def test_energy_is_kept_from_either_side_and_none_passes_a_gap_beyond_the_critical_angle(rng):
     gap = op.LayerStack([1.5, 1.0, 1.5], incidence=1.0)
     assert gap.mueller("in", "reflected").matrix[0, 0] == 1.0
     assert not gap.mueller("in", "transmitted").matrix.any()
-
-
-def test_energy_is_kept_from_either_side(rng):
     stack = op.LayerStack(rng.uniform(1.0, 2.5, 12).tolist(), np.linspace(0, 1.57, 50))
     for enters in ("in", "back"):
         first = sum(stack.mueller(enters, leaves).matrix[:, 0] for leaves in stack.outputs)
@@ -120,12 +114,9 @@ def test_media_that_make_no_stack_are_refused(indices, message):
         op.LayerStack(indices, 0.5)
 
 
-def test_light_from_behind_refuses_a_substrate_that_absorbs():
+def test_substrates_that_absorb_and_jones_columns_are_refused():
     with pytest.raises(op.PathError, match=r"stack\.indices\[1\] is complex.*by port 'back'"):
         path_of(op.LayerStack([1.0, 0.6 + 2j], 0.5), "back", "reflected").check()
-
-
-def test_jones_columns_cannot_pass_a_stack():
     with pytest.raises(op.ComposerError, match=r"stack\.reflected.*may depolarise"):
         op.Composer(composing="jones").compose(path_of(op.LayerStack([1.0, 1.5, 1.0], 0.5)))
 

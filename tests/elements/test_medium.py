@@ -14,9 +14,6 @@ def test_intensity_decays_by_beer_and_lambert():
     light = chain([op.Medium(lengths, absorption=13.8)], STATE).trace()
     np.testing.assert_allclose(light.intensity, np.exp(-13.8 * lengths), rtol=4e-15)
     np.testing.assert_allclose(light.dop, np.linalg.norm(STATE[1:]), rtol=1e-15)
-
-
-def test_two_stretches_are_one_of_both_lengths():
     both = [op.Medium(0.2, 3.0, rotation=2.0), op.Medium(0.3, 3.0, rotation=2.0)]
     whole = [op.Medium(0.5, 3.0, rotation=2.0)]
     found, wanted = (chain(elements, STATE).trace().stokes for elements in (both, whole))
@@ -96,25 +93,14 @@ def test_a_rotation_by_both_signs_is_refused(rotation, dextrorotation):
         op.Medium(0.1, rotation=rotation, dextrorotation=dextrorotation)
 
 
-def test_a_dextrorotation_may_come_with_an_extinction():
-    medium = op.Medium.from_extinction(0.1, k=1e-7, wavelength=589e-9, dextrorotation=1.0)
-    assert medium == op.Medium(0.1, medium.absorption, dextrorotation=1.0)
-
-
-def test_a_rotation_turns_from_x_towards_y_as_a_rotator_does():
+def test_a_medium_turns_as_a_rotator_and_retards_as_a_plate():
     medium = op.Medium(0.5, rotation=0.6).mueller().matrix
     np.testing.assert_array_equal(medium, op.Rotator(0.3).mueller().matrix)
-
-
-def test_a_retardance_grows_with_the_length_as_in_a_wave_plate():
     # Quartz, 589 nm: a birefringence of 0.00911 makes a quarter wave in 16.16 um.
     per_metre = 2 * np.pi * 0.00911 / 589e-9
     plate = op.Medium(589e-9 / (4 * 0.00911), retardance=per_metre).mueller()
     light = plate @ op.Light([1.0, 0.0, 1.0, 0.0])
     np.testing.assert_allclose(light.stokes, [1, 0, 0, 1], rtol=0, atol=1e-15)
-
-
-def test_the_fast_axis_is_that_of_a_retarder():
     medium = chain([op.Medium(0.5, retardance=1.4, angle=0.3, azimuth=0.2)], STATE)
     plate = chain([op.Retarder(0.7, 0.3, azimuth=0.2)], STATE)
     np.testing.assert_array_equal(medium.trace().stokes, plate.trace().stokes)
@@ -124,14 +110,10 @@ def test_absorption_comes_from_the_extinction_coefficient():
     # One skin depth of the intensity, wavelength / (4 pi k), leaves 1/e.
     medium = op.Medium.from_extinction(500e-9 / (4 * np.pi * 2.12), k=2.12, wavelength=500e-9)
     assert medium.mueller().matrix[0, 0] == pytest.approx(np.exp(-1), rel=1e-15)
-
-
-def test_extinction_coefficients_and_wavelengths_broadcast():
     k, wavelength = np.array([[0.0], [0.1]]), np.array([4e-7, 5e-7, 6e-7])
     assert op.Medium.from_extinction(1e-6, k, wavelength, rotation=0.1).absorption.shape == (2, 3)
-
-
-def test_parameters_cannot_be_an_extinction_coefficient():
+    medium = op.Medium.from_extinction(0.1, k=1e-7, wavelength=589e-9, dextrorotation=1.0)
+    assert medium == op.Medium(0.1, medium.absorption, dextrorotation=1.0)
     with pytest.raises(op.ValueFault) as error:
         op.Medium.from_extinction(1.0, k=op.Parameter("k"), wavelength=0.0)
     assert [fault.split()[0] for fault in error.value.faults] == ["k", "wavelength"]
@@ -156,14 +138,11 @@ def test_parameters_have_the_units_that_are_usual_for_a_medium():
     assert path.parameters["sugar"].unit == "deg/dm"
 
 
-def test_jones_columns_pass():
+def test_a_medium_that_does_nothing_takes_no_step_and_jones_columns_pass():
+    assert len(chain([op.Medium(op.Parameter("l"))]).compose().program.steps) == 1
     path = chain([op.Medium(0.1, 5.0, rotation=2.0), op.Medium(0.1, retardance=3.0)], STATE)
     jones = op.Composer(composing="jones").compose(path).run().stokes
     np.testing.assert_allclose(jones, path.trace().stokes, rtol=0, atol=1e-15)
-
-
-def test_a_medium_that_does_nothing_takes_no_step():
-    assert len(chain([op.Medium(op.Parameter("l"))]).compose().program.steps) == 1
 
 
 @rows("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
@@ -183,9 +162,6 @@ def test_all_faults_are_told_at_once():
     assert "Medium absorption is -0.02 1/cm" in found
     assert "Medium rotation: 'x' is not a quantity; write a number such as '30 deg/mm'" in found
     assert "parameter 'r' is in deg, but Medium retardance takes a real angle per length" in found
-
-
-def test_a_parameter_in_a_unit_of_another_dimension_is_refused():
     with pytest.raises(op.ValueFault, match="is in deg, but Medium length takes a real length"):
         op.Medium(op.Parameter("l", unit="deg"))
 

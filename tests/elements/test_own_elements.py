@@ -127,13 +127,10 @@ def test_complex_numbers_inside_rows_work_for_one_path_as_for_arrays(value, engi
         np.testing.assert_allclose(found, expected, atol=1e-15)
 
 
-def test_every_run_of_complex_rows_gives_the_same():
+def test_matrices_certificates_and_every_run_know_complex_rows():
     path = chain([Phase(op.Parameter("x"))], STATE)
     first, *others = [path.trace(x=0.3).stokes for _ in range(8)]
     np.testing.assert_array_equal(others, [first] * 7)
-
-
-def test_matrices_and_certificates_know_complex_rows():
     path = chain([Phase(op.Parameter("x"))], STATE)
     expected = op.Retarder(0.3).mueller().matrix
     np.testing.assert_allclose(path.mueller(x=0.3).matrix, expected, atol=1e-15)
@@ -260,10 +257,19 @@ def test_an_own_element_that_amplifies_is_found_with_its_first_values(value, eng
             act()
 
 
-def test_the_first_values_are_told_in_the_unit_of_their_parameter():
+def test_first_and_known_values_and_kernels_of_ones_own_are_looked_at():
     plan = op.Composer().compose(chain([Amplifier(op.Parameter("x", unit="deg"))]))
     with pytest.raises(op.ParameterError, match=r"^at x = 22\.5 deg: 'e0'"):
         plan.run(x="22.5 deg")
+    shares = np.full(1000, -0.1)
+    shares[567] = 0.7
+    with pytest.raises(op.PathError, match=r"makes light up to 2\.01375 times as bright"):
+        chain([Growing(shares)]).check()
+    assert chain([OwnKernel(0.5)]).trace().intensity == 0.5
+    with pytest.raises(op.PathError, match=r"class OwnKernel, .* 2 times as bright"):
+        chain([OwnKernel(2.0)]).check()
+    with pytest.raises(op.ParameterError, match=r"at x = 2: .*class OwnKernel.* 2 times as bright"):
+        chain([OwnKernel(op.Parameter("x"))]).trace(x=2.0)
 
 
 @rows("engine", ENGINES)
@@ -274,28 +280,10 @@ def test_the_first_and_the_last_path_of_an_array_are_looked_at(engine):
         plan.run(x=np.linspace(-50.0, 0.1, 1001))
 
 
-def test_every_known_value_of_an_own_element_is_looked_at():
-    shares = np.full(1000, -0.1)
-    shares[567] = 0.7
-    with pytest.raises(op.PathError, match=r"makes light up to 2\.01375 times as bright"):
-        chain([Growing(shares)]).check()
-
-
-def test_a_kernel_of_ones_own_is_looked_at():
-    assert chain([OwnKernel(0.5)]).trace().intensity == 0.5
-    with pytest.raises(op.PathError, match=r"class OwnKernel, .* 2 times as bright"):
-        chain([OwnKernel(2.0)]).check()
-    with pytest.raises(op.ParameterError, match=r"at x = 2: .*class OwnKernel.* 2 times as bright"):
-        chain([OwnKernel(op.Parameter("x"))]).trace(x=2.0)
-
-
-def test_a_class_that_says_physical_is_false_is_taken_as_it_is():
+def test_what_says_it_is_not_physical_is_taken_and_traced_values_are_not_looked_at():
     np.testing.assert_allclose(chain([Measured(0.3)], STATE).trace().stokes, [3.0, 1.5, 1.6, 1.5])
     light = chain([Measured(op.Parameter("x"))], STATE).trace(x=GIVEN[2])
     np.testing.assert_allclose(light.stokes, np.tile([3.0, 1.5, 1.6, 1.5], (3000, 1)))
-
-
-def test_values_that_jax_traces_are_not_looked_at():
     jax = pytest.importorskip("jax")
     plan = op.Composer(dtype="float32").compose(chain([Amplifier(op.Parameter("x"))], STATE))
     found = jax.jit(lambda x: plan.run(x=x).stokes)(0.3)
@@ -348,13 +336,20 @@ class InPlace(op.Element):
         return (1, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
 
 
-def test_arguments_are_the_callers_and_cannot_be_written_into():
+def test_arguments_are_the_callers_and_entries_as_many_as_the_paths():
     path = op.Source(stokes=[1, 1, 0, 0]) >> InPlace(op.Parameter("a")) >> op.Detector()
     angles = np.zeros(100)
     with pytest.raises(op.PathError, match=r"InPlace raises .* a = a \+ 1, in place of a \+= 1"):
         path.trace(a=angles)
     assert not angles.any()
     assert pytest.approx(math.cos(1.0)) == path.trace(a=0.0).S1
+    path = op.Source() >> Longer(op.Parameter("a")) >> op.Detector()
+    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for one path; compute each"):
+        path.trace(a=0.1)
+    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for paths of shape \(5,\)"):
+        path.trace(a=np.zeros(5))
+    with pytest.raises(op.PathError, match="for one path"):
+        Longer().mueller()
 
 
 @rows("engine", ["numpy", "auto"])
@@ -372,16 +367,6 @@ class Longer(op.Element):
     def mueller_rows(xp, angle):
         one = np.ones(3)
         return (1, 0, 0, 0), (0, one, 0, 0), (0, 0, one, 0), (0, 0, 0, one)
-
-
-def test_entries_of_another_length_than_the_paths_are_refused():
-    path = op.Source() >> Longer(op.Parameter("a")) >> op.Detector()
-    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for one path; compute each"):
-        path.trace(a=0.1)
-    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for paths of shape \(5,\)"):
-        path.trace(a=np.zeros(5))
-    with pytest.raises(op.PathError, match="for one path"):
-        Longer().mueller()
 
 
 class Gain(op.Element):

@@ -94,7 +94,7 @@ def test_values_in_the_order_of_the_fields_may_have_any_names(function):
     assert own(0.1, 0.2).mueller().matrix[0, 0] == 0.5
 
 
-def test_a_field_of_true_and_false_is_one_or_zero():
+def test_fields_may_be_true_or_false_and_angles_have_the_name_of_an_axis():
     own = make(
         annotations={"on": bool},
         mueller_rows=staticmethod(lambda _, on: [[on * x for x in row] for row in halves(_)]),
@@ -102,9 +102,6 @@ def test_a_field_of_true_and_false_is_one_or_zero():
     assert [own(on).mueller().matrix[0, 0] for on in (True, False)] == [0.5, 0.0]
     with pytest.raises(op.ValueFault, match="give True or False"):
         own(0.5)
-
-
-def test_an_angle_of_ones_own_may_have_the_name_of_an_axis():
     own = make(
         annotations={"angle": op.Axis},
         mueller_rows=staticmethod(
@@ -184,14 +181,13 @@ def test_what_is_not_so_is_the_same_in_every_run_and_for_many(share, engine):
     np.testing.assert_array_equal(plan.run(a=values).S0, expected)
 
 
-def test_a_kernel_of_ones_own_knows_what_is_not_so():
+def test_kernels_of_ones_own_are_told_where_numbers_lack_what_they_ask():
     kernel = Kernel("edge", SCALE, lambda xp: lambda a: (xp.where(~(a > 1.0), 0.5, 0.2),))
     assert [kernel.made_for(FLOAT)(a) for a in (0.3, 1.3)] == [(0.5,), (0.2,)]
-
-
-def test_the_conjugate_is_told_where_numbers_lack_it():
     with pytest.raises(op.PathError, match=r"'conj'; write z\.conjugate\(\)"):
         plan_of(element(lambda _, a: a * (0.3 + 0.1j).conj().real)).run(a=0.3)
+    with pytest.raises(op.PathError, match=r"the complex entry \[0\]\[0\] = \(0\.3\+5e-08j\)"):
+        plan_of(element(lambda _, a: 0.3 + 1e-7j * a)).run(a=0.5)
 
 
 @rows("rows", [lambda a: a * np.eye(4), lambda a: [a * row for row in np.eye(4)]])
@@ -245,8 +241,3 @@ def test_imaginary_parts_are_dropped_that_are_0_in_the_precision_of_the_values(e
 
     plan = plan_of(element(share), engine, "float32", (1.0, 0.0, 0.0, 0.0))
     np.testing.assert_allclose(plan.run(a=np.linspace(0.0, 3.0, 50)).S0, 0.3, rtol=1e-6)
-
-
-def test_an_imaginary_part_beyond_the_precision_of_the_values_is_told():
-    with pytest.raises(op.PathError, match=r"the complex entry \[0\]\[0\] = \(0\.3\+5e-08j\)"):
-        plan_of(element(lambda _, a: 0.3 + 1e-7j * a)).run(a=0.5)

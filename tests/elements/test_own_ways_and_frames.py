@@ -186,7 +186,7 @@ class Lamp(op.Element):
         return (op.Coupling(None, "out", source.couplings()[0].operations),)
 
 
-def test_own_elements_take_what_elements_of_the_library_take_in_float32():
+def test_own_elements_and_sources_take_what_those_of_the_library_take_in_float32():
     for a, b in np.random.default_rng(6).uniform(0.0, 3.0, (12, 2)):
         matrix = (op.Polarizer(a) @ op.Retarder(b, angle=2.0 * a)).matrix.astype(np.float32)
         op.MuellerElement(matrix)
@@ -194,9 +194,6 @@ def test_own_elements_take_what_elements_of_the_library_take_in_float32():
         chain([AnyMatrix(op.Parameter("m"))]).trace(m=matrix)
         with pytest.raises(op.PathError, match=r"makes light up to .* times as bright"):
             chain([AnyMatrix(2.0 * matrix)]).check()
-
-
-def test_sources_of_ones_own_take_what_a_source_takes_in_float32():
     state = op.Parameter("state")
     for direction in np.random.default_rng(7).normal(size=(12, 3)):
         pure = np.float32([1.0, *direction / np.linalg.norm(direction)])
@@ -219,11 +216,15 @@ class TimesAnything(Times):
     physical = False
 
 
-def test_defaults_of_parameters_are_looked_at_when_a_path_is_checked():
+def test_defaults_and_later_runs_are_looked_at():
     chain([Times(op.Parameter("a", 1.0))]).check()
     told = r"^with the default a = 4: 'e0' \(element class Times\).*2 times .*another default$"
     with pytest.raises(op.PathError, match=told):
         chain([Times(op.Parameter("a", 4.0))]).check()
+    plan = chain([Times(op.Parameter("a"))]).compose()
+    assert plan.run(a=1.0).S0 == 1.0
+    with pytest.raises(op.ParameterError, match="or the rows of 'e0' are not finite there"):
+        plan.run(a=-1.0)
 
 
 @rows("engine", ENGINES)
@@ -245,13 +246,6 @@ def test_rows_that_are_not_finite_are_told_with_their_element(element_class):
     for value in (-1.0, [1.0, -1.0]):
         with pytest.raises(op.ParameterError, match=f"^at a = -1: .*{told}"):
             path.trace(a=value)
-
-
-def test_rows_that_are_not_finite_in_a_later_run_are_a_cause_that_is_named():
-    plan = chain([Times(op.Parameter("a"))]).compose()
-    assert plan.run(a=1.0).S0 == 1.0
-    with pytest.raises(op.ParameterError, match="or the rows of 'e0' are not finite there"):
-        plan.run(a=-1.0)
 
 
 CHAIN = ((0, 0, 0), (0, 0, 3), (0, 2, 4), (1, 3, 5), (2, 0, 0))

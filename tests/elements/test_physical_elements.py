@@ -74,12 +74,7 @@ def test_physical_false_takes_a_matrix_as_it_is(matrix):
         np.testing.assert_allclose(chain([element], state).trace(**given).stokes, matrix @ state)
 
 
-def test_the_cure_that_the_message_names_is_one():
-    nearest = op.Mueller(TURNED_OVER).nearest_physical().matrix / 1.5
-    chain([op.MuellerElement(nearest)]).check()
-
-
-def test_a_measured_state_is_taken_if_asked_but_no_negative_intensity():
+def test_measured_states_and_jones_matrices_are_taken_but_no_negative_intensity():
     measured = [1.0, 0.8, 0.7, 0.1]
     with pytest.raises(op.OptipathError, match="or physical=False for what is measured"):
         chain([], measured).check()
@@ -89,6 +84,12 @@ def test_a_measured_state_is_taken_if_asked_but_no_negative_intensity():
     path = op.Source(1.0, op.Parameter("s"), physical=False) >> op.Detector()
     with pytest.raises(op.OptipathError, match="negative intensity -1"):
         path.trace(s=[-1.0, 0.0, 0.0, 0.0])
+    rng = np.random.default_rng(3)
+    pure, other = passive(rng, 2, 5000)
+    for share in (0.0, 1e-16, 1e-12, 1e-8):
+        chain([op.MuellerElement((1.0 - share) * pure + share * other)]).check()
+    nearest = op.Mueller(TURNED_OVER).nearest_physical().matrix / 1.5
+    chain([op.MuellerElement(nearest)]).check()
 
 
 @pytest.mark.parametrize("physical", [True, False])
@@ -118,13 +119,6 @@ def test_no_sum_of_jones_matrices_is_refused_in_the_precision_it_is_computed_in(
     path.trace(M=matrices)
     for matrix in matrices[:20]:
         path.trace(M=matrix)
-
-
-def test_jones_matrices_that_depolarise_next_to_nothing_are_taken():
-    rng = np.random.default_rng(3)
-    pure, other = passive(rng, 2, 5000)
-    for share in (0.0, 1e-16, 1e-12, 1e-8):
-        chain([op.MuellerElement((1.0 - share) * pure + share * other)]).check()
 
 
 def test_the_quick_answer_is_cloudes_criterion_up_to_its_border():

@@ -38,7 +38,7 @@ def test_a_diattenuator_and_a_polariser_that_leaks_are_chipmans(named):
     np.testing.assert_allclose(found, chipman(0.9, 0.05, 0.3) @ seen, rtol=0, atol=4e-16)
 
 
-def test_a_diattenuator_passes_light_by_its_principal_transmittances():
+def test_a_diattenuator_passes_light_by_its_principal_transmittances_along_the_axis_of_the_first():
     path = chain([op.Diattenuator(0.8, 0.3, angle=0.4)], op.Parameter("state"))
     along, across = ([1.0, s * np.cos(0.8), s * np.sin(0.8), 0.0] for s in (1, -1))
     found = path.trace(state=[along, across]).intensity
@@ -48,9 +48,6 @@ def test_a_diattenuator_passes_light_by_its_principal_transmittances():
     assert light.dop == pytest.approx(0.6, abs=1e-15)
     # By default it is an ideal polarizer along x.
     np.testing.assert_array_equal(op.Diattenuator().mueller().matrix, chipman(1.0, 0.0, 0.0))
-
-
-def test_the_axis_is_that_of_the_first_transmittance_though_it_be_the_lesser():
     swapped = op.Diattenuator(0.2, 0.7).mueller().matrix
     turned = op.Diattenuator(0.7, 0.2, angle=np.pi / 2).mueller().matrix
     np.testing.assert_allclose(swapped, turned, rtol=1e-15, atol=1e-16)
@@ -137,13 +134,10 @@ def test_an_ideal_circular_polariser_is_exact_and_of_the_handedness_that_light_s
     np.testing.assert_array_equal((op.CircularDiattenuator() @ left).stokes, 0.0)
 
 
-def test_a_turn_of_the_light_before_it_is_the_turn_behind_it():
+def test_circular_light_does_not_know_a_turn_but_a_laminated_sheet_does():
     pair = [op.Rotator(0.4), op.CircularPolarizer("left", 0.9, 0.2)]
     before, behind = (chain(two, STATE).trace().stokes for two in (pair, pair[::-1]))
     np.testing.assert_allclose(before, behind, rtol=0, atol=3e-16)
-
-
-def test_a_laminated_sheet_is_another_thing():
     sheet = [op.Polarizer(0.0), op.Retarder(np.pi / 2, np.pi / 4)]
     light = chain(sheet, (1.0, 0.0, 0.0, -1.0)).trace()
     np.testing.assert_allclose(light.stokes, [0.5, 0.0, 0.0, -0.5], rtol=0, atol=1e-16)

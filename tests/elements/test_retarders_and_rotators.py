@@ -48,20 +48,23 @@ def test_cosine_and_sine_of_a_thick_plate_have_all_digits(engine, turns):
     np.testing.assert_allclose(found[:, 2], -exact[:, 1], rtol=0, atol=5e-16)
 
 
-def test_one_plate_has_the_digits_of_many():
+def test_one_plate_has_the_digits_of_many_and_of_its_retardance():
     given = plates(2, 40, 5e3)
     path = chain([op.Waveplate(D, N, W, 0.2, 0.1)], STATE)
     several = path.trace(**dict(zip("dnw", given, strict=True))).stokes
     for place, one in enumerate(zip(*given, strict=True)):
         alone = path.trace(**dict(zip("dnw", map(float, one), strict=True))).stokes
         np.testing.assert_allclose(alone, several[place], rtol=0, atol=4e-16)
-
-
-def test_a_plate_is_the_retarder_of_its_retardance():
     plate = op.Waveplate(2e-5, 0.0091, 5.89e-7, 0.3, 0.2)
     retarder = op.Retarder(2 * np.pi * 2e-5 * 0.0091 / 5.89e-7, 0.3, 0.2)
     found, wanted = (chain([element], STATE).trace().stokes for element in (plate, retarder))
     np.testing.assert_allclose(found, wanted, rtol=0, atol=6e-16)
+    given = [np.float32(part) for part in plates(4, 2000, 2.0)]
+    path = chain([op.Waveplate(D, N, W)], STATE)
+    names = dict(zip("dnw", given, strict=True))
+    found = op.Composer(dtype="float32").compose(path).run(**names).stokes
+    exact = path.trace(**{name: part.astype(float) for name, part in names.items()}).stokes
+    np.testing.assert_allclose(found, exact, rtol=0, atol=4e-6)
 
 
 def test_plates_of_quarter_half_and_no_wave_are_exact():
@@ -88,15 +91,6 @@ def test_no_light_becomes_more_polarised_than_wholly():
     path = chain([op.Waveplate(D, N, W, 0.3)], (1.0, 0.6, 0.0, 0.8))
     light = path.trace(**dict(zip("dnw", given, strict=True)))
     assert np.max(np.linalg.norm(light.stokes[:, 1:], axis=-1)) <= 1.0 + 1e-15
-
-
-def test_in_single_precision_it_has_the_digits_of_its_numbers():
-    given = [np.float32(part) for part in plates(4, 2000, 2.0)]
-    path = chain([op.Waveplate(D, N, W)], STATE)
-    names = dict(zip("dnw", given, strict=True))
-    found = op.Composer(dtype="float32").compose(path).run(**names).stokes
-    exact = path.trace(**{name: part.astype(float) for name, part in names.items()}).stokes
-    np.testing.assert_allclose(found, exact, rtol=0, atol=4e-6)
 
 
 @rows(
@@ -273,7 +267,7 @@ def test_three_numbers_of_the_first_component_are_asked_about(vector):
         path.trace(v=vector)
 
 
-def test_what_can_be_of_several_retarders_alone_is_not_asked_about():
+def test_what_can_be_of_several_retarders_alone_is_not_asked_about_and_read_back(tmp_path):
     several = [0.1, 0.2, 0.3]
     wanted = chain([op.EllipticalRetarder(np.array(several), 0.2)], STATE).trace().stokes
     path = chain([op.EllipticalRetarder(op.Parameter("v"), 0.2)], STATE)
@@ -287,9 +281,6 @@ def test_what_can_be_of_several_retarders_alone_is_not_asked_about():
     op.EllipticalRetarder(several[:2])
     path = chain([op.EllipticalRetarder(op.Parameter("v"))], STATE)
     assert path.trace(v=np.array(several)).shape == (3,)
-
-
-def test_retarders_of_three_paths_are_read_back(tmp_path):
     path = chain([op.EllipticalRetarder(np.array([0.1, 0.2, 0.3]))], STATE)
     (tmp_path / "three.toml").write_text(path.to_toml())
     again = op.load_preset(tmp_path / "three.toml")

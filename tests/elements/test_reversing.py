@@ -129,30 +129,21 @@ def test_parameters_change_their_sign_and_no_more():
     plate = op.Retarder(op.Parameter("r"), 2 * angle + "10 deg").reversed()
     assert plate.angle == -2 * angle - "10 deg"
     assert plate.retardance == op.Retarder(op.Parameter("r")).retardance
-
-
-def test_faradays_rotation_changes_its_sign_and_natural_rotation_does_not():
-    assert op.FaradayRotator(0.3).reversed() == op.FaradayRotator(-0.3)
-    glass = op.FaradayRotator(verdet=5.0, field=2.0, length=0.1)
-    assert glass.reversed() == op.FaradayRotator(verdet=5.0, field=-2.0, length=0.1)
-    assert op.Rotator(0.3).reversed() == op.Rotator(0.3)
-
-
-def test_a_matrix_does_not_know_of_a_magnetic_field():
-    rotator = op.FaradayRotator(0.3)
-    difference = rotator.mueller().reversed().matrix - rotator.reversed().mueller().matrix
-    assert abs(difference).max() == pytest.approx(2.0 * np.sin(0.6))
-
-
-def test_angles_beyond_a_turn_are_warned_of_once():
+    interface = op.Interface(1.5, 0.3)
+    assert interface.reversed() is interface
     with pytest.warns(op.AngleWarning):
         plate = op.Polarizer(45)
     assert plate.reversed().angle == -45.0
 
 
-def test_what_needs_no_other_values_is_itself():
-    interface = op.Interface(1.5, 0.3)
-    assert interface.reversed() is interface
+def test_faradays_rotation_changes_its_sign_of_which_a_matrix_does_not_know():
+    assert op.FaradayRotator(0.3).reversed() == op.FaradayRotator(-0.3)
+    glass = op.FaradayRotator(verdet=5.0, field=2.0, length=0.1)
+    assert glass.reversed() == op.FaradayRotator(verdet=5.0, field=-2.0, length=0.1)
+    assert op.Rotator(0.3).reversed() == op.Rotator(0.3)
+    rotator = op.FaradayRotator(0.3)
+    difference = rotator.mueller().reversed().matrix - rotator.reversed().mueller().matrix
+    assert abs(difference).max() == pytest.approx(2.0 * np.sin(0.6))
 
 
 REFUSED = [
@@ -246,13 +237,10 @@ def test_a_class_of_ones_own_that_says_nothing_is_refused(element):
         element.reversed()
 
 
-def test_an_azimuth_of_ones_own_element_is_left_to_the_path():
+def test_values_and_azimuths_of_ones_own_that_have_no_way_back_are_refused():
     assert Turned(0.3).reversed().angle == -0.3
     with pytest.raises(op.PathError, match="has an azimuth, which belongs to the link"):
         Turned(0.3, 0.1).reversed()
-
-
-def test_a_value_that_may_have_no_other_sign_is_refused():
     with pytest.raises(op.PathError, match=r"on the way back, Share.share is -0.3; give"):
         Share().reversed()
 

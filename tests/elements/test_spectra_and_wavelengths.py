@@ -104,24 +104,20 @@ def test_what_is_no_grid_for_a_line_is_refused(wavelength, sentence):
         seen(LASER).trace(wavelength=wavelength)
 
 
-def test_a_line_may_be_left_out_where_that_is_said():
+def test_a_line_may_be_left_out_or_wait_for_its_grid():
     dark = seen(op.Spectrum.line("633 nm", outside=0.0)).trace(wavelength=GRID[:4])
     np.testing.assert_array_equal(dark.intensity, 0.0)
-
-
-def test_a_line_waits_for_its_grid_where_the_wavelength_has_a_default():
     wavelength = op.Wavelength(default="500 nm")
     path = op.Source(spectrum=LASER.at(wavelength)) >> op.Detector()
     assert path.trace(wavelength=GRID).intensity[6] == pytest.approx(2.0 / 40.0, rel=1e-14)
     with pytest.raises(op.ParameterError, match="one wavelength alone"):
         path.trace()
-
-
-def test_a_wavelength_may_be_bound():
     path, other = seen(SMOOTH[0] + LASER, LED), seen(SMOOTH[0], LED)
     bound = path.bind(wavelength=GRID)
     np.testing.assert_array_equal(bound.trace().stokes, path.trace(wavelength=GRID).stokes)
     assert other.bind(wavelength=5e-7).trace() == other.trace(wavelength=5e-7)
+    with pytest.raises(op.ValueFault, match="is the class Parameter, and none of its kind"):
+        op.Attenuator(op.Parameter)
 
 
 def test_beyond_a_spectrum_is_an_error_that_names_the_place():
@@ -198,11 +194,6 @@ def test_elements_say_their_spectrum_in_words():
 def test_what_is_no_spectrum_is_told_with_the_one_that_was_meant(spectrum, sentence):
     with pytest.raises(op.OptipathError, match=sentence):
         op.Source(spectrum=spectrum)
-
-
-def test_a_class_is_no_number():
-    with pytest.raises(op.ValueFault, match="is the class Parameter, and none of its kind"):
-        op.Attenuator(op.Parameter)
 
 
 POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2]])

@@ -49,7 +49,7 @@ def test_every_method_is_there_for_vertices(method):
     )
 
 
-def test_a_polarizer_before_a_vertex_stands_in_its_frame_of_incidence():
+def test_light_behind_filters_is_told_in_the_frame_of_the_vertex():
     path = path_of(
         ("lamp", op.Source()),
         ("filter", op.Polarizer(angle=0.3)),
@@ -64,13 +64,17 @@ def test_a_polarizer_before_a_vertex_stands_in_its_frame_of_incidence():
     )
     np.testing.assert_allclose(path.trace().stokes, expected.trace().stokes, rtol=1e-15, atol=1e-16)
     np.testing.assert_array_equal(path.mueller().frame_in.x, [-1, 0, 0])
-
-
-def test_light_behind_an_analyzer_is_told_in_the_frame_of_the_vertex_before_it():
     vertex = op.SpecularVertex(1.5, CORNER, place=1)
     nodes = [("lamp", op.Source()), ("vertex", vertex)]
     straight = path_of(*nodes, ("analyzer", op.Polarizer(0.2)), ("eye", op.Detector()))
     np.testing.assert_array_equal(straight.trace().frame.z, [0, 1, 0])
+    path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=0.4)))
+    lights = path.trace(keep="all")
+    np.testing.assert_allclose(
+        lights["analyzer.out -> eye.in"].frame.x, own.turned(0.4).x, rtol=0, atol=1e-15
+    )
+    arriving = op.SpecularVertex(1.5, CORNER, place=1).own_frame("in").frame({})
+    np.testing.assert_array_equal(lights["lamp.out -> vertex.in"].frame.x, arriving.x)
 
 
 TURNS = [0.4, np.array([0.1, -0.4, 2.0]), op.Parameter("turn", 0.4), -op.Parameter("turn", 0.4)]
@@ -129,7 +133,7 @@ def test_the_turn_of_a_frame_is_the_one_that_a_run_was_given():
     np.testing.assert_allclose(bound.frame.x, own.turned(0.7).x, rtol=0, atol=1e-15)
 
 
-def test_light_straight_through_a_beam_splitter_keeps_the_frame_of_the_vertex():
+def test_light_keeps_the_frame_of_the_vertex_through_a_splitter_unless_it_may_come_from_behind():
     splitter = ("splitter", op.BeamSplitter(azimuth=0.2))
     path, own = behind_a_vertex(splitter, azimuth=0.3)
     np.testing.assert_allclose(path.trace().frame.x, own.turned(0.5).x, rtol=0, atol=1e-15)
@@ -138,9 +142,6 @@ def test_light_straight_through_a_beam_splitter_keeps_the_frame_of_the_vertex():
     lights = path.compose().run_all()
     np.testing.assert_allclose(lights["eye"].frame.x, own.turned(0.5).x, rtol=0, atol=1e-15)
     assert lights["side"].frame == op.Frame(), "where it goes is not known"
-
-
-def test_light_that_may_come_from_behind_a_beam_splitter_has_no_frame_of_a_vertex():
     path, _ = behind_a_vertex(("splitter", op.BeamSplitter()))
     path.add("other", op.Source())
     path.connect("other.out", "splitter.back")
@@ -162,16 +163,6 @@ def test_light_before_a_vertex_is_told_in_the_frame_that_its_turns_lead_from(tur
     frame = (path.bind(turn=0.4) if path.parameters else path).mueller().frame_in
     own = vertex.own_frame("in").frame({})
     np.testing.assert_allclose(frame.turned(angle_of(turn) + 0.5).x, own.x, rtol=0, atol=1e-15)
-
-
-def test_light_that_is_kept_on_its_way_has_the_frame_of_the_vertex():
-    path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=0.4)))
-    lights = path.trace(keep="all")
-    np.testing.assert_allclose(
-        lights["analyzer.out -> eye.in"].frame.x, own.turned(0.4).x, rtol=0, atol=1e-15
-    )
-    arriving = op.SpecularVertex(1.5, CORNER, place=1).own_frame("in").frame({})
-    np.testing.assert_array_equal(lights["lamp.out -> vertex.in"].frame.x, arriving.x)
 
 
 def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
@@ -253,16 +244,13 @@ def test_vertices_that_do_not_follow_each_other_are_refused(elements, sentence):
         path.check()
 
 
-def test_an_azimuth_between_vertices_is_refused():
+def test_what_cannot_stand_between_vertices_is_refused():
     path = path_of(("lamp", op.Source()), ("a", op.SpecularVertex(1.5, TWICE, 1)), links=False)
     path.add("b", op.SpecularVertex(1.5, TWICE, 2)) >> path.add("eye", op.Detector())
     path["lamp"] >> path["a"]
     path.connect("a.reflected", "b.in", azimuth=0.1)
     with pytest.raises(op.PathError, match="by its vertices and by an azimuth"):
         path.check()
-
-
-def test_lights_of_several_vertices_do_not_meet():
     path = path_of(("lamp", op.Source()), ("a", op.SpecularVertex(1.5, CORNER, 1)))
     path["lamp"] >> path.add("b", op.SpecularVertex(1.5, CORNER, 1))
     eye = path.add("eye", op.Detector())
@@ -270,6 +258,16 @@ def test_lights_of_several_vertices_do_not_meet():
     path["b"] >> eye
     with pytest.raises(op.PathError, match="several lights meet at 'eye' in frames of vertices"):
         path.check()
+    path = op.path_from_vertices(INTO_GLASS, [op.Parameter("n")], events="T")
+    with pytest.raises(op.ParameterError, match="light goes on in"):
+        path.trace(n=1.5 + 0.1j)
+    masked = op.Vertex(1.5, CORNER, 1, events=[3], bad="mask")
+    path = op.PathGraph()
+    node = path.add("light", op.Source()) >> path.add("vertex", masked)
+    node >> path.add("eye", op.Detector())
+    assert np.all(np.isnan(path.trace().stokes))
+    with pytest.raises(op.ValueFault, match="there is no such chain, says the event at 'Vertex'"):
+        op.Vertex(1.5, CORNER, 1, events=[3])
 
 
 @rows("method", ["stable", "compensated", "amplitude", "textbook"])
@@ -328,12 +326,6 @@ def test_what_is_no_such_vertex_is_refused(arguments, others, message):
     assert len(error.value.faults) == 1
 
 
-def test_an_absorbing_medium_given_when_the_path_runs_is_refused():
-    path = op.path_from_vertices(INTO_GLASS, [op.Parameter("n")], events="T")
-    with pytest.raises(op.ParameterError, match="light goes on in"):
-        path.trace(n=1.5 + 0.1j)
-
-
 def test_a_chain_that_refracts_is_explained_and_drawn():
     path = op.path_from_vertices(INTO_GLASS, [1.5], events="T")
     assert "Fresnel transmission (stable, lossless)" in path.compose().explain()
@@ -369,16 +361,6 @@ def test_behind_the_end_of_a_chain_light_is_exactly_as_it_was():
     np.testing.assert_array_equal(ended.mueller().matrix, np.eye(4))
     before = op.RefractingVertex(1.5, BEND, 1)
     assert ended.mueller().frame_out == before.mueller().frame_out
-
-
-def test_a_chain_that_cannot_be_has_no_matrix():
-    masked = op.Vertex(1.5, CORNER, 1, events=[3], bad="mask")
-    path = op.PathGraph()
-    node = path.add("light", op.Source()) >> path.add("vertex", masked)
-    node >> path.add("eye", op.Detector())
-    assert np.all(np.isnan(path.trace().stokes))
-    with pytest.raises(op.ValueFault, match="there is no such chain, says the event at 'Vertex'"):
-        op.Vertex(1.5, CORNER, 1, events=[3])
 
 
 @rows(

@@ -30,9 +30,21 @@ def test_the_middle_leg_lies_along_the_worlds_z():
     np.testing.assert_array_equal(points[1:3], [[0, 0, 0], [0, 0, 1]])
 
 
-def test_angles_given_as_arrays_broadcast():
+def test_angles_broadcast_are_bound_and_go_to_files(tmp_path):
     points = op.vertices_from_angles([np.zeros((4, 1)), np.ones(3)], [0.5])
     assert points.shape == (4, 3, 4, 3)
+    chain = op.VerticesByAngles((op.Parameter("phi"), 0.4), (op.Parameter("turn"),))
+    path = op.path_from_vertices(chain, [1.5, 1.5])
+    assert path.parameters["phi"].unit == "deg"
+    light, expected = path.bind(phi=0.3, turn=1.0).trace(), path.trace(phi=0.3, turn=1.0)
+    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-15, atol=1e-16)
+    assert light.frame == expected.frame
+    chain = op.VerticesByAngles((op.Parameter("phi", 0.5), 0.25), (-op.Parameter("rho", 0.125),))
+    path = op.path_from_vertices(chain, [1.5, 1.12 + 2.16j])
+    file = tmp_path / "chain.toml"
+    file.write_text(path.to_toml(), "utf-8")
+    assert op.load_preset(file) == path
+    assert 'turns = ["-$rho"]' in path.to_toml()
 
 
 @rows("engine", ENGINES)
@@ -48,24 +60,6 @@ def test_a_chain_by_angles_is_the_chain_of_its_points(engine):
     expected = op.path_from_vertices(points, [1.5, 1.12 + 2.16j]).trace()
     np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-11, atol=1e-15)
     np.testing.assert_allclose(light.frame.x, expected.frame.x, rtol=0, atol=1e-13)
-
-
-def test_angles_can_be_bound_for_good():
-    chain = op.VerticesByAngles((op.Parameter("phi"), 0.4), (op.Parameter("turn"),))
-    path = op.path_from_vertices(chain, [1.5, 1.5])
-    assert path.parameters["phi"].unit == "deg"
-    light, expected = path.bind(phi=0.3, turn=1.0).trace(), path.trace(phi=0.3, turn=1.0)
-    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-15, atol=1e-16)
-    assert light.frame == expected.frame
-
-
-def test_angles_go_to_toml_and_back(tmp_path):
-    chain = op.VerticesByAngles((op.Parameter("phi", 0.5), 0.25), (-op.Parameter("rho", 0.125),))
-    path = op.path_from_vertices(chain, [1.5, 1.12 + 2.16j])
-    file = tmp_path / "chain.toml"
-    file.write_text(path.to_toml(), "utf-8")
-    assert op.load_preset(file) == path
-    assert 'turns = ["-$rho"]' in path.to_toml()
 
 
 @rows(

@@ -45,38 +45,29 @@ def auto(*, floats=True):
     return EngineChoice("auto", floats=floats)
 
 
-def test_the_first_runs_of_a_few_paths_make_nothing():
+def test_the_first_runs_of_a_few_paths_make_nothing_and_a_handful_is_run_as_floats():
     choice = auto()
     assert [choice.of(10, Paths()) for _ in range(5)] == 3 * [NUMPY_STEPS] + 2 * [FLOATS]
-
-
-def test_a_handful_is_run_as_floats_and_more_by_numpy():
     choice = auto()
     for _ in range(4):
         choice.of(10, Paths())
     assert choice.of(HANDFUL - 1, Paths()) == FLOATS
     assert choice.of(HANDFUL, Paths()) == "numpy"
+    choice = auto(floats=False)
+    found = [choice.of(10, Paths()) for _ in range(6)]
+    assert set(found) == {NUMPY_STEPS}
 
 
-def test_a_first_large_batch_does_not_wait_for_numba():
+def test_numba_is_waited_for_where_it_saves_more_than_it_costs():
     work = Paths()
     assert auto().of(100_000, work) == "numpy"
     assert work.asked == 0
-
-
-def test_so_large_a_batch_that_compiling_takes_less_than_it_saves_is_compiled():
     assert auto().of(10**8, Paths()) == "numba"
-
-
-def test_many_batches_earn_what_compiling_costs():
     choice, work = auto(), Paths()
     found = [choice.of(1_000_000, work) for _ in range(10)]
     assert found[0] == "numpy"
     assert found[-1] == "numba"
     assert found == sorted(found, reverse=True)
-
-
-def test_a_part_of_a_stream_counts_all_that_is_to_come():
     assert auto().of(1 << 20, Paths(), 10**8) == "numba"
     assert auto().of(1 << 20, Paths()) == "numpy"
 
@@ -90,33 +81,21 @@ def test_code_that_has_been_compiled_before_is_run_once_looking_for_it_pays():
     assert found[-1] == "numba"
 
 
-def test_what_has_no_formula_is_run_step_by_step_for_good():
+def test_what_has_no_formula_or_too_long_a_one_is_not_compiled():
     choice = auto()
     assert choice.of(10**8, Paths(None)) == NUMPY_STEPS
     assert choice.of(10**8, Paths()) == NUMPY_STEPS
-
-
-def test_formulas_that_are_too_long_for_numba_are_run_by_numpy():
     assert auto().of(10**8, Paths(4001)) == "numpy"
     assert EngineChoice("numba", floats=True).of(10, Paths(4001)) == "numpy"
 
 
-def test_numba_by_name_compiles_at_once():
+def test_engines_by_name_are_asked_and_no_other():
     assert EngineChoice("numba", floats=True).of(2, Paths()) == "numba"
-
-
-def test_numpy_by_name_never_asks_for_anything_else():
     choice = EngineChoice("numpy", floats=True)
     found = [
         choice.of(count, Paths(kept=True)) for count in (10, 10, 10, 10, 10, 1023, 1024, 10**8)
     ]
     assert found == 6 * [NUMPY_STEPS] + 2 * ["numpy"]
-
-
-def test_what_floats_cannot_hold_is_never_run_by_them():
-    choice = auto(floats=False)
-    found = [choice.of(10, Paths()) for _ in range(6)]
-    assert set(found) == {NUMPY_STEPS}
 
 
 def test_a_plan_says_what_ran():

@@ -261,16 +261,13 @@ def test_threads_change_nothing(rng, engine):
     np.testing.assert_array_equal(alone, shared)
 
 
-def test_a_plan_may_be_run_from_several_threads(rng):
+def test_a_plan_may_be_run_from_several_threads_and_pickled(rng):
     plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026", **METAL))
     given = [angles(rng, 3000) for _ in range(8)]
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(lambda values: plan.run(**values).stokes, given))
     for values, stokes in zip(given, found, strict=True):
         np.testing.assert_array_equal(stokes, plan.run(**values).stokes)
-
-
-def test_a_plan_that_has_run_can_be_pickled(rng):
     plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
     light = plan.run(**angles(rng, 1500))
     again = pickle.loads(pickle.dumps(plan))
@@ -278,13 +275,10 @@ def test_a_plan_that_has_run_can_be_pickled(rng):
     assert again.run(delta=0.5).stokes.shape == light.stokes.shape[1:]
 
 
-def test_the_first_runs_of_one_path_and_the_later_ones_are_equal():
+def test_the_first_runs_of_one_path_and_the_later_ones_are_equal_and_touch_no_array():
     plan = op.load_preset("npgr026", **METAL).compose()
     lights = [plan.run(delta=0.7, rho=0.4, phi=0.2).stokes for _ in range(8)]
     assert all(np.array_equal(light, lights[0]) for light in lights)
-
-
-def test_one_path_of_plain_floats_touches_no_array():
     plan = op.load_preset("npgr026", **METAL).compose()
     for _ in range(8):
         plan.run(delta=0.7, rho=0.4, phi=0.2)
@@ -334,7 +328,7 @@ def test_engines_and_threads_that_cannot_be_are_refused(options, message):
         op.Composer(**options)
 
 
-def test_what_runs_a_batch_can_be_asked():
+def test_what_runs_a_batch_can_be_asked_and_numba_takes_nothing_too_long():
     plan = op.load_preset("npgr026").compose()
     assert plan.engine_for(1) == plan.engine_for(10) == "floats"
     assert plan.engine_for(100) == plan.engine_for(100_000) == "numpy"
@@ -347,9 +341,6 @@ def test_what_runs_a_batch_can_be_asked():
     long = chain(turning * 110, [1.0, 0, 0, 0])
     assert op.Composer(engine="numba").compose(long).engine == "numpy"
     assert "step by step" in op.Composer(engine="numba").compose(long).explain()
-
-
-def test_a_formula_that_would_be_compiled_for_a_minute_is_run_by_numpy():
     angles = [op.Parameter(f"a{i}") for i in range(20)]
     path = chain([op.Interface(0.2 + 3j, angle, azimuth=0.3) for angle in angles], [1.0, 0, 0, 0])
     plan = path.compose()

@@ -74,11 +74,25 @@ def test_a_path_can_be_built_of_what_is_not_known_yet():
     np.testing.assert_allclose(jax.jit(intensity)(1.12), intensity(1.12), rtol=1e-14)
 
 
-def test_normal_incidence_has_the_slope_of_the_closed_form():
+def test_slopes_of_faces_loops_and_degrees_are_those_of_closed_forms():
     path = op.load_preset("npgr026", delta=0.0, phi=0.0, n2=1.5)
     # R = ((n - 1) / (n + 1))^2, so dR/dn = 4 (n - 1) / (n + 1)^3.
     slope = jax.grad(lambda n: path.trace(n1=n).stokes[0])(1.5)
     np.testing.assert_allclose(slope, 100 * 0.04 * 4 * 0.5 / 2.5**3, rtol=1e-12)
+    source = op.PathGraph()
+    lamp = source.add("lamp", op.Source(op.Parameter("intensity")))
+    lamp >> source.add("eye", op.Detector())
+    assert jax.grad(lambda i: source.trace(intensity=i).dop)(1.0) == 0.0
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(1.0)) >> path.add("front", op.Interface(op.Parameter("n"), 0.0))
+    path.add("back", op.Interface(1.0, 0.0, outside=op.Parameter("n"), incidence_in=1.0))
+    path.add("eye", op.Detector())
+    path.connect("front.transmitted", "back.in")
+    path.connect("back.reflected", "front.back")
+    path.connect("back.transmitted", "eye.in")
+    # A slab lets 2 n / (n^2 + 1) through, so dT/dn = 2 (1 - n^2) / (n^2 + 1)^2.
+    slope = jax.grad(lambda n: path.trace(n=n).intensity)(1.5)
+    assert float(slope) == pytest.approx(2 * (1 - 1.5**2) / (1.5**2 + 1) ** 2, rel=1e-12)
 
 
 @rows("name, value", [("k1", 0.0), ("delta", 0.0), ("phi", np.arctan(1.5)), ("rho", 0.0)])
@@ -96,10 +110,18 @@ def test_lights_can_be_looked_at_while_they_are_traced():
     assert many.shape == (2,)
 
 
-def test_values_of_jax_are_refused_by_other_engines():
+def test_what_jax_or_others_cannot_take_is_refused():
     plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
     with pytest.raises(op.ParameterError, match="engine='jax'"):
         plan.run(n1=jnp.array(1.5))
+    plan = op.Composer(engine="jax").compose(op.load_preset("npgr026"))
+    with pytest.raises(op.ParameterError, match="outside its range"):
+        plan.run(delta=7.0)
+    with pytest.raises(op.ComposerError, match="longdouble"):
+        op.Composer(engine="jax", dtype="longdouble")
+    plan = op.Composer(engine="jax").compose(op.load_preset("malus"))
+    with pytest.raises(op.ParameterError, match="keeps a batch whole"):
+        next(plan.stream(10, angle=np.zeros(20)))
 
 
 def test_slopes_in_single_precision_are_not_taken_for_double():
@@ -108,17 +130,6 @@ def test_slopes_in_single_precision_are_not_taken_for_double():
     with pytest.raises(op.ComposerError, match="jax_enable_x64"):
         jax.grad(lambda n: path.trace(n1=n).stokes[0])(1.5)
     assert path.trace(n1=1.5).stokes.dtype == np.float64
-
-
-def test_known_values_are_checked_as_by_other_engines():
-    plan = op.Composer(engine="jax").compose(op.load_preset("npgr026"))
-    with pytest.raises(op.ParameterError, match="outside its range"):
-        plan.run(delta=7.0)
-
-
-def test_longdouble_is_refused():
-    with pytest.raises(op.ComposerError, match="longdouble"):
-        op.Composer(engine="jax", dtype="longdouble")
 
 
 def surface(incidence, stokes=None):
@@ -163,32 +174,6 @@ def test_slopes_at_brewsters_angle_are_those_of_differences(composing):
     slope = jax.jacrev(lambda n: plan.run(n=n, k=0.0).stokes)(1.5)
     up, down = (plan.run(n=1.5 + step, k=0.0).stokes for step in (1e-6, -1e-6))
     np.testing.assert_allclose(slope, (up - down) / 2e-6, rtol=0, atol=1e-8)
-
-
-def test_unpolarised_light_has_a_slope_of_its_degree_of_polarisation():
-    source = op.PathGraph()
-    lamp = source.add("lamp", op.Source(op.Parameter("intensity")))
-    lamp >> source.add("eye", op.Detector())
-    assert jax.grad(lambda i: source.trace(intensity=i).dop)(1.0) == 0.0
-
-
-def test_a_stream_is_refused():
-    plan = op.Composer(engine="jax").compose(op.load_preset("malus"))
-    with pytest.raises(op.ParameterError, match="keeps a batch whole"):
-        next(plan.stream(10, angle=np.zeros(20)))
-
-
-def test_gradients_go_through_a_loop():
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source(1.0)) >> path.add("front", op.Interface(op.Parameter("n"), 0.0))
-    path.add("back", op.Interface(1.0, 0.0, outside=op.Parameter("n"), incidence_in=1.0))
-    path.add("eye", op.Detector())
-    path.connect("front.transmitted", "back.in")
-    path.connect("back.reflected", "front.back")
-    path.connect("back.transmitted", "eye.in")
-    # A slab lets 2 n / (n^2 + 1) through, so dT/dn = 2 (1 - n^2) / (n^2 + 1)^2.
-    slope = jax.grad(lambda n: path.trace(n=n).intensity)(1.5)
-    assert float(slope) == pytest.approx(2 * (1 - 1.5**2) / (1.5**2 + 1) ** 2, rel=1e-12)
 
 
 @pytest.mark.parametrize("transformed", [lambda f: f, jax.grad])

@@ -32,7 +32,7 @@ def closed_slab(n, theta):
         return float((along + across) / 2), float((along - across) / 2)
 
 
-def test_a_slab_is_its_closed_series():
+def test_slabs_and_coats_are_their_closed_series():
     rng = np.random.default_rng(0)
     theta = np.concatenate([np.linspace(0, 1.57, 200), rng.uniform(0, 1.57, 200)])
     path = slab(1.5, op.Parameter("theta"))
@@ -41,6 +41,25 @@ def test_a_slab_is_its_closed_series():
         found = op.Composer(engine=engine).compose(path).run_all(theta=theta)
         np.testing.assert_allclose(found["T"].stokes[:, :2], expected, rtol=1e-14, atol=1e-15)
         np.testing.assert_allclose(found["R"].intensity, 1 - expected[:, 0], rtol=1e-14, atol=1e-15)
+    lights = slab(1.5, np.pi / 2).trace_all()
+    assert (lights["R"].intensity, lights["T"].intensity) == (1.0, 0.0)
+    path = slab(1.5, float(np.radians(40)), behind=0.608 + 2.12j)
+    matrix = path.mueller("lamp", "R").matrix
+    A, B, C, S = COATED
+    expected = [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
+    np.testing.assert_allclose(matrix, expected, rtol=4e-15, atol=1e-17)
+    theta = float(np.radians(40))
+    stack = op.LayerStack([1.0, 1.5, 0.608 + 2.12j], theta)
+    looped = slab(1.5, theta, behind=0.608 + 2.12j)
+    for leaves, end in (("reflected", "R"), ("transmitted", "T")):
+        matrix = stack.mueller("in", leaves).matrix
+        np.testing.assert_allclose(
+            looped.mueller("lamp", end).matrix, matrix, rtol=1e-15, atol=4e-16
+        )
+    grey = op.Medium(length=0.01, absorption=30.0)
+    found = slab(1.5, 0.0, medium=grey).trace_all()["T"].intensity
+    F, t = 0.04, np.exp(-0.3)
+    assert found == pytest.approx((1 - F) ** 2 * t / (1 - F * F * t), rel=1e-14)
 
 
 @rows("apart", [1e-3, 1e-5])
@@ -53,30 +72,6 @@ def test_a_slab_keeps_its_digits_next_to_grazing_incidence(apart):
     np.testing.assert_allclose(found[:2], expected, rtol=1e-11 * 1e-5 / apart + 1e-14)
 
 
-def test_at_grazing_incidence_all_is_reflected():
-    lights = slab(1.5, np.pi / 2).trace_all()
-    assert (lights["R"].intensity, lights["T"].intensity) == (1.0, 0.0)
-
-
-def test_a_coated_metal_is_right_to_the_last_digits():
-    path = slab(1.5, float(np.radians(40)), behind=0.608 + 2.12j)
-    matrix = path.mueller("lamp", "R").matrix
-    A, B, C, S = COATED
-    expected = [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
-    np.testing.assert_allclose(matrix, expected, rtol=4e-15, atol=1e-17)
-
-
-def test_a_layer_stack_is_the_same_sum():
-    theta = float(np.radians(40))
-    stack = op.LayerStack([1.0, 1.5, 0.608 + 2.12j], theta)
-    looped = slab(1.5, theta, behind=0.608 + 2.12j)
-    for leaves, end in (("reflected", "R"), ("transmitted", "T")):
-        matrix = stack.mueller("in", leaves).matrix
-        np.testing.assert_allclose(
-            looped.mueller("lamp", end).matrix, matrix, rtol=1e-15, atol=4e-16
-        )
-
-
 @pytest.mark.parametrize("count", [40, slow(150)])
 def test_no_energy_gets_lost_in_networks_without_losses(count):
     for network in networks(count):
@@ -87,15 +82,12 @@ def test_no_energy_gets_lost_in_networks_without_losses(count):
         assert total == pytest.approx(network.emitted, rel=1e-13)
 
 
-def test_networks_are_right_in_all_components():
+def test_outlets_count_among_what_leaves_and_networks_are_right_in_all_components():
     for network in networks(25, first=1000, size=(1, 4)):
         lights, exact = network.path.trace_all(), exact_lights(network.path)
         for name, light in lights.items():
             expected = np.array([float(part) for part in exact[name].stokes])
             np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=4e-15 * network.emitted)
-
-
-def test_outlets_count_among_what_leaves():
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(3.0)) >> path.add("front", op.Interface(1.5, 1.0))
     path.add("back", op.Interface(1.0, 1.0, outside=1.5, incidence_in=1.0))
@@ -108,13 +100,6 @@ def test_outlets_count_among_what_leaves():
     assert kept["eye"].intensity + kept["front.reflected"].intensity == pytest.approx(
         3.0, rel=1e-15
     )
-
-
-def test_absorption_on_every_passage_is_in_the_sum():
-    grey = op.Medium(length=0.01, absorption=30.0)
-    found = slab(1.5, 0.0, medium=grey).trace_all()["T"].intensity
-    F, t = 0.04, np.exp(-0.3)
-    assert found == pytest.approx((1 - F) ** 2 * t / (1 - F * F * t), rel=1e-14)
 
 
 @pytest.mark.parametrize("engine", ["numba", slow("jax")])
@@ -132,7 +117,7 @@ def test_engines_agree_on_light_that_goes_round(engine):
     np.testing.assert_allclose(one.stokes, first[7], rtol=0, atol=4e-15)
 
 
-def test_every_model_gives_the_same_light():
+def test_every_model_and_precision_gives_the_same_light():
     path = slab(1.5, 0.8, state=[1, 0.3, 0.4, 0.5], medium=op.Rotator(0.3))
     plans = [op.Composer(model=model).compose(path) for model in ("auto", "full")]
     lights = [plan.run_all() for plan in plans]
@@ -141,9 +126,6 @@ def test_every_model_gives_the_same_light():
             lights[0][name].stokes, lights[1][name].stokes, rtol=0, atol=1e-15
         )
     assert op.Composer().compose(slab(1.5, 0.8)).model == "sp"
-
-
-def test_single_precision_sums_too():
     theta = np.linspace(0, 1.5, 100, dtype=np.float32)
     path = slab(1.5, op.Parameter("theta"))
     single = op.Composer(dtype="float32", engine="numpy").compose(path).run_all(theta=theta)["T"]
@@ -170,7 +152,7 @@ def test_faint_light_goes_round_as_well():
     assert found.log10_intensity == pytest.approx(expected.log10_intensity - 1200, abs=1e-9)
 
 
-def test_loops_are_refused_unless_asked_for():
+def test_loops_jones_columns_and_certificates_are_refused_where_they_cannot_be():
     path = slab(1.5, 0.5)
     with pytest.raises(op.PathError, match=r"cycle: back -> front -> back; .* loops='sum'"):
         op.Composer(loops="refuse").compose(path)
@@ -180,6 +162,12 @@ def test_loops_are_refused_unless_asked_for():
         op.PathGraph(loops="add")
     with pytest.raises(op.ComposerError, match="loops 'add' is unknown"):
         op.Composer(loops="add")
+    path = slab(1.5, 0.5)
+    with pytest.raises(op.ComposerError, match=r"goes round at 'front\.transmitted'.*stokes"):
+        op.Composer(composing="jones").compose(path)
+    with pytest.raises(op.ParameterError, match="no certificates for light that goes round"):
+        path.compose().certificate("R")
+    assert op.Composer(tolerance=0.01).compose(path.reading("intensity")).instead is None
 
 
 @rows("gain", [1.0, 1.5])
@@ -198,7 +186,7 @@ def test_a_gain_of_one_or_more_is_an_error(gain):
             run()
 
 
-def test_a_gain_next_to_one_is_a_warning_with_the_condition_number():
+def test_next_to_a_gain_of_one_nothing_gets_lost_and_it_is_warned_of():
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(1.0)) >> path.add("join", op.Combiner())
     path.add("split", op.BeamSplitter(0.99999))
@@ -212,6 +200,15 @@ def test_a_gain_next_to_one_is_a_warning_with_the_condition_number():
         light = path.trace()
     # All of it leaves in the end.
     assert light.intensity == pytest.approx(1.0, rel=1e-13)
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source()) >> path.add("join", op.Combiner())
+    path.add("split", op.BeamSplitter(1.0 - 2.0**-50))
+    path["join"] >> path["split"]
+    path.connect("split.reflected", "join.in")
+    path.add("eye", op.Detector())
+    path.connect("split.transmitted", "eye.in")
+    with pytest.warns(op.LoopWarning, match="all but 8.9e-16"):
+        assert path.trace().intensity == 1.0
 
 
 def test_a_loop_shared_by_many_sources_is_judged_once():
@@ -225,18 +222,6 @@ def test_a_loop_shared_by_many_sources_is_judged_once():
     for run in (path.trace, path.compose().mueller):
         with pytest.warns(op.LoopWarning, match="all but 1e-06"):
             run()
-
-
-def test_nearly_all_may_stay_and_none_gets_lost():
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source()) >> path.add("join", op.Combiner())
-    path.add("split", op.BeamSplitter(1.0 - 2.0**-50))
-    path["join"] >> path["split"]
-    path.connect("split.reflected", "join.in")
-    path.add("eye", op.Detector())
-    path.connect("split.transmitted", "eye.in")
-    with pytest.warns(op.LoopWarning, match="all but 8.9e-16"):
-        assert path.trace().intensity == 1.0
 
 
 def test_light_from_behind_is_reflected_totally_into_a_gap_as_well():
@@ -318,23 +303,11 @@ def test_light_goes_round_in_a_medium_that_absorbs():
         path.trace_all()
 
 
-def test_jones_columns_and_certificates_are_refused():
-    path = slab(1.5, 0.5)
-    with pytest.raises(op.ComposerError, match=r"goes round at 'front\.transmitted'.*stokes"):
-        op.Composer(composing="jones").compose(path)
-    with pytest.raises(op.ParameterError, match="no certificates for light that goes round"):
-        path.compose().certificate("R")
-    assert op.Composer(tolerance=0.01).compose(path.reading("intensity")).instead is None
-
-
-def test_a_stack_is_recognised_and_a_turn_in_it_as_well():
+def test_stacks_and_piles_are_recognised_and_cost_a_few_unknowns_a_layer():
     text = slab(1.5, 0.5).compose().explain()
     assert "light goes round at front.transmitted: added layer after layer, 2 unknowns" in text
     turned = slab(1.5, 0.5, medium=op.Rotator(0.3), state=[1, 0, 0.5, 0]).compose().explain()
     assert "summed over all rounds" in turned
-
-
-def test_a_pile_of_many_plates_costs_a_few_unknowns_a_layer():
     n, theta, plates = 1.5, 0.9, 60
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(1.0))

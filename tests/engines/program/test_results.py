@@ -59,17 +59,20 @@ def wanted(wavelength):
     return glass.mueller().matrix[..., 0]
 
 
-def test_floats_are_given_what_an_earlier_evaluation_comes_to():
+def test_floats_and_arrays_are_given_what_an_earlier_evaluation_comes_to_once():
     operands = [1.5, 0.004, 1.0, COSINE, SINE, 0.5]
     found, _ = execute(by_hand(), operands, StokesCarrier(FLOAT))[1]
     np.testing.assert_allclose(found, wanted(0.5), rtol=1e-14, atol=1e-17)
-
-
-def test_arrays_are_given_what_an_earlier_evaluation_comes_to():
     several = np.array([0.4, 0.5, 0.7])
     operands = [1.5, 0.004, 1.0, COSINE, SINE, several]
     found, _ = execute(by_hand(), operands, StokesCarrier(NUMPY))[1]
     np.testing.assert_allclose(np.stack(found[:2], -1), wanted(several)[:, :2], rtol=1e-14)
+    CALLS.clear()
+    execute(by_hand(reflections=2), [1.5, 0.004, 1.0, COSINE, SINE, 0.5], StokesCarrier(FLOAT))
+    assert CALLS == [0.5]
+    program = by_hand()
+    assert set(program.given_to[2]) == {0, 1, 2, 3, 4, 5}
+    assert [set(takes) for takes in program.takes] == [set(), set(), {1}, {1}]
 
 
 def test_formulas_record_it_as_if_it_stood_in_the_kernel():
@@ -82,18 +85,6 @@ def test_formulas_record_it_as_if_it_stood_in_the_kernel():
     kernel, given = REFLECTED.specialised((operands[2], *index, *operands[3:5]), lambda _: True)
     Fs, *_ = kernel.made_for(SYMBOLIC)(*given)
     assert Fs.index < count == len(recorder.symbols)
-
-
-def test_what_several_evaluations_are_given_is_computed_once():
-    CALLS.clear()
-    execute(by_hand(reflections=2), [1.5, 0.004, 1.0, COSINE, SINE, 0.5], StokesCarrier(FLOAT))
-    assert CALLS == [0.5]
-
-
-def test_a_program_knows_the_operands_behind_results():
-    program = by_hand()
-    assert set(program.given_to[2]) == {0, 1, 2, 3, 4, 5}
-    assert [set(takes) for takes in program.takes] == [set(), set(), {1}, {1}]
 
 
 class Glass(op.Element, kind="example-dispersive-glass"):
@@ -139,13 +130,10 @@ def test_elements_may_be_given_an_index_out_of_a_wavelength(engine, options):
         np.testing.assert_allclose(found, plain(lengths).stokes, rtol=1e-13, atol=1e-17)
 
 
-def test_an_index_that_is_known_is_computed_when_composing():
+def test_indices_that_are_known_and_matrices_take_it_too():
     plan = dispersive(0.5).compose()
     assert plan.run().intensity == pytest.approx(plain(0.5).intensity, rel=1e-14)
     assert not any(plan.program.takes)
-
-
-def test_a_matrix_and_its_kernels_take_it_too():
     np.testing.assert_allclose(Glass(0.5).mueller().matrix[:, 0], wanted(0.5), rtol=1e-14)
     plan = dispersive(op.Parameter("wavelength")).compose()
     assert plan.evaluations(wavelength=np.array([0.4, 0.5]))["one.reflected"] == 2
