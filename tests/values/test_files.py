@@ -21,10 +21,7 @@ class _InBytes(os.PathLike):
         return b"lamp.csv"
 
 
-@rows(
-    "read",
-    [op.Spectrum.from_csv, op.Material.from_csv, op.Material.from_yaml],
-)
+@rows("read", [op.Spectrum.from_csv, op.Material.from_csv, op.Material.from_yaml])
 @rows("path", [None, 5, b"x.csv", "", "a\0b.toml", _InBytes(), ["a.csv"]])
 def test_what_is_no_name_of_a_file_is_refused(read, path):
     with pytest.raises(op.OptipathError, match="name of a file"):
@@ -101,15 +98,17 @@ def test_a_new_file_has_the_permissions_that_the_umask_leaves(tmp_path, umask):
     assert names(tmp_path) == ["a"]
 
 
-def test_a_file_that_is_replaced_keeps_its_permissions(tmp_path):
+def test_a_file_that_is_written_has_its_permissions_and_any_name(tmp_path):
     file = tmp_path / "a"
     file.write_bytes(b"old and longer")
     file.chmod(0o640)
     write_file(file, b"new")
     assert (file.read_bytes(), mode(file)) == (b"new", 0o640)
+    write_file(tmp_path / ("a" * 255), b"new")
+    assert names(tmp_path) == ["a", "a" * 255]
 
 
-def test_links_are_followed(tmp_path):
+def test_links_are_followed_and_left_where_they_lead_to_each_other(tmp_path):
     (tmp_path / "there").mkdir()
     target, link, dangling = tmp_path / "there" / "a", tmp_path / "link", tmp_path / "dangling"
     target.write_bytes(b"old")
@@ -121,6 +120,11 @@ def test_links_are_followed(tmp_path):
     assert dangling.is_symlink()
     assert target.read_bytes() == (tmp_path / "there" / "b").read_bytes() == b"new"
     assert names(tmp_path / "there") == ["a", "b"]
+    (tmp_path / "a").symlink_to("b")
+    (tmp_path / "b").symlink_to("a")
+    with pytest.raises(OSError, match="Too many levels"):
+        write_file(tmp_path / "a", b"light")
+    assert (tmp_path / "a").is_symlink()
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
@@ -140,19 +144,11 @@ def test_what_was_there_stays_where_writing_fails_and_no_draft_is_left(
     assert (tmp_path / "a").read_bytes() == b"old"
 
 
-def test_devices_are_written_to_and_not_replaced():
+def test_devices_and_pipes_are_written_to_and_not_replaced():
     write_file(Path("/dev/null"), b"light")
     assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
     with pytest.raises(OSError, match="No space left"):
         write_file(Path("/dev/full"), b"light")
-
-
-def test_the_longest_names_can_be_written(tmp_path):
-    write_file(tmp_path / ("a" * 255), b"new")
-    assert names(tmp_path) == ["a" * 255]
-
-
-def test_a_pipe_is_written_to_by_any_of_its_names():
     reads, writes = os.pipe()
     write_file(Path(f"/dev/fd/{writes}"), b"light")
     os.close(writes)
@@ -160,17 +156,6 @@ def test_a_pipe_is_written_to_by_any_of_its_names():
         assert pipe.read() == b"light"
 
 
-def test_links_that_lead_to_each_other_are_left_as_they_are(tmp_path):
-    (tmp_path / "a").symlink_to("b")
-    (tmp_path / "b").symlink_to("a")
-    with pytest.raises(OSError, match="Too many levels"):
-        write_file(tmp_path / "a", b"light")
-    assert (tmp_path / "a").is_symlink()
-
-
-def test_functions_and_none_are_let_through():
-    assert no_function("progress", print, "") == no_function("progress", None, "") == []
-
-
 def test_what_is_no_function_is_told_with_its_cure():
+    assert no_function("progress", print, "") == no_function("progress", None, "") == []
     assert no_function("progress", 3, "numbers") == ["progress is 3; give a function of numbers"]

@@ -28,45 +28,35 @@ def bk7(**options):
     return op.Material.sellmeier(*BK7, name="BK7", **options)
 
 
-def test_samples_are_linear_between_wavelengths():
+def test_indices_are_those_of_samples_and_of_published_formulas():
     found = gold().at("516 nm")
     assert found.n == pytest.approx(0.97 - 0.35 * 16 / 21, rel=1e-14)
     assert found.k == pytest.approx(1.87 + 0.21 * 16 / 21, rel=1e-14)
     assert type(found.n) is float
-
-
-def test_glass_has_its_published_index():
     # Of SCHOTT's data sheet: at the lines d, F and C.
     lines = ["587.5618 nm", "486.1327 nm", "656.2725 nm"]
     assert bk7().at(lines).n.round(5).tolist() == [1.5168, 1.52238, 1.51432]
-
-
-def test_resonances_may_be_given_by_their_wavelengths():
     # I. H. Malitson, J. Opt. Soc. Am. 55, 1205 (1965): fused silica, n_D = 1.45845 at 20 C.
     b, resonances = (0.6961663, 0.4079426, 0.8974794), (0.0684043, 0.1162414, 9.896161)
     found = op.Material.sellmeier(b, resonances=resonances).at("587.56 nm")
     assert round(found.n, 5) == 1.45846
 
 
-def test_energies_and_arrays_are_wavelengths():
+def test_a_wavelength_may_be_an_energy_an_array_or_known_from_the_beginning():
     energy = gold().at("2.4 eV")
     assert energy.n == pytest.approx(gold().at(1.2398419843320026e-6 / 2.4).n, rel=1e-14)
     several = gold().at(["516 nm", 521e-9])
     assert several.n.tolist() == [gold().at("516 nm").n, 0.62]
-
-
-def test_a_wavelength_that_is_given_makes_a_constant_material():
     constant = gold(wavelength="516 nm")
     assert constant == gold().at("516 nm")
     assert constant.refractive_index == constant.n + 1j * constant.k
     assert constant.at("3 um") is constant
     assert constant.span == (0.0, np.inf)
-
-
-def test_the_range_can_be_read():
     assert gold().span == (188e-9, 1937e-9)
     assert gold(extrapolate="nearest").span == (0.0, np.inf)
     assert bk7(span=("310 nm", "2.5 um")).span == (310e-9, 2.5e-6)
+    assert op.Material.tabulated(WAVELENGTHS, N).at("1 um").k == 0.0
+    assert op.Material.tabulated(WAVELENGTHS, 1.5, 0.2).at("1 um") == op.Material(1.5, 0.2)
 
 
 @rows(
@@ -86,17 +76,16 @@ def test_what_is_shown_can_be_read(material, written):
     assert repr(material) == written
 
 
-def test_equal_materials_are_equal_and_others_are_not():
+def test_equal_materials_are_equal_and_a_name_is_quoted_on_one_line():
     assert gold() == gold()
     assert gold() != gold(interpolation="monotone")
     assert gold() != gold(wavelength=op.Wavelength("other"))
     assert pickle.loads(pickle.dumps(gold())) == gold()
     assert deepcopy(bk7()) == bk7()
-
-
-def test_a_number_for_k_is_the_same_at_all_wavelengths():
-    assert op.Material.tabulated(WAVELENGTHS, N).at("1 um").k == 0.0
-    assert op.Material.tabulated(WAVELENGTHS, 1.5, 0.2).at("1 um") == op.Material(1.5, 0.2)
+    named = op.Material.cauchy([1.5], name="a\nb")
+    assert repr(named) == "Material 'a\\nb', any wavelength"
+    assert repr(op.Material.cauchy([1.5], k=0.1, name="a\nb")) == "Material(n=n of a\\nb, k=0.1)"
+    assert "\n" not in repr(named.n)
 
 
 def test_a_metal_is_that_of_its_electrons():
@@ -108,9 +97,12 @@ def test_a_metal_is_that_of_its_electrons():
     index = np.sqrt(eps)
     metal = op.Material.drude_lorentz(9.0, 0.02, 1.0, [(0.3, 3.0, 0.5)], 4.0, wavelength="1 um")
     assert metal.refractive_index == pytest.approx(index, rel=1e-13)
+    # n^2 = 1 - (wp / w)^2 where nothing is lost: 0.75 at twice the plasma frequency.
+    free = op.Material.drude_lorentz(2.0, 0.0, oscillators=[]).at("4 eV")
+    np.testing.assert_allclose([free.n, free.k], [0.75**0.5, 0.0], rtol=1e-12, atol=1e-12)
 
 
-def test_coefficients_may_be_parameters():
+def test_coefficients_and_wavelengths_may_be_parameters():
     material = op.Material.sellmeier([op.Parameter("b", 1.25)], [0.0])
     assert material.at("500 nm") == op.Material(1.5, 0.0)
     path = op.Source() >> op.Interface(material, 0.3) >> op.Detector()
@@ -118,9 +110,6 @@ def test_coefficients_may_be_parameters():
     for light, n in zip(found, (1.5, 2.0), strict=True):
         expected = op.Source() >> op.Interface(n, 0.3) >> op.Detector()
         assert np.array_equal(light, expected.trace().stokes)
-
-
-def test_another_parameter_may_be_the_wavelength():
     material = bk7(wavelength=op.Parameter("laser"))
     path = op.Source() >> op.Interface(material, 0.3) >> op.Detector()
     expected = op.Source() >> op.Interface(bk7().at("500 nm"), 0.3) >> op.Detector()
@@ -200,21 +189,18 @@ def test_what_cannot_be_is_told_in_words(ask, words):
     assert words in str(fault.value)
 
 
-def test_all_faults_of_a_formula_are_told_at_once():
+def test_what_cannot_be_is_told_with_all_that_is_wrong():
     with pytest.raises(op.ValueFault) as fault:
         op.Material.drude_lorentz(-9, -0.1, -1, background="a", span="here")
     assert len(fault.value.faults) == 5
 
 
-def test_slopes_of_what_a_material_is_at_a_wavelength_are_those_of_its_formula(jax):
+def test_slopes_along_the_wavelength_are_those_of_formulas(jax):
     # Of n^2 = 1 + b w^2 / (w^2 - c): dn/dw = -b c w / (n (w^2 - c)^2), w in um.
     material = op.Material.sellmeier([1.2], [0.01])
     n = float(material.at(5e-7).n)
     expected = -1.2 * 0.01 * 0.5 / (n * (0.25 - 0.01) ** 2) * 1e6
     assert float(jax.grad(lambda w: material.at(w).n)(5e-7)) == pytest.approx(expected, rel=1e-13)
-
-
-def test_a_wavelength_that_jax_traces_may_be_bound(jax):
     path = op.Source() >> op.Interface(bk7(), 0.3) >> op.Detector()
     by_run = jax.grad(lambda w: path.trace(wavelength=w).stokes[0])(5e-7)
     bound = jax.grad(lambda w: path.bind(wavelength=w).trace().stokes[0])(5e-7)
@@ -232,19 +218,6 @@ def test_a_wavelength_that_jax_traces_may_be_bound(jax):
 )
 def test_whole_numbers_make_the_same_material(make, whole, real):
     assert make(*whole) == make(*real)
-
-
-def test_free_electrons_need_no_oscillators():
-    # n^2 = 1 - (wp / w)^2 where nothing is lost: 0.75 at twice the plasma frequency.
-    free = op.Material.drude_lorentz(2.0, 0.0, oscillators=[]).at("4 eV")
-    np.testing.assert_allclose([free.n, free.k], [0.75**0.5, 0.0], rtol=1e-12, atol=1e-12)
-
-
-def test_a_name_is_quoted_on_one_line():
-    named = op.Material.cauchy([1.5], name="a\nb")
-    assert repr(named) == "Material 'a\\nb', any wavelength"
-    assert repr(op.Material.cauchy([1.5], k=0.1, name="a\nb")) == "Material(n=n of a\\nb, k=0.1)"
-    assert "\n" not in repr(named.n)
 
 
 HANDBOOK = {
@@ -310,11 +283,14 @@ def test_quartz_turns_light_as_it_was_measured(wavelength, degrees):
     assert (turned + 90.0) % 180.0 - 90.0 == pytest.approx(0.0, abs=0.005 * degrees)
 
 
-def test_a_crystal_of_ones_own_has_the_difference_of_its_indices():
+def test_a_crystal_has_the_difference_of_its_indices_and_the_rotation_that_was_measured():
     same = op.Crystal(op.Material(1.5), op.Material(1.6))
     assert same.birefringence == pytest.approx(0.1)
     crystal = op.Crystal(op.Crystal.named("quartz").ordinary, op.Material(1.6))
     assert crystal.birefringence.at("589.3 nm") == pytest.approx(1.6 - 1.5442057, abs=1e-7)
+    assert op.Crystal.named("quartz", "1.5 um").rotatory_power is None
+    exact = op.Crystal.named("quartz").rotatory_power.at("589.3 nm")
+    assert op.Crystal.named("quartz", "589.3 nm").rotatory_power == pytest.approx(exact, rel=1e-15)
 
 
 def test_what_is_no_crystal_is_refused():
@@ -324,9 +300,3 @@ def test_what_is_no_crystal_is_refused():
         op.Crystal(op.Material(1.5), 1.6)
     with pytest.raises(op.ValueFault, match="known"):
         op.Crystal.named("quartz").birefringence.at("3 um")
-
-
-def test_a_crystal_at_one_wavelength_has_a_rotatory_power_where_one_was_measured():
-    assert op.Crystal.named("quartz", "1.5 um").rotatory_power is None
-    exact = op.Crystal.named("quartz").rotatory_power.at("589.3 nm")
-    assert op.Crystal.named("quartz", "589.3 nm").rotatory_power == pytest.approx(exact, rel=1e-15)

@@ -14,15 +14,16 @@ import optipath as op
 from tables import rows
 
 
-def test_a_text_with_a_unit_is_a_value():
+def test_texts_words_and_none_stand_for_values():
     assert op.Parameter("a", unit="deg").resolve("180 deg").value == np.pi
-
-
-def test_words_stand_for_values_and_none_for_absence():
     parameter = op.Parameter("a", words={"up": 1.0}, optional=True)
     resolved = parameter.resolve(["up", "none", 0.5])
     np.testing.assert_array_equal(resolved.value, [1.0, 0.0, 0.5])
     np.testing.assert_array_equal(resolved.present, [True, False, True])
+    assert op.Parameter("a", "180 deg", unit="deg") == op.Parameter("a", np.pi, unit="deg")
+    parameter = op.Parameter("r", "-0.3+0.2j")
+    assert parameter.default_text() == "-0.3+0.2j"
+    assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j
 
 
 @rows(
@@ -54,21 +55,17 @@ def test_a_parameter_that_cannot_be_is_refused(keywords, message):
         op.Parameter(**keywords)
 
 
-def test_a_default_may_be_a_text_with_a_unit():
-    assert op.Parameter("a", "180 deg", unit="deg") == op.Parameter("a", np.pi, unit="deg")
-
-
-def test_twice_negative_is_the_parameter_itself():
+def test_a_negative_parameter_differs_in_its_sign_alone_and_twice_negative_is_itself():
     parameter = op.Parameter("a", default=1.0)
     negative = -parameter
     assert -negative == parameter
     assert -parameter != parameter
-
-
-def test_a_complex_default_is_shown_as_it_is_read():
-    parameter = op.Parameter("r", "-0.3+0.2j")
-    assert parameter.default_text() == "-0.3+0.2j"
-    assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j
+    words = {"up": 1.0}
+    parameter = op.Parameter("a", 0.5, "deg", -1.0, 1.0, help="a turn", words=words, optional=True)
+    assert (-parameter).is_negative
+    assert not parameter.is_negative
+    assert (-parameter).same_specification(parameter)
+    assert -parameter != parameter
 
 
 @rows("number", [-1.0, 0.0, 1.0, 1.0 + 2**-52, np.nan, np.inf, -np.inf])
@@ -86,15 +83,6 @@ def test_a_float_is_judged_as_an_array_of_it_is(number, limits):
             parameter.resolve(given)
         sentences.append(str(error.value))
     assert sentences[0] == sentences[1]
-
-
-def test_a_negative_parameter_differs_in_its_sign_alone():
-    words = {"up": 1.0}
-    parameter = op.Parameter("a", 0.5, "deg", -1.0, 1.0, help="a turn", words=words, optional=True)
-    assert (-parameter).is_negative
-    assert not parameter.is_negative
-    assert (-parameter).same_specification(parameter)
-    assert -parameter != parameter
 
 
 D, Q = op.Parameter("d"), op.Parameter("q")
@@ -133,20 +121,21 @@ def test_a_multiple_with_an_offset_of_a_parameter_is_one(parameter, scale, offse
     assert parameter == op.Parameter("d", scale=scale, offset=parameter.offset)
 
 
-def test_the_negative_twice_and_the_half_of_the_double_are_the_parameter_itself():
+def test_a_multiple_is_specified_and_equal_as_the_value_itself_is():
     negative = -D
     assert -negative == 2 * D / 2 == D
     assert -D != D != 2 * D
     assert math.copysign(1.0, (-D).offset) == 1.0
-
-
-def test_default_range_words_and_unit_are_those_of_the_value_itself():
     words = {"up": 1.0}
     parameter = op.Parameter("d", 0.5, "deg", -1.0, 2.0, help="a turn", words=words, optional=True)
     affine = 3 * parameter + "1 deg"
     assert affine.same_specification(parameter)
     assert (affine.default, affine.minimum, affine.maximum, affine.unit) == (0.5, -1.0, 2.0, "deg")
     assert affine.alone() == parameter
+    assert not any((D == Q, D == 2.0, np.float64(2.0) == D))
+    assert D in [Q, D]
+    assert {D: 1}[op.Parameter("d")] == 1
+    assert not np.any(np.ones(3) == D)
 
 
 @rows(
@@ -212,13 +201,6 @@ def test_values_of_jax_are_refused():
         D * jax.numpy.asarray(2.0)
 
 
-def test_equality_is_still_that_of_what_they_are():
-    assert not any((D == Q, D == 2.0, np.float64(2.0) == D))
-    assert D in [Q, D]
-    assert {D: 1}[op.Parameter("d")] == 1
-    assert not np.any(np.ones(3) == D)
-
-
 def test_a_text_is_an_offset_by_its_unit():
     with pytest.raises(op.UnitError, match="did you mean 'deg'"):
         D + "10 degg"
@@ -228,9 +210,6 @@ def test_a_text_is_an_offset_by_its_unit():
         D + "1 deg" + "1 nm"
     with pytest.raises(op.UnitError, match="'2 nm' is no angle"):
         op.Parameter("d", unit="deg", offset="2 nm")
-
-
-def test_a_text_without_a_unit_is_an_offset_of_pure_numbers():
     path = op.Source() >> op.Attenuator(D + "0.1") >> op.Detector()
     assert path.trace(d=0.25).intensity == 0.25 + 0.1
     index = op.Interface(D - "0.5", 0.0).index

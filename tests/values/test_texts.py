@@ -55,8 +55,7 @@ def test_a_text_is_the_number_that_it_stands_for(by_texts, by_numbers):
 
 
 @rows(
-    "word, degrees",
-    [("horizontal", 0), ("vertical", 90), ("diagonal", 45), ("antidiagonal", -45)],
+    "word, degrees", [("horizontal", 0), ("vertical", 90), ("diagonal", 45), ("antidiagonal", -45)]
 )
 def test_axes_have_names(word, degrees):
     for of_word, of_angle in (
@@ -111,7 +110,7 @@ def test_what_stands_for_no_number_is_refused_by_its_field(give, sentence):
         give()
 
 
-def test_the_angle_of_a_link_may_be_a_text():
+def test_angles_of_links_and_arguments_of_functions_may_be_texts():
     def turned(azimuth):
         path = op.PathGraph()
         path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
@@ -122,9 +121,6 @@ def test_the_angle_of_a_link_may_be_a_text():
     assert turned("45 deg") == turned(np.pi / 4)
     with pytest.raises(op.OptipathError, match=r"link 'lamp.out -> eye.in' azimuth: '45' has no"):
         turned("45")
-
-
-def test_functions_take_texts_as_well():
     assert op.Frame().turned("90 deg") == op.Frame().turned(np.pi / 2)
     assert op.refraction_angle("1.5", "40 deg") == op.refraction_angle(1.5, np.radians(40.0))
     assert op.fresnel_reflection("1.5", "0.6", "0.8") == op.fresnel_reflection(1.5, 0.6, 0.8)
@@ -147,7 +143,7 @@ def test_texts_are_given_to_runs_in_every_way():
     assert part[1].stokes.tolist() == [expected.stokes.tolist()]
 
 
-def test_a_case_may_have_texts(tmp_path):
+def test_cases_and_elements_of_texts_go_to_files_and_back(tmp_path):
     path = op.load_preset("malus")
     case = op.Case({"angle": "40 deg"})
     cased = op.PathGraph("texts", {"forty": case})
@@ -156,9 +152,6 @@ def test_a_case_may_have_texts(tmp_path):
     text = path.to_toml() + '\n[cases.forty]\nvalues = { angle = "40 deg" }\n'
     file.write_text(text, "utf-8")
     assert op.load_preset(file, case="forty").trace() == path.trace(angle="40 deg")
-
-
-def test_elements_of_texts_go_to_toml_and_back(tmp_path):
     path = chain([op.Polarizer("30 deg"), op.Medium("5 mm", "1 1/cm"), op.Rotator(["1 deg", 0.5])])
     file = tmp_path / "texts.toml"
     file.write_text(path.to_toml(), "utf-8")
@@ -170,28 +163,16 @@ DELTA = op.Parameter("delta", unit="deg")
 NUMBER = op.Parameter("n")
 
 
-def test_a_range_in_degrees_has_the_very_angles_that_are_given_one_by_one():
+def test_a_range_has_the_very_values_that_are_given_one_by_one():
     texts = several_texts(DELTA, "0:90:91")
     found = [parse_quantity(text, "angle", "deg") for text in texts]
     assert found == [parse_quantity(f"{whole} deg", "angle") for whole in range(91)]
-
-
-def test_a_range_in_hundredths_has_the_decimals_that_one_writes():
     found = [float(text) for text in several_texts(NUMBER, "0:1:101")]
     assert found == [float(f"{part // 100}.{part % 100:02}") for part in range(101)]
-
-
-def test_a_range_of_nanometres_has_the_very_wavelengths_that_are_given_one_by_one():
     texts = several_texts(op.Wavelength(), "400 nm:700 nm:61")
     found = [parse_quantity(text, "length") for text in texts]
     assert found == [parse_quantity(f"{400 + 5 * step} nm", "length") for step in range(61)]
-
-
-def test_a_range_may_fall_and_its_ends_are_as_they_are_written():
     assert several_texts(DELTA, "90.0 deg:-1e1 deg:3") == ["90.0 deg", "40.0 deg", "-1e1 deg"]
-
-
-def test_a_range_of_one_value_begins_where_it_ends():
     assert several_texts(DELTA, "5 deg:5 deg:1") == ["5 deg"]
 
 
@@ -275,9 +256,12 @@ def test_what_is_wrong_is_told(text, told):
     assert told in str(caught.value)
 
 
-def test_a_file_that_is_not_there_is_told_with_its_name():
+def test_a_file_that_is_missing_or_has_no_name_of_its_column_is_told(tmp_path):
     with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
         several_texts(DELTA, "@nowhere.csv")
+    polarizer = op.Parameter("filter", words={"horizontal": 0.0, "vertical": 1.5})
+    with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
+        several_texts(polarizer, written(tmp_path, "horizontal\nvertical\n"))
 
 
 def written(folder, text):
@@ -286,16 +270,10 @@ def written(folder, text):
     return f"@{file}"
 
 
-def test_a_file_gives_the_column_of_the_parameter_with_its_unit(tmp_path):
+def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp_path):
     text = "rho [rad]; delta (deg)\n# measured\n0.1; 10\n0.2; 20.5\n"
     assert several_texts(DELTA, written(tmp_path, text)) == ["10 deg", "20.5 deg"]
-
-
-def test_a_file_of_one_column_may_call_it_otherwise(tmp_path):
     assert several_texts(DELTA, written(tmp_path, "angle_mrad\n10\n")) == ["10 mrad"]
-
-
-def test_cells_of_a_file_may_have_units_and_words(tmp_path):
     polarizer = op.Parameter("filter", unit="deg", words={"horizontal": 0.0}, optional=True)
     text = written(tmp_path, "filter\nnone\nhorizontal\n30 deg\n")
     assert several_texts(polarizer, text) == ["none", "horizontal", "30 deg"]
@@ -319,12 +297,6 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name(tmp_path, text, told):
     with pytest.raises(op.OptipathError, match=r"angles\.csv: ") as caught:
         several_texts(DELTA, written(tmp_path, text))
     assert told in str(caught.value)
-
-
-def test_the_first_of_several_words_is_not_taken_for_a_name(tmp_path):
-    polarizer = op.Parameter("filter", words={"horizontal": 0.0, "vertical": 1.5})
-    with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
-        several_texts(polarizer, written(tmp_path, "horizontal\nvertical\n"))
 
 
 def test_the_default_of_a_parameter_is_displayed_without_noise():
@@ -369,9 +341,6 @@ def test_arrays_that_do_not_broadcast_are_told_with_their_shapes():
     assert "delta (3,), rho (4,); make their axes equal or 1, as x[:, None] does" in text
     # What is said does it.
     assert NPGR026.trace(delta=np.zeros(3)[:, None], rho=np.zeros(4)).shape == (3, 4)
-
-
-def test_many_shapes_that_do_not_broadcast_are_told():
     path = op.PathGraph()
     node = path.add("lamp", op.Source())
     for count in range(2, 12):

@@ -9,15 +9,14 @@ from optipath.values.spectral_units import wavelength_of
 from tables import rows
 
 
-def test_texts_of_all_kinds_stand_for_metres():
+def test_wavelengths_and_their_limits_are_lengths_or_energies_by_any_name():
     given = op.Wavelength().resolve(["516 nm", "2.4 eV", "20000 1/cm", "0.5 um"]).value
     assert given == pytest.approx([516e-9, 516.600827e-9, 500e-9, 500e-9])
-
-
-def test_default_and_limits_may_be_photon_energies():
     known = op.Wavelength(default="2 eV", minimum="3 eV", maximum="1 eV")
     assert known.default == pytest.approx(619.92e-9, rel=1e-5)
     assert known.minimum == pytest.approx(413.28e-9, rel=1e-5)
+    path = op.Source() >> op.Waveplate(1e-5, 0.009, op.Wavelength("probe")) >> op.Detector()
+    assert path.trace(probe="516 nm").stokes[0] == 1.0
 
 
 def test_a_number_of_nanometres_is_refused_with_the_cure():
@@ -41,11 +40,6 @@ def test_what_is_no_wavelength_is_refused(given, said):
         op.Wavelength().resolve(given)
 
 
-def test_one_by_another_name_is_given_by_that():
-    path = op.Source() >> op.Waveplate(1e-5, 0.009, op.Wavelength("probe")) >> op.Detector()
-    assert path.trace(probe="516 nm").stokes[0] == 1.0
-
-
 @rows("most, written", [("700 nm", "700 nm"), ("20 um", "20 um"), ("1 mm", "1 mm")])
 def test_the_ends_of_a_range_are_told_in_units_of_their_size(most, written):
     wavelength = op.Wavelength(minimum="380 nm", maximum=most)
@@ -53,12 +47,9 @@ def test_the_ends_of_a_range_are_told_in_units_of_their_size(most, written):
         wavelength.resolve(400)
 
 
-def test_an_energy_stands_for_the_wavelength_of_codata():
+def test_energies_wave_numbers_and_frequencies_are_wavelengths_by_codata():
     # h c / e = 1.239 841 984... e-6 eV m (CODATA 2018, exact).
     assert wavelength_of("1 eV") == pytest.approx(1.239841984332002e-06, rel=1e-15)
-
-
-def test_a_wave_number_is_a_reciprocal_and_a_frequency_the_speed_of_light_over_it():
     assert wavelength_of("20000 1/cm") == wavelength_of("20000 cm^-1") == pytest.approx(5e-7)
     assert wavelength_of("299.792458 THz") == pytest.approx(1e-6, rel=1e-15)
 

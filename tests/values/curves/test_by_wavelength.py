@@ -11,13 +11,17 @@ from dispersive import line, on_line
 from tables import rows
 
 
-def test_a_table_has_its_unit_from_texts_or_beside_it():
+def test_tables_have_their_unit_from_texts_or_beside_them():
     axis = ["500 nm", "600 nm"]
     texts = op.tabulated(axis, ["25 deg/mm", "20 deg/mm"])
     numbers = op.tabulated(axis, [25, 20], "deg/mm")
     exact = math.radians(22.5) * 1e3
     assert texts.at("550 nm") == pytest.approx(exact, rel=1e-15)
     assert numbers.at("550 nm") == pytest.approx(exact, rel=1e-15)
+    places = ["500 nm", "600 nm"]
+    in_degrees = op.tabulated(places, ["95 deg", "100 deg"])
+    assert in_degrees == op.tabulated(places, np.radians([95.0, 100.0]))
+    assert in_degrees != op.tabulated(places, ["95 deg", "101 deg"])
 
 
 def test_a_table_of_another_dimension_is_refused_where_it_stands():
@@ -82,14 +86,11 @@ def test_coefficients_and_wavelengths_that_do_not_broadcast_are_named(bound):
     assert "wavelength (2,)" in str(caught.value)
 
 
-def test_a_coefficient_of_several_values_is_named_beside_wavelengths_that_it_does_not_fit():
+def test_coefficients_and_wavelengths_that_make_no_batch_are_named():
     first = op.Parameter("A", default=1.5, bound=True)
     several = replace(first, default=np.array([1.5, 1.6, 1.7]))
     with pytest.raises(op.ShapeError, match="arrays do not broadcast together"):
         op.Material.cauchy([several, 0.004]).at([5e-7, 6e-7])
-
-
-def test_wavelengths_of_more_axes_than_numpy_has_are_refused_as_others_are():
     path = op.Source() >> op.Interface(op.Material.cauchy([1.5, 0.004]), 0.3) >> op.Detector()
     with pytest.raises(op.ParameterError, match="wavelength has 40 axes, and a batch has 30 at m"):
         path.trace(wavelength=np.full((1,) * 40, 5e-7))
@@ -133,13 +134,6 @@ def test_coefficients_that_do_not_fit_are_refused():
         op.drude_rotation([1.0, 2.0], [0.1])
     with pytest.raises(op.ValueFault, match="give finite real numbers"):
         op.drude_rotation([math.inf], [0.1])
-
-
-def test_degrees_and_radians_make_the_same_curve():
-    places = ["500 nm", "600 nm"]
-    in_degrees = op.tabulated(places, ["95 deg", "100 deg"])
-    assert in_degrees == op.tabulated(places, np.radians([95.0, 100.0]))
-    assert in_degrees != op.tabulated(places, ["95 deg", "101 deg"])
 
 
 KNOWN = [
@@ -192,23 +186,17 @@ def told(path, **given):
     return str(fault.value)
 
 
-def test_a_broadening_above_its_limit_is_told_once_with_both_parameters():
+def test_a_broadening_above_its_limit_is_told_once_with_both_parameters_and_its_path():
     film = op.Material.tauc_lorentz([[90, 3.4, 2.0, 1.2], [100, P("E0"), P("C"), 1.2]])
     assert told(path_of(film), E0=3.0, C=6.5) == (
         "oscillators[1] of a Tauc-Lorentz model has the broadening 6.5 (parameter 'C') and the "
         "energy 3 (parameter 'E0'); the formula holds for a broadening below twice the energy, "
         "which is 6 (in a fit, give the optimiser bounds=)"
     )
-
-
-def test_of_a_batch_it_is_told_with_the_path():
     film = op.Material.tauc_lorentz([[100, 3.0, P("C"), 1.2]])
     words = told(path_of(film), C=np.array([1.0, 2.0, 6.5, 7.0]))
     assert "the broadening 6.5 (parameter 'C') and the energy 3;" in words
     assert words.endswith("which is 6 (at 2, of 4 paths)")
-
-
-def test_what_is_bound_and_what_stands_in_a_sum_is_told_alike():
     film = op.Material.tauc_lorentz([[100, P("E0"), P("C"), 1.2]])
     for path in (path_of(film), path_of(op.Material(film.n - 0.1 * film.k, 0.0))):
         words = told(path.bind(E0=3.0, C=7.0))
@@ -226,6 +214,8 @@ def test_a_formula_below_0_names_its_coefficients_besides_the_wavelength():
     words = told(path, a=np.array([1.5, -3.0]), b=0.005)
     assert "is -2.96 (at 1, of 2 paths), and" in words
     assert "bounds=" not in words
+    words = told(path_of(op.Material.cauchy([1.5], k=P("k"))), k=1j)
+    assert words.endswith("; n is that of a Cauchy formula; give k alone, a real number")
 
 
 @rows("a", [1.5 + 1j, np.array([1.5 + 1j, 1.5]), "1.5+1j"])
@@ -245,8 +235,3 @@ def test_a_default_that_is_no_coefficient_is_refused_where_the_formula_is_made()
         "of 0 or more"
     )
     assert "'g' (at damping of a Drude-Lorentz model) is -1" in fault.value.faults[1]
-
-
-def test_a_complex_k_beside_a_formula_is_told_whose_n_stands_there():
-    words = told(path_of(op.Material.cauchy([1.5], k=P("k"))), k=1j)
-    assert words.endswith("; n is that of a Cauchy formula; give k alone, a real number")

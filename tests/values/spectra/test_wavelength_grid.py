@@ -10,13 +10,10 @@ from optipath.values.spectra.grid_bins import grid_edges, grid_fault, grid_width
 from tables import rows
 
 
-def test_each_is_the_number_that_its_text_stands_for():
+def test_a_grid_has_the_numbers_that_its_texts_stand_for():
     found = op.wavelengths("380 nm", "700 nm", "40 nm")
     expected = [op.Wavelength().resolve(f"{place} nm").value for place in range(380, 701, 40)]
     assert found.tolist() == [float(place) for place in expected]
-
-
-def test_numbers_are_in_metres():
     assert op.wavelengths(4e-7, 5e-7, 5e-8).tolist() == [4e-7, 4.5e-7, 5e-7]
 
 
