@@ -410,8 +410,8 @@ def test_what_are_no_plain_degrees_or_become_radians_in_the_path_is_offered_no_u
         for angle in (A * (np.pi / 180), "90 deg" - A * (np.pi / 180), 2 * (np.pi / 180) * A)
     ]
     refused = [(give, {"a": 100}) for path in paths for give in (path.trace, path.bind)]
-    for delta in ("100 deg", np.radians(100.0), 1.6, 200.0):
-        refused.append((op.load_preset("npgr026").trace, {"delta": delta}))
+    trace = op.load_preset("npgr026").trace
+    refused += [(trace, {"delta": delta}) for delta in ("100 deg", np.radians(100.0), 1.6, 200.0)]
     for give, values in refused:
         with pytest.raises(op.ParameterError) as error:
             give(**values)
