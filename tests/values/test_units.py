@@ -4,6 +4,7 @@ import math
 import re
 import warnings
 from contextlib import suppress
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -292,21 +293,27 @@ def test_what_is_said_to_be_in_degrees_or_is_in_radians_is_no_reason_to_warn(act
 @rows(
     "ask",
     [
-        lambda path, angle: path.trace(turn=angle),
-        lambda path, angle: path.trace_all(turn=angle),
-        lambda path, angle: path.trace(keep="all", turn=angle),
-        lambda path, angle: path.mueller(turn=angle),
-        lambda path, angle: path.paths(turn=angle),
-        lambda path, angle: list(path.compose().stream(10, turn=angle)),
-        lambda path, angle: path.compose().certificate(turn=angle),
-        lambda path, angle: path.bind(turn=angle),
-        lambda path, angle: op.Composer(engine="numpy").compose(path).run(turn=angle),
+        "trace",
+        "every link",
+        "trace_all",
+        "mueller",
+        "paths",
+        "bind",
+        "certificate",
+        "stream",
+        "run",
     ],
 )
 @rows("angle", [45, 45.0, np.linspace(0.0, 180.0, 4)])
 def test_what_is_given_to_a_run_is_warned_of_once(ask, angle):
     path = chain([op.Rotator(op.Parameter("turn"))])
-    (sentence,) = warned(lambda: ask(path, angle))
+    asks = {
+        "every link": lambda **given: path.trace(keep="all", **given),
+        "stream": lambda **given: list(path.compose().stream(10, **given)),
+        "certificate": lambda **given: path.compose().certificate(**given),
+        "run": lambda **given: op.Composer(engine="numpy").compose(path).run(**given),
+    }
+    (sentence,) = warned(lambda: asks.get(ask, getattr(path, ask, None))(turn=angle))
     assert sentence.startswith("parameter 'turn' ")
 
 
@@ -329,34 +336,25 @@ def test_each_run_that_is_given_degrees_is_warned_of_however_often_and_however_m
 A = op.Parameter("a")
 
 
-@rows("angle", [10 * A, 2 * A - "10 deg", -A])
-def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn(angle):
-    path = chain([op.Rotator(angle)])
-    for give in (path.trace, path.bind):
-        for value in (45, [0.5, -40.0]):
+IN_RADIANS = A * (np.pi / 180)
+WITHIN = [
+    *((IN_RADIANS, given) for given in ([10.0, 45.0, 720.0], np.arange(0.0, 720.0, 0.7))),
+    (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
+    *((10 * A, given) for given in (4.5, "30 deg", np.radians(90.0))),
+    *((5 * A, given) for given in (np.linspace(0.0, 3.0, 31), np.float32(2.1))),
+    (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
+    *((A / 100, 270.0), (A * (2.0 * np.pi * 0.009 / 550e-9), 1e-3)),
+]
+
+
+def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn_and_not_within_it():
+    for angle, value in product((10 * A, 2 * A - "10 deg", -A), (45, [0.5, -40.0])):
+        path = chain([op.Rotator(angle)])
+        for give in (path.trace, path.bind):
             assert warned(lambda: give(a=value)) == [f"parameter 'a' {WARNED}"]  # noqa: B023
-
-
-@rows(
-    "angle, given",
-    [
-        (A * (np.pi / 180), [10.0, 45.0, 720.0]),
-        (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
-        (A / 100, 270.0),
-        (10 * A, 4.5),
-        (5 * A, np.linspace(0.0, 3.0, 31)),
-        (5 * A, np.float32(2.1)),
-        (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
-        (A * (2.0 * np.pi * 0.009 / 550e-9), 1e-3),
-        (A * (np.pi / 180), np.arange(0.0, 720.0, 0.7)),
-        (10 * A, "30 deg"),
-        (10 * A, np.radians(90.0)),
-    ],
-)
-def test_a_multiple_of_an_angle_within_a_turn_or_of_a_pure_number_is_no_reason_to_warn(
-    angle, given
-):
-    assert warned(lambda: chain([op.Rotator(angle)]).trace(a=given)) == []
+    for angle, value in WITHIN:
+        path = chain([op.Rotator(angle)])
+        assert warned(lambda: path.trace(a=value)) == [], (angle, value)  # noqa: B023
 
 
 def test_a_unit_for_what_the_path_turns_into_radians_is_warned_of_and_plain_degrees_are_not():
@@ -372,19 +370,18 @@ def test_a_unit_for_what_the_path_turns_into_radians_is_warned_of_and_plain_degr
         assert warned(path.trace) == []
 
 
+NPGR026 = op.load_preset("npgr026")
+FACE = chain([op.Interface(1.5, op.Parameter("t"))])
+
+
 @rows(
     "action",
     [
-        lambda: op.load_preset("npgr026").trace(delta=48),
-        lambda: op.load_preset("npgr026").trace(delta=[0.1, 48.0]),
-        lambda: op.load_preset("npgr026", delta=48),
-        lambda: op.load_preset("npgr026").bind(delta=48),
-        lambda: op.Interface(1.5, 48),
+        *(lambda: NPGR026.trace(delta=48), lambda: NPGR026.trace(delta=[0.1, 48.0])),
+        *(lambda: op.load_preset("npgr026", delta=48), lambda: NPGR026.bind(delta=48)),
+        *(lambda: op.Interface(1.5, 48), lambda: op.Interface(1.5, op.Parameter("t", 48))),
+        *(lambda: FACE.trace(t=48), lambda: FACE.bind(t=48), lambda: op.refraction_angle(1.5, 48)),
         lambda: op.Parameter("t", 48, "deg", 0.0, 1.5),
-        lambda: chain([op.Interface(1.5, op.Parameter("t"))]).trace(t=48),
-        lambda: chain([op.Interface(1.5, op.Parameter("t"))]).bind(t=48),
-        lambda: op.Interface(1.5, op.Parameter("t", 48)),
-        lambda: op.refraction_angle(1.5, 48),
     ],
 )
 def test_degrees_that_are_refused_are_offered_with_their_unit(action):
@@ -395,12 +392,11 @@ def test_degrees_that_are_refused_are_offered_with_their_unit(action):
 
 
 @rows("angle", [2 * A - "20 deg", "90 deg" - A])
-@rows("given", [48, [0.3, 48.0]])
-def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(angle, given):
+def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(angle):
     path = chain([op.Interface(1.5, angle)])
-    for give in (path.trace, path.bind):
+    for give, value in product((path.trace, path.bind), (48, [0.3, 48.0])):
         with pytest.raises(op.ParameterError, match=r"; did you mean '48 deg' or np.radians\(48\)"):
-            give(a=given)
+            give(a=value)
     path.trace(a="48 deg")
 
 
