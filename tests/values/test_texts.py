@@ -19,40 +19,43 @@ from tables import rows
 THIRTY = 30.0 * (np.pi / 180.0)
 
 
+def extincting(length, k, wavelength):
+    return op.Medium.from_extinction(length, k=k, wavelength=wavelength)
+
+
 @rows(
-    "by_texts, by_numbers",
+    "make, texts, numbers",
     [
-        (lambda: op.Polarizer("30 deg", "100 mrad", "0.5"), op.Polarizer(THIRTY, 0.1, 0.5)),
-        (lambda: op.Retarder("180 deg", angle="1 rad"), op.Retarder(np.pi, 1.0)),
-        (lambda: op.Rotator(["30 deg", 0.5, "0.1 rad"]), op.Rotator([THIRTY, 0.5, 0.1])),
-        (lambda: op.Rotator(np.array(["30 deg", "0 deg"])), op.Rotator([THIRTY, 0.0])),
-        (lambda: op.Rotator([["30 deg"], ["0 deg"]]), op.Rotator([[THIRTY], [0.0]])),
-        (lambda: op.Interface("1.5", "30 deg", "1.33"), op.Interface(1.5, THIRTY, 1.33)),
-        (lambda: op.Interface("0.3+0.4j", "30 deg"), op.Interface(0.3 + 0.4j, THIRTY)),
-        (lambda: op.Interface(op.Material("0.3", "0.4"), 0.1), op.Interface(0.3 + 0.4j, 0.1)),
-        (lambda: op.LayerStack(["1", 1.5, "0.2+3j"], 0.1), op.LayerStack([1, 1.5, 0.2 + 3j], 0.1)),
-        (lambda: op.Medium("5 mm", "1 1/cm"), op.Medium(5e-3, 100.0)),
-        (lambda: op.Medium("1 dm", rotation="1 rad/cm"), op.Medium(0.1, rotation="100 rad/m")),
+        (op.Polarizer, ("30 deg", "100 mrad", "0.5"), (THIRTY, 0.1, 0.5)),
+        (op.Retarder, ("180 deg", "1 rad"), (np.pi, 1.0)),
+        (op.Rotator, (["30 deg", 0.5, "0.1 rad"],), ([THIRTY, 0.5, 0.1],)),
+        (op.Rotator, (np.array(["30 deg", "0 deg"]),), ([THIRTY, 0.0],)),
+        (op.Rotator, ([["30 deg"], ["0 deg"]],), ([[THIRTY], [0.0]],)),
+        (op.Interface, ("1.5", "30 deg", "1.33"), (1.5, THIRTY, 1.33)),
+        (op.Interface, ("0.3+0.4j", "30 deg"), (0.3 + 0.4j, THIRTY)),
+        (op.Interface, (op.Material("0.3", "0.4"), 0.1), (0.3 + 0.4j, 0.1)),
+        (op.LayerStack, (["1", 1.5, "0.2+3j"], 0.1), ([1, 1.5, 0.2 + 3j], 0.1)),
+        (op.Medium, ("5 mm", "1 1/cm"), (5e-3, 100.0)),
         (
-            lambda: op.Medium.from_extinction("1 um", k="0.05", wavelength="500 nm"),
-            op.Medium.from_extinction(1e-6, k=0.05, wavelength=500e-9),
+            lambda length, turn: op.Medium(length, rotation=turn),
+            ("1 dm", "1 rad/cm"),
+            (0.1, "100 rad/m"),
         ),
-        (lambda: op.Mirror("-0.9+0.1j"), op.Mirror(-0.9 + 0.1j)),
-        (lambda: op.Source("100", ["1", "1", 0, 0]), op.Source(100.0, [1.0, 1.0, 0.0, 0.0])),
-        (lambda: op.MuellerElement(np.eye(4).astype(str)), op.MuellerElement(np.eye(4))),
-        (
-            lambda: op.VerticesByAngles(("30 deg", 0.2), ("1 rad",)),
-            op.VerticesByAngles((THIRTY, 0.2), (1.0,)),
-        ),
-        (lambda: op.CosSin("0.6", ["0.8"]), op.CosSin(0.6, [0.8])),
-        (
-            lambda: op.Parameter("t", "30 deg", "", "0 deg", "1 rad", words={"up": "0.5 rad"}),
-            op.Parameter("t", THIRTY, "deg", 0.0, 1.0, words={"up": 0.5}),
-        ),
+        (extincting, ("1 um", "0.05", "500 nm"), (1e-6, 0.05, 500e-9)),
+        (op.Mirror, ("-0.9+0.1j",), (-0.9 + 0.1j,)),
+        (op.Source, ("100", ["1", "1", 0, 0]), (100.0, [1.0, 1.0, 0.0, 0.0])),
+        (op.MuellerElement, (np.eye(4).astype(str),), (np.eye(4),)),
+        (op.VerticesByAngles, (("30 deg", 0.2), ("1 rad",)), ((THIRTY, 0.2), (1.0,))),
+        (op.CosSin, ("0.6", ["0.8"]), (0.6, [0.8])),
     ],
 )
-def test_a_text_is_the_number_that_it_stands_for(by_texts, by_numbers):
-    assert by_texts() == by_numbers
+def test_a_text_is_the_number_that_it_stands_for(make, texts, numbers):
+    assert make(*texts) == make(*numbers)
+
+
+def test_a_parameter_has_the_unit_of_its_texts():
+    by_texts = op.Parameter("t", "30 deg", "", "0 deg", "1 rad", words={"up": "0.5 rad"})
+    assert by_texts == op.Parameter("t", THIRTY, "deg", 0.0, 1.0, words={"up": 0.5})
 
 
 def test_axes_have_names(tmp_path):
@@ -79,44 +82,41 @@ def test_axes_have_names(tmp_path):
         op.load_preset(file)
 
 
-@rows(
-    "give, sentence",
-    [
-        (lambda: op.Polarizer("30"), "angle: '30' has no unit, but an angle is asked for; add one"),
-        (lambda: op.Polarizer("30 nm"), "Polarizer angle: '30 nm' is no angle; use one of deg"),
-        (lambda: op.Polarizer("30 dgr"), "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
-        (lambda: op.Polarizer("horizontl"), "'horizontl' is unknown; did you mean 'horizontal'"),
-        (lambda: op.Rotator(["30 deg", "4 nm", "5 nm"]), "2 faults:\n.*'4 nm'.*\n.*'5 nm' is no a"),
-        (lambda: op.Medium("5 deg"), "Medium length: '5 deg' is no length; use one of nm"),
-        (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
-        (lambda: op.CosSin("30 deg", "0.5"), "cos: '30 deg' has a unit.*; give the angle itself"),
-        (lambda: op.Parameter("t", "30 dge"), "unit 'dge' is unknown; did you mean 'deg'"),
-        (
-            lambda: op.Parameter("t", "0.1/mm"),
-            "'0.1/mm' is not a quantity; did you mean '0.1 1/mm'",
-        ),
-        (lambda: op.Parameter("t", minimum="0 nm", maximum="9 deg"), "maximum.*'9 deg' is no leng"),
-        (lambda: op.Frame().turned("30"), "the angle of a turn: '30' has no unit"),
-        (lambda: op.refraction_angle(1.5, "40"), "incidence: '40' has no unit"),
-        (lambda: op.VerticesByAngles(("40",)), r"incidences\[0\]: '40' has no unit"),
-    ],
-)
+def turned(azimuth):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", "eye.in", azimuth=azimuth)
+    return path.trace()
+
+
+NO_NUMBERS = [
+    (lambda: op.Polarizer("30"), "angle: '30' has no unit, but an angle is asked for; add one"),
+    (lambda: op.Polarizer("30 nm"), "Polarizer angle: '30 nm' is no angle; use one of deg"),
+    (lambda: op.Polarizer("30 dgr"), "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
+    (lambda: op.Polarizer("horizontl"), "'horizontl' is unknown; did you mean 'horizontal'"),
+    (lambda: op.Rotator(["30 deg", "4 nm", "5 nm"]), "2 faults:\n.*'4 nm'.*\n.*'5 nm' is no a"),
+    (lambda: op.Medium("5 deg"), "Medium length: '5 deg' is no length; use one of nm"),
+    (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
+    (lambda: op.CosSin("30 deg", "0.5"), "cos: '30 deg' has a unit.*; give the angle itself"),
+    (lambda: op.Parameter("t", "30 dge"), "unit 'dge' is unknown; did you mean 'deg'"),
+    (lambda: op.Parameter("t", "0.1/mm"), "'0.1/mm' is not a quantity; did you mean '0.1 1/mm'"),
+    (lambda: op.Parameter("t", minimum="0 nm", maximum="9 deg"), "maximum.*'9 deg' is no leng"),
+    (lambda: op.Frame().turned("30"), "the angle of a turn: '30' has no unit"),
+    (lambda: op.refraction_angle(1.5, "40"), "incidence: '40' has no unit"),
+    (lambda: op.VerticesByAngles(("40",)), r"incidences\[0\]: '40' has no unit"),
+    (lambda: turned("45"), r"link 'lamp.out -> eye.in' azimuth: '45' has no"),
+]
+
+
+@rows("give, sentence", NO_NUMBERS)
 def test_what_stands_for_no_number_is_refused_by_its_field(give, sentence):
     with pytest.raises(op.OptipathError, match=sentence):
         give()
 
 
 def test_angles_of_links_and_arguments_of_functions_may_be_texts():
-    def turned(azimuth):
-        path = op.PathGraph()
-        path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
-        path.add("eye", op.Detector())
-        path.connect("lamp.out", "eye.in", azimuth=azimuth)
-        return path.trace()
-
     assert turned("45 deg") == turned(np.pi / 4)
-    with pytest.raises(op.OptipathError, match=r"link 'lamp.out -> eye.in' azimuth: '45' has no"):
-        turned("45")
     assert op.Frame().turned("90 deg") == op.Frame().turned(np.pi / 2)
     assert op.refraction_angle("1.5", "40 deg") == op.refraction_angle(1.5, np.radians(40.0))
     assert op.fresnel_reflection("1.5", "0.6", "0.8") == op.fresnel_reflection(1.5, 0.6, 0.8)
@@ -232,14 +232,6 @@ def test_what_is_wrong_is_told_with_a_cure_that_works(text, told, cure):
         assert len(several_texts(DELTA, cure)) > 1
 
 
-def test_a_file_that_is_missing_or_has_no_name_of_its_column_is_told(tmp_path):
-    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
-        several_texts(DELTA, "@nowhere.csv")
-    polarizer = op.Parameter("filter", words={"horizontal": 0.0, "vertical": 1.5})
-    with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
-        several_texts(polarizer, written(tmp_path, "horizontal\nvertical\n"))
-
-
 def written(folder, text):
     (folder / "angles.csv").write_text(text, "utf-8")
     return f"@{folder / 'angles.csv'}"
@@ -254,8 +246,8 @@ def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp
     assert several_texts(polarizer, text) == ["none", "horizontal", "30 deg"]
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@rows(
+    "text, told",
     [
         ("", "it is empty"),
         ("10\n20\n", "line 1 has numbers or nothing for names of columns"),
@@ -272,6 +264,14 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name(tmp_path, text, told):
     with pytest.raises(op.OptipathError, match=r"angles\.csv: ") as caught:
         several_texts(DELTA, written(tmp_path, text))
     assert told in str(caught.value)
+
+
+def test_a_file_that_is_missing_or_has_no_name_of_its_column_is_told(tmp_path):
+    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
+        several_texts(DELTA, "@nowhere.csv")
+    polarizer = op.Parameter("filter", words={"horizontal": 0.0, "vertical": 1.5})
+    with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
+        several_texts(polarizer, written(tmp_path, "horizontal\nvertical\n"))
 
 
 @rows(
