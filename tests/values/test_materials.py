@@ -59,7 +59,7 @@ def test_a_wavelength_may_be_an_energy_an_array_or_known_from_the_beginning():
     assert op.Material.tabulated(WAVELENGTHS, 1.5, 0.2).at("1 um") == op.Material(1.5, 0.2)
 
 
-def test_what_is_shown_can_be_read():
+def test_equal_materials_are_equal_and_shown_as_can_be_read_on_one_line():
     glass = op.Material(bk7().n, 0.1)
     film = op.Material.tauc_lorentz([(1, 3, 1, 2)])
     assert repr(op.Material(1.5, 0.1)) == "Material(n=1.5, k=0.1)"
@@ -67,9 +67,6 @@ def test_what_is_shown_can_be_read():
     assert repr(bk7()) == "Material 'BK7', any wavelength"
     assert repr(glass) == "Material(n=n of BK7, k=0.1)"
     assert repr(film) == "Material 'a Tauc-Lorentz model', any wavelength"
-
-
-def test_equal_materials_are_equal_and_a_name_is_quoted_on_one_line():
     assert gold() == gold()
     assert gold() != gold(interpolation="monotone")
     assert gold() != gold(wavelength=op.Wavelength("other"))

@@ -53,11 +53,6 @@ def test_a_text_is_the_number_that_it_stands_for(make, texts, numbers):
     assert make(*texts) == make(*numbers)
 
 
-def test_a_parameter_has_the_unit_of_its_texts():
-    by_texts = op.Parameter("t", "30 deg", "", "0 deg", "1 rad", words={"up": "0.5 rad"})
-    assert by_texts == op.Parameter("t", THIRTY, "deg", 0.0, 1.0, words={"up": 0.5})
-
-
 def test_axes_have_names(tmp_path):
     axes = {"horizontal": 0, "vertical": 90, "diagonal": 45, "antidiagonal": -45}
     for (word, degrees), make in product(
@@ -122,6 +117,8 @@ def test_angles_of_links_and_arguments_of_functions_may_be_texts():
     assert op.fresnel_reflection("1.5", "0.6", "0.8") == op.fresnel_reflection(1.5, 0.6, 0.8)
     points = op.vertices_from_angles(["45 deg"])
     np.testing.assert_array_equal(points, op.vertices_from_angles([np.pi / 4]))
+    by_texts = op.Parameter("t", "30 deg", "", "0 deg", "1 rad", words={"up": "0.5 rad"})
+    assert by_texts == op.Parameter("t", THIRTY, "deg", 0.0, 1.0, words={"up": 0.5})
 
 
 def test_texts_are_given_to_runs_in_every_way():

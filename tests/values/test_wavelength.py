@@ -10,7 +10,7 @@ from optipath.values.spectral_units import wavelength_of
 from tables import rows
 
 
-def test_wavelengths_and_their_limits_are_lengths_or_energies_by_any_name():
+def test_wavelengths_and_their_limits_are_lengths_energies_wave_numbers_and_frequencies():
     given = op.Wavelength().resolve(["516 nm", "2.4 eV", "20000 1/cm", "0.5 um"]).value
     assert given == pytest.approx([516e-9, 516.600827e-9, 500e-9, 500e-9])
     known = op.Wavelength(default="2 eV", minimum="3 eV", maximum="1 eV")
@@ -18,6 +18,10 @@ def test_wavelengths_and_their_limits_are_lengths_or_energies_by_any_name():
     assert known.minimum == pytest.approx(413.28e-9, rel=1e-5)
     path = op.Source() >> op.Waveplate(1e-5, 0.009, op.Wavelength("probe")) >> op.Detector()
     assert path.trace(probe="516 nm").stokes[0] == 1.0
+    # h c / e = 1.239 841 984... e-6 eV m (CODATA 2018, exact).
+    assert wavelength_of("1 eV") == pytest.approx(1.239841984332002e-06, rel=1e-15)
+    assert wavelength_of("20000 1/cm") == wavelength_of("20000 cm^-1") == pytest.approx(5e-7)
+    assert wavelength_of("299.792458 THz") == pytest.approx(1e-6, rel=1e-15)
 
 
 def test_what_is_no_wavelength_is_refused():
@@ -44,13 +48,6 @@ def test_the_ends_of_a_range_are_told_in_units_of_their_size(most, written):
     wavelength = op.Wavelength(minimum="380 nm", maximum=most)
     with pytest.raises(op.ParameterError, match=f"light goes from 380 nm to {written}$"):
         wavelength.resolve(400)
-
-
-def test_energies_wave_numbers_and_frequencies_are_wavelengths_by_codata():
-    # h c / e = 1.239 841 984... e-6 eV m (CODATA 2018, exact).
-    assert wavelength_of("1 eV") == pytest.approx(1.239841984332002e-06, rel=1e-15)
-    assert wavelength_of("20000 1/cm") == wavelength_of("20000 cm^-1") == pytest.approx(5e-7)
-    assert wavelength_of("299.792458 THz") == pytest.approx(1e-6, rel=1e-15)
 
 
 @rows("text", ["516", "516 deg"])

@@ -108,7 +108,12 @@ def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_t
         plan().run(**GOLD, **WIDE)
 
 
-def test_few_paths_of_which_much_is_kept_are_asked_for_too(monkeypatch):
+def test_few_paths_of_which_much_is_kept_are_asked_for_and_memory_that_runs_out_is_told(
+    monkeypatch,
+):
+    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
+    with told, memory.enough_for((3, 4), 32):
+        raise MemoryError
     path = op.Source(op.Parameter("power"))
     for _ in range(300):
         path = path >> op.Attenuator(0.999)
@@ -116,12 +121,6 @@ def test_few_paths_of_which_much_is_kept_are_asked_for_too(monkeypatch):
     monkeypatch.setattr(memory, "memory", lambda: 2**27)
     with pytest.raises(op.ParameterError, match=r"of shape \(8000,\), takes 0.2 GB"):
         op.Composer(keep="all").compose(path).run_all(power=np.ones(8000))
-
-
-def test_memory_that_runs_out_on_the_way_is_told_in_the_same_words():
-    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
-    with told, memory.enough_for((3, 4), 32):
-        raise MemoryError
 
 
 def test_a_batch_has_thirty_axes_at_most():

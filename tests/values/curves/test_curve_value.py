@@ -30,6 +30,11 @@ def test_light_is_that_of_the_numbers_at_each_wavelength_of_several_runs():
     plan = mirror().compose()
     for wavelength in [5e-7, 6e-7, 5e-7, 7e-7] * 3:
         assert plan.run(wavelength=wavelength).stokes == pytest.approx(by_numbers(wavelength))
+    path = mirror(slope=op.Parameter("slope"))
+    found = path.trace(slope=np.array([[1e6], [2e6]]), wavelength=np.array([4e-7, 5e-7])).stokes
+    assert found.shape == (2, 2, 4)
+    assert found[1, 1] == pytest.approx(by_numbers(5e-7))
+    assert path.bind(slope=1e6).trace(wavelength=4e-7).stokes == pytest.approx(found[0, 0])
 
 
 @pytest.mark.parametrize("engine", ["numpy", "numba"])
@@ -73,14 +78,6 @@ def test_a_wavelength_that_is_bound_known_or_a_default_gives_numbers():
     assert path.trace(wavelength="600 nm").stokes == pytest.approx(by_numbers(6e-7))
     n, k = metal(wavelength=5e-7)
     assert (float(n), float(k)) == (1.0, 1.0 + np.sqrt(0.5))
-
-
-def test_what_a_curve_is_made_of_may_be_a_parameter():
-    path = mirror(slope=op.Parameter("slope"))
-    found = path.trace(slope=np.array([[1e6], [2e6]]), wavelength=np.array([4e-7, 5e-7])).stokes
-    assert found.shape == (2, 2, 4)
-    assert found[1, 1] == pytest.approx(by_numbers(5e-7))
-    assert path.bind(slope=1e6).trace(wavelength=4e-7).stokes == pytest.approx(found[0, 0])
 
 
 def test_a_wavelength_out_of_range_or_not_given_is_told_once():

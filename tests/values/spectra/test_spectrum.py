@@ -38,13 +38,19 @@ def test_samples_are_joined_by_straight_lines_and_may_fall():
         lamp.rebin([4e-7, 5e-7]).values  # noqa: B018
 
 
-def test_a_histogram_has_its_power_spread_evenly_over_each_bin():
+def test_histograms_and_lines_have_their_power_spread_over_bins_or_counted_once():
     lamp = op.Spectrum.histogram(["400 nm", "500 nm", "700 nm"], [10.0, 40.0])
     found = lamp.at(["400 nm", "499 nm", "500 nm", "700 nm"])
     np.testing.assert_allclose(found, [0.1, 0.1, 0.2, 0.2], rtol=1e-12)
     assert lamp.power() == pytest.approx(50.0, rel=1e-14)
     turned = op.Spectrum.histogram(["700 nm", "500 nm", "400 nm"], [40.0, 10.0])
     assert turned == lamp
+    lamp = op.Spectrum.constant(1.0) + op.Spectrum.line("500 nm", 2.0)
+    parts = [lamp.power("400 nm", "500 nm"), lamp.power("500 nm", "600 nm")]
+    assert parts == pytest.approx([100.0, 102.0], rel=1e-13)
+    assert lamp.power("400 nm", "600 nm") == pytest.approx(sum(parts), rel=1e-13)
+    laser = op.Spectrum.line("500 nm", 2.0)
+    assert [laser.power(high="500 nm"), laser.power("500 nm"), laser.power()] == [0.0, 2.0, 2.0]
 
 
 @rows("temperature", [300.0, 2856.0, 5772.0])
@@ -69,15 +75,6 @@ def test_whole_powers_of_sums_and_of_diodes_are_those_of_their_terms():
     body = op.Spectrum.black_body(300.0)
     whole = lamp + body + op.Spectrum.line("633 nm", 5.0)
     assert whole.power() == pytest.approx(205.0 + body.power(), rel=1e-14)
-
-
-def test_a_line_at_a_shared_end_counts_once():
-    lamp = op.Spectrum.constant(1.0) + op.Spectrum.line("500 nm", 2.0)
-    parts = [lamp.power("400 nm", "500 nm"), lamp.power("500 nm", "600 nm")]
-    assert parts == pytest.approx([100.0, 102.0], rel=1e-13)
-    assert lamp.power("400 nm", "600 nm") == pytest.approx(sum(parts), rel=1e-13)
-    laser = op.Spectrum.line("500 nm", 2.0)
-    assert [laser.power(high="500 nm"), laser.power("500 nm"), laser.power()] == [0.0, 2.0, 2.0]
 
 
 def test_black_body_peaks_by_wiens_law_and_agrees_with_planck_in_many_digits():
