@@ -13,13 +13,9 @@ P = op.Parameter
 
 def two_faces(front, back):
     path = op.PathGraph()
-    path.add("lamp", op.Source())
-    path.add("front", front)
-    path.add("back", back)
-    path.add("eye", op.Detector())
-    links = ("lamp", "front"), ("front.transmitted", "back"), ("back.transmitted", "eye")
-    for link in links:
-        path.connect(*link)
+    path.add("lamp", op.Source()) >> path.add("front", front)
+    path["front.transmitted"] >> path.add("back", back)
+    path["back.transmitted"] >> path.add("eye", op.Detector())
     return path
 
 
@@ -70,9 +66,6 @@ def test_what_is_not_allowed_is_told_with_its_place(parameter, given, words):
     path = op.Source() >> op.Attenuator(parameter) >> op.Detector()
     with pytest.raises(op.OptipathError, match=words):
         path.trace(x=np.array(given))
-
-
-def test_an_index_that_is_not_allowed_is_told_with_its_place():
     with pytest.raises(op.ValueFault, match=r"index is \(1.5-1j\) at 1; give"):
         op.Interface(np.array([1.5, 1.5 - 1j]), 0.3)
 
@@ -92,10 +85,7 @@ def test_the_cure_of_an_angle_passes_as_it_is_written(angle, n, outside):
     assert offered
     for incidence, how, index in offered:
         back(incidence, None if how == "in n" else float(index)).check()
-
-
-def test_figures_that_differ_differ_as_they_are_printed():
-    front = op.Interface(1.561013496050288, "89.97722848292891 deg", outside=1.290977624)
-    fault = fault_of(two_faces(front, op.Interface(1.0, "55.79305157 deg", outside=front.index)))
-    here, there = re.findall(r"([0-9.]+) at '", fault)
-    assert here != there
+    if (angle, n) == (89.97722848292891, 1.561013496050288):
+        # Figures that differ differ as they are printed.
+        here, there = re.findall(r"([0-9.]+) at '", fault_of(back("55.79305157 deg")))
+        assert here != there

@@ -21,46 +21,48 @@ class _InBytes(os.PathLike):
         return b"lamp.csv"
 
 
-@rows(
-    "read",
-    [op.Spectrum.from_csv, op.Material.from_csv, op.Material.from_yaml],
-)
+def height_field(file):
+    return op.surfaces.HeightField.from_file(file, size=("1 mm", "1 mm"))
+
+
+READERS = [("x.csv", op.Spectrum.from_csv), ("x.csv", op.Material.from_csv)]
+READERS += [("x.yml", op.Material.from_yaml), ("x.txt", height_field), ("x.npy", height_field)]
+READERS += [("x.nc", op.surfaces.load_hemisphere), ("x.csv", columns_of)]
+
+
+@rows("read", [read for _, read in READERS[:3]])
 @rows("path", [None, 5, b"x.csv", "", "a\0b.toml", _InBytes(), ["a.csv"]])
 def test_what_is_no_name_of_a_file_is_refused(read, path):
     with pytest.raises(op.OptipathError, match="name of a file"):
         read(path)
 
 
-@pytest.mark.parametrize("column", [None, 1])
-def test_a_column_is_asked_for_by_its_name(column, tmp_path):
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
+def test_what_is_no_file_is_refused_and_not_waited_for(tmp_path):
+    for number, (name, read) in enumerate(READERS):
+        folder = tmp_path / f"{number}"
+        folder.mkdir()
+        for make in (os.mkfifo, lambda path: path.symlink_to("/dev/zero"), os.mkdir):
+            make(folder / name)
+            with pytest.raises(op.OptipathError):
+                read(folder / name)
+            (folder / name).rename(folder / f"{len(list(folder.iterdir()))}")
+
+
+def test_a_column_is_asked_for_by_its_name_in_a_file_that_is_not_too_large(tmp_path):
     file = tmp_path / "lamp.csv"
     file.write_text("wavelength (nm), power\n400, 1\n500, 1\n")
-    with pytest.raises(op.ValueFault, match=f"a text, not by {column}; write .* column='power'"):
-        op.Spectrum.from_csv(file, column=column)
+    for column in (None, 1):
+        with pytest.raises(
+            op.ValueFault, match=f"a text, not by {column}; write .* column='power'"
+        ):
+            op.Spectrum.from_csv(file, column=column)
     with pytest.raises(op.ValueFault, match="the unit is 5; give a text, such as unit='nm'"):
         op.Spectrum.from_csv(file, unit=5)
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
-@pytest.mark.parametrize(
-    ("name", "read"),
-    [
-        ("x.csv", op.Spectrum.from_csv),
-        ("x.csv", op.Material.from_csv),
-        ("x.yml", op.Material.from_yaml),
-        ("x.txt", lambda file: op.surfaces.HeightField.from_file(file, size=("1 mm", "1 mm"))),
-        ("x.npy", lambda file: op.surfaces.HeightField.from_file(file, size=("1 mm", "1 mm"))),
-        ("x.nc", op.surfaces.load_hemisphere),
-        ("x.csv", columns_of),
-    ],
-)
-def test_what_is_no_file_is_refused_and_not_waited_for(name, read, tmp_path):
-    file = tmp_path / name
-    for make in (os.mkfifo, lambda path: path.symlink_to("/dev/zero"), os.mkdir):
-        make(file)
-        with pytest.raises(op.OptipathError):
-            read(file)
-        file.rename(tmp_path / f"{len(list(tmp_path.iterdir()))}")
+    with file.open("wb") as stream:
+        stream.truncate(LARGEST + 1)
+    with pytest.raises(op.OptipathError, match="larger than 64 MiB"):
+        columns_of(file)
 
 
 @pytest.mark.skipif(not Path("/dev/fd").is_dir(), reason="there are no names of pipes")
@@ -73,14 +75,6 @@ def test_a_pipe_that_somebody_writes_to_is_read():
     assert column.texts == ("10 deg", "20 deg")
 
 
-def test_a_file_has_a_largest_size(tmp_path):
-    file = tmp_path / "large.csv"
-    with file.open("wb") as stream:
-        stream.truncate(LARGEST + 1)
-    with pytest.raises(op.OptipathError, match="larger than 64 MiB"):
-        columns_of(file)
-
-
 def names(folder):
     return sorted(file.name for file in folder.iterdir())
 
@@ -89,27 +83,28 @@ def mode(file):
     return stat.S_IMODE(file.stat().st_mode)
 
 
-@pytest.mark.parametrize("umask", [0o022, 0o077, 0o002])
-def test_a_new_file_has_the_permissions_that_the_umask_leaves(tmp_path, umask):
-    before = os.umask(umask)
-    try:
-        write_file(tmp_path / "a", b"new")
-    finally:
-        os.umask(before)
-    assert (tmp_path / "a").read_bytes() == b"new"
-    assert mode(tmp_path / "a") == 0o666 & ~umask
-    assert names(tmp_path) == ["a"]
-
-
-def test_a_file_that_is_replaced_keeps_its_permissions(tmp_path):
-    file = tmp_path / "a"
+def test_a_file_that_is_written_has_its_permissions_and_any_name(tmp_path):
+    for umask in (0o022, 0o077, 0o002):
+        folder = tmp_path / f"{umask}"
+        folder.mkdir()
+        before = os.umask(umask)
+        try:
+            write_file(folder / "a", b"new")
+        finally:
+            os.umask(before)
+        assert (folder / "a").read_bytes() == b"new"
+        assert mode(folder / "a") == 0o666 & ~umask
+        assert names(folder) == ["a"]
+    file = tmp_path / "18" / "a"
     file.write_bytes(b"old and longer")
     file.chmod(0o640)
     write_file(file, b"new")
     assert (file.read_bytes(), mode(file)) == (b"new", 0o640)
+    write_file(file.with_name("a" * 255), b"new")
+    assert names(file.parent) == ["a", "a" * 255]
 
 
-def test_links_are_followed(tmp_path):
+def test_links_are_followed_and_left_where_they_lead_to_each_other(tmp_path):
     (tmp_path / "there").mkdir()
     target, link, dangling = tmp_path / "there" / "a", tmp_path / "link", tmp_path / "dangling"
     target.write_bytes(b"old")
@@ -121,17 +116,22 @@ def test_links_are_followed(tmp_path):
     assert dangling.is_symlink()
     assert target.read_bytes() == (tmp_path / "there" / "b").read_bytes() == b"new"
     assert names(tmp_path / "there") == ["a", "b"]
+    (tmp_path / "a").symlink_to("b")
+    (tmp_path / "b").symlink_to("a")
+    with pytest.raises(OSError, match="Too many levels"):
+        write_file(tmp_path / "a", b"light")
+    assert (tmp_path / "a").is_symlink()
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-@pytest.mark.parametrize("call", ["fsync", "replace"])
+@pytest.mark.parametrize("place", [(os, "fsync"), (Path, "replace")])
 def test_what_was_there_stays_where_writing_fails_and_no_draft_is_left(
-    tmp_path, monkeypatch, error, call
+    tmp_path, monkeypatch, error, place
 ):
     def fail(*_):
         raise error
 
-    monkeypatch.setattr(*((os, "fsync") if call == "fsync" else (Path, "replace")), fail)
+    monkeypatch.setattr(*place, fail)
     (tmp_path / "a").write_bytes(b"old")
     for name in ("a", "b"):
         with pytest.raises(type(error)):
@@ -140,19 +140,11 @@ def test_what_was_there_stays_where_writing_fails_and_no_draft_is_left(
     assert (tmp_path / "a").read_bytes() == b"old"
 
 
-def test_devices_are_written_to_and_not_replaced():
+def test_devices_and_pipes_are_written_to_and_not_replaced():
     write_file(Path("/dev/null"), b"light")
     assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
     with pytest.raises(OSError, match="No space left"):
         write_file(Path("/dev/full"), b"light")
-
-
-def test_the_longest_names_can_be_written(tmp_path):
-    write_file(tmp_path / ("a" * 255), b"new")
-    assert names(tmp_path) == ["a" * 255]
-
-
-def test_a_pipe_is_written_to_by_any_of_its_names():
     reads, writes = os.pipe()
     write_file(Path(f"/dev/fd/{writes}"), b"light")
     os.close(writes)
@@ -160,17 +152,6 @@ def test_a_pipe_is_written_to_by_any_of_its_names():
         assert pipe.read() == b"light"
 
 
-def test_links_that_lead_to_each_other_are_left_as_they_are(tmp_path):
-    (tmp_path / "a").symlink_to("b")
-    (tmp_path / "b").symlink_to("a")
-    with pytest.raises(OSError, match="Too many levels"):
-        write_file(tmp_path / "a", b"light")
-    assert (tmp_path / "a").is_symlink()
-
-
-def test_functions_and_none_are_let_through():
-    assert no_function("progress", print, "") == no_function("progress", None, "") == []
-
-
 def test_what_is_no_function_is_told_with_its_cure():
+    assert no_function("progress", print, "") == no_function("progress", None, "") == []
     assert no_function("progress", 3, "numbers") == ["progress is 3; give a function of numbers"]

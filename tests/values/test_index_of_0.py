@@ -44,25 +44,19 @@ def test_an_index_of_0_is_refused_with_its_place():
 
 
 def test_n_of_0_with_absorption_is_an_index():
-    rows = [1j, op.Material(0.0, 1.0), op.Material([1.5, 0.0], [0.0, 1.0])]
-    for index in rows:
+    for index in (1j, op.Material(0.0, 1.0), op.Material([1.5, 0.0], [0.0, 1.0])):
         assert np.all(_path(index).trace().intensity <= 1.0)
     assert _path(op.Material(N, K)).trace(n=0.0, k=1.0).intensity == pytest.approx(1.0)
 
 
-def test_traced_indices_are_what_they_were():
-    jax = pytest.importorskip("jax")
-    from optipath.engines.jax_path import double_precision  # noqa: PLC0415
+def test_traced_indices_are_what_they_were(jax_once):
+    # At 0.3 rad, by differences of the closed form.
+    cos, sin = np.cos(0.3), np.sin(0.3)
 
-    with double_precision()(True):  # noqa: FBT003 - as JAX has it
-        path = _path(N)
-        slope = jax.grad(lambda n: path.trace(n=n).stokes[0])(1.5)
-        # At 0.3 rad, by differences of the closed form.
-        cos, sin = np.cos(0.3), np.sin(0.3)
+    def reflected(n):
+        g = np.sqrt(n * n - sin * sin)
+        s, p = (cos - g) / (cos + g), (n * n * cos - g) / (n * n * cos + g)
+        return 0.5 * (s * s + p * p)
 
-        def reflected(n):
-            g = np.sqrt(n * n - sin * sin)
-            s, p = (cos - g) / (cos + g), (n * n * cos - g) / (n * n * cos + g)
-            return 0.5 * (s * s + p * p)
-
-        assert slope == pytest.approx((reflected(1.50001) - reflected(1.49999)) / 2e-5, rel=1e-6)
+    slope = jax_once.grad(lambda n: _path(N).trace(n=n).stokes[0])(1.5)
+    assert slope == pytest.approx((reflected(1.50001) - reflected(1.49999)) / 2e-5, rel=1e-6)

@@ -14,68 +14,70 @@ import optipath as op
 from tables import rows
 
 
-def test_a_text_with_a_unit_is_a_value():
+def test_texts_words_and_none_stand_for_values():
     assert op.Parameter("a", unit="deg").resolve("180 deg").value == np.pi
-
-
-def test_words_stand_for_values_and_none_for_absence():
-    parameter = op.Parameter("a", words={"up": 1.0}, optional=True)
-    resolved = parameter.resolve(["up", "none", 0.5])
+    assert op.Parameter("a", "180 deg", unit="deg") == op.Parameter("a", np.pi, unit="deg")
+    resolved = op.Parameter("a", words={"up": 1.0}, optional=True).resolve(["up", "none", 0.5])
     np.testing.assert_array_equal(resolved.value, [1.0, 0.0, 0.5])
     np.testing.assert_array_equal(resolved.present, [True, False, True])
+    parameter = op.Parameter("r", "-0.3+0.2j")
+    assert parameter.default_text() == "-0.3+0.2j"
+    assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j
 
 
 @rows(
     "keywords, message",
     [
         ({"name": "not a name"}, "letters, digits"),
-        ({"name": "a", "offset": "D65", "offset_dimension": ["length"]}, "must be a text, not"),
-        ({"name": "a", "unit": "dge"}, "did you mean 'deg'"),
-        ({"name": "a", "default": 2.0, "maximum": 1.0}, "outside its range"),
-        ({"name": "a", "default": "up"}, "no word 'up'"),
-        ({"name": "a", "bound": True}, "bound but has no value"),
-        ({"name": "a", "minimum": 2.0, "maximum": 1.0}, "lower end"),
-        ({"name": "a", "minimum": np.nan}, "lower end"),
-        ({"name": "a", "minimum": "x"}, "is not a quantity"),
-        ({"name": "a", "maximum": 1.0, "words": {"up": 2.0}}, "outside its range"),
-        ({"name": "a", "words": {"up": np.nan}}, "finite"),
-        ({"name": "a", "words": {"up": [1.0]}}, "must be a number"),
-        ({"name": "a", "words": {"none": 1.0}}, "cannot have the word 'none'"),
-        ({"name": "a", "words": 3}, "dict from word"),
-        ({"name": "a", "default": 1 + 1j, "minimum": 0.0}, "complex but has a range"),
-        ({"name": "a", "unit": None}, "'None' is unknown"),
-        ({"name": "a", "help": 3}, "must be a text"),
-        ({"name": "a", "optional": "yes"}, "True or False"),
-        ({"name": "a", "default": 10**400}, "must be a number"),
+        ({"offset": "D65", "offset_dimension": ["length"]}, "must be a text, not"),
+        ({"unit": "dge"}, "did you mean 'deg'"),
+        ({"default": 2.0, "maximum": 1.0}, "outside its range"),
+        ({"default": "up"}, "no word 'up'"),
+        ({"bound": True}, "bound but has no value"),
+        ({"minimum": 2.0, "maximum": 1.0}, "lower end"),
+        ({"minimum": np.nan}, "lower end"),
+        ({"minimum": "x"}, "is not a quantity"),
+        ({"maximum": 1.0, "words": {"up": 2.0}}, "outside its range"),
+        ({"words": {"up": np.nan}}, "finite"),
+        ({"words": {"up": [1.0]}}, "must be a number"),
+        ({"words": {"none": 1.0}}, "cannot have the word 'none'"),
+        ({"words": 3}, "dict from word"),
+        ({"default": 1 + 1j, "minimum": 0.0}, "complex but has a range"),
+        ({"unit": None}, "'None' is unknown"),
+        ({"help": 3}, "must be a text"),
+        ({"optional": "yes"}, "True or False"),
+        ({"default": 10**400}, "must be a number"),
     ],
 )
 def test_a_parameter_that_cannot_be_is_refused(keywords, message):
     with pytest.raises(op.OptipathError, match=message):
-        op.Parameter(**keywords)
+        op.Parameter(**{"name": "a"} | keywords)
 
 
-def test_a_default_may_be_a_text_with_a_unit():
-    assert op.Parameter("a", "180 deg", unit="deg") == op.Parameter("a", np.pi, unit="deg")
+@rows("shape", [{"scale": 0}, {"scale": "2"}, {"offset": np.nan}, {"scale": 1j}])
+def test_a_scale_and_an_offset_that_cannot_be_are_refused(shape):
+    with pytest.raises(op.ParameterError, match="finite real numbers and a scale other than 0"):
+        op.Parameter("d", **shape)
 
 
-def test_twice_negative_is_the_parameter_itself():
+def test_a_negative_parameter_differs_in_its_sign_alone_and_twice_negative_is_itself():
     parameter = op.Parameter("a", default=1.0)
     negative = -parameter
     assert -negative == parameter
     assert -parameter != parameter
-
-
-def test_a_complex_default_is_shown_as_it_is_read():
-    parameter = op.Parameter("r", "-0.3+0.2j")
-    assert parameter.default_text() == "-0.3+0.2j"
-    assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j
+    words = {"up": 1.0}
+    parameter = op.Parameter("a", 0.5, "deg", -1.0, 1.0, help="a turn", words=words, optional=True)
+    assert (-parameter).is_negative
+    assert not parameter.is_negative
+    assert (-parameter).same_specification(parameter)
+    assert -parameter != parameter
 
 
 @rows("number", [-1.0, 0.0, 1.0, 1.0 + 2**-52, np.nan, np.inf, -np.inf])
-@rows("limits", [(-1.0, 1.0), (-np.inf, 0.0), (-np.inf, np.inf)])
-def test_a_float_is_judged_as_an_array_of_it_is(number, limits):
-    parameter = op.Parameter("a", minimum=limits[0], maximum=limits[1])
-    if limits[0] <= number <= limits[1] and np.isfinite(number):
+@rows("low, high", [(-1.0, 1.0), (-np.inf, 0.0), (-np.inf, np.inf)])
+def test_a_float_is_judged_as_an_array_of_it_is(number, low, high):
+    parameter = op.Parameter("a", minimum=low, maximum=high)
+    if low <= number <= high and np.isfinite(number):
         resolved = parameter.resolve(number)
         assert resolved.value == parameter.resolve(np.array(number)).value == number
         assert (resolved.value.shape, resolved.present.shape) == ((), ())
@@ -86,15 +88,6 @@ def test_a_float_is_judged_as_an_array_of_it_is(number, limits):
             parameter.resolve(given)
         sentences.append(str(error.value))
     assert sentences[0] == sentences[1]
-
-
-def test_a_negative_parameter_differs_in_its_sign_alone():
-    words = {"up": 1.0}
-    parameter = op.Parameter("a", 0.5, "deg", -1.0, 1.0, help="a turn", words=words, optional=True)
-    assert (-parameter).is_negative
-    assert not parameter.is_negative
-    assert (-parameter).same_specification(parameter)
-    assert -parameter != parameter
 
 
 D, Q = op.Parameter("d"), op.Parameter("q")
@@ -133,66 +126,46 @@ def test_a_multiple_with_an_offset_of_a_parameter_is_one(parameter, scale, offse
     assert parameter == op.Parameter("d", scale=scale, offset=parameter.offset)
 
 
-def test_the_negative_twice_and_the_half_of_the_double_are_the_parameter_itself():
+def test_a_multiple_is_specified_and_equal_as_the_value_itself_is():
     negative = -D
     assert -negative == 2 * D / 2 == D
     assert -D != D != 2 * D
     assert math.copysign(1.0, (-D).offset) == 1.0
-
-
-def test_default_range_words_and_unit_are_those_of_the_value_itself():
     words = {"up": 1.0}
     parameter = op.Parameter("d", 0.5, "deg", -1.0, 2.0, help="a turn", words=words, optional=True)
     affine = 3 * parameter + "1 deg"
     assert affine.same_specification(parameter)
     assert (affine.default, affine.minimum, affine.maximum, affine.unit) == (0.5, -1.0, 2.0, "deg")
     assert affine.alone() == parameter
+    assert not any((D == Q, D == 2.0, np.float64(2.0) == D))
+    assert D in [Q, D]
+    assert {D: 1}[op.Parameter("d")] == 1
+    assert not np.any(np.ones(3) == D)
 
 
-@rows(
-    "parameter, formula",
-    [
-        (D, "d"),
-        (-D, "-d"),
-        (2 * D + 0.1, "2 * d + 0.1"),
-        (0.5 - D / 2, "-0.5 * d + 0.5"),
-        (op.Parameter("d", unit="deg") * 2 - "10 deg", "2 * d - 10 deg"),
-    ],
-)
-def test_a_multiple_with_an_offset_is_written_as_people_do(parameter, formula):
-    assert parameter.formula == formula
+def test_a_multiple_with_an_offset_is_written_as_people_do_copied_and_pickled():
+    assert (D.formula, (-D).formula) == ("d", "-d")
+    assert (2 * D + 0.1).formula == "2 * d + 0.1"
+    assert (0.5 - D / 2).formula == "-0.5 * d + 0.5"
+    assert (op.Parameter("d", unit="deg") * 2 - "10 deg").formula == "2 * d - 10 deg"
+    for copied in (copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))):
+        assert copied(2 * D + "10 deg") == 2 * D + "10 deg"
 
 
 COMPARED = [operator.lt, operator.le, operator.gt, operator.ge]
 PRODUCTS = [operator.mul, operator.truediv, operator.add, operator.sub, operator.pow]
 OTHERS = [Q, D, [1, 2], np.ones(3), 1j, None, "x", True, np.nan, np.inf, 10**400, Decimal(2)]
-MORE = {
-    "the second power": lambda: D**2,
-    "a power of 2": lambda: 2**D,
-    "its inverse": lambda: 1 / D,
-    "over 0": lambda: D / 0,
-    "times 0": lambda: 0 * D,
-    "times a text": lambda: D * "2 deg",
-    "rest": lambda: D % 2,
-    "whole part": lambda: D // 2,
-    "matrix product": lambda: D @ D,
-    "size": lambda: abs(D),
-    "rounded": lambda: round(D),
-    "float": lambda: float(D),
-    "int": lambda: int(D),
-    "sine": lambda: np.sin(D),
-    "sine by math": lambda: math.sin(D),
-    "radians": lambda: np.radians(D),
-    "larger of two": lambda: np.maximum(D, 0.0),
-    "sum by NumPy": lambda: np.sum(D),
-    "into an array": lambda: np.add(D, 1.0, out=np.zeros(1)),
-    "beyond floats": lambda: D * 1e300 * 1e300,
-    "below floats": lambda: D * 1e-300 * 1e-300,
-    "compared by NumPy": lambda: np.float64(1.0) < D,
-}
+REFUSED = [
+    *(lambda: D**2, lambda: 2**D, lambda: 1 / D, lambda: D / 0, lambda: 0 * D, lambda: D * "2 deg"),
+    *(lambda: D % 2, lambda: D // 2, lambda: D @ D, lambda: abs(D), lambda: round(D)),
+    *(lambda: float(D), lambda: int(D), lambda: np.sin(D), lambda: math.sin(D)),
+    *(lambda: np.radians(D), lambda: np.maximum(D, 0.0), lambda: np.sum(D)),
+    *(lambda: np.add(D, 1.0, out=np.zeros(1)), lambda: np.float64(1.0) < D),
+    *(lambda: D * 1e300 * 1e300, lambda: D * 1e-300 * 1e-300),
+]
 
 
-@rows("refused", MORE.values())
+@rows("refused", REFUSED)
 def test_anything_else_is_refused_with_the_way_out(refused):
     with pytest.raises(op.ParameterError, match=r"parameter 'd' .*(give them|give numbers)"):
         refused()
@@ -206,53 +179,29 @@ def test_what_is_no_real_number_is_refused_on_either_side(operation, other):
             operation(*pair)
 
 
-def test_values_of_jax_are_refused():
+def test_values_of_jax_are_refused_and_complex_sums_told_to_be_a_material():
+    for imaginary in (lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j):
+        with pytest.raises(op.ParameterError, match=r"write op.Material\(n, k\)"):
+            imaginary()
     jax = pytest.importorskip("jax")
     with pytest.raises(op.ParameterError, match="a value of JAX"):
         D * jax.numpy.asarray(2.0)
 
 
-def test_equality_is_still_that_of_what_they_are():
-    assert not any((D == Q, D == 2.0, np.float64(2.0) == D))
-    assert D in [Q, D]
-    assert {D: 1}[op.Parameter("d")] == 1
-    assert not np.any(np.ones(3) == D)
-
-
 def test_a_text_is_an_offset_by_its_unit():
-    with pytest.raises(op.UnitError, match="did you mean 'deg'"):
-        D + "10 degg"
-    with pytest.raises(op.UnitError, match="has no unit, but an angle"):
-        op.Parameter("d", unit="deg") + "10"
-    with pytest.raises(op.UnitError, match="'1 nm' is no angle"):
-        D + "1 deg" + "1 nm"
-    with pytest.raises(op.UnitError, match="'2 nm' is no angle"):
-        op.Parameter("d", unit="deg", offset="2 nm")
-
-
-def test_a_text_without_a_unit_is_an_offset_of_pure_numbers():
+    angle = op.Parameter("d", unit="deg")
+    for add, sentence in (
+        (lambda: D + "10 degg", "did you mean 'deg'"),
+        (lambda: angle + "10", "has no unit, but an angle"),
+        (lambda: D + "1 deg" + "1 nm", "'1 nm' is no angle"),
+        (lambda: op.Parameter("d", unit="deg", offset="2 nm"), "'2 nm' is no angle"),
+        (lambda: D + "10" + "1 deg", "'1 deg' has the unit 'deg', but a pure number is"),
+    ):
+        with pytest.raises(op.UnitError, match=sentence):
+            add()
+    # A text without a unit is an offset of pure numbers.
     path = op.Source() >> op.Attenuator(D + "0.1") >> op.Detector()
     assert path.trace(d=0.25).intensity == 0.25 + 0.1
-    index = op.Interface(D - "0.5", 0.0).index
-    assert index.placed(2.0) == 1.5
+    assert op.Interface(D - "0.5", 0.0).index.placed(2.0) == 1.5
     with pytest.raises(op.ValueFault, match=r"the offset of .* is a pure number, but Rotator"):
         op.Rotator(D + "10")
-    with pytest.raises(op.UnitError, match="'1 deg' has the unit 'deg', but a pure number is"):
-        D + "10" + "1 deg"
-
-
-@rows("imaginary", [lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j])
-def test_an_index_of_two_parameters_is_told_to_be_a_material(imaginary):
-    with pytest.raises(op.ParameterError, match=r"write op.Material\(n, k\)"):
-        imaginary()
-
-
-@rows("shape", [{"scale": 0}, {"scale": "2"}, {"offset": np.nan}, {"scale": 1j}])
-def test_a_scale_and_an_offset_that_cannot_be_are_refused(shape):
-    with pytest.raises(op.ParameterError, match="finite real numbers and a scale other than 0"):
-        op.Parameter("d", **shape)
-
-
-@rows("copied", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
-def test_a_multiple_with_an_offset_can_be_copied_and_pickled(copied):
-    assert copied(2 * D + "10 deg") == 2 * D + "10 deg"

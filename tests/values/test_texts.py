@@ -1,6 +1,7 @@
 """Texts that stand for quantities, and quantities as texts."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -18,63 +19,55 @@ from tables import rows
 THIRTY = 30.0 * (np.pi / 180.0)
 
 
+def extincting(length, k, wavelength):
+    return op.Medium.from_extinction(length, k=k, wavelength=wavelength)
+
+
 @rows(
-    "by_texts, by_numbers",
+    "make, texts, numbers",
     [
-        (lambda: op.Polarizer("30 deg", "100 mrad", "0.5"), op.Polarizer(THIRTY, 0.1, 0.5)),
-        (lambda: op.Retarder("180 deg", angle="1 rad"), op.Retarder(np.pi, 1.0)),
-        (lambda: op.Rotator(["30 deg", 0.5, "0.1 rad"]), op.Rotator([THIRTY, 0.5, 0.1])),
-        (lambda: op.Rotator(np.array(["30 deg", "0 deg"])), op.Rotator([THIRTY, 0.0])),
-        (lambda: op.Rotator([["30 deg"], ["0 deg"]]), op.Rotator([[THIRTY], [0.0]])),
-        (lambda: op.Interface("1.5", "30 deg", "1.33"), op.Interface(1.5, THIRTY, 1.33)),
-        (lambda: op.Interface("0.3+0.4j", "30 deg"), op.Interface(0.3 + 0.4j, THIRTY)),
-        (lambda: op.Interface(op.Material("0.3", "0.4"), 0.1), op.Interface(0.3 + 0.4j, 0.1)),
-        (lambda: op.LayerStack(["1", 1.5, "0.2+3j"], 0.1), op.LayerStack([1, 1.5, 0.2 + 3j], 0.1)),
-        (lambda: op.Medium("5 mm", "1 1/cm"), op.Medium(5e-3, 100.0)),
-        (lambda: op.Medium("1 dm", rotation="1 rad/cm"), op.Medium(0.1, rotation="100 rad/m")),
+        (op.Polarizer, ("30 deg", "100 mrad", "0.5"), (THIRTY, 0.1, 0.5)),
+        (op.Retarder, ("180 deg", "1 rad"), (np.pi, 1.0)),
+        (op.Rotator, (["30 deg", 0.5, "0.1 rad"],), ([THIRTY, 0.5, 0.1],)),
+        (op.Rotator, (np.array(["30 deg", "0 deg"]),), ([THIRTY, 0.0],)),
+        (op.Rotator, ([["30 deg"], ["0 deg"]],), ([[THIRTY], [0.0]],)),
+        (op.Interface, ("1.5", "30 deg", "1.33"), (1.5, THIRTY, 1.33)),
+        (op.Interface, ("0.3+0.4j", "30 deg"), (0.3 + 0.4j, THIRTY)),
+        (op.Interface, (op.Material("0.3", "0.4"), 0.1), (0.3 + 0.4j, 0.1)),
+        (op.LayerStack, (["1", 1.5, "0.2+3j"], 0.1), ([1, 1.5, 0.2 + 3j], 0.1)),
+        (op.Medium, ("5 mm", "1 1/cm"), (5e-3, 100.0)),
         (
-            lambda: op.Medium.from_extinction("1 um", k="0.05", wavelength="500 nm"),
-            op.Medium.from_extinction(1e-6, k=0.05, wavelength=500e-9),
+            lambda length, turn: op.Medium(length, rotation=turn),
+            ("1 dm", "1 rad/cm"),
+            (0.1, "100 rad/m"),
         ),
-        (lambda: op.Mirror("-0.9+0.1j"), op.Mirror(-0.9 + 0.1j)),
-        (lambda: op.Source("100", ["1", "1", 0, 0]), op.Source(100.0, [1.0, 1.0, 0.0, 0.0])),
-        (lambda: op.MuellerElement(np.eye(4).astype(str)), op.MuellerElement(np.eye(4))),
-        (
-            lambda: op.VerticesByAngles(("30 deg", 0.2), ("1 rad",)),
-            op.VerticesByAngles((THIRTY, 0.2), (1.0,)),
-        ),
-        (lambda: op.CosSin("0.6", ["0.8"]), op.CosSin(0.6, [0.8])),
-        (
-            lambda: op.Parameter("t", "30 deg", "", "0 deg", "1 rad", words={"up": "0.5 rad"}),
-            op.Parameter("t", THIRTY, "deg", 0.0, 1.0, words={"up": 0.5}),
-        ),
+        (extincting, ("1 um", "0.05", "500 nm"), (1e-6, 0.05, 500e-9)),
+        (op.Mirror, ("-0.9+0.1j",), (-0.9 + 0.1j,)),
+        (op.Source, ("100", ["1", "1", 0, 0]), (100.0, [1.0, 1.0, 0.0, 0.0])),
+        (op.MuellerElement, (np.eye(4).astype(str),), (np.eye(4),)),
+        (op.VerticesByAngles, (("30 deg", 0.2), ("1 rad",)), ((THIRTY, 0.2), (1.0,))),
+        (op.CosSin, ("0.6", ["0.8"]), (0.6, [0.8])),
     ],
 )
-def test_a_text_is_the_number_that_it_stands_for(by_texts, by_numbers):
-    assert by_texts() == by_numbers
+def test_a_text_is_the_number_that_it_stands_for(make, texts, numbers):
+    assert make(*texts) == make(*numbers)
 
 
-@rows(
-    "word, degrees",
-    [("horizontal", 0), ("vertical", 90), ("diagonal", 45), ("antidiagonal", -45)],
-)
-def test_axes_have_names(word, degrees):
-    for of_word, of_angle in (
-        (op.Polarizer(word), op.Polarizer(np.radians(degrees))),
-        (op.Diattenuator(angle=word), op.Diattenuator(angle=np.radians(degrees))),
-        (op.Retarder(1.0, word), op.Retarder(1.0, np.radians(degrees))),
-        (op.Medium(1.0, angle=word), op.Medium(1.0, angle=np.radians(degrees))),
+def test_axes_have_names(tmp_path):
+    axes = {"horizontal": 0, "vertical": 90, "diagonal": 45, "antidiagonal": -45}
+    for (word, degrees), make in product(
+        axes.items(),
+        (
+            op.Polarizer,
+            lambda angle: op.Diattenuator(angle=angle),
+            lambda angle: op.Retarder(1.0, angle),
+            lambda angle: op.Medium(1.0, angle=angle),
+        ),
     ):
-        assert of_word == of_angle
-
-
-def test_a_horizontal_polariser_lets_light_along_x_through_and_a_diagonal_one_that_along_x_plus_y():
+        assert make(word) == make(np.radians(degrees))
     assert chain([op.Polarizer("horizontal")]).trace().stokes.tolist() == [0.5, 0.5, 0.0, 0.0]
     diagonal = chain([op.Polarizer("diagonal")]).trace().stokes
     np.testing.assert_allclose(diagonal, [0.5, 0.0, 0.5, 0.0], rtol=0, atol=1e-16)
-
-
-def test_a_file_knows_the_names_of_axes(tmp_path):
     file = tmp_path / "named.toml"
     text = chain([op.Polarizer("30 deg")]).to_toml()
     file.write_text(text.replace('"30 deg"', '"vertical"'), "utf-8")
@@ -84,52 +77,48 @@ def test_a_file_knows_the_names_of_axes(tmp_path):
         op.load_preset(file)
 
 
-@rows(
-    "give, sentence",
-    [
-        (lambda: op.Polarizer("30"), "angle: '30' has no unit, but an angle is asked for; add one"),
-        (lambda: op.Polarizer("30 nm"), "Polarizer angle: '30 nm' is no angle; use one of deg"),
-        (lambda: op.Polarizer("30 dgr"), "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
-        (lambda: op.Polarizer("horizontl"), "'horizontl' is unknown; did you mean 'horizontal'"),
-        (lambda: op.Rotator(["30 deg", "4 nm", "5 nm"]), "2 faults:\n.*'4 nm'.*\n.*'5 nm' is no a"),
-        (lambda: op.Medium("5 deg"), "Medium length: '5 deg' is no length; use one of nm"),
-        (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
-        (lambda: op.CosSin("30 deg", "0.5"), "cos: '30 deg' has a unit.*; give the angle itself"),
-        (lambda: op.Parameter("t", "30 dge"), "unit 'dge' is unknown; did you mean 'deg'"),
-        (
-            lambda: op.Parameter("t", "0.1/mm"),
-            "'0.1/mm' is not a quantity; did you mean '0.1 1/mm'",
-        ),
-        (lambda: op.Parameter("t", minimum="0 nm", maximum="9 deg"), "maximum.*'9 deg' is no leng"),
-        (lambda: op.Frame().turned("30"), "the angle of a turn: '30' has no unit"),
-        (lambda: op.refraction_angle(1.5, "40"), "incidence: '40' has no unit"),
-        (lambda: op.VerticesByAngles(("40",)), r"incidences\[0\]: '40' has no unit"),
-    ],
-)
+def turned(azimuth):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", "eye.in", azimuth=azimuth)
+    return path.trace()
+
+
+NO_NUMBERS = [
+    (lambda: op.Polarizer("30"), "angle: '30' has no unit, but an angle is asked for; add one"),
+    (lambda: op.Polarizer("30 nm"), "Polarizer angle: '30 nm' is no angle; use one of deg"),
+    (lambda: op.Polarizer("30 dgr"), "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
+    (lambda: op.Polarizer("horizontl"), "'horizontl' is unknown; did you mean 'horizontal'"),
+    (lambda: op.Rotator(["30 deg", "4 nm", "5 nm"]), "2 faults:\n.*'4 nm'.*\n.*'5 nm' is no a"),
+    (lambda: op.Medium("5 deg"), "Medium length: '5 deg' is no length; use one of nm"),
+    (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
+    (lambda: op.CosSin("30 deg", "0.5"), "cos: '30 deg' has a unit.*; give the angle itself"),
+    (lambda: op.Parameter("t", "30 dge"), "unit 'dge' is unknown; did you mean 'deg'"),
+    (lambda: op.Parameter("t", "0.1/mm"), "'0.1/mm' is not a quantity; did you mean '0.1 1/mm'"),
+    (lambda: op.Parameter("t", minimum="0 nm", maximum="9 deg"), "maximum.*'9 deg' is no leng"),
+    (lambda: op.Frame().turned("30"), "the angle of a turn: '30' has no unit"),
+    (lambda: op.refraction_angle(1.5, "40"), "incidence: '40' has no unit"),
+    (lambda: op.VerticesByAngles(("40",)), r"incidences\[0\]: '40' has no unit"),
+    (lambda: turned("45"), r"link 'lamp.out -> eye.in' azimuth: '45' has no"),
+]
+
+
+@rows("give, sentence", NO_NUMBERS)
 def test_what_stands_for_no_number_is_refused_by_its_field(give, sentence):
     with pytest.raises(op.OptipathError, match=sentence):
         give()
 
 
-def test_the_angle_of_a_link_may_be_a_text():
-    def turned(azimuth):
-        path = op.PathGraph()
-        path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
-        path.add("eye", op.Detector())
-        path.connect("lamp.out", "eye.in", azimuth=azimuth)
-        return path.trace()
-
+def test_angles_of_links_and_arguments_of_functions_may_be_texts():
     assert turned("45 deg") == turned(np.pi / 4)
-    with pytest.raises(op.OptipathError, match=r"link 'lamp.out -> eye.in' azimuth: '45' has no"):
-        turned("45")
-
-
-def test_functions_take_texts_as_well():
     assert op.Frame().turned("90 deg") == op.Frame().turned(np.pi / 2)
     assert op.refraction_angle("1.5", "40 deg") == op.refraction_angle(1.5, np.radians(40.0))
     assert op.fresnel_reflection("1.5", "0.6", "0.8") == op.fresnel_reflection(1.5, 0.6, 0.8)
     points = op.vertices_from_angles(["45 deg"])
     np.testing.assert_array_equal(points, op.vertices_from_angles([np.pi / 4]))
+    by_texts = op.Parameter("t", "30 deg", "", "0 deg", "1 rad", words={"up": "0.5 rad"})
+    assert by_texts == op.Parameter("t", THIRTY, "deg", 0.0, 1.0, words={"up": 0.5})
 
 
 def test_texts_are_given_to_runs_in_every_way():
@@ -147,7 +136,7 @@ def test_texts_are_given_to_runs_in_every_way():
     assert part[1].stokes.tolist() == [expected.stokes.tolist()]
 
 
-def test_a_case_may_have_texts(tmp_path):
+def test_cases_and_elements_of_texts_go_to_files_and_back(tmp_path):
     path = op.load_preset("malus")
     case = op.Case({"angle": "40 deg"})
     cased = op.PathGraph("texts", {"forty": case})
@@ -156,9 +145,6 @@ def test_a_case_may_have_texts(tmp_path):
     text = path.to_toml() + '\n[cases.forty]\nvalues = { angle = "40 deg" }\n'
     file.write_text(text, "utf-8")
     assert op.load_preset(file, case="forty").trace() == path.trace(angle="40 deg")
-
-
-def test_elements_of_texts_go_to_toml_and_back(tmp_path):
     path = chain([op.Polarizer("30 deg"), op.Medium("5 mm", "1 1/cm"), op.Rotator(["1 deg", 0.5])])
     file = tmp_path / "texts.toml"
     file.write_text(path.to_toml(), "utf-8")
@@ -170,28 +156,16 @@ DELTA = op.Parameter("delta", unit="deg")
 NUMBER = op.Parameter("n")
 
 
-def test_a_range_in_degrees_has_the_very_angles_that_are_given_one_by_one():
+def test_a_range_has_the_very_values_that_are_given_one_by_one():
     texts = several_texts(DELTA, "0:90:91")
     found = [parse_quantity(text, "angle", "deg") for text in texts]
     assert found == [parse_quantity(f"{whole} deg", "angle") for whole in range(91)]
-
-
-def test_a_range_in_hundredths_has_the_decimals_that_one_writes():
     found = [float(text) for text in several_texts(NUMBER, "0:1:101")]
     assert found == [float(f"{part // 100}.{part % 100:02}") for part in range(101)]
-
-
-def test_a_range_of_nanometres_has_the_very_wavelengths_that_are_given_one_by_one():
     texts = several_texts(op.Wavelength(), "400 nm:700 nm:61")
     found = [parse_quantity(text, "length") for text in texts]
     assert found == [parse_quantity(f"{400 + 5 * step} nm", "length") for step in range(61)]
-
-
-def test_a_range_may_fall_and_its_ends_are_as_they_are_written():
     assert several_texts(DELTA, "90.0 deg:-1e1 deg:3") == ["90.0 deg", "40.0 deg", "-1e1 deg"]
-
-
-def test_a_range_of_one_value_begins_where_it_ends():
     assert several_texts(DELTA, "5 deg:5 deg:1") == ["5 deg"]
 
 
@@ -204,27 +178,17 @@ def test_whole_steps_are_whole_numbers(start, step, count):
 @given(st.floats(allow_nan=False, allow_infinity=False), st.floats(-1e9, 1e9), st.integers(2, 50))
 def test_a_range_never_turns_and_stays_between_its_ends(start, stop, count):
     values = [float(text) for text in texts_of_range(f"{start!r}:{stop!r}:{count}")]
-    assert len(values) == count
-    assert (values[0], values[-1]) == (start, stop)
+    assert (len(values), values[0], values[-1]) == (count, start, stop)
     assert values == sorted(values, reverse=start > stop)
 
 
-def test_a_list_has_its_texts_one_by_one():
+def test_a_list_has_its_texts_one_by_one_and_a_single_value_is_none():
     assert several_texts(DELTA, "10 deg,0.5 rad, horizontal") == ["10 deg", "0.5 rad", "horizontal"]
     assert several_texts(DELTA, "10,20,30") == ["10", "20", "30"]
-
-
-@rows("text", ["30 deg", "horizontal", "0.5", "-1e-3 rad", "30 degs"])
-def test_a_single_value_is_no_list(text):
-    assert several_texts(DELTA, text) is None
-
-
-@rows("text", ["1000:1", "1:50", "inf"])
-def test_a_ratio_to_one_is_a_single_number(text):
-    assert several_texts(NUMBER, text) is None
-
-
-def test_a_ratio_that_may_be_a_range_without_a_count_is_asked_about():
+    for text in ("30 deg", "horizontal", "0.5", "-1e-3 rad", "30 degs"):
+        assert several_texts(DELTA, text) is None
+    for text in ("1000:1", "1:50", "inf"):  # Ratios to one are single numbers.
+        assert several_texts(NUMBER, text) is None
     with pytest.raises(op.ParameterError, match=r"may be the ratio 0\.75, or a range") as caught:
         several_texts(NUMBER, "1.2:1.6")
     assert "write '0.75', or '1.2:1.6:11' for eleven" in str(caught.value)
@@ -243,66 +207,44 @@ def test_a_ratio_that_may_be_a_range_without_a_count_is_asked_about():
         ("0,5:1:11", "a number with a comma", "0.5:1:11"),
         ("10,20 deg", "may be a number with a comma, or two", "10 deg, 20 deg"),
         ("10,20", "may be a number with a comma, or two", "10, 20"),
+        ("0:90:0", "counts no values", ""),
+        ("0:90:nan", "is no count, which is a whole number", ""),
+        ("0::3", "is no range; write start:stop:count", ""),
+        ("1:2:3:4", "is no range; write start:stop:count", ""),
+        ("a:b:3", "'a' of 'a:b:3' is no number with a unit", ""),
+        ("0 deg:1 rad:3", "are in deg and in rad", ""),
+        ("0:1:1000000000", "a text stands for 1000000 at most", ""),
+        ("1e-999999999:1:3", "beyond the numbers that floats are", ""),
+        ("0:90:91,120", "'0:90:91' is in a list, and a range stands alone", ""),
+        ("10,,20", "has nothing between two commas", ""),
+        ("1,000,000", "may be thousands", ""),
     ],
 )
 def test_what_is_wrong_is_told_with_a_cure_that_works(text, told, cure):
     with pytest.raises(op.ParameterError, match=r"^parameter 'delta': ") as caught:
         several_texts(DELTA, text)
     assert told in str(caught.value)
-    assert f"'{cure}'" in str(caught.value)
-    assert len(several_texts(DELTA, cure)) > 1
-
-
-@rows(
-    "text, told",
-    [
-        ("0:90:0", "counts no values"),
-        ("0:90:nan", "is no count, which is a whole number"),
-        ("0::3", "is no range; write start:stop:count"),
-        ("1:2:3:4", "is no range; write start:stop:count"),
-        ("a:b:3", "'a' of 'a:b:3' is no number with a unit"),
-        ("0 deg:1 rad:3", "are in deg and in rad"),
-        ("0:1:1000000000", "a text stands for 1000000 at most"),
-        ("1e-999999999:1:3", "beyond the numbers that floats are"),
-        ("0:90:91,120", "'0:90:91' is in a list, and a range stands alone"),
-        ("10,,20", "has nothing between two commas"),
-        ("1,000,000", "may be thousands"),
-    ],
-)
-def test_what_is_wrong_is_told(text, told):
-    with pytest.raises(op.ParameterError, match=r"^parameter 'delta': ") as caught:
-        several_texts(DELTA, text)
-    assert told in str(caught.value)
-
-
-def test_a_file_that_is_not_there_is_told_with_its_name():
-    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
-        several_texts(DELTA, "@nowhere.csv")
+    if cure:
+        assert f"'{cure}'" in str(caught.value)
+        assert len(several_texts(DELTA, cure)) > 1
 
 
 def written(folder, text):
-    file = folder / "angles.csv"
-    file.write_text(text, "utf-8")
-    return f"@{file}"
+    (folder / "angles.csv").write_text(text, "utf-8")
+    return f"@{folder / 'angles.csv'}"
 
 
-def test_a_file_gives_the_column_of_the_parameter_with_its_unit(tmp_path):
+def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp_path):
     text = "rho [rad]; delta (deg)\n# measured\n0.1; 10\n0.2; 20.5\n"
     assert several_texts(DELTA, written(tmp_path, text)) == ["10 deg", "20.5 deg"]
-
-
-def test_a_file_of_one_column_may_call_it_otherwise(tmp_path):
     assert several_texts(DELTA, written(tmp_path, "angle_mrad\n10\n")) == ["10 mrad"]
-
-
-def test_cells_of_a_file_may_have_units_and_words(tmp_path):
     polarizer = op.Parameter("filter", unit="deg", words={"horizontal": 0.0}, optional=True)
     text = written(tmp_path, "filter\nnone\nhorizontal\n30 deg\n")
     assert several_texts(polarizer, text) == ["none", "horizontal", "30 deg"]
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@rows(
+    "text, told",
     [
         ("", "it is empty"),
         ("10\n20\n", "line 1 has numbers or nothing for names of columns"),
@@ -321,14 +263,12 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name(tmp_path, text, told):
     assert told in str(caught.value)
 
 
-def test_the_first_of_several_words_is_not_taken_for_a_name(tmp_path):
+def test_a_file_that_is_missing_or_has_no_name_of_its_column_is_told(tmp_path):
+    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
+        several_texts(DELTA, "@nowhere.csv")
     polarizer = op.Parameter("filter", words={"horizontal": 0.0, "vertical": 1.5})
     with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
         several_texts(polarizer, written(tmp_path, "horizontal\nvertical\n"))
-
-
-def test_the_default_of_a_parameter_is_displayed_without_noise():
-    assert op.Parameter("p", "3 deg", unit="arcmin").default_text() == "180 arcmin"
 
 
 @rows(
@@ -339,11 +279,11 @@ def test_the_default_of_a_parameter_is_displayed_without_noise():
         (math.radians(-90.0), math.radians(90.0), "deg", "-90 deg .. 90 deg"),
     ],
 )
-def test_the_ends_of_a_range_are_inside_as_they_are_written(low, high, unit, written):
+def test_defaults_and_ends_of_a_range_are_displayed_without_noise(low, high, unit, written):
+    assert op.Parameter("p", "3 deg", unit="arcmin").default_text() == "180 arcmin"
     assert format_range(low, high, unit) == written
-    ends = written.removesuffix(" or more").split(" .. ")
     parameter = op.Parameter("p", unit=unit, minimum=low, maximum=high)
-    for end in ends:
+    for end in written.removesuffix(" or more").split(" .. "):
         parameter.resolve(end)
 
 
@@ -358,10 +298,7 @@ def fault(call, *arguments, **values):
 
 
 def layered(index):
-    path = op.PathGraph()
-    glass = path.add("glass", op.Interface(index, 0.3))
-    path.add("lamp", op.Source()) >> glass >> path.add("eye", op.Detector())
-    return path
+    return op.Source() >> op.Interface(index, 0.3) >> op.Detector()
 
 
 def test_arrays_that_do_not_broadcast_are_told_with_their_shapes():
@@ -369,29 +306,24 @@ def test_arrays_that_do_not_broadcast_are_told_with_their_shapes():
     assert "delta (3,), rho (4,); make their axes equal or 1, as x[:, None] does" in text
     # What is said does it.
     assert NPGR026.trace(delta=np.zeros(3)[:, None], rho=np.zeros(4)).shape == (3, 4)
+    many = chain([op.Rotator(np.zeros(count)) for count in range(2, 12)])
+    assert "make their axes equal or 1" in fault(many.trace)
 
 
-def test_many_shapes_that_do_not_broadcast_are_told():
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source())
-    for count in range(2, 12):
-        node = node >> path.add(f"r{count}", op.Rotator(np.zeros(count)))
-    node >> path.add("eye", op.Detector())
-    assert "make their axes equal or 1" in fault(path.trace)
-
-
-@rows("number", [-0.01, np.float64(-0.01), np.float32(-0.01), np.array([-0.01])])
-def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs(number):
-    assert f"give 0 or more {BOUNDS}" in fault(NPGR026.trace, k1=number)
+def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs_and_others_are_not():
     of_material = layered(op.Material(1.5, op.Parameter("k")))
-    assert f"of 0 or more {BOUNDS}" in fault(of_material.trace, k=number)
-
-
-def test_one_complex_index_beyond_its_domain_is_told_with_what_a_fit_needs():
+    for number in (-0.01, np.float64(-0.01), np.float32(-0.01), np.array([-0.01])):
+        assert f"give 0 or more {BOUNDS}" in fault(NPGR026.trace, k1=number)
+        assert f"of 0 or more {BOUNDS}" in fault(of_material.trace, k=number)
     assert BOUNDS in fault(layered(op.Parameter("m")).trace, m=1.5 - 0.1j)
     # A fit has no part in numbers that are complex.
     outside = op.Source() >> op.Interface(2.0, 0.3, outside=op.Parameter("m")) >> op.Detector()
     assert BOUNDS in fault(outside.trace, m=1.5 - 0.1j)
+    given = [("k1", [-0.01, 2.0]), ("k1", np.nan), ("delta", "200 deg"), ("k1", "x")]
+    for name, value in [*given, ("delta", 48.0)]:
+        assert "bounds" not in fault(NPGR026.trace, **{name: value})
+    assert "bounds" not in fault(NPGR026.bind, k1=-0.01)
+    assert "bounds" not in fault(of_material.trace, k=0.1j)
 
 
 @rows("give", ["trace", "bind"])
@@ -416,19 +348,5 @@ def test_a_minimisation_that_steps_beyond_a_range_is_told_to_give_bounds():
         return float(path.trace(k=x[0]).intensity)
 
     assert BOUNDS in fault(optimize.minimize, brightness, [0.1])
-    assert optimize.minimize(brightness, [0.1], bounds=[(0.0, None)]).fun == pytest.approx(
-        0.04, abs=0.01
-    )
-
-
-def test_what_no_optimiser_gives_is_told_without_it():
-    for values in (
-        {"k1": [-0.01, 2.0]},
-        {"k1": np.nan},
-        {"delta": "200 deg"},
-        {"k1": "x"},
-        {"delta": 48.0},
-    ):
-        assert "bounds" not in fault(NPGR026.trace, **values)
-    assert "bounds" not in fault(NPGR026.bind, k1=-0.01)
-    assert "bounds" not in fault(layered(op.Material(1.5, op.Parameter("k"))).trace, k=0.1j)
+    least = optimize.minimize(brightness, [0.1], bounds=[(0.0, None)]).fun
+    assert least == pytest.approx(0.04, abs=0.01)

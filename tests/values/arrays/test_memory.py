@@ -28,12 +28,8 @@ def chain():
 
 
 def of_fields():
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source())
-    for name, angles in (("first", ACROSS), ("second", ALONG)):
-        node = node >> path.add(name, op.Interface(1.5, angles))
-    node >> path.add("eye", op.Detector())
-    return path
+    path = op.Source() >> op.Interface(1.5, ACROSS) >> op.Interface(1.5, ALONG)
+    return path >> op.Detector()
 
 
 def tiled(*values):
@@ -98,11 +94,10 @@ def test_a_batch_too_large_is_taken_part_by_part_and_counted():
     assert "none, since a batch of 1e+12 paths" in of_fields().compose().explain()
     frame = next(chain().compose().stream(100, a=ACROSS, b=ALONG)).light.frame
     assert frame == chain().trace(a=ACROSS[0], b=ALONG[:100]).frame
-
-
-def test_what_fits_is_run():
-    found = plan(engine="numpy").run(**GOLD, delta=ACROSS[:300], phi=ALONG[:300])
-    assert found.stokes.shape == (300, 300, 4)
+    thousand = np.linspace(0.1, 1.4, 1000)
+    values = {name: thousand.reshape(-1, *given.shape[1:]) for name, given in SIX.items()}
+    with pytest.raises(op.ParameterError, match=r"9e\+15 paths at most, not 1e\+18"):
+        next(plan().stream(10, k2=1.0, **values))
 
 
 def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_tell(monkeypatch):
@@ -113,40 +108,31 @@ def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_t
         plan().run(**GOLD, **WIDE)
 
 
-def test_few_paths_of_which_much_is_kept_are_asked_for_too(monkeypatch):
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source(op.Parameter("power")))
-    for number in range(300):
-        node = node >> path.add(f"filter{number}", op.Attenuator(0.999))
-    node >> path.add("eye", op.Detector())
+def test_few_paths_of_which_much_is_kept_are_asked_for_and_memory_that_runs_out_is_told(
+    monkeypatch,
+):
+    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
+    with told, memory.enough_for((3, 4), 32):
+        raise MemoryError
+    path = op.Source(op.Parameter("power"))
+    for _ in range(300):
+        path = path >> op.Attenuator(0.999)
+    path = path >> op.Detector()
     monkeypatch.setattr(memory, "memory", lambda: 2**27)
     with pytest.raises(op.ParameterError, match=r"of shape \(8000,\), takes 0.2 GB"):
         op.Composer(keep="all").compose(path).run_all(power=np.ones(8000))
 
 
-def test_memory_that_runs_out_on_the_way_is_told_in_the_same_words():
-    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
-    with told, memory.enough_for((3, 4), 32):
-        raise MemoryError
-
-
-@rows("axes", [31, 33, 64])
-def test_a_batch_has_thirty_axes_at_most(axes):
-    for use in (plan().run, plan().mueller, plan().certificate, plan().paths):
-        with pytest.raises(op.ParameterError, match=f"delta has {axes} axes, .* 30 at most"):
-            use(**GOLD, delta=np.full((1,) * axes, 0.1))
-    with pytest.raises(op.PathError, match="30 at most"):
-        op.Rotator(np.full((1,) * axes, 0.1)).mueller()
-
-
-def test_thirty_axes_are_run():
+def test_a_batch_has_thirty_axes_at_most():
+    for axes in (31, 33, 64):
+        many = np.full((1,) * axes, 0.1)
+        for use in (plan().run, plan().mueller, plan().certificate, plan().paths):
+            with pytest.raises(op.ParameterError, match=f"delta has {axes} axes, .* 30 at most"):
+                use(**GOLD, delta=many)
+        with pytest.raises(op.PathError, match="30 at most"):
+            op.Rotator(many).mueller()
     several = np.linspace(0.1, 0.2, 3).reshape((1,) * 29 + (3,))
     assert plan().run(**GOLD, delta=several).stokes.shape == (*several.shape, 4)
     assert plan().mueller(**GOLD, delta=several).matrix.shape == (*several.shape, 4, 4)
-
-
-def test_more_paths_than_can_be_counted_are_refused_even_in_parts():
-    thousand = np.linspace(0.1, 1.4, 1000)
-    values = {name: thousand.reshape(-1, *given.shape[1:]) for name, given in SIX.items()}
-    with pytest.raises(op.ParameterError, match=r"9e\+15 paths at most, not 1e\+18"):
-        next(plan().stream(10, k2=1.0, **values))
+    found = plan(engine="numpy").run(**GOLD, delta=ACROSS[:300], phi=ALONG[:300])
+    assert found.stokes.shape == (300, 300, 4)

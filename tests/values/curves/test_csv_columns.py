@@ -11,6 +11,8 @@ from optipath.values.curves.csv_columns import read_columns
 from tables import rows
 
 NK = ["n", "k"]
+NM, UM = "wavelength (nm),n,k\n", "wavelength (um),n,k\n"
+WL = "wl (um),n\n0.5,1\n"
 
 
 @pytest.fixture
@@ -26,13 +28,13 @@ def read(tmp_path):
 @rows(
     "text",
     [
-        "wavelength (nm),n,k\n500,0.97,1.87\n521,0.62,2.08\n",
+        NM + "500,0.97,1.87\n521,0.62,2.08\n",
         "# Johnson and Christy\n\nwavelength_nm; n; k\n500; 0.97; 1.87\n# more\n521; 0.62; 2.08",
         "k\tn\twl [um]\tnote\n1.87\t0.97\t0.5\ta\n2.08\t0.62\t0.521\tb\n",
         "Wavelength (\u00b5m),N,K\r\n0.5,0.97,1.87\r\n0.521,0.62,2.08\r\n",
         "\ufeff\u03bb (nm), n (-), k ()\n500,0.97,1.87\n521,0.62,2.08\n",
         "wavelength,n,k\n500 nm,0.97,1.87\n0.521 um,0.62,2.08\n",
-        "wavelength (nm),n,k\n500 nm,0.97,1.87\n521,0.62,2.08\n",
+        NM + "500 nm,0.97,1.87\n521,0.62,2.08\n",
         '"wavelength (nm)",n,"k"\n"500","0.97",1.87\n521,0.62,"2.08"\n',
         "wavelength (angstrom),n,k\n5000,0.97,1.87\n5210,0.62,2.08\n",
         "\u03bb (\u00c5),n,k\n5000,0.97,1.87\n5210,0.62,2.08\n",
@@ -56,11 +58,14 @@ def test_a_photon_energy_a_wave_number_or_a_frequency_is_a_wavelength(read, head
     assert found.wavelengths[0] == pytest.approx(516.6e-9, rel=1e-5)
 
 
-def test_a_second_table_may_be_left_unread_or_have_the_unit_that_is_given(read):
+def test_units_and_tables_are_read_as_files_have_them(read):
     # As refractiveindex.info writes files.
     text = "wl,n\n0.5,1.5\n0.6,1.4\nwl,k\n0.5,2\n0.6,3\n"
     assert read(text, unit="um").columns["k"].tolist() == [2.0, 3.0]
     assert [*read(text, ["n"], unit="um").columns] == ["n"]
+    assert read("wavelength,n\n500,1\n", ["n"], unit="nm").wavelengths.tolist() == [5e-7]
+    found = read("energy (eV),n\n1,1\n2,2\n", ["n"])
+    assert np.all(np.diff(found.wavelengths) < 0.0)
 
 
 @pytest.mark.parametrize("unit", ["", "um"])
@@ -73,10 +78,6 @@ def test_tables_of_different_wavelengths_are_read_as_the_refusal_has_it(tmp_path
     code = re.search(r"op\.Material\(.*", str(fault.value))[0]
     found = eval(code, {"op": op, "path": path}).at("500 nm")  # noqa: S307 - it is our own
     assert (found.n, found.k) == pytest.approx((1.45, 1.2), rel=1e-14)
-
-
-def test_a_unit_may_be_given_where_the_file_has_none(read):
-    assert read("wavelength,n\n500,1\n", ["n"], unit="nm").wavelengths.tolist() == [5e-7]
 
 
 @rows(
@@ -95,90 +96,73 @@ def test_the_far_infrared_and_x_rays_can_be_said(read, text, least):
     assert read(text, ["n"]).wavelengths[0] == pytest.approx(least, rel=1e-14)
 
 
-def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):
-    with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
-        read("400,1\n500,2\n", ["power"])
+WRONG = [
+    ("", "gold.csv: it is empty; write a line for each wavelength"),
+    ("# nothing\n", "it is empty"),
+    (NM, "line 1 is the only one"),
+    ("wavelength (nm),n\n500,1\n", "line 1 names no column 'k'; there are: n; or ask for k=0.0"),
+    ("wavelength (nm),nn,k\n500,1,1\n", "line 1 names no column 'n'; there are: nn, k"),
+    ("x,n,k\n500,1,1\n", "line 1 names no column of wavelengths, but x, n and k; begin with"),
+    ("500,1,1\n510,1,1\n", "line 1 has numbers, and no names of columns; begin with a line"),
+    ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
+    ("wl,n,k\n0.4,1,1\n0.6,1,1\n", "write 'wl (um)', or give unit='um'"),
+    ("wl,n,k\n0.4,1,1\n400,1,1\n", "write 'wl (nm)', or give unit='nm'"),
+    ("energy,n,k\n2.4,1,1\n", "write 'energy (eV)', or give unit='eV'"),
+    ("wavelength (mn),n,k\n516,1,1\n", "the unit 'mn' of 'wavelength' is unknown"),
+    (
+        "energy (nm),n,k\n516,1,1\n",
+        "line 1: 'nm' is no unit of 'energy', but of 'wavelength'; write 'wavelength (nm)'",
+    ),
+    ("wavelength (1/cm),n,k\n516,1,1\n", "write 'wavenumber (1/cm)'"),
+    ("wl (eV),n,k\n516,1,1\n", "write 'energy (eV)'"),
+    ("lambda (THz),n,k\n516,1,1\n", "write 'frequency (THz)'"),
+    ("wavelength,n,k\n400 nm,1,1\n500,1,1\n", "line 3: '500' has no unit"),
+    (
+        UM + "400 nm,1,1\n",
+        "line 2: '400 nm' is in another unit than 'um' of line 1; leave one of them",
+    ),
+    (NM + "500,-1,1\n", "line 2: n is -1; write none below 0"),
+    (NM + '500,1,"1\n600,1,1\n', "line 2: quotation marks are not closed, or amid"),
+    (NM + '500,1,"1"5\n', "line 2: quotation marks are not closed, or amid"),
+    (NM + f"500,1,{'1' * 200_000}\n", "line 2: it cannot be read (field larger than field limit"),
+    (
+        UM + "400,1,1\n500,1,1\n",
+        "the wavelengths are 400 um .. 500 um, which are most likely nm; give the unit nm, or",
+    ),
+    (
+        NM + "0.4,1,1\n0.5,1,1\n",
+        "the wavelengths are 0.4 nm .. 0.5 nm, which are most likely um; give the unit um, or",
+    ),
+    (
+        WL + "0.6,1\nwl (um),k\n0.5,1\n",
+        "line 4 begins a second table, whose wavelengths are not those of the first; write all",
+    ),
+    ("wl (um),n,k\n0.5,1,1\nwl (um),k\n0.5,1\n", "line 3 begins a second table of k; keep"),
+    (WL + "wl (um),k\n0.5,x\n", "line 4: k is 'x', which is no number"),
+    (WL + "wl (um),n2\n0.5,1\n", "line 1 names no column 'k'"),
+    ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
+    ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl (nm)' and 'energy (eV)'; keep one"),
+    ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 has 2 columns 'n'; keep one"),
+    (NM + "500,nan,1\n", "line 2: n is nan; write a number"),
+    (NM + "500,,1\n", "line 2: n is empty; write one"),
+    ("wavelength (nm);n;k\n500;1,5;1\n", "line 2: n is '1,5', which is no number"),
+    (NM + "500,1_5,1\n", "line 2: n is '1_5', which is no number"),
+    (NM + "5_00,1,1\n", "line 2: '5_00 nm' is not a quantity"),
+    (NM + "500,1,\uff11\n", "which is no number; write one, such as 1.5"),
+    (NM + "500,1\n", "line 2 has 2 values, and line 1 has 3 names"),
+    (NM + "500,1,5,1\n", "line 2 has 4 values, and line 1 has 3 names"),
+    (NM + "-5,1,1\n", "line 2: the wavelength is -5; give numbers above 0"),
+    (NM + "red,1,1\n", "line 2: 'red nm' is not a quantity"),
+    (
+        NM + "500,1,1\n\n600,1,1\n550,1,1\n",
+        "line 5: the wavelengths of the lines before rise, and from line 4 to this one they",
+    ),
+    (NM + "500,1,1\n600,1,1\n500,1,1\n", "line 4 has the wavelength of line 2; write each once"),
+    (NM.encode() + b"\xff\xfe,1,1\n", "it cannot be read: it is no text in UTF-8"),
+]
 
 
-@rows(
-    "text, words",
-    [
-        ("", "gold.csv: it is empty; write a line for each wavelength"),
-        ("# nothing\n", "it is empty"),
-        ("wavelength (nm),n,k\n", "line 1 is the only one"),
-        (
-            "wavelength (nm),n\n500,1\n",
-            "line 1 names no column 'k'; there are: n; or ask for k=0.0",
-        ),
-        ("wavelength (nm),nn,k\n500,1,1\n", "line 1 names no column 'n'; there are: nn, k"),
-        ("x,n,k\n500,1,1\n", "line 1 names no column of wavelengths, but x, n and k; begin with"),
-        ("500,1,1\n510,1,1\n", "line 1 has numbers, and no names of columns; begin with a line"),
-        ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
-        ("wl,n,k\n0.4,1,1\n0.6,1,1\n", "write 'wl (um)', or give unit='um'"),
-        ("wl,n,k\n0.4,1,1\n400,1,1\n", "write 'wl (nm)', or give unit='nm'"),
-        ("energy,n,k\n2.4,1,1\n", "write 'energy (eV)', or give unit='eV'"),
-        ("wavelength (mn),n,k\n516,1,1\n", "the unit 'mn' of 'wavelength' is unknown"),
-        (
-            "energy (nm),n,k\n516,1,1\n",
-            "line 1: 'nm' is no unit of 'energy', but of 'wavelength'; write 'wavelength (nm)'",
-        ),
-        ("wavelength (1/cm),n,k\n516,1,1\n", "write 'wavenumber (1/cm)'"),
-        ("wl (eV),n,k\n516,1,1\n", "write 'energy (eV)'"),
-        ("lambda (THz),n,k\n516,1,1\n", "write 'frequency (THz)'"),
-        ("wavelength,n,k\n400 nm,1,1\n500,1,1\n", "line 3: '500' has no unit"),
-        (
-            "wavelength (um),n,k\n400 nm,1,1\n",
-            "line 2: '400 nm' is in another unit than 'um' of line 1; leave one of them",
-        ),
-        ("wavelength (nm),n,k\n500,-1,1\n", "line 2: n is -1; write none below 0"),
-        (
-            'wavelength (nm),n,k\n500,1,"1\n600,1,1\n',
-            "line 2: quotation marks are not closed, or amid",
-        ),
-        ('wavelength (nm),n,k\n500,1,"1"5\n', "line 2: quotation marks are not closed, or amid"),
-        (
-            f"wavelength (nm),n,k\n500,1,{'1' * 200_000}\n",
-            "line 2: it cannot be read (field larger than field limit",
-        ),
-        (
-            "wavelength (um),n,k\n400,1,1\n500,1,1\n",
-            "the wavelengths are 400 um .. 500 um, which are most likely nm; give the unit nm, or",
-        ),
-        (
-            "wavelength (nm),n,k\n0.4,1,1\n0.5,1,1\n",
-            "the wavelengths are 0.4 nm .. 0.5 nm, which are most likely um; give the unit um, or",
-        ),
-        (
-            "wl (um),n\n0.5,1\n0.6,1\nwl (um),k\n0.5,1\n",
-            "line 4 begins a second table, whose wavelengths are not those of the first; write all",
-        ),
-        ("wl (um),n,k\n0.5,1,1\nwl (um),k\n0.5,1\n", "line 3 begins a second table of k; keep"),
-        ("wl (um),n\n0.5,1\nwl (um),k\n0.5,x\n", "line 4: k is 'x', which is no number"),
-        ("wl (um),n\n0.5,1\nwl (um),n2\n0.5,1\n", "line 1 names no column 'k'"),
-        ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
-        ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl (nm)' and 'energy (eV)'; keep one"),
-        ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 has 2 columns 'n'; keep one"),
-        ("wavelength (nm),n,k\n500,nan,1\n", "line 2: n is nan; write a number"),
-        ("wavelength (nm),n,k\n500,,1\n", "line 2: n is empty; write one"),
-        ("wavelength (nm);n;k\n500;1,5;1\n", "line 2: n is '1,5', which is no number"),
-        ("wavelength (nm),n,k\n500,1_5,1\n", "line 2: n is '1_5', which is no number"),
-        ("wavelength (nm),n,k\n5_00,1,1\n", "line 2: '5_00 nm' is not a quantity"),
-        ("wavelength (nm),n,k\n500,1,\uff11\n", "which is no number; write one, such as 1.5"),
-        ("wavelength (nm),n,k\n500,1\n", "line 2 has 2 values, and line 1 has 3 names"),
-        ("wavelength (nm),n,k\n500,1,5,1\n", "line 2 has 4 values, and line 1 has 3 names"),
-        ("wavelength (nm),n,k\n-5,1,1\n", "line 2: the wavelength is -5; give numbers above 0"),
-        ("wavelength (nm),n,k\nred,1,1\n", "line 2: 'red nm' is not a quantity"),
-        (
-            "wavelength (nm),n,k\n500,1,1\n\n600,1,1\n550,1,1\n",
-            "line 5: the wavelengths of the lines before rise, and from line 4 to this one they",
-        ),
-        (
-            "wavelength (nm),n,k\n500,1,1\n600,1,1\n500,1,1\n",
-            "line 4 has the wavelength of line 2; write each once",
-        ),
-        (b"wavelength (nm),n,k\n\xff\xfe,1,1\n", "it cannot be read: it is no text in UTF-8"),
-    ],
-)
+@rows("text, words", WRONG)
 def test_what_is_wrong_with_a_file_is_told_with_the_line(read, text, words):
     with pytest.raises(ValueFault) as fault:
         read(text, cures={"k": "ask for k=0.0"})
@@ -186,29 +170,21 @@ def test_what_is_wrong_with_a_file_is_told_with_the_line(read, text, words):
     assert len(fault.value.faults) == 1
 
 
-def test_all_faults_are_told_at_once(read):
+def test_all_faults_are_told_at_once_and_a_thousand_are_counted(read):
     with pytest.raises(ValueFault) as fault:
-        read("wavelength (nm),n,k\n500,nan,x\n600,1\n700,1,1\n0,1,1\n")
-    assert [sentence[:6] for sentence in fault.value.faults] == ["line 2"] * 2 + [
-        "line 3",
-        "line 5",
-    ]
-
-
-def test_a_thousand_faults_are_counted(read):
+        read(NM + "500,nan,x\n600,1\n700,1,1\n0,1,1\n")
+    lines = [sentence[:6] for sentence in fault.value.faults]
+    assert lines == ["line 2", "line 2", "line 3", "line 5"]
     with pytest.raises(ValueFault) as fault:
-        read("wavelength (nm),n,k\n" + "1,nan,1\n" * 1000)
+        read(NM + "1,nan,1\n" * 1000)
     assert len(fault.value.faults) == 13
     assert fault.value.faults[-1] == "and 988 more"
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path):
+def test_a_file_or_a_first_line_that_is_missing_is_told(read, tmp_path):
+    with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
+        read("400,1\n500,2\n", ["power"])
     with pytest.raises(ValueFault, match=r"silver\.csv: there is no such file; look at its name"):
         read_columns(tmp_path / "silver.csv", NK)
     with pytest.raises(ValueFault, match="it cannot be read"):
         read_columns(tmp_path, NK)
-
-
-def test_falling_wavelengths_stay_as_they_are(read):
-    found = read("energy (eV),n\n1,1\n2,2\n", ["n"])
-    assert np.all(np.diff(found.wavelengths) < 0.0)

@@ -27,10 +27,12 @@ def rising(count):
 
 
 @rows("interpolation", ["linear", "monotone"])
-def test_samples_are_exact(interpolation):
-    n, k = table(interpolation).evaluated(PLACES)
-    assert np.array_equal(n, N)
-    assert np.array_equal(k, K)
+def test_samples_are_exact_and_a_wavelength_comes_to_the_same_bits_alone(interpolation):
+    curve = table(interpolation)
+    assert np.array_equal(curve.evaluated(PLACES), [N, K])
+    wavelengths = np.linspace(PLACES[0], PLACES[-1], 300)
+    alone = [curve.evaluated(wavelength)[1] for wavelength in wavelengths]
+    assert np.array_equal(curve.evaluated(wavelengths)[1], alone)
 
 
 def test_between_samples_it_is_a_straight_line():
@@ -38,9 +40,6 @@ def test_between_samples_it_is_a_straight_line():
     n, k = table().evaluated(wavelengths)
     np.testing.assert_allclose(n, np.interp(wavelengths, PLACES, N), rtol=3e-15)
     np.testing.assert_allclose(k, np.interp(wavelengths, PLACES, K), rtol=3e-15)
-
-
-def test_what_is_constant_stays_constant():
     wavelengths = np.linspace(PLACES[0], PLACES[-1], 1001)
     assert np.all(table(n=np.full(5, 1.1)).evaluated(wavelengths)[0] == 1.1)
 
@@ -75,14 +74,6 @@ def test_slopes_by_jax_are_those_of_differences(jax, interpolation):
         assert float(slope(wavelength)) == pytest.approx(float(expected), rel=1e-5, abs=10.0)
 
 
-@rows("interpolation", ["linear", "monotone"])
-def test_a_wavelength_comes_to_the_same_bits_alone_and_among_others(interpolation):
-    curve = table(interpolation)
-    wavelengths = np.linspace(PLACES[0], PLACES[-1], 300)
-    alone = [curve.evaluated(wavelength)[1] for wavelength in wavelengths]
-    assert np.array_equal(curve.evaluated(wavelengths)[1], alone)
-
-
 def test_beyond_its_samples_it_is_the_nearest_one_or_the_line_goes_on():
     beyond = np.array([100e-9, 2e-6])
     assert np.array_equal(table(extrapolate="nearest").evaluated(beyond)[0], N[[0, -1]])
@@ -91,27 +82,18 @@ def test_beyond_its_samples_it_is_the_nearest_one_or_the_line_goes_on():
     np.testing.assert_allclose(n, ends, rtol=1e-13)
     assert table().span == (188e-9, 1.2e-6)
     assert table(extrapolate="linear").span == (0.0, np.inf)
-
-
-def test_a_cubic_goes_on_in_a_straight_line():
+    curve = Tabulated("line", ("n",), [633e-9], [[1.5]], extrapolate="nearest")
+    assert curve.evaluated([500e-9, 633e-9, 700e-9])[0].tolist() == [1.5] * 3
     oracle = pytest.importorskip("scipy.interpolate").PchipInterpolator(PLACES, K)
     _, k = table("monotone", "linear").evaluated(2e-6)
     assert float(k) == pytest.approx(8.0 + 0.8e-6 * oracle(1.2e-6, 1), rel=1e-12)
 
 
-def test_one_sample_is_one_number():
-    curve = Tabulated("line", ("n",), [633e-9], [[1.5]], extrapolate="nearest")
-    assert curve.evaluated([500e-9, 633e-9, 700e-9])[0].tolist() == [1.5] * 3
-
-
-def test_falling_wavelengths_are_as_good_as_rising_ones():
+def test_equal_samples_are_equal_curves_whether_they_rise_or_fall():
     curve = Tabulated("gold", ("n", "k"), PLACES[::-1], [N[::-1], K[::-1]])
     assert curve == table()
     energies = Tabulated("x", ("n",), ["2 eV", "3 eV"], [[1.0, 2.0]])
     assert energies.evaluated(energies.wavelengths)[0].tolist() == [2.0, 1.0]
-
-
-def test_equal_samples_are_equal_curves():
     assert table() == table()
     assert hash(table()) == hash(table())
     assert table().digest != table("monotone").digest

@@ -20,45 +20,29 @@ class Shutter(op.Element, kind="test-shutter"):
         return [[through * (row == column) for column in range(4)] for row in range(4)]
 
 
-@rows("shut, through", [(True, 0.0), (False, 1.0)])
-def test_a_yes_no_field_gives_its_rows_1_or_0(shut, through):
-    assert chain([Shutter(shut)]).trace().stokes[0] == through
+def test_a_yes_no_field_gives_its_rows_1_or_0_and_goes_to_toml_and_back(tmp_path):
+    file = tmp_path / "shutter.toml"
+    for shut in (True, False):
+        path = chain([Shutter(shut)])
+        assert path.trace().stokes[0] == (0.0 if shut else 1.0)
+        assert f"shut = {str(shut).lower()}\n" in path.to_toml()
+        file.write_text(path.to_toml(), "utf-8")
+        assert op.load_preset(file) == path
+    of_numpy = Shutter(np.array([True])[0])
+    assert of_numpy.shut is True
+    assert of_numpy == Shutter(shut=True) != Shutter(shut=False)
 
 
-def test_a_bool_of_numpy_is_a_bool():
-    assert Shutter(np.array([True])[0]).shut is True
-    assert Shutter(np.array([True])[0]) == Shutter(shut=True) != Shutter(shut=False)
-
-
-@rows("value", [1, 0.0, "yes", None, [True], np.array([True, False])])
-def test_anything_else_is_refused_in_words(value):
-    with pytest.raises(op.OptipathError, match=r"shut is .*; give True or False"):
-        chain([Shutter(value)]).check()
-
-
-def test_it_cannot_be_a_parameter():
+def test_what_is_neither_yes_nor_no_is_refused_by_paths_and_files(tmp_path):
+    for value in (1, 0.0, "yes", None, [True], np.array([True, False])):
+        with pytest.raises(op.OptipathError, match=r"shut is .*; give True or False"):
+            chain([Shutter(value)]).check()
     with pytest.raises(op.OptipathError, match="cannot be a parameter; give True or False"):
         chain([Shutter(op.Parameter("a"))]).check()
-
-
-@pytest.mark.parametrize("shut", [True, False])
-def test_it_goes_to_toml_and_back(shut, tmp_path):
-    path = chain([Shutter(shut)])
-    text = path.to_toml()
-    assert f"shut = {str(shut).lower()}\n" in text
-    file = tmp_path / "shutter.toml"
-    file.write_text(text, "utf-8")
-    assert op.load_preset(file) == path
-
-
-def test_a_file_that_gives_a_number_is_refused(tmp_path):
     file = tmp_path / "shutter.toml"
     file.write_text(chain([Shutter(shut=True)]).to_toml().replace("= true", "= 1"), "utf-8")
     with pytest.raises(op.OptipathError, match=r"shut: the value is 1; give true or false"):
         op.load_preset(file)
-
-
-def test_a_value_that_is_none_of_both_is_not_written():
     with pytest.raises(op.OptipathError, match="shut is 3; give True or False"):
         chain([Shutter(3)]).to_toml()
 
@@ -89,7 +73,7 @@ def test_a_list_of_media_is_that_of_their_indices(way):
     np.testing.assert_array_equal(WAYS[way](media).stokes, WAYS[way](indices).stokes)
 
 
-def test_a_pair_that_cannot_be_one_number_is_two():
+def test_a_pair_that_cannot_be_one_number_is_two_and_others_are_asked_about_once():
     for give in (lambda n: op.Interface(n, 0.3), WAYS["trace"]):
         with pytest.raises(op.OptipathError) as told:
             give([1.5, -1])
@@ -97,17 +81,12 @@ def test_a_pair_that_cannot_be_one_number_is_two():
         assert "is -1.0 at 1; give an index" in str(told.value)
     # An amplitude of 0.9+0.8j would be of more light than comes.
     assert np.shape(op.Mirror((0.9, 0.8), 0.5).r_s) == (2,)
-
-
-def test_a_pair_is_asked_about_once_and_nothing_else_is_said_of_it():
     mirror = chain([op.Mirror(op.Parameter("r"))])
     path = op.PathGraph()
-    lamp = path.add("lamp", op.Source())
-    lamp >> path.add("A", op.Interface(op.Parameter("n"), 0.3))
-    path.add("B", op.Interface(1.2, op.FOLLOWS, outside=op.FOLLOWS))
-    path.connect("A.transmitted", "B.in")
-    path.add("eye", op.Detector())
-    path.connect("B.transmitted", "eye")
+    path.add("lamp", op.Source()) >> path.add("A", op.Interface(op.Parameter("n"), 0.3))
+    back = path.add("B", op.Interface(1.2, op.FOLLOWS, outside=op.FOLLOWS))
+    path["A.transmitted"] >> back
+    path["B.transmitted"] >> path.add("eye", op.Detector())
     for trace, pair in ((mirror.trace, {"r": (0.9, 0.1)}), (path.trace, {"n": [1.5, 0]})):
         with pytest.raises(op.ParameterError) as told:
             trace(**pair)
@@ -120,8 +99,7 @@ PARTLY = op.Material.tabulated(GRID, 1.5, [0.0, 2e-8, 3e-8], name="glass")
 CONSTANT = op.Material(1.5, 1e-8)
 
 
-def layer(medium):
-    return op.LayerStack([1.0, medium, 1.0], 0.3)
+CURE = "take the medium without its k, such as Material(glass.n)"
 
 
 def front(medium):
@@ -133,45 +111,26 @@ def way(medium):
     return op.path_from_vertices(down, [medium], events="T")
 
 
-PLACES = pytest.mark.parametrize("place", [layer, front, way])
-CURE = "take the medium without its k, such as Material(glass.n)"
-
-
-@PLACES
+@rows("place", [lambda medium: op.LayerStack([1.0, medium, 1.0], 0.3), front, way])
 @rows("medium", [ABSORBING, CONSTANT])
-def test_a_medium_that_absorbs_everywhere_is_refused_when_it_is_placed(place, medium):
+def test_a_medium_that_absorbs_everywhere_is_refused_with_a_cure_that_works(place, medium):
     with pytest.raises(op.OptipathError, match=re.escape(CURE)) as refused:
         place(medium)
     assert "another wavelength" not in str(refused.value)
-
-
-@PLACES
-@rows("medium", [ABSORBING, CONSTANT])
-def test_the_cure_of_a_medium_that_absorbs_works(place, medium):
     assert place(op.Material(medium.n)) is not None
 
 
-def test_a_medium_that_absorbs_at_some_wavelengths_is_refused_there_with_the_same_cure():
+def test_a_medium_that_absorbs_at_some_wavelengths_is_refused_there_with_the_same_cure(tmp_path):
     path = op.Source() >> front(PARTLY) >> op.Detector()
     assert path.trace(wavelength="400 nm").intensity > 0.0
     with pytest.raises(op.ParameterError, match=r"k of glass at 500 nm is 2e-08, and") as refused:
         path.trace(wavelength="500 nm")
     assert str(refused.value).endswith(CURE)
-
-
-def test_a_table_has_not_the_reason_of_the_formula_beside_it(tmp_path):
+    # A table has not the reason of the formula beside it.
+    formula = "{type: formula 1, wavelength_range: 0.4 0.6, coefficients: 0 1.0 0.01}"
+    table = "{type: tabulated k, data: '0.4 0\n\n 0.5 1e-8\n\n 0.6 1e-8'}"
     page = tmp_path / "page.yml"
-    page.write_text(
-        "DATA:\n"
-        "  - type: formula 1\n"
-        "    wavelength_range: 0.4 0.6\n"
-        "    coefficients: 0 1.0 0.01\n"
-        "  - type: tabulated k\n"
-        "    data: |\n"
-        "      0.4 0\n"
-        "      0.5 1e-8\n"
-        "      0.6 1e-8\n"
-    )
+    page.write_text(f"DATA: [{formula}, {table}]")
     path = op.Source() >> front(op.Material.from_yaml(page)) >> op.Detector()
     with pytest.raises(op.ParameterError) as refused:
         path.trace(wavelength="500 nm")
