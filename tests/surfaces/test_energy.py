@@ -260,11 +260,7 @@ def spread(sample, found):
 
 
 @pytest.mark.parametrize(
-    "layers",
-    [
-        [(1.5, 0), (2.4, 0)],
-        [(1.5, surfaces.HeightField(HEIGHTS, 8.0, periodic=True))],
-    ],
+    "layers", [[(1.5, 0), (2.4, 0)], [(1.5, surfaces.HeightField(HEIGHTS, 8.0, periodic=True))]]
 )
 @pytest.mark.parametrize("part", ["", "scalar", "difference"])
 def test_results_of_other_seeds_differ_by_their_errors(layers, part):

@@ -159,15 +159,7 @@ def test_no_light_becomes_circular_out_of_unpolarised_light(ti, to, a, b, alpha,
     assert (matrix[3, 0], matrix[0, 3]) == (0.0, 0.0)
 
 
-@given(
-    oblique,
-    oblique,
-    azimuths,
-    azimuths,
-    alphas,
-    alphas,
-    st.sampled_from(INDICES),
-)
+@given(oblique, oblique, azimuths, azimuths, alphas, alphas, st.sampled_from(INDICES))
 def test_light_that_goes_back_meets_the_reciprocal_matrix(ti, to, a, b, alpha, alpha_y, index):
     k_in, k_out = down(ti, a), direction(to, b)
     there = single_scattering(index, alpha, k_in, k_out, alpha_y=alpha_y)

@@ -240,10 +240,7 @@ OWN = "layers[0].heights 'own.npy': size must be a positive number"
             "size = 3\nalpha = 0.1",
             "layers[0]: 'alpha' and 'heights' say one thing twice; leave one of them out",
         ),
-        (
-            'size = 3\nperiodic = "yes"',
-            "layers[0]: 'periodic' must be true or false, not 'yes'",
-        ),
+        ('size = 3\nperiodic = "yes"', "layers[0]: 'periodic' must be true or false, not 'yes'"),
     ],
 )
 def test_what_stands_beside_heights_is_checked(folder, more, sentence):

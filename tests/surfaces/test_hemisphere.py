@@ -54,10 +54,7 @@ def test_brdf_is_light_over_solid_angle_and_cosine(glass):
     found, scalar = glass.brdf(), glass.brdf(polarized=False)
     area = (glass.dataset.solid_angle * np.cos(glass.dataset.theta)).values[..., np.newaxis]
     inside = ~np.isnan(glass.sensor.theta)
-    for array, value, error in (
-        (found, *glass.mueller),
-        (scalar, *glass.scalar),
-    ):
+    for array, value, error in ((found, *glass.mueller), (scalar, *glass.scalar)):
         over = area[..., np.newaxis, np.newaxis] if array is found else area
         assert np.allclose((array * over).values[:, inside], value[:, inside], rtol=1e-13)
         assert np.allclose((array.se * over).values[:, inside], error[:, inside], rtol=1e-9)
@@ -90,8 +87,7 @@ def test_degrees_and_angles_are_those_of_the_stokes_vectors(silver, source):
 
 
 @given(
-    degree=st.floats(0.0, 1.0),
-    angles=st.tuples(st.floats(0.0, np.pi), st.floats(-np.pi, np.pi)),
+    degree=st.floats(0.0, 1.0), angles=st.tuples(st.floats(0.0, np.pi), st.floats(-np.pi, np.pi))
 )
 @settings(max_examples=20)
 def test_no_light_is_polarised_by_more_than_all_of_it(silver, degree, angles):

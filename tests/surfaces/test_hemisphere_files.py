@@ -133,11 +133,7 @@ ENDINGS = r"give .zarr or .nc for all .* .exr for a picture"
             (f"nowhere/a{form}", {}, "cannot be written: No such file or directory")
             for form in [*FORMS, ".exr"]
         ),
-        (
-            "a.nc",
-            {"source": [1, 0, 0, 0], "side": "reflected"},
-            r"leave source= and side= out",
-        ),
+        ("a.nc", {"source": [1, 0, 0, 0], "side": "reflected"}, r"leave source= and side= out"),
         ("a.exr", {"source": [1, 1, 1, 0]}, r"source is .* polarised by more than 100 %"),
         ("a.exr", {"side": "transmitted"}, r"nothing goes through an opaque sample"),
     ],

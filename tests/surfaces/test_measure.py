@@ -281,8 +281,7 @@ def test_light_that_is_cut_short_is_walked():
 
 
 @rows(
-    "incidence, percent",
-    [("50 deg", 1.785), ("56 deg", 2.498), ("60 deg", 2.9), ("65 deg", 3.167)],
+    "incidence, percent", [("50 deg", 1.785), ("56 deg", 2.498), ("60 deg", 2.9), ("65 deg", 3.167)]
 )
 def test_the_bound_of_smooth_glass_on_diamond_is_that_of_its_layers(incidence, percent):
     # In closed form: both faces' rounds with polarisation over those by the mean of each face.

@@ -152,10 +152,7 @@ def test_what_is_neither_a_name_nor_a_file_is_refused(name, sentence):
 
 @rows(
     "content, sentence",
-    [
-        (b"\xff\xfe", "is not UTF-8"),
-        (b"#" * (4 * 1024**2 + 1), "is larger than 4 MiB; no sample"),
-    ],
+    [(b"\xff\xfe", "is not UTF-8"), (b"#" * (4 * 1024**2 + 1), "is larger than 4 MiB; no sample")],
 )
 def test_a_file_that_is_no_text_is_refused(content, sentence, tmp_path):
     (tmp_path / "own.toml").write_bytes(content)
