@@ -434,9 +434,6 @@ def test_projections_have_the_same_brdf_and_the_same_light_in_quarters():
 SEEDS, EACH, SOURCE = 30, 4096, [1.0, -0.4, 0.5, 0.3]
 
 
-SEEDS, EACH, SOURCE = 30, 4096, [1.0, -0.4, 0.5, 0.3]
-
-
 def measured(surfaces):
     """Hemispheres of other photons, and of other surfaces."""
     for seed in range(SEEDS):

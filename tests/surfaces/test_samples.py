@@ -1,6 +1,7 @@
 """Samples: layers, media and indices, the surfaces that they draw, and their smooth limit."""
 
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -335,32 +336,31 @@ def test_a_base_that_absorbs_is_opaque(index, opaque):
 
 
 ONE, BOTH = "give one wavelength at a time", ["400 nm", "500 nm"]
-THROUGH = "layers[0].index lets light through"
-UNUSED = "wavelength is given, but no medium depends on it; leave it out"
+UNUSED = "^wavelength is given, but no medium depends on it; leave it out"
 METRES = "550 metres, which is no wavelength of light; for nanometres write '550 nm'"
 
 
 @rows(
-    "layers, wavelength, start, within",
+    "layers, wavelength, sentence",
     [
-        ([GLASS, METAL], None, "", "depends on the wavelength; give one, such as '550 nm'"),
-        ([1.5], "550 nm", UNUSED, ""),
-        ([INK, 1.5], "500 nm", "k of ink at 500 nm is 0.1, and layers[0].index.k takes 0", ""),
-        *(([INK], each, THROUGH, ONE) for each in (BOTH, BOTH[::-1])),
-        ([GLASS], 550, "", METRES),
-        ([GLASS], "550", "", "has no unit"),
-        ([GLASS], "a", "", "knows no word 'a'"),
-        ([GLASS], np.nan, "", "is nan"),
-        ([GLASS], True, "", "True"),
-        ([GLASS], [], "", "wavelength is empty; give one or more"),
+        ([GLASS, METAL], None, "depends on the wavelength; give one, such as '550 nm'$"),
+        ([1.5], "550 nm", UNUSED),
+        ([INK, 1.5], "500 nm", r"^k of ink at 500 nm is 0\.1, and layers\[0\]\.index\.k takes 0"),
+        *(
+            ([INK], each, rf"^layers\[0\]\.index lets light .*{ONE}$")
+            for each in (BOTH, BOTH[::-1])
+        ),
+        ([GLASS], 550, METRES),
+        ([GLASS], "550", "has no unit"),
+        ([GLASS], "a", "knows no word 'a'"),
+        ([GLASS], np.nan, "is nan"),
+        ([GLASS], True, "True"),
+        ([GLASS], [], "wavelength is empty; give one or more"),
     ],
 )
-def test_what_is_no_wavelength_or_does_not_fit_the_media_is_refused(
-    layers, wavelength, start, within
-):
+def test_what_is_no_wavelength_or_does_not_fit_the_media_is_refused(layers, wavelength, sentence):
     (fault,) = faults_at([(index, 0.1) for index in layers], wavelength)
-    assert fault.startswith(start)
-    assert within in fault
+    assert re.search(sentence, fault)
     assert op.Sample([(INK, 0.1), (1.5, 0.1)]).indices("400 nm").inner == (1.5,)
 
 
