@@ -7,7 +7,7 @@ import optipath as op
 from optipath.surfaces import decide
 from optipath.surfaces.decisions.largest_of import LargestOf
 from optipath.surfaces.decisions.smooth_exit import smooth_exit
-from tables import rows
+from tables import rows, slow
 
 pytest.importorskip("numba")
 pytest.importorskip("xarray")
@@ -79,8 +79,14 @@ def test_a_flat_stack_is_decided_without_photons():
     assert needed.difference is None
 
 
-def test_a_layered_sample_needs_polarisation_but_for_a_wide_tolerance():
-    sample = op.load_sample("glass-on-glass")
+@pytest.mark.parametrize(
+    "sample",
+    [
+        op.Sample([(1.5, 0.1), (2.4, 0.1)], cells=240, surfaces=4),
+        slow(op.load_sample("glass-on-glass")),
+    ],
+)
+def test_a_layered_sample_needs_polarisation_but_for_a_wide_tolerance(sample):
     found = decide(sample, "60 deg", **FEW)
     assert (found.model, found.undecided, found.multiple) == ("polarized", (), None)
     assert found.explain().startswith("the polarised model is needed for a tolerance of 2 %\n")
@@ -120,7 +126,7 @@ NONE, BETWEEN = "^no pixel counts: .*", "give one above 0 and below 1, such as"
         (
             1.0,
             {"photons": 2000},
-            f"{NONE}of 2,000 photons none is reflected; walk more photons, or",
+            f"{NONE}of 2,000 photons none is reflected; walk more photons, or ",
         ),
         (
             1j,
