@@ -71,20 +71,15 @@ def test_stokes_vectors_are_those_of_a_stack_of_layers(outside, indices, inciden
     assert np.all(np.abs(apart) < SIGMAS * error + 1e-12)
 
 
-def test_slightly_rough_is_nearly_flat():
-    rough, flat = op.Sample([(1.5, 1e-3), (2.4, 1e-3)], surfaces=1), op.Sample([(1.5, 0), (2.4, 0)])
+def test_slightly_rough_is_nearly_flat_and_all_sizes_reflect_alike():
+    rough, flat = (op.Sample([(1.5, a), (2.4, a)], surfaces=1) for a in (1e-3, 0))
     found = surfaces.energy(rough, 1.0, photons=200_000)
     assert abs(found.R - reflected(flat, 1.0)[0]) < SIGMAS * found.R_se + 1e-5
-
-
-def test_the_smallest_and_the_largest_samples_reflect_alike():
-    heights = np.random.default_rng(0).normal(size=(16, 16))
-    fields = [
-        surfaces.HeightField(size * heights, 16 * size, periodic=True)
-        for size in (2.0**-20, 1.0, 2.0**20)
-    ]
-    shares = [surfaces.energy(op.Sample([(1.5, each)]), 0.8, photons=20_000).R for each in fields]
-    assert shares[0] == shares[1] == shares[2]
+    heights, shares = np.random.default_rng(0).normal(size=(16, 16)), set()
+    for size in (2.0**-20, 1.0, 2.0**20):
+        field = surfaces.HeightField(size * heights, 16 * size, periodic=True)
+        shares.add(float(surfaces.energy(op.Sample([(1.5, field)]), 0.8, photons=20_000).R))
+    assert len(shares) == 1
 
 
 ELLIPTICAL = (1.0, 0.3, -0.4, 0.5)
@@ -139,21 +134,13 @@ def expect_kernels(sample, incidence, photons):
 
 
 @rows("incidence", [0.0, 1e-9, 0.7, BREWSTER, 1.5, math.pi / 2 - 1e-9])
-@rows(
-    "sample",
-    [
-        op.Sample([(1.5, 0)]),
-        op.Sample([(1.5, 0), (2.4, 0)]),
-        op.Sample([(1.5, 0), (0.2 + 3.4j, 0)]),
-        op.Sample([(1j, 0)]),
-    ],
-)
-def test_flat_interfaces(sample, incidence):
-    expect_kernels(sample, incidence, 20)
+@rows("indices", [[1.5], [1.5, 2.4], [1.5, 0.2 + 3.4j], [1j]])
+def test_light_at_flat_interfaces_is_that_of_kernels(indices, incidence):
+    expect_kernels(op.Sample([(index, 0) for index in indices]), incidence, 20)
 
 
 @rows("apart", [-0.3, -1e-8, 0.0, 1e-8, 0.3])
-def test_about_the_critical_angle(apart):
+def test_light_about_the_critical_angle_is_that_of_kernels(apart):
     ends = expect_kernels(op.Sample([(1.0, 0)], outside=1.5), CRITICAL + apart, 50)
     assert apart <= 0.0 or layout.DOWN not in ends
 
@@ -164,11 +151,10 @@ def test_about_the_critical_angle(apart):
     [
         [(1.5, 1.0)],
         [(1.5, 0.3), (2.4, (0.2, 0.5)), (1.3, 0.6)],
-        [(1.5, 0.5), (0.5 + 2.1j, 0.7)],
-        [(1.5, 0.5), (1j, 0.7)],
+        *([(1.5, 0.5), (index, 0.7)] for index in (0.5 + 2.1j, 1j)),
     ],
 )
-def test_rough_interfaces(layers):
+def test_light_at_rough_interfaces_is_that_of_kernels(layers):
     expect_kernels(op.Sample(layers, cells=160, surfaces=1), 1.0, 40)
 
 
@@ -194,20 +180,15 @@ def moments(ends, turn=SAME, signs=(1.0, 1.0, 1.0, 1.0)):
     return found.mean(axis=0), found.var(axis=0) / PHOTONS
 
 
-def expect_same(one, other):
-    (first, its), (second, others) = one, other
-    assert np.all(np.abs(first - second) < SIGMAS * np.sqrt(its + others) + 1e-12)
-
-
 @rows("index", [1.5, 0.5 + 2.1j])
 def test_a_surface_turned_over_or_mirrored_with_the_light_does_so_to_the_result(index):
     source, signs = np.array([1.0, 0.5, 0.3, 0.4]), np.array([1.0, 1.0, -1.0, -1.0])
-    one = moments(walked(HEIGHTS, 0.4, seed=1, index=index))
+    first, its = moments(walked(HEIGHTS, 0.4, seed=1, index=index))
     turned = walked(HEIGHTS[::-1, ::-1], 0.4 + math.pi, seed=2, index=index)
-    expect_same(one, moments(turned, turn=-np.eye(2)))
     azimuth = math.pi / 2 - 0.4
     mirrored = walked(HEIGHTS.T, azimuth, seed=2, stokes=signs * source, index=index)
-    expect_same(one, moments(mirrored, np.eye(2)[::-1], signs))
+    for second, others in (moments(turned, -SAME), moments(mirrored, SAME[::-1], signs)):
+        assert np.all(np.abs(first - second) < SIGMAS * np.sqrt(its + others) + 1e-12)
 
 
 def test_turning_an_anisotropic_sample_and_the_light_changes_nothing():
@@ -284,25 +265,20 @@ def test_frames_are_perpendicular_to_the_meridional_plane():
         surfaces.photon_ends(SILVER, "40 deg", photons=0)
 
 
-def test_unpolarised_light_scattered_once_has_no_circular_part():
+def test_light_is_polarised_by_no_more_than_all_of_it_and_not_circularly_after_one_event():
     found = surfaces.photon_ends(SILVER, "40 deg", photons=20_000)
     assert np.all(found.stokes[found.events == 1, 3] == 0.0)
     assert np.any(found.stokes[found.events > 1, 3] != 0.0)
-
-
-def test_no_light_is_polarised_by_more_than_all_of_it():
-    sample = op.Sample([(1.5, 0.5), (0.5 + 2.1j, 0.7)])
+    sample = op.Sample([(1.5, 0.5), (0.5 + 2.1j, 0.7)], surfaces=4)
     stokes = surfaces.photon_ends(sample, "70 deg", photons=20_000).stokes
-    polarised = np.linalg.norm(stokes[:, 1:], axis=-1)
     assert np.all(stokes[:, 0] >= 0.0)
-    assert np.all(polarised <= stokes[:, 0] * (1.0 + 1e-12))
+    assert np.all(np.linalg.norm(stokes[:, 1:], axis=-1) <= stokes[:, 0] * (1.0 + 1e-12))
 
 
 def test_light_at_several_wavelengths_has_an_axis_for_them():
     gold = op.Sample([(op.Material.named("gold"), 0.3)])
     found = surfaces.photon_ends(gold, "40 deg", photons=50, wavelength=[450e-9, 650e-9])
-    assert found.stokes.shape == (50, 2, 4)
-    assert found.scalar.shape == (50, 2)
+    assert (found.stokes.shape, found.scalar.shape) == ((50, 2, 4), (50, 2))
 
 
 def test_light_along_the_normal_is_in_the_frame_of_light_beside_it():

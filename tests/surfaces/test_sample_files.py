@@ -225,7 +225,10 @@ OF_INDICES = {
         ("layers = []", NONE),
         ("layers = 3", WHOLE + LISTED),
         ("layers = [3]", "layers[0] must be a table headed [[layers]], not 3"),
-        ("layer = []\n" + LAYER, f"{WHOLE}key 'layer' is unknown; did you mean 'layers'?"),
+        (
+            LAYER.replace("layers", "layer"),
+            f"{WHOLE}key 'layer' is unknown; did you mean 'layers'?",
+        ),
         ("surface = 3\n" + LAYER, f"{WHOLE}key 'surface' is unknown; did you mean 'surfaces'?"),
         ("surfaces = 2.5\n" + LAYER, f"{WHOLE}'surfaces' must be a whole number, not 2.5"),
         ("periodic = 1\n" + LAYER, f"{WHOLE}'periodic' must be true or false, not 1"),
