@@ -173,6 +173,7 @@ def test_a_mesh_larger_than_the_memory_is_refused(asked):
     assert re.search(said, fault)
 
 
+NO_SIZE = f"size must be a positive number, {PAIR} for x and y, not "
 SIZES = [0, -1.0, np.inf, "400 um", (1, 2, 3), (400.0, 0.0), [], None]
 WRONG_HEIGHTS = [
     ([[1.0]], "heights of shape (1, 1) are too few; give 3 x 3 or more, for 2 x 2 cells"),

@@ -8,7 +8,6 @@ import pytest
 import optipath as op
 from tables import rows
 
-pytest.importorskip("numba")
 pytest.importorskip("xarray")
 
 
@@ -18,11 +17,13 @@ SILICON = {"n": 3.882, "k": 0.019}
 
 @pytest.fixture(scope="module")
 def rough():
+    pytest.importorskip("numba")
     return op.measure(op.Sample([(GOLD, 0.25)], cells=200), "45 deg", 100_000, sensor=31)
 
 
 @pytest.fixture(scope="module")
 def on_even_pixels():
+    pytest.importorskip("numba")
     return op.measure(op.Sample([(GOLD, 0.25)], cells=200), "45 deg", 100_000, sensor=32)
 
 
@@ -40,6 +41,7 @@ def azimuths(rng):
 @rows("incidence", [0.0, 0.3, math.pi / 4, 1.2, 1.5])
 @rows("options", [{"sensor": 32}, {"sensor": 33}, {"photons": 4096, "most_events": 999}])
 def test_with_a_flat_sample_it_is_the_ellipsometer_of_smooth_ones(rng, incidence, options):
+    pytest.importorskip("numba")
     sample = op.Sample([(complex(*SILICON.values()), 0.0)])
     # Photons, where they are walked, go into two columns at a border, by their rounding.
     hemisphere = op.measure(sample, incidence, **{"sensor": 32} | options)
@@ -54,6 +56,7 @@ def test_with_a_flat_sample_it_is_the_ellipsometer_of_smooth_ones(rng, incidence
 
 
 def test_a_slightly_rough_sample_is_near_a_smooth_one():
+    pytest.importorskip("numba")
     alpha = 0.05
     sample = op.Sample([(GOLD, alpha)], cells=200)
     hemisphere = op.measure(sample, "60 deg", 100_000, sensor=45)
@@ -106,6 +109,7 @@ def test_four_intensities_tell_the_linear_polarisation(rough):
 
 
 def test_light_scattered_once_in_the_plane_is_that_of_facets():
+    pytest.importorskip("numba")
     sample = op.Sample([(GOLD, 0.25)], cells=200)
     once = op.measure(sample, "60 deg", 200_000, sensor=91, events=1)
     for angle in once.sensor.theta[45, [65, 73, 81]]:
@@ -169,6 +173,7 @@ def test_in_world_frames_light_leaves_toward_the_direction(rough):
 
 @pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
 def test_the_plane_of_incidence_turns_with_the_light():
+    pytest.importorskip("numba")
     heights = op.Sample([(GOLD, (0.2, 0.1))], cells=200)
     turned = op.measure(heights, "45 deg", 20_000, sensor=15, azimuth="90 deg")
     frames = turned.frames_toward("45 deg")
@@ -196,6 +201,7 @@ def test_whoever_looks_along_the_normal_is_warned_of_frames_that_turn(rough):
 @rows("alpha", [0.02, 0.3])
 @rows("layers", [[GOLD], [1.5], [1.5, 2.4], [1.5, GOLD], [1j]])
 def test_every_pixel_is_an_element_that_can_be(alpha, layers):
+    pytest.importorskip("numba")
     sample = op.Sample([(index, alpha) for index in layers], cells=200, surfaces=1)
     found = op.measure(sample, "60 deg", 3000, sensor=8)
     for place, side in enumerate(found.seen.sides):
@@ -206,6 +212,7 @@ def test_every_pixel_is_an_element_that_can_be(alpha, layers):
 
 
 def test_more_light_than_can_be_by_chance_is_told():
+    pytest.importorskip("numba")
     # All of 3 photons are reflected, each with 1 / p of what is reflected of s: more than 1.
     few = op.measure(op.Sample([(1.5, 0.0)]), "89 deg", 3, sensor=9, most_events=999)
     with pytest.raises(op.SurfaceError, match=r"by chance, 3 photons bring .* with more photons"):
