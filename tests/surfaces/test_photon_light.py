@@ -224,7 +224,8 @@ def ring(sample, incidence, at):
 # Photons over a smooth surface of a few waves, by small steps: no mesh, no code of the library.
 #
 # Intensities alone, without polarisation. What is met is found where the height above the surface
-# changes sign, to the last digits by halving; a photon is reflected by the mean of Fresnel's shares.
+# changes sign, to the last digits by halving; a photon is reflected by the mean of Fresnel's
+# shares.
 STEPS, HALVINGS = 200, 40
 
 
