@@ -15,7 +15,7 @@ import optipath as op
 from optipath.surfaces import HeightField
 from optipath.surfaces.fields.given_fields import period_faults
 from optipath.surfaces.fields.mesh_resolution import converged_cells
-from tables import rows
+from tables import rows, slow
 
 MAP = np.array([[0.0, 1.0, 4.0], [2.0, 7.0, 1.0], [5.0, 3.0, 8.0], [1.0, 1.0, 2.0]])
 
@@ -40,7 +40,7 @@ def faults_of(make, *values, **named):
     return caught.value.faults
 
 
-@rows("seed", [0, 1])
+@pytest.mark.parametrize("seed", [0, 1, slow(2)])
 @rows("alpha, alpha_y", [(1.0, None), (0.1, 0.1), (0.4, 0.1)])
 def test_a_periodic_mesh_has_the_variances(alpha, alpha_y, seed):
     alphas = np.array([alpha, alpha_y or alpha])
@@ -87,18 +87,15 @@ def test_rows_are_along_y_and_columns_along_x():
     assert field.mean_square_slopes == (0.0, 9.0)
 
 
-def test_vertices_follow_each_other_in_memory():
+def test_heights_of_any_real_type_become_float64_one_after_the_other_in_memory():
+    for dtype in (np.uint16, np.int64, np.float32, np.longdouble):
+        field = HeightField.from_heights(MAP.astype(dtype), 2.0)
+        assert field.heights.dtype == np.float64
+        assert np.array_equal(field.heights, MAP)
     for field in (HeightField(MAP.T, 1.0), HeightField(MAP.T, 1.0, periodic=True)):
         assert field.vertices().flags.c_contiguous
         assert field.vertices().dtype == np.float64
         assert field.vertices().shape == (field.cells[1] + 1, field.cells[0] + 1)
-
-
-@rows("dtype", [np.uint16, np.int64, np.float32, np.longdouble])
-def test_heights_of_any_real_type_become_float64(dtype):
-    field = HeightField.from_heights(MAP.astype(dtype), 2.0)
-    assert field.heights.dtype == np.float64
-    assert np.array_equal(field.heights, MAP)
 
 
 def test_the_same_seed_gives_the_same_bits_and_a_sequence_is_not_used_up():
@@ -110,19 +107,23 @@ def test_the_same_seed_gives_the_same_bits_and_a_sequence_is_not_used_up():
         assert HeightField.beckmann(0.3, size=100.0, seed=seed) != first
 
 
-def test_a_field_knows_whether_it_has_a_direction():
+def test_a_field_knows_whether_it_has_a_direction_and_says_what_it_is():
     assert HeightField.beckmann(0.3, size=100.0).isotropic
     assert HeightField.beckmann(0.3, 0.3, size=(100.0, 120.0)).isotropic
     assert not HeightField.beckmann(0.3, 0.2, size=100.0).isotropic
     assert not HeightField.from_heights(MAP, 1.0).isotropic
     assert HeightField.from_heights(np.full((3, 3), 2.0), 1.0).isotropic
-    assert HeightField.flat().isotropic
+    field = HeightField.beckmann(0.3, 0.2, size=(100.0, 120.5), cells=(240, 200), seed=1)
+    assert repr(field) == (
+        "HeightField.beckmann of alpha (0.3, 0.2), 240 x 200 cells, 100 x 120.5, periodic"
+    )
 
 
 def test_a_flat_field_has_neither_heights_nor_slopes():
     field = HeightField.flat()
     assert (field.deviation, field.mean_square_slopes, field.alpha) == (0.0, (0.0, 0.0), None)
     assert field.periodic
+    assert field.isotropic
 
 
 def test_a_field_does_not_change_nor_do_its_copies():
@@ -139,13 +140,6 @@ def test_a_field_does_not_change_nor_do_its_copies():
         assert found == field
         assert hash(found) == hash(field)
         assert not found.heights.flags.writeable
-
-
-def test_a_field_says_what_it_is():
-    field = HeightField.beckmann(0.3, 0.2, size=(100.0, 120.5), cells=(240, 200), seed=1)
-    assert repr(field) == (
-        "HeightField.beckmann of alpha (0.3, 0.2), 240 x 200 cells, 100 x 120.5, periodic"
-    )
 
 
 PAIR = "or two of them"
@@ -175,11 +169,11 @@ def test_a_random_field_is_refused_that_cannot_be(wrong, start):
 @rows("asked", [{"size": 1e9}, {"size": 1e20}, {"cells": 10**7}])
 def test_a_mesh_larger_than_the_memory_is_refused(asked):
     (fault,) = faults_of(HeightField.beckmann, 1.0, **{"size": 400.0} | asked)
-    assert fault.startswith("a mesh of ")
-    assert "and this machine has" in fault
-    assert fault.endswith("take fewer cells, or a smaller field")
+    said = "^a mesh of .*and this machine has.*take fewer cells, or a smaller field$"
+    assert re.search(said, fault)
 
 
+NO_SIZE = f"size must be a positive number, {PAIR} for x and y, not "
 SIZES = [0, -1.0, np.inf, "400 um", (1, 2, 3), (400.0, 0.0), [], None]
 WRONG_HEIGHTS = [
     ([[1.0]], "heights of shape (1, 1) are too few; give 3 x 3 or more, for 2 x 2 cells"),
@@ -203,8 +197,8 @@ WRONG_HEIGHTS = [
     [
         *(({"heights": heights}, said) for heights, said in WRONG_HEIGHTS),
         *(
-            ({"size": each}, f"size must be a positive number, {PAIR} for x and y, not ")
-            for each in SIZES
+            ({"size": size}, f"size must be a positive number, {PAIR} for x and y")
+            for size in SIZES
         ),
         ({"size": 1e-300}, "size is 1e-300; give it in a unit of which it is 1e-30 .. 1e+30"),
         *(
@@ -217,9 +211,6 @@ WRONG_HEIGHTS = [
 def test_a_map_of_heights_is_refused_that_cannot_be(given, said):
     (fault,) = faults_of(HeightField.from_heights, **{"heights": MAP, "size": 1.0} | given)
     assert fault.startswith(said) or ("heights" in given and said in fault)
-
-
-def test_a_periodic_map_may_have_two_rows():
     assert HeightField.from_heights(MAP[:2], 1.0, periodic=True).cells == (3, 2)
 
 
@@ -288,13 +279,10 @@ def test_a_coarse_mesh_is_warned_of_with_what_it_costs_and_what_would_do():
 def test_the_warning_says_what_is_lost_and_how_many_cells_are_enough(alpha, size, cells, said):
     with pytest.warns(op.MeshWarning, match=said):
         HeightField.beckmann(alpha, size=size, cells=cells)
-
-
-@rows("alpha, size, cells", [(1.0, 40.0, 320), (0.3, 100.0, 75), (0.31, 100.0, 248)])
-def test_the_cells_of_the_warning_are_not_warned_of(alpha, size, cells):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        HeightField.beckmann(alpha, size=size, cells=cells)
+    if cells in (319, 74, 247):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            HeightField.beckmann(alpha, size=size, cells=cells + 1)
 
 
 def test_the_mesh_loses_the_slopes_that_the_warning_speaks_of():

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.surfaces.decisions.smooth_exit import smooth_exit
-from tables import rows
+from tables import rows, slow
 
 pytest.importorskip("numba")
 pytest.importorskip("xarray")
@@ -51,14 +51,12 @@ def test_the_error_of_a_sum_is_not_that_of_its_parts(silver):
 
 
 def test_brdf_is_light_over_solid_angle_and_cosine(glass):
-    found, scalar = glass.brdf(), glass.brdf(polarized=False)
     area = (glass.dataset.solid_angle * np.cos(glass.dataset.theta)).values[..., np.newaxis]
     inside = ~np.isnan(glass.sensor.theta)
-    for array, value, error in (
-        (found, *glass.mueller),
-        (scalar, *glass.scalar),
+    for array, (value, error), over in (
+        (glass.brdf(), glass.mueller, area[..., np.newaxis, np.newaxis]),
+        (glass.brdf(polarized=False), glass.scalar, area),
     ):
-        over = area[..., np.newaxis, np.newaxis] if array is found else area
         assert np.allclose((array * over).values[:, inside], value[:, inside], rtol=1e-13)
         assert np.allclose((array.se * over).values[:, inside], error[:, inside], rtol=1e-9)
         assert np.isnan(array.values[:, ~inside]).all()
@@ -66,12 +64,14 @@ def test_brdf_is_light_over_solid_angle_and_cosine(glass):
 
 
 def test_the_brdf_of_what_has_not_been_measured_is_told():
-    one = op.measure(SILVER, "40 deg", 100, sensor=8, polarized="scalar")
+    one, other = (
+        op.measure(SILVER, "40 deg", 100, sensor=8, polarized=kind)
+        for kind in ("scalar", "polarized")
+    )
     assert one.brdf(polarized=False).name == "brdf"
     for ask in (one.brdf, one.stokes, one.dop, one.dolp, one.aop):
         with pytest.raises(op.SurfaceError, match="the Mueller matrix has not been measured"):
             ask()
-    other = op.measure(SILVER, "40 deg", 100, sensor=8, polarized="polarized")
     with pytest.raises(op.SurfaceError, match="light without polarisation has not been measured"):
         other.brdf(polarized=False)
 
@@ -90,8 +90,7 @@ def test_degrees_and_angles_are_those_of_the_stokes_vectors(silver, source):
 
 
 @given(
-    degree=st.floats(0.0, 1.0),
-    angles=st.tuples(st.floats(0.0, np.pi), st.floats(-np.pi, np.pi)),
+    degree=st.floats(0.0, 1.0), angles=st.tuples(st.floats(0.0, np.pi), st.floats(-np.pi, np.pi))
 )
 @settings(max_examples=20)
 def test_no_light_is_polarised_by_more_than_all_of_it(silver, degree, angles):
@@ -112,39 +111,36 @@ def test_where_no_light_falls_there_is_no_degree_and_no_angle(silver):
     assert np.all(silver.stokes().values[dark] == 0.0)
 
 
-def test_angles_next_to_a_right_angle_have_small_errors():
-    # In the plane of incidence light along y stays so, but for a little noise of either sign.
-    found = op.measure(SILVER, "40 deg", 30_000, sensor=17, symmetric=False)
-    aop = found.aop([1.0, -1.0, 0.0, 0.0]).isel(y=8, x=slice(10, None), side=0, wavelength=0)
-    bright = found.dataset["count"].values[0, 8, 10:] > 100
-    angles, errors = aop.values[bright], aop.se.values[bright]
-    assert bright.sum() >= 5
-    assert angles.min() < 0.0 < angles.max()
-    assert np.all(np.abs(angles) > np.radians(80.0))
-    assert errors.max() < np.radians(5.0)
-
-
-def test_angles_of_light_turned_by_a_right_angle_have_the_same_errors():
-    one = op.measure(SILVER, "40 deg", 30_000, sensor=8, symmetric=False)
-    numbers = one.parts.sums
-    turned = numbers[..., :16].reshape(*numbers.shape[:-1], 4, 4).copy()
-    turned[..., 1:3, :] *= -1.0
-    sums = np.concatenate([turned.reshape(*numbers.shape[:-1], 16), numbers[..., 16:]], axis=-1)
-    other = op.surfaces.Hemisphere(
-        one.seen, one.parts._replace(sums=sums), one.wavelengths, symmetric=False
-    )
-    found, expected = other.aop(SOURCE), one.aop(SOURCE)
-    assert np.allclose(found.se, expected.se, rtol=1e-6, atol=1e-12, equal_nan=True)
-    apart = (found - expected).values % np.pi
-    assert np.allclose(apart[~np.isnan(apart)], np.pi / 2.0, atol=1e-12)
-
-
 def test_errors_go_along_with_what_is_chosen(silver):
     chosen = silver.dolp().sel(side="reflected").isel(wavelength=0)
     assert chosen.se.dims == chosen.dims == ("y", "x")
     assert {"theta", "phi", "x", "y"} <= {*chosen.coords}
     # Of a difference they would be wrong, and xarray leaves them out.
     assert "se" not in (silver.dolp() - silver.dop(SOURCE)).coords
+
+
+def test_angles_next_to_a_right_angle_have_small_errors():
+    # In the plane of incidence light along y stays so, but for a little noise of either sign.
+    found = op.measure(SILVER, "40 deg", 30_000, sensor=17, symmetric=False)
+    aop = found.aop([1.0, -1.0, 0.0, 0.0]).isel(y=8, x=slice(10, None), side=0, wavelength=0)
+    bright = found.dataset["count"].values[0, 8, 10:] > 100
+    angles = aop.values[bright]
+    assert bright.sum() >= 5
+    assert angles.min() < 0.0 < angles.max()
+    assert np.all(np.abs(angles) > np.radians(80.0))
+    assert aop.se.values[bright].max() < np.radians(5.0)
+
+
+def test_angles_of_light_turned_by_a_right_angle_have_the_same_errors():
+    one = op.measure(SILVER, "40 deg", 30_000, sensor=8, symmetric=False)
+    sums = one.parts.sums.copy()
+    sums[..., 4:12] *= -1.0  # S1 and S2 of the Mueller matrices.
+    parts = one.parts._replace(sums=sums)
+    other = op.surfaces.Hemisphere(one.seen, parts, one.wavelengths, symmetric=False)
+    found, expected = other.aop(SOURCE), one.aop(SOURCE)
+    assert np.allclose(found.se, expected.se, rtol=1e-6, atol=1e-12, equal_nan=True)
+    apart = (found - expected).values % np.pi
+    assert np.allclose(apart[~np.isnan(apart)], np.pi / 2.0, atol=1e-12)
 
 
 @rows(
@@ -177,31 +173,25 @@ def test_what_follows_comes_of_a_function_that_returns_real_numbers(glass):
     assert (value, error) == (2, 0.0)
 
 
+def measured_glass(photons=100, **given):
+    return op.measure(GLASS, 0.5, photons, sensor=8, **given)
+
+
 @rows(
     "ask, sentence",
     [
         (lambda it: it.toward(np.zeros((0, 3))), r"the shape \(0, 3\); give one direction or more"),
-        (lambda it: it.side("below"), "give reflected or transmitted"),
-        (lambda it: it.side(0), "give reflected or transmitted"),
+        *((lambda it, to=to: it.side(to), "give reflected or transmitted") for to in ("below", 0)),
         (
             lambda _: op.measure(op.Sample([(1j, 0.0)]), 0.5, 100, sensor=4).side("transmitted"),
             "nothing goes through an opaque sample",
         ),
-        (
-            lambda _: op.measure(op.Sample([(1.5, 0.1)]), "56 deg", progress=3),
-            "progress is 3; give a function of two numbers",
-        ),
+        (lambda _: measured_glass(progress=3), "progress is 3; give a function of two numbers"),
         *(
-            (
-                lambda _, kind=kind: op.measure(GLASS, 0.5, 1000, sensor=8, polarized=kind).adm(),
-                "measure with polarized='both'",
-            )
+            (lambda _, kind=kind: measured_glass(polarized=kind).adm(), "with polarized='both'")
             for kind in ("scalar", "polarized")
         ),
-        (
-            lambda _: op.measure(GLASS, 0.5, 100, sensor=8).adm(),
-            "measure with more photons, or give noise=None",
-        ),
+        (lambda _: measured_glass().adm(), "measure with more photons, or give noise=None"),
     ],
 )
 def test_what_cannot_be_asked_for_is_told(glass, ask, sentence):
@@ -236,20 +226,11 @@ def test_everything_has_a_name_and_a_unit(ground):
 
 
 def test_dimensions_are_those_that_are_told(ground):
-    pixels = ("side", "y", "x", "wavelength")
-    expected = {
-        "mueller": (*pixels, "out", "in"),
-        "scalar": pixels,
-        "difference": pixels,
-        "count": pixels[:3],
-        "solid_angle": ("y", "x"),
-    }
-    data = ground.dataset
-    for name, dims in expected.items():
-        assert data[name].dims == dims
-        if f"{name}_se" in data:
-            assert data[f"{name}_se"].dims == dims
-    assert {*data} == {*expected, "mueller_se", "scalar_se", "difference_se"}
+    pixels, data = ("side", "y", "x", "wavelength"), ground.dataset
+    expected = {"mueller": (*pixels, "out", "in"), "scalar": pixels, "difference": pixels}
+    expected |= {f"{name}_se": dims for name, dims in expected.items()}
+    expected |= {"count": pixels[:3], "solid_angle": ("y", "x")}
+    assert {name: data[name].dims for name in data} == expected
     assert data.theta.dims == data.phi.dims == ("y", "x")
 
 
@@ -257,14 +238,18 @@ PUBLISHED = {50: 0.165, 56: 0.19, 60: 0.205, 65: 0.215}
 """Simulation 1 of M. Wang et al., Optics Express 25(19), 2017: the largest ADM at each angle."""
 
 
-@pytest.fixture(scope="module")
-def layered():
-    return op.measure(op.load_sample("glass-on-glass"), "60 deg", 50_000, sensor=32)
+LAYERED = op.Sample([(1.5, 0.1), (2.4, 0.1)], cells=240, surfaces=4)
 
 
-@pytest.fixture(scope="module")
-def gold():
-    sample, lights = op.load_sample("glass-on-gold"), ["450 nm", "550 nm", "650 nm"]
+@pytest.fixture(scope="module", params=[LAYERED, slow(op.load_sample("glass-on-glass"))])
+def layered(request):
+    return op.measure(request.param, "60 deg", 50_000, sensor=32)
+
+
+@pytest.fixture(scope="module", params=[slow(640), 240])
+def gold(request):
+    layers, lights = op.load_sample("glass-on-gold").layers, ["450 nm", "550 nm", "650 nm"]
+    sample = op.Sample(layers, cells=request.param, surfaces=16 if request.param == 640 else 4)
     return op.measure(sample, "60 deg", 50_000, lights, sensor=32)
 
 
@@ -351,10 +336,11 @@ def test_pixels_are_told_as_the_projection_has_them(projection, width, area):
 
 
 def test_a_paired_run_needs_300_times_fewer_photons_than_two_separate_ones():
-    sample, given = op.load_sample("glass-on-glass"), {"photons": 32_768, "sensor": 16}
-    paired = op.measure(sample, "60 deg", seed=0, **given)
-    polarised = op.measure(sample, "60 deg", seed=1, polarized="polarized", **given)
-    scalar = op.measure(sample, "60 deg", seed=2, polarized="scalar", **given)
+    kinds = ("both", "polarized", "scalar")
+    paired, polarised, scalar = (
+        op.measure(LAYERED, "60 deg", 32_768, sensor=16, seed=seed, polarized=kind)
+        for seed, kind in enumerate(kinds)
+    )
     counts = ~np.isnan(paired.relative_difference().values)
     together = paired.difference[1][0][counts]
     apart = polarised.mueller[1][0][..., 0, 0][counts], scalar.scalar[1][0][counts]
@@ -394,14 +380,10 @@ def test_simulation_1_tends_to_nearly_smooth_interfaces_off_the_lobe(angle, at):
 
 
 @pytest.mark.slow
-def test_half_the_roughness_is_nearer_to_nearly_smooth_interfaces():
+def test_half_the_roughness_is_nearer_and_simulation_7_tends_to_it_where_light_is_taken_away():
     sample = op.Sample([(1.5, 0.05), (2.4, 0.05)])
     value, error = off_the_lobe(sample, "60 deg", 80)
     assert abs(value[0] - smooth_exit(sample, "60 deg", "80 deg")) < 0.01 + 2.0 * error[0]
-
-
-@pytest.mark.slow
-def test_simulation_7_tends_to_it_where_polarisation_takes_light_away():
     sample, lights = op.load_sample("wang-2017-simulation-07"), 1e-9 * np.arange(380, 501, 40)
     value, error = off_the_lobe(sample, "60 deg", 80, lights)
     smooth = smooth_exit(sample, "60 deg", "80 deg", wavelengths=lights)

