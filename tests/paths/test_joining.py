@@ -90,7 +90,7 @@ def test_a_path_goes_on_at_its_only_open_natural_way():
     assert lights == {"state": 0.5, "detector": 0.25}
 
 
-def test_paths_that_are_joined_keep_links_loops_and_what_is_told_of_them(tmp_path):
+def test_paths_in_one_line_keep_links_loops_and_what_is_told_of_them(tmp_path):
     slab = wired(
         {
             "front": op.Interface(1.5, 0.3),
@@ -112,9 +112,6 @@ def test_paths_that_are_joined_keep_links_loops_and_what_is_told_of_them(tmp_pat
     lights = path.trace_all()
     assert lights["eye"].intensity + lights["dump"].intensity == pytest.approx(0.5, rel=1e-14)
     assert read_back(path, tmp_path) == path
-
-
-def test_what_is_published_goes_with_the_name_of_its_detector():
     cases = {"a": op.Case({}, published={"detector": (1.0, 0.0, 0.0, 0.0)})}
     other = op.PathGraph(cases=cases) >> op.Polarizer() >> op.Detector()
     split = wired(
@@ -125,7 +122,7 @@ def test_what_is_published_goes_with_the_name_of_its_detector():
     assert (split >> other).cases["a"].published == {"detector-2": (1.0, 0.0, 0.0, 0.0)}
 
 
-def test_a_chain_behind_a_node_is_added_to_its_path_and_ends_at_its_last():
+def test_a_chain_behind_a_node_is_added_to_its_path_and_leaves_by_a_port():
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source())
     end = lamp >> op.Polarizer() >> op.Polarizer(0.3).named("analyser") >> op.Detector()
@@ -135,9 +132,6 @@ def test_a_chain_behind_a_node_is_added_to_its_path_and_ends_at_its_last():
     whole = op.PathGraph()
     assert repr(whole.add("l", op.Source()) >> (op.Polarizer() >> op.Detector())) == repr(end)
     assert whole.trace().intensity == 0.5
-
-
-def test_a_chain_leaves_a_node_by_a_port_and_leads_to_one():
     slab = op.PathGraph(loops="sum")
     front = slab.add("front", op.Interface(1.5, 0.0))
     slab.add("lamp", op.Source()) >> front >> slab.add("R", op.Detector())
@@ -152,15 +146,12 @@ def test_a_chain_leaves_a_node_by_a_port_and_leads_to_one():
     assert repr(slab["R"]) == "Node 'R'"
 
 
-def test_a_path_is_put_behind_itself_and_not_behind_a_node_of_its_own():
+def test_a_path_is_unchanged_where_a_chain_cannot_go_on_or_would_follow_itself():
     dim = op.Attenuator(0.5) >> op.Attenuator(0.5)
     assert (op.Source() >> dim >> dim >> op.Detector()).trace().intensity == 0.0625
     assert len((dim >> dim).graph) == 4
     with pytest.raises(op.PathError, match="use a copy"):
         dim["attenuator-2"] >> dim
-
-
-def test_a_path_is_unchanged_where_a_chain_cannot_go_on_and_all_that_is_wrong_is_told():
     path = reflected()
     for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
         with pytest.raises(op.PathError):

@@ -83,7 +83,7 @@ def test_a_filter_that_is_moved_stays_turned_in_the_light(plate, how):
         np.testing.assert_allclose(moved.trace().stokes, expected, rtol=1e-13, atol=1e-13)
 
 
-def test_a_filter_whose_turns_make_no_one_azimuth_is_moved_by_hand():
+def test_a_filter_is_moved_past_a_turned_plate_or_by_hand():
     path = turned(op.Parameter("a"))
     path.disconnect("plate")
     path.replace("filter", op.Polarizer(0.2, azimuth=op.Parameter("b")))
@@ -94,8 +94,6 @@ def test_a_filter_whose_turns_make_no_one_azimuth_is_moved_by_hand():
     path.insert("filter", op.Polarizer(azimuth=op.Parameter("b")), behind="source")
     assert path.trace(a=0.1, b=0.2).intensity > 0.0
 
-
-def test_a_filter_is_moved_past_a_turned_plate_and_both_stay_as_they_were_turned():
     def path(place):
         path = op.Source(stokes=[2, 1, 1, 0]) >> op.Polarizer(0.3, azimuth=0.2).named("filter")
         path = path >> op.Retarder(0.8, azimuth=op.Parameter("a", 0.4)).named("plate")
@@ -111,7 +109,7 @@ def test_a_filter_is_moved_past_a_turned_plate_and_both_stay_as_they_were_turned
         assert path(place).trace().intensity == pytest.approx(expected, rel=1e-13)
 
 
-def test_nothing_chosen_is_the_filter_at_the_light_and_a_place_may_be_chosen_again():
+def test_choices_are_copied_compared_joined_and_chosen_again(tmp_path):
     path = op.load_preset("npgr026")
     assert path == op.load_preset("npgr026", place="light")
     names = ("delta", "rho", "phi", "n1", "k1", "n2", "k2", "filter", "intensity")
@@ -119,9 +117,6 @@ def test_nothing_chosen_is_the_filter_at_the_light_and_a_place_may_be_chosen_aga
     assert path.choices["place"].place(path.graph) == "light"
     moved = op.load_preset("npgr026", place="eye")
     assert moved.bind(place="between").bind(place="light") == path
-
-
-def test_choices_are_copied_written_and_read_back(tmp_path):
     for place in ("light", "eye"):
         path = op.load_preset("npgr026", place=place)
         copies = copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))
@@ -131,18 +126,12 @@ def test_choices_are_copied_written_and_read_back(tmp_path):
             assert again.bind(place="between") == path.bind(place="between")
             assert repr(again.bind(place="eye")) == f"<PathGraph: {ROWS['eye']}>"
         assert path.reading("intensity").choices == path.choices
-
-
-def test_paths_that_offer_other_choices_are_not_equal():
     path = op.Source() >> op.Polarizer() >> op.Mirror() >> op.Detector()
     other = copy.copy(path)
     other.offer("place", "polarizer", {"light": "source", "eye": "mirror"})
     assert path != other
     assert "place" not in path.choices
     assert other.bind(place="eye").choices == other.choices
-
-
-def test_choices_go_along_in_a_chain():
     tail = op.Polarizer() >> op.Mirror() >> op.Polarizer().named("last") >> op.Detector()
     tail.offer("place", "last", {"before": "polarizer.out", "behind": "mirror.reflected"})
     path = op.Source() >> op.Polarizer() >> tail

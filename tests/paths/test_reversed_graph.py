@@ -90,7 +90,7 @@ def test_with_a_faraday_rotator_the_theorem_does_not_hold(rotator):
     assert path.reversed().trace().intensity < 1e-30
 
 
-def test_azimuths_of_elements_and_links_stand_at_their_links():
+def test_azimuths_and_world_frames_stand_where_light_that_goes_back_meets_them():
     plate, foil = op.Retarder(1.0, 0.2, azimuth=0.3), op.Polarizer(0.5, leakage=0.1)
     ends = {"lamp": op.Source(), "plate": plate, "foil": foil}
     ends |= {"pane": op.Interface(1.5, 0.7, azimuth=-0.6), "eye": op.Detector()}
@@ -104,9 +104,18 @@ def test_azimuths_of_elements_and_links_stand_at_their_links():
         ("plate", "lamp"): 0.3,
     }
     assert same_matrix(path)
+    there = op.plane_of_incidence((0, 0, 1), (0, 1, -1))
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(), {"out": there.arriving.turned(0.3)})
+    frames = {"in": there.arriving, "reflected": there.reflected}
+    pane = path.add("pane", op.Interface(0.2 + 3j, there.incidence), frames)
+    lamp >> pane >> path.add("eye", op.Detector())
+    assert same_matrix(path, atol=1e-15)
+    there, back = path.mueller().reversed(), path.reversed().mueller()
+    assert (back.frame_in, back.frame_out) == (there.frame_in, there.frame_out)
 
 
-def test_a_path_with_turns_at_its_links_is_the_same_back_and_forth():
+def test_a_path_back_and_forth_is_the_same_by_the_same_ways():
     drawn = ReciprocalPath(3)
     once = drawn.path().reversed().reversed()
     assert once.reversed().reversed() == once
@@ -116,9 +125,6 @@ def test_a_path_with_turns_at_its_links_is_the_same_back_and_forth():
     plate = op.Retarder(1.0, 0.3)
     back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
     assert back.element("retarder") is back.element("retarder-2")
-
-
-def test_light_of_many_faces_goes_back_by_the_same_ways():
     assert same_matrix(op.load_preset("fresnel-rhomb"))
     for preset in ("glass-slab", "pile-of-plates"):
         path = op.load_preset(preset)
@@ -127,6 +133,13 @@ def test_light_of_many_faces_goes_back_by_the_same_ways():
         for name in (name for name in path if not path.element(name).outputs):
             there, found = path.mueller(lamp, name).reversed(), back.mueller(name, lamp)
             np.testing.assert_allclose(found.matrix, there.matrix, atol=1e-15)
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.3, azimuth=0.2)}
+    ends |= {"plate": op.Retarder(1.0, 0.3, azimuth=0.4), "foil": op.Diattenuator(0.9, 0.4, 0.7)}
+    links = "lamp -> split, split.transmitted -> plate, plate -> foil, split.reflected -> eye"
+    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
+    path.connect("foil", "split.back", azimuth=0.5)
+    assert path.reversed().loops == "sum"
+    assert same_matrix(path)
 
 
 def two_faces(front, rear):
@@ -147,26 +160,11 @@ def test_faces_at_an_angle_stay_at_an_angle_and_what_one_takes_over_it_has_on_th
     assert same_matrix(path, n=np.array([1.3, 1.7]))
 
 
-def test_frames_in_the_world_are_those_of_light_that_goes_back():
-    there = op.plane_of_incidence((0, 0, 1), (0, 1, -1))
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(), {"out": there.arriving.turned(0.3)})
-    frames = {"in": there.arriving, "reflected": there.reflected}
-    pane = path.add("pane", op.Interface(0.2 + 3j, there.incidence), frames)
-    lamp >> pane >> path.add("eye", op.Detector())
-    assert same_matrix(path, atol=1e-15)
-    there, back = path.mueller().reversed(), path.reversed().mueller()
-    assert (back.frame_in, back.frame_out) == (there.frame_in, there.frame_out)
-
-
-def test_a_chain_of_points_is_run_from_its_end_with_its_points_shared():
+def test_chains_of_points_go_back_with_their_points_and_media():
     path = op.path_from_vertices(CORNER, [1.5, 0.2 + 3j])
     assert same_frames(path)
     back = path.reversed()
     assert back.element("vertex1").vertices is back.element("vertex2").vertices
-
-
-def test_media_of_a_chain_that_refracts_go_back_as_they_are():
     several = np.array([1.5, 1.6])
     points = [[0, 0, 0], [0, 0, 2.0], [0.0, 0.0, 4.0], [0.0, 0.0, 5.0], [0.0, 0.0, 7.0]]
     path = op.path_from_vertices(points, [several, 1.3, several], events="TTT")
@@ -216,17 +214,7 @@ def test_a_reversed_path_is_written_and_read_back(preset, backwards, tmp_path):
     assert ("backwards = true" in back.to_toml()) == backwards
 
 
-def test_a_loop_is_run_the_other_way():
-    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.3, azimuth=0.2)}
-    ends |= {"plate": op.Retarder(1.0, 0.3, azimuth=0.4), "foil": op.Diattenuator(0.9, 0.4, 0.7)}
-    links = "lamp -> split, split.transmitted -> plate, plate -> foil, split.reflected -> eye"
-    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
-    path.connect("foil", "split.back", azimuth=0.5)
-    assert path.reversed().loops == "sum"
-    assert same_matrix(path)
-
-
-def test_light_begins_at_the_detectors_as_it_is_told():
+def test_light_begins_at_the_detectors_and_parameters_cases_and_words_stay():
     ends = {"eye": op.Detector("intensity"), "wall": op.Dump()}
     path = wired(
         {"lamp": op.Source(7.0), "split": op.BeamSplitter(0.3), **ends},
@@ -238,9 +226,6 @@ def test_light_begins_at_the_detectors_as_it_is_told():
     assert both.trace().intensity == pytest.approx(13.0)
     assert path.reversed().reversed().element("wall") == op.Dump()
     assert both.element("lamp") == op.Detector()
-
-
-def test_parameters_defaults_cases_and_the_description_stay():
     path = op.load_preset("npgr026")
     back = path.reversed()
     assert {**path.parameters, "intensity": None} == {**back.parameters, "intensity": None}
@@ -249,6 +234,14 @@ def test_parameters_defaults_cases_and_the_description_stay():
     assert "intensity" not in back.parameters
     assert not back.cases["8"].published
     assert same_matrix(path, atol=1e-16, delta=0.4, rho=0.3, filter=0.2)
+    back = (op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()).reversed()
+    for angles in ("diagonal", ["diagonal", "vertical"]):
+        degrees = {"diagonal": 45.0, "vertical": 90.0}
+        numbers = np.radians(np.vectorize(degrees.get)(angles))
+        wanted = np.asarray(back.trace(a=numbers).stokes)
+        np.testing.assert_array_equal(back.trace(a=angles).stokes, wanted)
+        np.testing.assert_array_equal(back.bind(a=angles).trace().stokes, wanted)
+    np.testing.assert_allclose(back.trace(a="diagonal").S2, -0.5, rtol=1e-15)
 
 
 def placed(*, azimuth=0.0):
@@ -407,14 +400,3 @@ def test_a_tap_is_taken_out_with_all_that_it_alone_feeds():
         eval(cure, {"path": path})  # noqa: S307
     assert [*path] == ["source", "polarizer", "detector"]
     assert same_matrix(path)
-
-
-def test_axes_keep_their_words_on_the_way_back():
-    back = (op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()).reversed()
-    for angles in ("diagonal", ["diagonal", "vertical"]):
-        degrees = {"diagonal": 45.0, "vertical": 90.0}
-        numbers = np.radians(np.vectorize(degrees.get)(angles))
-        wanted = np.asarray(back.trace(a=numbers).stokes)
-        np.testing.assert_array_equal(back.trace(a=angles).stokes, wanted)
-        np.testing.assert_array_equal(back.bind(a=angles).trace().stokes, wanted)
-    np.testing.assert_allclose(back.trace(a="diagonal").S2, -0.5, rtol=1e-15)

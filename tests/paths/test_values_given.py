@@ -105,7 +105,7 @@ def test_several_detectors_name_the_call_that_gives_them_all():
     assert set(path.trace_all()) == {"reflected", "transmitted"}
 
 
-def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
+def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():
     path = chain([op.Polarizer(op.Parameter("d"))], [1.0, 1.0, 0.0, 0.0])
     assert path.trace(d="horizontal").intensity == 1.0
     # Malus, at 0, 90 and 45 degrees.
@@ -121,9 +121,6 @@ def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
         op.Polarizer("pi/4")
     turned = chain([op.Rotator(op.Parameter("d"))])
     assert "knows no word 'vertical'" in fault(turned.trace, d="vertical")
-
-
-def test_a_word_for_another_direction_is_never_offered():
     for word in ("antidiagonal", "antidiagonl"):
         told = fault(op.Parameter, "d", word, "deg", words={"diagonal": "45 deg"})
         assert told.endswith("; write '-45 deg' for the axis 'antidiagonal'")
@@ -134,20 +131,20 @@ def test_a_word_for_another_direction_is_never_offered():
         assert told.endswith("does not exist; there are: X1.reflected, X1.transmitted")
 
 
-def test_a_path_is_a_collection_of_the_names_of_its_nodes():
+def test_nodes_and_places_are_told_by_their_names():
     path = npgr026()
     assert "X1" in path
     assert "polarizer" not in path
     assert [*path] == ["L", "P", "X2", "X1", "E"]
     assert (len(path), len(op.PathGraph())) == (5, 0)
-
-
-def test_a_place_that_a_node_cannot_be_moved_to_is_named():
     path = npgr026()
     path.add("camera", op.Detector())
     path.connect("P", "camera", tap=True)
     told = fault(path.bind, place="eye")
     assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
+    path = chain([op.Interface(1.5, D)])
+    assert "bounds=" not in fault(path.trace, d="100 deg")
+    assert "bounds=" in fault(path.trace, d=-0.1)
 
 
 D = op.Parameter("d")
@@ -182,9 +179,3 @@ K_IS_KNOWN = op.Interface(op.Material(op.Parameter("n", 1.5, minimum=0.0), 0.5),
 def test_numbers_and_places_are_told_as_they_stand(call, sentence):
     assert sentence in fault(call)
     assert sentence != BOTH or fault(call) == BOTH
-
-
-def test_a_text_that_is_typed_is_no_step_of_a_fit():
-    path = chain([op.Interface(1.5, D)])
-    assert "bounds=" not in fault(path.trace, d="100 deg")
-    assert "bounds=" in fault(path.trace, d=-0.1)
