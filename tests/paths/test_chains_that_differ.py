@@ -138,7 +138,7 @@ def slopes_of_intensity(points, text, media, step=1e-4):
     return ((45 * near[0] - 9 * near[1] + near[2]) / (60 * step)).reshape(points.shape)
 
 
-def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax):
+def test_slopes_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
     batch = random_batch(5, 2, several=6, each=1)
     points = batch.points.copy()
     padded = np.isnan(points)
@@ -152,9 +152,6 @@ def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax):
         own, media, text = batch.alone(chain)
         expected = slopes_of_intensity(own, text, media)
         np.testing.assert_allclose(slopes[chain, : length + 2], expected, rtol=1e-8, atol=1e-10)
-
-
-def test_slopes_in_an_index_are_those_of_the_event_of_each_chain(jax):
     points = [DOWN[:3], [*DOWN[:2], DOWN[0]], [*DOWN[:2], [np.nan] * 3]]
     vertex = op.Vertex(op.Parameter("n"), points, place=1, events=[[1.0], [0.0], [2.0]])
     plan = (op.Source() >> vertex >> op.Detector()).compose()

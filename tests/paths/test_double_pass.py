@@ -54,7 +54,7 @@ def test_natural_rotation_is_undone_and_faradays_doubled(angle):
     np.testing.assert_allclose(twice(sugar).stokes, np.exp(-0.6) * np.array(LINEAR), atol=1e-15)
 
 
-def test_azimuths_turn_the_same_on_both_ways_and_a_turned_mirror_turns_nothing():
+def test_azimuths_and_parameters_are_the_same_on_both_ways():
     # The same in angles from the frame of the lamp alone.
     stokes = (1, 0.3, -0.2, 0.5)
     foil = op.Diattenuator(0.9, 0.2, 0.1, azimuth=0.5)
@@ -67,27 +67,6 @@ def test_azimuths_turn_the_same_on_both_ways_and_a_turned_mirror_turns_nothing()
     path = op.Source(stokes=LINEAR) >> turned >> op.Detector()
     expected = np.broadcast_to(twice(first, second).stokes, (2, 4))
     np.testing.assert_allclose(path.trace(a=[0.4, -1.0]).stokes, expected, atol=1e-15)
-
-
-def test_nodes_are_named_and_a_folding_mirror_is_met_again():
-    plate = op.Retarder(1.0).named("plate")
-    path = op.there_and_back(plate, op.Retarder(2.0), op.Rotator(0.1), op.Mirror())
-    assert list(path) == [
-        "plate", "retarder", "rotator", "mirror", "rotator-2", "retarder-2", "plate-back",
-    ]  # fmt: skip
-    assert list(op.there_and_back(op.Mirror())) == ["mirror"]
-    first, second = op.Retarder(1.0, 0.2, 0.3), op.Polarizer(0.7, 0.1)
-    one, other = op.there_and_back(first >> second, op.Mirror()), (first, second, op.Mirror())
-    assert one == op.there_and_back(*other)
-    fold = op.Interface(0.2 + 3j, 0.8)
-    path = op.Source(stokes=LINEAR) >> op.there_and_back(op.Retarder(1.0, 0.3), fold, op.Mirror())
-    matrix = fold.mueller().matrix
-    plate, back = op.Retarder(1.0, 0.3).mueller().matrix, op.Retarder(1.0, -0.3).mueller().matrix
-    expected = back @ matrix @ op.Mirror().mueller().matrix @ matrix @ plate @ LINEAR
-    np.testing.assert_allclose((path >> op.Detector()).trace().stokes, expected, atol=1e-15)
-
-
-def test_parameters_are_the_same_on_both_ways_as_in_the_preset():
     plate = op.Retarder(op.Parameter("retardance"), op.Parameter("angle")).named("plate")
     path = op.Source(stokes=LINEAR).named("lamp") >> op.there_and_back(plate, op.Mirror())
     path = path >> op.Detector().named("eye")
@@ -99,6 +78,28 @@ def test_parameters_are_the_same_on_both_ways_as_in_the_preset():
     for case in preset.cases.values():
         published = case.published["eye"]
         np.testing.assert_allclose(path.trace(**case.values).stokes, published, atol=1e-15)
+
+
+def test_nodes_are_named_a_folding_mirror_is_met_again_and_choices_are_refused():
+    plate = op.Retarder(1.0).named("plate")
+    path = op.there_and_back(plate, op.Retarder(2.0), op.Rotator(0.1), op.Mirror())
+    assert list(path) == [
+        "plate", "retarder", "rotator", "mirror", "rotator-2", "retarder-2", "plate-back"
+    ]  # fmt: skip
+    assert list(op.there_and_back(op.Mirror())) == ["mirror"]
+    first, second = op.Retarder(1.0, 0.2, 0.3), op.Polarizer(0.7, 0.1)
+    one, other = op.there_and_back(first >> second, op.Mirror()), (first, second, op.Mirror())
+    assert one == op.there_and_back(*other)
+    fold = op.Interface(0.2 + 3j, 0.8)
+    path = op.Source(stokes=LINEAR) >> op.there_and_back(op.Retarder(1.0, 0.3), fold, op.Mirror())
+    matrix = fold.mueller().matrix
+    plate, back = op.Retarder(1.0, 0.3).mueller().matrix, op.Retarder(1.0, -0.3).mueller().matrix
+    expected = back @ matrix @ op.Mirror().mueller().matrix @ matrix @ plate @ LINEAR
+    np.testing.assert_allclose((path >> op.Detector()).trace().stokes, expected, atol=1e-15)
+    piece = op.Polarizer() >> op.Retarder(1.0) >> op.Rotator(0.1)
+    piece.offer("place", "retarder", {"first": "polarizer.out"})
+    with pytest.raises(op.PathError, match="choice 'place' moves a node on the way there alone"):
+        op.there_and_back(piece, op.Mirror())
 
 
 @rows(
@@ -120,10 +121,3 @@ def test_parameters_are_the_same_on_both_ways_as_in_the_preset():
 def test_what_does_not_go_there_and_back_is_refused(elements, sentence):
     with pytest.raises(op.PathError, match=sentence):
         op.there_and_back(*elements)
-
-
-def test_a_choice_that_moves_a_node_on_one_way_alone_is_refused():
-    piece = op.Polarizer() >> op.Retarder(1.0) >> op.Rotator(0.1)
-    piece.offer("place", "retarder", {"first": "polarizer.out"})
-    with pytest.raises(op.PathError, match="choice 'place' moves a node on the way there alone"):
-        op.there_and_back(piece, op.Mirror())

@@ -130,7 +130,8 @@ ARITHMETIC = (op.ParameterError, r"FOLLOWS .* has no arithmetic; give the number
         (lambda: np.ones(2) - op.FOLLOWS, *ARITHMETIC),
         (
             lambda: op.Interface(op.FOLLOWS, 0.3),
-            *(op.ValueFault, "index must be an index of refraction"),
+            op.ValueFault,
+            "index must be an index of refraction",
         ),
         (
             lambda: op.LayerStack([1, op.FOLLOWS, 1], 0.3),

@@ -33,7 +33,7 @@ def reflected():
     return op.Source(100.0) >> op.Polarizer(0.5) >> op.Interface(1.5, 0.9) >> op.Detector()
 
 
-def test_a_chain_of_elements_is_the_path_that_is_built_node_by_node():
+def test_a_chain_is_the_path_that_is_built_node_by_node_named_and_shown_as_it_is_written():
     elements = op.Source(100.0), op.Polarizer(0.5), op.Interface(1.5, 0.9), op.Detector()
     built = wired(
         dict(zip(("source", "polarizer", "interface", "detector"), elements, strict=True)),
@@ -45,18 +45,19 @@ def test_a_chain_of_elements_is_the_path_that_is_built_node_by_node():
     assert chained == built
     # Brewster's angle is 56.3 deg: light along p, y, is let through whole there.
     np.testing.assert_array_equal(chained.trace().stokes, built.trace().stokes)
-
-
-def test_nodes_are_named_by_kind_or_class_and_numbered_or_as_they_are_named():
     path = op.Source() >> op.Polarizer() >> op.Polarizer(0.2) >> op.Polarizer(0.4) >> op.Detector()
     assert [*path] == ["source", "polarizer", "polarizer-2", "polarizer-3", "detector"]
     assert path.trace().intensity == pytest.approx(0.5 * np.cos(0.2) ** 4)
     own = op.Source().named("lamp") >> WavePlate() >> Periscope() >> op.Detector()
     assert [*own] == ["lamp", "wave-plate", "test-periscope", "detector"]
     assert own.trace_all()["detector"].intensity == 1.0
+    assert repr(op.Source() >> op.Polarizer()) == "<PathGraph: source >> polarizer>"
+    assert repr(op.load_preset("malus")) == "<PathGraph: lamp >> polarizer >> analyzer >> eye>"
+    for preset in ("glass-slab", "ellipsometer-pcsa", "sky-and-window"):
+        assert " nodes and " in repr(op.load_preset(preset))
 
 
-def test_a_chain_changes_neither_side_and_does_not_depend_on_where_it_is_cut():
+def test_a_chain_changes_neither_side_nor_a_path_that_it_cannot_go_on():
     start, end = op.Source() >> op.Polarizer(), op.Polarizer(0.3) >> op.Detector()
     whole = start >> end
     assert [len(path.graph) for path in (start, end, whole)] == [2, 2, 4]
@@ -67,6 +68,22 @@ def test_a_chain_changes_neither_side_and_does_not_depend_on_where_it_is_cut():
     a, b, c, d = op.Source(), op.Polarizer(), op.Polarizer(0.3), op.Detector()
     for other in (a >> (b >> c >> d), a >> (b >> (c >> d)), op.PathGraph() >> a >> b >> c >> d):
         assert other == whole
+    dim = op.Attenuator(0.5) >> op.Attenuator(0.5)
+    assert (op.Source() >> dim >> dim >> op.Detector()).trace().intensity == 0.0625
+    assert len((dim >> dim).graph) == 4
+    with pytest.raises(op.PathError, match="use a copy"):
+        dim["attenuator-2"] >> dim
+    path = reflected()
+    for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
+        with pytest.raises(op.PathError):
+            path["interface"] >> behind
+    assert path == reflected()
+    with pytest.raises(op.PathError) as error:
+        op.Detector() >> op.Source()
+    assert error.value.faults == (
+        "'detector' has no way out, since light ends there; let it stand last",
+        "'source' has no way in, since light begins there; let it stand first",
+    )
 
 
 def test_a_path_goes_on_at_its_only_open_natural_way():
@@ -146,25 +163,6 @@ def test_a_chain_behind_a_node_is_added_to_its_path_and_leaves_by_a_port():
     assert repr(slab["R"]) == "Node 'R'"
 
 
-def test_a_path_is_unchanged_where_a_chain_cannot_go_on_or_would_follow_itself():
-    dim = op.Attenuator(0.5) >> op.Attenuator(0.5)
-    assert (op.Source() >> dim >> dim >> op.Detector()).trace().intensity == 0.0625
-    assert len((dim >> dim).graph) == 4
-    with pytest.raises(op.PathError, match="use a copy"):
-        dim["attenuator-2"] >> dim
-    path = reflected()
-    for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
-        with pytest.raises(op.PathError):
-            path["interface"] >> behind
-    assert path == reflected()
-    with pytest.raises(op.PathError) as error:
-        op.Detector() >> op.Source()
-    assert error.value.faults == (
-        "'detector' has no way out, since light ends there; let it stand last",
-        "'source' has no way in, since light begins there; let it stand first",
-    )
-
-
 FRONT = wired({"front": op.Interface(1.5, 0.0)}, "")
 NAMED = op.Polarizer().named("a")
 LAMPS = wired({"sun": op.Source(), "moon": op.Source()}, "")
@@ -209,13 +207,6 @@ ELEMENTS = r"made of elements, .* not of "
 def test_what_cannot_be_joined_is_refused_by_its_name(join, told):
     with pytest.raises(op.PathError, match=told):
         join()
-
-
-def test_a_chain_is_shown_as_it_is_written_and_other_paths_by_how_large_they_are():
-    assert repr(op.Source() >> op.Polarizer()) == "<PathGraph: source >> polarizer>"
-    assert repr(op.load_preset("malus")) == "<PathGraph: lamp >> polarizer >> analyzer >> eye>"
-    for preset in ("glass-slab", "ellipsometer-pcsa", "sky-and-window"):
-        assert " nodes and " in repr(op.load_preset(preset))
 
 
 def test_links_find_the_natural_ports_of_nodes_in_files_too(tmp_path):

@@ -43,7 +43,7 @@ def test_light_of_paths_by_chance_is_neither_made_nor_lost(seed):
     assert_conserved(path, **draw.values)
 
 
-def test_a_polariser_takes_half_of_light_and_several_sources_are_told_apart():
+def test_powers_are_told_of_sources_loops_and_what_amplifies_but_not_of_rounding():
     found = energy_along(op.load_preset("malus"), angle="60 deg", intensity=8.0)
     assert numbers(found.given) == {"lamp": 8.0}
     assert numbers(found.taken) == pytest.approx({"polarizer": 4.0, "analyzer": 3.0})
@@ -54,31 +54,6 @@ def test_a_polariser_takes_half_of_light_and_several_sources_are_told_apart():
     assert total(found.taken, found.left, found.ended) == 0.0
     found = assert_conserved(op.load_preset("sky-and-window"))
     assert numbers(found.given) == {"heaven": 10.0, "lamp": 2.0}
-
-
-def test_taps_take_nothing_however_far_their_light_goes():
-    found = assert_conserved(op.load_preset("ellipsometer-pcsa"))
-    assert [link.end for link in found.links if link.tap] == ["state"]
-    assert [*found.ended] == ["photometer"]
-    assert [*found.left] == ["S.transmitted"]
-    # It stands behind the link beside it.
-    taps = [each for each in lights_along(op.load_preset("ellipsometer-pcsa")) if each.tap]
-    assert [each.name for each in taps] == ["S.reflected -> state.in"]
-    path = op.Source() >> op.Polarizer("0 deg") >> op.Detector()
-    path.add("analyser", op.Polarizer("30 deg"))
-    path.connect("polarizer.out", "analyser.in", tap=True)
-    path["analyser"] >> path.add("split", op.BeamSplitter())
-    path.connect("split.transmitted", path.add("probe", op.Detector()).name)
-    found = assert_conserved(path)
-    assert numbers(found.taken) == pytest.approx({"polarizer": 0.5})
-    assert [*found.ended] == ["detector"]
-    assert not found.left
-    links = {"polarizer.out -> analyser.in", "analyser.out -> split.in", "split.reflected"}
-    read = {link.name for link in found.links if link.tap}
-    assert read == links | {"split.transmitted -> probe.in"}
-
-
-def test_loops_and_what_amplifies_are_told_and_rounding_is_no_light():
     # Of an unpolarised lamp upright on glass, R = 0.04: 0.96 / (1 - R^2) goes down in all.
     found = assert_conserved(op.load_preset("glass-slab"), theta=0.0, n=1.5)
     inner = {link.name: link.power for link in found.links if link.in_loop}
@@ -102,6 +77,28 @@ def test_loops_and_what_amplifies_are_told_and_rounding_is_no_light():
     assert (found.ended["eye"], found.links[-1].power) == (0.0, 0.0)
     path = op.Source() >> op.Attenuator(1e-30) >> op.Attenuator(0.5) >> op.Detector()
     assert energy_along(path).ended["detector"] == pytest.approx(5e-31)
+
+
+def test_taps_take_nothing_however_far_their_light_goes():
+    found = assert_conserved(op.load_preset("ellipsometer-pcsa"))
+    assert [link.end for link in found.links if link.tap] == ["state"]
+    assert [*found.ended] == ["photometer"]
+    assert [*found.left] == ["S.transmitted"]
+    # It stands behind the link beside it.
+    taps = [each for each in lights_along(op.load_preset("ellipsometer-pcsa")) if each.tap]
+    assert [each.name for each in taps] == ["S.reflected -> state.in"]
+    path = op.Source() >> op.Polarizer("0 deg") >> op.Detector()
+    path.add("analyser", op.Polarizer("30 deg"))
+    path.connect("polarizer.out", "analyser.in", tap=True)
+    path["analyser"] >> path.add("split", op.BeamSplitter())
+    path.connect("split.transmitted", path.add("probe", op.Detector()).name)
+    found = assert_conserved(path)
+    assert numbers(found.taken) == pytest.approx({"polarizer": 0.5})
+    assert [*found.ended] == ["detector"]
+    assert not found.left
+    links = {"polarizer.out -> analyser.in", "analyser.out -> split.in", "split.reflected"}
+    read = {link.name for link in found.links if link.tap}
+    assert read == links | {"split.transmitted -> probe.in"}
 
 
 def test_many_values_keep_their_shape_and_are_written_as_json():

@@ -200,7 +200,7 @@ OPEN = (
 )
 
 
-def test_parameters_are_looked_at_whenever_they_are_given():
+def test_values_are_looked_at_whenever_they_are_given_and_give_nan_where_jax_traces():
     path = faces(*OPEN)
     path.check()
     good = {"n": 1.5, "m": 1.5, "theta": THETA, "phi": INSIDE}
@@ -220,6 +220,16 @@ def test_parameters_are_looked_at_whenever_they_are_given():
     ):
         with pytest.raises(op.ParameterError, match=told):
             path.trace(**good | wrong)
+    jax = pytest.importorskip("jax")
+    plan = op.Composer(dtype="float32").compose(faces(*OPEN))
+
+    @jax.jit
+    def intensity(n, m, phi):
+        return plan.run(n=n, m=m, theta=THETA, phi=phi).intensity
+
+    assert float(intensity(1.5, 1.5, INSIDE)) == pytest.approx(0.9116117533, rel=1e-6)
+    assert np.isnan(float(intensity(1.5, 1.6, INSIDE)))
+    assert np.isnan(float(intensity(1.5, 1.5, THETA)))
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -234,19 +244,6 @@ def test_every_engine_refuses_media_that_do_not_meet(engine):
     for question in (plan.run_all, plan.mueller, plan.paths):
         with pytest.raises(op.ParameterError, match="n sin"):
             question(n=1.5, m=1.5, theta=0.3, phi=0.3)
-
-
-def test_values_that_jax_traces_give_nan_where_media_do_not_meet():
-    jax = pytest.importorskip("jax")
-    plan = op.Composer(dtype="float32").compose(faces(*OPEN))
-
-    @jax.jit
-    def intensity(n, m, phi):
-        return plan.run(n=n, m=m, theta=THETA, phi=phi).intensity
-
-    assert float(intensity(1.5, 1.5, INSIDE)) == pytest.approx(0.9116117533, rel=1e-6)
-    assert np.isnan(float(intensity(1.5, 1.6, INSIDE)))
-    assert np.isnan(float(intensity(1.5, 1.5, THETA)))
 
 
 def test_angles_may_be_rounded_and_one_parameter_on_both_sides_is_not_looked_at():

@@ -234,7 +234,7 @@ def test_beyond_the_critical_angle_the_one_behind_is_a_right_angle():
     assert "n sin(incidence)" in fault_of(slab(dense, outside, to=None))
 
 
-def test_plates_in_air_are_told_what_is_taken_for_granted():
+def test_multiples_absorptions_and_what_is_taken_for_granted_are_told():
     def plates(**about):
         plate = op.LayerStack([1, 1.5, 1], "30 deg")
         return slab(plate, op.LayerStack([1, 1.5, 1], "60 deg", **about), to=None)
@@ -249,9 +249,6 @@ def test_plates_in_air_are_told_what_is_taken_for_granted():
     assert turning.trace(turn=[0.1, 0.5]).shape == (2,)
     where = "planes of incidence are one where azimuths come to 0 deg (parameter 'turn')"
     assert where in fault_of(turning, turn=[0.0, 0.1, 0.5])
-
-
-def test_a_multiple_or_an_absorption_that_is_open_is_named_where_it_stands():
     n, m = op.Parameter("n"), op.Parameter("m")
     twice = op.Interface(1.0, F, outside=2 * m)
     path = slab(op.Interface(1.5, THETA), twice, to=None)

@@ -59,7 +59,7 @@ def mean(n1, n2, y):
     return (s + p) / 2
 
 
-def test_a_layer_on_another_and_a_smooth_sample_reflect_less_than_the_scalar_model_says():
+def test_layers_on_others_differ_from_the_scalar_model_as_their_loops_do():
     found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
     np.testing.assert_allclose(
         100.0 * found.difference, [-1.785, -2.498, -2.900, -3.167], rtol=0, atol=5e-4
@@ -69,6 +69,14 @@ def test_a_layer_on_another_and_a_smooth_sample_reflect_less_than_the_scalar_mod
     sample = op.Sample([(1.5, 0.1), (2.4, 0.1)])
     found = op.polarization(op.Source() >> sample.smooth("56 deg") >> op.Detector())
     assert found.difference == pytest.approx(-0.02498, abs=5e-6)
+    n, k, metal = 1.5, 1e-7, 0.2 + 3.4j
+    # The way is slanted; that the wave is not quite homogeneous matters no more than k does.
+    length = TINTED["lengths"][0] / np.sqrt(1.0 - (np.sin(ANGLES) / n) ** 2)
+    medium = op.Medium(length, absorption=4.0 * np.pi * k / TINTED["wavelength"])
+    by_stack = op.polarization(stack([1.0, n + k * 1j, metal], ANGLES, **TINTED))
+    by_hand = op.polarization(layer_by_hand(n, metal, ANGLES, medium=medium))
+    np.testing.assert_allclose(by_hand.scalar, by_stack.scalar, rtol=1e-6)
+    np.testing.assert_allclose(by_hand.difference, by_stack.difference, rtol=1e-5)
 
 
 @settings(max_examples=15)
@@ -115,17 +123,6 @@ def test_a_stack_and_the_same_boundaries_in_a_loop_agree_to_the_last_digits(port
             np.testing.assert_allclose(found, expected, rtol=1e-14, atol=4e-16)
 
 
-def test_a_tinted_layer_on_a_metal_agrees_with_its_loop():
-    n, k, metal = 1.5, 1e-7, 0.2 + 3.4j
-    # The way is slanted; that the wave is not quite homogeneous matters no more than k does.
-    length = TINTED["lengths"][0] / np.sqrt(1.0 - (np.sin(ANGLES) / n) ** 2)
-    medium = op.Medium(length, absorption=4.0 * np.pi * k / TINTED["wavelength"])
-    by_stack = op.polarization(stack([1.0, n + k * 1j, metal], ANGLES, **TINTED))
-    by_hand = op.polarization(layer_by_hand(n, metal, ANGLES, medium=medium))
-    np.testing.assert_allclose(by_hand.scalar, by_stack.scalar, rtol=1e-6)
-    np.testing.assert_allclose(by_hand.difference, by_stack.difference, rtol=1e-5)
-
-
 def ring(elements, kept=0.7):
     """Light let into a ring by a beam splitter, which lets some of it out each time."""
     row = {f"e{number}": element for number, element in enumerate(elements)}
@@ -138,7 +135,7 @@ def ring(elements, kept=0.7):
     )
 
 
-def test_rings_and_stacks_in_loops_are_taken_by_their_means_and_boundaries():
+def test_sums_over_all_rounds_are_those_of_means_and_nothing_gets_lost():
     matrix = np.diag([0.8, 0.5, 0.4, 0.3])
     matrix[0, 1:], matrix[1:, 0] = [0.1, -0.1, 0.05], [0.2, 0.05, -0.1]
     elements = [op.Polarizer(0.3), op.Retarder(1.0, 0.2), op.MuellerElement(matrix)]
@@ -159,9 +156,6 @@ def test_rings_and_stacks_in_loops_are_taken_by_their_means_and_boundaries():
     assert found.scalar == pytest.approx(whole.scalar, rel=1e-14)
     assert found.difference == pytest.approx(whole.difference, rel=1e-12)
     assert set(found.elements) == {"top", "bottom"}
-
-
-def test_no_light_of_the_scalar_model_gets_lost_in_networks():
     for network in networks(5, first=3, size=(2, 6)):
         ends = network.path.compose().whole.readings
         found = sum(op.polarization(network.path, end).scalar for end in ends)
@@ -198,21 +192,6 @@ def test_what_is_exact_keeps_within_bounds_of_a_stack_among_others(media, incide
     assert found.certificate.scalar is found.scalar
     assert found.certificate.lower * found.scalar <= found.exact
     assert found.exact <= found.certificate.upper * found.scalar
-
-
-def test_shares_are_those_of_all_boundaries_of_a_stack_and_of_one_mean_in_a_loop():
-    found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
-    for bound in (found.certificate.lower, found.certificate.upper):
-        np.testing.assert_allclose(bound - 1.0, found.difference, rtol=0, atol=1e-12)
-    assert found.culprits == ("layers",)
-    np.testing.assert_array_equal(found.elements["layers"], found.difference)
-    found = op.polarization(layer_by_hand(1.5, 2.4, 1.0))
-    y, exact, without = np.sin(1.0), [], []
-    for top, bottom in zip(fresnel(1.0, 1.5, y), fresnel(1.5, 2.4, y), strict=True):
-        for where, first in ((exact, top), (without, mean(1.0, 1.5, y))):
-            where.append(first + (1.0 - first) ** 2 * bottom / (1.0 - first * bottom))
-    share = (sum(exact) - sum(without)) / 2.0 / found.scalar
-    assert found.elements["top"] == pytest.approx(share, rel=1e-12)
 
 
 @rows("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
@@ -273,19 +252,7 @@ def test_a_stack_is_taken_as_a_whole_by_explanations_and_tolerances():
     assert np.max(np.abs(found / exact - 1.0)) > 0.01  # The scalar model has been run for some.
 
 
-def test_two_reflections_of_one_material_crossed_lose_the_square_of_the_diattenuation():
-    angle = np.linspace(0.0, 1.5, 7)
-    panes = op.load_preset("npgr026", n1=1.5, n2=1.5, rho=np.pi / 2)
-    found = op.polarization(panes, delta=angle, phi=angle)
-    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(angle), np.sin(angle))
-    np.testing.assert_allclose(found.scalar, 100.0 * A * A, rtol=1e-13)
-    np.testing.assert_allclose(found.difference, -((B / A) ** 2), rtol=0, atol=1e-13)
-    # Without one of the two nothing is lost.
-    for share in (found.elements["X1"], found.elements["X2"]):
-        np.testing.assert_allclose(share, -((B / A) ** 2), rtol=0, atol=1e-13)
-
-
-def test_the_element_that_brings_the_difference_in_is_named_if_there_is_any():
+def test_the_elements_that_bring_the_difference_in_are_named_with_their_shares():
     elements = [op.Interface(0.05 + 3.9j, 0.5), op.Retarder(1.0, 0.3), op.Polarizer(0.7)]
     found = op.polarization(chain(elements, [1.0, 0.0, 0.9, 0.0]))
     assert found.culprits == ("e2",)
@@ -304,6 +271,27 @@ def test_the_element_that_brings_the_difference_in_is_named_if_there_is_any():
     np.testing.assert_allclose(found.difference, 0.0, rtol=0, atol=1e-15)
     through = op.polarization(stack([1.5, 1.0, 1.5], 0.8, "transmitted"))
     assert through.scalar == through.exact == through.difference == 0.0
+    angle = np.linspace(0.0, 1.5, 7)
+    panes = op.load_preset("npgr026", n1=1.5, n2=1.5, rho=np.pi / 2)
+    found = op.polarization(panes, delta=angle, phi=angle)
+    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(angle), np.sin(angle))
+    np.testing.assert_allclose(found.scalar, 100.0 * A * A, rtol=1e-13)
+    np.testing.assert_allclose(found.difference, -((B / A) ** 2), rtol=0, atol=1e-13)
+    # Without one of the two nothing is lost.
+    for share in (found.elements["X1"], found.elements["X2"]):
+        np.testing.assert_allclose(share, -((B / A) ** 2), rtol=0, atol=1e-13)
+    found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
+    for bound in (found.certificate.lower, found.certificate.upper):
+        np.testing.assert_allclose(bound - 1.0, found.difference, rtol=0, atol=1e-12)
+    assert found.culprits == ("layers",)
+    np.testing.assert_array_equal(found.elements["layers"], found.difference)
+    found = op.polarization(layer_by_hand(1.5, 2.4, 1.0))
+    y, exact, without = np.sin(1.0), [], []
+    for top, bottom in zip(fresnel(1.0, 1.5, y), fresnel(1.5, 2.4, y), strict=True):
+        for where, first in ((exact, top), (without, mean(1.0, 1.5, y))):
+            where.append(first + (1.0 - first) ** 2 * bottom / (1.0 - first * bottom))
+    share = (sum(exact) - sum(without)) / 2.0 / found.scalar
+    assert found.elements["top"] == pytest.approx(share, rel=1e-12)
 
 
 def test_the_detector_is_named_where_there_are_several():

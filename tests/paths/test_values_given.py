@@ -65,16 +65,13 @@ def test_a_value_without_a_name_is_shown_with_one(call, written):
         (lambda: npgr026().trace(n1=op.Material(1.2, 2.0)), "give k by k1"),
         # An option of a composer, and a case, are told where they belong.
         *(
-            (
-                lambda act=act, name=name: act(**{name: "x"}),
-                f"write Composer({name}=...).compose(path)",
-            )
+            (lambda a=act, n=name: a(**{n: "x"}), f"write Composer({name}=...).compose(path)")
             for act in (npgr026().trace, npgr026().bind, npgr026)
             for name in ("method", "model", "engine", "dtype", "tolerance")
         ),
         *(
             (
-                lambda act=act, name=name: act(**{name: 8}),
+                lambda a=act, n=name: a(**{n: 8}),
                 "is no parameter of the path; write load_preset(..., case=...)",
             )
             for act, name in ((npgr026().trace, "case"), (npgr026().bind, "case"), (npgr026, "cas"))
@@ -92,7 +89,7 @@ def test_what_is_given_by_a_wrong_name_or_none_is_told_where_it_belongs(call, se
         assert str(told.value).endswith(sentence)
 
 
-def test_several_detectors_name_the_call_that_gives_them_all():
+def test_detectors_nodes_and_places_are_told_by_their_names():
     ends = {"reflected": op.Detector(), "transmitted": op.Detector()}
     path = wired(
         {"lamp": op.Source(op.Parameter("power", 2.0)), "plate": op.BeamSplitter(), **ends},
@@ -103,6 +100,19 @@ def test_several_detectors_name_the_call_that_gives_them_all():
             with pytest.raises(op.ParameterError, match=rf"2 detectors .*; use {other}\(\)$"):
                 call(**values)
     assert set(path.trace_all()) == {"reflected", "transmitted"}
+    path = npgr026()
+    assert "X1" in path
+    assert "polarizer" not in path
+    assert [*path] == ["L", "P", "X2", "X1", "E"]
+    assert (len(path), len(op.PathGraph())) == (5, 0)
+    path = npgr026()
+    path.add("camera", op.Detector())
+    path.connect("P", "camera", tap=True)
+    told = fault(path.bind, place="eye")
+    assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
+    path = chain([op.Interface(1.5, D)])
+    assert "bounds=" not in fault(path.trace, d="100 deg")
+    assert "bounds=" in fault(path.trace, d=-0.1)
 
 
 def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():
@@ -129,22 +139,6 @@ def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():
     for port in ("refracted", "refraced"):
         told = fault(two_faces.connect, f"X1.{port}", "E")
         assert told.endswith("does not exist; there are: X1.reflected, X1.transmitted")
-
-
-def test_nodes_and_places_are_told_by_their_names():
-    path = npgr026()
-    assert "X1" in path
-    assert "polarizer" not in path
-    assert [*path] == ["L", "P", "X2", "X1", "E"]
-    assert (len(path), len(op.PathGraph())) == (5, 0)
-    path = npgr026()
-    path.add("camera", op.Detector())
-    path.connect("P", "camera", tap=True)
-    told = fault(path.bind, place="eye")
-    assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
-    path = chain([op.Interface(1.5, D)])
-    assert "bounds=" not in fault(path.trace, d="100 deg")
-    assert "bounds=" in fault(path.trace, d=-0.1)
 
 
 D = op.Parameter("d")

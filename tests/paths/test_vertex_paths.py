@@ -149,7 +149,7 @@ def test_no_history_makes_light_brighter_or_more_polarised_or_knows_its_world(se
     np.testing.assert_allclose(moved.stokes, light.stokes, rtol=0, atol=1e-10)
 
 
-def test_the_frame_of_the_light_is_across_the_last_plane_of_incidence():
+def test_media_and_frames_follow_along_the_chain():
     points, normals, materials = random_histories(3, "RTT", 100)
     frame = op.path_from_vertices(points, materials, events="RTT").trace().frame
     assert op.Frame(frame.x, frame.y, frame.z) == frame, "orthogonal, and right-handed"
@@ -163,9 +163,6 @@ def test_the_frame_of_the_light_is_across_the_last_plane_of_incidence():
     assert np.all(np.sum(frame.x * across, axis=-1)[turned] > 0.0)
     off = np.sum(frame.x * normals[:, -1], axis=-1)[turned]
     np.testing.assert_allclose(off, 0.0, rtol=0, atol=1e-12)
-
-
-def test_the_media_follow_along_the_chain():
     down = [[0, 0, z] for z in (3, 2, 1, 2, 1, 0)]
     path = op.path_from_vertices(down, [1.5, 1.2, 1.2, 1.2], events="TRRT", outside=1.1)
     assert [path.element(f"vertex{n}").outside for n in (1, 2, 3, 4)] == [1.1, 1.5, 1.5, 1.5]
@@ -332,13 +329,21 @@ def test_media_that_an_array_made_complex_are_the_real_ones_that_they_are(media)
     assert op.path_from_vertices(points, media, events="TRT").trace() == expected
 
 
-def test_a_chain_too_long_to_be_compiled_is_run_all_the_same():
+def test_long_chains_run_plans_go_through_pickle_and_large_arrays_are_told_by_shape():
     points = random_chains(17, 40, (5,))
     found = op.path_from_vertices(points, [0.2 + 3.4j] * 40).trace()
     expected = interfaces_in_space(points, [0.2 + 3.4j] * 40).trace()
     turned = found.in_frame(expected.frame)
     np.testing.assert_allclose(turned.normalized, expected.normalized, rtol=0, atol=1e-12)
     np.testing.assert_allclose(found.intensity, expected.intensity, rtol=1e-11)
+    points = random_chains(14, 2, (3,))
+    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()
+    light = plan.run(points=points)
+    assert pickle.loads(pickle.dumps(plan)).run(points=points) == light
+    assert pickle.loads(pickle.dumps(light)) == light
+    path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
+    assert "vertices=array of shape (1000, 4, 3)" in draw(path)
+    assert len(path.compose().explain()) < 2000
 
 
 def test_normals_are_taken_whatever_their_length_and_checked_for_both_kinds():
@@ -383,17 +388,6 @@ def test_a_frame_of_anything_is_looked_at_without_a_warning():
         with np.errstate(all="ignore"), checked_later():
             vertex = op.SpecularVertex(1.5, scale * np.array(CORNER), 1)
         vertex.own_frame("reflected").frame({})
-
-
-def test_plans_of_vertices_go_through_pickle_and_large_arrays_are_described_by_their_shape():
-    points = random_chains(14, 2, (3,))
-    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()
-    light = plan.run(points=points)
-    assert pickle.loads(pickle.dumps(plan)).run(points=points) == light
-    assert pickle.loads(pickle.dumps(light)) == light
-    path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
-    assert "vertices=array of shape (1000, 4, 3)" in draw(path)
-    assert len(path.compose().explain()) < 2000
 
 
 @rows(

@@ -128,7 +128,9 @@ def test_tables_stand_for_numbers_and_are_read(read, tmp_path, index, declared, 
     assert read_back(path, tmp_path) == path
 
 
-def test_one_number_is_a_multiple_of_samples_with_an_offset_and_has_a_unit(read, sentences):
+def test_numbers_by_wavelength_may_be_multiples_with_a_unit_but_no_states(
+    read, sentences, tmp_path
+):
     table = (
         '{ wavelengths = [400, 600], unit = "nm", values = ["90 deg", "60 deg"], '
         'scale = 2, offset = "5 deg" }'
@@ -139,6 +141,12 @@ def test_one_number_is_a_multiple_of_samples_with_an_offset_and_has_a_unit(read,
     found = sentences(retardance='{ wavelengths = ["1 um"], values = [3] }')
     assert "elements.plate.retardance.values: 3 has no unit" in found
     assert '"3 deg"' in found
+    state = 'kind = "source", stokes = { cauchy = { coefficients = [1.5] } }'
+    with pytest.raises(op.PathError, match="'cauchy' gives one number, but several are asked for"):
+        loaded(text_of().replace('kind = "source"', state), tmp_path)
+    paint = op.Material.cauchy([1.5], wavelength=op.Wavelength(default="500 nm"))
+    with pytest.raises(op.ValueFault, match=r"must have shape \(..., 4\)"):
+        op.Source(stokes=paint.n)
 
 
 @rows(
@@ -249,15 +257,6 @@ def test_each_fault_of_a_table_has_its_place_and_its_cure(sentences, index, part
     found = sentences(f"{{ {index} }}")
     for part in ("metal", *parts):
         assert part in found
-
-
-def test_a_state_is_no_number_by_wavelength(tmp_path):
-    state = 'kind = "source", stokes = { cauchy = { coefficients = [1.5] } }'
-    with pytest.raises(op.PathError, match="'cauchy' gives one number, but several are asked for"):
-        loaded(text_of().replace('kind = "source"', state), tmp_path)
-    paint = op.Material.cauchy([1.5], wavelength=op.Wavelength(default="500 nm"))
-    with pytest.raises(op.ValueFault, match=r"must have shape \(..., 4\)"):
-        op.Source(stokes=paint.n)
 
 
 def at_500(path):

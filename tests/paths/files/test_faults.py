@@ -71,8 +71,19 @@ def faults_of(text):
     return error.value.faults
 
 
-def test_the_path_without_a_fault_is_read():
+def test_a_path_without_a_fault_is_read_and_cycles_and_choices_are_told_beside_others():
     assert [*read(tomllib.loads(GOOD + OFFERED))] == ["lamp", "filter", "mirror", "eye"]
+    text = GOOD.replace('"source"', '"sorce"').replace(
+        "[cases.steep]", SECOND_LINK.format("mirror.reflected", "mirror.in")
+    )
+    text = text.replace('kind = "detector"', 'kind = "polarizer"\nazimuth = "3 deg"')
+    faults = " | ".join(faults_of(text))
+    for part in ("sorce", "cycle: mirror -> mirror", "give it in one place"):
+        assert part in faults
+    text = (GOOD + OFFERED).replace('element = "filter"', 'element = "filtr"')
+    found = faults_of(text.replace("default = 1.2", "default = -1.2"))
+    assert any("choices.place: node 'filtr' does not exist" in fault for fault in found)
+    assert len(found) == 2
 
 
 ROOT_CAUSES = [
@@ -252,20 +263,6 @@ def test_causes_of_their_own_are_all_told_at_once_and_nothing_else(changes, caus
     for cause in causes:
         assert cause == "" or sum(cause in fault for fault in found) == 1, cause
     assert len(found) == len(causes)
-
-
-def test_cycles_azimuths_and_choices_are_told_beside_faults_of_reading():
-    text = GOOD.replace('"source"', '"sorce"').replace(
-        "[cases.steep]", SECOND_LINK.format("mirror.reflected", "mirror.in")
-    )
-    text = text.replace('kind = "detector"', 'kind = "polarizer"\nazimuth = "3 deg"')
-    faults = " | ".join(faults_of(text))
-    for part in ("sorce", "cycle: mirror -> mirror", "give it in one place"):
-        assert part in faults
-    text = (GOOD + OFFERED).replace('element = "filter"', 'element = "filtr"')
-    found = faults_of(text.replace("default = 1.2", "default = -1.2"))
-    assert any("choices.place: node 'filtr' does not exist" in fault for fault in found)
-    assert len(found) == 2
 
 
 @rows(

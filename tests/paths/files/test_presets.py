@@ -57,7 +57,7 @@ def test_polarisers_and_plates_follow_malus_law(name, values, expected):
     np.testing.assert_allclose(found, expected, rtol=1e-15, atol=slack)
 
 
-def test_a_rhomb_makes_circular_light_and_a_double_pass_doubles_the_retardance():
+def test_rhombs_plates_and_isolators_follow_their_closed_forms():
     # Born & Wolf, sec. 1.5.4: at 54 deg 37' or 48 deg 37' in glass of n = 1.51 each
     # total reflection retards by 45 degrees.
     path = op.load_preset("fresnel-rhomb")
@@ -70,6 +70,19 @@ def test_a_rhomb_makes_circular_light_and_a_double_pass_doubles_the_retardance()
     both = [c**2 + s**2 * np.cos(2 * d), c * s * (np.cos(2 * d) - 1), s * np.sin(2 * d)]
     light = op.load_preset("double-pass-waveplate").trace(retardance=d, angle=a)
     np.testing.assert_allclose(light.stokes.T, [1 + 0 * a, *both], atol=1e-15)
+    path, fields, verdet, length = op.load_preset("faraday-isolator"), ANGLES - 1.2, -134.0, 0.02
+    ideal = path.trace_all()
+    assert (ideal["passed"].intensity, ideal["returned"].intensity) == (1.0, 0.0)
+    lights = path.trace_all(verdet=verdet, length=length, field=fields)
+    short = np.pi / 4 - verdet * length * fields
+    passed, returned = np.cos(short) ** 2, np.sin(2 * short) ** 2 / 4
+    np.testing.assert_allclose(lights["passed"].intensity, passed, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(lights["returned"].intensity, returned, rtol=0, atol=1e-15)
+    # In the wrong field it isolates the other way.
+    assert path.trace_all(field=0.5)["passed"].intensity == pytest.approx(0.0, abs=1e-30)
+    for case, returned in (("tgg", 7e-12), ("weak-field", 0.00154)):
+        garnet = op.load_preset("faraday-isolator", case=case)
+        assert garnet.trace().intensity == pytest.approx(returned, rel=0.01)
 
 
 def by_an_ellipsometer(n, k, theta, polarizer, compensator, retardance, analyzer):
@@ -266,7 +279,7 @@ def test_a_prism_at_minimum_deviation_lets_through_what_fresnels_equations_say(c
         assert p == pytest.approx(1.0, abs=1e-15), "all of p gets through"
 
 
-def test_a_prism_by_its_points_is_the_same():
+def test_prisms_and_clear_piles_are_those_of_points_and_stacks():
     apex, n = np.radians(60.0), 1.5
     # It stands on its base, along which light runs inside; outside it is turned down on both sides.
     half = 0.5 * (2.0 * np.arcsin(n * np.sin(apex / 2)) - apex)
@@ -276,22 +289,11 @@ def test_a_prism_by_its_points_is_the_same():
     chain = op.path_from_vertices(points, [n, 1.0], faces, events="TT")
     expected = op.load_preset("prism-refraction").trace(apex=apex, n=n).stokes
     np.testing.assert_allclose(chain.trace().stokes, expected, rtol=0, atol=1e-15)
-
-
-def test_fields_that_are_wrong_let_light_come_back_by_the_closed_form_of_an_isolator():
-    path, fields, verdet, length = op.load_preset("faraday-isolator"), ANGLES - 1.2, -134.0, 0.02
-    ideal = path.trace_all()
-    assert (ideal["passed"].intensity, ideal["returned"].intensity) == (1.0, 0.0)
-    lights = path.trace_all(verdet=verdet, length=length, field=fields)
-    short = np.pi / 4 - verdet * length * fields
-    passed, returned = np.cos(short) ** 2, np.sin(2 * short) ** 2 / 4
-    np.testing.assert_allclose(lights["passed"].intensity, passed, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(lights["returned"].intensity, returned, rtol=0, atol=1e-15)
-    # In the wrong field it isolates the other way.
-    assert path.trace_all(field=0.5)["passed"].intensity == pytest.approx(0.0, abs=1e-30)
-    for case, returned in (("tgg", 7e-12), ("weak-field", 0.00154)):
-        garnet = op.load_preset("faraday-isolator", case=case)
-        assert garnet.trace().intensity == pytest.approx(returned, rel=0.01)
+    lights = op.load_preset("absorbing-pile", case="clear").trace_all()
+    assert sum(light.intensity for light in lights.values()) == pytest.approx(1.0, abs=1e-15)
+    lossless = op.LayerStack([1.0] + [1.5, 1.0] * 4, "56.309932474020215 deg")
+    expected = lossless.mueller("in", "transmitted").matrix[:, 0]
+    assert lights["transmitted"].stokes == pytest.approx(expected, abs=1e-15)
 
 
 def plate(polarization, n, k, depth, incidence):
@@ -331,14 +333,6 @@ def test_an_absorbing_pile_is_stokes_formula_in_50_digits(case):
             s, p = exact[name]
             assert light.stokes[0] == pytest.approx(float((s + p) / 2), rel=1e-12)
             assert light.stokes[1] == pytest.approx(float((s - p) / 2), rel=1e-12, abs=1e-15)
-
-
-def test_a_clear_pile_absorbs_nothing_and_is_the_lossless_stack():
-    lights = op.load_preset("absorbing-pile", case="clear").trace_all()
-    assert sum(light.intensity for light in lights.values()) == pytest.approx(1.0, abs=1e-15)
-    lossless = op.LayerStack([1.0] + [1.5, 1.0] * 4, "56.309932474020215 deg")
-    expected = lossless.mueller("in", "transmitted").matrix[:, 0]
-    assert lights["transmitted"].stokes == pytest.approx(expected, abs=1e-15)
 
 
 VISIBLE = np.linspace(4e-7, 7e-7, 61)
