@@ -54,17 +54,13 @@ def test_histories_that_differ_equal_a_reference_without_frames(engine, most):
 
 
 @pytest.mark.parametrize("engine", COMPILED_MORE_THAN_ONCE)
-def test_each_chain_of_a_batch_is_what_it_is_alone(engine):
+def test_each_chain_of_a_batch_is_what_it_is_alone_and_with_points_given_later(engine):
     batch = random_batch(2, MOST[engine], several=8, each=2)
     with quickly(engine):
         light = op.Composer(engine=engine).compose(path_of(batch)).run()
     for chain in range(len(batch.texts)):
         points, media, text = batch.alone(chain)
         assert_alone(light, chain, op.path_from_vertices(points, media, events=text).trace())
-
-
-@pytest.mark.parametrize("engine", COMPILED_MORE_THAN_ONCE)
-def test_points_that_are_given_later_say_the_same(engine):
     batch = random_batch(3, 2)
     known = path_of(batch).trace()
     plan = op.Composer(engine=engine).compose(path_of(batch, op.Parameter("points")))

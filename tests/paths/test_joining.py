@@ -86,7 +86,7 @@ def test_a_chain_changes_neither_side_nor_a_path_that_it_cannot_go_on():
     )
 
 
-def test_a_path_goes_on_at_its_only_open_natural_way():
+def test_a_path_goes_on_at_its_only_open_natural_way_as_links_of_files_do(tmp_path):
     path = wired(
         {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "rest": op.Dump()}, "lamp -> split"
     )
@@ -105,6 +105,20 @@ def test_a_path_goes_on_at_its_only_open_natural_way():
     whole = path >> op.Attenuator(0.5) >> op.Detector()
     lights = {name: light.intensity for name, light in whole.trace_all().items()}
     assert lights == {"state": 0.5, "detector": 0.25}
+    ends = {"a": op.Source(), "b": op.Interface(1.5, 0.0), "c": op.Detector(), "d": op.Dump()}
+    path = wired(ends, "a -> b, b.transmitted -> c, b -> d.in")
+    links = [(start, end, *ports) for start, end, ports in path.graph.edges(keys=True)]
+    assert links == [
+        ("a", "b", "out", "in"),
+        ("b", "c", "transmitted", "in"),
+        ("b", "d", "reflected", "in"),
+    ]
+    with pytest.raises(op.PathError, match=r"link 'a\.out -> b\.in' is there already"):
+        path.connect("a", "b")
+    text = reflected().to_toml()
+    for port in (".out", ".reflected", ".in"):
+        text = text.replace(f'{port}"', '"')
+    assert read(text, tmp_path) == reflected()
 
 
 def test_paths_in_one_line_keep_links_loops_and_what_is_told_of_them(tmp_path):
@@ -207,20 +221,3 @@ ELEMENTS = r"made of elements, .* not of "
 def test_what_cannot_be_joined_is_refused_by_its_name(join, told):
     with pytest.raises(op.PathError, match=told):
         join()
-
-
-def test_links_find_the_natural_ports_of_nodes_in_files_too(tmp_path):
-    ends = {"a": op.Source(), "b": op.Interface(1.5, 0.0), "c": op.Detector(), "d": op.Dump()}
-    path = wired(ends, "a -> b, b.transmitted -> c, b -> d.in")
-    links = [(start, end, *ports) for start, end, ports in path.graph.edges(keys=True)]
-    assert links == [
-        ("a", "b", "out", "in"),
-        ("b", "c", "transmitted", "in"),
-        ("b", "d", "reflected", "in"),
-    ]
-    with pytest.raises(op.PathError, match=r"link 'a\.out -> b\.in' is there already"):
-        path.connect("a", "b")
-    text = reflected().to_toml()
-    for port in (".out", ".reflected", ".in"):
-        text = text.replace(f'{port}"', '"')
-    assert read(text, tmp_path) == reflected()

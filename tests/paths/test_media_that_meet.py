@@ -108,7 +108,7 @@ def test_what_light_goes_straight_through_stands_in_the_same_medium(between):
     faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7, outside=1.5)).check()
 
 
-def test_light_enters_in_the_medium_it_was_reflected_in_which_lets_it_through():
+def test_what_light_meets_next_is_in_the_medium_it_is_in():
     path = op.Source() >> op.Interface(1.5, 0.3).named("first")
     path = path >> op.Interface(1.5, 0.9, outside=1.33).named("second") >> op.Detector()
     (fault,) = faults_of(path)
@@ -124,8 +124,6 @@ def test_light_enters_in_the_medium_it_was_reflected_in_which_lets_it_through():
     with pytest.raises(op.ParameterError, match=r"k = 2 \(parameter 'k'\)"):
         faces(metal, back).trace(k=2.0)
 
-
-def test_light_that_stays_between_two_faces_is_looked_at_too():
     def unfolded(index, incidence, **about):
         path = faces(GLASS, FOLLOWING)
         path.add("again", op.Interface(index, incidence, **about))

@@ -288,7 +288,7 @@ def output_of(code):
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
 
 
-def test_without_xarray_one_sentence_names_the_extra_of_sweeps():
+def test_of_the_extra_of_sweeps_a_trace_imports_nothing_and_a_sweep_xarray_which_is_named():
     ended = output_of(
         "import sys; sys.modules['xarray'] = None; import optipath as op; "
         "op.load_preset('malus').sweep(angle=[0.1, 0.2])"
@@ -297,9 +297,6 @@ def test_without_xarray_one_sentence_names_the_extra_of_sweeps():
         "optipath.errors.MissingExtraError: "
         'sweeps need xarray, which is not installed; pip install "optipath[sweep]"'
     )
-
-
-def test_of_the_extra_a_trace_imports_nothing_and_a_sweep_xarray_alone():
     pytest.importorskip("xarray")
     ended = output_of(
         # Where Dask is installed, xarray itself imports it.

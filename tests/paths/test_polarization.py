@@ -240,7 +240,7 @@ def test_the_command_says_that_loops_have_no_bounds(capsys):
     assert found["difference"] == pytest.approx(exact * (1 + R) / (1 - R) - 1, rel=1e-9)
 
 
-def test_a_stack_is_taken_as_a_whole_by_explanations_and_tolerances():
+def test_a_stack_is_taken_as_a_whole_and_a_detector_by_its_name():
     text = str(stack([1.0, 1.5, 2.4], 0.9).compose().explain())
     assert "S0 is 1 .. 1 of the scalar model's, which takes a stack as a whole" in text
     layers, angle = op.LayerStack([1.0, 1.5, 2.4], op.Parameter("a")), np.linspace(0.0, 1.5, 9)
@@ -250,6 +250,19 @@ def test_a_stack_is_taken_as_a_whole_by_explanations_and_tolerances():
     found, exact = plan.run(a=angle).intensity, path.trace(a=angle).intensity
     np.testing.assert_allclose(found, exact, rtol=0.03)
     assert np.max(np.abs(found / exact - 1.0)) > 0.01  # The scalar model has been run for some.
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25)}
+    path = wired(
+        {**ends, "a": op.Detector(), "b": op.Detector()},
+        "lamp -> split, split.reflected -> a, split.transmitted -> b",
+    )
+    assert op.polarization(path, "b").exact == 0.75
+    for asked, told in (
+        ((path,), "2 detectors"),
+        ((path, "bb"), "there are: a, b"),
+        ((op.load_preset("glass-slab"), "transmited"), "detector 'transmited' does not exist"),
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            op.polarization(*asked)
 
 
 def test_the_elements_that_bring_the_difference_in_are_named_with_their_shares():
@@ -292,19 +305,3 @@ def test_the_elements_that_bring_the_difference_in_are_named_with_their_shares()
             where.append(first + (1.0 - first) ** 2 * bottom / (1.0 - first * bottom))
     share = (sum(exact) - sum(without)) / 2.0 / found.scalar
     assert found.elements["top"] == pytest.approx(share, rel=1e-12)
-
-
-def test_the_detector_is_named_where_there_are_several():
-    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25)}
-    path = wired(
-        {**ends, "a": op.Detector(), "b": op.Detector()},
-        "lamp -> split, split.reflected -> a, split.transmitted -> b",
-    )
-    assert op.polarization(path, "b").exact == 0.75
-    for asked, told in (
-        ((path,), "2 detectors"),
-        ((path, "bb"), "there are: a, b"),
-        ((op.load_preset("glass-slab"), "transmited"), "detector 'transmited' does not exist"),
-    ):
-        with pytest.raises(op.ParameterError, match=told):
-            op.polarization(*asked)

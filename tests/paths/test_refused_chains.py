@@ -271,7 +271,9 @@ APART = r"apart; legs are within 1e-70 .. 1e\+70"
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_vertices_given_later_are_checked_by_every_engine(engine):
+def test_points_given_later_are_checked_and_what_no_surface_refracts_is_refused_by_every_engine(
+    engine,
+):
     path = op.path_from_vertices(op.Parameter("points"), [1.5])
     plan = op.Composer(engine=engine).compose(path)
     for count in (1, 3, 3000):
@@ -289,10 +291,6 @@ def test_vertices_given_later_are_checked_by_every_engine(engine):
         for given, message in wrong:
             with pytest.raises(op.ParameterError, match=message):
                 plan.run(points=given)
-
-
-@pytest.mark.parametrize("engine", ENGINES)
-def test_points_that_no_surface_refracts_so_are_refused_when_they_are_given(engine):
     path = op.path_from_vertices(op.Parameter("points"), [N], events="T")
     plan = op.Composer(engine=engine).compose(path)
     message = r"turned by 90 deg at 'vertex1', but a refraction from n = 1 into n = 1.5 \(par"

@@ -125,7 +125,7 @@ def test_faces_and_azimuths_stand_on_the_way_back_as_they_did():
     assert same_matrix(path, n=np.array([1.3, 1.7]))
 
 
-def test_a_path_back_and_forth_is_the_same_by_the_same_ways():
+def test_a_path_back_and_forth_is_the_same_in_every_place_of_a_node():
     drawn = ReciprocalPath(3)
     once = drawn.path().reversed().reversed()
     assert once.reversed().reversed() == once
@@ -150,6 +150,17 @@ def test_a_path_back_and_forth_is_the_same_by_the_same_ways():
     path.connect("foil", "split.back", azimuth=0.5)
     assert path.reversed().loops == "sum"
     assert same_matrix(path)
+    for place in ("lamp", "between", "eye"):
+        chosen = placed().bind(place=place).mueller().reversed()
+        found = placed().reversed().bind(place=place).mueller()
+        np.testing.assert_allclose(found.matrix, chosen.matrix, atol=1e-15)
+    path = placed(azimuth=0.4)
+    path.cases["one"] = op.Case({"place": "eye"})
+    back = path.reversed()
+    assert not back.choices
+    assert not back.cases
+    assert same_matrix(path)
+    assert same_matrix(path.bind(place="eye"))
 
 
 def two_faces(front, rear):
@@ -249,20 +260,6 @@ def placed(*, azimuth=0.0):
     return path
 
 
-def test_a_choice_of_places_stays_where_nothing_is_turned_and_is_chosen_where_one_is():
-    for place in ("lamp", "between", "eye"):
-        chosen = placed().bind(place=place).mueller().reversed()
-        found = placed().reversed().bind(place=place).mueller()
-        np.testing.assert_allclose(found.matrix, chosen.matrix, atol=1e-15)
-    path = placed(azimuth=0.4)
-    path.cases["one"] = op.Case({"place": "eye"})
-    back = path.reversed()
-    assert not back.choices
-    assert not back.cases
-    assert same_matrix(path)
-    assert same_matrix(path.bind(place="eye"))
-
-
 class Unsaid(op.Element):
     mueller_rows = Faraday.__dict__["mueller_rows"]
     angle: op.Angle = 0.0
@@ -278,7 +275,7 @@ class Fork(op.Element):
         return tuple(op.Coupling("in", way, half) for way in self.outputs)
 
 
-def test_all_that_has_no_way_back_is_told_at_once():
+def test_what_cannot_go_back_is_told_at_once_with_cures_that_do():
     ends = {"lamp": op.Source(), "mine": Unsaid(), "fork": Fork(), "both": op.Combiner()}
     path = wired(
         {**ends, "eye": op.Detector(), "second": op.Source(), "tap": op.Detector()},
@@ -299,6 +296,24 @@ def test_all_that_has_no_way_back_is_told_at_once():
         "'fork': element class Fork does not say by which port light goes back; give it a class",
     ):
         assert any(sentence in fault for fault in told), sentence
+    path = op.Source() >> op.Polarizer() >> op.Detector()
+    ends = {"plate": op.Retarder(1.0), "cube": op.BeamSplitter()}
+    ends |= {name: op.Detector() for name in ("one", "other", "within")}
+    for name, element in ends.items():
+        path.add(name, element)
+    path.connect("polarizer", "plate", tap=True)
+    path.connect("plate", "cube")
+    path.connect("cube.transmitted", "one")
+    path.connect("cube.reflected", "other")
+    path.connect("plate", "within", tap=True)
+    path.trace_all()
+    with pytest.raises(op.PathError) as caught:
+        path.reversed()
+    (fault,) = caught.value.faults
+    for cure in fault.partition("take it out, ")[2].split(" and "):
+        eval(cure, {"path": path})  # noqa: S307
+    assert [*path] == ["source", "polarizer", "detector"]
+    assert same_matrix(path)
 
 
 class Raising(Fork):
@@ -376,24 +391,3 @@ def test_the_cures_of_a_preset_with_a_tap_leave_a_path_that_runs_both_ways(prese
         eval(cure, {"path": path, "op": op})  # noqa: S307
     path.trace()
     path.reversed().trace()
-
-
-def test_a_tap_is_taken_out_with_all_that_it_alone_feeds():
-    path = op.Source() >> op.Polarizer() >> op.Detector()
-    ends = {"plate": op.Retarder(1.0), "cube": op.BeamSplitter()}
-    ends |= {name: op.Detector() for name in ("one", "other", "within")}
-    for name, element in ends.items():
-        path.add(name, element)
-    path.connect("polarizer", "plate", tap=True)
-    path.connect("plate", "cube")
-    path.connect("cube.transmitted", "one")
-    path.connect("cube.reflected", "other")
-    path.connect("plate", "within", tap=True)
-    path.trace_all()
-    with pytest.raises(op.PathError) as caught:
-        path.reversed()
-    (fault,) = caught.value.faults
-    for cure in fault.partition("take it out, ")[2].split(" and "):
-        eval(cure, {"path": path})  # noqa: S307
-    assert [*path] == ["source", "polarizer", "detector"]
-    assert same_matrix(path)

@@ -348,30 +348,6 @@ def test_what_replaces_an_inserted_element_turns_nothing_behind_it(behind, first
     np.testing.assert_allclose(stokes(path), stokes(two_reflections(7)), rtol=1e-13, atol=1e-13)
 
 
-def test_turns_of_what_was_inserted_are_kept_in_files_by_links_and_behind_a_replacement(tmp_path):
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=2 * A + 0.1), behind="P")
-    again = read_back(path, tmp_path)
-    again.replace("new", op.Polarizer(0.2, azimuth=-A))
-    np.testing.assert_allclose(stokes(again), by_angle(-0.37, "P"), rtol=1e-13, atol=1e-13)
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=0.3), behind="P")
-    path.disconnect("P.out", "new.in")
-    path.connect("P.out", "new.in", azimuth=0.0)
-    path.replace("new", op.Polarizer(0.2))
-    np.testing.assert_allclose(stokes(path), by_angle(0.0, "P"), rtol=1e-14)
-    path.remove("new")
-    assert path == two_reflections(7)
-    path = op.Source() >> op.Polarizer(azimuth=0.3).named("first") >> op.Polarizer()
-    path.add("second", op.Polarizer(0.1)) >> path.add("state", op.Detector())
-    path.connect("first", "second", tap=True)
-    path = path >> op.Detector().named("eye")
-    path.replace("first", op.Polarizer(azimuth=0.5))
-    lights = path.trace_all()
-    assert lights["eye"].intensity == pytest.approx(0.5 * np.cos(0.2) ** 2)
-    assert lights["state"].intensity == pytest.approx(0.5 * np.cos(0.1) ** 2)
-
-
 @rows(
     "own, turn, behind",
     [
@@ -397,7 +373,7 @@ def test_an_element_is_inserted_before_one_that_has_an_azimuth_as_well(own, turn
     np.testing.assert_allclose(stokes(found), expected, rtol=1e-13, atol=1e-13)
 
 
-def test_an_azimuth_goes_over_to_all_links_that_it_turns():
+def test_an_azimuth_goes_over_to_all_links_that_it_turns_and_is_kept_in_files(tmp_path):
     class Merging(op.Element):
         azimuth: op.Angle = 0.0
         merges = True
@@ -411,6 +387,27 @@ def test_an_azimuth_goes_over_to_all_links_that_it_turns():
     path = wired(ends, "sum -> eye, one -> sum, two -> sum")
     path.insert("new", op.Retarder(0.0, azimuth=0.25), behind="one")
     assert path.trace().stokes == pytest.approx([2, 2 * np.cos(0.8), 0, 0])
+    path = two_reflections(7)
+    path.insert("new", op.Polarizer(0.2, azimuth=2 * A + 0.1), behind="P")
+    again = read_back(path, tmp_path)
+    again.replace("new", op.Polarizer(0.2, azimuth=-A))
+    np.testing.assert_allclose(stokes(again), by_angle(-0.37, "P"), rtol=1e-13, atol=1e-13)
+    path = two_reflections(7)
+    path.insert("new", op.Polarizer(0.2, azimuth=0.3), behind="P")
+    path.disconnect("P.out", "new.in")
+    path.connect("P.out", "new.in", azimuth=0.0)
+    path.replace("new", op.Polarizer(0.2))
+    np.testing.assert_allclose(stokes(path), by_angle(0.0, "P"), rtol=1e-14)
+    path.remove("new")
+    assert path == two_reflections(7)
+    path = op.Source() >> op.Polarizer(azimuth=0.3).named("first") >> op.Polarizer()
+    path.add("second", op.Polarizer(0.1)) >> path.add("state", op.Detector())
+    path.connect("first", "second", tap=True)
+    path = path >> op.Detector().named("eye")
+    path.replace("first", op.Polarizer(azimuth=0.5))
+    lights = path.trace_all()
+    assert lights["eye"].intensity == pytest.approx(0.5 * np.cos(0.2) ** 2)
+    assert lights["state"].intensity == pytest.approx(0.5 * np.cos(0.1) ** 2)
 
 
 @rows("removed", [False, True])

@@ -213,7 +213,7 @@ def test_light_that_is_hardly_turned_keeps_its_digits_beside_other_planes(bent):
     np.testing.assert_allclose(light.stokes, exact, rtol=0, atol=1e-14)
 
 
-def test_vertices_may_come_in_batches_and_be_bound_for_good_or_have_a_default():
+def test_vertices_and_normals_may_come_in_batches_of_any_length_and_side():
     points = random_chains(5, 3, (2, 1500))
     light = op.path_from_vertices(points, MATERIALS[:3]).trace()
     assert light.stokes.shape == (2, 1500, 4)
@@ -235,6 +235,19 @@ def test_vertices_may_come_in_batches_and_be_bound_for_good_or_have_a_default():
     light = path.trace(n=1.2)
     expected = op.path_from_vertices(points, [1.2 + 0.5j, 1.5]).trace()
     np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-15, atol=1e-16)
+    path = op.path_from_vertices(CORNER, [1.5], [[0.0, -7.0, -7.0]])
+    assert path == op.path_from_vertices(CORNER, [1.5])
+    op.path_from_vertices([[0, 0, 0], [0, 0, 1], [0, 0, 2]], [1.5], [[1, 1, 0]])
+    points, normals, materials = random_histories(13, "TRTT", 500)
+    materials[3] = materials[2]
+    points[:, 5] = 2.0 * points[:, 4] - points[:, 3]
+    normals[:, 3] = np.random.default_rng(0).normal(size=(500, 3))
+    op.path_from_vertices(points, materials, -7.0 * normals, events="TRTT")
+    for vertex, word in ((1, "the one that refracts"), (2, "the bisector")):
+        wrong = normals.copy()
+        wrong[321, vertex - 1] += 1e-5 * points[0, 0]
+        with pytest.raises(op.PathError, match=rf"vertex {vertex} of chain 321 is off {word}"):
+            op.path_from_vertices(points, materials, wrong, events="TRTT")
 
 
 @pytest.mark.parametrize(
@@ -344,22 +357,6 @@ def test_long_chains_run_plans_go_through_pickle_and_large_arrays_are_told_by_sh
     path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
     assert "vertices=array of shape (1000, 4, 3)" in draw(path)
     assert len(path.compose().explain()) < 2000
-
-
-def test_normals_are_taken_whatever_their_length_and_checked_for_both_kinds():
-    path = op.path_from_vertices(CORNER, [1.5], [[0.0, -7.0, -7.0]])
-    assert path == op.path_from_vertices(CORNER, [1.5])
-    op.path_from_vertices([[0, 0, 0], [0, 0, 1], [0, 0, 2]], [1.5], [[1, 1, 0]])
-    points, normals, materials = random_histories(13, "TRTT", 500)
-    materials[3] = materials[2]
-    points[:, 5] = 2.0 * points[:, 4] - points[:, 3]
-    normals[:, 3] = np.random.default_rng(0).normal(size=(500, 3))
-    op.path_from_vertices(points, materials, -7.0 * normals, events="TRTT")
-    for vertex, word in ((1, "the one that refracts"), (2, "the bisector")):
-        wrong = normals.copy()
-        wrong[321, vertex - 1] += 1e-5 * points[0, 0]
-        with pytest.raises(op.PathError, match=rf"vertex {vertex} of chain 321 is off {word}"):
-            op.path_from_vertices(points, materials, wrong, events="TRTT")
 
 
 @rows("dtype", ["int16", "int32", "int64", "uint8", "float32", "longdouble"])
