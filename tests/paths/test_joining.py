@@ -122,14 +122,11 @@ def test_a_path_goes_on_at_its_only_open_natural_way_as_links_of_files_do(tmp_pa
 
 
 def test_paths_in_one_line_keep_links_loops_and_what_is_told_of_them(tmp_path):
+    glass = op.Medium(op.Parameter("d", 0.0), absorption=op.Parameter("e", 0.0))
+    back = op.Interface(1.0, 0.3, outside=1.5, incidence_in=1.0)
     slab = wired(
-        {
-            "front": op.Interface(1.5, 0.3),
-            "down": op.Medium(op.Parameter("d", 0.0), absorption=op.Parameter("e", 0.0)),
-            "back": op.Interface(1.0, 0.3, outside=1.5, incidence_in=1.0),
-            "eye": op.Detector(),
-            "dump": op.Dump(),
-        },
+        {"front": op.Interface(1.5, 0.3), "down": glass, "back": back}
+        | {"eye": op.Detector(), "dump": op.Dump()},
         "front.transmitted -> down, down -> back, back -> front.back, back.transmitted -> eye, "
         "front -> dump",
         description="a slab",

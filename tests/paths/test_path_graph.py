@@ -17,15 +17,10 @@ from wired import wired
 
 
 def reflections(azimuth):
-    return wired(
-        {
-            "lamp": op.Source(stokes=[1.0, 0.3, 0.2, 0.1]),
-            "first": op.Interface(1.5, 0.7),
-            "second": op.Interface(0.6 + 2.1j, 0.4, azimuth=azimuth),
-            "eye": op.Detector(),
-        },
-        "lamp -> first, first -> second, second -> eye",
-    )
+    lamp, first = op.Source(stokes=[1.0, 0.3, 0.2, 0.1]), op.Interface(1.5, 0.7)
+    second = op.Interface(0.6 + 2.1j, 0.4, azimuth=azimuth)
+    elements = {"lamp": lamp, "first": first, "second": second, "eye": op.Detector()}
+    return wired(elements, "lamp -> first, first -> second, second -> eye")
 
 
 def reflected(frame, incidence):
@@ -49,16 +44,11 @@ def in_world(elements, frames, rotation=None):
 
 def placed(azimuth, rotation):
     """The same reflections with world frames, all rotated together."""
-    start = op.Frame()
-    first_out = reflected(start, 0.7)
-    second_in = first_out.turned(azimuth)
-    second_out = reflected(second_in, 0.4)
-    frames = {
-        "lamp": {"out": start},
-        "first": {"in": start, "reflected": first_out},
-        "second": {"in": second_in, "reflected": second_out},
-        "eye": {"in": second_out},
-    }
+    start, behind = op.Frame(), reflected(op.Frame(), 0.7)
+    turned = behind.turned(azimuth)
+    end = reflected(turned, 0.4)
+    frames = {"lamp": {"out": start}, "first": {"in": start, "reflected": behind}}
+    frames |= {"second": {"in": turned, "reflected": end}, "eye": {"in": end}}
     path = reflections(0.0)
     elements = {name: path.element(name) for name in path}
     elements["second"] = op.Interface(0.6 + 2.1j, 0.4)
@@ -109,15 +99,10 @@ def test_malus_law_holds_for_a_turn_of_the_frame_and_of_the_axis(turn):
 
 
 def test_branches_and_sources_add_up_incoherently():
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "meet": op.Combiner()}
+    filters = {"across": op.Polarizer(np.pi / 2), "along": op.Polarizer()}
     path = wired(
-        {
-            "lamp": op.Source(),
-            "split": op.BeamSplitter(0.25),
-            "meet": op.Combiner(),
-            "across": op.Polarizer(np.pi / 2),
-            "along": op.Polarizer(),
-            "eye": op.Detector(),
-        },
+        {**ends, **filters, "eye": op.Detector()},
         "lamp -> split, split.reflected -> across, split.transmitted -> along, across -> meet, "
         "along -> meet, meet -> eye",
     )
