@@ -54,17 +54,13 @@ def test_histories_that_differ_equal_a_reference_without_frames(engine, most):
 
 
 @pytest.mark.parametrize("engine", COMPILED_MORE_THAN_ONCE)
-def test_each_chain_of_a_batch_is_what_it_is_alone(engine):
+def test_each_chain_of_a_batch_is_what_it_is_alone_and_with_points_given_later(engine):
     batch = random_batch(2, MOST[engine], several=8, each=2)
     with quickly(engine):
         light = op.Composer(engine=engine).compose(path_of(batch)).run()
     for chain in range(len(batch.texts)):
         points, media, text = batch.alone(chain)
         assert_alone(light, chain, op.path_from_vertices(points, media, events=text).trace())
-
-
-@pytest.mark.parametrize("engine", COMPILED_MORE_THAN_ONCE)
-def test_points_that_are_given_later_say_the_same(engine):
     batch = random_batch(3, 2)
     known = path_of(batch).trace()
     plan = op.Composer(engine=engine).compose(path_of(batch, op.Parameter("points")))
@@ -74,23 +70,16 @@ def test_points_that_are_given_later_say_the_same(engine):
     np.testing.assert_array_equal(given.frame.x, known.frame.x)
 
 
-def test_texts_and_letters_with_lengths_say_the_same():
+def test_texts_letters_and_lengths_say_the_same():
     batch = random_batch(4, 3, several=6, each=2)
     expected = path_of(batch).trace().stokes
     letters = {"events": batch.letters, "lengths": batch.lengths}
     for given in ({"events": np.array(batch.texts)}, {"events": tuple(batch.texts)}, letters):
         np.testing.assert_array_equal(path_of(batch, **given).trace().stokes, expected)
-
-
-def test_a_chain_that_ends_early_is_right_to_50_digits():
-    path = path_of(random_batch(5, 3, several=3, each=1))
-    light = path.trace()
-    for chain, exact in enumerate(exact_batch(path.graph)):
-        numbers = [float(number) for number in exact["eye"].stokes]
-        np.testing.assert_allclose(light.stokes[chain], numbers, rtol=0, atol=2e-15)
-
-
-def test_reflections_of_unequal_number_need_no_events():
+    points = np.array([DOWN, DOWN])
+    plain = op.path_from_vertices(points, [1.5, 1.0], events="TT")
+    assert op.path_from_vertices(points, [1.5, 1.0], events=["TT", "TT"]) == plain
+    assert op.path_from_vertices(points, [1.5, 1.0], events="TT", lengths=[2, 2]) == plain
     points = random_chains(1, 4, (40,))
     lengths = 1 + np.arange(40) % 4
     padded = points.copy()
@@ -103,11 +92,18 @@ def test_reflections_of_unequal_number_need_no_events():
         assert_alone(light, some, alone)
 
 
-def test_chains_of_one_text_and_one_length_are_the_path_of_plain_elements():
-    points = np.array([DOWN, DOWN])
-    plain = op.path_from_vertices(points, [1.5, 1.0], events="TT")
-    assert op.path_from_vertices(points, [1.5, 1.0], events=["TT", "TT"]) == plain
-    assert op.path_from_vertices(points, [1.5, 1.0], events="TT", lengths=[2, 2]) == plain
+def test_chains_that_end_early_have_the_media_and_digits_of_their_own():
+    path = path_of(random_batch(5, 3, several=3, each=1))
+    light = path.trace()
+    for chain, exact in enumerate(exact_batch(path.graph)):
+        numbers = [float(number) for number in exact["eye"].stokes]
+        np.testing.assert_allclose(light.stokes[chain], numbers, rtol=0, atol=2e-15)
+    # Into glass and back in it, against reflected at once: the second surface has another front.
+    points = [[*DOWN[:3], [0, 0, 5]], [*DOWN[:2], [0, 0, 5], [0, 0, 0]]]
+    path = op.path_from_vertices(points, [1.5, 1.2], events=["TR", "RR"])
+    into, once = 4 * 1.5 / 2.5**2, (0.5 / 2.5) ** 2
+    expected = [into * (0.3 / 2.7) ** 2, once * (0.2 / 2.2) ** 2]
+    np.testing.assert_allclose(path.trace().intensity, expected, rtol=1e-14)
 
 
 def test_ids_choose_the_material_of_each_vertex_and_may_be_whole_numbers_of_any_type():
@@ -127,15 +123,6 @@ def test_ids_choose_the_material_of_each_vertex_and_may_be_whole_numbers_of_any_
         assert op.path_from_vertices(points, palette, **given) == expected
 
 
-def test_the_medium_that_light_is_in_follows_each_chain():
-    # Into glass and back in it, against reflected at once: the second surface has another front.
-    points = [[*DOWN[:3], [0, 0, 5]], [*DOWN[:2], [0, 0, 5], [0, 0, 0]]]
-    path = op.path_from_vertices(points, [1.5, 1.2], events=["TR", "RR"])
-    into, once = 4 * 1.5 / 2.5**2, (0.5 / 2.5) ** 2
-    expected = [into * (0.3 / 2.7) ** 2, once * (0.2 / 2.2) ** 2]
-    np.testing.assert_allclose(path.trace().intensity, expected, rtol=1e-14)
-
-
 def slopes_of_intensity(points, text, media, step=1e-4):
     """Of a chain alone, by differences of the frame-free reference to sixth order."""
     moved = np.eye(points.size).reshape(-1, *points.shape) * step
@@ -147,7 +134,7 @@ def slopes_of_intensity(points, text, media, step=1e-4):
     return ((45 * near[0] - 9 * near[1] + near[2]) / (60 * step)).reshape(points.shape)
 
 
-def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax):
+def test_slopes_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
     batch = random_batch(5, 2, several=6, each=1)
     points = batch.points.copy()
     padded = np.isnan(points)
@@ -161,9 +148,6 @@ def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax):
         own, media, text = batch.alone(chain)
         expected = slopes_of_intensity(own, text, media)
         np.testing.assert_allclose(slopes[chain, : length + 2], expected, rtol=1e-8, atol=1e-10)
-
-
-def test_slopes_in_an_index_are_those_of_the_event_of_each_chain(jax):
     points = [DOWN[:3], [*DOWN[:2], DOWN[0]], [*DOWN[:2], [np.nan] * 3]]
     vertex = op.Vertex(op.Parameter("n"), points, place=1, events=[[1.0], [0.0], [2.0]])
     plan = (op.Source() >> vertex >> op.Detector()).compose()
@@ -224,7 +208,7 @@ def test_the_matrix_of_a_chain_that_cannot_be_is_not_a_number_either(engine):
     np.testing.assert_array_equal(np.isnan(matrices), [np.full((4, 4), bad) for bad in (0, 1)])
 
 
-def test_masked_light_has_no_figures_and_is_left_out_of_a_sum_by_nansum():
+def test_masked_light_has_no_figures_in_batches_plans_and_streams():
     points = np.array([CORNER, [CORNER[0], CORNER[0], CORNER[2]]])
     light = op.path_from_vertices(points, [GLASS], bad="mask").trace()
     alone = op.path_from_vertices(CORNER, [GLASS]).trace()
@@ -234,9 +218,6 @@ def test_masked_light_has_no_figures_and_is_left_out_of_a_sum_by_nansum():
         assert np.all(np.isnan(figure[1]))
     np.testing.assert_array_equal(light.to("mitsuba")[0], alone.to("mitsuba"))
     assert light[0] == alone
-
-
-def test_a_plan_of_one_chain_and_a_stream_mask_it_too_where_somebody_asks_for_a_mask():
     plan, refusing = (
         op.path_from_vertices(op.Parameter("points"), [GLASS], bad=bad).compose()
         for bad in ("mask", "refuse")
@@ -249,6 +230,10 @@ def test_a_plan_of_one_chain_and_a_stream_mask_it_too_where_somebody_asks_for_a_
     np.testing.assert_array_equal(np.isnan(np.concatenate(parts)), np.arange(5) == 3)
     with pytest.raises(op.ParameterError, match="finite"):
         refusing.run(points=np.full((3, 3), np.nan))
+    light = op.path_from_vertices(
+        DOWN, [GLASS, GOLD], ids=[[0, 0], [1, 0]], events="TT", bad="mask"
+    ).trace()
+    np.testing.assert_array_equal(np.isnan(light.intensity), [False, True])
 
 
 def test_normals_that_contradict_a_chain_mask_it_and_those_behind_its_end_are_not_looked_at():
@@ -266,13 +251,6 @@ def test_normals_that_contradict_a_chain_mask_it_and_those_behind_its_end_are_no
     normals[0][1] = [0, 1, 1]
     with pytest.raises(op.PathError, match="vertex 2 of chain 0 is off the one that refracts"):
         op.path_from_vertices(points, [GLASS, 1.0], normals, events=["TT", "R"])
-
-
-def test_going_into_a_medium_that_absorbs_is_masked_where_all_chains_have_one_text():
-    light = op.path_from_vertices(
-        DOWN, [GLASS, GOLD], ids=[[0, 0], [1, 0]], events="TT", bad="mask"
-    ).trace()
-    np.testing.assert_array_equal(np.isnan(light.intensity), [False, True])
 
 
 BENT = [[0.0, 0, 1], [0, 0, 0], [0, 2, -1], [0, 4, -2]]

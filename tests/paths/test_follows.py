@@ -56,7 +56,7 @@ def test_faces_in_loops_and_a_stack_take_over_from_face_to_face(boundaries, indi
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=1e-15)
 
 
-def test_it_is_what_one_would_write():
+def test_taking_over_is_what_one_would_write_through_filters_and_vertices_too():
     n, theta = op.Parameter("n"), op.Parameter("theta")
     written = op.Interface(1.0, theta, outside=n, incidence_in=1.0)
     paths = [stack_of(op.Interface(n, theta), back) for back in (SECOND, written)]
@@ -65,9 +65,6 @@ def test_it_is_what_one_would_write():
     assert np.array_equal(first, second)
     assert paths[0].compose().whole == paths[1].compose().whole
     assert np.array_equal(paths[0].bind(n=1.3, theta=0.6).trace().stokes, first[0])
-
-
-def test_a_medium_is_taken_over_through_what_light_goes_straight_through_and_by_a_vertex():
     first, points = (
         op.Interface(1.5, 0.4, outside=1.33),
         [[0, 0, 0], [0, 0, 3], [0, 2, 3], [1, 2, 3]],
@@ -133,7 +130,8 @@ ARITHMETIC = (op.ParameterError, r"FOLLOWS .* has no arithmetic; give the number
         (lambda: np.ones(2) - op.FOLLOWS, *ARITHMETIC),
         (
             lambda: op.Interface(op.FOLLOWS, 0.3),
-            *(op.ValueFault, "index must be an index of refraction"),
+            op.ValueFault,
+            "index must be an index of refraction",
         ),
         (
             lambda: op.LayerStack([1, op.FOLLOWS, 1], 0.3),
@@ -194,7 +192,7 @@ def test_lights_that_differ_and_merge_have_nothing_to_take_over(boundaries, give
     assert words in fault
 
 
-def test_a_face_in_space_is_told_that_its_frames_keep_it_from_taking_over():
+def test_faces_in_space_and_those_that_only_take_over_from_each_other_have_nothing():
     frames = {"in": op.Frame(), "transmitted": op.Frame()}
     path = op.PathGraph()
     path.add("lamp", op.Source(), {"out": op.Frame()})
@@ -208,9 +206,6 @@ def test_a_face_in_space_is_told_that_its_frames_keep_it_from_taking_over():
         "'back' takes its incidence over (FOLLOWS), but its world frames say how it stands to what "
         "is before it; give the angle"
     )
-
-
-def test_boundaries_that_only_take_over_from_each_other_have_nothing():
     face = op.Interface(1.0, 0.3, outside=op.FOLLOWS)
     ends = {"lamp": op.Source(), "half": op.BeamSplitter(), "a": face, "b": face}
     links = "lamp -> half, half.transmitted -> a, a -> b, b -> half.back, half.reflected -> eye"

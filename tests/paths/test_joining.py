@@ -33,7 +33,7 @@ def reflected():
     return op.Source(100.0) >> op.Polarizer(0.5) >> op.Interface(1.5, 0.9) >> op.Detector()
 
 
-def test_a_chain_of_elements_is_the_path_that_is_built_node_by_node():
+def test_a_chain_is_the_path_that_is_built_node_by_node_named_and_shown_as_it_is_written():
     elements = op.Source(100.0), op.Polarizer(0.5), op.Interface(1.5, 0.9), op.Detector()
     built = wired(
         dict(zip(("source", "polarizer", "interface", "detector"), elements, strict=True)),
@@ -45,18 +45,19 @@ def test_a_chain_of_elements_is_the_path_that_is_built_node_by_node():
     assert chained == built
     # Brewster's angle is 56.3 deg: light along p, y, is let through whole there.
     np.testing.assert_array_equal(chained.trace().stokes, built.trace().stokes)
-
-
-def test_nodes_are_named_by_kind_or_class_and_numbered_or_as_they_are_named():
     path = op.Source() >> op.Polarizer() >> op.Polarizer(0.2) >> op.Polarizer(0.4) >> op.Detector()
     assert [*path] == ["source", "polarizer", "polarizer-2", "polarizer-3", "detector"]
     assert path.trace().intensity == pytest.approx(0.5 * np.cos(0.2) ** 4)
     own = op.Source().named("lamp") >> WavePlate() >> Periscope() >> op.Detector()
     assert [*own] == ["lamp", "wave-plate", "test-periscope", "detector"]
     assert own.trace_all()["detector"].intensity == 1.0
+    assert repr(op.Source() >> op.Polarizer()) == "<PathGraph: source >> polarizer>"
+    assert repr(op.load_preset("malus")) == "<PathGraph: lamp >> polarizer >> analyzer >> eye>"
+    for preset in ("glass-slab", "ellipsometer-pcsa", "sky-and-window"):
+        assert " nodes and " in repr(op.load_preset(preset))
 
 
-def test_a_chain_changes_neither_side_and_does_not_depend_on_where_it_is_cut():
+def test_a_chain_changes_neither_side_nor_a_path_that_it_cannot_go_on():
     start, end = op.Source() >> op.Polarizer(), op.Polarizer(0.3) >> op.Detector()
     whole = start >> end
     assert [len(path.graph) for path in (start, end, whole)] == [2, 2, 4]
@@ -67,9 +68,25 @@ def test_a_chain_changes_neither_side_and_does_not_depend_on_where_it_is_cut():
     a, b, c, d = op.Source(), op.Polarizer(), op.Polarizer(0.3), op.Detector()
     for other in (a >> (b >> c >> d), a >> (b >> (c >> d)), op.PathGraph() >> a >> b >> c >> d):
         assert other == whole
+    dim = op.Attenuator(0.5) >> op.Attenuator(0.5)
+    assert (op.Source() >> dim >> dim >> op.Detector()).trace().intensity == 0.0625
+    assert len((dim >> dim).graph) == 4
+    with pytest.raises(op.PathError, match="use a copy"):
+        dim["attenuator-2"] >> dim
+    path = reflected()
+    for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
+        with pytest.raises(op.PathError):
+            path["interface"] >> behind
+    assert path == reflected()
+    with pytest.raises(op.PathError) as error:
+        op.Detector() >> op.Source()
+    assert error.value.faults == (
+        "'detector' has no way out, since light ends there; let it stand last",
+        "'source' has no way in, since light begins there; let it stand first",
+    )
 
 
-def test_a_path_goes_on_at_its_only_open_natural_way():
+def test_a_path_goes_on_at_its_only_open_natural_way_as_links_of_files_do(tmp_path):
     path = wired(
         {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "rest": op.Dump()}, "lamp -> split"
     )
@@ -88,17 +105,28 @@ def test_a_path_goes_on_at_its_only_open_natural_way():
     whole = path >> op.Attenuator(0.5) >> op.Detector()
     lights = {name: light.intensity for name, light in whole.trace_all().items()}
     assert lights == {"state": 0.5, "detector": 0.25}
+    ends = {"a": op.Source(), "b": op.Interface(1.5, 0.0), "c": op.Detector(), "d": op.Dump()}
+    path = wired(ends, "a -> b, b.transmitted -> c, b -> d.in")
+    links = [(start, end, *ports) for start, end, ports in path.graph.edges(keys=True)]
+    assert links == [
+        ("a", "b", "out", "in"),
+        ("b", "c", "transmitted", "in"),
+        ("b", "d", "reflected", "in"),
+    ]
+    with pytest.raises(op.PathError, match=r"link 'a\.out -> b\.in' is there already"):
+        path.connect("a", "b")
+    text = reflected().to_toml()
+    for port in (".out", ".reflected", ".in"):
+        text = text.replace(f'{port}"', '"')
+    assert read(text, tmp_path) == reflected()
 
 
-def test_paths_that_are_joined_keep_links_loops_and_what_is_told_of_them(tmp_path):
+def test_paths_in_one_line_keep_links_loops_and_what_is_told_of_them(tmp_path):
+    glass = op.Medium(op.Parameter("d", 0.0), absorption=op.Parameter("e", 0.0))
+    back = op.Interface(1.0, 0.3, outside=1.5, incidence_in=1.0)
     slab = wired(
-        {
-            "front": op.Interface(1.5, 0.3),
-            "down": op.Medium(op.Parameter("d", 0.0), absorption=op.Parameter("e", 0.0)),
-            "back": op.Interface(1.0, 0.3, outside=1.5, incidence_in=1.0),
-            "eye": op.Detector(),
-            "dump": op.Dump(),
-        },
+        {"front": op.Interface(1.5, 0.3), "down": glass, "back": back}
+        | {"eye": op.Detector(), "dump": op.Dump()},
         "front.transmitted -> down, down -> back, back -> front.back, back.transmitted -> eye, "
         "front -> dump",
         description="a slab",
@@ -112,9 +140,6 @@ def test_paths_that_are_joined_keep_links_loops_and_what_is_told_of_them(tmp_pat
     lights = path.trace_all()
     assert lights["eye"].intensity + lights["dump"].intensity == pytest.approx(0.5, rel=1e-14)
     assert read_back(path, tmp_path) == path
-
-
-def test_what_is_published_goes_with_the_name_of_its_detector():
     cases = {"a": op.Case({}, published={"detector": (1.0, 0.0, 0.0, 0.0)})}
     other = op.PathGraph(cases=cases) >> op.Polarizer() >> op.Detector()
     split = wired(
@@ -125,7 +150,7 @@ def test_what_is_published_goes_with_the_name_of_its_detector():
     assert (split >> other).cases["a"].published == {"detector-2": (1.0, 0.0, 0.0, 0.0)}
 
 
-def test_a_chain_behind_a_node_is_added_to_its_path_and_ends_at_its_last():
+def test_a_chain_behind_a_node_is_added_to_its_path_and_leaves_by_a_port():
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source())
     end = lamp >> op.Polarizer() >> op.Polarizer(0.3).named("analyser") >> op.Detector()
@@ -135,9 +160,6 @@ def test_a_chain_behind_a_node_is_added_to_its_path_and_ends_at_its_last():
     whole = op.PathGraph()
     assert repr(whole.add("l", op.Source()) >> (op.Polarizer() >> op.Detector())) == repr(end)
     assert whole.trace().intensity == 0.5
-
-
-def test_a_chain_leaves_a_node_by_a_port_and_leads_to_one():
     slab = op.PathGraph(loops="sum")
     front = slab.add("front", op.Interface(1.5, 0.0))
     slab.add("lamp", op.Source()) >> front >> slab.add("R", op.Detector())
@@ -150,28 +172,6 @@ def test_a_chain_leaves_a_node_by_a_port_and_leads_to_one():
     assert lights["T"].intensity == pytest.approx(0.96 / 1.04, rel=1e-14)
     assert repr(slab["front.back"]) == "Node 'front.back'"
     assert repr(slab["R"]) == "Node 'R'"
-
-
-def test_a_path_is_put_behind_itself_and_not_behind_a_node_of_its_own():
-    dim = op.Attenuator(0.5) >> op.Attenuator(0.5)
-    assert (op.Source() >> dim >> dim >> op.Detector()).trace().intensity == 0.0625
-    assert len((dim >> dim).graph) == 4
-    with pytest.raises(op.PathError, match="use a copy"):
-        dim["attenuator-2"] >> dim
-
-
-def test_a_path_is_unchanged_where_a_chain_cannot_go_on_and_all_that_is_wrong_is_told():
-    path = reflected()
-    for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
-        with pytest.raises(op.PathError):
-            path["interface"] >> behind
-    assert path == reflected()
-    with pytest.raises(op.PathError) as error:
-        op.Detector() >> op.Source()
-    assert error.value.faults == (
-        "'detector' has no way out, since light ends there; let it stand last",
-        "'source' has no way in, since light begins there; let it stand first",
-    )
 
 
 FRONT = wired({"front": op.Interface(1.5, 0.0)}, "")
@@ -218,27 +218,3 @@ ELEMENTS = r"made of elements, .* not of "
 def test_what_cannot_be_joined_is_refused_by_its_name(join, told):
     with pytest.raises(op.PathError, match=told):
         join()
-
-
-def test_a_chain_is_shown_as_it_is_written_and_other_paths_by_how_large_they_are():
-    assert repr(op.Source() >> op.Polarizer()) == "<PathGraph: source >> polarizer>"
-    assert repr(op.load_preset("malus")) == "<PathGraph: lamp >> polarizer >> analyzer >> eye>"
-    for preset in ("glass-slab", "ellipsometer-pcsa", "sky-and-window"):
-        assert " nodes and " in repr(op.load_preset(preset))
-
-
-def test_links_find_the_natural_ports_of_nodes_in_files_too(tmp_path):
-    ends = {"a": op.Source(), "b": op.Interface(1.5, 0.0), "c": op.Detector(), "d": op.Dump()}
-    path = wired(ends, "a -> b, b.transmitted -> c, b -> d.in")
-    links = [(start, end, *ports) for start, end, ports in path.graph.edges(keys=True)]
-    assert links == [
-        ("a", "b", "out", "in"),
-        ("b", "c", "transmitted", "in"),
-        ("b", "d", "reflected", "in"),
-    ]
-    with pytest.raises(op.PathError, match=r"link 'a\.out -> b\.in' is there already"):
-        path.connect("a", "b")
-    text = reflected().to_toml()
-    for port in (".out", ".reflected", ".in"):
-        text = text.replace(f'{port}"', '"')
-    assert read(text, tmp_path) == reflected()

@@ -43,7 +43,7 @@ def test_light_of_paths_by_chance_is_neither_made_nor_lost(seed):
     assert_conserved(path, **draw.values)
 
 
-def test_a_polariser_takes_half_of_light_and_several_sources_are_told_apart():
+def test_powers_are_told_of_sources_loops_and_what_amplifies_but_not_of_rounding():
     found = energy_along(op.load_preset("malus"), angle="60 deg", intensity=8.0)
     assert numbers(found.given) == {"lamp": 8.0}
     assert numbers(found.taken) == pytest.approx({"polarizer": 4.0, "analyzer": 3.0})
@@ -54,9 +54,32 @@ def test_a_polariser_takes_half_of_light_and_several_sources_are_told_apart():
     assert total(found.taken, found.left, found.ended) == 0.0
     found = assert_conserved(op.load_preset("sky-and-window"))
     assert numbers(found.given) == {"heaven": 10.0, "lamp": 2.0}
+    # Of an unpolarised lamp upright on glass, R = 0.04: 0.96 / (1 - R^2) goes down in all.
+    found = assert_conserved(op.load_preset("glass-slab"), theta=0.0, n=1.5)
+    inner = {link.name: link.power for link in found.links if link.in_loop}
+    assert inner["front.transmitted -> down.in"] == pytest.approx(0.96 / (1 - 0.04**2))
+    assert len(inner) == 4
+    assert len(found.notes) == 1
+    assert found.notes[0].startswith("light goes round")
+    # A way there and back through one element is none.
+    path = op.load_preset("double-pass-waveplate")
+    assert not any(link.in_loop for link in energy_along(path).links)
+    gain = op.MuellerElement(2.0 * np.eye(4), physical=False)
+    found = assert_conserved(op.Source() >> gain.named("laser") >> op.Detector())
+    assert found.taken["laser"] == pytest.approx(-1.0)
+    assert found.notes == ("'laser' gives more light than it gets: it takes a negative power",)
+    found = energy_along(op.load_preset("fresnel-rhomb"))
+    assert (found.taken["first"], found.taken["second"]) == (0.0, 0.0)
+    # What is left of crossed polarisers is no power.
+    path = op.load_preset("senarmont")
+    assert 0.0 < path.trace().intensity < 1e-15
+    found = energy_along(path)
+    assert (found.ended["eye"], found.links[-1].power) == (0.0, 0.0)
+    path = op.Source() >> op.Attenuator(1e-30) >> op.Attenuator(0.5) >> op.Detector()
+    assert energy_along(path).ended["detector"] == pytest.approx(5e-31)
 
 
-def test_a_tap_takes_nothing_and_what_it_reads_does_not_end():
+def test_taps_take_nothing_however_far_their_light_goes():
     found = assert_conserved(op.load_preset("ellipsometer-pcsa"))
     assert [link.end for link in found.links if link.tap] == ["state"]
     assert [*found.ended] == ["photometer"]
@@ -64,9 +87,6 @@ def test_a_tap_takes_nothing_and_what_it_reads_does_not_end():
     # It stands behind the link beside it.
     taps = [each for each in lights_along(op.load_preset("ellipsometer-pcsa")) if each.tap]
     assert [each.name for each in taps] == ["S.reflected -> state.in"]
-
-
-def test_light_behind_a_tap_is_read_however_far_it_goes():
     path = op.Source() >> op.Polarizer("0 deg") >> op.Detector()
     path.add("analyser", op.Polarizer("30 deg"))
     path.connect("polarizer.out", "analyser.in", tap=True)
@@ -81,46 +101,11 @@ def test_light_behind_a_tap_is_read_however_far_it_goes():
     assert read == links | {"split.transmitted -> probe.in"}
 
 
-def test_a_loop_is_told_and_its_links_have_all_rounds_together():
-    # Of an unpolarised lamp upright on glass, R = 0.04: 0.96 / (1 - R^2) goes down in all.
-    found = assert_conserved(op.load_preset("glass-slab"), theta=0.0, n=1.5)
-    inner = {link.name: link.power for link in found.links if link.in_loop}
-    assert inner["front.transmitted -> down.in"] == pytest.approx(0.96 / (1 - 0.04**2))
-    assert len(inner) == 4
-    assert len(found.notes) == 1
-    assert found.notes[0].startswith("light goes round")
-    # A way there and back through one element is none.
-    path = op.load_preset("double-pass-waveplate")
-    assert not any(link.in_loop for link in energy_along(path).links)
-
-
-def test_what_amplifies_takes_a_negative_power_and_is_told():
-    gain = op.MuellerElement(2.0 * np.eye(4), physical=False)
-    found = assert_conserved(op.Source() >> gain.named("laser") >> op.Detector())
-    assert found.taken["laser"] == pytest.approx(-1.0)
-    assert found.notes == ("'laser' gives more light than it gets: it takes a negative power",)
-
-
-def test_rounding_is_not_taken_for_light_but_light_that_was_dimmed_keeps_its_power():
-    found = energy_along(op.load_preset("fresnel-rhomb"))
-    assert (found.taken["first"], found.taken["second"]) == (0.0, 0.0)
-    # What is left of crossed polarisers is no power.
-    path = op.load_preset("senarmont")
-    assert 0.0 < path.trace().intensity < 1e-15
-    found = energy_along(path)
-    assert (found.ended["eye"], found.links[-1].power) == (0.0, 0.0)
-    path = op.Source() >> op.Attenuator(1e-30) >> op.Attenuator(0.5) >> op.Detector()
-    assert energy_along(path).ended["detector"] == pytest.approx(5e-31)
-
-
-def test_many_values_give_powers_and_lights_of_their_shape():
+def test_many_values_keep_their_shape_and_are_written_as_json():
     found = assert_conserved(op.load_preset("malus"), angle=np.radians([[0.0], [90.0]]))
     assert {power.shape for power in found.taken.values()} == {(2, 1)}
     lights = lights_along(op.load_preset("malus"), angle=np.linspace(0.0, 1.0, 5))
     assert lights[-1].light.shape == (5,)
-
-
-def test_all_of_it_is_written_as_json_and_a_power_that_is_not_a_number_as_null():
     written = energy_along(op.load_preset("glass-slab")).as_json()
     read = json.loads(json.dumps(written))
     assert read == written
@@ -129,6 +114,8 @@ def test_all_of_it_is_written_as_json_and_a_power_that_is_not_a_number_as_null()
     path = op.path_from_vertices([[0, -1, 1], [0, 0, 0], [0, 9, 1]], [1.5], events="T", bad="mask")
     written = json.dumps(energy_along(path).as_json(), allow_nan=False)
     assert None in [link["power"] for link in json.loads(written)["links"]]
+    path = op.Source(op.Parameter("keep", 2.0)) >> op.Detector()
+    assert [each.light.intensity for each in lights_along(path, keep=3.0)] == [3.0]
 
 
 BACK = "mirror.reflected -> analyzer-back.in", "polarizer-back.out -> returned.in"
@@ -158,8 +145,3 @@ def test_all_light_on_the_way_stands_behind_what_leads_to_it_unless_light_goes_r
         assert not arrives or each.start in met or path.compose().program.loops
         met.add(each.end)
     assert {each.name for each in found} == {*path.trace(keep="all")} - {*path.graph}
-
-
-def test_a_parameter_may_be_called_keep():
-    path = op.Source(op.Parameter("keep", 2.0)) >> op.Detector()
-    assert [each.light.intensity for each in lights_along(path, keep=3.0)] == [3.0]

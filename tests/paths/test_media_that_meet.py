@@ -108,7 +108,7 @@ def test_what_light_goes_straight_through_stands_in_the_same_medium(between):
     faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7, outside=1.5)).check()
 
 
-def test_light_enters_in_the_medium_it_was_reflected_in_or_comes_from_behind():
+def test_what_light_meets_next_is_in_the_medium_it_is_in():
     path = op.Source() >> op.Interface(1.5, 0.3).named("first")
     path = path >> op.Interface(1.5, 0.9, outside=1.33).named("second") >> op.Detector()
     (fault,) = faults_of(path)
@@ -116,9 +116,14 @@ def test_light_enters_in_the_medium_it_was_reflected_in_or_comes_from_behind():
     (fault,) = faults_of(faces(GLASS, op.Interface(1.6, THETA, incidence_in=1.0), back="back"))
     assert "'back.back' is lit from n = 1.5 behind 'front'" in fault
     assert "its index is 1.6; give index = 1.5" in fault
+    back = op.LayerStack([0.6, 1.0, 1.2], 0.1, parallel=False)
+    for index in (0.6 + 2j, op.Material(0.6, 2.0)):
+        (fault,) = faults_of(faces(op.Interface(index, THETA), back))
+        assert "'back.in' is lit from a medium that absorbs, with k = 2 behind 'front'" in fault
+    metal = op.Interface(op.Material(0.6, op.Parameter("k")), THETA)
+    with pytest.raises(op.ParameterError, match=r"k = 2 \(parameter 'k'\)"):
+        faces(metal, back).trace(k=2.0)
 
-
-def test_light_that_stays_between_two_faces_is_looked_at_too():
     def unfolded(index, incidence, **about):
         path = faces(GLASS, FOLLOWING)
         path.add("again", op.Interface(index, incidence, **about))
@@ -142,7 +147,7 @@ def test_light_that_stays_between_two_faces_is_looked_at_too():
     assert "n sin(incidence)" in fault
 
 
-def test_the_faces_of_a_prism_have_angles_of_their_own():
+def test_faces_at_an_angle_say_so_by_a_flag_or_by_their_frames():
     def prism(**about):
         base = op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS, **about)
         ends = op.Interface(1.5, 0.0), op.Interface(1.0, 0.0, outside=op.FOLLOWS)
@@ -155,6 +160,18 @@ def test_the_faces_of_a_prism_have_angles_of_their_own():
     assert light.intensity == pytest.approx(0.96**2, rel=1e-14)
     assert prism(parallel=False) != prism()
     assert "'entry.transmitted' enters 'base.in'" in faults_of(prism())[0]
+    # A prism: the second face is not parallel, and its frames say so.
+    along = op.Frame.from_direction(z=(0, 0, 1), x=(1, 0, 0))
+    mirrored = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), {"out": along})
+    path.add("front", op.Interface(1.5, 0.0), {"in": along, "transmitted": along})
+    base = op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS)
+    path.add("base", base, {"in": along, "reflected": mirrored})
+    path.add("eye", op.Detector(), {"in": mirrored})
+    for link in (("lamp", "front"), ("front.transmitted", "base"), ("base.reflected", "eye")):
+        path.connect(*link)
+    assert path.trace().intensity == pytest.approx(0.96, rel=1e-14)
 
 
 @rows("turn, is_parallel", [(0.0, True), (np.pi, True), (-np.pi, True), (0.5, False)])
@@ -175,38 +192,13 @@ def test_a_face_turned_about_the_light_has_another_plane_of_incidence(turn, is_p
             late.trace(turn=turn + extra)
 
 
-def test_faces_that_stand_in_space_have_their_directions_by_their_frames():
-    # A prism: the second face is not parallel, and its frames say so.
-    along = op.Frame.from_direction(z=(0, 0, 1), x=(1, 0, 0))
-    mirrored = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
-    path = op.PathGraph()
-    path.add("lamp", op.Source(), {"out": along})
-    path.add("front", op.Interface(1.5, 0.0), {"in": along, "transmitted": along})
-    base = op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS)
-    path.add("base", base, {"in": along, "reflected": mirrored})
-    path.add("eye", op.Detector(), {"in": mirrored})
-    for link in (("lamp", "front"), ("front.transmitted", "base"), ("base.reflected", "eye")):
-        path.connect(*link)
-    assert path.trace().intensity == pytest.approx(0.96, rel=1e-14)
-
-
-def test_no_stack_is_lit_from_a_medium_that_absorbs():
-    back = op.LayerStack([0.6, 1.0, 1.2], 0.1, parallel=False)
-    for index in (0.6 + 2j, op.Material(0.6, 2.0)):
-        (fault,) = faults_of(faces(op.Interface(index, THETA), back))
-        assert "'back.in' is lit from a medium that absorbs, with k = 2 behind 'front'" in fault
-    metal = op.Interface(op.Material(0.6, op.Parameter("k")), THETA)
-    with pytest.raises(op.ParameterError, match=r"k = 2 \(parameter 'k'\)"):
-        faces(metal, back).trace(k=2.0)
-
-
 OPEN = (
     op.Interface(op.Parameter("n"), op.Parameter("theta")),
     op.Interface(1.0, op.Parameter("phi"), outside=op.Parameter("m")),
 )
 
 
-def test_parameters_are_looked_at_whenever_they_are_given():
+def test_values_are_looked_at_whenever_they_are_given_and_give_nan_where_jax_traces():
     path = faces(*OPEN)
     path.check()
     good = {"n": 1.5, "m": 1.5, "theta": THETA, "phi": INSIDE}
@@ -226,6 +218,16 @@ def test_parameters_are_looked_at_whenever_they_are_given():
     ):
         with pytest.raises(op.ParameterError, match=told):
             path.trace(**good | wrong)
+    jax = pytest.importorskip("jax")
+    plan = op.Composer(dtype="float32").compose(faces(*OPEN))
+
+    @jax.jit
+    def intensity(n, m, phi):
+        return plan.run(n=n, m=m, theta=THETA, phi=phi).intensity
+
+    assert float(intensity(1.5, 1.5, INSIDE)) == pytest.approx(0.9116117533, rel=1e-6)
+    assert np.isnan(float(intensity(1.5, 1.6, INSIDE)))
+    assert np.isnan(float(intensity(1.5, 1.5, THETA)))
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -242,20 +244,7 @@ def test_every_engine_refuses_media_that_do_not_meet(engine):
             question(n=1.5, m=1.5, theta=0.3, phi=0.3)
 
 
-def test_values_that_jax_traces_give_nan_where_media_do_not_meet():
-    jax = pytest.importorskip("jax")
-    plan = op.Composer(dtype="float32").compose(faces(*OPEN))
-
-    @jax.jit
-    def intensity(n, m, phi):
-        return plan.run(n=n, m=m, theta=THETA, phi=phi).intensity
-
-    assert float(intensity(1.5, 1.5, INSIDE)) == pytest.approx(0.9116117533, rel=1e-6)
-    assert np.isnan(float(intensity(1.5, 1.6, INSIDE)))
-    assert np.isnan(float(intensity(1.5, 1.5, THETA)))
-
-
-def test_angles_rounded_as_their_numbers_are_pass_and_those_cut_short_do_not():
+def test_angles_may_be_rounded_and_one_parameter_on_both_sides_is_not_looked_at():
     single = np.float32
     n, theta = single(1.33), np.linspace(0.0, 1.5, 7, dtype=single)
     faces(*OPEN).trace(n=n, m=1.33, theta=theta, phi=np.arcsin(np.sin(theta) / n))
@@ -267,9 +256,6 @@ def test_angles_rounded_as_their_numbers_are_pass_and_those_cut_short_do_not():
     grazing = np.radians(89.999)
     fault = faults_of(faces(op.Interface(1.0, grazing), op.Interface(1.0, np.pi / 2)))[0]
     assert "n sin(incidence)" in fault
-
-
-def test_one_parameter_on_both_sides_needs_no_look_at_its_values():
     # Of layers that may absorb one asks how much, and of dichroism whether light is lost.
     for preset in {*op.preset_names()} - {"absorbing-pile", "dichroic-sheet"}:
         assert op.load_preset(preset).compose().inputs.agreements == ()

@@ -88,16 +88,13 @@ def test_faces_between_which_light_goes_to_and_fro_have_one_plane_of_incidence()
     assert "let the azimuths on the way add up to 0" in fault_of(undone, a=0.0)
 
 
-def test_a_face_that_takes_its_incidence_over_is_not_turned():
+def test_faces_at_normal_incidence_may_be_turned_and_others_that_take_over_may_not():
     constant = slab(GLASS, op.Interface(1.0, F, outside=F, azimuth=0.7), to=None)
     assert "'back' takes its incidence over (FOLLOWS), as a face parallel" in fault_of(constant)
     path = slab(GLASS, op.Interface(1.0, F, outside=F, azimuth=op.Parameter("a")), to=None)
     path.trace(a=0.0)
     for a in (0.7, [0.0, 0.7]):
         assert "by 40.10704566 deg (parameter 'a')" in fault_of(path, a=a)
-
-
-def test_at_normal_incidence_any_azimuth_will_do():
     for azimuth in (0.7, op.Parameter("a", 0.7)):
         back = op.Interface(1.0, F, outside=F, azimuth=azimuth)
         for to in (None, "front.back"):
@@ -181,7 +178,7 @@ def test_light_that_a_mirror_sends_back_is_turned_alike_on_both_ways(go):
     assert before_mirror(0.3, None, again=0.2).trace().S0 > 0.0
 
 
-def test_a_ring_may_turn_its_light():
+def test_a_ring_may_turn_its_light_and_a_face_at_an_angle_sends_none_back():
     turned = op.Interface(1.0, F, outside=F, azimuth=op.Parameter("turn"))
     ends = {"lamp": op.Source(stokes=[1, 1, 0, 0]), "both": op.Combiner(), "R": op.Detector()}
     path = wired(
@@ -197,9 +194,6 @@ def test_a_ring_may_turn_its_light():
     np.testing.assert_allclose(light.S0, 0.04 / (1 - once), rtol=1e-12)
     np.testing.assert_allclose(light.S1, linear.real, rtol=1e-12)
     np.testing.assert_allclose(light.S2, -linear.imag, rtol=0, atol=1e-15)
-
-
-def test_light_does_not_come_back_from_a_face_at_an_angle():
     front = op.Interface(1.5, "48.59 deg")
     back = op.Interface(1.0, "20 deg", outside=1.5, parallel=False)
     slab(front, back, to=None).check()
@@ -240,7 +234,7 @@ def test_beyond_the_critical_angle_the_one_behind_is_a_right_angle():
     assert "n sin(incidence)" in fault_of(slab(dense, outside, to=None))
 
 
-def test_plates_in_air_are_told_what_is_taken_for_granted():
+def test_multiples_absorptions_and_what_is_taken_for_granted_are_told():
     def plates(**about):
         plate = op.LayerStack([1, 1.5, 1], "30 deg")
         return slab(plate, op.LayerStack([1, 1.5, 1], "60 deg", **about), to=None)
@@ -255,9 +249,6 @@ def test_plates_in_air_are_told_what_is_taken_for_granted():
     assert turning.trace(turn=[0.1, 0.5]).shape == (2,)
     where = "planes of incidence are one where azimuths come to 0 deg (parameter 'turn')"
     assert where in fault_of(turning, turn=[0.0, 0.1, 0.5])
-
-
-def test_a_multiple_of_a_parameter_is_named_where_it_stands():
     n, m = op.Parameter("n"), op.Parameter("m")
     twice = op.Interface(1.0, F, outside=2 * m)
     path = slab(op.Interface(1.5, THETA), twice, to=None)
@@ -272,6 +263,11 @@ def test_a_multiple_of_a_parameter_is_named_where_it_stands():
     assert fault.endswith("but its outside is 2 * n = 3; give op.FOLLOWS for outside")
     path = slab(op.Interface(2 * n, THETA), op.Interface(1.0, F, outside=1.5), to=None)
     assert "'back.in' is lit from 2 * n = 1.6 behind 'front'" in fault_of(path, n=0.8)
+    front = op.Interface(op.Material(op.Parameter("n"), op.Parameter("k")), 0.3)
+    path = slab(front, op.LayerStack([F, 1.2, 1.0], 0.1, parallel=False), to=None)
+    path.trace(n=1.5, k=0.0)
+    fault = fault_of(path, n=1.5, k=0.1)
+    assert "with k = 0.1 (parameter 'k') behind 'front' (by 'front.transmitted')" in fault
 
 
 @rows("late", [False, True])
@@ -289,11 +285,3 @@ def test_of_a_row_of_faults_only_the_first_is_told(late):
     path.add("T", op.Detector())
     path.connect(light, "T.in")
     assert "enters 'f2.in'" in fault_of(path)
-
-
-def test_an_absorption_that_is_open_is_told_of_the_boundary_that_has_it():
-    front = op.Interface(op.Material(op.Parameter("n"), op.Parameter("k")), 0.3)
-    path = slab(front, op.LayerStack([F, 1.2, 1.0], 0.1, parallel=False), to=None)
-    path.trace(n=1.5, k=0.0)
-    fault = fault_of(path, n=1.5, k=0.1)
-    assert "with k = 0.1 (parameter 'k') behind 'front' (by 'front.transmitted')" in fault

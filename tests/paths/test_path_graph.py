@@ -10,21 +10,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from chains import random_rotation
 from optipath.paths.drawing import draw
 from tables import rows
 from wired import wired
 
 
 def reflections(azimuth):
-    return wired(
-        {
-            "lamp": op.Source(stokes=[1.0, 0.3, 0.2, 0.1]),
-            "first": op.Interface(1.5, 0.7),
-            "second": op.Interface(0.6 + 2.1j, 0.4, azimuth=azimuth),
-            "eye": op.Detector(),
-        },
-        "lamp -> first, first -> second, second -> eye",
-    )
+    lamp, first = op.Source(stokes=[1.0, 0.3, 0.2, 0.1]), op.Interface(1.5, 0.7)
+    second = op.Interface(0.6 + 2.1j, 0.4, azimuth=azimuth)
+    elements = {"lamp": lamp, "first": first, "second": second, "eye": op.Detector()}
+    return wired(elements, "lamp -> first, first -> second, second -> eye")
 
 
 def reflected(frame, incidence):
@@ -48,39 +44,20 @@ def in_world(elements, frames, rotation=None):
 
 def placed(azimuth, rotation):
     """The same reflections with world frames, all rotated together."""
-    start = op.Frame()
-    first_out = reflected(start, 0.7)
-    second_in = first_out.turned(azimuth)
-    second_out = reflected(second_in, 0.4)
-    frames = {
-        "lamp": {"out": start},
-        "first": {"in": start, "reflected": first_out},
-        "second": {"in": second_in, "reflected": second_out},
-        "eye": {"in": second_out},
-    }
+    start, behind = op.Frame(), reflected(op.Frame(), 0.7)
+    turned = behind.turned(azimuth)
+    end = reflected(turned, 0.4)
+    frames = {"lamp": {"out": start}, "first": {"in": start, "reflected": behind}}
+    frames |= {"second": {"in": turned, "reflected": end}, "eye": {"in": end}}
     path = reflections(0.0)
     elements = {name: path.element(name) for name in path}
     elements["second"] = op.Interface(0.6 + 2.1j, 0.4)
     return in_world(elements, frames, rotation)
 
 
-def rotation_of(quaternion):
-    w, x, y, z = np.array(quaternion) / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 0.1)
-
-
-@given(azimuth=st.floats(-4, 4), quaternion=QUATERNIONS)
-def test_rotating_every_world_frame_changes_no_result(azimuth, quaternion):
-    path = placed(azimuth, rotation_of(quaternion))
+@given(azimuth=st.floats(-4, 4), seed=st.integers(0, 10**6))
+def test_rotating_every_world_frame_changes_no_result(azimuth, seed):
+    path = placed(azimuth, random_rotation(np.random.default_rng(seed)))
     light = path.trace()
     expected = reflections(azimuth).trace().stokes
     np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-14)
@@ -121,23 +98,15 @@ def test_malus_law_holds_for_a_turn_of_the_frame_and_of_the_axis(turn):
         assert path.trace().intensity == pytest.approx(np.cos(turn) ** 2, abs=1e-14)
 
 
-def test_branches_part_and_merge_incoherently():
+def test_branches_and_sources_add_up_incoherently():
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "meet": op.Combiner()}
+    filters = {"across": op.Polarizer(np.pi / 2), "along": op.Polarizer()}
     path = wired(
-        {
-            "lamp": op.Source(),
-            "split": op.BeamSplitter(0.25),
-            "meet": op.Combiner(),
-            "across": op.Polarizer(np.pi / 2),
-            "along": op.Polarizer(),
-            "eye": op.Detector(),
-        },
+        {**ends, **filters, "eye": op.Detector()},
         "lamp -> split, split.reflected -> across, split.transmitted -> along, across -> meet, "
         "along -> meet, meet -> eye",
     )
     np.testing.assert_allclose(path.trace().stokes, [0.5, 0.25, 0, 0], rtol=1e-15, atol=1e-16)
-
-
-def test_several_sources_add_up_each_at_an_azimuth_of_its_own():
     lamps = {"one": op.Source(1.0), "two": op.Source(2.0, stokes=[1.0, 0, 0, 1.0])}
     path = wired({"eye": op.Detector(), **lamps}, "one -> eye, two -> eye")
     np.testing.assert_allclose(path.trace().stokes, [3, 0, 0, 2])
@@ -150,9 +119,6 @@ def test_several_sources_add_up_each_at_an_azimuth_of_its_own():
         path.add(f"lamp-{name}", op.Source()) >> path.add(name, op.Polarizer())
         path.connect(f"{name}.out", "eye.in", azimuth=azimuth)
     np.testing.assert_allclose(path.trace().stokes, [1.0, 0.0, 0, 0], rtol=1e-15, atol=1e-16)
-
-
-def test_one_element_may_stand_in_several_places():
     grey = op.Attenuator(0.5)
     path = wired(
         {"lamp": op.Source(), "a": grey, "b": grey, "c": grey, "eye": op.Detector()},
@@ -161,7 +127,7 @@ def test_one_element_may_stand_in_several_places():
     assert path.trace().intensity == 0.125
 
 
-def test_the_graph_is_networkx_cannot_be_changed_and_a_plain_one_can_be_composed():
+def test_a_graph_is_networkx_whatever_the_order_it_is_built_in():
     path = reflections(0.1)
     assert isinstance(path.graph, nx.MultiDiGraph)
     assert nx.shortest_path(path.graph, "lamp", "eye") == ["lamp", "first", "second", "eye"]
@@ -169,9 +135,6 @@ def test_the_graph_is_networkx_cannot_be_changed_and_a_plain_one_can_be_composed
     with pytest.raises(nx.NetworkXError, match=r"[Ff]rozen"):
         path.graph.add_node("more")
     assert op.Composer().compose(nx.MultiDiGraph(path.graph)) == path.compose()
-
-
-def test_the_order_in_which_a_path_is_built_does_not_matter():
     one = reflections(0.2)
     elements = {name: one.element(name) for name in ("eye", "second", "lamp", "first")}
     other = wired(elements, "second -> eye, lamp -> first, first -> second")
@@ -258,18 +221,19 @@ def long_chain(count, element):
     return path
 
 
-def test_a_chain_of_10000_elements_runs_and_multiplies_up():
+def test_a_chain_of_10000_elements_runs_with_as_many_steps_and_a_plan_is_kept_by_its_composer():
     path = long_chain(10_000, op.Rotator(np.pi / 10_000))
     np.testing.assert_allclose(path.trace().stokes, [1, 1, 0, 0], rtol=0, atol=1e-11)
-
-
-def test_steps_grow_with_the_elements():
     element = op.Interface(1.5, op.Parameter("a"), azimuth=0.1)
     short, long = (len(long_chain(n, element).compose().program.steps) for n in (100, 200))
     assert long - short == 200
+    path = op.load_preset("malus")
+    assert path.plan_by(op.Composer(dtype="float32")) is path.plan_by(op.Composer(dtype="float32"))
+    with pytest.raises(op.ComposerError, match=r"a plan is made by a Composer, not \[1\]; write"):
+        path.plan_by([1])
 
 
-def test_the_light_on_every_link_and_outlet_is_kept_when_asked():
+def test_the_light_on_every_link_is_kept_when_asked_and_a_parameter_may_be_called_keep():
     path = op.load_preset("npgr026", case="8")
     kept = path.trace(keep="all")
     links = {"L.out -> P.in", "P.out -> X2.in", "X2.reflected -> X1.in", "X1.reflected -> E.in"}
@@ -280,9 +244,6 @@ def test_the_light_on_every_link_and_outlet_is_kept_when_asked():
     assert total == pytest.approx(kept["P.out -> X2.in"].intensity, rel=1e-15)
     with pytest.raises(op.ParameterError, match="keep 'some' is unknown"):
         path.trace(keep="some")
-
-
-def test_a_parameter_called_keep_is_given_by_that_name():
     lamp = op.Source(op.Parameter("keep", default=2.0))
     path = wired({"lamp": lamp, "eye": op.Detector()}, "lamp -> eye")
     assert path.trace(keep=3.0).intensity == 3.0
@@ -290,14 +251,7 @@ def test_a_parameter_called_keep_is_given_by_that_name():
     assert set(path.bind(keep=5.0).trace(keep="all")) == {"eye", "lamp.out -> eye.in"}
 
 
-def test_a_plan_is_kept_by_its_composer():
-    path = op.load_preset("malus")
-    assert path.plan_by(op.Composer(dtype="float32")) is path.plan_by(op.Composer(dtype="float32"))
-    with pytest.raises(op.ComposerError, match=r"a plan is made by a Composer, not \[1\]; write"):
-        path.plan_by([1])
-
-
-def test_nodes_are_drawn_in_the_order_of_travel_with_each_link_below_the_node_it_leaves():
+def test_nodes_are_drawn_in_the_order_of_travel_with_values_by_their_size():
     lines = draw(op.load_preset("npgr026")).splitlines()
     nodes = [line.split()[0] for line in lines if not line.startswith(" ")]
     assert nodes == ["L", "P", "X2", "X1", "E"]
@@ -305,9 +259,6 @@ def test_nodes_are_drawn_in_the_order_of_travel_with_each_link_below_the_node_it
     assert "  | transmitted --> leaves the path" in lines
     ring = wired({"one": op.Polarizer(), "other": op.Rotator(0.5)}, "one -> other, other -> one")
     assert "  | out --> one.in" in draw(ring).splitlines()
-
-
-def test_light_is_drawn_in_numbers_a_matrix_by_its_size_and_a_flag_as_yes_or_no():
     drawn = {name: draw(op.load_preset(name)) for name in op.preset_names()}
     assert "stokes=[1, 1, 0, 0]" in drawn["double-pass-waveplate"]
     assert "matrix=a 4 x 4 matrix  straight=no" in drawn["ellipsometer-rough"]
@@ -322,7 +273,7 @@ def output_of(code):
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
 
 
-def test_without_xarray_one_sentence_names_the_extra_of_sweeps():
+def test_of_the_extra_of_sweeps_a_trace_imports_nothing_and_a_sweep_xarray_which_is_named():
     ended = output_of(
         "import sys; sys.modules['xarray'] = None; import optipath as op; "
         "op.load_preset('malus').sweep(angle=[0.1, 0.2])"
@@ -331,9 +282,6 @@ def test_without_xarray_one_sentence_names_the_extra_of_sweeps():
         "optipath.errors.MissingExtraError: "
         'sweeps need xarray, which is not installed; pip install "optipath[sweep]"'
     )
-
-
-def test_of_the_extra_a_trace_imports_nothing_and_a_sweep_xarray_alone():
     pytest.importorskip("xarray")
     ended = output_of(
         # Where Dask is installed, xarray itself imports it.

@@ -1,6 +1,7 @@
 """A node that takes one of several places, chosen by word before the path is composed."""
 
 import copy
+import functools
 import json
 import pickle
 
@@ -17,6 +18,8 @@ ROWS = {
     "between": "L >> X2 >> P >> X1 >> E",
     "eye": "L >> X2 >> X1 >> P >> E",
 }
+
+npgr026 = functools.partial(op.load_preset, "npgr026")
 
 
 def built(place, angle):
@@ -35,21 +38,21 @@ def built(place, angle):
 @rows("place", [*ROWS])
 @rows("angle", [0.0, 0.7])
 def test_the_filter_stands_at_the_light_between_the_surfaces_or_before_the_eye(place, angle):
-    path = op.load_preset("npgr026", case=8, place=place, filter=angle)
+    path = npgr026(case=8, place=place, filter=angle)
     expected = built(place, angle).trace().stokes
     np.testing.assert_allclose(path.trace().stokes, expected, rtol=1e-14, atol=1e-14)
     assert repr(path) == f"<PathGraph: {ROWS[place]}>"
 
 
 def test_before_the_eye_the_unfiltered_light_is_filtered_by_malus_law():
-    lit = op.load_preset("npgr026", case=7).trace()
+    lit = npgr026(case=7).trace()
     angles = np.linspace(0.0, np.pi, 7)
-    eye = op.load_preset("npgr026", case=7).bind(place="eye", filter=angles).trace()
+    eye = npgr026(case=7).bind(place="eye", filter=angles).trace()
     s0, s1, s2, _ = lit.stokes
     expected = 0.5 * (s0 + s1 * np.cos(2 * angles) + s2 * np.sin(2 * angles))
     np.testing.assert_allclose(eye.intensity, expected, rtol=1e-14)
     # The filter is open wherever it stands.
-    path = op.load_preset("npgr026", case=7, place="eye")
+    path = npgr026(case=7, place="eye")
     assert path.trace().intensity == lit.intensity
     assert path.trace(filter="horizontal").dop == pytest.approx(1.0)
 
@@ -83,7 +86,7 @@ def test_a_filter_that_is_moved_stays_turned_in_the_light(plate, how):
         np.testing.assert_allclose(moved.trace().stokes, expected, rtol=1e-13, atol=1e-13)
 
 
-def test_a_filter_whose_turns_make_no_one_azimuth_is_moved_by_hand():
+def test_a_filter_is_moved_past_a_turned_plate_or_by_hand():
     path = turned(op.Parameter("a"))
     path.disconnect("plate")
     path.replace("filter", op.Polarizer(0.2, azimuth=op.Parameter("b")))
@@ -94,8 +97,6 @@ def test_a_filter_whose_turns_make_no_one_azimuth_is_moved_by_hand():
     path.insert("filter", op.Polarizer(azimuth=op.Parameter("b")), behind="source")
     assert path.trace(a=0.1, b=0.2).intensity > 0.0
 
-
-def test_a_filter_is_moved_past_a_turned_plate_and_both_stay_as_they_were_turned():
     def path(place):
         path = op.Source(stokes=[2, 1, 1, 0]) >> op.Polarizer(0.3, azimuth=0.2).named("filter")
         path = path >> op.Retarder(0.8, azimuth=op.Parameter("a", 0.4)).named("plate")
@@ -111,19 +112,16 @@ def test_a_filter_is_moved_past_a_turned_plate_and_both_stay_as_they_were_turned
         assert path(place).trace().intensity == pytest.approx(expected, rel=1e-13)
 
 
-def test_nothing_chosen_is_the_filter_at_the_light_and_a_place_may_be_chosen_again():
-    path = op.load_preset("npgr026")
-    assert path == op.load_preset("npgr026", place="light")
+def test_choices_are_copied_compared_joined_and_chosen_again(tmp_path):
+    path = npgr026()
+    assert path == npgr026(place="light")
     names = ("delta", "rho", "phi", "n1", "k1", "n2", "k2", "filter", "intensity")
     assert tuple(path.parameters) == names
     assert path.choices["place"].place(path.graph) == "light"
-    moved = op.load_preset("npgr026", place="eye")
+    moved = npgr026(place="eye")
     assert moved.bind(place="between").bind(place="light") == path
-
-
-def test_choices_are_copied_written_and_read_back(tmp_path):
     for place in ("light", "eye"):
-        path = op.load_preset("npgr026", place=place)
+        path = npgr026(place=place)
         copies = copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))
         for again in (read_back(path, tmp_path), *copies):
             assert again == path
@@ -131,18 +129,12 @@ def test_choices_are_copied_written_and_read_back(tmp_path):
             assert again.bind(place="between") == path.bind(place="between")
             assert repr(again.bind(place="eye")) == f"<PathGraph: {ROWS['eye']}>"
         assert path.reading("intensity").choices == path.choices
-
-
-def test_paths_that_offer_other_choices_are_not_equal():
     path = op.Source() >> op.Polarizer() >> op.Mirror() >> op.Detector()
     other = copy.copy(path)
     other.offer("place", "polarizer", {"light": "source", "eye": "mirror"})
     assert path != other
     assert "place" not in path.choices
     assert other.bind(place="eye").choices == other.choices
-
-
-def test_choices_go_along_in_a_chain():
     tail = op.Polarizer() >> op.Mirror() >> op.Polarizer().named("last") >> op.Detector()
     tail.offer("place", "last", {"before": "polarizer.out", "behind": "mirror.reflected"})
     path = op.Source() >> op.Polarizer() >> tail
@@ -158,13 +150,13 @@ def test_choices_go_along_in_a_chain():
     "choose, told",
     [
         (
-            lambda: op.load_preset("npgr026", place="eyes", delta="steep"),
+            lambda: npgr026(place="eyes", delta="steep"),
             r"(?s)place 'eyes' is unknown; did you mean 'eye'\?.*delta",
         ),
-        (lambda: op.load_preset("npgr026", plce="eye"), "did you mean 'place'"),
-        (lambda: op.load_preset("npgr026").trace(place="eye"), r"path\.bind\(place=\.\.\.\)"),
+        (lambda: npgr026(plce="eye"), "did you mean 'place'"),
+        (lambda: npgr026().trace(place="eye"), r"path\.bind\(place=\.\.\.\)"),
         (
-            lambda: op.load_preset("npgr026").compose().run(delta=[0.1, 0.2], place="eye"),
+            lambda: npgr026().compose().run(delta=[0.1, 0.2], place="eye"),
             r"path\.bind\(place=\.\.\.\)",
         ),
     ],
@@ -189,7 +181,7 @@ def test_a_place_is_chosen_by_its_word_before_a_path_runs(choose, told):
     ],
 )
 def test_places_that_cannot_be_taken_are_told_when_they_are_offered(offered, told):
-    path = op.load_preset("npgr026")
+    path = npgr026()
     path._graph.graph.pop("choices")
     with pytest.raises(op.PathError, match=told):
         path.offer(*offered)
@@ -206,18 +198,18 @@ def test_places_that_cannot_be_taken_are_told_when_they_are_offered(offered, tol
     ],
 )
 def test_faults_of_choices_in_a_file_have_their_place(old, new, told, tmp_path):
-    text = op.load_preset("npgr026").to_toml()
+    text = npgr026().to_toml()
     with pytest.raises(op.PathError, match=told):
         read(text.replace(old, new, 1), tmp_path)
 
 
 def test_a_node_that_is_removed_has_no_choice_and_one_whose_ports_are_gone_is_not_written():
-    path = op.load_preset("npgr026")
+    path = npgr026()
     path.cases.clear()
     path.remove("P")
     assert not path.choices
     assert "choices" not in path.to_toml()
-    path = op.load_preset("npgr026")
+    path = npgr026()
     assert "place" in path.choices
     path.disconnect("X1", "E")
     with pytest.raises(op.PathError, match=r"choice 'place': place 'eye': 'X1\.reflected' feeds"):

@@ -59,19 +59,24 @@ def mean(n1, n2, y):
     return (s + p) / 2
 
 
-def test_a_layer_of_1_5_on_2_4_reflects_less_than_the_scalar_model_says():
+def test_layers_on_others_differ_from_the_scalar_model_as_their_loops_do():
     found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
     np.testing.assert_allclose(
         100.0 * found.difference, [-1.785, -2.498, -2.900, -3.167], rtol=0, atol=5e-4
     )
     assert found.exact[3] == pytest.approx(0.16024, abs=5e-6)
     assert found.scalar[3] == pytest.approx(0.16548, abs=5e-6)
-
-
-def test_a_sample_with_smooth_interfaces_is_such_a_stack():
     sample = op.Sample([(1.5, 0.1), (2.4, 0.1)])
     found = op.polarization(op.Source() >> sample.smooth("56 deg") >> op.Detector())
     assert found.difference == pytest.approx(-0.02498, abs=5e-6)
+    n, k, metal = 1.5, 1e-7, 0.2 + 3.4j
+    # The way is slanted; that the wave is not quite homogeneous matters no more than k does.
+    length = TINTED["lengths"][0] / np.sqrt(1.0 - (np.sin(ANGLES) / n) ** 2)
+    medium = op.Medium(length, absorption=4.0 * np.pi * k / TINTED["wavelength"])
+    by_stack = op.polarization(stack([1.0, n + k * 1j, metal], ANGLES, **TINTED))
+    by_hand = op.polarization(layer_by_hand(n, metal, ANGLES, medium=medium))
+    np.testing.assert_allclose(by_hand.scalar, by_stack.scalar, rtol=1e-6)
+    np.testing.assert_allclose(by_hand.difference, by_stack.difference, rtol=1e-5)
 
 
 @settings(max_examples=15)
@@ -118,17 +123,6 @@ def test_a_stack_and_the_same_boundaries_in_a_loop_agree_to_the_last_digits(port
             np.testing.assert_allclose(found, expected, rtol=1e-14, atol=4e-16)
 
 
-def test_a_tinted_layer_on_a_metal_agrees_with_its_loop():
-    n, k, metal = 1.5, 1e-7, 0.2 + 3.4j
-    # The way is slanted; that the wave is not quite homogeneous matters no more than k does.
-    length = TINTED["lengths"][0] / np.sqrt(1.0 - (np.sin(ANGLES) / n) ** 2)
-    medium = op.Medium(length, absorption=4.0 * np.pi * k / TINTED["wavelength"])
-    by_stack = op.polarization(stack([1.0, n + k * 1j, metal], ANGLES, **TINTED))
-    by_hand = op.polarization(layer_by_hand(n, metal, ANGLES, medium=medium))
-    np.testing.assert_allclose(by_hand.scalar, by_stack.scalar, rtol=1e-6)
-    np.testing.assert_allclose(by_hand.difference, by_stack.difference, rtol=1e-5)
-
-
 def ring(elements, kept=0.7):
     """Light let into a ring by a beam splitter, which lets some of it out each time."""
     row = {f"e{number}": element for number, element in enumerate(elements)}
@@ -141,7 +135,7 @@ def ring(elements, kept=0.7):
     )
 
 
-def test_the_sum_over_all_rounds_of_a_ring_is_that_of_means_one_by_one():
+def test_sums_over_all_rounds_are_those_of_means_and_nothing_gets_lost():
     matrix = np.diag([0.8, 0.5, 0.4, 0.3])
     matrix[0, 1:], matrix[1:, 0] = [0.1, -0.1, 0.05], [0.2, 0.05, -0.1]
     elements = [op.Polarizer(0.3), op.Retarder(1.0, 0.2), op.MuellerElement(matrix)]
@@ -153,9 +147,6 @@ def test_the_sum_over_all_rounds_of_a_ring_is_that_of_means_one_by_one():
     assert found.scalar == pytest.approx(out, rel=1e-14)
     assert found.exact == path.trace().intensity
     assert found.certificate is None
-
-
-def test_a_stack_in_a_loop_is_taken_by_its_boundaries():
     bottom = op.Interface(2.4, op.FOLLOWS, outside=op.FOLLOWS)
     ends = {"lamp": op.Source(), "top": op.LayerStack([1.0, 1.5, 1.8], 0.9), "bottom": bottom}
     links = "lamp -> top, top.transmitted -> bottom, bottom.reflected -> top.back, top -> eye"
@@ -165,9 +156,6 @@ def test_a_stack_in_a_loop_is_taken_by_its_boundaries():
     assert found.scalar == pytest.approx(whole.scalar, rel=1e-14)
     assert found.difference == pytest.approx(whole.difference, rel=1e-12)
     assert set(found.elements) == {"top", "bottom"}
-
-
-def test_no_light_of_the_scalar_model_gets_lost_in_networks():
     for network in networks(5, first=3, size=(2, 6)):
         ends = network.path.compose().whole.readings
         found = sum(op.polarization(network.path, end).scalar for end in ends)
@@ -189,13 +177,6 @@ def test_at_normal_incidence_unpolarised_light_is_what_the_scalar_model_says(med
     assert by_hand.difference == pytest.approx(0.0, abs=1e-13)
 
 
-def test_behind_total_reflection_nothing_differs():
-    found = op.polarization(stack([1.5, 1.0, 1.5], [0.8, 1.2]))
-    np.testing.assert_allclose(found.difference, 0.0, rtol=0, atol=1e-15)
-    through = op.polarization(stack([1.5, 1.0, 1.5], 0.8, "transmitted"))
-    assert through.scalar == through.exact == through.difference == 0.0
-
-
 @settings(max_examples=20)
 @given(
     media=st.lists(INDICES, min_size=2, max_size=4),
@@ -211,24 +192,6 @@ def test_what_is_exact_keeps_within_bounds_of_a_stack_among_others(media, incide
     assert found.certificate.scalar is found.scalar
     assert found.certificate.lower * found.scalar <= found.exact
     assert found.exact <= found.certificate.upper * found.scalar
-
-
-def test_of_a_stack_alone_bounds_leave_nothing_open_and_its_share_is_that_of_all_its_boundaries():
-    found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
-    for bound in (found.certificate.lower, found.certificate.upper):
-        np.testing.assert_allclose(bound - 1.0, found.difference, rtol=0, atol=1e-12)
-    assert found.culprits == ("layers",)
-    np.testing.assert_array_equal(found.elements["layers"], found.difference)
-
-
-def test_the_share_of_a_boundary_in_a_loop_is_what_its_mean_alone_would_change():
-    found = op.polarization(layer_by_hand(1.5, 2.4, 1.0))
-    y, exact, without = np.sin(1.0), [], []
-    for top, bottom in zip(fresnel(1.0, 1.5, y), fresnel(1.5, 2.4, y), strict=True):
-        for where, first in ((exact, top), (without, mean(1.0, 1.5, y))):
-            where.append(first + (1.0 - first) ** 2 * bottom / (1.0 - first * bottom))
-    share = (sum(exact) - sum(without)) / 2.0 / found.scalar
-    assert found.elements["top"] == pytest.approx(share, rel=1e-12)
 
 
 @rows("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
@@ -277,12 +240,9 @@ def test_the_command_says_that_loops_have_no_bounds(capsys):
     assert found["difference"] == pytest.approx(exact * (1 + R) / (1 - R) - 1, rel=1e-9)
 
 
-def test_explanations_say_that_their_scalar_model_takes_a_stack_as_a_whole():
+def test_a_stack_is_taken_as_a_whole_and_a_detector_by_its_name():
     text = str(stack([1.0, 1.5, 2.4], 0.9).compose().explain())
     assert "S0 is 1 .. 1 of the scalar model's, which takes a stack as a whole" in text
-
-
-def test_a_tolerance_holds_for_a_stack_before_another_boundary():
     layers, angle = op.LayerStack([1.0, 1.5, 2.4], op.Parameter("a")), np.linspace(0.0, 1.5, 9)
     glass = op.Interface(1.5, op.Parameter("a"))
     path = op.Source() >> layers >> glass >> op.Detector(reads="intensity")
@@ -290,44 +250,6 @@ def test_a_tolerance_holds_for_a_stack_before_another_boundary():
     found, exact = plan.run(a=angle).intensity, path.trace(a=angle).intensity
     np.testing.assert_allclose(found, exact, rtol=0.03)
     assert np.max(np.abs(found / exact - 1.0)) > 0.01  # The scalar model has been run for some.
-
-
-def test_two_reflections_of_one_material_crossed_lose_the_square_of_the_diattenuation():
-    angle = np.linspace(0.0, 1.5, 7)
-    panes = op.load_preset("npgr026", n1=1.5, n2=1.5, rho=np.pi / 2)
-    found = op.polarization(panes, delta=angle, phi=angle)
-    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(angle), np.sin(angle))
-    np.testing.assert_allclose(found.scalar, 100.0 * A * A, rtol=1e-13)
-    np.testing.assert_allclose(found.difference, -((B / A) ** 2), rtol=0, atol=1e-13)
-    # Without one of the two nothing is lost.
-    for share in (found.elements["X1"], found.elements["X2"]):
-        np.testing.assert_allclose(share, -((B / A) ** 2), rtol=0, atol=1e-13)
-
-
-def test_the_element_that_brings_the_difference_in_is_named():
-    elements = [op.Interface(0.05 + 3.9j, 0.5), op.Retarder(1.0, 0.3), op.Polarizer(0.7)]
-    found = op.polarization(chain(elements, [1.0, 0.0, 0.9, 0.0]))
-    assert found.culprits == ("e2",)
-    assert set(found.elements) == {"e0", "e1", "e2"}
-    assert found.elements["e1"] == 0.0
-
-
-def test_where_nothing_polarises_there_is_no_difference_and_no_culprit():
-    found = op.polarization(chain([op.Rotator(0.3), op.Attenuator(0.5)], [1.0, 0.5, 0.0, 0.2]))
-    assert found.difference == 0.0
-    assert found.culprits == ()
-    assert found.certificate.error >= 0.0
-
-
-def test_dark_scenes_differ_in_nothing_or_in_all():
-    crossed = op.polarization(op.load_preset("two-panes"))
-    assert crossed.exact == pytest.approx(0.0, abs=1e-15)
-    assert crossed.difference == pytest.approx(-1.0)
-    dark = op.polarization(chain([op.Attenuator(0.0), op.Polarizer(0.1), op.Polarizer(1.0)]))
-    assert dark.scalar == dark.difference == 0.0
-
-
-def test_the_detector_is_named_where_there_are_several():
     ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25)}
     path = wired(
         {**ends, "a": op.Detector(), "b": op.Detector()},
@@ -341,3 +263,45 @@ def test_the_detector_is_named_where_there_are_several():
     ):
         with pytest.raises(op.ParameterError, match=told):
             op.polarization(*asked)
+
+
+def test_the_elements_that_bring_the_difference_in_are_named_with_their_shares():
+    elements = [op.Interface(0.05 + 3.9j, 0.5), op.Retarder(1.0, 0.3), op.Polarizer(0.7)]
+    found = op.polarization(chain(elements, [1.0, 0.0, 0.9, 0.0]))
+    assert found.culprits == ("e2",)
+    assert set(found.elements) == {"e0", "e1", "e2"}
+    assert found.elements["e1"] == 0.0
+    found = op.polarization(chain([op.Rotator(0.3), op.Attenuator(0.5)], [1.0, 0.5, 0.0, 0.2]))
+    assert found.difference == 0.0
+    assert found.culprits == ()
+    assert found.certificate.error >= 0.0
+    crossed = op.polarization(op.load_preset("two-panes"))
+    assert crossed.exact == pytest.approx(0.0, abs=1e-15)
+    assert crossed.difference == pytest.approx(-1.0)
+    dark = op.polarization(chain([op.Attenuator(0.0), op.Polarizer(0.1), op.Polarizer(1.0)]))
+    assert dark.scalar == dark.difference == 0.0
+    found = op.polarization(stack([1.5, 1.0, 1.5], [0.8, 1.2]))
+    np.testing.assert_allclose(found.difference, 0.0, rtol=0, atol=1e-15)
+    through = op.polarization(stack([1.5, 1.0, 1.5], 0.8, "transmitted"))
+    assert through.scalar == through.exact == through.difference == 0.0
+    angle = np.linspace(0.0, 1.5, 7)
+    panes = op.load_preset("npgr026", n1=1.5, n2=1.5, rho=np.pi / 2)
+    found = op.polarization(panes, delta=angle, phi=angle)
+    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(angle), np.sin(angle))
+    np.testing.assert_allclose(found.scalar, 100.0 * A * A, rtol=1e-13)
+    np.testing.assert_allclose(found.difference, -((B / A) ** 2), rtol=0, atol=1e-13)
+    # Without one of the two nothing is lost.
+    for share in (found.elements["X1"], found.elements["X2"]):
+        np.testing.assert_allclose(share, -((B / A) ** 2), rtol=0, atol=1e-13)
+    found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
+    for bound in (found.certificate.lower, found.certificate.upper):
+        np.testing.assert_allclose(bound - 1.0, found.difference, rtol=0, atol=1e-12)
+    assert found.culprits == ("layers",)
+    np.testing.assert_array_equal(found.elements["layers"], found.difference)
+    found = op.polarization(layer_by_hand(1.5, 2.4, 1.0))
+    y, exact, without = np.sin(1.0), [], []
+    for top, bottom in zip(fresnel(1.0, 1.5, y), fresnel(1.5, 2.4, y), strict=True):
+        for where, first in ((exact, top), (without, mean(1.0, 1.5, y))):
+            where.append(first + (1.0 - first) ** 2 * bottom / (1.0 - first * bottom))
+    share = (sum(exact) - sum(without)) / 2.0 / found.scalar
+    assert found.elements["top"] == pytest.approx(share, rel=1e-12)

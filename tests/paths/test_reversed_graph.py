@@ -90,7 +90,7 @@ def test_with_a_faraday_rotator_the_theorem_does_not_hold(rotator):
     assert path.reversed().trace().intensity < 1e-30
 
 
-def test_azimuths_of_elements_and_links_stand_at_their_links():
+def test_faces_and_azimuths_stand_on_the_way_back_as_they_did():
     plate, foil = op.Retarder(1.0, 0.2, azimuth=0.3), op.Polarizer(0.5, leakage=0.1)
     ends = {"lamp": op.Source(), "plate": plate, "foil": foil}
     ends |= {"pane": op.Interface(1.5, 0.7, azimuth=-0.6), "eye": op.Detector()}
@@ -104,37 +104,15 @@ def test_azimuths_of_elements_and_links_stand_at_their_links():
         ("plate", "lamp"): 0.3,
     }
     assert same_matrix(path)
-
-
-def test_a_path_with_turns_at_its_links_is_the_same_back_and_forth():
-    drawn = ReciprocalPath(3)
-    once = drawn.path().reversed().reversed()
-    assert once.reversed().reversed() == once
-    path = op.Source(stokes=(1, 1, 0, 0)) >> op.Retarder(op.Parameter("r"), 0.3) >> op.Detector()
-    assert path.reversed().reversed(path.element("source")) == path
-    # One element in two places is reversed once.
-    plate = op.Retarder(1.0, 0.3)
-    back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
-    assert back.element("retarder") is back.element("retarder-2")
-
-
-def test_light_of_many_faces_goes_back_by_the_same_ways():
-    assert same_matrix(op.load_preset("fresnel-rhomb"))
-    for preset in ("glass-slab", "pile-of-plates"):
-        path = op.load_preset(preset)
-        back = path.reversed()
-        (lamp,) = (name for name in path if not path.element(name).inputs)
-        for name in (name for name in path if not path.element(name).outputs):
-            there, found = path.mueller(lamp, name).reversed(), back.mueller(name, lamp)
-            np.testing.assert_allclose(found.matrix, there.matrix, atol=1e-15)
-
-
-def two_faces(front, rear):
-    ends = {"lamp": op.Source(), "front": front, "rear": rear, "eye": op.Detector()}
-    return wired(ends, "lamp -> front, front.transmitted -> rear, rear.transmitted -> eye")
-
-
-def test_faces_at_an_angle_stay_at_an_angle_and_what_one_takes_over_it_has_on_the_way_back():
+    there = op.plane_of_incidence((0, 0, 1), (0, 1, -1))
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(), {"out": there.arriving.turned(0.3)})
+    frames = {"in": there.arriving, "reflected": there.reflected}
+    pane = path.add("pane", op.Interface(0.2 + 3j, there.incidence), frames)
+    lamp >> pane >> path.add("eye", op.Detector())
+    assert same_matrix(path, atol=1e-15)
+    there, back = path.mueller().reversed(), path.reversed().mueller()
+    assert (back.frame_in, back.frame_out) == (there.frame_in, there.frame_out)
     path = two_faces(op.Interface(1.5, 0.7), op.Interface(1.0, 0.4, outside=1.5, parallel=False))
     back = path.reversed()
     assert [back.element(name).parallel for name in ("front", "rear")] == [False, True]
@@ -147,26 +125,54 @@ def test_faces_at_an_angle_stay_at_an_angle_and_what_one_takes_over_it_has_on_th
     assert same_matrix(path, n=np.array([1.3, 1.7]))
 
 
-def test_frames_in_the_world_are_those_of_light_that_goes_back():
-    there = op.plane_of_incidence((0, 0, 1), (0, 1, -1))
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(), {"out": there.arriving.turned(0.3)})
-    frames = {"in": there.arriving, "reflected": there.reflected}
-    pane = path.add("pane", op.Interface(0.2 + 3j, there.incidence), frames)
-    lamp >> pane >> path.add("eye", op.Detector())
-    assert same_matrix(path, atol=1e-15)
-    there, back = path.mueller().reversed(), path.reversed().mueller()
-    assert (back.frame_in, back.frame_out) == (there.frame_in, there.frame_out)
+def test_a_path_back_and_forth_is_the_same_in_every_place_of_a_node():
+    drawn = ReciprocalPath(3)
+    once = drawn.path().reversed().reversed()
+    assert once.reversed().reversed() == once
+    path = op.Source(stokes=(1, 1, 0, 0)) >> op.Retarder(op.Parameter("r"), 0.3) >> op.Detector()
+    assert path.reversed().reversed(path.element("source")) == path
+    # One element in two places is reversed once.
+    plate = op.Retarder(1.0, 0.3)
+    back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
+    assert back.element("retarder") is back.element("retarder-2")
+    assert same_matrix(op.load_preset("fresnel-rhomb"))
+    for preset in ("glass-slab", "pile-of-plates"):
+        path = op.load_preset(preset)
+        back = path.reversed()
+        (lamp,) = (name for name in path if not path.element(name).inputs)
+        for name in (name for name in path if not path.element(name).outputs):
+            there, found = path.mueller(lamp, name).reversed(), back.mueller(name, lamp)
+            np.testing.assert_allclose(found.matrix, there.matrix, atol=1e-15)
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.3, azimuth=0.2)}
+    ends |= {"plate": op.Retarder(1.0, 0.3, azimuth=0.4), "foil": op.Diattenuator(0.9, 0.4, 0.7)}
+    links = "lamp -> split, split.transmitted -> plate, plate -> foil, split.reflected -> eye"
+    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
+    path.connect("foil", "split.back", azimuth=0.5)
+    assert path.reversed().loops == "sum"
+    assert same_matrix(path)
+    for place in ("lamp", "between", "eye"):
+        chosen = placed().bind(place=place).mueller().reversed()
+        found = placed().reversed().bind(place=place).mueller()
+        np.testing.assert_allclose(found.matrix, chosen.matrix, atol=1e-15)
+    path = placed(azimuth=0.4)
+    path.cases["one"] = op.Case({"place": "eye"})
+    back = path.reversed()
+    assert not back.choices
+    assert not back.cases
+    assert same_matrix(path)
+    assert same_matrix(path.bind(place="eye"))
 
 
-def test_a_chain_of_points_is_run_from_its_end_with_its_points_shared():
+def two_faces(front, rear):
+    ends = {"lamp": op.Source(), "front": front, "rear": rear, "eye": op.Detector()}
+    return wired(ends, "lamp -> front, front.transmitted -> rear, rear.transmitted -> eye")
+
+
+def test_chains_of_points_go_back_with_their_points_and_media():
     path = op.path_from_vertices(CORNER, [1.5, 0.2 + 3j])
     assert same_frames(path)
     back = path.reversed()
     assert back.element("vertex1").vertices is back.element("vertex2").vertices
-
-
-def test_media_of_a_chain_that_refracts_go_back_as_they_are():
     several = np.array([1.5, 1.6])
     points = [[0, 0, 0], [0, 0, 2.0], [0.0, 0.0, 4.0], [0.0, 0.0, 5.0], [0.0, 0.0, 7.0]]
     path = op.path_from_vertices(points, [several, 1.3, several], events="TTT")
@@ -216,17 +222,7 @@ def test_a_reversed_path_is_written_and_read_back(preset, backwards, tmp_path):
     assert ("backwards = true" in back.to_toml()) == backwards
 
 
-def test_a_loop_is_run_the_other_way():
-    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.3, azimuth=0.2)}
-    ends |= {"plate": op.Retarder(1.0, 0.3, azimuth=0.4), "foil": op.Diattenuator(0.9, 0.4, 0.7)}
-    links = "lamp -> split, split.transmitted -> plate, plate -> foil, split.reflected -> eye"
-    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
-    path.connect("foil", "split.back", azimuth=0.5)
-    assert path.reversed().loops == "sum"
-    assert same_matrix(path)
-
-
-def test_light_begins_at_the_detectors_as_it_is_told():
+def test_light_begins_at_the_detectors_and_parameters_cases_and_words_stay():
     ends = {"eye": op.Detector("intensity"), "wall": op.Dump()}
     path = wired(
         {"lamp": op.Source(7.0), "split": op.BeamSplitter(0.3), **ends},
@@ -238,9 +234,6 @@ def test_light_begins_at_the_detectors_as_it_is_told():
     assert both.trace().intensity == pytest.approx(13.0)
     assert path.reversed().reversed().element("wall") == op.Dump()
     assert both.element("lamp") == op.Detector()
-
-
-def test_parameters_defaults_cases_and_the_description_stay():
     path = op.load_preset("npgr026")
     back = path.reversed()
     assert {**path.parameters, "intensity": None} == {**back.parameters, "intensity": None}
@@ -249,6 +242,14 @@ def test_parameters_defaults_cases_and_the_description_stay():
     assert "intensity" not in back.parameters
     assert not back.cases["8"].published
     assert same_matrix(path, atol=1e-16, delta=0.4, rho=0.3, filter=0.2)
+    back = (op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()).reversed()
+    for angles in ("diagonal", ["diagonal", "vertical"]):
+        degrees = {"diagonal": 45.0, "vertical": 90.0}
+        numbers = np.radians(np.vectorize(degrees.get)(angles))
+        wanted = np.asarray(back.trace(a=numbers).stokes)
+        np.testing.assert_array_equal(back.trace(a=angles).stokes, wanted)
+        np.testing.assert_array_equal(back.bind(a=angles).trace().stokes, wanted)
+    np.testing.assert_allclose(back.trace(a="diagonal").S2, -0.5, rtol=1e-15)
 
 
 def placed(*, azimuth=0.0):
@@ -257,20 +258,6 @@ def placed(*, azimuth=0.0):
     behind = {"lamp": "source.out", "between": "retarder.out", "eye": "mirror.reflected"}
     path.offer("place", "polarizer", behind)
     return path
-
-
-def test_a_choice_of_places_stays_where_nothing_is_turned_and_is_chosen_where_one_is():
-    for place in ("lamp", "between", "eye"):
-        chosen = placed().bind(place=place).mueller().reversed()
-        found = placed().reversed().bind(place=place).mueller()
-        np.testing.assert_allclose(found.matrix, chosen.matrix, atol=1e-15)
-    path = placed(azimuth=0.4)
-    path.cases["one"] = op.Case({"place": "eye"})
-    back = path.reversed()
-    assert not back.choices
-    assert not back.cases
-    assert same_matrix(path)
-    assert same_matrix(path.bind(place="eye"))
 
 
 class Unsaid(op.Element):
@@ -288,7 +275,7 @@ class Fork(op.Element):
         return tuple(op.Coupling("in", way, half) for way in self.outputs)
 
 
-def test_all_that_has_no_way_back_is_told_at_once():
+def test_what_cannot_go_back_is_told_at_once_with_cures_that_do():
     ends = {"lamp": op.Source(), "mine": Unsaid(), "fork": Fork(), "both": op.Combiner()}
     path = wired(
         {**ends, "eye": op.Detector(), "second": op.Source(), "tap": op.Detector()},
@@ -309,6 +296,24 @@ def test_all_that_has_no_way_back_is_told_at_once():
         "'fork': element class Fork does not say by which port light goes back; give it a class",
     ):
         assert any(sentence in fault for fault in told), sentence
+    path = op.Source() >> op.Polarizer() >> op.Detector()
+    ends = {"plate": op.Retarder(1.0), "cube": op.BeamSplitter()}
+    ends |= {name: op.Detector() for name in ("one", "other", "within")}
+    for name, element in ends.items():
+        path.add(name, element)
+    path.connect("polarizer", "plate", tap=True)
+    path.connect("plate", "cube")
+    path.connect("cube.transmitted", "one")
+    path.connect("cube.reflected", "other")
+    path.connect("plate", "within", tap=True)
+    path.trace_all()
+    with pytest.raises(op.PathError) as caught:
+        path.reversed()
+    (fault,) = caught.value.faults
+    for cure in fault.partition("take it out, ")[2].split(" and "):
+        eval(cure, {"path": path})  # noqa: S307
+    assert [*path] == ["source", "polarizer", "detector"]
+    assert same_matrix(path)
 
 
 class Raising(Fork):
@@ -386,35 +391,3 @@ def test_the_cures_of_a_preset_with_a_tap_leave_a_path_that_runs_both_ways(prese
         eval(cure, {"path": path, "op": op})  # noqa: S307
     path.trace()
     path.reversed().trace()
-
-
-def test_a_tap_is_taken_out_with_all_that_it_alone_feeds():
-    path = op.Source() >> op.Polarizer() >> op.Detector()
-    ends = {"plate": op.Retarder(1.0), "cube": op.BeamSplitter()}
-    ends |= {name: op.Detector() for name in ("one", "other", "within")}
-    for name, element in ends.items():
-        path.add(name, element)
-    path.connect("polarizer", "plate", tap=True)
-    path.connect("plate", "cube")
-    path.connect("cube.transmitted", "one")
-    path.connect("cube.reflected", "other")
-    path.connect("plate", "within", tap=True)
-    path.trace_all()
-    with pytest.raises(op.PathError) as caught:
-        path.reversed()
-    (fault,) = caught.value.faults
-    for cure in fault.partition("take it out, ")[2].split(" and "):
-        eval(cure, {"path": path})  # noqa: S307
-    assert [*path] == ["source", "polarizer", "detector"]
-    assert same_matrix(path)
-
-
-def test_axes_keep_their_words_on_the_way_back():
-    back = (op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()).reversed()
-    for angles in ("diagonal", ["diagonal", "vertical"]):
-        degrees = {"diagonal": 45.0, "vertical": 90.0}
-        numbers = np.radians(np.vectorize(degrees.get)(angles))
-        wanted = np.asarray(back.trace(a=numbers).stokes)
-        np.testing.assert_array_equal(back.trace(a=angles).stokes, wanted)
-        np.testing.assert_array_equal(back.bind(a=angles).trace().stokes, wanted)
-    np.testing.assert_allclose(back.trace(a="diagonal").S2, -0.5, rtol=1e-15)

@@ -23,7 +23,7 @@ def stokes(path):
     return path.trace(**{name: AT[name] for name in AT if name in path.parameters}).stokes
 
 
-def test_a_filter_is_inserted_before_the_eye():
+def test_elements_are_inserted_before_the_eye_between_turns_and_at_one_of_several_links():
     path = op.load_preset("npgr026")
     before = path.trace()
     node = path.insert("P2", op.Polarizer(angle=0.3), behind="X1.reflected")
@@ -31,17 +31,23 @@ def test_a_filter_is_inserted_before_the_eye():
     assert repr(path) == "<PathGraph: L >> P >> X2 >> X1 >> P2 >> E>"
     # Malus; the light is along x but for 2e-10 of it, near Brewster's angle.
     assert path.trace().intensity == pytest.approx(before.intensity * np.cos(0.3) ** 2, rel=1e-8)
-
-
-def test_a_filter_is_inserted_between_links_that_turn():
     path = two_reflections()
     path.insert("P2", op.Polarizer(0.4), behind="X2")
     elements = {name: path.element(name) for name in ("L", "P", "X2", "P2", "X1", "E")}
     built = wired(elements, "L -> P, P -> X2, X2 -> P2, P2 -> X1, X1 -> E")
     np.testing.assert_array_equal(stokes(path), stokes(built))
+    path = op.Source() >> op.Detector()
+    path.insert("mirror", op.Mirror(r_s=-0.5, r_p=0.5), behind="source")
+    assert path.trace().intensity == 0.25
+    lamps = {"eye": op.Detector(), "lamp": op.Source(1.0), "other": op.Source(3.0)}
+    path = wired(lamps, "lamp -> eye, other -> eye")
+    with pytest.raises(op.PathError, match=r"'eye\.in' is fed by .*, such as behind='lamp\.out'"):
+        path.insert("grey", op.Attenuator(0.5), before="eye")
+    path.insert("grey", op.Attenuator(0.5), behind="lamp.out", before="eye")
+    assert path.trace().intensity == 3.5
 
 
-def test_the_azimuth_of_a_link_stays_with_what_it_leads_to():
+def test_azimuths_and_taps_stay_with_their_ports_when_something_is_inserted():
     path = op.Source() >> op.Polarizer()
     path.add("analyser", op.Polarizer())
     path.connect("polarizer", "analyser", azimuth=0.4)
@@ -49,9 +55,6 @@ def test_the_azimuth_of_a_link_stays_with_what_it_leads_to():
     whole.insert("grey", op.Attenuator(0.5), behind="polarizer")
     assert whole.graph.edges["grey", "analyser", ("out", "in")]["azimuth"] == 0.4
     assert whole.trace().intensity == pytest.approx(0.25 * np.cos(0.4) ** 2)
-
-
-def test_taps_stay_with_the_port_in_front_of_what_is_inserted_unless_it_stands_in_the_tap():
     whole = op.load_preset("ellipsometer-pcsa").trace_all()
     for where, tap, dimmed in (
         ({"behind": "S"}, "S.reflected -> state.in", "photometer"),
@@ -79,7 +82,7 @@ def placed(*elements):
     return path
 
 
-def test_what_is_inserted_between_world_frames_stands_in_that_of_the_port():
+def test_world_frames_stay_where_an_element_is_inserted_or_replaced():
     path = placed(op.Source(stokes=[1.0, 1.0, 0.0, 0.0]), op.Detector())
     path.insert("P", op.Polarizer(np.pi / 3), behind="source")
     assert path.trace().intensity == pytest.approx(0.25, abs=1e-15)
@@ -89,9 +92,6 @@ def test_what_is_inserted_between_world_frames_stands_in_that_of_the_port():
         with pytest.raises(op.PathError, match="world frame"):
             path.insert("more", element, behind="source")
     assert path.to_toml() == before
-
-
-def test_world_frames_stay_where_an_element_is_replaced_and_with_an_azimuth_are_one_fault():
     path = placed(op.Source(), op.Polarizer(), op.Detector())
     path.replace("polarizer", op.Attenuator(0.25))
     assert path.trace().intensity == 0.25
@@ -109,65 +109,47 @@ def test_an_element_is_inserted_before_a_port_as_behind_the_other_of_the_link(wh
     assert path == other
 
 
-def test_a_port_that_several_links_lead_to_asks_for_the_other_end():
-    lamps = {"eye": op.Detector(), "lamp": op.Source(1.0), "other": op.Source(3.0)}
-    path = wired(lamps, "lamp -> eye, other -> eye")
-    with pytest.raises(op.PathError, match=r"'eye\.in' is fed by .*, such as behind='lamp\.out'"):
-        path.insert("grey", op.Attenuator(0.5), before="eye")
-    path.insert("grey", op.Attenuator(0.5), behind="lamp.out", before="eye")
-    assert path.trace().intensity == 3.5
-
-
-def test_a_mirror_is_inserted_by_its_natural_way():
-    path = op.Source() >> op.Detector()
-    path.insert("mirror", op.Mirror(r_s=-0.5, r_p=0.5), behind="source")
-    assert path.trace().intensity == 0.25
-
-
-def inserting(element=None, name="new", **where):
+def put(element=None, name="new", **where):
     return lambda path: path.insert(name, op.Polarizer() if element is None else element, **where)
 
 
-def replacing(element):
+def swap(element):
     return lambda path: path.replace("X1", element)
 
 
 @rows(
     "change, told",
     [
-        (inserting(op.BeamSplitter(), behind="X2"), "'new' has no one natural way out"),
-        (inserting(op.Detector(), behind="X2"), "'new' has no way out"),
-        (inserting(op.Source(), behind="X2"), "'new' has no way in"),
-        (inserting(behind="X2.transmitted"), r"'X2\.transmitted' feeds no link"),
+        (put(op.BeamSplitter(), behind="X2"), "'new' has no one natural way out"),
+        (put(op.Detector(), behind="X2"), "'new' has no way out"),
+        (put(op.Source(), behind="X2"), "'new' has no way in"),
+        (put(behind="X2.transmitted"), r"'X2\.transmitted' feeds no link"),
         (
-            inserting(name="D", behind="X1.transmitted"),
+            put(name="D", behind="X1.transmitted"),
             r"write path\.add\('D', \.\.\.\) and path\.connect\('X1",
         ),
-        (inserting(behind="X2.in"), "lets light in"),
-        (inserting(behind="E"), "'E' has no way out"),
-        (inserting(behind="X3"), "node .X3. does not exist"),
-        (inserting("red", behind="X2"), "must be an element such as"),
-        (inserting(), r"is told no link; give it behind='node\.port'"),
-        (
-            inserting(before="X1.back"),
-            r"write path\.add\('new', \.\.\.\) and path\.connect\('new', 'X",
-        ),
-        (inserting(behind="X2", before="E"), r"no link 'X2\.reflected -> E\.in'; did you mean 'X1"),
-        (inserting(name="X1", behind="X2"), "choose another"),
-        (inserting(name="a.b", behind="X2"), "choose another"),
+        (put(behind="X2.in"), "lets light in"),
+        (put(behind="E"), "'E' has no way out"),
+        (put(behind="X3"), "node .X3. does not exist"),
+        (put("red", behind="X2"), "must be an element such as"),
+        (put(), r"is told no link; give it behind='node\.port'"),
+        (put(before="X1.back"), r"write path\.add\('new', \.\.\.\) and path\.connect\('new', 'X"),
+        (put(behind="X2", before="E"), r"no link 'X2\.reflected -> E\.in'; did you mean 'X1"),
+        (put(name="X1", behind="X2"), "choose another"),
+        (put(name="a.b", behind="X2"), "choose another"),
         (
             lambda path: path.remove("X1"),
             r"not go straight .* 'X2\.reflected -> X1\.in' and 'X1\.reflected -> E",
         ),
         (lambda path: path.remove("X3"), "node 'X3' does not exist"),
         (
-            replacing(op.Interface(op.Material(0.17, 3.15), 0.3)),
+            swap(op.Interface(op.Material(0.17, 3.15), 0.3)),
             r"'X1' is turned by its azimuth -rho, .* 0\.0 for none",
         ),
-        (replacing(op.Polarizer()), r"no 'X1\.reflected', .* it has 'X1\.in' and 'X1\.out'"),
-        (replacing(op.Detector()), r"no 'X1\.reflected', .* it has 'X1\.in'"),
-        (replacing(op.Source()), r"no 'X1\.in' and 'X1\.reflected', .* it has 'X1\.out'"),
-        (replacing(1.5), "must be an element such as"),
+        (swap(op.Polarizer()), r"no 'X1\.reflected', .* it has 'X1\.in' and 'X1\.out'"),
+        (swap(op.Detector()), r"no 'X1\.reflected', .* it has 'X1\.in'"),
+        (swap(op.Source()), r"no 'X1\.in' and 'X1\.reflected', .* it has 'X1\.out'"),
+        (swap(1.5), "must be an element such as"),
         (
             lambda path: path.disconnect("X2", "E"),
             r"no link 'X2\.reflected -> E\.in'; did you mean",
@@ -189,7 +171,7 @@ def test_a_change_that_cannot_be_is_told_and_leaves_the_path_as_it_was(change, t
             r"several links meet at 'front', .*'up\.out -> front\.back'",
         ),
         ("npgr026-3d", lambda path: path.remove("X2"), "not go straight through 'X2'"),
-        ("npgr026-3d", inserting(behind="X2"), "stands relatively between the vertices"),
+        ("npgr026-3d", put(behind="X2"), "stands relatively between the vertices"),
     ],
 )
 def test_gaps_that_do_not_close_by_themselves_and_points_in_space_are_told(preset, change, told):
@@ -199,7 +181,7 @@ def test_gaps_that_do_not_close_by_themselves_and_points_in_space_are_told(prese
     assert path == op.load_preset(preset)
 
 
-def test_what_is_removed_leaves_no_gap():
+def test_what_is_removed_leaves_no_gap_unless_something_is_in_the_way():
     path = op.Source() >> op.Polarizer() >> op.Polarizer(0.5).named("between") >> op.Detector()
     path.remove("between")
     assert repr(path) == "<PathGraph: source >> polarizer >> detector>"
@@ -208,6 +190,35 @@ def test_what_is_removed_leaves_no_gap():
     space.insert("grey", op.Attenuator(0.5), behind="P")
     space.remove("grey")
     assert space == op.load_preset("npgr026-3d", case=7)
+    lamp = op.Source(stokes=[1.0, 1.0, 0.0, 0.0])
+    path = wired({"lamp": lamp, "grey": op.Rotator(0)}, "")
+    path.add("filter", op.Polarizer()) >> path.add("eye", op.Detector())
+    path.connect("lamp", "grey", azimuth=0.25)
+    path.connect("grey", "filter", azimuth=0.5)
+    path.remove("grey")
+    assert path.trace().intensity == pytest.approx(np.cos(0.75) ** 2)
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "eye": op.Detector()}
+    path = wired(ends, "lamp -> split, split.transmitted -> eye")
+    path.remove("split")
+    assert path.trace().intensity == 1.0
+    slab = op.load_preset("glass-slab")
+    slab.remove("reflected")
+    assert "front.reflected" in slab.compose().outlets
+    path = two_reflections()
+    path.add("state", op.Detector())
+    path.connect("P", "state", tap=True)
+    with pytest.raises(op.PathError, match=r"'P\.out -> state\.in'"):
+        path.remove("P")
+    path = two_reflections()
+    path.add("P2", op.Polarizer()) >> path.add("state", op.Detector())
+    path.connect("X2", "P2", tap=True)
+    path.remove("P2")
+    assert path.compose().taps == ("X2.reflected -> state.in",)
+    ends = {"lamp": op.Source(), "grey": op.Attenuator(0.5), "eye": op.Detector()}
+    path = wired(ends, "lamp -> grey, grey -> eye")
+    path.connect("lamp", "eye", tap=True)
+    with pytest.raises(op.PathError, match=r"two links 'lamp\.out -> eye\.in'"):
+        path.remove("grey")
 
 
 @rows("turned", [{"angle": 0.3}, {"azimuth": 0.3}])
@@ -220,48 +231,7 @@ def test_what_was_inserted_turned_nothing_and_can_be_removed(turned):
     assert path == two_reflections()
 
 
-def test_azimuths_of_two_links_add_up():
-    lamp = op.Source(stokes=[1.0, 1.0, 0.0, 0.0])
-    path = wired({"lamp": lamp, "grey": op.Rotator(0)}, "")
-    path.add("filter", op.Polarizer()) >> path.add("eye", op.Detector())
-    path.connect("lamp", "grey", azimuth=0.25)
-    path.connect("grey", "filter", azimuth=0.5)
-    path.remove("grey")
-    assert path.trace().intensity == pytest.approx(np.cos(0.75) ** 2)
-
-
-def test_a_splitter_is_removed_along_the_light_it_lets_through_and_an_end_with_its_links():
-    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "eye": op.Detector()}
-    path = wired(ends, "lamp -> split, split.transmitted -> eye")
-    path.remove("split")
-    assert path.trace().intensity == 1.0
-    slab = op.load_preset("glass-slab")
-    slab.remove("reflected")
-    assert "front.reflected" in slab.compose().outlets
-
-
-def test_a_tap_is_in_the_way_of_removing_what_it_reads_but_not_what_stands_in_it():
-    path = two_reflections()
-    path.add("state", op.Detector())
-    path.connect("P", "state", tap=True)
-    with pytest.raises(op.PathError, match=r"'P\.out -> state\.in'"):
-        path.remove("P")
-    path = two_reflections()
-    path.add("P2", op.Polarizer()) >> path.add("state", op.Detector())
-    path.connect("X2", "P2", tap=True)
-    path.remove("P2")
-    assert path.compose().taps == ("X2.reflected -> state.in",)
-
-
-def test_a_gap_is_not_closed_by_a_link_that_is_there():
-    ends = {"lamp": op.Source(), "grey": op.Attenuator(0.5), "eye": op.Detector()}
-    path = wired(ends, "lamp -> grey, grey -> eye")
-    path.connect("lamp", "eye", tap=True)
-    with pytest.raises(op.PathError, match=r"two links 'lamp\.out -> eye\.in'"):
-        path.remove("grey")
-
-
-def test_an_element_is_replaced_in_its_place():
+def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
     path = two_reflections()
     mirror = op.Mirror(azimuth=path.element("X1").azimuth)
     assert repr(path.replace("X1", mirror)) == "Node 'X1'"
@@ -270,9 +240,6 @@ def test_an_element_is_replaced_in_its_place():
     lights = path.trace(keep="all")
     expected = lights["X2.reflected -> X1.in"].intensity
     assert lights["E"].intensity == pytest.approx(expected, rel=1e-14)
-
-
-def test_both_cures_for_a_replacement_without_the_azimuth_of_the_old_element_do():
     path, gold = two_reflections(), op.Material(0.17, 3.15)
     delta, azimuth = path.element("X1").incidence, path.element("X1").azimuth
     path.replace("X1", op.Interface(gold, delta, azimuth=azimuth))
@@ -282,9 +249,6 @@ def test_both_cures_for_a_replacement_without_the_azimuth_of_the_old_element_do(
     unturned.connect("X2.reflected", "X1.in", azimuth=0.0)
     unturned.replace("X1", op.Interface(gold, delta))
     np.testing.assert_array_equal(stokes(unturned), path.trace(rho=0.0).stokes)
-
-
-def test_the_cure_for_a_lost_azimuth_names_the_link_that_it_turned():
     path, azimuth = op.load_preset("glass-slab"), 0.3
     path.disconnect("lamp")
     path.connect("lamp", "front")  # Behind the one to front.back.
@@ -294,7 +258,7 @@ def test_the_cure_for_a_lost_azimuth_names_the_link_that_it_turned():
         path.replace("front", front)
 
 
-def test_a_second_link_of_a_port_is_mended_by_the_call_that_the_sentence_names():
+def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
     path = op.load_preset("npgr026")
     path.add("P2", op.Polarizer(0.3))
     path.connect("X1.reflected", "P2.in")
@@ -310,9 +274,6 @@ def test_a_second_link_of_a_port_is_mended_by_the_call_that_the_sentence_names()
     other = op.load_preset("npgr026")
     other.insert("P2", op.Polarizer(0.3), behind="X1")
     assert path == other
-
-
-def test_a_link_is_taken_out_and_another_put_in_in_any_order():
     path, other = op.load_preset("npgr026"), op.load_preset("npgr026")
     path.add("P2", op.Polarizer(0.3))
     # A path is judged when it is whole.
@@ -321,9 +282,6 @@ def test_a_link_is_taken_out_and_another_put_in_in_any_order():
     path.connect("P2", "E")
     other.insert("P2", op.Polarizer(0.3), behind="X1")
     assert path == other
-
-
-def test_the_one_link_of_a_port_is_taken_out_by_the_port_alone():
     path, other = two_reflections(), two_reflections()
     path.disconnect("X1.reflected")
     other.disconnect("X1.reflected", "E.in")
@@ -334,9 +292,6 @@ def test_the_one_link_of_a_port_is_taken_out_by_the_port_alone():
         path.disconnect("X1", "E")
     with pytest.raises(op.PathError, match="reaches no detector"):
         path.trace()
-
-
-def test_a_port_that_feeds_several_links_is_asked_which_is_taken_out():
     path = op.load_preset("ellipsometer-pcsa")
     with pytest.raises(op.PathError) as told:
         path.disconnect("S")
@@ -393,36 +348,6 @@ def test_what_replaces_an_inserted_element_turns_nothing_behind_it(behind, first
     np.testing.assert_allclose(stokes(path), stokes(two_reflections(7)), rtol=1e-13, atol=1e-13)
 
 
-def test_turns_of_what_was_inserted_are_written_and_read_back(tmp_path):
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=2 * A + 0.1), behind="P")
-    again = read_back(path, tmp_path)
-    again.replace("new", op.Polarizer(0.2, azimuth=-A))
-    np.testing.assert_allclose(stokes(again), by_angle(-0.37, "P"), rtol=1e-13, atol=1e-13)
-
-
-def test_an_azimuth_that_a_link_says_instead_is_none_of_what_stands_behind():
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=0.3), behind="P")
-    path.disconnect("P.out", "new.in")
-    path.connect("P.out", "new.in", azimuth=0.0)
-    path.replace("new", op.Polarizer(0.2))
-    np.testing.assert_allclose(stokes(path), by_angle(0.0, "P"), rtol=1e-14)
-    path.remove("new")
-    assert path == two_reflections(7)
-
-
-def test_what_is_behind_each_link_of_a_replaced_element_stays_as_it_was_turned():
-    path = op.Source() >> op.Polarizer(azimuth=0.3).named("first") >> op.Polarizer()
-    path.add("second", op.Polarizer(0.1)) >> path.add("state", op.Detector())
-    path.connect("first", "second", tap=True)
-    path = path >> op.Detector().named("eye")
-    path.replace("first", op.Polarizer(azimuth=0.5))
-    lights = path.trace_all()
-    assert lights["eye"].intensity == pytest.approx(0.5 * np.cos(0.2) ** 2)
-    assert lights["state"].intensity == pytest.approx(0.5 * np.cos(0.1) ** 2)
-
-
 @rows(
     "own, turn, behind",
     [
@@ -448,7 +373,7 @@ def test_an_element_is_inserted_before_one_that_has_an_azimuth_as_well(own, turn
     np.testing.assert_allclose(stokes(found), expected, rtol=1e-13, atol=1e-13)
 
 
-def test_an_azimuth_goes_over_to_all_links_that_it_turns():
+def test_an_azimuth_goes_over_to_all_links_that_it_turns_and_is_kept_in_files(tmp_path):
     class Merging(op.Element):
         azimuth: op.Angle = 0.0
         merges = True
@@ -462,6 +387,27 @@ def test_an_azimuth_goes_over_to_all_links_that_it_turns():
     path = wired(ends, "sum -> eye, one -> sum, two -> sum")
     path.insert("new", op.Retarder(0.0, azimuth=0.25), behind="one")
     assert path.trace().stokes == pytest.approx([2, 2 * np.cos(0.8), 0, 0])
+    path = two_reflections(7)
+    path.insert("new", op.Polarizer(0.2, azimuth=2 * A + 0.1), behind="P")
+    again = read_back(path, tmp_path)
+    again.replace("new", op.Polarizer(0.2, azimuth=-A))
+    np.testing.assert_allclose(stokes(again), by_angle(-0.37, "P"), rtol=1e-13, atol=1e-13)
+    path = two_reflections(7)
+    path.insert("new", op.Polarizer(0.2, azimuth=0.3), behind="P")
+    path.disconnect("P.out", "new.in")
+    path.connect("P.out", "new.in", azimuth=0.0)
+    path.replace("new", op.Polarizer(0.2))
+    np.testing.assert_allclose(stokes(path), by_angle(0.0, "P"), rtol=1e-14)
+    path.remove("new")
+    assert path == two_reflections(7)
+    path = op.Source() >> op.Polarizer(azimuth=0.3).named("first") >> op.Polarizer()
+    path.add("second", op.Polarizer(0.1)) >> path.add("state", op.Detector())
+    path.connect("first", "second", tap=True)
+    path = path >> op.Detector().named("eye")
+    path.replace("first", op.Polarizer(azimuth=0.5))
+    lights = path.trace_all()
+    assert lights["eye"].intensity == pytest.approx(0.5 * np.cos(0.2) ** 2)
+    assert lights["state"].intensity == pytest.approx(0.5 * np.cos(0.1) ** 2)
 
 
 @rows("removed", [False, True])
@@ -491,17 +437,6 @@ def test_turns_that_make_no_one_azimuth_are_refused_with_a_cure_that_does(remove
     np.testing.assert_allclose(stokes(path), expected, rtol=1e-13, atol=1e-13)
 
 
-def test_another_parameter_as_azimuth_is_given_by_an_element_put_in_anew():
-    path = op.Source() >> op.Polarizer(azimuth=A) >> op.Polarizer(0.6) >> op.Detector()
-    other = op.Polarizer(azimuth=op.Parameter("b", 0.2))
-    with pytest.raises(op.PathError, match=r"by a and by -b, .* path\.remove\('polarizer'\)"):
-        path.replace("polarizer", other)
-    path.remove("polarizer")
-    path.insert("between", op.Attenuator(1.0), behind="source")
-    path.insert("polarizer", other, behind="source")
-    assert path.trace(a=0.37).intensity == pytest.approx(0.5 * np.cos(0.6 + 0.37 - 0.2) ** 2)
-
-
 def pane(index, azimuth=0.4, polarizer=0.1):
     path = op.Source(stokes=[1, 0.5, 0.2, 0.1]) >> op.Polarizer(0.2, azimuth=polarizer)
     return path >> op.Interface(index, 0.6, azimuth=azimuth) >> op.Detector()
@@ -522,16 +457,21 @@ def test_an_azimuth_that_its_link_has_taken_over_is_given_anew_by_a_replacement(
     assert path == pane(1.6, azimuth)
 
 
-def test_a_replacement_that_is_turned_otherwise_than_its_link_says_is_refused():
+def test_a_replacement_that_is_turned_otherwise_is_refused():
     path = pane(1.5)
     path.insert("plate", op.Retarder(0.0, azimuth=0.25), behind="polarizer")
     with pytest.raises(op.PathError, match=r"'interface' by 0\.15.* turned by 0\.4; leave the"):
         path.replace("interface", op.Interface(1.6, 0.6, azimuth=0.4))
     path.replace("interface", op.Interface(1.6, 0.6))
     np.testing.assert_allclose(stokes(path), stokes(pane(1.6)), rtol=1e-14)
-
-
-def test_arrays_that_do_not_fit_are_no_one_azimuth():
     path = op.Source() >> op.Polarizer(azimuth=np.array([0.1, 0.2, 0.3])) >> op.Detector()
     with pytest.raises(op.PathError, match="no one azimuth does for both"):
         path.insert("new", op.Polarizer(azimuth=np.array([0.1, 0.2])), behind="source")
+    path = op.Source() >> op.Polarizer(azimuth=A) >> op.Polarizer(0.6) >> op.Detector()
+    other = op.Polarizer(azimuth=op.Parameter("b", 0.2))
+    with pytest.raises(op.PathError, match=r"by a and by -b, .* path\.remove\('polarizer'\)"):
+        path.replace("polarizer", other)
+    path.remove("polarizer")
+    path.insert("between", op.Attenuator(1.0), behind="source")
+    path.insert("polarizer", other, behind="source")
+    assert path.trace(a=0.37).intensity == pytest.approx(0.5 * np.cos(0.6 + 0.37 - 0.2) ** 2)

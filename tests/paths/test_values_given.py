@@ -65,16 +65,13 @@ def test_a_value_without_a_name_is_shown_with_one(call, written):
         (lambda: npgr026().trace(n1=op.Material(1.2, 2.0)), "give k by k1"),
         # An option of a composer, and a case, are told where they belong.
         *(
-            (
-                lambda act=act, name=name: act(**{name: "x"}),
-                f"write Composer({name}=...).compose(path)",
-            )
+            (lambda a=act, n=name: a(**{n: "x"}), f"write Composer({name}=...).compose(path)")
             for act in (npgr026().trace, npgr026().bind, npgr026)
             for name in ("method", "model", "engine", "dtype", "tolerance")
         ),
         *(
             (
-                lambda act=act, name=name: act(**{name: 8}),
+                lambda a=act, n=name: a(**{n: 8}),
                 "is no parameter of the path; write load_preset(..., case=...)",
             )
             for act, name in ((npgr026().trace, "case"), (npgr026().bind, "case"), (npgr026, "cas"))
@@ -92,7 +89,7 @@ def test_what_is_given_by_a_wrong_name_or_none_is_told_where_it_belongs(call, se
         assert str(told.value).endswith(sentence)
 
 
-def test_several_detectors_name_the_call_that_gives_them_all():
+def test_detectors_nodes_and_places_are_told_by_their_names():
     ends = {"reflected": op.Detector(), "transmitted": op.Detector()}
     path = wired(
         {"lamp": op.Source(op.Parameter("power", 2.0)), "plate": op.BeamSplitter(), **ends},
@@ -103,9 +100,22 @@ def test_several_detectors_name_the_call_that_gives_them_all():
             with pytest.raises(op.ParameterError, match=rf"2 detectors .*; use {other}\(\)$"):
                 call(**values)
     assert set(path.trace_all()) == {"reflected", "transmitted"}
+    path = npgr026()
+    assert "X1" in path
+    assert "polarizer" not in path
+    assert [*path] == ["L", "P", "X2", "X1", "E"]
+    assert (len(path), len(op.PathGraph())) == (5, 0)
+    path = npgr026()
+    path.add("camera", op.Detector())
+    path.connect("P", "camera", tap=True)
+    told = fault(path.bind, place="eye")
+    assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
+    path = chain([op.Interface(1.5, D)])
+    assert "bounds=" not in fault(path.trace, d="100 deg")
+    assert "bounds=" in fault(path.trace, d=-0.1)
 
 
-def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
+def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():
     path = chain([op.Polarizer(op.Parameter("d"))], [1.0, 1.0, 0.0, 0.0])
     assert path.trace(d="horizontal").intensity == 1.0
     # Malus, at 0, 90 and 45 degrees.
@@ -121,9 +131,6 @@ def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
         op.Polarizer("pi/4")
     turned = chain([op.Rotator(op.Parameter("d"))])
     assert "knows no word 'vertical'" in fault(turned.trace, d="vertical")
-
-
-def test_a_word_for_another_direction_is_never_offered():
     for word in ("antidiagonal", "antidiagonl"):
         told = fault(op.Parameter, "d", word, "deg", words={"diagonal": "45 deg"})
         assert told.endswith("; write '-45 deg' for the axis 'antidiagonal'")
@@ -132,22 +139,6 @@ def test_a_word_for_another_direction_is_never_offered():
     for port in ("refracted", "refraced"):
         told = fault(two_faces.connect, f"X1.{port}", "E")
         assert told.endswith("does not exist; there are: X1.reflected, X1.transmitted")
-
-
-def test_a_path_is_a_collection_of_the_names_of_its_nodes():
-    path = npgr026()
-    assert "X1" in path
-    assert "polarizer" not in path
-    assert [*path] == ["L", "P", "X2", "X1", "E"]
-    assert (len(path), len(op.PathGraph())) == (5, 0)
-
-
-def test_a_place_that_a_node_cannot_be_moved_to_is_named():
-    path = npgr026()
-    path.add("camera", op.Detector())
-    path.connect("P", "camera", tap=True)
-    told = fault(path.bind, place="eye")
-    assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
 
 
 D = op.Parameter("d")
@@ -182,9 +173,3 @@ K_IS_KNOWN = op.Interface(op.Material(op.Parameter("n", 1.5, minimum=0.0), 0.5),
 def test_numbers_and_places_are_told_as_they_stand(call, sentence):
     assert sentence in fault(call)
     assert sentence != BOTH or fault(call) == BOTH
-
-
-def test_a_text_that_is_typed_is_no_step_of_a_fit():
-    path = chain([op.Interface(1.5, D)])
-    assert "bounds=" not in fault(path.trace, d="100 deg")
-    assert "bounds=" in fault(path.trace, d=-0.1)

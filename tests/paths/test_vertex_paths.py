@@ -81,7 +81,7 @@ def test_light_that_goes_back_is_changed_by_the_transposed_matrix(reflections):
     np.testing.assert_allclose(there.matrix[:, 0, 0], back.matrix[:, 0, 0], rtol=1e-12)
 
 
-def test_light_goes_back_through_surfaces_as_it_came():
+def test_light_goes_back_through_surfaces_as_it_came_in_a_world_of_any_size():
     points, _, materials = random_histories(5, "TTT", 200)
     # Between equal media the frames of the two ways differ by choice.
     others = (materials[0] != 1.0) & np.all(np.diff(materials, axis=0), axis=0)
@@ -91,9 +91,6 @@ def test_light_goes_back_through_surfaces_as_it_came():
     back = op.path_from_vertices(points[:, ::-1], media, events="TTT", outside=materials[-1])
     expected = FLIP @ np.swapaxes(there.mueller().matrix, -1, -2) @ FLIP
     np.testing.assert_allclose(back.mueller().matrix, expected, rtol=0, atol=1e-13)
-
-
-def test_the_size_of_the_world_and_its_origin_do_not_matter():
     points = random_chains(4, 3, (100,))
     light = op.path_from_vertices(points, MATERIALS[:3]).trace().stokes
     for scale in (2.0**-200, 2.0**200):
@@ -152,7 +149,7 @@ def test_no_history_makes_light_brighter_or_more_polarised_or_knows_its_world(se
     np.testing.assert_allclose(moved.stokes, light.stokes, rtol=0, atol=1e-10)
 
 
-def test_the_frame_of_the_light_is_across_the_last_plane_of_incidence():
+def test_media_and_frames_follow_along_the_chain():
     points, normals, materials = random_histories(3, "RTT", 100)
     frame = op.path_from_vertices(points, materials, events="RTT").trace().frame
     assert op.Frame(frame.x, frame.y, frame.z) == frame, "orthogonal, and right-handed"
@@ -166,9 +163,6 @@ def test_the_frame_of_the_light_is_across_the_last_plane_of_incidence():
     assert np.all(np.sum(frame.x * across, axis=-1)[turned] > 0.0)
     off = np.sum(frame.x * normals[:, -1], axis=-1)[turned]
     np.testing.assert_allclose(off, 0.0, rtol=0, atol=1e-12)
-
-
-def test_the_media_follow_along_the_chain():
     down = [[0, 0, z] for z in (3, 2, 1, 2, 1, 0)]
     path = op.path_from_vertices(down, [1.5, 1.2, 1.2, 1.2], events="TRRT", outside=1.1)
     assert [path.element(f"vertex{n}").outside for n in (1, 2, 3, 4)] == [1.1, 1.5, 1.5, 1.5]
@@ -219,7 +213,7 @@ def test_light_that_is_hardly_turned_keeps_its_digits_beside_other_planes(bent):
     np.testing.assert_allclose(light.stokes, exact, rtol=0, atol=1e-14)
 
 
-def test_a_batch_of_two_dimensions_is_the_same_as_one_chain_after_the_other():
+def test_vertices_and_normals_may_come_in_batches_of_any_length_and_side():
     points = random_chains(5, 3, (2, 1500))
     light = op.path_from_vertices(points, MATERIALS[:3]).trace()
     assert light.stokes.shape == (2, 1500, 4)
@@ -228,6 +222,32 @@ def test_a_batch_of_two_dimensions_is_the_same_as_one_chain_after_the_other():
         one = op.path_from_vertices(points[at], MATERIALS[:3], events="RRR").trace()
         np.testing.assert_allclose(light.stokes[at], one.stokes, rtol=1e-12, atol=1e-15)
         np.testing.assert_array_equal(light.frame.x[at], one.frame.x)
+    points = random_chains(16, 2, (4,))
+    expected = op.path_from_vertices(points, MATERIALS[:2]).trace()
+    path = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2])
+    assert path.bind(points=points).trace() == expected
+    by_default = op.path_from_vertices(op.Parameter("points", default=points), MATERIALS[:2])
+    assert by_default.trace() == expected
+    one = by_default.trace(points=points[1])
+    np.testing.assert_allclose(one.stokes, expected.stokes[1], rtol=0, atol=1e-15)
+    points = random_chains(12, 2, (4,))
+    path = op.path_from_vertices(points, [op.Material(op.Parameter("n"), 0.5), np.array([1.5] * 4)])
+    light = path.trace(n=1.2)
+    expected = op.path_from_vertices(points, [1.2 + 0.5j, 1.5]).trace()
+    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-15, atol=1e-16)
+    path = op.path_from_vertices(CORNER, [1.5], [[0.0, -7.0, -7.0]])
+    assert path == op.path_from_vertices(CORNER, [1.5])
+    op.path_from_vertices([[0, 0, 0], [0, 0, 1], [0, 0, 2]], [1.5], [[1, 1, 0]])
+    points, normals, materials = random_histories(13, "TRTT", 500)
+    materials[3] = materials[2]
+    points[:, 5] = 2.0 * points[:, 4] - points[:, 3]
+    normals[:, 3] = np.random.default_rng(0).normal(size=(500, 3))
+    op.path_from_vertices(points, materials, -7.0 * normals, events="TRTT")
+    for vertex, word in ((1, "the one that refracts"), (2, "the bisector")):
+        wrong = normals.copy()
+        wrong[321, vertex - 1] += 1e-5 * points[0, 0]
+        with pytest.raises(op.PathError, match=rf"vertex {vertex} of chain 321 is off {word}"):
+            op.path_from_vertices(points, materials, wrong, events="TRTT")
 
 
 @pytest.mark.parametrize(
@@ -253,7 +273,7 @@ def test_points_and_indices_given_later_are_the_same_as_those_that_are_known(eng
         assert one.frame.x.shape == (3,)
 
 
-def test_the_parts_of_a_stream_have_the_frames_of_their_chains():
+def test_frames_of_a_stream_are_of_the_vertices_that_were_given():
     points = random_chains(7, 2, (5, 1))
     index = np.linspace(1.2, 1.8, 3)
     plan = op.path_from_vertices(op.Parameter("points"), [1.5, op.Parameter("n")]).compose()
@@ -262,9 +282,6 @@ def test_the_parts_of_a_stream_have_the_frames_of_their_chains():
         np.testing.assert_array_equal(light.stokes, whole.stokes[where])
         expected = np.broadcast_to(whole.frame.z, (5, 3, 3))[where]
         np.testing.assert_array_equal(np.broadcast_to(light.frame.z, expected.shape), expected)
-
-
-def test_a_frame_is_of_the_vertices_that_were_given_though_they_change_afterwards():
     points = random_chains(8, 2)
     expected = op.path_from_vertices(points.copy(), MATERIALS[:2]).trace().frame
     light = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).trace(points=points)
@@ -298,7 +315,7 @@ def test_a_chain_without_any_plane_takes_the_worlds_x_or_y(end, x):
     np.testing.assert_array_equal(frame.x, x)
 
 
-def test_gradients_with_respect_to_vertices_are_those_of_differences_and_finite(jax):
+def test_slopes_along_vertices_are_those_of_differences_and_frames_have_none(jax):
     points = random_chains(11, 1)
     plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:1]).compose()
     with quickly("jax"):
@@ -313,20 +330,9 @@ def test_gradients_with_respect_to_vertices_are_those_of_differences_and_finite(
     with quickly("jax"):
         slopes = jax.grad(lambda p: plan.run(points=p).stokes.sum())(straight)
     assert np.all(np.isfinite(slopes))
-
-
-def test_a_frame_of_traced_vertices_is_refused(jax):
     path = op.path_from_vertices(op.Parameter("points"), [1.5])
     with pytest.raises(op.FrameError, match="JAX traces"), quickly("jax"):
         jax.grad(lambda p: path.trace(points=p).frame.x[0])(jax.numpy.asarray(CORNER))
-
-
-def test_materials_may_be_arrays_and_parameters():
-    points = random_chains(12, 2, (4,))
-    path = op.path_from_vertices(points, [op.Material(op.Parameter("n"), 0.5), np.array([1.5] * 4)])
-    light = path.trace(n=1.2)
-    expected = op.path_from_vertices(points, [1.2 + 0.5j, 1.5]).trace()
-    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-15, atol=1e-16)
 
 
 @rows("media", [np.array([1.5, 0.2 + 3.4j, 1.0]), [1.5 + 0j, 0.2 + 3.4j, 1]])
@@ -336,43 +342,21 @@ def test_media_that_an_array_made_complex_are_the_real_ones_that_they_are(media)
     assert op.path_from_vertices(points, media, events="TRT").trace() == expected
 
 
-def test_vertices_may_be_bound_for_good_or_have_a_default():
-    points = random_chains(16, 2, (4,))
-    expected = op.path_from_vertices(points, MATERIALS[:2]).trace()
-    path = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2])
-    assert path.bind(points=points).trace() == expected
-    by_default = op.path_from_vertices(op.Parameter("points", default=points), MATERIALS[:2])
-    assert by_default.trace() == expected
-    one = by_default.trace(points=points[1])
-    np.testing.assert_allclose(one.stokes, expected.stokes[1], rtol=0, atol=1e-15)
-
-
-def test_a_chain_too_long_to_be_compiled_is_run_all_the_same():
+def test_long_chains_run_plans_go_through_pickle_and_large_arrays_are_told_by_shape():
     points = random_chains(17, 40, (5,))
     found = op.path_from_vertices(points, [0.2 + 3.4j] * 40).trace()
     expected = interfaces_in_space(points, [0.2 + 3.4j] * 40).trace()
     turned = found.in_frame(expected.frame)
     np.testing.assert_allclose(turned.normalized, expected.normalized, rtol=0, atol=1e-12)
     np.testing.assert_allclose(found.intensity, expected.intensity, rtol=1e-11)
-
-
-def test_normals_along_the_bisectors_are_taken_whatever_their_length_and_side():
-    path = op.path_from_vertices(CORNER, [1.5], [[0.0, -7.0, -7.0]])
-    assert path == op.path_from_vertices(CORNER, [1.5])
-    op.path_from_vertices([[0, 0, 0], [0, 0, 1], [0, 0, 2]], [1.5], [[1, 1, 0]])
-
-
-def test_normals_of_both_kinds_are_checked_and_between_equal_media_any_will_do():
-    points, normals, materials = random_histories(13, "TRTT", 500)
-    materials[3] = materials[2]
-    points[:, 5] = 2.0 * points[:, 4] - points[:, 3]
-    normals[:, 3] = np.random.default_rng(0).normal(size=(500, 3))
-    op.path_from_vertices(points, materials, -7.0 * normals, events="TRTT")
-    for vertex, word in ((1, "the one that refracts"), (2, "the bisector")):
-        wrong = normals.copy()
-        wrong[321, vertex - 1] += 1e-5 * points[0, 0]
-        with pytest.raises(op.PathError, match=rf"vertex {vertex} of chain 321 is off {word}"):
-            op.path_from_vertices(points, materials, wrong, events="TRTT")
+    points = random_chains(14, 2, (3,))
+    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()
+    light = plan.run(points=points)
+    assert pickle.loads(pickle.dumps(plan)).run(points=points) == light
+    assert pickle.loads(pickle.dumps(light)) == light
+    path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
+    assert "vertices=array of shape (1000, 4, 3)" in draw(path)
+    assert len(path.compose().explain()) < 2000
 
 
 @rows("dtype", ["int16", "int32", "int64", "uint8", "float32", "longdouble"])
@@ -403,14 +387,6 @@ def test_a_frame_of_anything_is_looked_at_without_a_warning():
         vertex.own_frame("reflected").frame({})
 
 
-def test_a_plan_of_vertices_goes_through_pickle():
-    points = random_chains(14, 2, (3,))
-    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()
-    light = plan.run(points=points)
-    assert pickle.loads(pickle.dumps(plan)).run(points=points) == light
-    assert pickle.loads(pickle.dumps(light)) == light
-
-
 @rows(
     "path, written",
     [
@@ -425,9 +401,3 @@ def test_a_chain_goes_to_toml_and_back_with_its_points(path, written, tmp_path):
     assert written in path.to_toml()
     assert read_back(path, tmp_path) == path
     assert read_back(path, tmp_path).trace() == path.trace()
-
-
-def test_a_large_array_of_vertices_is_described_by_its_shape():
-    path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
-    assert "vertices=array of shape (1000, 4, 3)" in draw(path)
-    assert len(path.compose().explain()) < 2000

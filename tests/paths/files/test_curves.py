@@ -128,7 +128,9 @@ def test_tables_stand_for_numbers_and_are_read(read, tmp_path, index, declared, 
     assert read_back(path, tmp_path) == path
 
 
-def test_one_number_is_a_multiple_of_samples_with_an_offset(read):
+def test_numbers_by_wavelength_may_be_multiples_with_a_unit_but_no_states(
+    read, sentences, tmp_path
+):
     table = (
         '{ wavelengths = [400, 600], unit = "nm", values = ["90 deg", "60 deg"], '
         'scale = 2, offset = "5 deg" }'
@@ -136,6 +138,15 @@ def test_one_number_is_a_multiple_of_samples_with_an_offset(read):
     light = read(retardance=table).trace(wavelength="500 nm")
     expected = by_numbers(1.5, 0.0, np.radians(155.0))
     np.testing.assert_allclose(light.stokes, expected, rtol=1e-13, atol=1e-15)
+    found = sentences(retardance='{ wavelengths = ["1 um"], values = [3] }')
+    assert "elements.plate.retardance.values: 3 has no unit" in found
+    assert '"3 deg"' in found
+    state = 'kind = "source", stokes = { cauchy = { coefficients = [1.5] } }'
+    with pytest.raises(op.PathError, match="'cauchy' gives one number, but several are asked for"):
+        loaded(text_of().replace('kind = "source"', state), tmp_path)
+    paint = op.Material.cauchy([1.5], wavelength=op.Wavelength(default="500 nm"))
+    with pytest.raises(op.ValueFault, match=r"must have shape \(..., 4\)"):
+        op.Source(stokes=paint.n)
 
 
 @rows(
@@ -180,7 +191,7 @@ def test_samples_in_degrees_and_a_length_called_wavelength_are_read_back_equal(e
     assert read_back(path, tmp_path) == path
 
 
-def test_a_declared_wavelength_is_that_of_all_materials(read, tmp_path):
+def test_a_wavelength_is_that_of_all_materials_whether_it_is_declared_or_not(read, tmp_path):
     declared = f'{WAVELENGTH}default = "2.4 eV"\nrange = ["300 nm", "700 nm"]\nhelp = "colour"\n'
     path = read(f"{{ {SAMPLES} }}", parameters=declared)
     found = path.parameters["wavelength"]
@@ -188,15 +199,9 @@ def test_a_declared_wavelength_is_that_of_all_materials(read, tmp_path):
     assert (found.help, found.maximum) == ("colour", 7e-7)
     assert path.trace() == path.trace(wavelength="2.4 eV")
     assert read_back(path, tmp_path) == path
-
-
-def test_a_wavelength_without_a_range_has_the_usual_one(read):
     path = read(f'{{ {SAMPLES}, extrapolate = "nearest" }}', parameters=WAVELENGTH)
     with pytest.raises(op.ParameterError, match="for nanometres write '516 nm'"):
         path.trace(wavelength=516.0)
-
-
-def test_cases_give_a_wavelength_that_is_not_declared(tmp_path):
     case = '\n[cases.green]\nvalues = { wavelength = "2.4 eV" }\n'
     text = text_of(f"{{ {SAMPLES} }}") + case
     expected = loaded(text, tmp_path).trace(wavelength="2.4 eV")
@@ -252,21 +257,6 @@ def test_each_fault_of_a_table_has_its_place_and_its_cure(sentences, index, part
     found = sentences(f"{{ {index} }}")
     for part in ("metal", *parts):
         assert part in found
-
-
-def test_numbers_of_a_quantity_have_its_unit(sentences):
-    found = sentences(retardance='{ wavelengths = ["1 um"], values = [3] }')
-    assert "elements.plate.retardance.values: 3 has no unit" in found
-    assert '"3 deg"' in found
-
-
-def test_a_state_is_no_number_by_wavelength(tmp_path):
-    state = 'kind = "source", stokes = { cauchy = { coefficients = [1.5] } }'
-    with pytest.raises(op.PathError, match="'cauchy' gives one number, but several are asked for"):
-        loaded(text_of().replace('kind = "source"', state), tmp_path)
-    paint = op.Material.cauchy([1.5], wavelength=op.Wavelength(default="500 nm"))
-    with pytest.raises(op.ValueFault, match=r"must have shape \(..., 4\)"):
-        op.Source(stokes=paint.n)
 
 
 def at_500(path):

@@ -71,8 +71,19 @@ def faults_of(text):
     return error.value.faults
 
 
-def test_the_path_without_a_fault_is_read():
+def test_a_path_without_a_fault_is_read_and_cycles_and_choices_are_told_beside_others():
     assert [*read(tomllib.loads(GOOD + OFFERED))] == ["lamp", "filter", "mirror", "eye"]
+    text = GOOD.replace('"source"', '"sorce"').replace(
+        "[cases.steep]", SECOND_LINK.format("mirror.reflected", "mirror.in")
+    )
+    text = text.replace('kind = "detector"', 'kind = "polarizer"\nazimuth = "3 deg"')
+    faults = " | ".join(faults_of(text))
+    for part in ("sorce", "cycle: mirror -> mirror", "give it in one place"):
+        assert part in faults
+    text = (GOOD + OFFERED).replace('element = "filter"', 'element = "filtr"')
+    found = faults_of(text.replace("default = 1.2", "default = -1.2"))
+    assert any("choices.place: node 'filtr' does not exist" in fault for fault in found)
+    assert len(found) == 2
 
 
 ROOT_CAUSES = [
@@ -254,16 +265,6 @@ def test_causes_of_their_own_are_all_told_at_once_and_nothing_else(changes, caus
     assert len(found) == len(causes)
 
 
-def test_a_cycle_and_azimuths_are_told_beside_faults_of_reading():
-    text = GOOD.replace('"source"', '"sorce"').replace(
-        "[cases.steep]", SECOND_LINK.format("mirror.reflected", "mirror.in")
-    )
-    text = text.replace('kind = "detector"', 'kind = "polarizer"\nazimuth = "3 deg"')
-    faults = " | ".join(faults_of(text))
-    for part in ("sorce", "cycle: mirror -> mirror", "give it in one place"):
-        assert part in faults
-
-
 @rows(
     "old, new, causes",
     [
@@ -286,13 +287,6 @@ def test_a_choice_is_at_fault_only_where_the_path_is_not(old, new, causes):
     assert len(found) == len(causes)
     for cause, fault in zip(causes, found, strict=True):
         assert cause in fault
-
-
-def test_names_in_a_choice_are_told_with_other_faults():
-    text = (GOOD + OFFERED).replace('element = "filter"', 'element = "filtr"')
-    found = faults_of(text.replace("default = 1.2", "default = -1.2"))
-    assert any("choices.place: node 'filtr' does not exist" in fault for fault in found)
-    assert len(found) == 2
 
 
 @rows(
@@ -450,16 +444,6 @@ def test_what_is_missing_or_unknown_in_a_table_is_told_by_its_place(text, senten
     assert "must be a text" not in told
 
 
-def test_a_parameter_without_a_unit_is_told_to_have_one(tmp_path):
-    wrong = '[parameters.theta]\ndefault = "40 deg"\n' + boundary(incidence='"$theta"')
-    assert 'add unit = "deg", or give pure numbers if it is one' in fault_of(wrong, tmp_path)
-    right = wrong.replace("default", 'unit = "deg"\ndefault')
-    loaded("format = 1\n" + right, tmp_path).trace()
-    pure = GOOD.partition("[cases")[0].replace(DECLARED, "default = 1")
-    (fault,) = faults_of(pure)
-    assert 'theta is used where an angle is asked for; add unit = "deg" or another' in fault
-
-
 @rows("behind", ["{}", "{ eye = 3 }", '{ "" = "L.out" }'])
 def test_how_places_are_written_is_told_as_a_file_has_it(behind, tmp_path):
     text = through('kind = "polarizer"\n', "out")
@@ -487,15 +471,19 @@ def test_a_case_that_nobody_could_ask_for_is_refused(name, told, tmp_path):
         path.to_toml()
 
 
-def test_a_case_for_an_unknown_parameter_is_not_written():
+def test_what_could_not_be_asked_for_is_neither_written_nor_asked_about(tmp_path):
     path = read(tomllib.loads(GOOD))
     path.cases["odd"] = op.Case({"thta": 0.1})
     with pytest.raises(op.PathError, match=r"case 'odd'.*did you mean 'theta'"):
         path.to_toml()
-
-
-def test_a_pair_that_cannot_be_one_number_is_not_asked_about(tmp_path):
     text = "[parameters.n]\ndefault = [1.5, -1]\n" + boundary('"$n"')
     assert fault_of(text, tmp_path).endswith(
         "is -1.0 at 1; give an index of refraction n + ik with n and k not negative"
     )
+    wrong = '[parameters.theta]\ndefault = "40 deg"\n' + boundary(incidence='"$theta"')
+    assert 'add unit = "deg", or give pure numbers if it is one' in fault_of(wrong, tmp_path)
+    right = wrong.replace("default", 'unit = "deg"\ndefault')
+    loaded("format = 1\n" + right, tmp_path).trace()
+    pure = GOOD.partition("[cases")[0].replace(DECLARED, "default = 1")
+    (fault,) = faults_of(pure)
+    assert 'theta is used where an angle is asked for; add unit = "deg" or another' in fault

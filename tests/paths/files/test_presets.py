@@ -15,15 +15,19 @@ from wired import read_back
 PRESETS = op.preset_names()
 
 
-def test_the_presets_that_were_promised_are_there():
-    promised = {"npgr026", "fresnel-rhomb", "two-panes", "three-polarizers", "malus", "senarmont"}
-    assert promised <= set(PRESETS)
-    assert sorted(PRESETS) == PRESETS
-
-
 @rows("name", PRESETS)
-def test_every_preset_and_case_runs_and_is_written_and_read_back_the_same(name, tmp_path):
+def test_every_preset_and_case_runs_is_read_back_the_same_and_leaves_parameters_open(
+    name, tmp_path
+):
     whole = op.load_preset(name)
+    for case, said in whole.cases.items():
+        for parameter in op.load_preset(name, case=case).parameters.values():
+            known = whole.parameters[parameter.name]
+            assert not parameter.bound
+            default = said.values.get(parameter.name, known.default)
+            default = known.parse(default) if isinstance(default, str) else default
+            assert np.all(parameter.default == default)
+            assert replace(parameter, default=known.default) == known
     for path in (whole, *(op.load_preset(name, case=case) for case in whole.cases)):
         assert np.all(np.isfinite(path.trace().stokes))
         copy = read_back(path, tmp_path)
@@ -57,22 +61,32 @@ def test_polarisers_and_plates_follow_malus_law(name, values, expected):
     np.testing.assert_allclose(found, expected, rtol=1e-15, atol=slack)
 
 
-def test_fresnels_rhomb_makes_circular_light():
+def test_rhombs_plates_and_isolators_follow_their_closed_forms():
     # Born & Wolf, sec. 1.5.4: at 54 deg 37' or 48 deg 37' in glass of n = 1.51 each
     # total reflection retards by 45 degrees.
     path = op.load_preset("fresnel-rhomb")
     for incidence in ("54.616666666666667 deg", "48.616666666666667 deg"):
         stokes = path.trace(incidence=incidence).stokes
         np.testing.assert_allclose(stokes, [0.5, 0, 0, -0.5], rtol=0, atol=1e-3)
-
-
-def test_a_double_pass_is_a_plate_of_twice_the_retardance():
     # Chipman, Lam & Young, table 6.5; then y and z are turned over.
     d, a = np.random.default_rng(2).uniform(-3.0, 3.0, (2, 20))
     c, s = np.cos(2 * a), np.sin(2 * a)
     both = [c**2 + s**2 * np.cos(2 * d), c * s * (np.cos(2 * d) - 1), s * np.sin(2 * d)]
     light = op.load_preset("double-pass-waveplate").trace(retardance=d, angle=a)
     np.testing.assert_allclose(light.stokes.T, [1 + 0 * a, *both], atol=1e-15)
+    path, fields, verdet, length = op.load_preset("faraday-isolator"), ANGLES - 1.2, -134.0, 0.02
+    ideal = path.trace_all()
+    assert (ideal["passed"].intensity, ideal["returned"].intensity) == (1.0, 0.0)
+    lights = path.trace_all(verdet=verdet, length=length, field=fields)
+    short = np.pi / 4 - verdet * length * fields
+    passed, returned = np.cos(short) ** 2, np.sin(2 * short) ** 2 / 4
+    np.testing.assert_allclose(lights["passed"].intensity, passed, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(lights["returned"].intensity, returned, rtol=0, atol=1e-15)
+    # In the wrong field it isolates the other way.
+    assert path.trace_all(field=0.5)["passed"].intensity == pytest.approx(0.0, abs=1e-30)
+    for case, returned in (("tgg", 7e-12), ("weak-field", 0.00154)):
+        garnet = op.load_preset("faraday-isolator", case=case)
+        assert garnet.trace().intensity == pytest.approx(returned, rel=0.01)
 
 
 def by_an_ellipsometer(n, k, theta, polarizer, compensator, retardance, analyzer):
@@ -92,7 +106,7 @@ def by_an_ellipsometer(n, k, theta, polarizer, compensator, retardance, analyzer
     return 0.5 * abs(along(analyzer) @ sample @ plate @ along(polarizer)) ** 2
 
 
-def test_the_ellipsometer_counts_azimuths_from_p_towards_s():
+def test_an_ellipsometer_counts_azimuths_from_p_towards_s_and_has_the_psi_and_delta_of_its_sample():
     rng = np.random.default_rng(7)
     limits = {"n": (0.2, 4.0), "k": (0.0, 4.0), "theta": (0.0, 1.5)}
     limits |= dict.fromkeys(["polarizer", "compensator", "retardance", "analyzer"], (-3.0, 3.0))
@@ -110,9 +124,6 @@ def test_the_ellipsometer_counts_azimuths_from_p_towards_s():
     )
     assert along_p < 1e-30
     assert along_s == pytest.approx(0.25 * (1.25 / 3.25) ** 2)
-
-
-def test_psi_and_delta_of_the_light_of_an_ellipsometer_are_those_of_the_sample():
     values = {"n": np.linspace(0.2, 4.0, 20), "k": np.linspace(3.0, 0.1, 20), "theta": 1.2}
     light = op.load_preset("ellipsometer-pcsa").trace(**values)
     sample = op.Interface(values["n"] + 1j * values["k"], 1.2).mueller()
@@ -120,7 +131,10 @@ def test_psi_and_delta_of_the_light_of_an_ellipsometer_are_those_of_the_sample()
     np.testing.assert_allclose(light.delta, sample.delta, rtol=1e-13)
 
 
-def test_values_given_take_precedence_over_the_case_whose_values_can_be_varied():
+def test_values_take_precedence_over_a_case_and_stay_open_or_are_bound():
+    promised = {"npgr026", "fresnel-rhomb", "two-panes", "three-polarizers", "malus", "senarmont"}
+    assert promised <= set(PRESETS)
+    assert sorted(PRESETS) == PRESETS
     path, values = op.load_preset("npgr026"), op.load_preset("npgr026").cases["8"].values
     found = op.load_preset("npgr026", case="7", filter="horizontal")
     expected = op.load_preset("npgr026", case="8").trace().stokes
@@ -131,31 +145,12 @@ def test_values_given_take_precedence_over_the_case_whose_values_can_be_varied()
         np.testing.assert_array_equal(
             of_case.trace(**given).stokes, path.trace(**{**values, **given}).stokes
         )
-
-
-@rows("name", PRESETS)
-def test_a_case_leaves_every_parameter_open_with_its_range_words_and_unit(name):
-    plain = op.load_preset(name)
-    for case, said in plain.cases.items():
-        for parameter in op.load_preset(name, case=case).parameters.values():
-            known = plain.parameters[parameter.name]
-            assert not parameter.bound
-            default = said.values.get(parameter.name, known.default)
-            default = known.parse(default) if isinstance(default, str) else default
-            assert np.all(parameter.default == default)
-            assert replace(parameter, default=known.default) == known
-
-
-def test_what_is_given_beside_a_case_is_bound():
     path = op.load_preset("npgr026", case=8, delta=0.5)
     assert [name for name, p in path.parameters.items() if p.bound] == ["delta"]
     with pytest.raises(op.ParameterError, match=r"'delta' is bound.*leave it out of load_preset"):
         path.trace(delta=0.1)
     with pytest.raises(op.ParameterError, match=r"'delta' is bound.*leave it open there"):
         path.bind(delta=0.1)
-
-
-def test_a_case_given_by_number_leaves_an_element_out_and_it_can_be_put_back():
     path = op.load_preset("npgr026", case=7)
     assert path == op.load_preset("npgr026", case="7")
     assert path.parameters["filter"].default == "none"
@@ -163,9 +158,6 @@ def test_a_case_given_by_number_leaves_an_element_out_and_it_can_be_put_back():
         path.trace(filter="horizontal").stokes,
         op.load_preset("npgr026", case=7, filter="horizontal").trace().stokes,
     )
-
-
-def test_a_path_gets_new_defaults_and_stays_as_it_was():
     path = op.load_preset("malus")
     crossed = path.with_defaults(angle="90 deg")
     assert crossed.trace().intensity == 0.0
@@ -241,7 +233,7 @@ def test_folders_and_files_that_are_no_presets_are_refused(content, error, messa
         op.load_preset(file)
 
 
-def test_a_dichroic_sheet_at_45_degrees_between_crossed_polarizers_is_a_filter_and_a_plate():
+def test_a_dichroic_sheet_is_a_filter_and_a_plate_as_the_notes_of_its_cases_say():
     # Along one axis, amplitudes t1 and t2 exp(i delta) interfere.
     path = op.load_preset("dichroic-sheet")
     thickness = np.linspace(0.0, 1e-4, 21)
@@ -249,9 +241,6 @@ def test_a_dichroic_sheet_at_45_degrees_between_crossed_polarizers_is_a_filter_a
     expected = abs(t1 - t2 * np.exp(1j * np.radians(20e6) * thickness)) ** 2 / 8
     found = path.trace(thickness=thickness).intensity
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
-
-
-def test_the_cases_of_a_dichroic_sheet_are_what_their_notes_say():
     clear, aligned, skewed = (
         float(op.load_preset("dichroic-sheet", case=case).trace().intensity)
         for case in ("clear", "aligned", "skewed")
@@ -284,7 +273,7 @@ def test_a_prism_at_minimum_deviation_lets_through_what_fresnels_equations_say(c
         assert p == pytest.approx(1.0, abs=1e-15), "all of p gets through"
 
 
-def test_a_prism_by_its_points_is_the_same():
+def test_prisms_and_clear_piles_are_those_of_points_and_stacks():
     apex, n = np.radians(60.0), 1.5
     # It stands on its base, along which light runs inside; outside it is turned down on both sides.
     half = 0.5 * (2.0 * np.arcsin(n * np.sin(apex / 2)) - apex)
@@ -294,22 +283,11 @@ def test_a_prism_by_its_points_is_the_same():
     chain = op.path_from_vertices(points, [n, 1.0], faces, events="TT")
     expected = op.load_preset("prism-refraction").trace(apex=apex, n=n).stokes
     np.testing.assert_allclose(chain.trace().stokes, expected, rtol=0, atol=1e-15)
-
-
-def test_fields_that_are_wrong_let_light_come_back_by_the_closed_form_of_an_isolator():
-    path, fields, verdet, length = op.load_preset("faraday-isolator"), ANGLES - 1.2, -134.0, 0.02
-    ideal = path.trace_all()
-    assert (ideal["passed"].intensity, ideal["returned"].intensity) == (1.0, 0.0)
-    lights = path.trace_all(verdet=verdet, length=length, field=fields)
-    short = np.pi / 4 - verdet * length * fields
-    passed, returned = np.cos(short) ** 2, np.sin(2 * short) ** 2 / 4
-    np.testing.assert_allclose(lights["passed"].intensity, passed, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(lights["returned"].intensity, returned, rtol=0, atol=1e-15)
-    # In the wrong field it isolates the other way.
-    assert path.trace_all(field=0.5)["passed"].intensity == pytest.approx(0.0, abs=1e-30)
-    for case, returned in (("tgg", 7e-12), ("weak-field", 0.00154)):
-        garnet = op.load_preset("faraday-isolator", case=case)
-        assert garnet.trace().intensity == pytest.approx(returned, rel=0.01)
+    lights = op.load_preset("absorbing-pile", case="clear").trace_all()
+    assert sum(light.intensity for light in lights.values()) == pytest.approx(1.0, abs=1e-15)
+    lossless = op.LayerStack([1.0] + [1.5, 1.0] * 4, "56.309932474020215 deg")
+    expected = lossless.mueller("in", "transmitted").matrix[:, 0]
+    assert lights["transmitted"].stokes == pytest.approx(expected, abs=1e-15)
 
 
 def plate(polarization, n, k, depth, incidence):
@@ -349,14 +327,6 @@ def test_an_absorbing_pile_is_stokes_formula_in_50_digits(case):
             s, p = exact[name]
             assert light.stokes[0] == pytest.approx(float((s + p) / 2), rel=1e-12)
             assert light.stokes[1] == pytest.approx(float((s - p) / 2), rel=1e-12, abs=1e-15)
-
-
-def test_a_clear_pile_absorbs_nothing_and_is_the_lossless_stack():
-    lights = op.load_preset("absorbing-pile", case="clear").trace_all()
-    assert sum(light.intensity for light in lights.values()) == pytest.approx(1.0, abs=1e-15)
-    lossless = op.LayerStack([1.0] + [1.5, 1.0] * 4, "56.309932474020215 deg")
-    expected = lossless.mueller("in", "transmitted").matrix[:, 0]
-    assert lights["transmitted"].stokes == pytest.approx(expected, abs=1e-15)
 
 
 VISIBLE = np.linspace(4e-7, 7e-7, 61)
@@ -440,7 +410,7 @@ def test_a_band_of_wavelengths_leaves_the_depolarizer_unpolarized(angle):
     assert np.linalg.norm(whole[1:]) / whole[0] < 0.02
 
 
-def test_copper_and_gold_are_those_of_johnson_and_christy():
+def test_a_spectrum_of_copper_and_gold_is_that_of_its_samples_at_energies_within_its_range():
     # Linear between 495.9 and 520.9 nm: Phys. Rev. B 6, 4370 (1972), table I.
     share = (516.0 - 495.9) / (520.9 - 495.9)
     gold = 1.04 + 1.833j + share * ((0.62 + 2.081j) - (1.04 + 1.833j))
@@ -451,6 +421,12 @@ def test_copper_and_gold_are_those_of_johnson_and_christy():
     )
     light = op.load_preset("copper-gold-spectrum").trace(wavelength="516 nm")
     np.testing.assert_allclose(light.stokes, same.stokes, rtol=1e-13)
+    path = op.load_preset("lyot-filter")
+    assert path.trace(wavelength="2.4 eV").intensity == pytest.approx(
+        path.trace(wavelength=1.2398419843320026e-6 / 2.4).intensity, abs=1e-12
+    )
+    with pytest.raises(op.ParameterError, match=r"give 200 nm \.\. 2000 nm"):
+        path.trace(wavelength="100 nm")
 
 
 @rows("name", [*CRYSTALS, "lyot-depolarizer"])
@@ -459,12 +435,3 @@ def test_cases_come_out_as_they_are_told(name):
     for case, told in path.cases.items():
         light = op.load_preset(name, case=case).trace()
         np.testing.assert_allclose(light.stokes, told.published["eye"], rtol=0, atol=2e-9)
-
-
-def test_a_wavelength_may_be_a_photon_energy_and_outside_the_range_is_refused():
-    path = op.load_preset("lyot-filter")
-    assert path.trace(wavelength="2.4 eV").intensity == pytest.approx(
-        path.trace(wavelength=1.2398419843320026e-6 / 2.4).intensity, abs=1e-12
-    )
-    with pytest.raises(op.ParameterError, match=r"give 200 nm \.\. 2000 nm"):
-        path.trace(wavelength="100 nm")

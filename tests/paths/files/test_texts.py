@@ -26,13 +26,17 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_a_name_is_a_file_of_the_folder_and_a_path_is_its_own(folder):
+def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(folder):
     assert names_in(folder) == ["thick", "thin"]
     assert names_in(folder / "nowhere") == []
     assert "glass-rough" not in names_in(presets_folder())
     assert file_of("thin", "film", folder, "a look") == folder / "thin.toml"
     own = folder / "more" / "own.toml"
     assert file_of(own, "film", folder, "a look") == file_of(str(own), "film", folder, "") == own
+    (folder / "thin.toml").write_bytes(b"\xef\xbb\xbfa = 1")
+    assert text_of(folder / "thin.toml", "film") == "a = 1"
+    with pytest.raises(op.PresetError, match="cannot be read: it is no file"):
+        text_of(folder / "more", "film")
 
 
 @rows(
@@ -51,13 +55,6 @@ def test_what_is_neither_is_refused(folder, given, sentence):
     with pytest.raises(op.PresetError) as error:
         file_of(given, "film", folder, "a look")
     assert str(error.value).startswith(sentence)
-
-
-def test_a_text_is_that_of_a_file_without_a_mark_of_its_order_of_bytes(folder):
-    (folder / "thin.toml").write_bytes(b"\xef\xbb\xbfa = 1")
-    assert text_of(folder / "thin.toml", "film") == "a = 1"
-    with pytest.raises(op.PresetError, match="cannot be read: it is no file"):
-        text_of(folder / "more", "film")
 
 
 UNWIELDY = [
@@ -282,13 +279,9 @@ def document_of(name):
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_every_value_of_every_key_is_read_or_refused(share, tmp_path):
+def test_every_value_of_every_key_and_field_is_read_or_refused(share, tmp_path):
     for name, places in PLACES.items():
         try_all(document_of(name), places.split(), tmp_path, share)
-
-
-@pytest.mark.parametrize("share", SHARES)
-def test_every_value_of_every_field_is_read_or_refused(share, tmp_path):
     document = document_of("malus")
     for kind, fields in ELEMENTS.items():
         document["elements"]["analyzer"] = {"kind": kind, **fields}
@@ -296,7 +289,7 @@ def test_every_value_of_every_field_is_read_or_refused(share, tmp_path):
         try_all(document, places, tmp_path, share)
 
 
-def test_every_sequence_of_bytes_is_read_or_refused(tmp_path):
+def test_every_sequence_of_bytes_is_read_or_refused_with_a_few_suggestions(tmp_path):
     dice = random.Random(1)  # noqa: S311
     file = tmp_path / "x.toml"
     texts = [op.load_preset(name).to_toml().encode() for name in ("malus", "glass-slab")]
@@ -312,6 +305,12 @@ def test_every_sequence_of_bytes_is_read_or_refused(tmp_path):
         file.write_bytes(bytes(text))
         with suppress(op.OptipathError):
             op.load_preset(file)
+    document = {"format": 1, "elements": {f"abc{n}": {"kind": "dump"} for n in range(1500)}}
+    document["links"] = [{"from": f"abd{n}.out", "to": f"abd{n}.in"} for n in range(1500)]
+    with pytest.raises(op.PathError) as error:
+        load(document, tmp_path)
+    assert len(error.value.faults) > 1500
+    assert 1 <= sum("did you mean" in fault for fault in error.value.faults) <= 20
 
 
 @rows(
@@ -331,12 +330,3 @@ def test_every_sequence_of_bytes_is_read_or_refused(tmp_path):
 def test_lists_that_do_not_fit_are_told_of(name, place, value, message, tmp_path):
     with pytest.raises(op.OptipathError, match=message):
         load(put(document_of(name), place, value), tmp_path)
-
-
-def test_suggestions_are_made_for_the_first_faults_only(tmp_path):
-    document = {"format": 1, "elements": {f"abc{n}": {"kind": "dump"} for n in range(1500)}}
-    document["links"] = [{"from": f"abd{n}.out", "to": f"abd{n}.in"} for n in range(1500)]
-    with pytest.raises(op.PathError) as error:
-        load(document, tmp_path)
-    assert len(error.value.faults) > 1500
-    assert 1 <= sum("did you mean" in fault for fault in error.value.faults) <= 20

@@ -80,10 +80,25 @@ def test_an_element_is_written_and_read_back_and_drawn(element, written, tmp_pat
         assert light[0].stokes.tolist() == light[1].stokes.tolist()
 
 
-def test_an_amplitude_without_an_imaginary_part_is_real(tmp_path):
+def test_amplitudes_links_and_cases_take_numbers_without_a_part_multiples_and_axes(tmp_path):
     text = chain([op.Mirror(-0.5 + 0.25j, 1.0)]).to_toml()
     text = text.replace("re = -0.5, im = 0.25", "re = -0.5")
     assert loaded(text, tmp_path) == chain([op.Mirror(-0.5, 1.0)])
+    path = affine(
+        tmp_path,
+        share='{ parameter = "share", scale = 2, offset = -0.25 }',
+        azimuth='{ parameter = "d", scale = 3 }',
+    )
+    assert path.trace().intensity == pytest.approx(0.375)
+    np.testing.assert_allclose(path.trace(share=0.25).intensity, 0.125)
+    crossed = op.Source(100, [1, 1, 0, 0]) >> op.Polarizer(op.Parameter("a", 0.3)) >> op.Detector()
+    text = crossed.to_toml() + '[cases.x]\nvalues = { a = ["vertical", "45 deg", "horizontal"] }\n'
+    path = read(tomllib.loads(text))
+    # Malus, at 90, 45 and 0 degrees.
+    shares = path.with_defaults(**path.cases["x"].values).trace().intensity / 100.0
+    np.testing.assert_allclose(shares, [0.0, 0.5, 1.0], atol=1e-15)
+    with pytest.raises(op.OptipathError, match=r"diagonal, or give an angle such as '45 deg'$"):
+        read(tomllib.loads(text.replace("vertical", "upright")))
 
 
 @rows("place", ["field", "default", "case"])
@@ -147,16 +162,6 @@ def test_a_table_stands_for_a_multiple_with_an_offset(value, degrees, tmp_path):
     np.testing.assert_allclose(path.trace().stokes, expected, rtol=1e-12, atol=1e-15)
     assert read_back(path, tmp_path) == path
     assert read_back(path, tmp_path).compose() == path.compose()
-
-
-def test_it_stands_on_a_link_and_where_numbers_have_no_dimension(tmp_path):
-    path = affine(
-        tmp_path,
-        share='{ parameter = "share", scale = 2, offset = -0.25 }',
-        azimuth='{ parameter = "d", scale = 3 }',
-    )
-    assert path.trace().intensity == pytest.approx(0.375)
-    np.testing.assert_allclose(path.trace(share=0.25).intensity, 0.125)
 
 
 @rows(
@@ -327,14 +332,3 @@ def test_all_sorts_of_values_are_written_and_read_back(path):
     assert copy == path
     assert copy.compose() == path.compose()
     np.testing.assert_array_equal(copy.trace().stokes, path.trace().stokes)
-
-
-def test_a_case_may_give_the_axis_of_a_polariser_by_its_name():
-    crossed = op.Source(100, [1, 1, 0, 0]) >> op.Polarizer(op.Parameter("a", 0.3)) >> op.Detector()
-    text = crossed.to_toml() + '[cases.x]\nvalues = { a = ["vertical", "45 deg", "horizontal"] }\n'
-    path = read(tomllib.loads(text))
-    # Malus, at 90, 45 and 0 degrees.
-    shares = path.with_defaults(**path.cases["x"].values).trace().intensity / 100.0
-    np.testing.assert_allclose(shares, [0.0, 0.5, 1.0], atol=1e-15)
-    with pytest.raises(op.OptipathError, match=r"diagonal, or give an angle such as '45 deg'$"):
-        read(tomllib.loads(text.replace("vertical", "upright")))
