@@ -96,29 +96,20 @@ def test_whatever_is_quoted_is_short_and_on_one_line(value):
     assert text.isprintable()
 
 
-def test_what_is_short_is_quoted_as_it_is():
+def test_sentences_quote_60_characters_and_names_of_files_whole():
     assert [errors.shown(v) for v in (1.5, "a", [0.1, None], 1 + 2j)] == [
         "1.5",
         "'a'",
         "[0.1, None]",
         "(1+2j)",
     ]
-
-
-def test_a_sentence_quotes_60_characters_of_what_is_given_and_keeps_its_cure():
     for quoted in ("'" + 5000 * "x" + "'", '"' + 900 * "a b " + '"', 5000 * "y"):
         told = str(op.OptipathError(f"word {quoted} is unknown; did you mean 'x'?"))
         first, _, rest = told.removeprefix("word ").partition(" is unknown")
         assert len(first) <= 62
         assert rest == "; did you mean 'x'?"
-
-
-def test_the_name_of_a_file_is_quoted_whole():
     told = f"'/home/{100 * 'a'}/b.toml' cannot be read"
     assert str(op.OptipathError(told)) == told
-
-
-def test_control_characters_are_shown_as_codes():
     told = str(op.OptipathError("kind 'so\turce' is \x00unknown\r\n"))
     assert told == r"kind 'so\turce' is \x00unknown\r\n"
 

@@ -64,12 +64,9 @@ def test_imports_point_one_way():
                 assert imported in allowed, f"{file} imports {imported}"
 
 
-def test_no_two_modules_have_one_name():
+def test_no_two_modules_or_classes_have_one_name():
     names = [file.stem for _, file in modules() if file.stem != "__init__"]
     assert sorted(names) == sorted(set(names))
-
-
-def test_no_two_classes_have_one_name():
     found = [
         node.name
         for _, file in modules()
@@ -79,12 +76,9 @@ def test_no_two_classes_have_one_name():
     assert sorted(found) == sorted(set(found))
 
 
-def test_all_is_sorted_and_complete():
+def test_all_is_sorted_complete_and_documented():
     assert sorted(op.__all__) == op.__all__
     assert all(hasattr(op, name) for name in op.__all__)
-
-
-def test_every_public_name_is_documented():
     for name in op.__all__:
         described = getattr(op, name)
         assert described.__doc__ or not isinstance(described, type | type(op.load_preset)), name
@@ -149,17 +143,11 @@ def test_what_needs_no_numbers_is_told_without_numpy(arguments):
     assert brought_by(code, ["numpy", "networkx"]) == "[]"
 
 
-def test_names_of_surfaces_bring_no_compiler():
+def test_unknown_names_are_told_and_known_ones_bring_no_compiler():
     used = "import optipath as op; [getattr(op.surfaces, name) for name in op.surfaces.__all__]"
     assert brought_by(used, ["numba", "tifffile"]) == "[]"
-
-
-def test_an_unknown_name_of_surfaces_is_told():
     with pytest.raises(AttributeError, match="'HeigtField'; did you mean 'HeightField'"):
         _ = op.surfaces.HeigtField
-
-
-def test_an_unknown_name_is_an_attribute_error_of_the_package():
     with pytest.raises(AttributeError, match="has no attribute 'Sorce'; did you mean 'Source'"):
         _ = op.Sorce
 

@@ -42,20 +42,14 @@ def test_every_value_is_shown_in_few_characters(value):
     assert 0 < len(shown(value)) <= 62
 
 
-def test_short_values_are_shown_as_python_writes_them():
+def test_short_values_are_shown_as_python_writes_them_and_control_characters_by_codes():
     for value in (1, -2.5, "red", [1, [2]], {"n": 1.5}, (1, 2), None, True, 1.5 + 2j):
         assert shown(value) == repr(value)
-
-
-def test_no_control_character_is_printable():
     every = "".join(map(chr, range(0x3000))) + "\ud800\udfff"
     seen = printable(every)
     assert [letter for letter in seen if letter < " "] == ["\n"]
     assert not {*map(chr, range(0x7F, 0xA0)), "\u202e", "\u2066", "\u2028", "\ud800"} & {*seen}
     assert printable("Étienne, 30°, λ/4, 偏光") == "Étienne, 30°, λ/4, 偏光"
-
-
-def test_errors_show_control_characters_by_their_codes():
     error = OptipathError("node '\x1b]0;title\x07' does not exist", "a\rb")
     assert str(error) == "2 faults:\n- node '\\x1b]0;title\\x07' does not exist\n- a\\rb"
 

@@ -89,9 +89,6 @@ def test_runs_of_one_path_are_the_same_step_by_step_and_by_a_function_that_is_ma
     for d in (0.3, 0.2, 0.1) * 8:
         found, expected = AFFINE.trace(d=d).stokes, PLAIN.trace(**values_of(d)).stokes
         np.testing.assert_array_equal(found, expected)
-
-
-def test_a_run_of_one_path_sees_zero_after_another_that_did_not():
     path = through(op.Polarizer(2 * D - 0.2))
     plain = through(op.Polarizer(op.Parameter("a")))
     for d in (0.3, 0.1, 0.3, 0.1, 0.0) * 3:
@@ -134,7 +131,7 @@ def test_a_sum_of_a_right_angle_is_one(degrees):
         np.testing.assert_array_equal(path.trace(d=d).intensity, 100.0)
 
 
-def test_words_go_through_and_none_leaves_the_element_out():
+def test_words_go_through_and_none_leaves_the_element_and_its_offset_out():
     words = {"horizontal": 0.0, "vertical": np.pi / 2}
     f = op.Parameter("f", "none", unit="deg", words=words, optional=True)
     path = through(op.Polarizer(2 * f + "10 deg"))
@@ -146,9 +143,6 @@ def test_words_go_through_and_none_leaves_the_element_out():
     found = path.trace(f=["none", "horizontal", "vertical"]).stokes
     np.testing.assert_allclose(found, expected, rtol=1e-14, atol=1e-13)
     np.testing.assert_array_equal(path.trace().stokes, expected[0])
-
-
-def test_an_element_that_is_left_out_is_not_asked_for_its_offset():
     share = op.Parameter("share", "none", optional=True)
     path = through(op.Attenuator(2 * share + 1.5))
     assert path.trace().intensity == 100.0
@@ -158,16 +152,13 @@ def test_an_element_that_is_left_out_is_not_asked_for_its_offset():
         path.trace(share=["none", 0.2])
 
 
-def test_a_cosine_and_a_sine_are_taken_by_their_angle():
+def test_a_cosine_and_a_sine_are_taken_by_their_angle_and_keep_their_digits_alone():
     pair = op.CosSin(np.cos([0.1, 0.3]), np.sin([0.1, 0.3]))
     np.testing.assert_allclose(
         AFFINE.trace(d=pair).stokes, AFFINE.trace(d=[0.1, 0.3]).stokes, rtol=1e-13
     )
     with pytest.raises(op.ParameterError, match="belong to no angle"):
         AFFINE.trace(d=op.CosSin(0.5, 0.5))
-
-
-def test_where_the_parameter_stands_alone_a_cosine_keeps_its_digits():
     both = through(op.Interface(1.5, D), op.Interface(1.5, D / 2 + 0.1))
     alone = through(op.Interface(1.5, D), op.Interface(1.5, np.pi / 4 + 0.1))
     grazing = op.CosSin(1e-9, 1.0)
@@ -192,12 +183,9 @@ def test_indices_materials_and_amplitudes_take_multiples():
         np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
 
 
-def test_numbers_that_belong_together_take_none():
+def test_numbers_that_belong_together_and_offsets_of_another_dimension_are_refused():
     with pytest.raises(op.ValueFault, match=r"stokes is 2 \* d, but takes several numbers"):
         op.Source(1.0, 2 * D)
-
-
-def test_an_offset_of_another_dimension_is_a_fault():
     with pytest.raises(op.ValueFault, match="offset of parameter 'd' is a length, but Interface"):
         op.Interface(1.5, D + "1 nm")
     with pytest.raises(op.ValueFault, match="offset of parameter 'd' is an angle, but Attenuator"):
@@ -211,16 +199,13 @@ def test_an_offset_that_looks_like_degrees_is_warned_of(angle):
     op.Polarizer(D + "45 deg")
 
 
-def test_turns_that_undo_each_other_vanish():
+def test_turns_that_undo_each_other_vanish_and_bound_ones_stand_as_their_multiples():
     path = through(op.Rotator(2 * D + 0.1), op.Rotator(-(2 * D + 0.1)))
     assert [step.label for step in path.compose().program.steps] == ["lamp.out"]
     other = through(op.Rotator(2 * D + 0.1), op.Rotator(-2 * D))
     np.testing.assert_allclose(
         other.trace(d=0.4).stokes, through(op.Rotator(0.1)).trace().stokes, rtol=1e-14
     )
-
-
-def test_bound_parameters_stand_as_their_multiples():
     for d in (0.2, np.array([0.1, 0.2])):
         bound, expected = AFFINE.bind(d=d), PLAIN.trace(**values_of(d)).stokes
         np.testing.assert_allclose(bound.trace().stokes, expected, rtol=1e-13, atol=1e-13)
@@ -244,13 +229,10 @@ def test_slopes_are_those_of_the_multiple():
     np.testing.assert_array_equal(np.isfinite(found), [True, False])
 
 
-def test_what_is_drawn_and_explained_names_the_multiple():
+def test_drawings_and_certificates_know_the_multiple_and_its_span():
     drawn = draw(through(op.Interface(1.5, 2 * D + "10 deg"), op.Polarizer(-D)))
     assert "incidence=2 * $d + 10 deg" in drawn
     assert "angle=-$d" in drawn
-
-
-def test_certificates_know_the_span_of_a_multiple():
     share = op.Parameter("share", minimum=0.0, maximum=0.4)
     path = through(op.Attenuator(2 * share + 0.1), op.Polarizer(0.3))
     found = path.compose().certificate(share=0.2)

@@ -18,11 +18,16 @@ def long_path(count):
     return path
 
 
-def test_the_explanation_of_a_long_path_is_short_enough_to_read():
+def test_the_explanation_is_short_and_tells_what_is_left_out():
     assert len(long_path(500).compose().explain().splitlines()) < 120
+    path = chain([op.Retarder(op.Parameter("r")), op.Interface(1.5, 0.7)], reads="intensity")
+    text = path.compose().explain()
+    assert "left out, since it changes nothing alive: retarder at 'e0.out'" in text
+    assert "cheaper at 'e1.reflected'" in text
+    assert "certificate" in chain([op.Attenuator(np.ones(0))]).compose().explain()
 
 
-def test_live_components_stand_beside_each_step():
+def test_live_components_and_operations_fewer_than_those_of_the_full_composition_are_told():
     path = chain([op.Polarizer(0.3), op.Retarder(1.0), op.Polarizer(op.Parameter("a"))])
     found = path.compose().explanation()
     live = {step.label: step.live for step in found.steps}
@@ -30,9 +35,6 @@ def test_live_components_stand_beside_each_step():
     # S3 is made by the retarder, and nothing behind it asks for it.
     assert all("S3" not in components for components in live.values())
     assert found.manner["model"] == "linear"
-
-
-def test_operations_are_fewer_than_those_of_the_full_composition():
     glass = {"n1": 1.5, "k1": 0.0, "n2": 1.5, "k2": 0.0, "filter": "none"}
     plan = op.load_preset("npgr026", **glass).reading("intensity").compose()
     counts = plan.explanation().operations
@@ -87,10 +89,6 @@ def test_light_however_faint_is_bounded(intensity):
     json.dumps(found.as_dict(), allow_nan=False)
 
 
-def test_a_path_of_no_values_is_explained():
-    assert "certificate" in chain([op.Attenuator(np.ones(0))]).compose().explain()
-
-
 def test_matrices_that_cannot_be_leave_the_explanation_json():
     path = chain([op.MuellerElement(np.diag([1.0, 3.0, 1.0, 1.0]), physical=False)])
     found = path.compose().explanation()
@@ -113,10 +111,3 @@ def test_matrices_that_cannot_be_leave_the_explanation_json():
 def test_what_becomes_of_a_tolerance_is_told(reads, model, words):
     path = op.load_preset("malus").reading(reads)
     assert words in op.Composer(model=model, tolerance=0.1).compose(path).explain()
-
-
-def test_what_is_left_out_is_told():
-    path = chain([op.Retarder(op.Parameter("r")), op.Interface(1.5, 0.7)], reads="intensity")
-    text = path.compose().explain()
-    assert "left out, since it changes nothing alive: retarder at 'e0.out'" in text
-    assert "cheaper at 'e1.reflected'" in text

@@ -64,32 +64,29 @@ def test_the_mueller_matrix_times_the_source_is_the_light(values):
     np.testing.assert_allclose((mueller.matrix @ source)[..., 0], traced, rtol=0, atol=1e-12)
 
 
-def test_words_and_angles_can_stand_side_by_side_in_an_array():
+def test_a_filter_that_is_left_out_is_not_in_the_plan_and_words_stand_beside_angles():
     together = NPGR026.trace(filter=["none", "horizontal", 0.3]).stokes
     for stokes, single in zip(together, ["none", "horizontal", 0.3], strict=True):
         np.testing.assert_allclose(stokes, NPGR026.trace(filter=single).stokes, rtol=1e-15)
-
-
-def test_a_filter_that_is_left_out_is_not_in_the_plan():
     bound = op.load_preset("npgr026", filter="none").compose()
     assert not any(step.label.startswith("P.") for step in bound.program.steps)
     assert any(step.label.startswith("P.") for step in NPGR026.compose().program.steps)
 
 
-def test_a_plan_is_composed_once_and_run_with_other_values():
+def test_a_plan_is_composed_once_and_evaluates_equal_values_once():
     plan = op.Composer().compose(NPGR026)
     assert NPGR026.compose() is NPGR026.compose()
     assert plan == NPGR026.compose()
     one, other = plan.run(delta=0.1).stokes, plan.run(delta=1.0).stokes
     assert not np.allclose(one, other)
     assert np.array_equal(plan.run(delta=0.1).stokes, one)
-
-
-def test_equal_values_are_evaluated_once():
     path = op.load_preset("fresnel-rhomb")
     kernels = [e.kernel.name for e in path.compose().program.evaluations]
     assert len([name for name in kernels if name.startswith("Fresnel reflection")]) == 1
     assert len(path.compose().program.steps) > len(kernels)
+    path = op.load_preset("malus")
+    copy.copy(path).add("more", op.Source())
+    assert "more" not in path.graph
 
 
 def test_components_that_are_not_read_are_nan():
@@ -147,13 +144,21 @@ def test_light_that_is_not_finite_is_refused():
     assert NPGR026.trace(n1=1e200).intensity > 0.0
 
 
-def test_a_parameter_may_have_any_name():
+def test_a_parameter_must_be_given_once_and_may_have_any_name():
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source(op.Parameter("self")))
     lamp >> path.add("eye", op.Detector())
     assert path.trace(self=2.0).intensity == 2.0
     assert path.compose().run(self=3.0).intensity == 3.0
     assert path.bind(self=3.0).trace().intensity == 3.0
+    with pytest.raises(op.ParameterError, match="'delta' is bound to 48 deg"):
+        op.load_preset("npgr026", delta="48 deg").trace(delta=0.1)
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(op.Parameter("I")))
+    lamp >> path.add("eye", op.Detector())
+    with pytest.raises(op.ParameterError, match="'I' has no value"):
+        path.trace()
+    assert path.trace(I=2.0).intensity == 2.0
 
 
 @rows("copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))])
@@ -162,26 +167,6 @@ def test_paths_and_plans_can_be_copied_and_pickled(copied):
     assert copied(path) == path
     assert copied(path.compose()) == path.compose()
     np.testing.assert_array_equal(copied(path.compose()).run().stokes, path.trace().stokes)
-
-
-def test_a_copied_path_is_another_path():
-    path = op.load_preset("malus")
-    copy.copy(path).add("more", op.Source())
-    assert "more" not in path.graph
-
-
-def test_a_bound_parameter_cannot_be_given_again():
-    with pytest.raises(op.ParameterError, match="'delta' is bound to 48 deg"):
-        op.load_preset("npgr026", delta="48 deg").trace(delta=0.1)
-
-
-def test_a_parameter_without_default_must_be_given():
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(op.Parameter("I")))
-    lamp >> path.add("eye", op.Detector())
-    with pytest.raises(op.ParameterError, match="'I' has no value"):
-        path.trace()
-    assert path.trace(I=2.0).intensity == 2.0
 
 
 def test_several_detectors_are_read_by_name():

@@ -4,13 +4,10 @@ import optipath as op
 from paths import chain
 
 
-def test_deep_extinction_stays_within_its_certificate():
+def test_deep_extinction_and_pure_matrices_stay_within_their_certificates():
     crossed = chain([op.Polarizer(0.0, leakage=1e-12)], [1.0, -1.0, 0.0, 0.0], reads="intensity")
     found = crossed.compose().certificate()
     assert found.lower * found.scalar <= crossed.trace().intensity <= found.upper * found.scalar
-
-
-def test_pure_matrices_are_bounded_as_exactly_as_elements():
     turned = op.Retarder(0.4, 0.3).mueller().matrix
     assert chain([op.MuellerElement(turned)]).compose().certificate().error < 1e-12
 

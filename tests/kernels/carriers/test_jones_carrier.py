@@ -90,7 +90,7 @@ def branches():
     return path
 
 
-def test_paths_that_part_and_meet_give_the_same_by_jones_columns():
+def test_paths_that_part_and_meet_are_carried_by_jones_columns_unless_they_depolarise():
     theta = np.linspace(0, 1.5, 7)
     plan = op.Composer(composing="jones").compose(branches())
     expected = branches().trace(theta=theta)
@@ -98,9 +98,6 @@ def test_paths_that_part_and_meet_give_the_same_by_jones_columns():
     matrix = branches().mueller(theta=theta).matrix
     np.testing.assert_allclose(plan.mueller(theta=theta).matrix, matrix, rtol=0, atol=5e-15)
     assert "Jones" in plan.explain()
-
-
-def test_what_may_depolarise_is_refused_by_jones_columns_with_its_name():
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source())
     (

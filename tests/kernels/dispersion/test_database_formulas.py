@@ -87,11 +87,8 @@ def test_the_slope_of_a_formula_is_right(jax, number, w):
         assert abs(mp.mpf(float(slope)) - exact) < 2e-14 * max(abs(exact), mp.mpf("1e-2"))
 
 
-def test_a_term_without_strength_has_no_pole():
-    assert DATABASE_FORMULAS[4](np, np.array([1.0]), [2.25, 0, 0, 0, 0]) == 1.5
-
-
 def test_where_a_formula_comes_to_no_index_it_is_nan():
+    assert DATABASE_FORMULAS[4](np, np.array([1.0]), [2.25, 0, 0, 0, 0]) == 1.5
     assert np.isnan(DATABASE_FORMULAS[3](np, np.array([2.0]), [1.0, -1.0, 2])[0])
     assert np.isnan(DATABASE_FORMULAS[2](np, np.array([0.5]), [0.0, 1.0, 0.25])[0])
 

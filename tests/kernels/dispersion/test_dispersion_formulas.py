@@ -131,7 +131,7 @@ def test_at_the_gap_an_oscillator_and_its_slopes_are_those_next_to_it(jax, part)
         assert float(slope) == pytest.approx(float(wanted), rel=1e-12, abs=1e-12)
 
 
-def test_an_oscillator_keeps_the_relation_of_kramers_and_kronig():
+def test_oscillators_keep_kramers_and_kronig_and_have_no_index_at_a_resonance():
     quad = pytest.importorskip("scipy.integrate").quad
 
     def absorbed(e):
@@ -146,6 +146,9 @@ def test_an_oscillator_keeps_the_relation_of_kramers_and_kronig():
         far, _ = quad(lambda x, e=energy: absorbed(x) / (x * x - e * e), 60.0, np.inf)
         found = tauc_lorentz_permittivity(np, energy, *SILICON)[0]
         assert float(found) == pytest.approx(2.0 / np.pi * (near + far), rel=1e-6)
+    squares = sellmeier_square(np, np.array([0.5, 0.45, 0.7]), 1.0, [1.0], [0.25])
+    found = index_of_square(np, squares)
+    assert np.isnan(found).tolist() == [True, True, False]
 
 
 @rows("real", [-3.0, -1e-100, 0.0, 1e-100, 2.0])
@@ -167,9 +170,3 @@ def test_slopes_of_an_index_are_right_where_a_part_of_the_permittivity_is_0(jax,
         slopes = jax.grad(lambda *a, part=part: index_of_permittivity(jax.numpy, *a)[part], (0, 1))
         for slope, each in zip(slopes(real, imaginary), wanted, strict=True):
             assert float(slope) == pytest.approx(float(each), rel=1e-14, abs=1e-16)
-
-
-def test_at_a_resonance_and_below_0_there_is_no_index():
-    squares = sellmeier_square(np, np.array([0.5, 0.45, 0.7]), 1.0, [1.0], [0.25])
-    found = index_of_square(np, squares)
-    assert np.isnan(found).tolist() == [True, True, False]

@@ -41,20 +41,11 @@ def test_lambda_is_that_of_fifty_digits(alpha):
         assert found == pytest.approx(exact, rel=1e-15, abs=1e-15 * (1.0 + exact))
 
 
-def test_the_roughness_along_the_direction_is_what_counts():
+def test_what_is_seen_goes_by_height_roughness_along_and_the_cosine_at_grazing():
     k, across = direction(1.1, 0.4), math.sin(1.1)
     alpha = math.hypot(0.2 * k[0], 0.9 * k[1]) / across
     found = smith_cosine(FLOAT)(k, 0.2, 0.9)
     assert found == pytest.approx(smith_cosine(FLOAT)(k, alpha, alpha), rel=1e-15)
-
-
-@rows("masking", MASKINGS)
-def test_nothing_is_masked_along_the_normal(masking):
-    up, down = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
-    assert masked_cosines(FLOAT, masking)(down, up, 0.5, 0.5) == 1.0
-
-
-def test_what_is_high_is_seen_along_both_directions():
     down, up = direction(2.2), direction(1.1)
     seen = {
         masking: down[2] * -up[2] / masked_cosines(FLOAT, masking)(down, up, 0.5, 0.5)
@@ -62,17 +53,17 @@ def test_what_is_high_is_seen_along_both_directions():
     }
     assert seen["none"] == 1.0
     assert seen["separate"] < seen["smith"] < math.sqrt(seen["separate"]) < 1.0
-
-
-def test_next_to_grazing_incidence_the_share_seen_is_in_proportion_to_the_cosine():
     cosine = smith_cosine(FLOAT)
     for angle in (1e-6, 1e-12):
         k = (math.cos(angle), 0.0, math.sin(angle))
         assert cosine(k, 0.5, 0.5) == pytest.approx(0.25 / math.sqrt(math.pi), rel=8.0 * angle)
-
-
-def test_arrays_come_to_what_floats_do():
     k = np.array([direction(theta, 0.3) for theta in ANGLES]).T
     found = smith_cosine(NUMPY)(tuple(k), 0.3, 0.6)
     one_by_one = [smith_cosine(FLOAT)(direction(theta, 0.3), 0.3, 0.6) for theta in ANGLES]
     np.testing.assert_allclose(found, one_by_one, rtol=1e-15)
+
+
+@rows("masking", MASKINGS)
+def test_nothing_is_masked_along_the_normal(masking):
+    up, down = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
+    assert masked_cosines(FLOAT, masking)(down, up, 0.5, 0.5) == 1.0

@@ -64,12 +64,9 @@ def test_an_attenuator_dims_all_components(field, t):
     agrees(op.Attenuator(t), np.sqrt(t) * np.eye(2), field)
 
 
-def test_an_ideal_polarizer_halves_unpolarised_light():
+def test_polarizers_halve_unpolarised_light_and_plates_make_positive_helicity():
     light = op.Polarizer(np.pi / 2).mueller() @ op.Light([100.0, 0, 0, 0])
     np.testing.assert_allclose(light.stokes, [50, -50, 0, 0], rtol=0, atol=1e-13)
-
-
-def test_a_quarter_wave_plate_makes_diagonal_light_positive_helicity():
     light = op.Retarder(np.pi / 2).mueller() @ op.Light([1.0, 0, 1.0, 0])
     np.testing.assert_allclose(light.stokes, [1, 0, 0, 1], rtol=0, atol=1e-15)
 

@@ -108,14 +108,11 @@ def test_numbers_of_any_size_give_numbers(size):
             assert np.all(np.isfinite(np.array(numbers, float)))
 
 
-def test_single_precision_gives_numbers_up_to_the_limit():
+def test_a_retardance_is_a_medium_without_dichroism_in_single_precision_too():
+    assert retardance(FLOAT)(0.1, 0.2, 0.3)[1:] == pure((0.0, 0.0, 0.0), (0.1, 0.2, 0.3))[1:]
+    assert retardance(FLOAT)(0.1, 0.2, 0.3)[0] == 1.0
     single = [np.float32(x) for x in (LARGEST_DICHROISM, 0, 0, 0, 0, 0, LARGEST - 80.0, 80.0)]
     numbers = np.array(depolarizing_lorentz(NUMPY)(*single))
     assert numbers.dtype == np.float32
     assert np.all(np.isfinite(numbers))
     assert numbers[0] > 0.0
-
-
-def test_a_retardance_is_a_medium_without_dichroism():
-    assert retardance(FLOAT)(0.1, 0.2, 0.3)[1:] == pure((0.0, 0.0, 0.0), (0.1, 0.2, 0.3))[1:]
-    assert retardance(FLOAT)(0.1, 0.2, 0.3)[0] == 1.0

@@ -199,12 +199,22 @@ def test_next_to_grazing_incidence_nothing_is_nan(k1):
             assert np.all(np.isfinite(numbers))
 
 
-def test_the_index_of_the_phase_is_that_of_kettelers_equations():
+def test_the_index_of_the_phase_is_that_of_kettelers_equations_in_arrays_and_floats():
     (q,) = PHASE_INDEX.made_for(FLOAT)(1.5, 0.4, math.cos(0.7), math.sin(0.7))
     y, normal = q * math.sin(0.7), q * math.cos(0.7)
     across = 1.5 * 0.4 / normal
     assert y * y + normal * normal - across * across == pytest.approx(1.5**2 - 0.4**2, rel=1e-15)
     assert PHASE_INDEX.made_for(FLOAT)(1.5, 0.0, 0.8, 0.6) == (1.5,)
+    rng = np.random.default_rng(7)
+    columns = [rng.uniform(*span, 50) for span in ((1, 2), (0, 0.2), (1, 2), (0, 1), (0, 1))]
+    *media, angle = columns
+    for family in FAMILIES:
+        kernel = family.by_method("stable")
+        arrays = kernel.made_for(NUMPY)(*media, np.cos(angle), np.sin(angle))
+        single = kernel.made_for(FLOAT)
+        for place in range(50):
+            row = [column[place] for column in (*media, np.cos(angle), np.sin(angle))]
+            np.testing.assert_allclose([a[place] for a in arrays], single(*row), rtol=1e-13)
 
 
 @pytest.mark.parametrize("n0", [None, 1.3])
@@ -232,16 +242,3 @@ def test_slopes_are_those_of_50_digits(jax, k1, n0):
             slopes = ((exact(*moved) - exact(*at)) / step).astype(float)
             there = [[number[place] for number in family] for family in found]
             np.testing.assert_allclose(np.array(there, float), slopes, rtol=1e-9, atol=1e-12)
-
-
-def test_arrays_and_floats_are_one():
-    rng = np.random.default_rng(7)
-    columns = [rng.uniform(*span, 50) for span in ((1, 2), (0, 0.2), (1, 2), (0, 1), (0, 1))]
-    *media, angle = columns
-    for family in FAMILIES:
-        kernel = family.by_method("stable")
-        arrays = kernel.made_for(NUMPY)(*media, np.cos(angle), np.sin(angle))
-        single = kernel.made_for(FLOAT)
-        for place in range(50):
-            row = [column[place] for column in (*media, np.cos(angle), np.sin(angle))]
-            np.testing.assert_allclose([a[place] for a in arrays], single(*row), rtol=1e-13)

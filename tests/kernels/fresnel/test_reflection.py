@@ -68,13 +68,30 @@ def test_normal_incidence_gives_the_closed_form_and_turns_y(method):
     assert pytest.approx(0.0, abs=1e-16) == S
 
 
-def test_brewsters_angle_leaves_no_light_along_p():
+def test_brewsters_angle_and_total_reflection_are_those_of_the_books():
     norm = np.hypot(1.0, 1.5)
     A, B, C, _ = op.fresnel_reflection(1.5, 1.0 / norm, 1.5 / norm)
     # tan(theta) = n: r_s = (1 - n^2) / (1 + n^2), r_p = 0.
     assert pytest.approx(0.5 * (1.25 / 3.25) ** 2, rel=1e-15) == A
     assert B == A
     assert abs(C) <= 1e-16
+    # Born & Wolf, sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2.
+    angle, n = np.radians(54.6), 1 / 1.5105
+    c, s = np.cos(angle), np.sin(angle)
+    half = np.arctan(c * np.sqrt(s * s - n * n) / (s * s))
+    _, _, C, S = op.fresnel_reflection(n, c, s)
+    # arg r_s = -2 atan(b/c) and arg r_p = -2 atan(b/(n^2 c)) with g = i b: r_p is further behind.
+    assert np.arctan2(S, C) == pytest.approx(2 * half, abs=1e-14)
+    # Born & Wolf, sec. 1.5.3, at Brewster's angle: T_p = 1, T_s = 1 - (1-n^2)^2/(1+n^2)^2.
+    norm = np.hypot(1.0, 1.5)
+    A, B, C, S = op.fresnel_transmission(1.5, 1.0 / norm, 1.5 / norm)
+    Ts = 1 - (1.25 / 3.25) ** 2
+    assert pytest.approx(1.0, abs=1e-15) == A - B
+    assert pytest.approx(Ts, abs=1e-15) == A + B
+    assert pytest.approx(np.sqrt(Ts), abs=1e-15) == C
+    assert S == 0.0
+    found = op.fresnel_transmission(0.5, [0.6, 0.0], [0.8, 1.0])
+    np.testing.assert_array_equal(found, np.zeros((4, 2)))
 
 
 @given(n=st.floats(0.1, 0.9), angle=st.floats(0.0, 1.0))
@@ -96,16 +113,6 @@ def test_exactly_grazing_light_is_reflected_whole(index):
 def test_an_equal_medium_reflects_nothing(angle):
     A, B, C, S = op.fresnel_reflection(1.0, np.cos(angle), np.sin(angle))
     assert max(abs(A), abs(B), abs(C), abs(S)) <= 1e-15
-
-
-def test_total_reflection_retards_as_fresnels_rhomb_needs():
-    # Born & Wolf, sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2.
-    angle, n = np.radians(54.6), 1 / 1.5105
-    c, s = np.cos(angle), np.sin(angle)
-    half = np.arctan(c * np.sqrt(s * s - n * n) / (s * s))
-    _, _, C, S = op.fresnel_reflection(n, c, s)
-    # arg r_s = -2 atan(b/c) and arg r_p = -2 atan(b/(n^2 c)) with g = i b: r_p is further behind.
-    assert np.arctan2(S, C) == pytest.approx(2 * half, abs=1e-14)
 
 
 @given(n=INDICES, k=EXTINCTIONS, angle=st.floats(0.0, 1.57))
@@ -134,9 +141,11 @@ def test_an_index_that_vanishes_reflects_everything(index):
     np.testing.assert_allclose(C * C + S * S, 1.0, rtol=0, atol=1e-15)
 
 
-def test_an_unknown_method_is_refused_with_a_suggestion():
+def test_unknown_methods_and_precisions_are_refused_and_the_known_are_named():
     with pytest.raises(op.ComposerError, match="did you mean 'stable'"):
         op.fresnel_reflection(1.5, 1.0, 0.0, method="stabel")
+    with pytest.raises(op.ComposerError, match="'flaot64' is unknown; give 'float64', 'float32'"):
+        op.fresnel_reflection(1.5, 1.0, 0.0, dtype="flaot64")
 
 
 @rows(
@@ -215,22 +224,6 @@ def test_what_is_let_through_and_what_is_reflected_is_all_the_light(method, n, k
     assert abs(TC**2 + TS**2 - (TA + TB) * (TA - TB)) <= slack
 
 
-def test_transmission_into_glass_is_as_in_the_books():
-    # Born & Wolf, sec. 1.5.3, at Brewster's angle: T_p = 1, T_s = 1 - (1-n^2)^2/(1+n^2)^2.
-    norm = np.hypot(1.0, 1.5)
-    A, B, C, S = op.fresnel_transmission(1.5, 1.0 / norm, 1.5 / norm)
-    Ts = 1 - (1.25 / 3.25) ** 2
-    assert pytest.approx(1.0, abs=1e-15) == A - B
-    assert pytest.approx(Ts, abs=1e-15) == A + B
-    assert pytest.approx(np.sqrt(Ts), abs=1e-15) == C
-    assert S == 0.0
-
-
-def test_nothing_passes_in_total_reflection():
-    found = op.fresnel_transmission(0.5, [0.6, 0.0], [0.8, 1.0])
-    np.testing.assert_array_equal(found, np.zeros((4, 2)))
-
-
 @rows("dtype", ["float32", "float64"])
 @rows("method", METHODS)
 def test_the_result_has_the_precision_that_was_asked_for(method, dtype):
@@ -238,11 +231,6 @@ def test_the_result_has_the_precision_that_was_asked_for(method, dtype):
         for index in (1.5, [1.5, 0.2 + 3j]):
             found = function(index, 0.8, 0.6, method, dtype)
             assert {number.dtype for number in found} == {np.dtype(dtype)}
-
-
-def test_an_unknown_precision_is_refused_and_the_known_are_named():
-    with pytest.raises(op.ComposerError, match="'flaot64' is unknown; give 'float64', 'float32'"):
-        op.fresnel_reflection(1.5, 1.0, 0.0, dtype="flaot64")
 
 
 LOST = (2.1601279950827297, 1.2841725811036993, 0.8035599507794031)

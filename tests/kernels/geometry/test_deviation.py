@@ -79,7 +79,7 @@ def test_what_no_surface_refracts_is_no_number(n1, n2, turned, fits):
     assert not fits or abs(cos * cos + sin * sin - 1.0) <= 4e-16
 
 
-def test_slopes_are_finite_along_the_normal_and_in_one_medium():
+def test_slopes_are_finite_everywhere_and_those_of_finite_differences():
     jax = pytest.importorskip("jax")
     jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
     plan = op.Composer(engine="jax").compose(
@@ -99,9 +99,6 @@ def test_slopes_are_finite_along_the_normal_and_in_one_medium():
     np.testing.assert_array_equal(of_points, np.zeros((3, 3)))
     assert np.isnan(jax.jit(intensity)(1.5, down.at[2, 0].set(3.0)))
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
-
-
-def test_slopes_are_those_of_finite_differences():
     jax = pytest.importorskip("jax")
     jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
     points, step = around(0.7, 1.0, 1.5, np.random.default_rng(5)), 1e-5

@@ -21,27 +21,21 @@ def test_cosine_and_sine_of_the_incidence_keep_their_digits_where_they_are_small
     assert sin == pytest.approx(math.sin(theta), rel=1e-15)
 
 
-def test_the_incidence_does_not_depend_on_the_lengths_of_the_legs():
+def test_the_incidence_goes_by_directions_alone_and_x_along_normal_cross_direction():
     near = INCIDENCE.made_for(FLOAT)(0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0)
     far = INCIDENCE.made_for(FLOAT)(0.0, 0.0, -1e60, 0.0, 0.0, 0.0, 1e-60, 0.0, 0.0)
     assert near == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)), rel=1e-15)
     assert far == pytest.approx(near, rel=1e-15)
-
-
-def test_x_is_along_the_normal_cross_the_direction():
     # Down along -z onto a mirror whose normal is (y + z): n cross k = -x.
     points = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
     assert ARRIVING.made_for(FLOAT)(*points) == (-1.0, 0.0, 0.0, 0.0, 0.0, -1.0)
     assert REFLECTED.made_for(FLOAT)(*points) == (-1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 
-def test_planes_that_are_turned_by_a_right_angle_change_the_sign_of_s1():
+def test_planes_turn_s1_and_vertices_without_a_plane_nothing():
     # A periscope: up, sideways along x, and then on along y.
     points = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0)
     assert TURN_BETWEEN_PLANES.made_for(FLOAT)(*points) == pytest.approx((-1.0, 0.0))
-
-
-def test_a_vertex_without_a_plane_turns_nothing():
     straight = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 3.0, 1.0)
     assert TURN_BETWEEN_PLANES.made_for(FLOAT)(*straight) == (1.0, 0.0)
 

@@ -42,20 +42,14 @@ def test_every_digit_stays_however_little_leaves(size, leak):
     np.testing.assert_allclose(found, exact(back, leaves, arriving), rtol=2e-14)
 
 
-def test_what_leaves_is_what_arrived():
+def test_what_leaves_is_what_arrived_and_gains_are_told_by_their_pivots():
     rng = np.random.default_rng(7)
     back, leaves = system(rng, 9, 1e-9)
     found = Elimination(FLOAT, back, leaves, [True] * 9).solved([1.0] + [0.0] * 8)
     assert np.dot(found, leaves) == pytest.approx(1.0, rel=1e-14)
-
-
-def test_a_pivot_that_is_not_above_zero_tells_of_a_gain():
     # Of the one, 1/2 comes back as the other, of which 3 come back: 3/2 in a round.
     pivots = Elimination(FLOAT, [{1: 0.5}, {0: 3.0}], [0.5, -2.0], [True, True]).pivots
     assert min(pivots) < 0
-
-
-def test_what_keeps_all_of_its_light_is_dark_where_none_arrives():
     found = Elimination(FLOAT, [{0: 0.5}, {1: 1.0}], [0.5, 0.0], [True, True]).solved([1.0, 0.0])
     assert found == [2.0, 0.0]
 

@@ -10,19 +10,13 @@ from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 POSITIVE = np.concatenate([[0.0], np.geomspace(1e-300, 50.0, 400), np.linspace(0.0, 8.0, 401)])
 
 
-def test_it_is_that_of_fifty_digits_to_4e_16_of_one():
+def test_it_has_the_digits_of_fifty_in_arrays_and_floats():
     with mp.workdps(50):
         exact = np.array([float(mp.erfc(x)) for x in POSITIVE.tolist()])
     assert np.max(np.abs(complementary_error(NUMPY)(POSITIVE) - exact)) <= 4e-16
-
-
-def test_small_values_have_their_digits_as_far_as_four():
     exact = [math.erfc(x) for x in np.linspace(0.0, 4.0, 81)]
     found = complementary_error(NUMPY)(np.linspace(0.0, 4.0, 81))
     np.testing.assert_allclose(found, exact, rtol=1e-14)
-
-
-def test_plain_floats_come_to_what_arrays_do():
     of_floats = [complementary_error(FLOAT)(x) for x in POSITIVE.tolist()]
     np.testing.assert_allclose(complementary_error(NUMPY)(POSITIVE), of_floats, atol=2e-16)
 

@@ -48,23 +48,17 @@ def test_angles_of_points_are_right_to_three_units_in_the_last_place(rng, dtype)
         assert ulps(found, exact) < 3.0
 
 
-def test_plain_floats_and_arrays_come_to_the_same_bits(rng):
+def test_floats_arrays_and_complex_numbers_come_to_the_same_bits(rng):
     numbers = rng.uniform(-3, 3, 200)
     one, many = exponential(FLOAT, "float64"), exponential(NUMPY, "float64")
     assert [one(x) for x in numbers.tolist()] == many(numbers).tolist()
     one, many = arc_tangent(FLOAT), arc_tangent(NUMPY)
     assert [one(x, 0.7) for x in numbers.tolist()] == many(numbers, 0.7).tolist()
-
-
-def test_an_angle_beyond_the_polynomials_leaves_others_as_they_are():
     xp = reproducible_numpy("float64")
     angles = np.array([0.3, 1e9, -2.0])
     for function, plain in ((xp.sin, np.sin), (xp.cos, np.cos)):
         alone = [function(angles[:1])[0], plain(1e9), function(angles[2:])[0]]
         assert function(angles).tolist() == alone
-
-
-def test_complex_numbers_are_those_of_numpy():
     xp, number = reproducible_numpy("float64"), np.array([0.3 + 0.2j])
     for name in ("sin", "cos", "exp"):
         assert getattr(xp, name)(number) == getattr(np, name)(number)

@@ -47,15 +47,12 @@ def test_angles_of_the_first_quadrant_are_right_to_two_units_in_the_last_place(r
         assert ulps(value, exact, dtype) < 2.0
 
 
-def test_next_to_a_right_angle_float32_has_what_double_precision_leaves(rng):
+def test_next_to_any_right_angle_float32_has_what_double_precision_leaves(rng):
     angles = np.pi / 2 - 10.0 ** rng.uniform(-15.6, 0, 500)
     left = from_nearer_axis(NUMPY, DIGITS["float64"])(angles)
     found = first_quadrant(NUMPY, DIGITS["float32"])(*(x.astype("float32") for x in (angles, left)))
     for value, exact in zip(found, exactly(angles), strict=True):
         assert ulps(value, exact, "float32") < 2.0
-
-
-def test_next_to_any_right_angle_float32_has_what_double_precision_leaves(rng):
     turns = np.round(rng.uniform(-500, 500, 500))
     # Of a larger angle the double itself has fewer digits.
     angles = turns * (np.pi / 2) + rng.choice([-1, 1], 500) * 10.0 ** rng.uniform(-9, -0.2, 500)
@@ -63,9 +60,6 @@ def test_next_to_any_right_angle_float32_has_what_double_precision_leaves(rng):
     found = any_quadrant(NUMPY, DIGITS["float32"])(*(x.astype("float32") for x in (angles, left)))
     for value, exact in zip(found, exactly(angles), strict=True):
         assert ulps(value, exact, "float32") < 2.0
-
-
-def test_of_multiples_of_a_right_angle_nothing_is_left():
     angles = np.arange(-9, 10) * (np.pi / 2)
     np.testing.assert_array_equal(from_axes(NUMPY, DIGITS["float64"])(angles), 0.0)
 

@@ -27,14 +27,8 @@ def test_every_fault_of_what_is_given_is_told_at_once():
     assert len(found) == 4
     for name in ("'thta'", "'turn'", "'theta'", "'power'"):
         assert any(name in fault for fault in found), found
-
-
-def test_a_value_out_of_range_is_told_beside_shapes_that_do_not_fit():
     found = faults(theta=np.array([0.1, 2.0]), power=np.ones(3))
     assert any("'theta'" in fault for fault in found)
-
-
-def test_values_in_range_of_shapes_that_do_not_fit_are_named_with_their_shapes():
     (fault,) = faults(theta=np.full(2, 0.1), power=np.ones(3))
     assert "theta (2,)" in fault
     assert "power (3,)" in fault

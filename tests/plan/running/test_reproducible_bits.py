@@ -97,22 +97,24 @@ def test_random_paths_are_the_same_alone_and_among_others(seed):
             assert np.array_equal(alone[name], light.stokes[:7], equal_nan=True)
 
 
-def test_the_first_run_is_the_tenth():
+def test_the_first_run_is_the_tenth_and_parts_of_a_stream_are_the_batch():
     plan = combined(op.Parameter("theta")).compose()
     lights = [plan.run(wavelength=5.1e-7, theta=0.7).stokes for _ in range(10)]
     assert all(np.array_equal(lights[0], light) for light in lights)
+    plan = combined(op.Parameter("theta")).compose()
+    given = {"wavelength": wavelengths(50)[:, None], "theta": FLOATS}
+    whole = plan.run(**given).stokes
+    for part in plan.stream(7, **given):
+        assert np.array_equal(whole[part.where], part.light.stokes)
 
 
-def test_a_wavelength_without_absorption_is_computed_as_its_neighbours_are():
+def test_no_absorption_and_faint_light_leave_their_neighbours_as_they_are():
     path = op.Source() >> metal(op.Parameter("theta")) >> op.Detector()
     k = np.array([ramp(0.0, 3.0, 1.7e-7).curve.evaluated(w)[0] for w in wavelengths(5)])
     assert np.any(k == 0.0)
     assert np.any(k > 0.0)
     ((alone, together),) = compared(path)
     assert np.array_equal(alone, together)
-
-
-def test_light_too_faint_beside_other_light_leaves_that_as_it_is():
     black = op.Medium(1.0, ramp(0.0, 1900.0))
     path = op.Source() >> black >> metal(op.Parameter("theta")) >> op.Detector()
     ((alone, together),) = compared(path)
@@ -151,14 +153,6 @@ def test_matrices_are_the_same_alone_and_among_others():
         [single.mueller(wavelength=a, theta=float(t)).matrix for t in FLOATS[1:]] for a in w[:5]
     ]
     assert np.array_equal(found[:5], alone)
-
-
-def test_parts_of_a_stream_are_the_batch():
-    plan = combined(op.Parameter("theta")).compose()
-    given = {"wavelength": wavelengths(50)[:, None], "theta": FLOATS}
-    whole = plan.run(**given).stokes
-    for part in plan.stream(7, **given):
-        assert np.array_equal(whole[part.where], part.light.stokes)
 
 
 def test_a_cosine_and_a_sine_in_place_of_an_angle_are_the_same_alone_and_among_others():

@@ -52,12 +52,9 @@ def test_every_contender_has_a_mark_in_each_panel(name):
         assert len(marked) == len(chart["contenders"])
 
 
-def test_texts_are_large_enough_to_be_read_at_half_the_size():
+def test_methods_precisions_engines_and_limits_are_named_in_readable_texts():
     panel = op.plots.chart(DOCS / "chart.json")
     assert min(text.get_fontsize() for text in texts_of(panel[0].figure)) >= 14
-
-
-def test_methods_have_colours_precisions_shapes_and_engines_faces():
     chart = recorded("chart.json")
     looks = {}
     for line in op.plots.chart(chart)[0].get_lines():
@@ -65,9 +62,9 @@ def test_methods_have_colours_precisions_shapes_and_engines_faces():
             looks.setdefault(line.get_color(), set()).add(line.get_marker())
     assert len(looks) == 4
     assert all(shapes == {"o", "s", "D"} for shapes in looks.values())
-
-
-def test_the_regions_where_a_method_fails_are_named_or_those_where_it_holds():
+    words = words_of(op.plots.chart(DOCS / "chart.json"))
+    assert words.count("frontier") == 2
+    assert words.count("memory: 2.37 ns") == 2
     words = " ".join(words_of(op.plots.chart(DOCS / "chart-interface.json")))
     assert "all but: near the critical angle;" in words
     assert "n near 1, grazing" in words
@@ -89,13 +86,7 @@ def test_the_unit_of_what_fails_is_explained_and_neither_is_told_where_nothing_f
     assert_clear(panel)
 
 
-def test_the_limits_of_the_machine_and_the_frontier_are_named():
-    words = words_of(op.plots.chart(DOCS / "chart.json"))
-    assert words.count("frontier") == 2
-    assert words.count("memory: 2.37 ns") == 2
-
-
-def test_what_was_left_out_and_an_interruption_are_said_in_the_picture():
+def test_what_was_left_out_is_said_and_what_is_no_chart_refused():
     chart = recorded("chart.json")
     chart["effort"] = {"samples": 3, "rounds": 3, "left_out": "of Numba only stable"}
     chart["regions"] = {"measured": 5, "of": 21}
@@ -103,9 +94,6 @@ def test_what_was_left_out_and_an_interruption_are_said_in_the_picture():
     assert "3 samples a region" in words
     assert "of Numba only stable" in words
     assert "interrupted: 5 of 21 regions" in words
-
-
-def test_what_is_no_chart_is_refused_and_a_file_that_is_not_there():
     with pytest.raises(op.OptipathError, match="what is given is no whole chart"):
         op.plots.chart({"format": 1})
     with pytest.raises(op.OptipathError, match=r"'nowhere\.json' cannot be read"):
@@ -134,7 +122,7 @@ def near(**more):
     }
 
 
-def test_errors_near_critical_places_are_a_panel_a_place_and_a_line_a_method_and_kind():
+def test_errors_near_critical_places_are_a_panel_a_place():
     panel = op.plots.chart(near())
     assert [ax.get_xlabel() for ax in panel] == [
         f"distance from {name} (rad)" for name in ("brewster", "normal", "grazing")
@@ -145,17 +133,11 @@ def test_errors_near_critical_places_are_a_panel_a_place_and_a_line_a_method_and
         # A lost number is drawn where no digit is right, and none of them is beyond.
         assert max(max(line.get_ydata()) for line in curves) == 1.0
     assert_clear(panel)
-
-
-def test_a_single_place_of_a_long_title_is_drawn():
     one = near(title="long title " * 20, regions={"measured": 3, "of": 9})
     one["places"] = one["places"][:1]
     panel = op.plots.chart(one)
     assert_clear(panel)
     assert "interrupted: 3 of 9 distances" in " ".join(words_of(panel))
-
-
-def test_places_that_lack_errors_are_refused():
     spoilt = near()
     spoilt["places"][0]["distances"] = [1e-1]
     with pytest.raises(op.OptipathError, match="no whole chart"):

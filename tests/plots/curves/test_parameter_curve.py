@@ -27,35 +27,26 @@ def lines(ax):
     }
 
 
-def test_a_curve_of_malus_follows_his_law_over_a_half_turn():
+def test_values_are_those_of_a_sweep_in_their_unit():
     ax = curve(op.load_preset("malus"), "angle")
     x, y = lines(ax)["S0"].T
     assert (x[0], x[-1]) == pytest.approx((0.0, 180.0))
     np.testing.assert_allclose(y, 0.5 * np.cos(np.radians(x)) ** 2, atol=1e-12)
     assert ax.get_ylabel() == "S0: intensity"
     assert ax.get_legend() is None
-
-
-def test_values_are_those_of_a_sweep_in_their_unit():
     path = op.load_preset("quartz-quarter-wave")
     x, _ = lines(curve(path, "wavelength", values="400 nm:700 nm:4"))["S0"].T
     assert x.tolist() == [400.0, 500.0, 600.0, 700.0]
     x, _ = lines(curve(path, "angle", values=[0.0, np.pi / 4, np.pi / 2]))["S0"].T
     assert x == pytest.approx([0.0, 45.0, 90.0])
-
-
-def test_photon_energies_stand_along_the_axis_and_the_default_among_them():
     ax = curve(op.load_preset("quartz-quarter-wave"), "wavelength", values="1.7 eV:3 eV:500")
     assert ax.get_xlabel() == "wavelength in vacuum (eV)"
     (mark,) = [line for line in ax.get_lines() if line.get_gid() == "default"]
     assert mark.get_xdata()[0] == pytest.approx(2.2543, abs=1e-3)  # hc / 550 nm
-
-
-def test_names_are_read_in_small_letters():
     assert [each.name for each in drawn_quantities(("s0", "dolp"))] == ["S0", "DoLP"]
 
 
-def test_quantities_of_two_units_have_two_axes():
+def test_quantities_of_two_units_have_two_axes_and_of_three_are_refused():
     ax = curve(op.load_preset("npgr026"), "delta", ("S0", "S1", "DoLP"))
     left, right = [side for side in ax.figure.axes if side.get_ylabel()]
     assert left is ax
@@ -65,9 +56,6 @@ def test_quantities_of_two_units_have_two_axes():
     )
     shown = [text.get_text() for text in right.get_legend().get_texts()]
     assert shown == ["S0", "S1", "DoLP"]
-
-
-def test_quantities_of_three_units_are_refused():
     with pytest.raises(OptipathError, match="S0, DoP and AoP have 3 units"):
         curve(op.load_preset("malus"), "angle", ("S0", "DoP", "AoP"))
 
@@ -81,7 +69,7 @@ def test_lines_differ_by_colour_and_by_dash():
     assert len({(line.get_color(), str(line._dash_pattern)) for line in drawn}) == 7
 
 
-def test_an_angle_that_comes_round_is_no_line_across():
+def test_angles_that_come_round_or_flip_or_are_not_known_are_no_line_across():
     # A half-wave plate turns x to twice its azimuth, which is over 90 deg from 45 deg on.
     x, y = lines(curve(WAVEPLATE, "turn", "aop"))["AoP"].T
     assert np.isnan(y).sum() == 2
@@ -90,16 +78,6 @@ def test_an_angle_that_comes_round_is_no_line_across():
     assert ends == pytest.approx([45.0, 135.0])
     assert np.nanmax(y) == pytest.approx(90.0)
     assert np.nanmin(y) == pytest.approx(-90.0)
-
-
-def marks(ax):
-    """The points that are marked."""
-    (line,) = [line for line in ax.get_lines() if line.get_marker() not in {"None", "", None}]
-    assert line.get_linestyle() == "None"
-    return line.get_xydata()
-
-
-def test_few_points_are_marked_and_flips_between_them_leave_them_seen():
     # Each step turns the light by 90 deg, which is drawn neither up nor down.
     ax = curve(WAVEPLATE, "turn", "aop", values="0 deg:180 deg:5")
     x, y = marks(ax).T
@@ -107,6 +85,17 @@ def test_few_points_are_marked_and_flips_between_them_leave_them_seen():
     assert np.abs(y) == pytest.approx([0.0, 90.0, 0.0, 90.0, 0.0], abs=1e-9)
     assert faults_of(ax.figure) == []
     assert len(marks(curve(op.load_preset("malus"), "angle", values="0 deg:90 deg:7"))) == 7
+    path = op.Source(op.Parameter("power", 1.0)) >> op.Detector()
+    ax = curve(path, "power", ("S0", "AoP"))
+    assert np.isnan(lines(ax)["AoP"][:, 1]).all()
+    assert "AoP: the light has none" in [text.get_text() for text in ax.texts]
+
+
+def marks(ax):
+    """The points that are marked."""
+    (line,) = [line for line in ax.get_lines() if line.get_marker() not in {"None", "", None}]
+    assert line.get_linestyle() == "None"
+    return line.get_xydata()
 
 
 @pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")  # ten half turns
@@ -118,21 +107,11 @@ def test_of_many_points_those_are_marked_that_stand_alone():
     assert not [line for line in curve(lit, "angle").get_lines() if line.get_marker() == "o"]
 
 
-def test_the_angle_of_light_without_polarisation_is_left_open_and_told():
-    path = op.Source(op.Parameter("power", 1.0)) >> op.Detector()
-    ax = curve(path, "power", ("S0", "AoP"))
-    assert np.isnan(lines(ax)["AoP"][:, 1]).all()
-    assert "AoP: the light has none" in [text.get_text() for text in ax.texts]
-
-
-def test_the_value_by_default_is_marked_with_its_text():
+def test_the_value_by_default_is_marked_with_its_text_where_it_is_seen():
     ax = curve(op.load_preset("malus"), "angle")
     (mark,) = [line for line in ax.get_lines() if line.get_gid() == "default"]
     assert mark.get_xdata()[0] == pytest.approx(30.0)
     assert "30°" in [text.get_text() for text in texts_of(ax.figure)]
-
-
-def test_a_default_beyond_the_values_or_a_word_is_not_marked():
     ax = curve(op.load_preset("malus"), "angle", values="40 deg:80 deg:9")
     assert "default" not in [line.get_gid() for line in ax.get_lines()]
     ax = curve(op.load_preset("npgr026"), "filter")
@@ -178,7 +157,7 @@ def test_narrow_lines_of_a_spectrum_are_drawn_as_high_as_they_are(thickness):
     assert off_line(curve(path, "wavelength"), path, "wavelength", 1e-9) < 0.01
 
 
-def test_what_changes_too_fast_is_told_and_values_that_are_given_stay():
+def test_what_changes_too_fast_is_told_but_not_rounding():
     path = op.load_preset("lyot-filter", thickness="100 mm")
     ax = curve(path, "wavelength")
     told = ax.get_title().replace("\n", " ")
@@ -186,21 +165,9 @@ def test_what_changes_too_fast_is_told_and_values_that_are_given_stay():
     assert faults_of(ax.figure) == []
     ax = curve(path, "wavelength", values="400 nm:700 nm:50")
     assert (ax.get_title(), len(lines(ax)["S0"])) == ("", 50)
-
-
-def test_rounding_about_nothing_is_no_fast_change():
     # Light that is linear at every angle, whose S3 is nothing but rounding.
     ax = curve(op.load_preset("double-pass-waveplate"), "angle", "S3")
     assert (ax.get_title(), len(lines(ax)["S3"])) == ("", 1441)
-
-
-def test_what_is_not_read_is_told_apart_from_what_light_does_not_have():
-    path = op.Source(op.Parameter("power", 1.0)) >> op.Detector(reads="linear")
-    ax = curve(path, "power", ("S0", "S3", "DoLP"))
-    assert "S3: not read" in [text.get_text() for text in ax.texts]
-    ax = curve(path, "power", ("AoP", "delta"))
-    told = "AoP: the light has none\ndelta: not read"
-    assert told in [text.get_text() for text in ax.texts]
 
 
 def test_the_legend_is_above_every_curve():
@@ -215,16 +182,13 @@ def test_the_legend_is_above_every_curve():
                 assert highest < bottom
 
 
-def test_a_detector_is_chosen_by_name_and_a_dump_may_be():
+def test_detectors_are_chosen_by_name_and_asked_for():
     path = op.load_preset("glass-slab")
     _, y = lines(curve(path, "theta", detector="reflected", values="0 deg:10 deg:2"))["S0"].T
     # Both faces of n = 1.5 reflect 2 R / (1 + R) upright, with R = 0.04.
     assert y[0] == pytest.approx(0.08 / 1.04)
     with pytest.raises(ParameterError, match="detector 'reflcted' is unknown"):
         curve(path, "theta", detector="reflcted")
-
-
-def test_which_of_several_detectors_is_asked():
     path = op.PathGraph()
     path.add("lamp", op.Source(op.Parameter("power", 1.0))) >> path.add("split", op.BeamSplitter())
     path.add("one", op.Detector())
@@ -234,6 +198,12 @@ def test_which_of_several_detectors_is_asked():
     with pytest.raises(ParameterError, match="the detectors one and two; say which"):
         curve(path, "power")
     assert [*lines(curve(path, "power", detector="two"))] == ["S0"]
+    path = op.Source(op.Parameter("power", 1.0)) >> op.Detector(reads="linear")
+    ax = curve(path, "power", ("S0", "S3", "DoLP"))
+    assert "S3: not read" in [text.get_text() for text in ax.texts]
+    ax = curve(path, "power", ("AoP", "delta"))
+    told = "AoP: the light has none\ndelta: not read"
+    assert told in [text.get_text() for text in ax.texts]
 
 
 @rows(
@@ -258,12 +228,7 @@ def test_what_is_wrong_is_told(given, told):
         curve(op.load_preset("malus"), **given)
 
 
-def test_the_word_for_no_element_is_no_place_on_an_axis():
-    with pytest.raises(ParameterError, match="has the word 'none' among its values"):
-        curve(op.load_preset("npgr026"), "filter", values=["none", "30 deg"])
-
-
-def test_bound_parameters_choices_and_arrays_are_told():
+def test_bound_parameters_choices_arrays_and_what_is_no_path_are_told():
     with pytest.raises(ParameterError, match="'angle' is bound to 30 deg"):
         curve(op.load_preset("malus", angle="30 deg"), "angle")
     with pytest.raises(ParameterError, match="'place' is chosen before a path runs"):
@@ -271,8 +236,7 @@ def test_bound_parameters_choices_and_arrays_are_told():
     path = op.Source(stokes=op.Parameter("stokes", [1, 0, 0, 0])) >> op.Detector()
     with pytest.raises(ParameterError, match="'stokes' is an array"):
         curve(path, "stokes")
-
-
-def test_what_is_no_path_is_told():
+    with pytest.raises(ParameterError, match="has the word 'none' among its values"):
+        curve(op.load_preset("npgr026"), "filter", values=["none", "30 deg"])
     with pytest.raises(OptipathError, match="a curve is of a path"):
         curve(op.Polarizer(), "angle")

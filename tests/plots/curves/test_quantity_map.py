@@ -24,21 +24,19 @@ def malus():
     return quantity_map(op.load_preset("malus"), "angle", "intensity", **FEW)
 
 
-def test_a_map_has_malus_law_along_x_and_the_power_along_y(malus):
+def test_a_map_has_its_values_in_order_with_the_colours_of_its_quantity(malus):
     law = 0.5 * np.cos(np.radians(np.linspace(0, 180, 19))) ** 2
     expected = np.outer([0.5, 1.0, 2.0], law)
     np.testing.assert_allclose(image(malus).get_array(), expected, atol=1e-12)
-
-
-def test_a_map_ends_at_the_first_and_the_last_value(malus):
     limits = *malus.get_xlim(), *malus.get_ylim()
     assert limits == pytest.approx((0.0, 180.0, 0.5, 2.0))
-
-
-def test_values_in_any_order_are_put_in_order(malus):
     given = FEW | {"y_values": "2, 0.5, 1"}
     other = quantity_map(op.load_preset("malus"), "angle", "intensity", **given)
     np.testing.assert_array_equal(image(malus).get_array(), image(other).get_array())
+    mesh = image(malus)
+    assert (mesh.cmap.name, mesh.norm.vmin, mesh.norm.vmax) == ("viridis", 0.0, 1.0)
+    assert malus.get_lines()[-1].get_xydata().tolist() == [pytest.approx([30.0, 1.0])]
+    assert malus.get_title() == "+ by default: angle 30°, intensity 1"
 
 
 @rows(
@@ -58,11 +56,6 @@ def test_colours_are_in_order_apart_from_zero_or_round(quantity, colours, low, h
     assert (scale.norm.vmin, scale.norm.vmax) == (low, high)
 
 
-def test_the_map_has_the_colours_of_its_quantity(malus):
-    mesh = image(malus)
-    assert (mesh.cmap.name, mesh.norm.vmin, mesh.norm.vmax) == ("viridis", 0.0, 1.0)
-
-
 def test_places_without_the_quantity_are_grey_and_the_bar_says_so():
     path = op.load_preset("senarmont")
     ax = quantity_map(
@@ -71,11 +64,6 @@ def test_places_without_the_quantity_are_grey_and_the_bar_says_so():
     assert image(ax).get_array().mask.any()
     (bar,) = [side for side in ax.figure.axes if side is not ax]
     assert bar.get_ylabel().endswith("(grey: none)")
-
-
-def test_a_cross_marks_the_values_by_default(malus):
-    assert malus.get_lines()[-1].get_xydata().tolist() == [pytest.approx([30.0, 1.0])]
-    assert malus.get_title() == "+ by default: angle 30°, intensity 1"
 
 
 def test_what_the_path_refuses_is_grey_where_nobody_gave_it(monkeypatch):

@@ -25,13 +25,10 @@ def glass():
     return curves(reflection(1.5))
 
 
-def test_glass_reflects_four_per_cent_upright_and_all_of_it_at_grazing_incidence(glass):
+def test_curves_are_those_of_the_amplitudes(glass):
     for name in ("$R_s$", "$R_p$", "$R$ unpolarised"):
         assert glass[name][0].tolist() == pytest.approx([0.0, 0.04])
         assert glass[name][-1].tolist() == pytest.approx([90.0, 1.0])
-
-
-def test_curves_are_those_of_the_amplitudes():
     found = curves(reflection(0.6 + 2.1j, outside=1.33))
     x = np.radians(found["$R_s$"][:, 0])
     r_s, r_p, _, _ = op.fresnel_amplitudes(0.6 + 2.1j, np.cos(x), np.sin(x), 1.33)
@@ -39,18 +36,17 @@ def test_curves_are_those_of_the_amplitudes():
     np.testing.assert_allclose(found["$R_p$"][:, 1], np.abs(r_p) ** 2, atol=1e-12)
 
 
-def test_brewsters_angle_of_glass_is_marked_with_its_value(glass):
+def test_brewsters_and_critical_angles_are_marked_where_there_are_any(glass):
     assert marks(1.5) == {"Brewster's angle": pytest.approx(56.3099, abs=1e-4)}
     assert "Brewster's angle 56.31°" in glass
     assert reflected(1.5, np.arctan(1.5)).dolp == pytest.approx(1.0)
-
-
-def test_from_within_glass_there_is_a_critical_angle():
     assert marks(1.0 / 1.5) == {
         "Brewster's angle": pytest.approx(33.6901, abs=1e-4),
         "critical angle": pytest.approx(41.8103, abs=1e-4),
     }
     assert "critical angle 41.81°" in curves(reflection(1.0, outside=1.5))
+    assert [*marks(1.52 + 1e-8j)] == ["Brewster's angle"]
+    assert marks(2j) == {}
 
 
 @rows("index", [0.608 + 2.12j, 3.882 + 0.019j, 1.5 + 1.0j])
@@ -65,19 +61,16 @@ def test_of_metals_the_least_p_and_the_highest_polarisation_are_found(index):
     }
 
 
-def test_a_trace_of_absorption_leaves_brewsters_angle():
-    assert [*marks(1.52 + 1e-8j)] == ["Brewster's angle"]
-
-
-def test_a_perfect_reflector_has_no_angle_with_a_name():
-    assert marks(2j) == {}
-
-
-def test_a_material_is_given_by_its_name_and_a_wavelength():
+def test_a_material_is_given_by_its_name_or_formula_and_a_wavelength():
     by_name = reflection("gold", wavelength="516 nm")
     at = op.Material.named("gold").at("516 nm").refractive_index
     np.testing.assert_array_equal(curves(by_name)["$R_p$"], curves(reflection(at))["$R_p$"])
     assert "gold at 516 nm" in by_name.get_title()
+    # n = 1.5 + 0.004 / 0.5^2, in micrometres.
+    ax = reflection(op.Material.cauchy([1.5, 0.004]), wavelength="500 nm")
+    assert ax.get_title() == "reflection: n = 1.516 in n = 1"
+    with pytest.raises(OptipathError, match="depends on the wavelength; give one"):
+        reflection(op.Material.cauchy([1.5, 0.004]))
 
 
 @rows(
@@ -89,14 +82,6 @@ def test_a_material_is_given_by_its_name_and_a_wavelength():
 )
 def test_the_title_has_numbers_that_differ_and_no_number_for_a_name(given, title):
     assert reflection(**given).get_title() == f"reflection: {title}"
-
-
-def test_a_formula_that_holds_at_any_wavelength_is_taken_at_one():
-    # n = 1.5 + 0.004 / 0.5^2, in micrometres.
-    ax = reflection(op.Material.cauchy([1.5, 0.004]), wavelength="500 nm")
-    assert ax.get_title() == "reflection: n = 1.516 in n = 1"
-    with pytest.raises(OptipathError, match="depends on the wavelength; give one"):
-        reflection(op.Material.cauchy([1.5, 0.004]))
 
 
 @rows("size", [(6.4, 4.4), (3.2, 2.2)])

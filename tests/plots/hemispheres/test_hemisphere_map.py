@@ -81,7 +81,7 @@ def test_light_that_goes_through_is_marked_where_it_is_refracted():
     assert ax.get_title() == "S0, transmitted, incidence 60°"
 
 
-def test_pixels_that_are_masked_are_hatched_and_the_mask_is_told(glass):
+def test_pixels_are_hatched_where_they_are_masked_or_not_known_well_enough(glass):
     ax = op.plots.hemisphere(glass, "ADM", mask={"brighter_than": 0.5})
     adm = glass.adm(brighter_than=0.5)
     image = image_of(ax)
@@ -90,13 +90,7 @@ def test_pixels_that_are_masked_are_hatched_and_the_mask_is_told(glass):
     assert any(patch.get_hatch() for patch in ax.patches)
     told = " ".join(ax.get_legend().get_texts()[-1].get_text().split())
     assert told == f"masked; seen are pixels of {adm.attrs['mask']}"
-
-
-def test_nothing_is_hatched_where_all_pixels_are_known(glass):
     assert not any(patch.get_hatch() for patch in op.plots.hemisphere(glass).patches)
-
-
-def test_pixels_that_are_not_known_well_enough_are_hatched(glass):
     error = glass.dolp().se.values[0, :, :, 0]
     image = image_of(op.plots.hemisphere(glass, "DoLP", known_to=0.02))
     np.testing.assert_array_equal(~image.get_array().mask, error <= 0.02)
@@ -122,12 +116,9 @@ def test_one_of_several_wavelengths_is_drawn():
     assert title == "ADM, reflected, incidence 60°, 2 wavelengths"
 
 
-def test_axes_that_are_given_are_drawn_into_and_returned(glass):
+def test_axes_that_are_given_are_drawn_into_and_settings_stay(glass):
     ax = figures.Figure().add_subplot()
     assert op.plots.hemisphere(glass, "S0", ax) is ax
-
-
-def test_settings_of_matplotlib_stay(glass):
     before = dict(colours.rcParams)
     op.plots.hemisphere(glass, "S0")
     assert dict(colours.rcParams) == before
@@ -171,17 +162,14 @@ def test_all_faults_are_told_at_once(glass):
     with pytest.raises(op.SurfaceError) as told:
         op.plots.hemisphere(glass, "ADM", side="above", wavelength=5e-7, source=[0, 0, 0, 0])
     assert len(told.value.faults) == 3
+    with pytest.raises(op.OptipathError, match="give Axes of Matplotlib, or leave it out"):
+        op.plots.hemisphere(glass, "S0", 3)
 
 
 @rows("wrong", [None, 3, "sample"])
 def test_what_is_no_hemisphere_is_refused(wrong):
     with pytest.raises(op.SurfaceError, match="is no Hemisphere; give what op"):
         op.plots.hemisphere(wrong)
-
-
-def test_what_are_no_axes_is_refused(glass):
-    with pytest.raises(op.OptipathError, match="give Axes of Matplotlib, or leave it out"):
-        op.plots.hemisphere(glass, "S0", 3)
 
 
 @rows("mask", [0.5, 0.0, "noise", np.ones(2)])

@@ -59,16 +59,16 @@ def test_the_model_stands_beside_photons_that_are_scattered_once():
     assert np.abs(apart).mean() < 3.0
 
 
-def test_light_scattered_more_than_once_is_not_set_beside_the_model():
-    with pytest.raises(op.SurfaceError, match="measure with events=1"):
-        op.plots.beside_facets(measured("silver"))
-
-
-def test_panels_are_drawn_into_axes_that_are_given():
+def test_panels_are_drawn_into_axes_and_known_to_a_tenth_by_default():
     axes = figures.Figure().subplots(1, 3)
     panel = op.plots.differences(measured("silver"), axes)
     assert [*panel] == [*axes]
     assert axes[0].figure.get_suptitle() == ""
+    silver = measured("silver")
+    usual, given = (
+        op.plots.mueller_hemisphere(silver, known_to=limit)[1, 0] for limit in (None, 0.1)
+    )
+    np.testing.assert_array_equal(pixels_of(usual).mask, pixels_of(given).mask)
 
 
 @rows("draw", ["mueller_hemisphere", "differences", "beside_facets"])
@@ -78,16 +78,10 @@ def test_axes_of_another_shape_are_refused(draw):
         getattr(op.plots, draw)(measured("silver", events=1), axes)
 
 
-def test_what_has_not_been_measured_is_told():
+def test_what_has_not_been_measured_is_told_and_no_model_beside_several_scatterings():
     sample, options = op.load_sample("perfect-reflector-rough"), {"sensor": 16, "photons": 600}
     found = op.measure(sample, "60 deg", polarized="polarized", **options)
     with pytest.raises(op.SurfaceError, match="has not been measured; measure with polarized"):
         op.plots.differences(found)
-
-
-def test_mueller_matrices_are_known_to_a_tenth_by_default():
-    silver = measured("silver")
-    usual, given = (
-        op.plots.mueller_hemisphere(silver, known_to=limit)[1, 0] for limit in (None, 0.1)
-    )
-    np.testing.assert_array_equal(pixels_of(usual).mask, pixels_of(given).mask)
+    with pytest.raises(op.SurfaceError, match="measure with events=1"):
+        op.plots.beside_facets(measured("silver"))

@@ -25,7 +25,7 @@ def test_every_quantity_has_a_curve_with_names_and_units(quantity):
     assert len(curve_of(ax).get_xdata()) == 16
 
 
-def test_several_curves_have_their_names_and_no_text_is_over_another():
+def test_several_curves_look_otherwise_and_have_their_names():
     several = {"glass": measured("glass on glass"), "silver": measured("silver")}
     ax = op.plots.in_plane(several, "DoLP")
     assert faults_of(ax.figure) == []
@@ -33,13 +33,14 @@ def test_several_curves_have_their_names_and_no_text_is_over_another():
     lines = [line for line in ax.get_lines() if len(line.get_xdata()) > 2]
     assert len({line.get_color() for line in lines}) == 2
     assert len({line.get_linestyle() for line in lines}) == 2  # In print, too.
-
-
-def test_a_curve_that_is_added_looks_otherwise():
     ax = op.plots.in_plane(measured("silver"), "S0")
     op.plots.in_plane({"glass": measured("glass on glass")}, "S0", ax)
     first, second = (line for line in ax.get_lines() if len(line.get_xdata()) > 2)
     assert first.get_color() != second.get_color()
+    several = {name: measured(name) for name in ("silver", "mirror")}
+    ax = op.plots.in_plane(several, "S3", source=[1, 0, 1, 0])
+    assert ax.get_title() == "S3, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
+    assert faults_of(ax.figure) == []
 
 
 def test_bands_reach_two_standard_errors_up_and_down():
@@ -98,21 +99,20 @@ def test_a_smooth_sample_has_its_line():
     np.testing.assert_allclose(lines[0].get_xdata(), refracted)
 
 
-def test_no_curve_at_all_is_refused():
+def test_what_is_no_curve_is_refused():
     with pytest.raises(op.SurfaceError, match="give one Hemisphere at least"):
         op.plots.in_plane({})
-
-
-def test_the_difference_of_polarised_light_is_refused():
     with pytest.raises(op.SurfaceError, match="of unpolarised light; leave source out"):
         op.plots.in_plane(measured("silver"), "difference", source=(1, 1, 0, 0))
+    with pytest.raises(op.SurfaceError, match=r"^b: 3 is no Hemisphere"):
+        op.plots.in_plane({"a": measured("silver"), "b": 3})
 
 
 def names_of(ax):
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
-def test_the_wavelength_is_for_those_that_have_several():
+def test_wavelengths_that_differ_are_told_and_the_only_one_may_be_left_out():
     gold, silver = measured("gold"), measured("silver")
     ax = op.plots.in_plane({"silver": silver, "gold": gold}, wavelength="600 nm")
     assert ax.get_title() == "S0, reflected, in the plane of incidence, 600 nm"
@@ -120,18 +120,19 @@ def test_the_wavelength_is_for_those_that_have_several():
     curves = [line.get_ydata() for line in ax.get_lines() if len(line.get_xdata()) > 2]
     alone = op.plots.in_plane(silver), op.plots.in_plane(gold, wavelength="600 nm")
     np.testing.assert_array_equal(curves, [curve_of(each).get_ydata() for each in alone])
+    several = {"a": one_of_gold("450 nm"), "b": measured("gold"), "c": measured("silver")}
+    ax = op.plots.in_plane(several, wavelength="600 nm", source=[1, 0, 1, 0])
+    assert ax.get_title() == "S0, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
+    assert names_of(ax) == ["a, 450 nm", "b, 600 nm", "c"]
+    found = one_of_gold("450 nm")
+    with pytest.raises(op.SurfaceError, match="give a wavelength of 450 nm, or leave it out"):
+        op.plots.in_plane(found, wavelength="600 nm")
+    assert op.plots.in_plane(found).get_title() == "S0, reflected, incidence 60°, 450 nm"
 
 
 def one_of_gold(wavelength):
     gold = op.Material.tabulated(["400 nm", "700 nm"], [1.5, 0.2], [1.9, 4.1])
     return op.measure(op.Sample([(gold, rough(0.3))]), "60 deg", 1000, wavelength, sensor=8)
-
-
-def test_legends_tell_wavelengths_that_differ():
-    several = {"a": one_of_gold("450 nm"), "b": measured("gold"), "c": measured("silver")}
-    ax = op.plots.in_plane(several, wavelength="600 nm", source=[1, 0, 1, 0])
-    assert ax.get_title() == "S0, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
-    assert names_of(ax) == ["a, 450 nm", "b, 600 nm", "c"]
 
 
 @rows(
@@ -152,22 +153,3 @@ def test_legends_tell_wavelengths_that_differ():
 def test_faults_name_their_curves(names, given, sentence):
     with pytest.raises(op.SurfaceError, match=sentence):
         op.plots.in_plane({name: measured(name) for name in names}, **given)
-
-
-def test_what_is_no_hemisphere_is_told_by_its_name():
-    with pytest.raises(op.SurfaceError, match=r"^b: 3 is no Hemisphere"):
-        op.plots.in_plane({"a": measured("silver"), "b": 3})
-
-
-def test_the_one_wavelength_that_was_measured_may_be_left_out():
-    found = one_of_gold("450 nm")
-    with pytest.raises(op.SurfaceError, match="give a wavelength of 450 nm, or leave it out"):
-        op.plots.in_plane(found, wavelength="600 nm")
-    assert op.plots.in_plane(found).get_title() == "S0, reflected, incidence 60°, 450 nm"
-
-
-def test_titles_of_several_curves_tell_the_source():
-    several = {name: measured(name) for name in ("silver", "mirror")}
-    ax = op.plots.in_plane(several, "S3", source=[1, 0, 1, 0])
-    assert ax.get_title() == "S3, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
-    assert faults_of(ax.figure) == []

@@ -61,6 +61,8 @@ def test_names_and_values_stand_below_their_symbols():
     texts = texts_in(op.plots.bench(op.load_preset("senarmont")))
     assert {"polarizer\n0 deg", "sample\n45 deg\nretardance = 60 deg"} <= texts
     assert "analyzer\nanalyzer = 120 deg" in texts
+    texts = texts_in(op.plots.bench(op.load_preset("npgr026", case="1")))
+    assert "X1\ndelta = 53 deg\nazimuth -rho = 0 deg" in texts
 
 
 def test_surfaces_at_points_of_the_world_are_told_by_the_angles_of_their_chain():
@@ -83,13 +85,20 @@ def test_dials_show_the_light_between_as_malus_has_it():
     assert np.allclose(abs(first).max(axis=0), [1.0, 0.0], atol=1e-9)
     along = second[np.argmax(second[:, 0])]
     assert np.allclose(along, [np.cos(np.pi / 6), 0.5], atol=1e-2)
-
-
-def test_what_a_link_turns_is_turned_in_the_dial_of_the_plate():
     ax = op.plots.bench(op.load_preset("quartz-quarter-wave"))
     (axis,) = dials_of(ax, "#222222")
     way = axis[1] - axis[0]
     assert abs(np.degrees(np.arctan2(way[1], way[0])) % 180.0 - 135.0) < 1e-6
+    ax = op.plots.bench(op.load_preset("malus"))
+    assert [patch for patch in ax.patches if patch.get_gid() == "turn"] == []
+    dark = dials_of(op.plots.bench(op.load_preset("malus"), angle="90 deg"))
+    assert len(dark) == 1
+    dark, lit = (
+        op.plots.bench(op.load_preset("senarmont"), analyzer=angle)
+        for angle in ("120 deg", "100 deg")
+    )
+    assert len(dials_of(lit)) - len(dials_of(dark)) == 1
+    assert len(dials_of(lit, FAINT)) == len(dials_of(dark, FAINT)) == 3
 
 
 def round_about(head, middle):
@@ -109,25 +118,6 @@ def test_heads_in_dials_turn_as_the_field_does_to_who_looks_at_the_source(s3, ti
     assert round_about(head, np.array([0.5, 0.0])) == s3
 
 
-def test_light_that_is_linear_has_no_head_that_turns():
-    ax = op.plots.bench(op.load_preset("malus"))
-    assert [patch for patch in ax.patches if patch.get_gid() == "turn"] == []
-
-
-def test_dark_light_has_no_dial():
-    dark = dials_of(op.plots.bench(op.load_preset("malus"), angle="90 deg"))
-    assert len(dark) == 1
-
-
-def test_light_that_is_rounding_has_no_dial_and_no_star():
-    dark, lit = (
-        op.plots.bench(op.load_preset("senarmont"), analyzer=angle)
-        for angle in ("120 deg", "100 deg")
-    )
-    assert len(dials_of(lit)) - len(dials_of(dark)) == 1
-    assert len(dials_of(lit, FAINT)) == len(dials_of(dark, FAINT)) == 3
-
-
 def test_long_straight_benches_take_rows():
     ax = op.plots.bench(op.load_preset("lyot-filter"))
     below = [text for text in ax.texts if text.get_transform() == ax.transData]
@@ -135,16 +125,20 @@ def test_long_straight_benches_take_rows():
     assert len({text.get_position()[1] for text in below}) > 1
 
 
-def test_light_that_leaves_the_plane_is_refused_with_the_cure():
+def test_several_paths_and_light_out_of_the_plane_are_refused():
     with pytest.raises(op.PathError, match=r"leaves that at 'X1'; op.plots.geometry"):
         op.plots.bench(op.load_preset("npgr026", case="8"))
+    with pytest.raises(op.PathError, match="bench draws one path"):
+        op.plots.bench(op.load_preset("malus"), angle=[0.1, 0.2])
 
 
-def test_the_assignment_in_one_plane_is_drawn():
+def test_the_assignment_is_drawn_in_one_plane_and_into_given_axes():
     ax = op.plots.bench(op.load_preset("npgr026", case="1"))
     assert {"X1\ndelta = 53 deg", "X2\nphi = 56 deg"} <= {
         "\n".join(text.split("\n")[:2]) for text in texts_in(ax)
     }
+    given = Figure().add_subplot()
+    assert op.plots.bench(op.load_preset("malus"), given) is given
 
 
 @rows(
@@ -158,11 +152,6 @@ def test_the_assignment_in_one_plane_is_drawn():
 def test_the_angle_that_is_told_of_a_face_is_that_at_which_light_meets_it(preset, name, sine):
     texts = texts_in(op.plots.bench(op.load_preset(preset)))
     assert f"{name}\nincidence = {np.degrees(np.arcsin(sine)):.5g} deg" in texts
-
-
-def test_no_angle_is_told_with_the_sign_of_nothing():
-    texts = texts_in(op.plots.bench(op.load_preset("npgr026", case="1")))
-    assert "X1\ndelta = 53 deg\nazimuth -rho = 0 deg" in texts
 
 
 @rows(
@@ -191,13 +180,3 @@ def test_no_name_lies_over_a_ray(preset):
         if text.get_text():
             box = text.get_window_extent()
             assert not any(ray.intersects_bbox(box, filled=False) for ray in rays), text
-
-
-def test_given_axes_are_drawn_into_and_returned():
-    given = Figure().add_subplot()
-    assert op.plots.bench(op.load_preset("malus"), given) is given
-
-
-def test_several_paths_are_refused():
-    with pytest.raises(op.PathError, match="bench draws one path"):
-        op.plots.bench(op.load_preset("malus"), angle=[0.1, 0.2])

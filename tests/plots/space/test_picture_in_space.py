@@ -25,20 +25,14 @@ def test_no_name_is_over_another_or_cut(preset, size):
     assert faults_of(figure) == []
 
 
-def test_the_assignment_has_all_names_of_its_figure():
+def test_the_assignment_has_all_names_a_key_and_what_was_chosen():
     ax = op.plots.geometry(op.load_preset("npgr026", case="8"))
     angles = {"delta = 48 deg", "phi = 20 deg", "rho = 34 deg", "filter = 0 deg"}
     assert {"L", "P", "X2", "X1", "E"} | angles <= texts_in(ax)
-
-
-def test_the_key_names_what_is_drawn():
     straight = op.plots.geometry(op.load_preset("malus"))
     assert key_of(straight) == {"x of a frame", "y", "polarisation"}
     sampled = op.plots.geometry(op.load_preset("ellipsometer-pcsa"))
     assert {"x of a frame (s)", "y (p)", "plane of incidence", "tap"} <= key_of(sampled)
-
-
-def test_what_was_chosen_is_said_below():
     texts = texts_in(op.plots.geometry(op.load_preset("ellipsometer-rough")))
     (note,) = [text for text in texts if "lengths are chosen" in text]
     assert "schematic" in note
@@ -65,19 +59,18 @@ def test_total_reflection_in_a_prism_is_drawn():
     assert faults_of(slab.figure) == []
 
 
-def test_a_link_is_as_long_to_the_right_as_up():
+def test_links_are_as_long_to_the_right_as_up_and_straight_paths_level():
     ax = op.plots.geometry(op.load_preset("malus"))
     ax.figure.draw_without_rendering()
     (x0, y0), (x1, y1) = ax.transData.transform([(0.0, 0.0), (1.0, 1.0)])
     assert abs((x1 - x0) / (y1 - y0) - 1.0) < 1e-6
-
-
-def test_from_the_side_a_straight_path_is_a_level_line():
     ax = op.plots.geometry(op.load_preset("malus"), view=(0.0, -90.0))
     rays = [line for line in ax.lines if line.get_zorder() == 4.0]
     heights = np.concatenate([line.get_ydata() for line in rays])
     assert len(rays) == 3
     assert np.allclose(heights, 0.0, atol=1e-12)
+    given = Figure().add_subplot()
+    assert op.plots.geometry(op.load_preset("malus"), given) is given
 
 
 @rows("s3", [1.0, -1.0])
@@ -94,21 +87,13 @@ def test_heads_on_ellipses_turn_as_the_field_does(s3, azimuth, towards):
     assert np.sign(out[0] * way[1] - out[1] * way[0]) == s3 * towards
 
 
-def test_given_axes_are_drawn_into_and_returned():
-    given = Figure().add_subplot()
-    assert op.plots.geometry(op.load_preset("malus"), given) is given
-
-
-def test_axes_in_space_and_odd_views_are_refused_with_the_cure():
+def test_what_cannot_be_drawn_is_refused_with_the_cure():
     path = op.load_preset("malus")
     with pytest.raises(op.OptipathError, match="give plain Axes"):
         op.plots.geometry(path, Figure().add_subplot(projection="3d"))
     for view in (3, "front", (1, 2, 3), (np.nan, 0.0)):
         with pytest.raises(op.OptipathError, match="give elevation and azimuth"):
             op.plots.geometry(path, view=view)
-
-
-def test_several_paths_are_refused():
     with pytest.raises(op.PathError, match="geometry draws one path"):
         op.plots.geometry(op.load_preset("malus"), angle=[0.1, 0.2])
 

@@ -104,24 +104,18 @@ def test_light_is_reflected_at_the_given_angles_and_turned_by_minus_rho(delta, p
     assert np.cos(found + np.radians(rho)) > 0.0
 
 
-def test_frames_of_a_chain_of_points_are_those_that_its_light_has():
+def test_nodes_and_frames_of_a_chain_of_points_are_those_of_its_light():
     path = op.path_from_vertices(PANE, materials=[1.5, 0.2 + 3.4j, 1.0], events="TRT")
     lights, scene = path.trace(keep="all"), scene_of(path)
     for ray in scene.rays:
         frame = lights[ray.name].frame
         assert np.allclose(ray.axes, [frame.x, frame.y, frame.z], atol=1e-12), ray.name
-
-
-def test_nodes_of_a_chain_stand_at_its_points():
     path = op.path_from_vertices(PANE, materials=[1.5, 0.2 + 3.4j, 1.0], events="TRT")
     scene = scene_of(path)
     assert np.allclose([node.at for node in scene.nodes], PANE, atol=1e-12)
     assert not any("1 long" in note for note in scene.notes)
     normals = [node.normal for node in scene.nodes[1:-1]]
     assert np.allclose(normals, [[0, 0, 1], [0, 0, 1], [0, 0, -1]], atol=1e-7)
-
-
-def test_what_stands_before_a_chain_shares_its_first_leg():
     points = [[0, 0, 0], [0, 0, 6], [0, 6, 6]]
     path = op.path_from_vertices(points, materials=[1.5])
     path.insert("plate", op.Retarder(1.0, 0.0), behind=next(iter(path.graph.nodes)))
@@ -155,21 +149,15 @@ def test_a_slab_refracts_by_snell_and_lets_light_out_parallel(theta):
     assert abs(1.5 * sine - np.sin(np.radians(theta))) < 1e-12
 
 
-def test_light_that_goes_round_meets_the_face_again_beside_the_node():
+def test_light_that_comes_back_or_from_a_second_source_is_drawn_beside():
     scene = scene_of(op.load_preset("glass-slab"))
     front, ray = by_name(scene.nodes)["front"], by_name(scene.rays)["up.out -> front.back"]
     assert abs((ray.head - front.at) @ front.normal) < 1e-12
     assert "light comes to 'front' again at another place of its face" in scene.notes
-
-
-def test_second_sources_are_found_against_their_light():
     scene = scene_of(op.load_preset("sky-and-window"))
     rays = by_name(scene.rays)
     into, out = rays["lamp.out -> pane.back"], rays["pane.reflected -> polarizer.in"]
     assert np.allclose(direction(into), direction(out), atol=1e-12)
-
-
-def test_light_that_a_mirror_sends_back_is_drawn_beside_its_way():
     scene = scene_of(op.load_preset("double-pass-waveplate"))
     rays = by_name(scene.rays)
     there, back = rays["plate.out -> mirror.in"], rays["mirror.reflected -> plate-back.in"]
@@ -256,13 +244,10 @@ def test_a_picture_that_cannot_close_says_so():
     assert np.allclose(direction(ray), ray.axes[2], atol=1e-12)
 
 
-def test_angles_have_the_names_and_values_of_their_parameters():
+def test_angles_have_names_values_and_arcs_as_wide_as_they_are():
     scene = scene_of(op.load_preset("npgr026", case="8"), delta="40 deg")
     texts = [angle.text for angle in scene.angles]
     assert texts == ["filter = 0 deg", "phi = 20 deg", "rho = 34 deg", "delta = 40 deg"]
-
-
-def test_arcs_are_as_wide_as_the_angles_they_name():
     scene = scene_of(op.load_preset("npgr026", case="8"))
     nodes, angles = by_name(scene.nodes), by_name(scene.angles)
     for name, node, expected in (("phi", "X2", 20.0), ("delta", "X1", 48.0)):
@@ -287,13 +272,10 @@ def test_a_page_is_told_which_rays_are_taps():
     assert taps == ["S.reflected -> state.in"]
 
 
-def test_an_element_that_is_left_out_has_no_arc():
+def test_an_element_that_is_left_out_has_no_arc_and_no_sign():
     (found,) = [a for a in scene_of(op.load_preset("npgr026")).angles if a.name == "filter"]
     assert found.text == "filter = none"
     assert found.arc.shape == (0, 3)
-
-
-def test_an_element_that_is_left_out_on_the_way_back_has_no_sign():
     texts = [angle.text for angle in scene_of(op.load_preset("npgr026").reversed()).angles]
     assert "filter = none" in texts
     assert not any(text.startswith("-") for text in texts)
@@ -306,7 +288,7 @@ def test_small_angles_are_told_in_the_unit_of_their_parameter(given):
     assert [angle.text for angle in scene_of(path).angles] == ["tilt = 10 arcsec"]
 
 
-def test_ellipses_lie_across_the_ray_and_are_as_large_as_the_light_is_polarised():
+def test_ellipses_are_as_large_as_the_light_is_polarised():
     scene = scene_of(op.load_preset("npgr026", case="8"))
     rays = by_name(scene.rays)
     linear = rays["P.out -> X2.in"]
@@ -314,9 +296,6 @@ def test_ellipses_lie_across_the_ray_and_are_as_large_as_the_light_is_polarised(
     assert abs(np.abs(linear.ellipse @ linear.axes[0]).max() - 0.18) < 1e-12
     assert rays["L.out -> P.in"].ellipse is None
     assert rays["L.out -> P.in"].light.dop == 0.0
-
-
-def test_dark_light_has_no_ellipse_and_no_nan_in_json():
     told = scene_of(op.load_preset("npgr026"), intensity=0.0).as_json()
     assert {ray["ellipse"] for ray in told["rays"]} == {None}
     assert {ray["dop"] for ray in told["rays"]} == {None}

@@ -59,13 +59,10 @@ def test_no_text_of_six_lights_is_over_another_or_cut(size):
     assert faults_of(ax.figure) == []
 
 
-def test_a_quarter_wave_plate_at_45_degrees_gives_half_a_circle_more():
-    """Half axes of circular light are the root of 1/2, of which the squares add up to 1."""
+def test_half_axes_go_by_the_degree_of_polarisation():
+    # Half axes of circular light are the root of 1/2, of which the squares add up to 1.
     (curve,) = curves_of(op.plots.ellipse(LIGHTS["circular"]))
     np.testing.assert_allclose(np.hypot(*curve.get_data()), np.sqrt(0.5), rtol=1e-12)
-
-
-def test_the_squares_of_the_half_axes_add_up_to_the_degree_of_polarisation():
     light = LIGHTS["elliptical"]
     (curve,) = curves_of(op.plots.ellipse(light))
     radii = np.hypot(*curve.get_data())
@@ -73,11 +70,18 @@ def test_the_squares_of_the_half_axes_add_up_to_the_degree_of_polarisation():
     assert radii.max() ** 2 + radii.min() ** 2 == pytest.approx(dop, rel=1e-3)
 
 
-def test_linear_light_is_a_line_along_its_angle():
+def test_linear_unpolarised_and_dark_light_are_a_line_a_circle_and_nothing():
     (curve,) = curves_of(op.plots.ellipse(op.Light([1.0, 0.5, np.sqrt(0.75), 0.0])))
     x, y = curve.get_data()
     np.testing.assert_allclose(y, x * np.tan(np.pi / 6.0), atol=1e-12)
     assert np.hypot(x, y).max() == pytest.approx(1.0)
+    ax = op.plots.ellipse(LIGHTS["linear"])
+    assert all(text.get_text() for text in ax.texts)
+    (circle,) = circles_of(op.plots.ellipse(op.Light([2.0, 0.0, 0.6, 0.8])))
+    # As circular light of that power has it, both of whose half axes are the radius.
+    assert 2.0 * circle.radius**2 == pytest.approx(0.5)
+    light = op.load_preset("senarmont").trace()
+    assert "dark" in op.plots.ellipse(light).get_title()
 
 
 @rows("s3, turns", [(1.0, 1.0), (-1.0, -1.0)])
@@ -88,17 +92,6 @@ def test_heads_go_from_x_to_y_where_s3_is_positive(s3, turns):
     for head in heads:
         (x, y), (dx, dy) = head.xyann, np.subtract(head.xy, head.xyann)
         assert np.sign(x * dy - y * dx) == turns
-
-
-def test_linear_light_has_no_heads():
-    ax = op.plots.ellipse(LIGHTS["linear"])
-    assert all(text.get_text() for text in ax.texts)
-
-
-def test_what_is_unpolarised_is_a_circle_of_its_power():
-    (circle,) = circles_of(op.plots.ellipse(op.Light([2.0, 0.0, 0.6, 0.8])))
-    # As circular light of that power has it, both of whose half axes are the radius.
-    assert 2.0 * circle.radius**2 == pytest.approx(0.5)
 
 
 @rows("name", ["unpolarised", "dark", "not read", "negative"])
@@ -114,32 +107,18 @@ def test_light_without_an_ellipse_says_why(name):
     assert len(circles_of(ax)) == (name == "unpolarised")
 
 
-def test_light_beyond_polarisers_that_cross_is_dark():
-    light = op.load_preset("senarmont").trace()
-    assert "dark" in op.plots.ellipse(light).get_title()
-
-
-def test_the_figures_are_told():
+def test_figures_and_the_angle_are_told_and_from_where_it_is_seen():
     title = op.plots.ellipse(LIGHTS["down"]).get_title().replace("\N{MINUS SIGN}", "-")
     aop = np.degrees(np.arctan2(-0.6, -0.5)) / 2.0
     assert "left-handed elliptical" in title
     assert f"AoP = {aop:.4g}°" in title
-
-
-def test_the_angle_of_the_major_axis_is_an_arc_from_x_with_its_value():
     ax = op.plots.ellipse(op.Light([1.0, 0.5, np.sqrt(0.75), 0.0]))
     (arc,) = (patch for patch in ax.patches if isinstance(patch, patches.Arc))
     assert (arc.theta1, arc.theta2) == pytest.approx((0.0, 30.0))
     assert "30°" in {text.get_text() for text in texts_of(ax.figure)}
-
-
-def test_the_picture_tells_from_where_it_is_seen():
     ax = op.plots.ellipse(LIGHTS["elliptical"])
     assert "seen towards the source" in ax.get_xlabel()
     assert (ax.get_xlabel().split("\n")[0], ax.get_ylabel()) == ("Ex / √S0", "Ey / √S0")
-
-
-def test_x_and_y_have_one_scale():
     ax = op.plots.ellipse(LIGHTS["circular"], axes(6.0, 3.0))
     ax.figure.draw_without_rendering()
     step = ax.transData.transform([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
@@ -197,12 +176,9 @@ def test_what_cannot_be_drawn_is_told(light, labels, told):
         op.plots.ellipse(light, labels=labels)
 
 
-def test_axes_of_something_else_are_told():
+def test_axes_of_something_else_and_traced_light_are_refused():
     with pytest.raises(op.OptipathError, match="give Axes of Matplotlib"):
         op.plots.ellipse(LIGHTS["linear"], "here")
-
-
-def test_light_that_jax_traces_is_refused():
     jax = pytest.importorskip("jax")
     with pytest.raises(op.ParameterError, match="a picture of light takes numbers"):
         jax.jit(lambda stokes: op.plots.ellipse(op.Light(stokes)))(np.array([1.0, 0, 0, 1]))

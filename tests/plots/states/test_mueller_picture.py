@@ -36,7 +36,7 @@ def test_no_text_is_over_another_or_cut(matrix, scale):
     assert faults_of(op.plots.mueller(matrix, figure.add_subplot()).figure) == []
 
 
-def test_cells_are_over_m00_which_the_title_tells():
+def test_cells_are_over_m00_with_columns_in_and_rows_out():
     ax = op.plots.mueller(op.Polarizer("0 deg").mueller())
     assert ax.get_title() == "M / M00, with M00 = 0.5"
     cells = digits_of(ax)
@@ -47,9 +47,6 @@ def test_cells_are_over_m00_which_the_title_tells():
         (1, 1),
     }
     assert {text for place, text in cells.items() if max(place) > 1} == {"0"}
-
-
-def test_columns_are_what_comes_in_and_rows_what_goes_out():
     numbers = np.eye(4)
     numbers[0, 3] = 0.25
     ax = op.plots.mueller(op.Mueller(numbers))
@@ -58,13 +55,10 @@ def test_columns_are_what_comes_in_and_rows_what_goes_out():
     assert digits_of(ax)[0, 3] == "0.25"
 
 
-def test_colours_go_apart_from_white_at_zero():
+def test_colours_go_apart_from_white_at_zero_on_a_scale_as_wide_as_needed():
     (image,) = op.plots.mueller(GOLD).get_images()
     assert image.get_clim() == (-1.0, 1.0)
     np.testing.assert_allclose(image.cmap(image.norm(0.0))[:3], 1.0, atol=0.04)
-
-
-def test_matrices_beyond_m00_have_a_wider_scale():
     (image,) = op.plots.mueller(changed((1, 1), 3.0)).get_images()
     assert image.get_clim() == (-3.0, 3.0)
 
@@ -91,22 +85,16 @@ def test_digits_are_read_on_every_colour():
         assert (pair[1] + 0.05) / (pair[0] + 0.05) > 3.0
 
 
-def test_an_element_that_is_nan_is_hatched_and_told():
+def test_what_is_nan_dark_or_noise_is_told():
     ax = op.plots.mueller(changed((1, 2), np.nan))
     (hatched,) = ax.patches
     assert hatched.get_hatch()
     assert hatched.get_xy() == (1.5, 0.5)
     assert (1, 2) not in digits_of(ax)
     assert "not known (NaN)" in {text.get_text() for text in texts_of(ax.figure)}
-
-
-def test_all_is_hatched_where_m00_is_zero():
     ax = op.plots.mueller(op.Mueller(np.zeros((4, 4))))
     assert len(ax.patches) == 16
     assert "none: M00 is 0, or noise" in {text.get_text() for text in texts_of(ax.figure)}
-
-
-def test_noise_is_zero_and_small_elements_have_their_power():
     cells = digits_of(op.plots.mueller(changed((2, 2), 2e-5)))
     assert cells[2, 2] == "2e-5"
     assert digits_of(op.plots.mueller(changed((2, 2), -3e-17)))[2, 2] == "0"

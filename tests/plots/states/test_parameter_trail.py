@@ -22,26 +22,17 @@ def trail(preset, name, values=None):
     return parameter_trail(path, name, detector, values)
 
 
-def test_no_step_of_a_fast_trail_cuts_through_the_sphere():
+def test_fast_trails_keep_outside_the_sphere_and_too_fast_ones_are_told():
     ax = trail("lyot-depolarizer", "wavelength")
     assert np.degrees(steps(ax).max()) < 20.0
     assert ax.get_title() == ""
     assert faults_of(ax.figure) == []
-
-
-def test_a_trail_too_fast_to_be_drawn_is_told():
     # A tenth of a metre of quartz turns by some thousand turns over the visible light.
     path = op.load_preset("lyot-depolarizer", thickness="100 mm")
     ax = parameter_trail(path, "wavelength", *path.compose().program.detectors)
     assert "faster with wavelength than 23041 points tell" in ax.get_title().replace("\n", " ")
     assert faults_of(ax.figure) == []
-
-
-def test_values_that_are_given_stay():
     ax = trail("lyot-depolarizer", "wavelength", "500 nm:600 nm:9")
     assert len(steps(ax)) == 8
-
-
-def test_an_unknown_parameter_is_told():
     with pytest.raises(ParameterError, match="did you mean 'wavelength'"):
         trail("lyot-depolarizer", "wavelenth")

@@ -44,19 +44,13 @@ def test_no_text_is_over_another_or_cut(light, options, scale):
     assert faults_of(ax.figure) == []
 
 
-def test_poles_and_states_of_the_equator_are_named():
+def test_states_are_named_at_their_places_and_points_are_the_stokes_parameters():
     names = {"R", "L", "H", "V", "D", "A", "S1/S0", "S2/S0", "S3/S0"}
     assert names <= words_of(op.plots.poincare(TRAIL[0]))
-
-
-def test_r_is_above_and_h_is_on_the_first_axis():
     ax = op.plots.poincare(TRAIL[0])
     places = {text.get_text(): np.array(text.get_position()) for text in ax.texts}
     assert places["R"][1] > places["H"][1] > places["L"][1]
     np.testing.assert_allclose(places["H"] + places["V"], places["D"] + places["A"], atol=1e-12)
-
-
-def test_points_are_the_stokes_parameters_over_the_intensity():
     ax = op.plots.poincare(op.Light([[2.0, 1.0, 0.0, 0.0], [5.0, 0.0, 3.0, 4.0]]))
     np.testing.assert_allclose(points_of(ax), [[0.5, 0.0, 0.0], [0.0, 0.6, 0.8]])
 
@@ -68,7 +62,7 @@ def test_light_of_any_faintness_has_its_point(light):
     np.testing.assert_allclose(points_of(op.plots.poincare(light)), [[0.5, 0.0, 0.0]])
 
 
-def test_points_behind_are_hollow_and_the_key_says_so():
+def test_points_behind_are_hollow_joined_but_for_gaps_and_those_that_are_none_counted():
     light = op.Light([[1.0, 1.0, 0.0, 0.0], [1.0, -1.0, 0.0, 0.0]])
     ax = op.plots.poincare(light)
     # Matplotlib has them in the order of their depth.
@@ -76,32 +70,23 @@ def test_points_behind_are_hollow_and_the_key_says_so():
     assert sorted(white) == [False, True]
     assert "hollow: far half" in words_of(ax)
     assert is_near(np.array([0.0, 0.0, 1.0]))
-
-
-def test_neighbours_are_joined_by_straight_lines_but_for_gaps():
     rows = [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 1.0, 0.0], [0.0] * 4, [1.0, 0.0, 0.0, 1.0]]
     ax = op.plots.poincare(op.Light(rows))
     (lines,) = (each for each in ax.collections if hasattr(each, "_segments3d"))
     np.testing.assert_allclose(lines._segments3d, [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]])
-
-
-def test_the_colour_bar_is_labelled_and_goes_from_the_least_to_the_largest():
-    ax = op.plots.poincare(TRAIL, by=np.degrees(ANGLES), label="retardance (deg)")
-    (bar,) = (each for each in ax.figure.axes if each is not ax)
-    assert bar.get_ylabel() == "retardance (deg)"
-    np.testing.assert_allclose(bar.get_ylim(), (0.0, 180.0), atol=1e-9)
-
-
-def test_numbers_that_are_one_have_a_colour_bar_too():
-    ax = op.plots.poincare(TRAIL[:3], by=[2.0, 2.0, 2.0], label="n")
-    assert faults_of(ax.figure) == []
-
-
-def test_light_without_a_point_is_counted():
     light = op.Light([[1.0, 0.0, 0.0, 1.0], [0.0] * 4, [1.0, np.nan, np.nan, np.nan]])
     ax = op.plots.poincare(light)
     assert ax.get_title() == "2 of 3 have no point: dark, or not read"
     assert len(points_of(ax)) == 1
+
+
+def test_the_colour_bar_is_labelled_of_one_number_too():
+    ax = op.plots.poincare(TRAIL, by=np.degrees(ANGLES), label="retardance (deg)")
+    (bar,) = (each for each in ax.figure.axes if each is not ax)
+    assert bar.get_ylabel() == "retardance (deg)"
+    np.testing.assert_allclose(bar.get_ylim(), (0.0, 180.0), atol=1e-9)
+    ax = op.plots.poincare(TRAIL[:3], by=[2.0, 2.0, 2.0], label="n")
+    assert faults_of(ax.figure) == []
 
 
 @rows("numbers", [[0.0] * 4, [1.0, np.nan, np.nan, np.nan]])

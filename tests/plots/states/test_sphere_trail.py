@@ -26,18 +26,12 @@ def test_no_text_is_over_another_or_cut(preset, scale):
     assert faults_of(ax.figure) == []
 
 
-def test_links_are_named_in_the_order_of_travel():
+def test_links_are_named_in_the_order_of_travel_at_the_points_of_their_light():
     keys = keys_of(op.plots.poincare_path(op.load_preset("malus")))
     assert keys[:3] == ["1  lamp → polarizer", "2  polarizer → analyzer", "3  analyzer → eye"]
-
-
-def test_lights_of_one_state_share_a_point():
     path = op.Source() >> op.Polarizer("0 deg") >> op.Polarizer("0 deg") >> op.Detector()
     ax = op.plots.poincare_path(path)
     assert {"1", "2, 3"} <= {*words_of(ax)}
-
-
-def test_points_are_those_of_the_light_at_the_detector():
     path = op.load_preset("npgr026", case="8")
     ax = op.plots.poincare_path(path)
     expected = path.trace().normalized[1:]
@@ -45,20 +39,21 @@ def test_points_are_those_of_the_light_at_the_detector():
     assert np.linalg.norm(drawn - expected, axis=1).min() < 1e-12
 
 
-def test_dark_light_is_told_in_the_key():
+def test_the_key_tells_dark_light_and_that_lines_are_straight():
     assert any(
         "(dark" in key for key in keys_of(op.plots.poincare_path(op.load_preset("senarmont")))
     )
+    keys = keys_of(op.plots.poincare_path(op.load_preset("malus")))
+    assert "straight from light to light" in keys[-1]
+    path = op.Source(stokes=[0.0, 0.0, 0.0, 0.0]) >> op.Detector()
+    ax = op.plots.poincare_path(path)
+    assert keys_of(ax)[0].endswith("(dark)")
+    assert faults_of(ax.figure) == []
 
 
 def test_light_that_leaves_the_path_goes_away():
     keys = keys_of(op.plots.poincare_path(op.load_preset("two-panes")))
     assert "3  pane1.transmitted → away" in keys
-
-
-def test_the_key_says_that_lines_are_straight():
-    keys = keys_of(op.plots.poincare_path(op.load_preset("malus")))
-    assert "straight from light to light" in keys[-1]
 
 
 def test_values_are_those_of_parameters():
@@ -73,13 +68,6 @@ def test_values_are_those_of_parameters():
 def test_several_values_are_refused():
     with pytest.raises(op.OptipathError, match=r"has light of shape \(2,\).*give one"):
         op.plots.poincare_path(op.load_preset("malus"), angle=["0 deg", "30 deg"])
-
-
-def test_a_path_of_dark_light_is_drawn():
-    path = op.Source(stokes=[0.0, 0.0, 0.0, 0.0]) >> op.Detector()
-    ax = op.plots.poincare_path(path)
-    assert keys_of(ax)[0].endswith("(dark)")
-    assert faults_of(ax.figure) == []
 
 
 @rows("given", ["malus", op.Polarizer(0.0), None])

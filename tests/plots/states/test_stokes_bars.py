@@ -49,19 +49,18 @@ def test_no_text_is_over_another_or_cut(light, published, scale):
     assert faults_of(ax.figure) == []
 
 
-def test_six_lights_are_named_and_compared():
+def test_bars_are_as_high_as_the_stokes_parameters_and_named():
     ax = op.plots.stokes(ROWS, published=np.add(ROWS.stokes, [0.0, 0.0, 0.0, 0.01]))
     assert faults_of(ax.figure) == []
     assert keys_of(ax) == [*(f"light[{place}]" for place in range(6)), "published"]
     assert [lines[-1] for lines in ticks_of(ax)] == ["Δ 0", "Δ 0", "Δ 0", "Δ -0.01"]
-
-
-def test_bars_are_as_high_as_the_stokes_parameters():
     light = op.Light([2.0, 0.6, -0.9, 0.8])
     np.testing.assert_allclose(heights_of(op.plots.stokes(light)), [[2.0, 0.6, -0.9, 0.8]])
+    ax = op.plots.stokes(ROWS[0], labels="eye")
+    assert "eye" in {text.get_text() for text in texts_of(ax.figure)}
 
 
-def test_numbers_published_numbers_and_differences_stand_below_the_bars():
+def test_published_numbers_and_differences_stand_below_the_bars():
     ax = op.plots.stokes(op.Light([1.0, 0.5, 0.0, -0.25]), published=[1.0, 0.49, 0.0, NAN])
     assert ticks_of(ax) == [
         ["S0", "1", "(1)", "Δ 0"],
@@ -70,12 +69,15 @@ def test_numbers_published_numbers_and_differences_stand_below_the_bars():
         ["S3", "-0.25", "(none)"],
     ]
     assert ax.get_xlabel() == "computed, (published), Δ = computed less published"
-
-
-def test_six_digits_of_what_was_published_are_kept():
     ax = op.plots.stokes(PATH.trace(), published=PUBLISHED)
     told = [lines[2].strip("()") for lines in ticks_of(ax)]
     assert [float(each) for each in told] == [19.1245, 10.9873, -13.0076, -8.70795]
+    ax = op.plots.stokes(PATH.trace(), published=PUBLISHED)
+    (marks,) = (line for line in ax.get_lines() if line.get_marker() == "D")
+    np.testing.assert_allclose(marks.get_ydata(), PUBLISHED)
+    assert keys_of(ax) == ["computed", "published"]
+    ax = op.plots.stokes(op.Light([0.1 + 0.2, 0.2, 0.0, 0.0]), published=[0.3, 0.2, 0.0, 0.0])
+    assert [lines[-1] for lines in ticks_of(ax)] == ["Δ 0"] * 4
 
 
 @rows("preset, case", [("achromatic-rhomb", "green"), ("npgr026", "7")])
@@ -86,36 +88,21 @@ def test_long_numbers_stand_by_themselves_on_small_axes(preset, case):
     assert faults_of(ax.figure) == []
 
 
-def test_what_is_left_of_crossed_polarisers_is_nothing():
+def test_dark_infinite_and_unread_light_is_told_as_such():
     ax = op.plots.stokes(op.load_preset("senarmont").trace())
     assert [lines[1] for lines in ticks_of(ax)] == ["0", "0", "0", "0"]
     assert ax.get_ylabel() == "Stokes parameter\n(unit of the source)"
     assert not heights_of(ax).any()
-
-
-def test_rounding_is_no_difference():
-    ax = op.plots.stokes(op.Light([0.1 + 0.2, 0.2, 0.0, 0.0]), published=[0.3, 0.2, 0.0, 0.0])
-    assert [lines[-1] for lines in ticks_of(ax)] == ["Δ 0"] * 4
-
-
-def test_marks_stand_at_what_was_published():
-    ax = op.plots.stokes(PATH.trace(), published=PUBLISHED)
-    (marks,) = (line for line in ax.get_lines() if line.get_marker() == "D")
-    np.testing.assert_allclose(marks.get_ydata(), PUBLISHED)
-    assert keys_of(ax) == ["computed", "published"]
-
-
-def test_what_a_detector_does_not_read_is_told():
     ax = op.plots.stokes(op.Light([1.0, NAN, NAN, NAN]))
     assert [lines[1] for lines in ticks_of(ax)] == ["1", "not read", "not read", "not read"]
-
-
-def test_infinite_light_is_told_as_such():
     infinite = op.Light([np.inf, 0.0, 0.0, 0.0], physical=False)
     ax = op.plots.stokes(infinite)
     assert [lines[1] for lines in ticks_of(ax)] == ["infinite", "0", "0", "0"]
     ax = op.plots.stokes({"hot": infinite, "lamp": ROWS[0]})
     assert keys_of(ax) == ["hot: infinite", "lamp"]
+    ax = op.plots.stokes(op.Light([0.0, 0.0, 0.0, 0.0]))
+    assert ax.get_ylabel() == "Stokes parameter\n(unit of the source)"
+    assert faults_of(ax.figure) == []
 
 
 @rows(
@@ -134,12 +121,6 @@ def test_light_beyond_plain_numbers_is_in_powers_of_ten(light, power):
     assert 1.0 <= heights[0] < 10.0
 
 
-def test_dark_light_has_no_power_of_ten():
-    ax = op.plots.stokes(op.Light([0.0, 0.0, 0.0, 0.0]))
-    assert ax.get_ylabel() == "Stokes parameter\n(unit of the source)"
-    assert faults_of(ax.figure) == []
-
-
 @rows("stokes", [[0.0, 0.0, 0.0, 0.0], [NAN, NAN, NAN, NAN]])
 def test_axes_of_dark_light_go_from_0_to_1(stokes):
     assert op.plots.stokes(op.Light(stokes)).get_ylim() == (0.0, 1.0)
@@ -153,11 +134,6 @@ def test_long_names_are_not_cut(scale):
     ax = op.plots.stokes(lights, axes(5.6 * scale, 4.4 * scale))
     assert faults_of(ax.figure) == []
     assert [key.replace("\n", "") for key in keys_of(ax)] == [*lights]
-
-
-def test_a_light_has_the_name_that_it_is_given():
-    ax = op.plots.stokes(ROWS[0], labels="eye")
-    assert "eye" in {text.get_text() for text in texts_of(ax.figure)}
 
 
 @rows(
