@@ -217,7 +217,7 @@ def exactly_reflected(n, k, cos, sin):
         return reference.reflection(*map(exactly, (n, k, cos, sin)))
 
 
-@pytest.mark.parametrize("generations", [2, pytest.param(20, marks=pytest.mark.report)])
+@pytest.mark.parametrize("generations", [2, pytest.param(250, marks=pytest.mark.report)])
 @rows("name", NAMES)
 @rows("dtype", DTYPES)
 def test_the_worst_cases_that_a_search_finds_hold(name, dtype, generations):
