@@ -102,12 +102,9 @@ def everything():
     lamp >> path.add("plate", op.Retarder(0.7, 0.2, azimuth=0.3))
     path["plate"] >> path.add("split", op.BeamSplitter(0.3, azimuth=-0.1))
     path.add("sum", op.Combiner())
-    for name, element in (
-        ("glass", op.Interface(1.5, 0.9, outside=1.2, azimuth=0.4)),
-        ("metal", op.Interface(0.2 + 3j, 0.5)),
-    ):
-        port = "reflected" if name == "glass" else "transmitted"
-        path.add(name, element)
+    path.add("glass", op.Interface(1.5, 0.9, outside=1.2, azimuth=0.4))
+    path.add("metal", op.Interface(0.2 + 3j, 0.5))
+    for name, port in (("glass", "reflected"), ("metal", "transmitted")):
         path.connect(f"split.{port}", f"{name}.in")
         path.connect(f"{name}.reflected", "sum.in", azimuth=0.2)
     path.add("cube", op.PolarizingBeamSplitter(1000.0, azimuth=0.3))
