@@ -51,7 +51,7 @@ def assert_same_bits(one, other, order=1):
 
 
 @each_method
-def test_malus(method):
+def test_malus_and_glass_at_normal_incidence_are_those_of_closed_forms(method):
     # I = P cos^2 a: dI = -P sin 2a da + cos^2 a dP.
     found = MALUS.propagate(angle=(0.7, 0.003), method=method)
     assert_allclose(found.uncertainty_of("intensity"), 2.0 * np.sin(1.4) * 0.003, rtol=1e-10)
@@ -61,9 +61,6 @@ def test_malus(method):
     share = by_angle / (by_angle + by_power)
     assert_allclose([shares["angle"][0], shares["power"][0]], [share, 1.0 - share])
     assert found.contributions_to("S0")["angle"] == shares["angle"][0]
-
-
-def test_glass_at_normal_incidence():
     # R = ((n - 1) / (n + 1))^2, dR/dn = 4 (n - 1) / (n + 1)^3.
     path = op.Source(100.0) >> op.Interface(op.Parameter("n"), 0.0) >> op.Detector()
     found = by_slopes(path, n=(1.5, 0.002)).uncertainty_of("S0")
@@ -236,17 +233,18 @@ def test_wavelengths_and_thick_media_have_steps_of_their_own_size():
     found = by_slopes(path, a=(1e-3, 1e-6)).uncertainty[0]
     assert_allclose(found, 10.0 * np.exp(-0.01) * 1e-6, rtol=1e-9)
     assert_allclose(by_slopes(path, a=(0.0, 1e-6)).uncertainty[0], 10.0 * 1e-6, rtol=1e-7)
-
-
-def test_every_quantity_has_its_gradient():
-    light = op.Light([[1.0, 0.1, 0.2, 0.3], [2.0, -0.3, 0.1, 0.0]])
-    assert figures_of(light).shape == (2, len(QUANTITIES))
-    assert gradients_of(light).shape == (2, len(QUANTITIES), 4)
+    # exp(-a L) varies by a s = 100 / cm x 1 um = 1 %.
+    medium = op.Medium(length=op.Parameter("L"), absorption="100 1/cm")
+    found = sampled(op.Source(1) >> medium >> op.Detector(), L=("4 cm", "1 um"))
+    assert_allclose(found.uncertainty[0] / found.light.stokes[0], 0.01, rtol=0.03)
 
 
 @rows("stokes", [[1, 0.1, 0.2, 0.3], [2, -0.3, 0.1, -0.5], [1, 0.6, 0.8, 0], [3, 0, 1, 1]])
 @rows("scale", [1.0, 1e-100])
-def test_gradients_are_what_small_changes_do(stokes, scale):
+def test_gradients_of_every_quantity_are_what_small_changes_do(stokes, scale):
+    light = op.Light([stokes, stokes])
+    assert figures_of(light).shape == (2, len(QUANTITIES))
+    assert gradients_of(light).shape == (2, len(QUANTITIES), 4)
     step = 1e-6
     for place in range(4):
         by = step * np.eye(4)[place]
@@ -272,13 +270,6 @@ def test_faint_and_bright_light_is_as_uncertain_as_any(method, size):
     assert_allclose(found.uncertainty / size, plain.uncertainty, rtol=1e-6, atol=1e-12)
     assert_allclose(found.shares[:4], plain.shares[:4], atol=1e-6)
     assert_allclose(found.mean / size, plain.mean, rtol=1e-12, atol=1e-15)
-
-
-def test_light_that_is_nearly_absorbed_is_uncertain_by_the_length_of_the_absorber():
-    medium = op.Medium(length=op.Parameter("L"), absorption="100 1/cm")
-    found = sampled(op.Source(1) >> medium >> op.Detector(), L=("4 cm", "1 um"))
-    # exp(-a L) varies by a s = 100 / cm x 1 um = 1 %.
-    assert_allclose(found.uncertainty[0] / found.light.stokes[0], 0.01, rtol=0.03)
 
 
 def value(name, low=-np.inf, high=np.inf):
@@ -406,14 +397,11 @@ def test_samples_outside_a_range_are_drawn_again_and_told():
     assert_allclose(found[1], 0.5, rtol=0.05)
 
 
-def test_what_values_do_together_is_the_share_of_none():
+def test_what_values_do_together_is_the_share_of_none_and_figures_that_are_none_have_none():
     # I t about 0: neither changes the light without the other.
     path = LAMP >> op.Polarizer(op.Parameter("a")) >> op.Polarizer(op.Parameter("b"))
     found = sampled(path >> op.Detector(), a=(0.0, 0.1), b=(np.pi / 2, 0.1))
     assert sum(found.contributions_to("S0").values()) < 0.9
-
-
-def test_light_without_a_figure_in_some_sample_has_no_uncertainty_of_it():
     path = LAMP >> op.Depolarizer(op.Parameter("d")) >> op.Detector()
     found = sampled(path, d=(1.0, 0.1), samples=100)
     assert np.isnan(found.uncertainty_of("aop"))

@@ -122,6 +122,10 @@ def test_a_parameter_that_is_called_as_an_option_is_told_with_a_cure_that_works(
     assert len(fault.value.faults) == 1
     found = by_slopes(path.bind(seed=3.0), t=(0.5, 0.1))
     np.testing.assert_allclose(found.uncertainty_of("S0"), 0.3)
+    # As that for complex values does.
+    index = op.Material(op.Parameter("n"), op.Parameter("k"))
+    path = op.Source() >> op.Interface(index, 0.3) >> op.Detector()
+    assert by_slopes(path, n=(1.5, 0.1), k=(0.1, 0.01)).uncertainty_of("S0") > 0.0
 
 
 def test_what_cannot_be_asked_is_refused(monkeypatch):
@@ -188,13 +192,10 @@ def test_an_uncertainty_equals_that_of_the_same_and_its_copies_and_nobody_can_ch
 def test_texts_and_words_have_units_of_their_own_each(path, one, same):
     found, other = (by_slopes(path, **given).uncertainties for given in (one, same))
     np.testing.assert_array_equal(found, other)
-
-
-def test_a_wavelength_has_an_uncertainty_in_nanometres():
     path = op.load_preset("copper-gold-spectrum")
-    found = by_slopes(path, wavelength=("516 nm", "1 nm"))
+    found = by_slopes(path, wavelength=("516 nm", "1 nm")).uncertainty_of("S0")
     above, below = (path.trace(wavelength=at).intensity for at in (516.001e-9, 515.999e-9))
-    np.testing.assert_allclose(found.uncertainty_of("S0"), abs(above - below) / 0.002, rtol=1e-6)
+    np.testing.assert_allclose(found, abs(above - below) / 0.002, rtol=1e-6)
 
 
 def test_lists_and_arrays_are_exact_and_uncertainties_may_have_more_axes_than_values():
@@ -261,28 +262,23 @@ def test_what_has_no_uncertainty_is_refused(path, given, told):
     assert told in fault
 
 
-def test_the_cure_for_complex_values_works():
-    index = op.Material(op.Parameter("n"), op.Parameter("k"))
-    path = op.Source() >> op.Interface(index, 0.3) >> op.Detector()
-    assert by_slopes(path, n=(1.5, 0.1), k=(0.1, 0.01)).uncertainty_of("S0") > 0.0
-
-
-def test_an_angle_beyond_a_turn_is_warned_of_once_and_with_a_unit_not_at_all():
-    by_slopes(ANALYZED, a=("720 deg", "1 deg"))
-    with pytest.warns(op.AngleWarning) as told:
-        by_slopes(ANALYZED, a=(45.0, 0.1))
-    assert len(told) == 1
-
-
 @rows("method", ["differences", "monte-carlo"])
-@rows("sigma", [10, [0.1, 10.0]])
-def test_an_uncertainty_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_user(
-    method, sigma
+@rows(
+    "given, about",
+    [
+        (("30 deg", 10), "the standard uncertainty of parameter 'a'"),
+        (("30 deg", [0.1, 10.0]), "the standard uncertainty of parameter 'a'"),
+        ((45.0, 0.1), "parameter 'a'"),
+    ],
+)
+def test_a_number_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_user(
+    method, given, about
 ):
+    by_slopes(ANALYZED, a=("720 deg", "1 deg"))  # With a unit there is no warning.
     with pytest.warns(op.AngleWarning) as told:
-        DARKENED.propagate(a=("30 deg", sigma), method=method)
+        DARKENED.propagate(a=given, method=method)
     (warning,) = told
-    assert str(warning.message).startswith("the standard uncertainty of parameter 'a'")
+    assert str(warning.message).startswith(about)
     assert warning.filename == __file__
 
 
@@ -298,16 +294,6 @@ def test_what_is_wrong_with_options_and_with_correlation_is_told_at_once(options
     faults = refused(DARKENED, a=(0.1, 0.1), method="monte-carlo", **options)
     assert len(faults) == len(words)
     assert all(word in told for word, told in zip(words, faults, strict=True))
-
-
-def test_a_correlation_of_a_value_that_cannot_be_read_is_not_told_of():
-    path = op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Polarizer(op.Parameter("b"))
-    with pytest.raises(op.ParameterError) as fault:
-        (path >> op.Detector()).propagate(
-            a=(0.1, -0.1), b=(0.1, 0.1), correlation={("a", "b"): 0.3}
-        )
-    (told,) = fault.value.faults
-    assert "the standard uncertainty of parameter 'a' is" in told
 
 
 INDICES = {"n1": (1.5, 0.1), "k1": (0.2, 0.1), "n2": (1.5, 0.1)}
@@ -335,8 +321,11 @@ def test_what_is_no_correlation_is_refused(correlation, told):
     assert told in fault
 
 
-def test_every_wrong_pair_is_told():
+def test_every_wrong_pair_is_told_but_that_of_a_value_that_cannot_be_read():
     assert len(refused(NPGR, **INDICES, correlation={("n1", "k2"): 0.1, ("n1", "k1"): 2.0})) == 2
+    given = {"n1": (1.5, -0.1), "k1": (0.2, 0.1), "correlation": {("n1", "k1"): 0.3}}
+    (told,) = refused(NPGR, **given, method="auto")
+    assert "the standard uncertainty of parameter 'n1' is" in told
 
 
 @rows("method", ["differences", "monte-carlo"])
