@@ -14,6 +14,12 @@ REFLECTED = [(1 / 1.5, 0.9), (1.5, 0.7), (0.2 + 3.4j, 1.1)]
 POLARISED = (1.0, 0.48, 0.6, 0.64)
 
 
+def both_ways(path, **options):
+    """The light of a path by Stokes vectors and by Jones matrices."""
+    for composing in ("stokes", "jones"):
+        yield op.Composer(composing=composing, **options).compose(path).run()
+
+
 def excess(light):
     """DoP - 1 of what was computed, without rounding of its own."""
     s0, *rest = map(mpmath.mpf, light.mantissa.astype(float).tolist())
@@ -58,19 +64,6 @@ def test_light_of_1e_minus_100000_has_its_polarisation():
     assert light.dop == pytest.approx(1.0, abs=1e-15)
 
 
-def test_a_faint_path_of_glass_agrees_with_50_digits():
-    rng = np.random.default_rng(4)
-    angles = rng.uniform((0, -3), (1.5, 3), (8, 2))
-    dark = [op.Attenuator(1e-200)] * 2
-    path = chain([*dark, *(op.Interface(1.5, i, azimuth=a) for i, a in angles.tolist())], POLARISED)
-    exact = exact_stokes(path)["eye"]
-    expected = [float(part / exact[0]) for part in exact]
-    for composing in ("stokes", "jones"):
-        light = op.Composer(composing=composing).compose(path).run()
-        assert light.log10_intensity == pytest.approx(float(mpmath.log10(exact[0])), rel=1e-14)
-        np.testing.assert_allclose(light.normalized, expected, rtol=0, atol=1e-13)
-
-
 def test_two_steps_are_enough_to_be_too_faint_and_a_batch_may_be_so_in_part():
     light = chain([op.Attenuator(1e-200)] * 2, POLARISED).trace()
     assert light.intensity == 0.0
@@ -82,6 +75,18 @@ def test_two_steps_are_enough_to_be_too_faint_and_a_batch_may_be_so_in_part():
     np.testing.assert_allclose(light.dop, [1.0, 1.0, np.nan], rtol=0, atol=1e-15)
 
 
+def test_a_faint_path_of_glass_agrees_with_50_digits():
+    rng = np.random.default_rng(4)
+    angles = rng.uniform((0, -3), (1.5, 3), (8, 2))
+    dark = [op.Attenuator(1e-200)] * 2
+    path = chain([*dark, *(op.Interface(1.5, i, azimuth=a) for i, a in angles.tolist())], POLARISED)
+    exact = exact_stokes(path)["eye"]
+    expected = [float(part / exact[0]) for part in exact]
+    for light in both_ways(path):
+        assert light.log10_intensity == pytest.approx(float(mpmath.log10(exact[0])), rel=1e-14)
+        np.testing.assert_allclose(light.normalized, expected, rtol=0, atol=1e-13)
+
+
 def test_faint_light_adds_to_faint_light():
     path = op.PathGraph()
     for name, state in (("a", (1.0, 1.0, 0, 0)), ("b", (1.0, -1.0, 0, 0))):
@@ -90,8 +95,7 @@ def test_faint_light_adds_to_faint_light():
             node = node >> path.add(f"{name}{number}", op.Attenuator(1e-200))
         node >> (path["sum"] if name == "b" else path.add("sum", op.Combiner()))
     path["sum"] >> path.add("eye", op.Detector())
-    for composing in ("stokes", "jones"):
-        light = op.Composer(composing=composing).compose(path).run()
+    for light in both_ways(path):
         np.testing.assert_allclose(light.normalized, [1, 0, 0, 0], rtol=0, atol=1e-15)
         assert light.log10_intensity == pytest.approx(-400 + np.log10(2), abs=1e-10)
 
@@ -108,12 +112,8 @@ def test_no_intensity_is_negative_in_float32():
         for _ in range(8)
     ]
     crossed = [op.Polarizer(0.4), op.Polarizer(0.4 + np.pi / 2)]
-    for composing in ("stokes", "jones"):
-        for path in (
-            chain([*elements, *crossed], POLARISED),
-            chain([*crossed, *elements], POLARISED),
-        ):
-            light = op.Composer(dtype="float32", composing=composing).compose(path).run()
+    for path in (chain([*elements, *crossed], POLARISED), chain([*crossed, *elements], POLARISED)):
+        for light in both_ways(path, dtype="float32"):
             assert light.stokes.dtype == np.float32
             assert np.all(light.mantissa[..., 0] >= 0.0)
 

@@ -178,13 +178,6 @@ def test_the_axis_of_an_array_with_units_has_the_very_numbers_of_its_texts(data)
     assert axis.shown.tolist() == numbers
 
 
-def test_a_sweep_takes_what_a_single_run_takes_for_the_number_with_its_unit():
-    plan = TURNED.compose()
-    axis = axis_of({"a": labelled([48.0, 12.3], "deg")}, plan)
-    for text, number in zip(["48 deg", "12.3 deg"], axis.given, strict=True):
-        assert np.array_equal(plan.run(a=text).stokes, plan.run(a=float(number)).stokes)
-
-
 @rows("unit", ["", "1", "dimensionless", None])
 def test_numbers_without_a_dimension_need_no_unit(unit):
     assert axis_of({"n1": labelled([1.3, 1.5], unit)}).unit == ""
@@ -288,7 +281,11 @@ def test_axes_are_read_without_xarray():
 
 
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
-def test_numbers_of_half_precision_are_labels_of_single():
+def test_a_sweep_is_of_the_numbers_of_single_runs_and_labels_of_half_precision_are_of_single():
+    plan = TURNED.compose()
+    axis = axis_of({"a": labelled([48.0, 12.3], "deg")}, plan)
+    for text, number in zip(["48 deg", "12.3 deg"], axis.given, strict=True):
+        assert np.array_equal(plan.run(a=text).stokes, plan.run(a=float(number)).stokes)
     half, malus = np.array([0.1, 0.2], np.float16), op.load_preset("malus")
     found = malus.sweep(angle=half)
     assert found.angle.dtype == np.float32
@@ -345,9 +342,7 @@ def test_all_faults_are_told_at_once_and_those_of_several_axes_in_their_order():
     faults = refused({"delta": [0.1, 1.6], "rho": [0.1, 0.2, 7.0]})
     assert "'delta' is 91.6732 deg at 1" in faults[0]
     assert "at 2, outside its range" in faults[1]
-
-
-def test_a_hundred_million_points_are_refused_at_once_for_one_of_an_axis():
+    # A hundred million points are refused at once for one of an axis.
     given = {"delta": np.zeros(10_000), "rho": np.append(np.zeros(9_999), 7.0)}
     with pytest.raises(op.ParameterError) as caught:
         grid_of(NPGR.inputs, given, ranges=False)
@@ -355,15 +350,12 @@ def test_a_hundred_million_points_are_refused_at_once_for_one_of_an_axis():
     assert "at 9999, outside its range" in fault
 
 
-def test_parameters_without_a_value_are_told_and_one_called_as_a_keyword_is_given_by_coords():
+def test_parameters_without_a_value_or_with_an_array_or_called_as_a_keyword_are_told():
     assert refused(plan=POWER) == ("parameter 'power' has no value; give one, power=...",)
     plan = (op.Source(op.Parameter("chunks")) >> op.Detector()).compose()
     (fault,) = refused(plan=plan)
     assert fault.endswith("sweep has a keyword of that name; give it by coords={'chunks': ...}")
     assert grid(coords={"chunks": [1.0, 2.0]}, plan=plan).sizes == {"chunks": 2}
-
-
-def test_arrays_that_the_path_has_are_told():
     turned = op.Rotator(op.Parameter("a", default=[0.1, 0.2]))
     faults = refused(plan=(op.Source([1.0, 2.0]) >> turned >> op.Detector()).compose())
     assert "has an array of shape (2,), and no axis has its name" in faults[0]
@@ -471,6 +463,11 @@ def test_coordinates_along_one_dimension_vary_together():
     beside = MEASURED.drop_vars("rho").assign_coords(rho=("phi", [0.0, 0.1, 0.2], {"units": "rad"}))
     along = {axis.name: axis.dimension for axis in grid(coords=beside).axes}
     assert along == {"delta": "point", "phi": "phi", "rho": "phi"}
+    # Labels of points are no axes.
+    named = MEASURED.assign_coords(point=["a", "b"])
+    assert grid(coords=named).sizes == {"point": 2, "phi": 3}
+    stacked = MEASURED[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
+    assert grid(coords=stacked.drop_vars("delta", errors="ignore")).sizes == {"point": 6}
 
 
 def test_coordinates_that_are_no_axes_are_told_with_a_cure():
@@ -486,13 +483,6 @@ def test_coordinates_that_are_no_axes_are_told_with_a_cure():
     assert (
         "is along the dimension 'k1', which is the name of a parameter with another axis" in fault
     )
-
-
-def test_labels_of_points_are_no_axes():
-    named = MEASURED.assign_coords(point=["a", "b"])
-    assert grid(coords=named).sizes == {"point": 2, "phi": 3}
-    stacked = MEASURED[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
-    assert grid(coords=stacked.drop_vars("delta", errors="ignore")).sizes == {"point": 6}
 
 
 def test_the_dataset_of_a_sweep_gives_the_same_axes_again():

@@ -20,7 +20,7 @@ from optipath.errors import JobError, StoreWarning
 from optipath.sweeps.blocks import block_store
 from optipath.sweeps.blocks.block_marks import clear
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
-from tables import rows
+from tables import rows, slow
 
 HUGE = 1 << 40
 
@@ -167,7 +167,7 @@ def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path
 
 
 @pytest.mark.filterwarnings("ignore::optipath.errors.StoreWarning")
-@pytest.mark.parametrize("step", [pytest.param(25, marks=pytest.mark.slow), 401])
+@pytest.mark.parametrize("step", [slow(25), 401])
 def test_every_bit_of_a_store_is_looked_at(store, step):
     job = Powers(1)
     keep_blocks(job, store)
@@ -188,19 +188,17 @@ def test_every_bit_of_a_store_is_looked_at(store, step):
     assert not accepted
 
 
-def test_a_whole_block_of_another_job_is_none(store, tmp_path):
-    keep_blocks(Powers(2), store)
+def test_a_whole_block_of_another_job_is_none_and_of_many_damaged_blocks_twenty_are_named(
+    store, tmp_path
+):
+    keep_blocks(Powers(25), store)
     keep_blocks(Powers(2, title="others"), other := tmp_path / "others.zarr")
     (other / "power" / "3.0").write_bytes(b"whatever they have")
     mark = json.loads((other / "blocks" / "done" / "1.0").read_bytes().partition(b"\n")[2])
     assert {*mark} == {"power/2.0", "power/3.0", "total/1"}
     shutil.copy(other / "blocks" / "done" / "1.0", store / "blocks" / "done")
-    with pytest.warns(StoreWarning, match="anew: 1"):
-        keep_blocks(Powers(2), store)
-
-
-def test_of_many_damaged_blocks_twenty_are_named(store):
-    keep_blocks(Powers(25), store)
+    with pytest.warns(StoreWarning, match="anew: 1$"):
+        keep_blocks(Powers(25), store)
     for file in (store / "total").glob("[0-9]*"):
         file.write_bytes(b"")
     with pytest.warns(StoreWarning, match=r"anew: 0, 1, .*, 18, 19 and 5 more$"):
