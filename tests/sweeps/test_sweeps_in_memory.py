@@ -150,17 +150,12 @@ def test_every_engine_and_precision_gives_variables_of_that_precision(engine, dt
     assert (found.attrs["engine"], found.attrs["dtype"]) == (engine, dtype)
 
 
-def test_a_tolerance_is_that_of_the_plan():
-    composer = op.Composer(tolerance=0.01)
-    path = op.load_preset("npgr026").reading("intensity")
+def test_tolerances_are_those_of_the_plan_and_what_a_detector_does_not_read_is_nan():
+    composer, path = op.Composer(tolerance=0.01), NPGR.reading("intensity")
     deltas = np.linspace(0.0, 0.2, 5)
     found = path.sweep(delta=deltas, composer=composer)
     np.testing.assert_array_equal(found.S0.values, composer.compose(path).run(delta=deltas).S0)
     assert found.attrs["tolerance"] == 0.01
-
-
-def test_what_a_detector_does_not_read_is_nan_and_the_dataset_says_so():
-    path = op.load_preset("npgr026").reading("intensity")
     found = path.sweep(delta=[0.1, 0.2], phi=[0.3, 0.4, 0.5])
     assert np.isnan(found.S1.values).all()
     assert np.isnan(found.DoP.values).all()
@@ -304,15 +299,12 @@ def test_parts_of_variables_and_noise_are_the_same_along_it(idle):
     assert np.isnan(found.DoP[:, 1]).all()
 
 
-def test_an_idle_axis_alone_has_one_light_and_varies_together_with_another(idle):
+def test_an_idle_axis_alone_has_one_light_and_varies_together_with_another(idle, monkeypatch):
     assert_same_along(NPGR.sweep(wavelength=idle), NPGR.sweep())
     assert_same_along(NPGR.sweep(wavelength=idle, chunks=3).compute(), NPGR.sweep())
     found = NPGR.sweep(delta=DELTA[:4], wavelength=idle, zip=("delta", "wavelength"))
     assert dict(found.sizes) == {"delta_wavelength": 4}
     assert found.S0.to_numpy().tolist() == NPGR.sweep(delta=DELTA[:4]).S0.to_numpy().tolist()
-
-
-def test_it_is_run_at_one_value(idle, monkeypatch):
     shapes, lights = [], Answers.lights
 
     def seen(answers, given):
@@ -321,7 +313,7 @@ def test_it_is_run_at_one_value(idle, monkeypatch):
 
     monkeypatch.setattr(Answers, "lights", seen)
     NPGR.sweep(delta=DELTA, wavelength=idle)
-    assert shapes == [(5, 1)]
+    assert shapes == [(5, 1)]  # It is run at one value.
 
 
 def test_the_command_line_writes_it_in_every_form(tmp_path, monkeypatch, capsys):
@@ -349,7 +341,7 @@ def test_the_command_line_writes_it_in_every_form(tmp_path, monkeypatch, capsys)
     assert stokes[..., 0].ravel().tolist() == laid_out
 
 
-def test_tables_have_it_too(capsys, monkeypatch):
+def test_tables_have_it_too_and_errors_that_are_allowed_are_the_same_along_it(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     assert main(["sweep", "malus", "--angle", "0:90:3", *GIVEN]) == 0
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
@@ -359,6 +351,13 @@ def test_tables_have_it_too(capsys, monkeypatch):
     light = [line for line in lines if line[:1] and line[0] in ("400", "500", "600", "700")]
     assert len(light) == 4
     assert len({*map(tuple, [line[1:] for line in light])}) == 1
+    given = ["npgr026", "--tolerance", "0.1", "--reads", "intensity", "--rho", "0"]
+    given += ["--filter", "horizontal", "--json", "--delta"]
+    for angles, shape in (("10, 20", (2, 4)), ("10", (4,))):
+        assert main(["sweep", *given, angles, *GIVEN]) == 0
+        found = json.loads(capsys.readouterr().out)["tolerance"]["error"]
+        assert np.shape(found) == shape
+        assert np.ptp(found, axis=-1).max() == 0.0
 
 
 def test_what_is_no_axis_of_wavelengths_is_told(capsys):
@@ -370,13 +369,3 @@ def test_what_is_no_axis_of_wavelengths_is_told(capsys):
     assert "--wavelength is given several values" in capsys.readouterr().err
     assert main(["sweep", "malus", "--wavelength", "-400 nm:700 nm:4"]) == 2
     assert "wavelength" in capsys.readouterr().err
-
-
-def test_errors_that_are_allowed_are_the_same_along_it(capsys):
-    given = ["npgr026", "--tolerance", "0.1", "--reads", "intensity", "--rho", "0"]
-    given += ["--filter", "horizontal", "--json", "--delta"]
-    for angles, shape in (("10, 20", (2, 4)), ("10", (4,))):
-        assert main(["sweep", *given, angles, *GIVEN]) == 0
-        found = json.loads(capsys.readouterr().out)["tolerance"]["error"]
-        assert np.shape(found) == shape
-        assert np.ptp(found, axis=-1).max() == 0.0
