@@ -37,6 +37,9 @@ def test_what_is_fixed_is_a_coordinate_as_it_was_given_or_is_by_default():
     assert {name: found[name].units for name in ("phi", "rho")} == {"phi": "deg", "rho": "rad"}
     assert found.n2 == 1.5
     assert found["filter"] == "none"
+    both = MALUS.sweep(angle="30 deg"), MALUS.sweep(angle=np.radians(30.0))
+    assert [each.angle.units for each in both] == ["deg", "rad"]
+    assert both[0].S0.values == both[1].S0.values
     path = op.Source() >> op.Interface(op.Parameter("m"), op.Parameter("theta")) >> op.Detector()
     # A complex value is a text that files take.
     assert path.sweep(theta=DELTAS, m=0.2 + 3.4j).m.item() == "(0.2+3.4j)"
@@ -50,12 +53,6 @@ def test_a_single_value_is_labelled_as_an_axis_of_that_value(word):
     assert NPGR.sweep(coords=fixed).identical(fixed)
 
 
-def test_one_value_in_two_units_is_one_in_two_datasets():
-    found = MALUS.sweep(angle="30 deg"), MALUS.sweep(angle=np.radians(30.0))
-    assert [each.angle.units for each in found] == ["deg", "rad"]
-    assert found[0].S0.values == found[1].S0.values
-
-
 def test_variables_have_units_but_those_of_the_source():
     found = NPGR.sweep(rho=DELTAS)
     units = {name: each.attrs.get("units") for name, each in found.data_vars.items()}
@@ -67,22 +64,19 @@ def test_variables_have_units_but_those_of_the_source():
     assert all(each.attrs["long_name"] for each in found.data_vars.values())
 
 
-def test_the_path_its_explanation_and_the_version_are_there(tmp_path):
+def test_the_path_its_explanation_the_options_and_the_version_are_there(tmp_path):
     (tmp_path / "path.toml").write_text(NPGR.sweep(delta=DELTAS).attrs["path"], "utf-8")
     assert op.load_preset(tmp_path / "path.toml") == NPGR
     path = op.load_preset("malus")
     attrs = path.sweep(angle=DELTAS).attrs
     assert attrs["explanation"] == path.compose().explain()
     assert attrs["optipath_version"] == version("optipath")
-    path.description = "another one"
-    assert 'description = "another one"' in path.sweep(angle=[0.1]).attrs["path"]
-
-
-def test_options_are_as_the_composer_has_them():
     composer = op.Composer(method="textbook", engine="numpy", model="full")
-    attrs = MALUS.sweep(angle=[0.1], composer=composer).attrs
+    attrs = path.sweep(angle=[0.1], composer=composer).attrs
     told = {name: attrs[name] for name in ("method", "engine", "model", "dtype")}
     assert told == {"method": "textbook", "engine": "numpy", "model": "full", "dtype": "float64"}
+    path.description = "another one"
+    assert 'description = "another one"' in path.sweep(angle=[0.1]).attrs["path"]
 
 
 def test_a_path_without_a_form_in_toml_is_swept_and_says_why():
@@ -207,7 +201,7 @@ def test_several_detectors_are_the_first_axis():
     assert_array_equal(path.sweep(**AXES).DoP[::-1, 2].values, both[::-1, 2])
 
 
-def test_a_copy_can_be_written_to_and_leaves_the_sweep_as_it_was(light):
+def test_copies_pickles_and_chunks_of_dask_come_back_and_leave_the_sweep_as_it_was(light):
     found = a_sweep()
     copied = found.copy(deep=True)
     copied.S0[:] = 0.0
@@ -215,9 +209,6 @@ def test_a_copy_can_be_written_to_and_leaves_the_sweep_as_it_was(light):
     assert_array_equal(found.S0.values, light.S0)
     assert_array_equal(found.DoP.values, light.dop)
     assert (copied.DoP == 0.5).all()
-
-
-def test_a_pickle_and_chunks_of_dask_come_back_as_they_were():
     xr.testing.assert_identical(pickle.loads(pickle.dumps(a_sweep())), a_sweep())
     pytest.importorskip("dask")
     chunked = a_sweep().chunk({"delta": 2})

@@ -22,6 +22,7 @@ from tables import rows, slow
 pytest.importorskip("zarr")
 pytest.importorskip("h5netcdf")
 pytest.importorskip("dask")
+ENGINES = {".zarr": "zarr", ".nc": "h5netcdf"}
 ANGLES = np.linspace(0.0, 1.5, 11)
 DELTAS = np.linspace(0.1, 1.4, 4)
 
@@ -72,6 +73,10 @@ def test_what_is_kept_is_the_sweep_in_memory_and_opened_when_it_is_there(store, 
     assert sorted(computed) == list(range(6))
     assert_same_bits(kept(store), swept())
     assert len(computed) == 6
+    # It lends its axes in their order.
+    with xr.open_dataset(store, engine=ENGINES[store.suffix]) as opened:
+        for given in (opened, opened.S0):
+            assert PATH.sweep(coords=given).S0.dims == ("delta", "angle")
 
 
 @pytest.mark.slow
@@ -175,14 +180,6 @@ def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     )
     assert ended.returncode <= 0 or "\noptipath.errors." in ended.stderr
     assert file.read_bytes() == content
-
-
-def test_what_was_kept_lends_its_axes_in_their_order(store):
-    kept(store)
-    opened = xr.open_zarr(store) if store.suffix == ".zarr" else xr.open_dataset(store)
-    with opened:
-        for given in (opened, opened.S0):
-            assert PATH.sweep(coords=given).S0.dims == ("delta", "angle")
 
 
 @pytest.mark.filterwarnings("ignore:Consolidated metadata")
