@@ -9,6 +9,7 @@ import optipath as op
 from charts import texts_over_marks
 from optipath.cli.chart_options import NEAR
 from optipath.kernels.catalogue import REFLECTION
+from optipath.lab.accuracy import chart as chart_module
 from optipath.lab.accuracy import critical_chart as module
 from optipath.lab.accuracy.chart import interface_chart, path_chart
 from optipath.lab.accuracy.chart_effort import FULL, QUICK, Effort, expected
@@ -26,23 +27,35 @@ from optipath.lab.accuracy.regions import REGIONS
 from optipath.lab.accuracy.slow_operations import kernel_operations, slow_operations
 from paths import chain
 from pictures import faults_of, texts_of
-from tables import rows
+from tables import rows, slow
 
 LITTLE = Effort(samples=1, rounds=1, engines=("numpy",))
+MORE = Effort(samples=2, rounds=1, engines=("numpy",))
+FEW = {"generic", "near the normal", "grazing", "near Brewster's angle", "metals"}
+FEW |= {"k = 0, total reflection", "n near 1, k like n - 1"}
+STATE = (1.0, 0.3, 0.2, 0.1)
+GREY = chain([op.Attenuator(0.5)], STATE)
+
+
+@pytest.fixture(scope="module", params=[LITTLE, pytest.param(MORE, marks=pytest.mark.slow)])
+def effort(request):
+    """How much is measured: in a few regions, or more in all of them."""
+    few = tuple(region for region in REGIONS if region.name in FEW)
+    with pytest.MonkeyPatch.context() as patch:
+        if request.param is LITTLE:
+            patch.setattr(chart_module, "REGIONS", few)
+        yield request.param
 
 
 @pytest.fixture(scope="module")
-def chart():
+def chart(effort):
     steps, kept = [], []
     path = op.load_preset("npgr026", case="8")
-    found = path_chart(
-        path,
-        "npgr026",
-        LITTLE,
-        lambda *step: steps.append(step),
-        lambda so_far: kept.append(json.loads(chart_text(so_far))),
-    )
-    return found, steps, kept
+
+    def keep(so_far):
+        kept.append(json.loads(chart_text(so_far)))
+
+    return path_chart(path, "npgr026", effort, lambda *step: steps.append(step), keep), steps, kept
 
 
 def worst(contender, kind="componentwise"):
@@ -50,19 +63,20 @@ def worst(contender, kind="componentwise"):
 
 
 def by_words(chart, *words):
-    for contender in chart["contenders"]:
-        if (contender["method"], contender["dtype"], contender["composing"]) == words:
-            return contender
-    raise AssertionError(words)
+    keys = "method", "dtype", "composing"
+    return next(c for c in chart["contenders"] if tuple(c[key] for key in keys) == words)
 
 
-def test_every_way_to_compute_the_path_is_there(chart):
+def test_every_way_to_compute_the_path_is_there_and_slower_than_the_machine_allows(chart):
     found = chart[0]["contenders"]
     assert len(found) == len(contenders(engines=("numpy",)))
-    regions = {AS_GIVEN, *(region.name for region in REGIONS)}
+    regions = {AS_GIVEN, *(region.name for region in chart_module.REGIONS)}
     for contender in found:
         assert set(contender["errors"]["componentwise"]) == regions
         assert contender["ns"]["median"] >= contender["ns"]["least"] > 0
+    limits, quickest = chart[0]["limits_ns"], min(c["ns"]["least"] for c in found)
+    assert set(limits) == {"sqrt and division", "memory"}
+    assert all(0 < ns < quickest for ns in limits.values())
 
 
 def test_stable_holds_and_textbook_fails_on_the_path(chart):
@@ -72,18 +86,15 @@ def test_stable_holds_and_textbook_fails_on_the_path(chart):
     assert worst(by_words(chart[0], "stable", "longdouble", "stokes"), "normwise") <= 30
 
 
-def test_progress_is_told_from_the_beginning_to_the_end(chart):
-    shares = [share for _, share in chart[1]]
+def test_progress_is_told_and_what_is_measured_so_far_is_a_whole_chart_after_every_region(chart):
+    found, steps, kept = chart
+    shares = [share for _, share in steps]
     assert shares == sorted(shares)
-    told = {what.partition(",")[0] for what, _ in chart[1]}
+    told = {what.partition(",")[0] for what, _ in steps}
     assert told == {"composing and compiling", "times", "errors"}
     assert 0 <= shares[0] < 0.1
     assert 0.9 < shares[-1] <= 1
-
-
-def test_what_is_measured_so_far_is_a_whole_chart_after_every_region(chart):
-    found, _, kept = chart
-    assert len(kept) == 1 + len(REGIONS)
+    assert len(kept) == 1 + len(chart_module.REGIONS)
     for number, so_far in enumerate(kept, start=1):
         assert so_far["regions"] == {"measured": number, "of": len(kept)}
         (errors, *_) = read_chart(json.dumps(so_far), "x.json")["contenders"]
@@ -100,14 +111,6 @@ def test_a_quick_chart_measures_less_and_says_what_it_leaves_out():
     assert sum(runner.engine == "numba" for runner in measured) <= 1
     assert "--quick" in expected(FULL)
     assert Errors._fields == KINDS, "in files, too"
-
-
-def test_the_limits_of_the_machine_are_below_what_was_measured(chart):
-    limits = chart[0]["limits_ns"]
-    assert set(limits) == {"sqrt and division", "memory"}
-    assert all(
-        0 < ns < min(c["ns"]["least"] for c in chart[0]["contenders"]) for ns in limits.values()
-    )
 
 
 def test_json_can_be_drawn_again_without_measuring(chart, tmp_path):
@@ -129,23 +132,17 @@ def test_the_chart_of_one_interface_has_all_methods():
 
 
 # npgr026 is charted above, and those that are like it, or take long, are left out.
-SLOW = ["coated-metal", "glass-slab", "senarmont", "sky-and-window"]
-CHARTED = ["malus", "npgr026-3d", *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW)]
+SLOW = ["npgr026-3d", "coated-metal", "glass-slab", "senarmont", "sky-and-window"]
 
 
-@pytest.mark.parametrize("name", CHARTED)
-def test_presets_can_be_charted(name):
-    found = path_chart(op.load_preset(name), name, LITTLE)
+@pytest.mark.parametrize("name", ["malus", *map(slow, SLOW)])
+def test_presets_can_be_charted(name, effort):
+    found = path_chart(op.load_preset(name), name, effort)
     # By Jones columns, where there are any: Stokes vectors lose a light that is nearly
     # extinguished, as here.
     ways = {contender["composing"] for contender in found["contenders"]}
     composing = "jones" if "jones" in ways else "stokes"
     assert worst(by_words(found, "stable", "float64", composing), "normwise") <= 100
-
-
-def test_a_path_with_an_own_matrix_is_charted_without_jones():
-    found = path_chart(chain([op.MuellerElement(np.eye(4))]), "foil", LITTLE)
-    assert {c["composing"] for c in found["contenders"]} == {"stokes"}
 
 
 def test_interfaces_in_world_frames_keep_their_incidence():
@@ -160,12 +157,9 @@ def test_interfaces_in_world_frames_keep_their_incidence():
     assert op.Composer().compose(graph).run().stokes.shape == (4, 4)
 
 
-def test_a_path_is_made_many_for_timing():
+def test_a_path_is_made_many_for_timing_and_roots_of_its_kernels_are_counted():
     graph, values = many_paths(op.load_preset("npgr026"), 6)
     assert op.Composer().compose(graph).run(**values).stokes.shape == (6, 4)
-
-
-def test_roots_and_divisions_of_a_kernel_are_counted():
     lossless = REFLECTION.by_method("stable").without[1]
     assert kernel_operations(lossless, 4)["sqrt"] == 1
     assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
@@ -174,15 +168,10 @@ def test_roots_and_divisions_of_a_kernel_are_counted():
     assert slow_operations(program)["sqrt"] >= 2
 
 
-STATE = (1.0, 0.3, 0.2, 0.1)
-
-
 def test_components_that_are_not_read_have_no_error():
     path = chain([op.Interface(1.5, 0.9)], STATE, reads="intensity")
     (trial,) = trials(path, (), "float64", 1)
-    off = path_errors(op.Composer(), trial, "float64")
-    assert off.normwise.max() <= 10
-    assert off.componentwise.max() <= 10
+    assert max(kind.max() for kind in path_errors(op.Composer(), trial, "float64")) <= 10
 
 
 def test_light_that_a_precision_cannot_hold_is_lost_and_its_contender_left_out():
@@ -199,123 +188,14 @@ def test_light_that_a_precision_cannot_hold_is_lost_and_its_contender_left_out()
     assert "float32" not in dtypes
 
 
-def test_a_chart_is_of_one_path_and_not_of_a_batch():
-    with pytest.raises(op.ParameterError, match=r"batch of shape \(3,\)"):
-        path_chart(chain([op.Attenuator([0.1, 0.2, 0.3])], STATE), "three", LITTLE)
-
-
-def test_equal_computations_are_measured_once_and_limits_of_nothing_are_left_out():
-    found = path_chart(chain([op.Attenuator(0.5)], STATE), "grey", LITTLE)
+def test_what_cannot_be_measured_or_was_already_is_left_out_and_batches_are_refused():
+    found = path_chart(chain([op.MuellerElement(np.eye(4))]), "foil", LITTLE)
+    assert {c["composing"] for c in found["contenders"]} == {"stokes"}
+    found = path_chart(GREY, "grey", LITTLE)
     assert {c["method"] for c in found["contenders"]} == {"stable"}
     assert set(found["limits_ns"]) == {"memory"}
-
-
-@rows(
-    "spoil",
-    [
-        lambda chart: chart.update(format=True),
-        lambda chart: chart.update(contenders=[]),
-        lambda chart: chart.update(title=None),
-        lambda chart: chart["limits_ns"].update(memory=-1.0),
-        lambda chart: chart["contenders"][0].pop("ns"),
-        lambda chart: chart["contenders"][0]["ns"].update(least="fast"),
-        lambda chart: chart["contenders"][0]["errors"].update(normwise={}),
-        lambda chart: chart["contenders"][0].update(engine=3),
-        lambda chart: chart["contenders"][0]["ns"].update(least=10**400),
-        lambda chart: chart["contenders"][0]["ns"].update(least=1e300),
-    ],
-)
-def test_a_chart_that_lacks_something_is_refused(chart, spoil):
-    text = json.loads(chart_text(chart[0]))
-    spoil(text)
-    with pytest.raises(op.OptipathError, match="no whole chart"):
-        read_chart(json.dumps(text), "x.json")
-
-
-@rows("text", ["", "[]", '{"format": 99}', '{"format": 1}', "nonsense"])
-def test_what_is_no_chart_is_refused(text):
-    with pytest.raises(op.OptipathError, match="optipath chart --data"):
-        read_chart(text, "x.json")
-
-
-@pytest.mark.filterwarnings("ignore:Glyph")
-def test_an_engine_of_a_later_version_and_letters_without_glyphs_are_drawn(chart, tmp_path):
-    later = json.loads(chart_text(chart[0]))
-    later["contenders"][0].update(engine="quantum", dtype="float128")
-    later["title"] = r"光路 $\frac{$"
-    panel = op.plots.chart(read_chart(json.dumps(later), "x.json"))
-    op.plots.save(panel, tmp_path / "later.svg")
-
-
-@rows("distance", [1e-1, 1e-6])
-@rows("name", PLACES)
-def test_samples_stand_at_the_distance_from_their_angle(name, distance):
-    samples = PLACES[name].region(distance).samples(8)
-    # cos of the refracted angle is 0 there, the reflection of p, or the angle itself.
-    angle = {
-        "brewster": np.arctan(samples.n),
-        "critical": np.arcsin(np.minimum(samples.n, 1.0)),
-        "grazing": np.pi / 2,
-        "normal": 0.0,
-    }[name]
-    assert np.abs(samples.incidence - angle) == pytest.approx(np.full(8, distance), rel=1e-6)
-    assert tuple(PLACES) == NEAR, "of the command line"
-
-
-def test_media_are_the_same_at_every_distance():
-    far, near = (PLACES["grazing"].region(distance).samples(4) for distance in (1e-1, 1e-9))
-    assert far.n.tolist() == near.n.tolist()
-
-
-def test_amplitudes_lose_a_digit_a_decade_near_the_normal_and_stable_none():
-    errors = [
-        interface_errors("amplitude", PLACES["normal"].region(distance), count=8)
-        for distance in (1e-2, 1e-4, 1e-6)
-    ]
-    worst = [float(off.componentwise[:, 1].max()) for off in errors]
-    # B follows the square of the angle, and the amplitudes keep their absolute error.
-    assert 1e2 < worst[1] / worst[0] < 1e6
-    assert 1e2 < worst[2] / worst[1] < 1e6
-    stable = interface_errors("stable", PLACES["normal"].region(1e-6), count=8)
-    assert stable.componentwise.max() <= 20
-
-
-@pytest.fixture
-def _few(monkeypatch):
-    monkeypatch.setattr(module, "DISTANCES", (1e-8, 1e-2))
-
-
-@pytest.mark.usefixtures("_few")
-def test_a_path_and_an_interface_have_all_methods_at_all_distances():
-    path = op.load_preset("npgr026", case="8")
-    for measured in (path, None):
-        kept = []
-        found = critical_chart(measured, "x", ["normal", "grazing"], 2, keep=kept.append)
-        assert [place["name"] for place in found["places"]] == ["normal", "grazing"]
-        for place in found["places"]:
-            assert place["distances"] == [1e-2, 1e-8]
-            assert set(place["errors"]) == {"stable", "compensated", "amplitude", "textbook"}
-            assert max(place["errors"]["stable"]["componentwise"]) <= 100
-        assert kept[-1]["regions"] == {"measured": 4, "of": 4}
-        assert json.loads(chart_text(read_chart(chart_text(found), "x"))) == json.loads(
-            chart_text(found)
-        )
-
-
-@pytest.mark.usefixtures("_few")
-def test_what_is_measured_so_far_can_be_read():
-    kept = []
-    critical_chart(None, "x", ["critical"], 1, keep=lambda found: kept.append(chart_text(found)))
-    first = read_chart(kept[0], "x.json")
-    assert first["places"][0]["distances"] == [1e-2]
-    assert first["regions"] == {"measured": 1, "of": 2}
-
-
-def test_unknown_places_and_paths_without_interfaces_are_refused():
-    with pytest.raises(op.OptipathError, match="place 'nirmal' is unknown; did you mean 'normal'"):
-        critical_chart(None, "x", ["nirmal"])
-    with pytest.raises(op.OptipathError, match="'malus' has no interface"):
-        critical_chart(op.load_preset("malus"), "malus", ["normal"])
+    with pytest.raises(op.ParameterError, match=r"batch of shape \(3,\)"):
+        path_chart(chain([op.Attenuator([0.1, 0.2, 0.3])], STATE), "three", LITTLE)
 
 
 ERROR = {"worst": 1.0, "median": 0.5}
@@ -340,6 +220,108 @@ OLD_CHART = {
     ],
 }
 NAMES = ["tmm", "mitsuba, llvm", "katsu", "numpy by hand", "jax by hand", "pypolar", "py_pol"]
+NO_CHARTS = ["", "[]", '{"format": 99}', '{"format": 1}', "nonsense"]
+
+
+@rows(
+    "spoil",
+    [
+        lambda chart: chart.update(format=True),
+        lambda chart: chart.update(contenders=[]),
+        lambda chart: chart.update(title=None),
+        lambda chart: chart["limits_ns"].update(memory=-1.0),
+        lambda chart: chart["contenders"][0].pop("ns"),
+        lambda chart: chart["contenders"][0]["ns"].update(least="fast"),
+        lambda chart: chart["contenders"][0]["errors"].update(normwise={}),
+        lambda chart: chart["contenders"][0].update(engine=3),
+        lambda chart: chart["contenders"][0]["ns"].update(least=10**400),
+        lambda chart: chart["contenders"][0]["ns"].update(least=1e300),
+    ],
+)
+def test_a_chart_that_lacks_something_is_refused(chart, spoil):
+    found = json.loads(chart_text(chart[0]))
+    spoil(found)
+    with pytest.raises(op.OptipathError, match="no whole chart"):
+        read_chart(json.dumps(found), "x.json")
+
+
+@rows(
+    "read, text, told",
+    [
+        *((read_chart, text, "optipath chart --data") for text in NO_CHARTS),
+        *((peer_times, text, r"race\.py --json") for text in ("", "[]", "{}", '{"contests": 3}')),
+    ],
+)
+def test_what_is_no_chart_or_no_race_is_refused(read, text, told):
+    with pytest.raises(op.OptipathError, match=told):
+        read(text, "x.json", *([OLD_CHART] if read is peer_times else []))
+
+
+@pytest.mark.filterwarnings("ignore:Glyph")
+def test_an_engine_of_a_later_version_and_letters_without_glyphs_are_drawn(chart, tmp_path):
+    later = json.loads(chart_text(chart[0]))
+    later["contenders"][0].update(engine="quantum", dtype="float128")
+    later["title"] = r"光路 $\frac{$"
+    panel = op.plots.chart(read_chart(json.dumps(later), "x.json"))
+    op.plots.save(panel, tmp_path / "later.svg")
+
+
+@rows("distance", [1e-1, 1e-6])
+@rows("name", PLACES)
+def test_samples_stand_at_the_distance_from_their_angle(name, distance):
+    samples = PLACES[name].region(distance).samples(8)
+    # cos of the refracted angle is 0 there, the reflection of p, or the angle itself.
+    angle = {
+        "brewster": np.arctan(samples.n),
+        "critical": np.arcsin(np.minimum(samples.n, 1.0)),
+        "grazing": np.pi / 2,
+        "normal": 0.0,
+    }[name]
+    assert np.abs(samples.incidence - angle) == pytest.approx(np.full(8, distance), rel=1e-6)
+    assert tuple(PLACES) == NEAR, "of the command line"
+    nearer = PLACES[name].region(1e-9).samples(8)
+    assert name != "grazing" or nearer.n.tolist() == samples.n.tolist()
+
+
+def test_amplitudes_lose_a_digit_a_decade_near_the_normal_and_stable_none():
+    errors = [
+        interface_errors("amplitude", PLACES["normal"].region(distance), count=8)
+        for distance in (1e-2, 1e-4, 1e-6)
+    ]
+    worst = [float(off.componentwise[:, 1].max()) for off in errors]
+    # B follows the square of the angle, and the amplitudes keep their absolute error.
+    assert 1e2 < worst[1] / worst[0] < 1e6
+    assert 1e2 < worst[2] / worst[1] < 1e6
+    stable = interface_errors("stable", PLACES["normal"].region(1e-6), count=8)
+    assert stable.componentwise.max() <= 20
+
+
+def test_a_path_and_an_interface_have_all_methods_at_all_distances(monkeypatch):
+    monkeypatch.setattr(module, "DISTANCES", (1e-8, 1e-2))
+    path = op.load_preset("npgr026", case="8")
+    for measured in (path, None):
+        kept = []
+        found = critical_chart(measured, "x", ["normal", "grazing"], 2, keep=kept.append)
+        assert [place["name"] for place in found["places"]] == ["normal", "grazing"]
+        for place in found["places"]:
+            assert place["distances"] == [1e-2, 1e-8]
+            assert set(place["errors"]) == {"stable", "compensated", "amplitude", "textbook"}
+            assert max(place["errors"]["stable"]["componentwise"]) <= 100
+        assert kept[-1]["regions"] == {"measured": 4, "of": 4}
+        text = chart_text(found)
+        assert json.loads(chart_text(read_chart(text, "x"))) == json.loads(text)
+    kept = []
+    critical_chart(None, "x", ["critical"], 1, keep=lambda found: kept.append(chart_text(found)))
+    first = read_chart(kept[0], "x.json")  # What is measured so far.
+    assert first["places"][0]["distances"] == [1e-2]
+    assert first["regions"] == {"measured": 1, "of": 2}
+
+
+def test_unknown_places_and_paths_without_interfaces_are_refused():
+    with pytest.raises(op.OptipathError, match="place 'nirmal' is unknown; did you mean 'normal'"):
+        critical_chart(None, "x", ["nirmal"])
+    with pytest.raises(op.OptipathError, match="'malus' has no interface"):
+        critical_chart(op.load_preset("malus"), "malus", ["normal"])
 
 
 def race(**changes):
@@ -374,16 +356,13 @@ def test_times_are_multiplied_so_that_optipath_is_as_fast_in_both():
 
 
 (ENTRY,) = OLD_CHART["contenders"]
+OF_XEON = "the processor of 'race.json' is 'Xeon', and that of the chart"
 
 
 @rows(
     "changes, others, message",
     [
-        (
-            {"processor": "Xeon"},
-            {},
-            "the processor of 'race.json' is 'Xeon', and that of the chart",
-        ),
+        ({"processor": "Xeon"}, {}, OF_XEON),
         ({"software": {"python": "3.12.0"}}, {}, "python of 'race.json' is '3.12.0'"),
         ({"path": {"preset": "malus"}}, {}, "the preset of 'race.json' is 'malus'"),
         ({}, {"machine": {"system": "Linux"}}, "that of the chart not told"),
@@ -405,12 +384,6 @@ def test_a_time_or_an_error_that_is_no_such_number_is_refused(name, value):
     found["contests"]["absorbing"]["results"][1][name] = value
     with pytest.raises(op.OptipathError, match="is no whole race"):
         peer_times(json.dumps(found), "race.json", OLD_CHART)
-
-
-@rows("text", ["", "[]", "{}", '{"contests": 3}'])
-def test_what_is_no_race_is_refused(text):
-    with pytest.raises(op.OptipathError, match=r"race\.py --json"):
-        peer_times(text, "race.json", OLD_CHART)
 
 
 def test_peers_stand_in_a_panel_of_their_own_with_their_names(tmp_path):

@@ -32,15 +32,9 @@ TEXT, TABLE = 'text = "a tenth"', "[[measurements]]"
 @rows(
     "value, error, agrees",
     [
-        (0.165, 0.0, True),
-        (0.151, 0.0, True),
-        (0.149, 0.0, False),
-        (0.149, 0.001, True),
-        (0.1481, 0.001, True),
-        (0.1479, 0.001, False),
-        (0.195, 0.0, True),
-        (0.1951, 0.0, False),
-        (math.nan, 0.0, False),
+        *((0.165, 0.0, True), (0.151, 0.0, True), (0.149, 0.0, False), (0.149, 0.001, True)),
+        *((0.1481, 0.001, True), (0.1479, 0.001, False), (0.195, 0.0, True)),
+        *((0.1951, 0.0, False), (math.nan, 0.0, False)),
     ],
 )
 def test_a_value_agrees_within_the_range_what_is_allowed_and_two_errors(value, error, agrees):
@@ -71,42 +65,34 @@ def refused(folder, text):
     return error.value.faults
 
 
-def test_every_published_sample_has_an_experiment():
+def test_every_published_sample_has_an_experiment_that_says_its_source():
     samples = [name for name in op.sample_names() if name.startswith("wang-2017-")]
     assert experiment_names() == samples
+    for name in samples:
+        found = load_experiment(name)
+        assert found.sample == op.load_sample(name)
+        assert found.source.startswith("M. Wang et al., Optics Express 25(19), 2017, "), name
+        assert all(one.text and one.measure in MEASURES for one in found.measurements), name
     with pytest.raises(op.SurfaceError, match="did you mean 'wang-2017-table-1'"):
         load_experiment("wang-2017-tabel-1")
 
 
-@rows("name", experiment_names())
-def test_an_experiment_is_over_the_sample_of_its_name_and_says_its_source(name):
-    found = load_experiment(name)
-    assert found.sample == op.load_sample(name)
-    assert found.source.startswith("M. Wang et al., Optics Express 25(19), 2017, ")
-    assert all(one.text and one.measure in MEASURES for one in found.measurements)
-
-
-def test_the_published_numbers_of_simulation_1_are_there():
+def test_the_published_numbers_and_wavelengths_of_simulations_are_there():
     found = load_experiment("wang-2017-simulation-01").measurements
     numbers = {"50 deg": 0.165, "56 deg": 0.19, "60 deg": 0.205, "65 deg": 0.215}
     known = {one.walks.incidence: one.published for one in found}
     assert known == {angle: (number, number) for angle, number in numbers.items()}
-
-
-def test_metals_are_looked_at_from_380_to_700_nm():
+    # Metals are looked at from 380 to 700 nm.
     walks = load_experiment("wang-2017-simulation-07").measurements[0].walks
     assert walks.wavelengths == tuple(f"{each} nm" for each in range(380, 701, 40))
 
 
-def test_a_file_of_ones_own_has_a_measurement_for_each_angle(tmp_path):
+def test_a_file_of_ones_own_has_a_measurement_for_each_angle_and_may_have_a_sample_beside_it(
+    tmp_path,
+):
     found = load_experiment(written(tmp_path, OWN)).measurements
-    assert [(one.walks.incidence, one.published) for one in found] == [
-        ("60 deg", (0.1, 0.1)),
-        ("1 rad", (0.05, 0.1)),
-    ]
-
-
-def test_its_sample_may_be_a_file_beside_it(tmp_path):
+    known = [(one.walks.incidence, one.published) for one in found]
+    assert known == [("60 deg", (0.1, 0.1)), ("1 rad", (0.05, 0.1))]
     (tmp_path / "pane.toml").write_text(op.Sample([(1.7, 0.0)]).to_toml(), "utf-8")
     text = OWN.replace("glass-rough", "pane.toml")
     assert load_experiment(written(tmp_path, text)).sample == op.Sample([(1.7, 0.0)])
@@ -213,13 +199,12 @@ def test_each_key_is_of_the_measures_that_it_has_a_meaning_for():
     assert known["cells"] == set(MEASURES) - {"model-S3"}  # Of the model alone.
 
 
-def test_pixels_may_be_given_where_some_are_measured(tmp_path):
+def test_pixels_may_be_given_where_some_are_measured_and_wavelengths_where_one_is_missing(
+    tmp_path,
+):
     more = '[[measurements]]\nmeasure = "adm"\nincidence = ["1 rad"]\ntext = "none"\n'
     text = OWN.replace(TABLE, f"sensor = 64\n{TABLE}") + more
     assert load_experiment(written(tmp_path, text)).sensor == 64
-
-
-def test_the_cure_of_a_missing_wavelength_is_one_of_the_file(tmp_path):
     text, cure = OWN.replace("glass-rough", "gold-rough"), 'wavelengths = ["550 nm"]'
     (fault,) = refused(tmp_path, text)
     assert fault.endswith(f"depends on the wavelength; give one above [[measurements]], {cure}")
@@ -228,6 +213,10 @@ def test_the_cure_of_a_missing_wavelength_is_one_of_the_file(tmp_path):
 
 
 # What is measured again, beside closed forms on flat samples.
+
+
+needs_photons = pytest.mark.usefixtures("_photons")
+GLASS = op.Sample([(1.5, 0)])
 
 
 @pytest.fixture
@@ -249,36 +238,32 @@ def found(sample, measure, incidence, photons=20_000, **more):
     return again.found
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 def test_shares_of_a_flat_face_are_those_of_fresnel_for_the_light_that_is_given():
-    glass, (r_s, r_p) = op.Sample([(1.5, 0)]), amplitudes(1.5, np.pi / 3)
-    value, error, mask, pixel = found(glass, "R", "60 deg")
+    r_s, r_p = amplitudes(1.5, np.pi / 3)
+    value, error, mask, pixel = found(GLASS, "R", "60 deg")
     assert abs(value - (abs(r_s) ** 2 + abs(r_p) ** 2) / 2.0) < 5 * error < 0.02
     assert (mask, pixel) == ("", "")
     for s1, known in ((1.0, r_s), (-1.0, r_p)):
-        value, error, *_ = found(glass, "R", "60 deg", stokes=(1.0, s1, 0.0, 0.0))
+        value, error, *_ = found(GLASS, "R", "60 deg", stokes=(1.0, s1, 0.0, 0.0))
         assert abs(value - abs(known) ** 2) < 5 * error < 0.02
-
-
-@pytest.mark.usefixtures("_photons")
-def test_lights_from_one_direction_are_told_apart():
+    # Lights from one direction are told apart.
     lights = [(1.0, s1, 0.0, 0.0) for s1 in (1.0, -1.0, 0.0)]
     several = tuple(Measurement("R", "", AT_60, stokes=light) for light in lights)
-    experiment = Experiment("own", "", "", op.Sample([(1.5, 0)]), several)
-    both = [one.found for one in reproduce(experiment, 20_000)]
+    both = [one.found for one in reproduce(Experiment("own", "", "", GLASS, several), 20_000)]
     assert both[0].value > 0.15
     assert both[1].value < 0.05
     assert abs((both[0].value + both[1].value) / 2.0 - both[2].value) < 5 * both[2].error
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 @rows("measure", ["R+T", "scalar-R+T"])
 def test_glass_reflects_or_lets_through_all_light(measure):
     value, error, *_ = found(op.Sample([(1.5, 0.3)], surfaces=2, cells=400), measure, "60 deg")
     assert abs(value - 1.0) < 5 * error + 1e-12
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 @rows("angle, known", [(50, 1.785), (56, 2.498), (60, 2.900), (65, 3.167)])
 def test_adm_of_a_smooth_stack_is_the_exact_one(angle, known):
     # 1.5 on 2.4, flat: all light goes into one pixel; by the matrices of the two interfaces and
@@ -291,7 +276,7 @@ def test_adm_of_a_smooth_stack_is_the_exact_one(angle, known):
     assert abs(int(pixel.split(" ")[0]) - angle) <= 1
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 def test_pixels_are_left_out_beside_an_azimuth_and_where_they_are_dark():
     *_, mask, pixel = found(ROUGH, "adm", "60 deg", 50_000, azimuth=10.0, noise=5.0)
     assert "azimuth within 10 deg" in mask
@@ -300,7 +285,7 @@ def test_pixels_are_left_out_beside_an_azimuth_and_where_they_are_dark():
     assert np.isnan([value, error]).all()
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 def test_mirrored_light_has_the_polarisation_of_fresnel():
     sample, given = op.Sample([(0.2 + 3.4j, 0)]), (1.0, 0.0, 1.0, 0.0)
     light = np.array(amplitudes(0.2 + 3.4j, np.radians(60.0)))
@@ -312,7 +297,7 @@ def test_mirrored_light_has_the_polarisation_of_fresnel():
     assert "where a mirror sends the light" in aop.mask
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 @rows("cells, finer", [(40, False), (640, True)])
 def test_cells_are_those_of_the_experiment_without_a_warning(cells, finer):
     value, *_ = found(op.Sample([(1.5, 1.0)]), "scalar-T_m", "1 rad", 65_536, cells=cells)
@@ -320,7 +305,7 @@ def test_cells_are_those_of_the_experiment_without_a_warning(cells, finer):
     assert (value > 0.053) == finer
 
 
-@pytest.mark.usefixtures("_photons")
+@needs_photons
 def test_a_seed_gives_the_same_numbers_with_any_number_of_threads():
     several = tuple(Measurement(measure, "", AT_60) for measure in ("adm", "R_m"))
     experiment = Experiment("own", "", "", ROUGH, several, sensor=16)
@@ -332,16 +317,12 @@ def test_a_seed_gives_the_same_numbers_with_any_number_of_threads():
     assert np.isfinite([each.value for each in one]).all()
 
 
-@pytest.mark.usefixtures("_photons")
-def test_progress_is_told_of_each_direction():
+@needs_photons
+def test_progress_is_told_of_each_direction_and_too_few_photons_with_a_cure():
     told = []
     experiment = load_experiment("wang-2017-table-2-alpha-0-1")
     again = reproduce(experiment, 1000, progress=lambda *counts: told.append(counts))
     assert all(one.agrees for one in again)
     assert told.count((1000, 1000)) >= 3
-
-
-@pytest.mark.usefixtures("_photons")
-def test_too_few_photons_are_told_with_a_cure_that_can_be_followed():
     with pytest.raises(op.SurfaceError, match=r"measure with more photons$"):
         found(op.Sample([(1.5, 0.3)], cells=400), "adm", "60 deg", 1)

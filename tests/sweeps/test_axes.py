@@ -14,34 +14,49 @@ import optipath as op
 from optipath.sweeps.axes.read_axes import grid_of
 from tables import rows
 
-pytest.importorskip("xarray")
-NPGR = op.load_preset("npgr026").compose()
-TURNED = (
-    op.Source(stokes=[1, 1, 0, 0]) >> op.Rotator(op.Parameter("a", unit="deg")) >> op.Detector()
-)
-COLOURED = (
-    op.Source(stokes=[1, 1, 0, 0])
-    >> op.Interface(op.Material.cauchy([1.5, 4e-15]), 0.5)
-    >> op.Detector()
-)
+xr = pytest.importorskip("xarray")
+PATH = op.load_preset("npgr026")
+NPGR, BOUND = PATH.compose(), PATH.bind(delta=0.5).compose()
+SPECTRUM = op.load_preset("copper-gold-spectrum").compose()
+LAMP = op.Source(stokes=[1, 1, 0, 0])
+TURNED = LAMP >> op.Rotator(op.Parameter("a", unit="deg")) >> op.Detector()
+GLASS = op.Interface(op.Material.cauchy([1.5, 4e-15]), 0.5)
+COLOURED = (LAMP >> GLASS >> op.Detector()).compose()
+INDEX = (op.Source(1) >> op.Interface(op.Parameter("n"), 0.5) >> op.Detector()).compose()
+FILTER = (op.Source(1) >> op.Polarizer(op.Parameter("filter")) >> op.Detector()).compose()
+POWER = (op.Source(op.Parameter("power")) >> op.Detector()).compose()
+STATE = (op.Source(stokes=op.Parameter("s")) >> op.Detector()).compose()
 UNITS = {"angle": ["deg", "rad", "mrad", "arcmin", "arcsec"], "length": ["nm", "um", "angstrom"]}
+DEG = np.pi / 180
+TWO = {"delta": [0.1, 0.2], "rho": [0.3, 0.4]}
+THREE = {"phi": [0.5, 0.6, 0.7]}
+PAIR = "delta", "rho"
+
+
+def grid(given=None, zip=(), coords=None, plan=NPGR):  # noqa: A002 - as `path.sweep` has it
+    return grid_of(plan.inputs, given or {}, zip, coords)
 
 
 def axis_of(given, plan=NPGR):
     """The only axis of what is given by name."""
-    (axis,) = grid_of(plan.inputs, given).axes
+    (axis,) = grid(given, plan=plan).axes
     return axis
 
 
-def labelled(values, unit=None):
-    xarray = pytest.importorskip("xarray")
-    return xarray.DataArray(values, dims="x", attrs={} if unit is None else {"units": unit})
-
-
-def refused(given, plan=NPGR):
+def refused(*args, **keywords):
     with pytest.raises(op.ParameterError) as caught:
-        grid_of(plan.inputs, given)
-    return str(caught.value)
+        grid(*args, **keywords)
+    return caught.value.faults
+
+
+def labelled(values, unit=None, dim="x"):
+    return xr.DataArray(values, dims=dim, attrs={} if unit is None else {"units": unit})
+
+
+def written(folder, text):
+    file = folder / "points.csv"
+    file.write_text(text, "utf-8")
+    return file
 
 
 def test_plain_numbers_are_radians_as_they_are():
@@ -70,13 +85,17 @@ def test_lists_ranges_and_arrays_are_axes(several):
     assert (axis.given.dtype, axis.unit) == (np.float64, "")
 
 
+def test_arrays_of_jax_are_arrays():
+    jnp = pytest.importorskip("jax.numpy")
+    axis = axis_of({"delta": jnp.array([0.25, 0.5])})
+    assert isinstance(axis.given, np.ndarray)
+    assert axis.given.tolist() == [0.25, 0.5]
+
+
 def test_a_single_value_is_fixed_and_no_axis():
-    grid = grid_of(
-        NPGR.inputs, {"delta": "48 deg", "rho": 0.1, "n1": np.array(1.3), "filter": "none"}
-    )
-    assert grid.axes == ()
-    assert grid.fixed == {"delta": 48 * (np.pi / 180), "rho": 0.1, "n1": 1.3, "filter": "none"}
-    assert grid.points == 1
+    found = grid({"delta": "48 deg", "rho": 0.1, "n1": np.array(1.3), "filter": "none"})
+    assert (found.axes, found.points) == ((), 1)
+    assert found.fixed == {"delta": 48 * DEG, "rho": 0.1, "n1": 1.3, "filter": "none"}
 
 
 def test_texts_are_shown_in_the_unit_of_the_first():
@@ -84,33 +103,31 @@ def test_texts_are_shown_in_the_unit_of_the_first():
     assert axis.unit == "deg"
     assert axis.shown.tolist() == pytest.approx([10.0, np.degrees(0.5), 10.0], rel=1e-15)
     assert axis.given[1] == 0.5
-
-
-def test_a_range_in_one_text_is_an_axis_with_its_unit():
     axis = axis_of({"phi": "0 deg:80 deg:9"})
     assert (axis.unit, axis.shown.tolist()) == ("deg", [10.0 * step for step in range(9)])
-    assert axis.given[3] == 30 * (np.pi / 180)
+    assert axis.given[3] == 30 * DEG
 
 
 def test_words_are_shown_as_texts_which_give_them_back():
     axis = axis_of({"filter": ["none", "horizontal", 0.5, "30 deg"]})
     assert axis.unit == ""
     assert axis.shown.tolist() == ["none", "horizontal", "0.5 rad", "30 deg"]
-    assert axis.given.tolist() == ["none", 0.0, 0.5, 30 * (np.pi / 180)]
-    again = axis_of({"filter": labelled(axis.shown)})
-    assert again.given.tolist() == axis.given.tolist()
+    assert axis.given.tolist() == ["none", 0.0, 0.5, 30 * DEG]
+    assert axis_of({"filter": labelled(axis.shown)}).given.tolist() == axis.given.tolist()
 
 
-def test_words_without_none_are_numbers_for_a_run():
-    path = op.Source(1) >> op.Polarizer(op.Parameter("filter")) >> op.Detector()
-    for plan, words, angles in (
+@rows(
+    "plan, words, angles",
+    [
         (NPGR, ["vertical", "horizontal"], [np.pi / 2, 0.0]),
-        (path.compose(), ["antidiagonal", "vertical"], [-np.pi / 4, np.pi / 2]),
-    ):
-        axis = axis_of({"filter": words}, plan)
-        assert axis.shown.tolist() == words
-        assert axis.given.dtype == np.float64
-        assert axis.given.tolist() == angles
+        (FILTER, ["antidiagonal", "vertical"], [-np.pi / 4, np.pi / 2]),
+    ],
+)
+def test_words_without_none_are_numbers_for_a_run(plan, words, angles):
+    axis = axis_of({"filter": words}, plan)
+    assert axis.shown.tolist() == words
+    assert axis.given.dtype == np.float64
+    assert axis.given.tolist() == angles
 
 
 @rows(
@@ -122,7 +139,7 @@ def test_words_without_none_are_numbers_for_a_run():
     ],
 )
 def test_wavelengths_of_one_unit_are_shown_in_it_and_of_several_as_lengths(given, unit, shown):
-    axis = axis_of({"wavelength": given}, COLOURED.compose())
+    axis = axis_of({"wavelength": given}, COLOURED)
     assert axis.unit == unit
     assert axis.shown == pytest.approx(shown, rel=1e-14)
     if unit == "eV":
@@ -130,61 +147,35 @@ def test_wavelengths_of_one_unit_are_shown_in_it_and_of_several_as_lengths(given
         assert axis.given[0] == pytest.approx(688.801e-9, rel=1e-6)
 
 
-def test_complex_indices_are_an_axis_where_the_path_takes_them():
-    path = op.Source(1) >> op.Interface(op.Parameter("n"), 0.5) >> op.Detector()
-    axis = axis_of({"n": np.array([1.5, 0.2 + 3j])}, path.compose())
-    assert axis.given.tolist() == [1.5, 0.2 + 3j]
-    told = "which may be n and k, or the indices of two paths"
-    assert told in refused({"n": (0.2, 3.4)}, path.compose())
-
-
-def test_a_material_is_its_index():
-    grid = grid_of(NPGR.inputs, {"n1": op.Material(1.4), "n2": [op.Material(1.5), 1.6, 1.7]})
-    assert grid.fixed == {"n1": 1.4}
-    assert grid.axes[0].given.tolist() == [1.5, 1.6, 1.7]
-
-
-def test_jax_arrays_are_arrays():
-    jnp = pytest.importorskip("jax.numpy")
-    axis = axis_of({"delta": jnp.array([0.25, 0.5])})
-    assert isinstance(axis.given, np.ndarray)
-    assert axis.given.tolist() == [0.25, 0.5]
+def test_complex_indices_are_an_axis_and_a_material_is_its_index():
+    assert axis_of({"n": np.array([1.5, 0.2 + 3j])}, INDEX).given.tolist() == [1.5, 0.2 + 3j]
+    found = grid({"n1": op.Material(1.4), "n2": [op.Material(1.5), 1.6, 1.7]})
+    assert found.fixed == {"n1": 1.4}
+    assert found.axes[0].given.tolist() == [1.5, 1.6, 1.7]
 
 
 @given(st.lists(st.sampled_from(["nm", "um", "m", "eV", "1/cm", "THz", "cm^-1"]), min_size=1))
 def test_what_is_shown_is_what_is_given_in_its_unit(units):
     size = {"nm": 500.0, "um": 0.5, "m": 5e-7, "eV": 2.5, "1/cm": 2e4, "cm^-1": 2e4, "THz": 600.0}
-    plan = COLOURED.compose()
-    axis = axis_of({"wavelength": [f"{size[unit]!r} {unit}" for unit in units]}, plan)
-    again = axis_of(
-        {"wavelength": [f"{number!r} {axis.unit}" for number in axis.shown.tolist()]}, plan
-    )
+    axis = axis_of({"wavelength": [f"{size[unit]!r} {unit}" for unit in units]}, COLOURED)
+    texts = [f"{number!r} {axis.unit}" for number in axis.shown.tolist()]
+    again = axis_of({"wavelength": texts}, COLOURED)
     assert again.given == pytest.approx(axis.given, rel=4e-16)
 
 
 @given(st.data())
 def test_the_axis_of_an_array_with_units_has_the_very_numbers_of_its_texts(data):
-    name, plan = data.draw(st.sampled_from([("a", TURNED), ("wavelength", COLOURED)]))
-    parameter = plan.compose().inputs.open[name]
+    name, plan = data.draw(st.sampled_from([("a", TURNED.compose()), ("wavelength", COLOURED)]))
+    parameter = plan.inputs.open[name]
     unit = data.draw(st.sampled_from(UNITS["angle" if name == "a" else "length"]))
     low, high = (-6.0, 6.0) if name == "a" else (4e-7, 7e-7)
     size = parameter.parse(f"1 {unit}")
     numbers = data.draw(st.lists(st.floats(low / size, high / size), min_size=1, max_size=5))
-    axis = axis_of({name: labelled(numbers, unit)}, plan.compose())
-    alone = [float(parameter.resolve(f"{number!r} {unit}").value) for number in numbers]
-    assert axis.given.tolist() == alone
+    texts = [f"{number!r} {unit}" for number in numbers]
+    alone = [float(parameter.resolve(text).value) for text in texts]
+    axis = axis_of({name: labelled(numbers, unit)}, plan)
+    assert axis.given.tolist() == alone == axis_of({name: texts}, plan).given.tolist()
     assert axis.shown.tolist() == numbers
-    assert (
-        axis_of({name: [f"{number!r} {unit}" for number in numbers]}, plan.compose()).given.tolist()
-        == alone
-    )
-
-
-def test_a_sweep_takes_what_a_single_run_takes_for_the_number_with_its_unit():
-    axis = axis_of({"a": labelled([48.0, 12.3], "deg")}, TURNED.compose())
-    plan = TURNED.compose()
-    for text, number in zip(["48 deg", "12.3 deg"], axis.given, strict=True):
-        assert np.array_equal(plan.run(a=text).stokes, plan.run(a=float(number)).stokes)
 
 
 @rows("unit", ["", "1", "dimensionless", None])
@@ -193,23 +184,14 @@ def test_numbers_without_a_dimension_need_no_unit(unit):
 
 
 @rows(
-    "unit, told",
-    [
-        (None, "is a DataArray without a unit; write one of deg, rad"),
-        ("1", "is a DataArray without a unit"),
-        ("degrees", "did you mean 'deg'?"),
-        ("nm", "'1 nm' is no angle"),
-        (3, "the unit of parameter 'delta' is 3"),
-    ],
-)
-def test_a_unit_that_is_missing_or_wrong_is_told(unit, told):
-    assert told in refused({"delta": labelled([10.0, 48.0], unit)})
-    assert "'(10+1j) deg' is not a quantity" in refused({"delta": labelled([10 + 1j], "deg")})
-
-
-@rows(
     "value, told",
     [
+        (labelled([10.0, 48.0]), "is a DataArray without a unit; write one of deg, rad"),
+        (labelled([10.0, 48.0], "1"), "is a DataArray without a unit"),
+        (labelled([10.0, 48.0], "degrees"), "did you mean 'deg'?"),
+        (labelled([10.0, 48.0], "nm"), "'1 nm' is no angle"),
+        (labelled([10.0, 48.0], 3), "the unit of parameter 'delta' is 3"),
+        (labelled([10 + 1j], "deg"), "'(10+1j) deg' is not a quantity"),
         (np.zeros((2, 3)), "has the shape (2, 3), and an axis has one dimension"),
         ([["1 deg"], ["2 deg"]], "has the shape (2, 1), and an axis has one dimension"),
         ([], "has no values; give one at least"),
@@ -229,25 +211,55 @@ def test_a_unit_that_is_missing_or_wrong_is_told(unit, told):
         (["10 degs", "horizontal"], "did you mean 'deg'?"),
     ],
 )
-def test_what_is_no_axis_is_told(value, told):
-    message = refused({"delta": value})
+def test_what_is_no_axis_or_has_no_unit_is_told(value, told):
+    message = "; ".join(refused({"delta": value}))
     assert told in message
     assert "delta" in message
 
 
-def test_values_that_no_axis_has_are_told_with_their_cure():
-    material = op.Material(op.Parameter("n"), 0.1)
-    told = "is put in place before a path runs; write path.bind(n1=...)"
-    assert told in refused({"n1": material})
-    path = op.Source(stokes=op.Parameter("s")) >> op.Detector()
-    told = "takes several numbers for one path, which no axis has; bind it, by path.bind(s=...)"
-    assert told in refused({"s": [1, 0, 0, 0]}, path.compose())
-    pandas = pytest.importorskip("pandas")
-    assert "give its numbers alone, .to_numpy()" in refused({"delta": pandas.Series([0.1, 0.2])})
+@rows(
+    "given, plan, told",
+    [
+        (
+            {"n1": op.Material(op.Parameter("n"), 0.1)},
+            NPGR,
+            "is put in place before a path runs; write path.bind(n1=...)",
+        ),
+        (
+            {"s": [1, 0, 0, 0]},
+            STATE,
+            "takes several numbers for one path, which no axis has; bind it, by path.bind(s=...)",
+        ),
+        ({"n": (0.2, 3.4)}, INDEX, "which may be n and k, or the indices of two paths"),
+        ({"k1": np.array([0, 1, np.nan])}, NPGR, "'k1' is nan at 2; give a finite number"),
+        ({"k1": np.array([0, 1, np.inf])}, NPGR, "'k1' is inf at 2; give a finite number"),
+        ({"k1": np.array([0, 1, -np.inf])}, NPGR, "'k1' is -inf at 2; give a finite number"),
+        ({"delta": [0.1, 1.6]}, NPGR, "'delta' is 91.6732 deg at 1, outside its range"),
+        ({"rho": [0.1, 0.2, 7.0]}, NPGR, "at 2, outside its range"),
+        ({"delta": range(91)}, NPGR, "did you mean '2 deg' or np.radians(2)?"),
+        (
+            {"wavelength": range(400, 701)},
+            SPECTRUM,
+            "is 400 metres, which is no wavelength of light; for nanometres write '400 nm'",
+        ),
+        (
+            dict.fromkeys(("delta", "rho", "phi"), np.zeros(10**6)),
+            NPGR,
+            "a batch has 9e+15 paths at most, not 1e+18 paths",
+        ),
+        ({"delta": [0.1]}, BOUND, "parameter 'delta' is bound to"),
+    ],
+)
+def test_values_of_an_axis_that_do_not_do_are_told_with_their_place_or_their_cure(
+    given, plan, told
+):
+    (fault,) = refused(given, plan=plan)
+    assert told in fault
+    if "finite" in told:
+        assert fault.startswith(f"parameter {told}")
 
 
 def test_degrees_for_radians_are_warned_of_once_from_the_line_of_the_caller():
-    pytest.importorskip("xarray")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         TURNED.sweep(a=[0.1, 45.0]).DoP.load()
@@ -269,45 +281,25 @@ def test_axes_are_read_without_xarray():
 
 
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
-def test_numbers_of_half_precision_are_labels_of_single():
-    pytest.importorskip("xarray")
-    half = np.array([0.1, 0.2], np.float16)
-    found = op.load_preset("malus").sweep(angle=half)
+def test_a_sweep_is_of_the_numbers_of_single_runs_and_labels_of_half_precision_are_of_single():
+    plan = TURNED.compose()
+    axis = axis_of({"a": labelled([48.0, 12.3], "deg")}, plan)
+    for text, number in zip(["48 deg", "12.3 deg"], axis.given, strict=True):
+        assert np.array_equal(plan.run(a=text).stokes, plan.run(a=float(number)).stokes)
+    half, malus = np.array([0.1, 0.2], np.float16), op.load_preset("malus")
+    found = malus.sweep(angle=half)
     assert found.angle.dtype == np.float32
     assert (found.angle.values == half).all()
-    assert (found.S0.values == op.load_preset("malus").compose().run(angle=half).S0).all()
-
-
-TWO = {"delta": [0.1, 0.2], "rho": [0.3, 0.4]}
-THREE = {"phi": [0.5, 0.6, 0.7]}
-
-
-def grid(given=None, zip=(), coords=None, plan=NPGR):  # noqa: A002 - as `path.sweep` has it
-    return grid_of(plan.inputs, given or {}, zip, coords)
-
-
-def told_of(*args, **keywords):
-    with pytest.raises(op.ParameterError) as caught:
-        grid(*args, **keywords)
-    return caught.value.faults
-
-
-def written(folder, text):
-    file = folder / "points.csv"
-    file.write_text(text, "utf-8")
-    return file
+    assert (found.S0.values == malus.compose().run(angle=half).S0).all()
 
 
 def test_dimensions_are_called_as_parameters_in_the_order_given_or_as_zip_says():
     assert grid(THREE | TWO).sizes == {"phi": 3, "delta": 2, "rho": 2}
     assert (grid().sizes, grid().points) == ({}, 1)
     given = TWO | THREE | {"n1": [1.1, 1.2, 1.3]}
-    assert grid(given, zip=[("delta", "rho"), ("phi", "n1")]).sizes == {"delta_rho": 2, "phi_n1": 3}
-    assert grid(TWO, zip={"point": ("delta", "rho")}).sizes == {"point": 2}
-
-
-def test_zip_makes_one_dimension_of_several_parameters():
-    found = grid(TWO | THREE, zip=("delta", "rho"))
+    assert grid(given, zip=[PAIR, ("phi", "n1")]).sizes == {"delta_rho": 2, "phi_n1": 3}
+    assert grid(TWO, zip={"point": PAIR}).sizes == {"point": 2}
+    found = grid(TWO | THREE, zip=PAIR)
     assert found.sizes == {"delta_rho": 2, "phi": 3}
     assert [axis.dimension for axis in found.axes] == ["delta_rho", "delta_rho", "phi"]
     assert found.given()["delta"].shape == found.given()["rho"].shape == (2, 1)
@@ -317,12 +309,12 @@ def test_zip_makes_one_dimension_of_several_parameters():
     "zipped, told",
     [
         (("delta", "phi"), "there are 2 of 'delta' and 3 of 'phi'; give as many each"),
-        ([("delta", "rho"), ("rho", "phi")], "zip names 'rho' twice"),
+        ([PAIR, ("rho", "phi")], "zip names 'rho' twice"),
         (("delta", "delta"), "zip names 'delta' twice"),
         (("delta", "roh"), "zip names 'roh', which has no axis of its own; did you mean 'rho'?"),
         (("delta", "n1"), "zip names 'n1', which has no axis of its own"),
-        ({"k1": ("delta", "rho")}, "zip calls a dimension 'k1', which is the name of a parameter"),
-        ({3: ("delta", "rho")}, "zip calls a dimension 3; give it a text for a name"),
+        ({"k1": PAIR}, "zip calls a dimension 'k1', which is the name of a parameter"),
+        ({3: PAIR}, "zip calls a dimension 3; give it a text for a name"),
         ("delta", "zip is 'delta'; write zip=('a', 'b')"),
         (("delta",), "a group is two names or more"),
         ([("delta", 3)], "a group is two names or more"),
@@ -330,13 +322,13 @@ def test_zip_makes_one_dimension_of_several_parameters():
     ],
 )
 def test_what_zip_cannot_mean_is_told(zipped, told):
-    (fault,) = told_of(TWO | THREE | {"n1": 1.3}, zip=zipped)
+    (fault,) = refused(TWO | THREE | {"n1": 1.3}, zip=zipped)
     assert told in fault
 
 
-def test_all_faults_are_told_at_once():
+def test_all_faults_are_told_at_once_and_those_of_several_axes_in_their_order():
     given = {"detla": [0.1], "delta": [0.1, 2.5], "rho": [np.nan], "phi": [], "n1": [1.0, -1.0]}
-    faults = told_of(given, zip=("rho", "k1"), coords={"delta": [0.1], "foo": 1})
+    faults = refused(given, zip=("rho", "k1"), coords={"delta": [0.1], "foo": 1})
     for told in (
         "parameter 'detla' is unknown; did you mean 'delta'?",
         "parameter 'foo' is unknown",
@@ -347,48 +339,10 @@ def test_all_faults_are_told_at_once():
         "parameter 'n1' is -1 at 1",
     ):
         assert any(told in fault for fault in faults), told
-
-
-SPECTRUM = op.load_preset("copper-gold-spectrum").compose()
-BOUND = op.load_preset("npgr026").bind(delta=0.5).compose()
-
-
-@rows(
-    "given, plan, told",
-    [
-        ({"k1": np.array([0, 1, np.nan])}, NPGR, "'k1' is nan at 2; give a finite number"),
-        ({"k1": np.array([0, 1, np.inf])}, NPGR, "'k1' is inf at 2; give a finite number"),
-        ({"k1": np.array([0, 1, -np.inf])}, NPGR, "'k1' is -inf at 2; give a finite number"),
-        ({"delta": [0.1, 1.6]}, NPGR, "'delta' is 91.6732 deg at 1, outside its range"),
-        ({"rho": [0.1, 0.2, 7.0]}, NPGR, "at 2, outside its range"),
-        ({"delta": range(91)}, NPGR, "did you mean '2 deg' or np.radians(2)?"),
-        (
-            {"wavelength": range(400, 701)},
-            SPECTRUM,
-            "is 400 metres, which is no wavelength of light; for nanometres write '400 nm'",
-        ),
-        (
-            dict.fromkeys(("delta", "rho", "phi"), np.zeros(10**6)),
-            NPGR,
-            "a batch has 9e+15 paths at most, not 1e+18 paths",
-        ),
-        ({"delta": [0.1]}, BOUND, "parameter 'delta' is bound to"),
-    ],
-)
-def test_values_of_an_axis_that_do_not_do_are_told_with_their_place(given, plan, told):
-    (fault,) = told_of(given, plan=plan)
-    assert told in fault
-    if "finite" in told:
-        assert fault.startswith(f"parameter {told}")
-
-
-def test_faults_of_several_axes_are_told_in_their_order():
-    faults = told_of({"delta": [0.1, 1.6], "rho": [0.1, 0.2, 7.0]})
+    faults = refused({"delta": [0.1, 1.6], "rho": [0.1, 0.2, 7.0]})
     assert "'delta' is 91.6732 deg at 1" in faults[0]
     assert "at 2, outside its range" in faults[1]
-
-
-def test_a_hundred_million_points_are_refused_at_once_for_one_of_an_axis():
+    # A hundred million points are refused at once for one of an axis.
     given = {"delta": np.zeros(10_000), "rho": np.append(np.zeros(9_999), 7.0)}
     with pytest.raises(op.ParameterError) as caught:
         grid_of(NPGR.inputs, given, ranges=False)
@@ -396,57 +350,42 @@ def test_a_hundred_million_points_are_refused_at_once_for_one_of_an_axis():
     assert "at 9999, outside its range" in fault
 
 
-def test_parameters_without_a_value_are_told():
-    path = op.Source(op.Parameter("power")) >> op.Detector()
-    assert told_of(plan=path.compose()) == ("parameter 'power' has no value; give one, power=...",)
-
-
-def test_a_parameter_with_the_name_of_a_keyword_is_given_by_coords():
+def test_parameters_without_a_value_or_with_an_array_or_called_as_a_keyword_are_told():
+    assert refused(plan=POWER) == ("parameter 'power' has no value; give one, power=...",)
     plan = (op.Source(op.Parameter("chunks")) >> op.Detector()).compose()
-    (fault,) = told_of(plan=plan)
+    (fault,) = refused(plan=plan)
     assert fault.endswith("sweep has a keyword of that name; give it by coords={'chunks': ...}")
     assert grid(coords={"chunks": [1.0, 2.0]}, plan=plan).sizes == {"chunks": 2}
-
-
-def test_arrays_that_the_path_has_are_told():
-    path = (
-        op.Source([1.0, 2.0]) >> op.Rotator(op.Parameter("a", default=[0.1, 0.2])) >> op.Detector()
-    )
-    faults = told_of(plan=path.compose())
+    turned = op.Rotator(op.Parameter("a", default=[0.1, 0.2]))
+    faults = refused(plan=(op.Source([1.0, 2.0]) >> turned >> op.Detector()).compose())
     assert "has an array of shape (2,), and no axis has its name" in faults[0]
     assert "parameter 'a' has an array of shape (2,) by default" in faults[1]
 
 
 def test_arrays_along_one_dimension_are_asked_about():
-    xarray = pytest.importorskip("xarray")
-    given = {
-        name: xarray.DataArray(values, dims="point", attrs={"units": "rad"})
-        for name, values in TWO.items()
-    }
-    (fault,) = told_of(given)
+    given = {name: labelled(values, "rad", "point") for name, values in TWO.items()}
+    (fault,) = refused(given)
     assert "write zip={'point': ('delta', 'rho')} if they vary together" in fault
     assert ", or .rename(point='rho') for all combinations" in fault
-    assert grid(given, zip={"point": ("delta", "rho")}).sizes == {"point": 2}
+    assert grid(given, zip={"point": PAIR}).sizes == {"point": 2}
     apart = given | {"rho": given["rho"].rename(point="rho")}
-    assert grid(apart).sizes == {"delta": 2, "rho": 2}
-    assert grid(TWO | {"delta": given["delta"]}).sizes == {"delta": 2, "rho": 2}
+    assert (
+        grid(apart).sizes == grid(TWO | {"delta": given["delta"]}).sizes == {"delta": 2, "rho": 2}
+    )
 
 
-def test_columns_of_a_file_vary_together(tmp_path):
+def test_columns_of_a_file_vary_together_and_the_only_one_is_an_axis_of_its_own(tmp_path):
     file = written(tmp_path, "delta (deg),rho_mrad,filter\n10,5,none\n20,6,horizontal\n")
     found = grid(THREE, coords=file)
     assert found.sizes == {"phi": 3, "point": 2}
-    assert [(axis.name, axis.unit) for axis in found.axes[1:]] == [
-        ("delta", "deg"),
-        ("rho", "mrad"),
-        ("filter", ""),
-    ]
-    assert found.axes[1].given.tolist() == [10 * (np.pi / 180), 20 * (np.pi / 180)]
+    units = [(axis.name, axis.unit) for axis in found.axes[1:]]
+    assert units == [("delta", "deg"), ("rho", "mrad"), ("filter", "")]
+    assert found.axes[1].given.tolist() == [10 * DEG, 20 * DEG]
     assert found.axes[3].given.tolist() == ["none", 0.0]
-
-
-def test_the_only_column_of_a_file_is_an_axis_of_its_own(tmp_path):
     assert grid(coords=str(written(tmp_path, "n1\n1.3\n1.4\n"))).sizes == {"n1": 2}
+    found = PATH.sweep(coords=written(tmp_path, "n1 (1),delta (deg)\n1.5,20\n1.6,30\n"))
+    assert found.n1.values.tolist() == [1.5, 1.6]
+    assert found.n1.units == "1"
 
 
 @rows(
@@ -460,9 +399,33 @@ def test_the_only_column_of_a_file_is_an_axis_of_its_own(tmp_path):
     ],
 )
 def test_what_is_wrong_in_a_file_is_told_with_its_name(tmp_path, text, told):
-    (fault,) = told_of(coords=written(tmp_path, text))
+    (fault,) = refused(coords=written(tmp_path, text))
     assert "points.csv: " in fault
     assert told in fault
+
+
+def test_faults_of_cells_are_told_with_their_lines(tmp_path):
+    def told_in(text):
+        file = written(tmp_path, text)
+        with pytest.raises(op.OptipathError) as told:
+            PATH.sweep(coords=file)
+        about = f"{told.value.about}: " if told.value.about else ""
+        return [f"{about}{each}".replace(f"{file}: ", "") for each in told.value.faults]
+
+    assert told_in("delta (deg);rho (deg)\n10,5;5\n11;1.000,5\n") == [
+        "line 2: '10,5' has a comma; write '10.5'",
+        "line 3: '1.000,5' has a comma; write a point alone",
+    ]
+    (found,) = told_in("delta (deg),rho (deg)\n10,5,20,5\n")
+    assert found.endswith("; write one for each, and points where commas are decimal: '10.5,20.5'")
+    assert told_in("n1,delta (deg)\n1.5,20\nnan,120\n-1,130\n") == [
+        "line 3: parameter 'n1' is 'nan', which is not finite; write a number",
+        "line 4: parameter 'n1' is -1, outside its range; give 0 or more",
+        "line 3: parameter 'delta' is 120 deg, outside its range; give 0 deg .. 90 deg",
+        "line 4: parameter 'delta' is 130 deg, outside its range; give 0 deg .. 90 deg",
+    ]
+    found = told_in("delta (deg)\n" + "100\n" * 50)
+    assert [found[0][:7], found[-1]] == ["line 2:", "and 38 more"]
 
 
 @rows(
@@ -475,133 +438,73 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name(tmp_path, text, told):
     ],
 )
 def test_coords_of_another_kind_are_told(coords, told):
-    (fault,) = told_of(coords=coords)
+    (fault,) = refused(coords=coords)
     assert fault.startswith(told) or fault.endswith(told)
 
 
-def dataset():
-    xarray = pytest.importorskip("xarray")
-    return xarray.Dataset(
-        {"measured": ("point", [1.0, 2.0])},
-        {
-            "delta": ("point", [10.0, 20.0], {"units": "deg"}),
-            "rho": ("point", [1.0, 2.0], {"units": "deg"}),
-            "phi": ("phi", [0.1, 0.2, 0.3], {"units": "rad"}),
-            "n1": 1.2,
-            "detector": ("detector", ["a"]),
-        },
-    )
+MEASURED = xr.Dataset(
+    {"measured": ("point", [1.0, 2.0])},
+    {
+        "delta": ("point", [10.0, 20.0], {"units": "deg"}),
+        "rho": ("point", [1.0, 2.0], {"units": "deg"}),
+        "phi": ("phi", [0.1, 0.2, 0.3], {"units": "rad"}),
+        "n1": 1.2,
+        "detector": ("detector", ["a"]),
+    },
+)
 
 
 def test_coordinates_along_one_dimension_vary_together():
-    found = grid({"k1": [0.0]}, coords=dataset())
+    found = grid({"k1": [0.0]}, coords=MEASURED)
     assert found.sizes == {"k1": 1, "point": 2, "phi": 3}
     assert found.fixed == {"n1": 1.2}
-    assert found.axes[1].given.tolist() == [10 * (np.pi / 180), 20 * (np.pi / 180)]
-    assert grid(coords=dataset()["measured"]).sizes == {"point": 2}
-
-
-def test_what_is_in_a_dataset_as_well_is_left_out_of_it():
-    faults = told_of(TWO, coords=dataset())
-    assert all("such as coords.drop_vars(['delta', 'rho'])" in fault for fault in faults)
-    assert grid(TWO, coords=dataset().drop_vars(["delta", "rho"])).points == 12
-
-
-def test_coordinates_that_are_no_axes_are_told_with_a_cure():
-    several = dataset().assign_coords(foo=1, k1=(("point", "phi"), np.ones((2, 3))))
-    faults = told_of(coords=several)
-    assert "leave it out, .drop_vars('foo')" in faults[0]
-    assert "coordinate 'k1' is along point, phi, and an axis has one dimension" in faults[1]
-    assert grid(coords=several.drop_vars(["foo", "k1"])).points == 6
-
-
-def test_labels_of_points_are_no_axes():
-    named = dataset().assign_coords(point=["a", "b"])
+    assert found.axes[1].given.tolist() == [10 * DEG, 20 * DEG]
+    assert grid(coords=MEASURED["measured"]).sizes == {"point": 2}
+    beside = MEASURED.drop_vars("rho").assign_coords(rho=("phi", [0.0, 0.1, 0.2], {"units": "rad"}))
+    along = {axis.name: axis.dimension for axis in grid(coords=beside).axes}
+    assert along == {"delta": "point", "phi": "phi", "rho": "phi"}
+    # Labels of points are no axes.
+    named = MEASURED.assign_coords(point=["a", "b"])
     assert grid(coords=named).sizes == {"point": 2, "phi": 3}
-    stacked = dataset()[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
+    stacked = MEASURED[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
     assert grid(coords=stacked.drop_vars("delta", errors="ignore")).sizes == {"point": 6}
 
 
-def test_a_dimension_with_the_name_of_another_parameter_is_told():
-    (fault,) = told_of(coords=dataset().rename_dims(point="k1"))
+def test_coordinates_that_are_no_axes_are_told_with_a_cure():
+    faults = refused(TWO, coords=MEASURED)
+    assert all("such as coords.drop_vars(['delta', 'rho'])" in fault for fault in faults)
+    assert grid(TWO, coords=MEASURED.drop_vars(["delta", "rho"])).points == 12
+    several = MEASURED.assign_coords(foo=1, k1=(("point", "phi"), np.ones((2, 3))))
+    faults = refused(coords=several)
+    assert "leave it out, .drop_vars('foo')" in faults[0]
+    assert "coordinate 'k1' is along point, phi, and an axis has one dimension" in faults[1]
+    assert grid(coords=several.drop_vars(["foo", "k1"])).points == 6
+    (fault,) = refused(coords=MEASURED.rename_dims(point="k1"))
     assert (
         "is along the dimension 'k1', which is the name of a parameter with another axis" in fault
     )
 
 
-def test_what_stands_along_the_dimension_of_a_parameter_varies_with_it():
-    beside = (
-        dataset().drop_vars("rho").assign_coords(rho=("phi", [0.0, 0.1, 0.2], {"units": "rad"}))
-    )
-    assert {axis.name: axis.dimension for axis in grid(coords=beside).axes} == {
-        "delta": "point",
-        "phi": "phi",
-        "rho": "phi",
-    }
-
-
 def test_the_dataset_of_a_sweep_gives_the_same_axes_again():
-    pytest.importorskip("xarray")
-    given = {
-        "delta": "0 deg:80 deg:2",
-        "rho": [0.3, 0.4],
-        "filter": ["none", "vertical"],
-        "n1": 1.2,
-    }
-    together = ("delta", "rho")
-    first = op.load_preset("npgr026").sweep(**given, zip=together)
-    again = grid(coords=first)
-    for axis, other in zip(grid(given, together).axes, again.axes, strict=True):
+    given = {"delta": "0 deg:80 deg:2", "rho": [0.3, 0.4], "filter": ["none", "vertical"]}
+    given["n1"] = 1.2
+    again = grid(coords=PATH.sweep(**given, zip=PAIR))
+    for axis, other in zip(grid(given, PAIR).axes, again.axes, strict=True):
         assert (axis.name, axis.dimension, axis.unit) == (other.name, other.dimension, other.unit)
         assert axis.given.tolist() == other.given.tolist()
     assert again.fixed["n1"] == 1.2
 
 
 def test_tables_are_no_axes_and_no_coords_and_what_to_give_is_told():
-    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
-    df, ds = pandas.DataFrame(TWO), xarray.Dataset(coords=TWO)
-    (fault,) = told_of({"delta": df})
+    pandas = pytest.importorskip("pandas")
+    df = pandas.DataFrame(TWO)
+    (fault,) = refused({"delta": pandas.Series([0.1, 0.2])})
+    assert "give its numbers alone, .to_numpy()" in fault
+    (fault,) = refused({"delta": df})
     assert "is a DataFrame; give one of its columns, such as df['delta'].to_numpy()" in fault
-    (fault,) = told_of({"delta": ds})
+    (fault,) = refused({"delta": xr.Dataset(coords=TWO)})
     assert "is a Dataset; give one of its coordinates, such as ds['delta']" in fault
-    (fault,) = told_of(coords=df)
+    (fault,) = refused(coords=df)
     assert fault.startswith("coords is a DataFrame; give a CSV file, a Dataset, or columns by name")
     assert "{'delta': df['delta'].to_numpy()}, and zip=" in fault
     assert grid(coords={"delta": df["delta"].to_numpy()}).sizes == {"delta": 2}
-
-
-PATH = op.load_preset("npgr026")
-
-
-def told_in(folder, text):
-    file = folder / "points.csv"
-    file.write_text(text, "utf-8")
-    with pytest.raises(op.OptipathError) as told:
-        PATH.sweep(coords=file)
-    about = f"{told.value.about}: " if told.value.about else ""
-    return [f"{about}{each}".replace(f"{file}: ", "") for each in told.value.faults]
-
-
-def test_faults_of_cells_are_told_with_their_lines(tmp_path):
-    assert told_in(tmp_path, "delta (deg);rho (deg)\n10,5;5\n11;1.000,5\n") == [
-        "line 2: '10,5' has a comma; write '10.5'",
-        "line 3: '1.000,5' has a comma; write a point alone",
-    ]
-    (found,) = told_in(tmp_path, "delta (deg),rho (deg)\n10,5,20,5\n")
-    assert found.endswith("; write one for each, and points where commas are decimal: '10.5,20.5'")
-    assert told_in(tmp_path, "n1,delta (deg)\n1.5,20\nnan,120\n-1,130\n") == [
-        "line 3: parameter 'n1' is 'nan', which is not finite; write a number",
-        "line 4: parameter 'n1' is -1, outside its range; give 0 or more",
-        "line 3: parameter 'delta' is 120 deg, outside its range; give 0 deg .. 90 deg",
-        "line 4: parameter 'delta' is 130 deg, outside its range; give 0 deg .. 90 deg",
-    ]
-    found = told_in(tmp_path, "delta (deg)\n" + "100\n" * 50)
-    assert [found[0][:7], found[-1]] == ["line 2:", "and 38 more"]
-
-
-def test_the_unit_of_pure_numbers_is_read(tmp_path):
-    file = tmp_path / "points.csv"
-    file.write_text("n1 (1),delta (deg)\n1.5,20\n1.6,30\n", "utf-8")
-    found = PATH.sweep(coords=file)
-    assert found.n1.values.tolist() == [1.5, 1.6]
-    assert found.n1.units == "1"

@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 from dataclasses import dataclass
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from optipath.errors import JobError, StoreWarning
 from optipath.sweeps.blocks import block_store
 from optipath.sweeps.blocks.block_marks import clear
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
-from tables import rows
+from tables import rows, slow
 
 HUGE = 1 << 40
 
@@ -38,33 +39,14 @@ def content_of(place):
     }
 
 
-def other_job(store):
-    keep_blocks(Powers(2, title="other powers"), store)
-
-
-def other_layout(store):
-    keep_blocks(Powers(2), store)
-    edit_record(store, blocks=3)
-
-
-def newer_format(store):
-    keep_blocks(Powers(2), store)
-    edit_record(store, format=3)
-
-
-def older_format(store):
-    keep_blocks(Powers(2), store)
-    edit_record(store, format=1)
-
-
-def damaged_record(store):
-    keep_blocks(Powers(2), store)
-    (store / "blocks" / ".zattrs").write_text('{"format": 1')
-
-
 def edit_record(store, **changed):
     file = store / "blocks" / ".zattrs"
     file.write_text(json.dumps(json.loads(file.read_text()) | changed))
+
+
+def kept_and(harm):
+    """Have a job kept, and something done to its store."""
+    return lambda store: harm(keep_blocks(Powers(2), store))
 
 
 def another_folder(store):
@@ -72,17 +54,31 @@ def another_folder(store):
     (store / "thesis.tex").write_text("light")
 
 
+DAMAGED = '{"format": 1'
+
+
 @rows(
     "put, told",
     [
-        (other_job, "holds blocks of another job: it has 'other powers', where this one has 'po"),
         (
-            other_layout,
+            lambda store: keep_blocks(Powers(2, title="other powers"), store),
+            "holds blocks of another job: it has 'other powers', where this one has 'po",
+        ),
+        (
+            kept_and(lambda store: edit_record(store, blocks=3)),
             "another job: it has blocks 3, where this one has 2; take another name",
         ),
-        (newer_format, "has format 3, and this version of optipath knows 2; use the version"),
-        (older_format, "has format 1, and this version of optipath knows 2; use the version"),
-        (damaged_record, r"the record '.*\.zattrs' is damaged; take another name, or delete it"),
+        *(
+            (
+                kept_and(lambda store, form=form: edit_record(store, format=form)),
+                f"has format {form}, and this version of optipath knows 2; use the version",
+            )
+            for form in (1, 3)
+        ),
+        (
+            kept_and(lambda store: (store / "blocks" / ".zattrs").write_text(DAMAGED)),
+            r"the record '.*\.zattrs' is damaged; take another name, or delete it",
+        ),
         (another_folder, "is there, and is no store of blocks; take another name, or delete it"),
         (lambda store: store.write_text("x"), "is there, and is no folder; take another name"),
     ],
@@ -96,56 +92,31 @@ def test_what_stands_in_the_place_is_told_and_left_as_it_is(store, put, told):
     clear(store)
 
 
-def lose(file):
-    file.unlink()
+def changed(change):
+    """Have the content of a file changed."""
+    return lambda file: file.write_bytes(change(file.read_bytes()))
 
 
-def empty(file):
-    file.write_bytes(b"")
+def flipped(content):
+    half = len(content) // 2
+    return content[:half] + bytes([content[half] ^ 16]) + content[half + 1 :]
 
 
-def flip(file):
-    content = bytearray(file.read_bytes())
-    content[len(content) // 2] ^= 16
-    file.write_bytes(content)
-
-
-def cut(file):
-    file.write_bytes(file.read_bytes()[:-1])
-
-
-def lengthen(file):
-    file.write_bytes(file.read_bytes() + b"x")
-
-
-def make_zero(file):
-    file.write_bytes(bytes(file.stat().st_size))
-
-
-def take_of_another(file):
+def other_beside(file):
     """What lies beside it: each chunk, and each mark, is whole, and in a wrong place."""
-    file.write_bytes(next(each for each in others_beside(file)).read_bytes())
+    content = file.read_bytes()
+    return next(each for each in sorted(file.parent.iterdir()) if each.read_bytes() != content)
 
 
 def link_to_another(file):
-    other = next(others_beside(file))
+    other = other_beside(file)
     file.unlink()
     file.symlink_to(other)
 
 
-def others_beside(file):
-    content = file.read_bytes()
-    return (each for each in sorted(file.parent.iterdir()) if each.read_bytes() != content)
-
-
 def lay(make):
     """Have something else made in the place of a file."""
-
-    def harm(file):
-        file.unlink()
-        make(file)
-
-    return harm
+    return lambda file: (file.unlink(), make(file))
 
 
 def folder_with_files(file):
@@ -154,7 +125,10 @@ def folder_with_files(file):
 
 
 DAMAGES = [
-    *(empty, flip, cut, lengthen, make_zero, take_of_another, link_to_another),
+    *map(changed, (lambda _: b"", flipped, lambda content: content[:-1])),
+    *map(changed, (lambda content: content + b"x", lambda content: bytes(len(content)))),
+    lambda file: file.write_bytes(other_beside(file).read_bytes()),
+    link_to_another,
     lay(os.mkfifo),
     lay(os.mkdir),
     lay(folder_with_files),
@@ -182,23 +156,18 @@ def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path
             assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count]
             assert content_of(store) == before
             assert not [each for each in store.rglob("*") if each.is_symlink()]
-
-
-def test_a_lost_chunk_is_damage_and_a_lost_mark_is_a_block_that_is_not_done(store, tmp_path):
-    job = Powers(3, log=str(tmp_path / "log"))
-    keep_blocks(job, store, "synchronous")
-    before = content_of(store)
-    lose(store / "power" / "3.0")
+    (store / "power" / "3.0").unlink()
     with pytest.warns(StoreWarning, match=r"computed anew: 1$"):
         keep_blocks(job, store, "synchronous")
-    lose(store / "blocks" / "done" / "1.0")
+    # A lost mark is a block that is not done, and no damage.
+    (store / "blocks" / "done" / "1.0").unlink()
     keep_blocks(job, store, "synchronous")
-    assert computed(tmp_path / "log") == [0, 1, 2, 1, 1]
+    assert computed(tmp_path / "log") == [0, 1, 2, *[1] * (count + 2)]
     assert content_of(store) == before
 
 
 @pytest.mark.filterwarnings("ignore::optipath.errors.StoreWarning")
-@pytest.mark.parametrize("step", [pytest.param(25, marks=pytest.mark.slow), 401])
+@pytest.mark.parametrize("step", [slow(25), 401])
 def test_every_bit_of_a_store_is_looked_at(store, step):
     job = Powers(1)
     keep_blocks(job, store)
@@ -219,39 +188,40 @@ def test_every_bit_of_a_store_is_looked_at(store, step):
     assert not accepted
 
 
-def test_a_whole_block_of_another_job_is_none(store, tmp_path):
-    keep_blocks(Powers(2), store)
+def test_a_whole_block_of_another_job_is_none_and_of_many_damaged_blocks_twenty_are_named(
+    store, tmp_path
+):
+    keep_blocks(Powers(25), store)
     keep_blocks(Powers(2, title="others"), other := tmp_path / "others.zarr")
     (other / "power" / "3.0").write_bytes(b"whatever they have")
     mark = json.loads((other / "blocks" / "done" / "1.0").read_bytes().partition(b"\n")[2])
     assert {*mark} == {"power/2.0", "power/3.0", "total/1"}
     shutil.copy(other / "blocks" / "done" / "1.0", store / "blocks" / "done")
-    with pytest.warns(StoreWarning, match="anew: 1"):
-        keep_blocks(Powers(2), store)
-
-
-def test_of_many_damaged_blocks_twenty_are_named(store):
-    keep_blocks(Powers(25), store)
+    with pytest.warns(StoreWarning, match="anew: 1$"):
+        keep_blocks(Powers(25), store)
     for file in (store / "total").glob("[0-9]*"):
-        empty(file)
+        file.write_bytes(b"")
     with pytest.warns(StoreWarning, match=r"anew: 0, 1, .*, 18, 19 and 5 more$"):
         keep_blocks(Powers(25), store)
 
 
+IN_GROUP = [".zgroup", ".zmetadata", ".zattrs", "blocks/.zgroup", "blocks/files"]
+IN_GROUP += ["called/.zattrs", "power/.zarray", "number/.zarray", "number/0"]
+
+
 @rows(
-    "name",
+    "name, told",
     [
-        *(".zgroup", ".zmetadata", ".zattrs", "blocks/.zgroup", "blocks/files", "called/.zattrs"),
-        *("power/.zarray", "number/.zarray", "number/0"),
+        *((name, rf"the file '.*{name}' is damaged or gone; take another") for name in IN_GROUP),
+        ("blocks/.zattrs", "take another name, or delete it"),
     ],
 )
-def test_a_damaged_file_of_the_group_is_told_and_nothing_is_changed(store, name):
+def test_a_damaged_file_of_the_group_or_record_is_told_and_nothing_is_changed(store, name, told):
     keep_blocks(Powers(2), store)
     content = (store / name).read_bytes()
-    for harm in [lose, *DAMAGES]:
+    for harm in [lambda file: file.unlink(), *DAMAGES]:
         harm(store / name)
         before = content_of(store)
-        told = rf"the file '.*{name}' is damaged or gone; take another"
         with pytest.raises(JobError, match=told):
             keep_blocks(Powers(2), store)
         assert content_of(store) == before
@@ -260,88 +230,71 @@ def test_a_damaged_file_of_the_group_is_told_and_nothing_is_changed(store, name)
     keep_blocks(Powers(2), store)
 
 
-def test_a_damaged_record_is_told_and_nothing_is_changed(store):
+@rows(
+    "name, content",
+    [
+        *(
+            (each, text)
+            for each in (".zmetadata", "power/.zarray")
+            for text in ("{", "[]", '{"shape": [3]}')
+        ),
+        ("blocks/.zattrs", None),
+    ],
+)
+def test_metadata_that_are_garbage_or_written_otherwise_are_told(store, name, content):
     keep_blocks(Powers(2), store)
-    record = store / "blocks" / ".zattrs"
-    content = record.read_bytes()
-    for harm in [lose, *DAMAGES]:
-        harm(record)
-        before = content_of(store)
-        with pytest.raises(JobError, match="take another name, or delete it"):
-            keep_blocks(Powers(2), store)
-        assert content_of(store) == before
-        clear(record)
-        record.write_bytes(content)
-    record.write_bytes(content.replace(b" ", b"\t", 1))  # The same to JSON.
-    with pytest.raises(JobError, match=r"blocks/.zattrs' is damaged or gone"):
+    whole = (store / name).read_bytes()
+    # A tabulator for a space is the same to JSON.
+    (store / name).write_bytes(content.encode() if content else whole.replace(b" ", b"\t", 1))
+    with pytest.raises(JobError, match=rf"{name}' is damaged or gone"):
         keep_blocks(Powers(2), store)
+    (store / name).write_bytes(whole)
 
 
-def test_metadata_that_are_garbage_are_told(store):
-    keep_blocks(Powers(2), store)
-    for name in (".zmetadata", "power/.zarray"):
-        whole = (store / name).read_bytes()
-        for content in ("{", "[]", '{"shape": [3]}'):
-            (store / name).write_text(content)
-            with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone"):
-                keep_blocks(Powers(2), store)
-        (store / name).write_bytes(whole)
-
-
-def test_attributes_may_be_added_by_hand(store):
+def test_attributes_may_be_added_by_hand_and_other_shapes_or_lost_marks_are_told(store):
     keep_blocks(Powers(2), store)
     zarr.open_group(store, mode="r+").attrs["note"] = "mine"
     keep_blocks(Powers(2), store)
-    told = json.loads((store / ".zmetadata").read_bytes())
+    whole = (store / ".zmetadata").read_bytes()
+    told = json.loads(whole)
     told["metadata"]["power/.zarray"]["shape"] = [4, 3]
     (store / ".zmetadata").write_text(json.dumps(told))
     with pytest.raises(JobError, match="is damaged or gone"):
         keep_blocks(Powers(2), store)
-
-
-def test_a_record_without_marks_is_told(store):
-    keep_blocks(Powers(2), store)
+    (store / ".zmetadata").write_bytes(whole)
     shutil.rmtree(store / "blocks" / "done")
     with pytest.raises(JobError, match=r"done' cannot be read: .*; take another name, or delete"):
         keep_blocks(Powers(2), store)
 
 
-def test_an_empty_folder_and_a_link_to_one_are_taken(tmp_path):
-    (tmp_path / "empty").mkdir()
-    (tmp_path / "link").symlink_to(tmp_path / "empty")
-    assert keep_blocks(Powers(2), tmp_path / "link") == tmp_path / "empty"
-    assert marked(tmp_path / "empty") == {0, 1}
-
-
-def test_a_store_in_no_folder_or_without_a_name_is_told(tmp_path):
+def test_a_store_goes_into_an_empty_folder_and_in_no_place_that_is_none(tmp_path):
     with pytest.raises(JobError, match=r"there is no folder '.*nowhere' for a store; make it"):
         keep_blocks(Powers(2), tmp_path / "nowhere" / "a.zarr")
     assert not [*tmp_path.iterdir()]
     for name in (3, "", None):
         with pytest.raises(JobError, match="name"):
             keep_blocks(Powers(2), name)
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "empty")
+    assert keep_blocks(Powers(2), tmp_path / "link") == tmp_path / "empty"
+    assert marked(tmp_path / "empty") == {0, 1}
 
 
-def test_who_is_interrupted_in_making_a_store_leaves_none(store, monkeypatch):
-    def interrupted(*_, **__):
-        raise KeyboardInterrupt
-
+def test_who_is_interrupted_in_making_a_store_leaves_none_and_who_is_killed_half_a_one(
+    store, monkeypatch
+):
     with monkeypatch.context() as patch:
-        patch.setattr("zarr.consolidate_metadata", interrupted)
+        patch.setattr("zarr.consolidate_metadata", Mock(side_effect=KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
             keep_blocks(Powers(2), store)
     assert not [*store.parent.iterdir()]
-    keep_blocks(Powers(2), store)
-
-
-def test_half_a_store_of_who_was_killed_is_in_nobodys_way(store, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr("zarr.consolidate_metadata", lambda *_, **__: 1 / 0)
         patch.setattr(shutil, "rmtree", lambda *_, **__: None)
         with pytest.raises(ZeroDivisionError):
             keep_blocks(Powers(2), store)
     assert [file.name.split(".")[1] for file in store.parent.iterdir()] == ["powers"]
-    keep_blocks(Powers(2), store)
+    keep_blocks(Powers(2), store)  # Half a store is in nobody's way.
     assert marked(store) == {0, 1}
 
 
@@ -404,7 +357,7 @@ def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):
     assert powers(2).shape == found.shape
 
 
-def test_a_new_store_without_blocks_goes_where_its_job_fails(store):
+def test_a_new_store_without_blocks_goes_where_its_job_fails_and_any_other_stays(store):
     for stood in (True, False):
         if stood:
             store.mkdir()
@@ -414,9 +367,6 @@ def test_a_new_store_without_blocks_goes_where_its_job_fails(store):
         keep_blocks(Powers(2, title="mended"), store, "synchronous")
         assert marked(store) == {0, 1}
         clear(store)
-
-
-def test_a_store_that_was_there_before_or_has_a_block_stays(store):
     with pytest.raises(op.ValueFault):
         keep_blocks(Powers(3, fails_at=1), store, "synchronous")
     assert marked(store) == {0}

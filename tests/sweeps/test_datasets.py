@@ -5,6 +5,7 @@ from importlib.metadata import version
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 import optipath as op
 from optipath.light.light import Light
@@ -12,57 +13,48 @@ from optipath.sweeps.whole.quick_dataset import quick_dataset
 from optipath.sweeps.whole.stacked_views import stacked
 from tables import rows
 
-pytest.importorskip("xarray")
+xr, pd = pytest.importorskip("xarray"), pytest.importorskip("pandas")
+NPGR, MALUS = op.load_preset("npgr026"), op.load_preset("malus")
+DELTAS = [0.1, 0.2]
 
 
-def test_axes_have_the_unit_in_which_they_were_given():
+def test_axes_have_the_unit_in_which_they_were_given_and_the_help_of_parameters():
     found = op.load_preset("glass-slab").sweep(
         theta=["10 deg", "20 deg"], length=[0.001, 0.002], n=np.array([1.4, 1.5])
     )
     units = {name: found[name].attrs["units"] for name in found.dims}
     assert units == {"theta": "deg", "length": "m", "n": "1"}
     assert found.theta.values.tolist() == [10.0, 20.0]
-
-
-def test_long_names_are_the_help_of_parameters():
-    path = op.load_preset("npgr026")
-    found = path.sweep(delta=[0.1, 0.2])
+    found = NPGR.sweep(delta=DELTAS)
     told = {name: found[name].attrs["long_name"] for name in found.coords}
-    assert told == {name: parameter.help for name, parameter in path.parameters.items()}
+    assert told == {name: parameter.help for name, parameter in NPGR.parameters.items()}
 
 
 def test_what_is_fixed_is_a_coordinate_as_it_was_given_or_is_by_default():
-    found = op.load_preset("npgr026").sweep(delta=[0.1, 0.2], phi="30 deg", rho=0.5)
+    found = NPGR.sweep(delta=DELTAS, phi="30 deg", rho=0.5)
     assert found.phi.shape == ()
     assert found.phi == 30.0
     assert {name: found[name].units for name in ("phi", "rho")} == {"phi": "deg", "rho": "rad"}
     assert found.n2 == 1.5
     assert found["filter"] == "none"
+    both = MALUS.sweep(angle="30 deg"), MALUS.sweep(angle=np.radians(30.0))
+    assert [each.angle.units for each in both] == ["deg", "rad"]
+    assert both[0].S0.values == both[1].S0.values
+    path = op.Source() >> op.Interface(op.Parameter("m"), op.Parameter("theta")) >> op.Detector()
+    # A complex value is a text that files take.
+    assert path.sweep(theta=DELTAS, m=0.2 + 3.4j).m.item() == "(0.2+3.4j)"
 
 
 @rows("word", ["horizontal", "none", "30 deg", 0.3])
 def test_a_single_value_is_labelled_as_an_axis_of_that_value(word):
-    path, given = op.load_preset("npgr026"), {"delta": ["10 deg", "20 deg"], "n1": 1}
-    fixed, axis = path.sweep(**given, filter=word), path.sweep(**given, filter=[word])
+    given = {"delta": ["10 deg", "20 deg"], "n1": 1}
+    fixed, axis = NPGR.sweep(**given, filter=word), NPGR.sweep(**given, filter=[word])
     assert axis.isel(filter=0).identical(fixed)
-    assert path.sweep(coords=fixed).identical(fixed)
-
-
-def test_one_value_in_two_units_is_one_in_two_datasets():
-    path = op.load_preset("malus")
-    found = path.sweep(angle="30 deg"), path.sweep(angle=np.radians(30.0))
-    assert [each.angle.units for each in found] == ["deg", "rad"]
-    assert found[0].S0.values == found[1].S0.values
-
-
-def test_a_fixed_complex_value_is_a_text_that_files_take():
-    path = op.Source() >> op.Interface(op.Parameter("m"), op.Parameter("theta")) >> op.Detector()
-    found = path.sweep(theta=[0.1, 0.2], m=0.2 + 3.4j)
-    assert found.m.item() == "(0.2+3.4j)"
+    assert NPGR.sweep(coords=fixed).identical(fixed)
 
 
 def test_variables_have_units_but_those_of_the_source():
-    found = op.load_preset("npgr026").sweep(rho=[0.1, 0.2])
+    found = NPGR.sweep(rho=DELTAS)
     units = {name: each.attrs.get("units") for name, each in found.data_vars.items()}
     assert units == {
         **dict.fromkeys(["S0", "S1", "S2", "S3"]),
@@ -72,30 +64,17 @@ def test_variables_have_units_but_those_of_the_source():
     assert all(each.attrs["long_name"] for each in found.data_vars.values())
 
 
-def test_the_path_is_there_as_toml_that_gives_it_back(tmp_path):
-    path = op.load_preset("npgr026")
-    found = path.sweep(delta=[0.1, 0.2])
-    (tmp_path / "path.toml").write_text(found.attrs["path"], "utf-8")
-    assert op.load_preset(tmp_path / "path.toml") == path
-
-
-def test_the_explanation_and_the_version_are_there():
+def test_the_path_its_explanation_the_options_and_the_version_are_there(tmp_path):
+    (tmp_path / "path.toml").write_text(NPGR.sweep(delta=DELTAS).attrs["path"], "utf-8")
+    assert op.load_preset(tmp_path / "path.toml") == NPGR
     path = op.load_preset("malus")
-    attrs = path.sweep(angle=[0.1, 0.2]).attrs
+    attrs = path.sweep(angle=DELTAS).attrs
     assert attrs["explanation"] == path.compose().explain()
     assert attrs["optipath_version"] == version("optipath")
-
-
-def test_options_are_as_the_composer_has_them():
     composer = op.Composer(method="textbook", engine="numpy", model="full")
-    attrs = op.load_preset("malus").sweep(angle=[0.1], composer=composer).attrs
+    attrs = path.sweep(angle=[0.1], composer=composer).attrs
     told = {name: attrs[name] for name in ("method", "engine", "model", "dtype")}
     assert told == {"method": "textbook", "engine": "numpy", "model": "full", "dtype": "float64"}
-
-
-def test_a_path_that_changes_is_told_as_it_is_now():
-    path = op.load_preset("malus")
-    path.sweep(angle=[0.1])
     path.description = "another one"
     assert 'description = "another one"' in path.sweep(angle=[0.1]).attrs["path"]
 
@@ -113,51 +92,45 @@ def test_a_path_without_a_form_in_toml_is_swept_and_says_why():
 
 
 def test_frames_are_told_where_they_are_constant():
-    assert op.load_preset("malus").sweep(angle=[0.1]).attrs["frame"] == (
-        "eye: x = 1, 0, 0; y = 0, 1, 0; z = 0, 0, 1"
-    )
-    found = op.load_preset("npgr026-3d").sweep(delta=[0.1, 0.2])
-    assert found.attrs["frame"] == "E: depends on the values"
+    assert MALUS.sweep(angle=[0.1]).frame == "eye: x = 1, 0, 0; y = 0, 1, 0; z = 0, 0, 1"
+    assert op.load_preset("npgr026-3d").sweep(delta=DELTAS).frame == "E: depends on the values"
 
 
-def path_of(name, detectors=1):
+def swept_by(name, detectors=1):
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source())
     lamp >> path.add("splitter", op.BeamSplitter(op.Parameter(name)))
     for way in ["reflected", "transmitted"][:detectors]:
         path.add(way, op.Detector())
         path.connect(f"splitter.{way}", f"{way}.in")
-    return path
+    return path.sweep(**{name: [0.2, 0.4]})
 
 
-def test_both_ellipsometric_angles_have_capitals_beside_a_parameter_of_either_name():
+def test_names_of_variables_and_dimensions_are_not_those_of_parameters():
     for name in ("psi", "delta"):
-        found = path_of(name).sweep(**{name: [0.2, 0.4]})
-        assert {"Psi", "Delta"} <= {*found.data_vars}
-        assert not {"psi", "delta"} & {*found.data_vars}
-    assert {"psi", "delta"} <= {*path_of("share").sweep(share=[0.2, 0.4]).data_vars}
-
-
-def test_a_parameter_called_as_a_variable_is_refused_and_one_as_a_dimension_where_there_is_one():
+        variables = {*swept_by(name).data_vars}
+        assert {"Psi", "Delta"} <= variables
+        assert not {"psi", "delta"} & variables
+    assert {"psi", "delta"} <= {*swept_by("share").data_vars}
     for name in ("S0", "DoP", "log10_intensity"):
         with pytest.raises(op.ParameterError, match=f"'{name}' is what a sweep calls a variable"):
-            path_of(name).sweep(**{name: [0.2, 0.4]})
-    assert path_of("detector").sweep(detector=[0.2, 0.4]).S0.dims == ("detector",)
+            swept_by(name)
+    assert swept_by("detector").S0.dims == ("detector",)
     with pytest.raises(op.ParameterError, match="calls a dimension of its own"):
-        path_of("detector", 2).sweep(detector=[0.2, 0.4])
+        swept_by("detector", 2)
 
 
-xr = pytest.importorskip("xarray")
 AXES = {"delta": np.linspace(0.1, 1.0, 5), "phi": np.linspace(0.2, 1.1, 4)}
+GIVEN = {"delta": AXES["delta"][:, None], "phi": AXES["phi"]}
 
 
 def a_sweep():
-    return op.load_preset("npgr026").sweep(**AXES)
+    return NPGR.sweep(**AXES)
 
 
 @pytest.fixture
 def light():
-    return op.load_preset("npgr026").trace(delta=AXES["delta"][:, None], phi=AXES["phi"])
+    return NPGR.trace(**GIVEN)
 
 
 @pytest.fixture
@@ -177,34 +150,41 @@ def test_nothing_is_computed_before_somebody_asks_and_then_that_part_alone_and_o
     assert asked == []
     part = found.DoP[1:3, ::2].values
     assert [int(np.prod(shape)) for shape in asked] == [4]
-    np.testing.assert_array_equal(part, light[1:3, ::2].dop)
+    assert_array_equal(part, light[1:3, ::2].dop)
     asked.clear()
     found = a_sweep()
-    np.testing.assert_array_equal(found.DoP.values, found.DoP.values)
+    assert_array_equal(found.DoP.values, found.DoP.values)
     assert len(asked) == 1
+
+
+def test_a_large_part_is_computed_piece_by_piece(monkeypatch, asked, light):
+    monkeypatch.setattr("optipath.sweeps.whole.swept_light._AT_ONCE", 6)
+    assert_array_equal(a_sweep().DoP.values, light.dop)
+    assert_array_equal(a_sweep().AoP[::-2, 1:].values, light.aop[::-2, 1:])
+    assert len(asked) > 2
 
 
 @rows(
     "key",
     [
-        np.s_[2],
-        np.s_[-1, -1],
-        np.s_[::-1, 1:],
-        np.s_[[3, 0, 0]],
-        np.s_[[4, 1], [True, False, False, True]],
-        np.s_[1:1],
-        np.s_[..., 2],
+        *(np.s_[2], np.s_[-1, -1], np.s_[::-1, 1:], np.s_[[3, 0, 0]]),
+        *(np.s_[[4, 1], [True, False, False, True]], np.s_[1:1], np.s_[..., 2]),
     ],
 )
 def test_every_index_takes_its_part(key):
-    whole = a_sweep().DoP.load()
-    np.testing.assert_array_equal(a_sweep().DoP[key].values, whole[key].values)
+    assert_array_equal(a_sweep().DoP[key].values, a_sweep().DoP.load()[key].values)
 
 
-def test_points_along_a_new_dimension_are_taken_one_by_one(light):
+def test_labels_choose_a_part_and_arithmetic_and_tables_are_those_of_the_values(light):
     places = {name: xr.DataArray([0, 2, 3], dims="point") for name in ("delta", "phi")}
-    found = a_sweep().AoP.isel(places)
-    np.testing.assert_array_equal(found.values, light.aop[[0, 2, 3], [0, 2, 3]])
+    assert_array_equal(a_sweep().AoP.isel(places).values, light.aop[[0, 2, 3], [0, 2, 3]])
+    found = a_sweep().sel(delta=0.55, method="nearest").isel(phi=[0, 2])
+    assert_array_equal(found.DoP.values, light[2, [0, 2]].dop)
+    found = a_sweep()
+    assert_array_equal((2 * found.DoP - found.S0).values, 2 * light.dop - light.S0)
+    np.testing.assert_allclose(found.mean().DoP, light.dop.mean(), rtol=1e-15)
+    assert_array_equal(found.where(found.DoP > 0.9).DoP.count(), (light.dop > 0.9).sum())
+    assert_array_equal(a_sweep().to_dataframe()["DoP"], light.dop.ravel())
 
 
 def test_several_detectors_are_the_first_axis():
@@ -212,75 +192,48 @@ def test_several_detectors_are_the_first_axis():
     path.add("after", op.Detector())
     path.connect("X1.transmitted", "after.in")
     found = path.sweep(**AXES)
-    lights = path.trace_all(delta=AXES["delta"][:, None], phi=AXES["phi"])
+    lights = path.trace_all(**GIVEN)
     assert found.DoP.dims == ("detector", "delta", "phi")
     for name in ("E", "after"):
-        np.testing.assert_array_equal(found.DoP.sel(detector=name).values, lights[name].dop)
+        assert_array_equal(found.DoP.sel(detector=name).values, lights[name].dop)
     both = np.stack([lights["E"].dop, lights["after"].dop])
-    np.testing.assert_array_equal(path.sweep(**AXES).DoP.values, both)
-    np.testing.assert_array_equal(path.sweep(**AXES).DoP[::-1, 2].values, both[::-1, 2])
+    assert_array_equal(path.sweep(**AXES).DoP.values, both)
+    assert_array_equal(path.sweep(**AXES).DoP[::-1, 2].values, both[::-1, 2])
 
 
-def test_a_large_part_is_computed_piece_by_piece(monkeypatch, asked, light):
-    monkeypatch.setattr("optipath.sweeps.whole.swept_light._AT_ONCE", 6)
-    found = a_sweep()
-    np.testing.assert_array_equal(found.DoP.values, light.dop)
-    np.testing.assert_array_equal(a_sweep().AoP[::-2, 1:].values, light.aop[::-2, 1:])
-    assert len(asked) > 2
-
-
-def test_labels_choose_a_part_and_arithmetic_and_tables_are_those_of_the_values(light):
-    found = a_sweep().sel(delta=0.55, method="nearest").isel(phi=[0, 2])
-    np.testing.assert_array_equal(found.DoP.values, light[2, [0, 2]].dop)
-    found = a_sweep()
-    np.testing.assert_array_equal((2 * found.DoP - found.S0).values, 2 * light.dop - light.S0)
-    np.testing.assert_allclose(found.mean().DoP, light.dop.mean(), rtol=1e-15)
-    np.testing.assert_array_equal(found.where(found.DoP > 0.9).DoP.count(), (light.dop > 0.9).sum())
-    np.testing.assert_array_equal(a_sweep().to_dataframe()["DoP"], light.dop.ravel())
-
-
-def test_a_copy_can_be_written_to_and_leaves_the_sweep_as_it_was(light):
+def test_copies_pickles_and_chunks_of_dask_come_back_and_leave_the_sweep_as_it_was(light):
     found = a_sweep()
     copied = found.copy(deep=True)
     copied.S0[:] = 0.0
     copied.DoP[:] = 0.5
-    np.testing.assert_array_equal(found.S0.values, light.S0)
-    np.testing.assert_array_equal(found.DoP.values, light.dop)
+    assert_array_equal(found.S0.values, light.S0)
+    assert_array_equal(found.DoP.values, light.dop)
     assert (copied.DoP == 0.5).all()
-
-
-def test_a_pickle_comes_back_as_it_was():
-    there = pickle.loads(pickle.dumps(a_sweep()))
-    xr.testing.assert_identical(there, a_sweep())
-
-
-def test_dask_takes_it_in_chunks():
+    xr.testing.assert_identical(pickle.loads(pickle.dumps(a_sweep())), a_sweep())
     pytest.importorskip("dask")
     chunked = a_sweep().chunk({"delta": 2})
     assert chunked.DoP.chunks == ((2, 2, 1), (4,))
     xr.testing.assert_identical(chunked.compute(), a_sweep())
 
 
-def test_netcdf_has_all_values_and_attributes(tmp_path):
-    pytest.importorskip("h5netcdf")
-    a_sweep().to_netcdf(tmp_path / "sweep.nc", engine="h5netcdf")
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as there:
-        xr.testing.assert_identical(there.load(), a_sweep().load())
-        assert op.load_preset("npgr026").to_toml() == there.attrs["path"]
-
-
 # What Zarr says of texts in its third format as long as that is not part of the specification.
 @pytest.mark.filterwarnings("ignore:The (codec|dtype) `")
-def test_zarr_has_all_values_and_attributes(tmp_path):
-    pytest.importorskip("zarr")
-    a_sweep().to_zarr(tmp_path / "sweep.zarr", consolidated=False)
-    there = xr.open_zarr(tmp_path / "sweep.zarr", consolidated=False)
-    xr.testing.assert_identical(there.load(), a_sweep().load())
-    assert there.attrs == a_sweep().attrs
-    assert there.phi.attrs == a_sweep().phi.attrs
+@pytest.mark.parametrize("form", ["h5netcdf", "zarr"])
+def test_files_have_all_values_and_attributes(tmp_path, form):
+    pytest.importorskip(form)
+    file = tmp_path / "sweep"
+    if form == "zarr":
+        a_sweep().to_zarr(file, consolidated=False)
+    else:
+        a_sweep().to_netcdf(file, engine=form)
+    options = {"consolidated": False} if form == "zarr" else {}
+    with xr.open_dataset(file, engine=form, **options) as there:
+        xr.testing.assert_identical(there.load(), a_sweep().load())
+        assert there.attrs == a_sweep().attrs
+        assert there.phi.attrs == a_sweep().phi.attrs
+        assert NPGR.to_toml() == there.attrs["path"]
 
 
-pd = pytest.importorskip("pandas")
 X = np.linspace(0.0, 1.0, 4)
 PARTS = (
     {"S0": (("x", "word"), np.ones((4, 2)), {"units": "1"}), "one": ((), np.array(2.0), {})},
@@ -296,32 +249,26 @@ PARTS = (
 )
 
 
-def test_it_is_what_xarray_makes():
+def test_a_quick_dataset_is_what_xarray_makes_without_a_copy_of_long_axes(monkeypatch):
     quick, usual = quick_dataset(*PARTS), xr.Dataset(*PARTS)
     assert quick.identical(usual)
     assert list(quick.variables) == list(usual.variables)
     assert dict(quick.sizes) == dict(usual.sizes)
-    assert {n: i.dtype for n, i in quick.indexes.items()} == {
-        n: i.dtype for n, i in usual.indexes.items()
-    }
+    one, other = ({n: i.dtype for n, i in each.indexes.items()} for each in (quick, usual))
+    assert one == other
     assert quick.sel(word="horizontal", x=X[2]).identical(usual.sel(word="horizontal", x=X[2]))
-
-
-def test_long_axes_are_not_copied():
-    assert np.shares_memory(quick_dataset(*PARTS).x.values, X)
-
-
-def test_an_xarray_without_the_short_way_goes_the_long_one(monkeypatch):
+    assert np.shares_memory(quick.x.values, X)
+    # An xarray without the short way goes the long one.
     monkeypatch.setattr("optipath.sweeps.whole.quick_dataset._DIRECT", "_none")
-    assert quick_dataset(*PARTS).identical(xr.Dataset(*PARTS))
+    assert quick_dataset(*PARTS).identical(usual)
 
 
 @rows("places", [[0], [0, 1], [1, 3, 5], [4, 2]])
 def test_rows_at_equal_distances_are_a_view(places):
-    rows = np.random.default_rng(1).normal(size=(6, 4, 3))
-    found = stacked([rows[place] for place in places])
-    np.testing.assert_array_equal(found, rows[places])
-    assert np.may_share_memory(found, rows) or len(places) == 1
+    values = np.random.default_rng(1).normal(size=(6, 4, 3))
+    found = stacked([values[place] for place in places])
+    assert_array_equal(found, values[places])
+    assert np.may_share_memory(found, values) or len(places) == 1
 
 
 @rows(
@@ -335,6 +282,6 @@ def test_rows_at_equal_distances_are_a_view(places):
 )
 def test_others_are_copied(parts):
     found = stacked(parts)
-    np.testing.assert_array_equal(found, np.stack(parts))
+    assert_array_equal(found, np.stack(parts))
     assert not found.flags.writeable
     assert not np.may_share_memory(found, parts[0])

@@ -25,7 +25,7 @@ from optipath.sweeps.blocks.executors import AtOnce
 from optipath.sweeps.blocks.keep_blocks import _handed_out, _keep_block, keep_blocks
 from optipath.sweeps.blocks.workers import Workers
 from optipath.sweeps.kept.sweep_block import SweepBlock
-from tables import rows
+from tables import rows, slow
 
 pytest.importorskip("zarr")
 pytest.importorskip("distributed")
@@ -41,14 +41,29 @@ def store(tmp_path):
     return tmp_path / "powers.zarr"
 
 
+def when(count, act):
+    """Progress that has something done at a number of blocks."""
+    return lambda done, _: act() if done == count else None
+
+
+def interrupt():
+    raise KeyboardInterrupt
+
+
+def holds_powers(store, blocks):
+    with xr.open_zarr(store) as found:
+        whole = powers(blocks)
+        assert np.array_equal(found.power, whole)
+        assert np.array_equal(found.total, whole.reshape(blocks, -1).sum(axis=1))
+    return marked(store) == {*range(blocks)}
+
+
 def test_all_blocks_are_computed_once_and_kept(tmp_path):
     for scheduler in (None, "synchronous", "threads"):
         log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
         assert keep_blocks(Powers(7, str(log)), store, scheduler) == store
         assert sorted(computed(log)) == list(range(7))
-        with xr.open_zarr(store) as found:
-            assert np.array_equal(found.power, powers(7))
-            assert np.array_equal(found.total, powers(7).reshape(7, -1).sum(axis=1))
+        assert holds_powers(store, 7)
 
 
 def test_a_store_is_a_dataset_with_names_and_units_and_without_the_record(store):
@@ -65,7 +80,7 @@ def test_a_store_is_a_dataset_with_names_and_units_and_without_the_record(store)
         assert found.total.dtype == "int64"
 
 
-def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(store, log):
+def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_path, store, log):
     with pytest.raises(op.ValueFault, match="block 4 is dark"):
         keep_blocks(Powers(7, str(log), fails_at=4), store, "synchronous")
     assert marked(store) == {0, 1, 2, 3}
@@ -73,16 +88,13 @@ def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(store, 
         assert np.isnan(found.power).values.sum() == 3 * powers(1).size
     keep_blocks(Powers(7, str(log)), store, "synchronous")
     assert computed(log) == [0, 1, 2, 3, 4, 4, 5, 6]
-
-
-def test_an_error_of_a_block_travels_as_a_value_since_clusters_log_what_is_raised(store):
-    job = Powers(2, fails_at=1)
-    fault = _keep_block(job, BlockStore.of(job, store), 1)
+    # It travels as a value, since clusters log what is raised.
+    job, other = Powers(2, fails_at=1), tmp_path / "other.zarr"
+    fault = _keep_block(job, BlockStore.of(job, other), 1)
     assert isinstance(fault, op.ValueFault)
     assert str(fault) == "block 1 is dark"
-
-
-def test_an_error_in_a_thread_ends_the_job(store, log):
+    # In a thread it ends the job.
+    log, store = tmp_path / "log of threads", tmp_path / "threads.zarr"
     with pytest.raises(op.ValueFault, match="block 4 is dark"):
         keep_blocks(Powers(500, str(log), fails_at=4), store, "threads")
     assert len(computed(log)) < 50
@@ -91,13 +103,8 @@ def test_an_error_in_a_thread_ends_the_job(store, log):
 @rows("scheduler", ["synchronous", "threads"])
 def test_who_interrupts_keeps_what_is_done(tmp_path, scheduler):
     log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
-
-    def interrupt(done, _):
-        if done == 3:
-            raise KeyboardInterrupt
-
     with pytest.raises(KeyboardInterrupt):
-        keep_blocks(Powers(40, str(log)), store, scheduler, interrupt)
+        keep_blocks(Powers(40, str(log)), store, scheduler, when(3, interrupt))
     before = marked(store)
     assert 3 <= len(before) < 40
     already = len(computed(log))
@@ -135,16 +142,13 @@ def test_no_more_is_handed_out_than_there_may_be_at_a_time(store):
 
 
 def test_two_runs_at_a_time_come_to_the_same_bits(store):
-    runs = [
-        threading.Thread(target=keep_blocks, args=(Powers(30, slow=0.002), store)) for _ in "ab"
-    ]
+    job = Powers(30, slow=0.002)
+    runs = [threading.Thread(target=keep_blocks, args=(job, store)) for _ in "ab"]
     for run in runs:
         run.start()
     for run in runs:
         run.join()
-    assert marked(store) == {*range(30)}
-    with xr.open_zarr(store) as found:
-        assert np.array_equal(found.power, powers(30))
+    assert holds_powers(store, 30)
 
 
 @rows(
@@ -154,20 +158,15 @@ def test_two_runs_at_a_time_come_to_the_same_bits(store):
         ("10.0.0.1:8786", "the address of a cluster begins with 'tcp://'"),
         (4, "not 4; of a cluster, give cluster.get_client"),
         ("tcpp://127.0.0.1:1", "no cluster answers at 'tcpp://127.0.0.1:1'"),
+        ("tcp://127.0.0.1:1", r"no cluster answers at 'tcp://127.0.0.1:1'.*runs"),
+        ("tls://127.0.0.1:9", r"tls://.* give a client that has the certificates"),
     ],
 )
-def test_what_is_no_scheduler_is_told(store, scheduler, told):
+def test_what_is_no_scheduler_or_does_not_answer_is_told(store, monkeypatch, scheduler, told):
+    monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
     with pytest.raises(JobError, match=told):
         keep_blocks(Powers(2), store, scheduler)
     assert not store.exists()
-
-
-def test_nobody_answers_at_a_dead_address_or_without_certificates(store, monkeypatch):
-    monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
-    with pytest.raises(JobError, match=r"no cluster answers at 'tcp://127.0.0.1:1'.*runs"):
-        keep_blocks(Powers(2), store, "tcp://127.0.0.1:1")
-    with pytest.raises(JobError, match=r"tls://.* give a client that has the certificates"):
-        keep_blocks(Powers(2), store, "tls://127.0.0.1:9")
 
 
 def test_after_an_interrupt_the_blocks_that_came_to_their_end_are_counted(tmp_path):
@@ -210,11 +209,6 @@ def client(cluster_client):
     return cluster_client
 
 
-def holds_powers(store, blocks):
-    with xr.open_zarr(store) as found:
-        return np.array_equal(found.power, powers(blocks)) and marked(store) == {*range(blocks)}
-
-
 def test_a_cluster_computes_every_block_once(store, log, client):
     told = []
     keep_blocks(Powers(9, str(log)), store, client, lambda *how: told.append(how))
@@ -243,11 +237,8 @@ def test_an_error_of_a_block_comes_from_a_cluster_as_it_is(store, client):
 
 
 def test_a_worker_that_dies_loses_nothing(store, log, client):
-    def kill(done, _):
-        if done == 5:
-            pid = next(iter(client.run(os.getpid).values()))
-            os.kill(pid, signal.SIGKILL)
-
+    victim = next(iter(client.run(os.getpid).values()))
+    kill = when(5, lambda: os.kill(victim, signal.SIGKILL))
     keep_blocks(Powers(20, str(log), slow=0.02), store, client, kill)
     assert holds_powers(store, 20)
     assert 20 <= len(computed(log)) <= 22
@@ -266,7 +257,7 @@ def test_a_block_that_kills_its_workers_is_told_and_the_others_stay(store, log, 
     assert kept.isdisjoint(computed(log)[already:])
 
 
-def test_a_job_that_a_worker_cannot_load_is_told(store, client):
+def test_a_job_that_a_worker_cannot_load_is_told_and_one_with_long_axes_is_sent(store, client):
     # The module of a test, as pytest imports it, is there in its own process alone.
     class Elsewhere(Powers):
         pass
@@ -277,25 +268,20 @@ def test_a_job_that_a_worker_cannot_load_is_told(store, client):
     with pytest.raises(JobError, match="a worker cannot load the job: No module named 'elsewhere'"):
         keep_blocks(Elsewhere(2), store, client)
     del sys.modules["elsewhere"]
-
-
-def test_a_job_with_long_axes_is_sent_without_a_warning(store, client):
+    # One with long axes is sent without a warning.
     keep_blocks(Powers(2, axis=b"p" * 12_000_000), store, client)
     assert holds_powers(store, 2)
 
 
 def test_a_cluster_that_is_lost_is_told_and_finished_blocks_stay(store):
     options = {"processes": False, "dashboard_address": None, "silence_logs": "CRITICAL"}
+    options["scheduler_kwargs"] = {"dashboard_address": "127.0.0.1:0"}
     with (
-        distributed.LocalCluster(
-            n_workers=1, scheduler_kwargs={"dashboard_address": "127.0.0.1:0"}, **options
-        ) as cluster,
+        distributed.LocalCluster(n_workers=1, **options) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
         pytest.raises(JobError, match=r"the cluster was lost.*; start again when it is back"),
     ):
-        keep_blocks(
-            Powers(40, slow=0.02), store, client, lambda *how: how[0] == 5 and cluster.close()
-        )
+        keep_blocks(Powers(40, slow=0.02), store, client, when(5, cluster.close))
     assert 5 <= len(marked(store)) < 40
 
 
@@ -345,9 +331,7 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.parametrize(
-    "scheduler", ["threads", pytest.param("processes", marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("scheduler", ["threads", slow("processes")])
 def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path, store, log, scheduler):
     script = tmp_path / "run.py"
     script.write_text(RUN)
@@ -393,8 +377,13 @@ def assert_same_bits(found, expected):
         assert found[name].to_numpy().tobytes() == each.to_numpy().tobytes()
 
 
-def test_a_cluster_keeps_the_bits_of_one_process(tmp_path, client, alone):
+def test_a_cluster_keeps_the_bits_of_one_process_though_a_worker_dies(tmp_path, client, alone):
     found = swept(store=tmp_path / "sweep.zarr", chunks=CHUNKS, scheduler=client)
+    assert_same_bits(found, alone)
+    victim = next(iter(client.run(os.getpid).values()))
+    given = {"store": tmp_path / "other.zarr", "chunks": CHUNKS, "scheduler": client}
+    found = swept(**given, progress=when(3, lambda: os.kill(victim, signal.SIGKILL)))
+    assert not psutil.pid_exists(victim)
     assert_same_bits(found, alone)
 
 
@@ -404,25 +393,10 @@ def test_a_cluster_computes_dask_arrays_without_a_change(client, alone):
     assert_same_bits(found, alone[["S0", "Delta"]])
 
 
-def test_a_worker_that_dies_takes_no_block_with_it(tmp_path, client, alone):
-    victims = [*client.run(os.getpid).values()]
-
-    def tell(done, _):
-        if done == 3:
-            os.kill(victims[0], signal.SIGKILL)
-
-    found = swept(store=tmp_path / "sweep.zarr", chunks=CHUNKS, scheduler=client, progress=tell)
-    assert not psutil.pid_exists(victims[0])
-    assert_same_bits(found, alone)
-
-
 def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, alone, monkeypatch):
     store, computed, compute = tmp_path / "sweep.zarr", [], SweepBlock.compute
 
-    def stopped(done, _):
-        if done == 4:
-            raise KeyboardInterrupt
-
+    stopped = when(4, interrupt)
     with pytest.raises(KeyboardInterrupt):
         swept(store=store, chunks=CHUNKS, scheduler=client, progress=stopped)
     there = {each.stem for each in (store / "blocks" / "done").glob("*.0")}

@@ -5,6 +5,7 @@ import pickle
 import shutil
 import subprocess
 import sys
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -16,26 +17,23 @@ from optipath.sweeps.axes.read_axes import grid_of
 from optipath.sweeps.chunked.in_chunks import swept_in_chunks
 from optipath.sweeps.kept.sweep_block import SweepBlock
 from optipath.sweeps.kept.sweep_job import SweepJob
-from tables import rows
+from tables import rows, slow
 
 pytest.importorskip("zarr")
 pytest.importorskip("h5netcdf")
 pytest.importorskip("dask")
+ENGINES = {".zarr": "zarr", ".nc": "h5netcdf"}
 ANGLES = np.linspace(0.0, 1.5, 11)
 DELTAS = np.linspace(0.1, 1.4, 4)
 
 
-def path():
-    return (
-        op.Source(3.0)
-        >> op.Interface(op.Parameter("n"), op.Parameter("delta"))
-        >> op.Polarizer(op.Parameter("angle"))
-        >> op.Detector()
-    )
+LIT = op.Source(3.0) >> op.Interface(op.Parameter("n"), op.Parameter("delta"))
+PATH = LIT >> op.Polarizer(op.Parameter("angle")) >> op.Detector()
+COMPUTE = SweepBlock.compute
 
 
 def swept(**given):
-    return path().sweep(**{"delta": DELTAS, "angle": ANGLES, "n": 1.5, **given})
+    return PATH.sweep(**{"delta": DELTAS, "angle": ANGLES, "n": 1.5, **given})
 
 
 def kept(store, **given):
@@ -50,11 +48,11 @@ def store(request, tmp_path):
 @pytest.fixture
 def computed(monkeypatch):
     """The numbers of the blocks that are computed."""
-    numbers, compute = [], SweepBlock.compute
+    numbers = []
 
     def counted(job, number):
         numbers.append(number)
-        return compute(job, number)
+        return COMPUTE(job, number)
 
     monkeypatch.setattr(SweepBlock, "compute", counted)
     return numbers
@@ -75,6 +73,10 @@ def test_what_is_kept_is_the_sweep_in_memory_and_opened_when_it_is_there(store, 
     assert sorted(computed) == list(range(6))
     assert_same_bits(kept(store), swept())
     assert len(computed) == 6
+    # It lends its axes in their order.
+    with xr.open_dataset(store, engine=ENGINES[store.suffix]) as opened:
+        for given in (opened, opened.S0):
+            assert PATH.sweep(coords=given).S0.dims == ("delta", "angle")
 
 
 @pytest.mark.slow
@@ -83,20 +85,13 @@ def test_what_any_scheduler_keeps_is_the_sweep_in_memory(store, scheduler):
     assert_same_bits(kept(store, scheduler=scheduler), swept())
 
 
-@pytest.mark.skipif(np.longdouble == np.float64, reason="longdouble is float64 here")
-def test_a_precision_that_stores_do_not_have_is_refused(store):
-    with pytest.raises(op.ParameterError, match="stores have no numbers of dtype 'longdouble'"):
-        kept(store, composer=op.Composer(dtype="longdouble"))
-    assert not store.exists()
-
-
 def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, computed):
-    compute = SweepBlock.compute
+    counted = SweepBlock.compute
 
     def interrupted(job, number):
         if number == 4:
             raise KeyboardInterrupt
-        return compute(job, number)
+        return counted(job, number)
 
     with monkeypatch.context() as patch:
         patch.setattr(SweepBlock, "compute", interrupted)
@@ -116,7 +111,7 @@ def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store
     assert_same_bits(kept(store), swept())
 
 
-def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path):
+def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path, monkeypatch):
     store.write_text("mine")
     with pytest.raises((JobError, op.ParameterError), match="is there"):
         kept(store)
@@ -126,56 +121,49 @@ def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path):
     for name in ("pipe.nc", "device.nc"):
         with pytest.raises(op.ParameterError, match=rf"{name}' is there already, and is no file"):
             kept(tmp_path / name)
-
-
-def test_the_store_beside_a_file_is_gone_when_the_file_is_there_and_the_users_own_stays(tmp_path):
-    kept(tmp_path / "sweep.nc.zarr")
-    kept(tmp_path / "sweep.nc")
-    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
-    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())
-
-
-def test_a_file_that_cannot_be_written_whole_is_not_there(tmp_path, monkeypatch):
-    def fails(*_, **__):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", fails)
-    with pytest.raises(OSError, match="No space"):
-        kept(tmp_path / "sweep.nc")
-    assert [each.name for each in tmp_path.iterdir()] == [".sweep.nc.blocks"]
-
-
-def test_a_file_that_came_to_be_there_meanwhile_is_left_alone(tmp_path, monkeypatch):
-    file, compute = tmp_path / "sweep.nc", SweepBlock.compute
+    # What came to be there meanwhile, too.
+    file = tmp_path / "folder" / "sweep.nc"
+    file.parent.mkdir()
 
     def beside(job, number):
         file.write_text("mine")
-        return compute(job, number)
+        return COMPUTE(job, number)
 
     monkeypatch.setattr(SweepBlock, "compute", beside)
     with pytest.raises(op.ParameterError, match="is there already"):
         kept(file)
     assert file.read_text() == "mine"
-    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", ".sweep.nc.blocks"}
+    assert {each.name for each in file.parent.iterdir()} == {"sweep.nc", ".sweep.nc.blocks"}
+
+
+def test_a_file_is_there_whole_or_not_at_all_and_its_blocks_until_then(tmp_path, monkeypatch):
+    kept(tmp_path / "sweep.nc.zarr")
+    kept(tmp_path / "sweep.nc")
+    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
+    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())  # The user's own store stays.
+    (tmp_path / "full").mkdir()
+    full = Mock(side_effect=OSError(28, "No space left on device"))
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", full)
+    with pytest.raises(OSError, match="No space"):
+        kept(tmp_path / "full" / "sweep.nc")
+    assert [each.name for each in (tmp_path / "full").iterdir()] == [".sweep.nc.blocks"]
 
 
 def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
-    file, compute = tmp_path / "sweep.nc", SweepBlock.compute
+    file = tmp_path / "sweep.nc"
 
     def faster(job, number):
         with monkeypatch.context() as patch:
-            patch.setattr(SweepBlock, "compute", compute)
+            patch.setattr(SweepBlock, "compute", COMPUTE)
             assert_same_bits(kept(file), swept())
-        return compute(job, number)
+        return COMPUTE(job, number)
 
     monkeypatch.setattr(SweepBlock, "compute", faster)
     assert_same_bits(kept(file, scheduler="synchronous"), swept())
     assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
 
 
-@pytest.mark.parametrize(
-    "place", [0.01, *(pytest.param(place, marks=pytest.mark.slow) for place in (0, 0.05, 0.3))]
-)
+@pytest.mark.parametrize("place", [0.01, *map(slow, (0, 0.05, 0.3))])
 def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     file, angles = tmp_path / "sweep.nc", np.linspace(0.0, 1.5, 1000)
     op.load_preset("malus").sweep(angle=angles, store=file).close()
@@ -194,23 +182,6 @@ def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
     assert file.read_bytes() == content
 
 
-def test_a_store_of_no_known_form_is_refused_with_one_that_is():
-    for store in ("sweep.csv", "sweep", "", 3, True):
-        with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
-            kept(store)
-    for store in (".zarr", ".nc"):
-        with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
-            kept(store)
-
-
-def test_what_was_kept_lends_its_axes_in_their_order(store):
-    kept(store)
-    opened = xr.open_zarr(store) if store.suffix == ".zarr" else xr.open_dataset(store)
-    with opened:
-        for given in (opened, opened.S0):
-            assert path().sweep(coords=given).S0.dims == ("delta", "angle")
-
-
 @pytest.mark.filterwarnings("ignore:Consolidated metadata")
 def test_what_was_kept_can_be_written_elsewhere_in_any_version(tmp_path):
     found = kept(tmp_path / "a.zarr")
@@ -220,17 +191,30 @@ def test_what_was_kept_can_be_written_elsewhere_in_any_version(tmp_path):
         assert_same_bits(xr.open_zarr(copy), swept())
 
 
+FORMS = r"ends in \.zarr or \.nc, such as '.+\.zarr'"
+LONG = op.Composer(dtype="longdouble")
+
+
 @rows(
     "given, told",
     [
         ({"scheduler": "threads"}, "scheduler= is for"),
         ({"progress": True}, "progress= is for"),
         ({"scheduler": "threads", "progress": True, "chunks": 2}, "scheduler= and progress= are"),
+        *(({"store": store}, FORMS) for store in ("sweep.csv", "sweep", "", 3, True)),
+        *(({"store": store}, r"such as 'sweep\.zarr'") for store in (".zarr", ".nc")),
+        *(
+            ({"store": f"sweep.{form}", "composer": LONG}, "stores have no numbers of dtype 'long")
+            for form in ("zarr", "nc")
+            if np.longdouble != np.float64
+        ),
     ],
 )
-def test_what_is_for_stores_is_not_ignored_without_one(given, told):
+def test_what_stores_have_not_or_is_for_them_alone_is_refused(tmp_path, monkeypatch, given, told):
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(op.ParameterError, match=told):
         swept(**given)
+    assert not [*tmp_path.iterdir()]
 
 
 def test_a_bar_ends_with_all_blocks(store, capsys):
@@ -262,62 +246,54 @@ def test_several_detectors_are_kept(store):
     assert np.array_equal(found.S0, path.sweep(share=[0.1, 0.2, 0.3]).S0)
 
 
-def job_of(chunks=4, **given):
-    path = op.load_preset("npgr026")
+def job_of(chunks=4, preset="npgr026", **given):
+    path = op.load_preset(preset)
     plan = path.compose()
     axes = {"delta": np.linspace(0.0, 1.0, 10), "phi": np.linspace(0.0, 1.0, 6)}
-    grid = grid_of(plan.inputs, {**axes, **given})
+    grid = grid_of(plan.inputs, {**(axes if preset == "npgr026" else {}), **given})
     return SweepJob.of(swept_in_chunks(path, plan, grid, chunks))
 
 
-def test_blocks_are_disjoint_and_cover_the_grid():
+def test_blocks_cover_the_grid_have_every_variable_and_are_the_same_when_pickled():
     job, seen = job_of(), np.zeros((10, 6), int)
     for number in range(job.blocks):
         seen[job.region(number)] += 1
     assert job.blocks == 6
     assert np.all(seen == 1)
-
-
-def test_a_block_has_every_variable_in_its_part():
-    job = job_of()
     found = job.compute(5)
     assert found.keys() == job.arrays.keys()
     for region, values in found.values():
         assert region == (slice(8, 10), slice(4, 6))
         assert values.shape == (2, 2)
-
-
-def test_a_job_that_was_pickled_is_the_same():
-    job = job_of()
     there = pickle.loads(pickle.dumps(job))
     assert there.identity == job.identity
     assert there.compute(2)["S1"][1].tobytes() == job.compute(2)["S1"][1].tobytes()
 
 
-def test_the_same_values_have_one_identity():
-    assert job_of(n1=0.2).identity == job_of(n1=np.float64(0.2)).identity
+SIX = np.linspace(0.0, 1.0, 6)
 
 
 @rows(
-    "other",
+    "one, other, same",
     [
-        {"n1": 0.2 + 1e-15},
-        {"phi": np.nextafter(np.linspace(0.0, 1.0, 6), 2.0)},
-        {"phi": np.degrees(np.linspace(0.0, 1.0, 6)).tolist()},
-        {"chunks": 5},
-        {"filter": "vertical"},
+        ({"n1": 0.2}, {"n1": np.float64(0.2)}, True),
+        ({"rho": 0.5}, {"rho": np.array(0.5)}, True),
+        ({"rho": "10 deg"}, {"rho": np.radians(10.0)}, False),
+        *(
+            ({"n1": 0.2}, {"n1": 0.2, **other}, False)
+            for other in (
+                {"n1": 0.2 + 1e-15},
+                {"phi": np.nextafter(SIX, 2.0)},
+                {"phi": [f"{value} deg" for value in np.degrees(SIX)]},
+                {"chunks": 5},
+                {"filter": "vertical"},
+            )
+        ),
     ],
 )
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
-def test_whatever_changes_the_bits_is_another_identity(other):
-    if isinstance(other.get("phi"), list):
-        other = {"phi": [f"{value} deg" for value in other["phi"]]}
-    assert job_of(**{"n1": 0.2, **other}).identity != job_of(n1=0.2).identity
-
-
-def test_one_value_in_two_units_is_two_sweeps():
-    assert job_of(rho="10 deg").identity != job_of(rho=np.radians(10.0)).identity
-    assert job_of(rho=0.5).identity == job_of(rho=np.array(0.5)).identity
+def test_whatever_changes_the_bits_or_the_units_is_another_identity(one, other, same):
+    assert (job_of(**one).identity == job_of(**other).identity) == same
 
 
 def test_the_first_line_that_differs_says_what_is_another():
@@ -327,13 +303,10 @@ def test_the_first_line_that_differs_says_what_is_another():
 
 def test_a_block_is_sent_without_the_axes_of_the_others():
     angle = np.linspace(0.0, 1.0, 20_000)
-    path = op.load_preset("malus")
-    plan = path.compose()
-    grid = grid_of(plan.inputs, {"angle": angle})
-    job = SweepJob.of(swept_in_chunks(path, plan, grid, 100))
+    job = job_of(100, "malus", angle=angle)
     whole, part = (len(pickle.dumps(each)) for each in (job, job.part(7)))
     assert whole > angle.nbytes
     assert part < angle.nbytes / 10
     (region,), numbers = job.part(7).compute(7)["S0"]
     assert region == slice(700, 800)
-    assert numbers.tolist() == path.sweep(angle=angle[region]).S0.values.tolist()
+    assert numbers.tolist() == op.load_preset("malus").sweep(angle=angle[region]).S0.values.tolist()

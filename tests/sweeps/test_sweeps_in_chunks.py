@@ -8,11 +8,11 @@ import sys
 import dask
 import numpy as np
 import pytest
-import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
+from optipath.sweeps.axes.read_axes import grid_of
 from optipath.sweeps.chunked import chunked_light, in_chunks
 from optipath.sweeps.chunked.block_light import run_block
 from optipath.sweeps.chunked.chunk_sizes import BLOCK, chunk_sizes
@@ -22,6 +22,7 @@ from random_paths import Draw
 from tables import rows
 
 pytest.importorskip("dask")
+MALUS = op.load_preset("malus")
 SIZES = {"delta": 3000, "rho": 1000, "phi": 500}
 
 
@@ -59,6 +60,7 @@ def test_what_is_no_size_is_refused_with_what_would_be():
         chunk_sizes("auto", {})
 
 
+SINGLE = op.Composer(dtype="float32")
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
 AXES = {
     "delta": np.linspace(0.01, 1.5, 7),
@@ -69,6 +71,10 @@ AXES = {
 
 def swept(**given):
     return op.load_preset("npgr026").sweep(**{**AXES, **GOLD, "filter": "horizontal", **given})
+
+
+def computed(**given):
+    return swept(**given).compute(scheduler="synchronous")
 
 
 def bits_of(variable):
@@ -89,7 +95,19 @@ def assert_same_bits(found, expected):
 
 @rows("chunks", ["auto", 1, 4, {"rho": 2}, {"delta": 3, "phi": -1}])
 def test_a_sweep_in_chunks_is_that_in_memory_however_it_is_cut(chunks):
-    assert_same_bits(swept(chunks=chunks).compute(scheduler="synchronous"), swept())
+    assert_same_bits(computed(chunks=chunks), swept())
+
+
+@rows(
+    "given, chunks",
+    [
+        ({"delta": AXES["delta"], "phi": AXES["delta"] / 2, "zip": ("delta", "phi")}, 3),
+        ({"composer": SINGLE}, 4),
+        ({"filter": ["none", "horizontal", "vertical"]}, 2),
+    ],
+)
+def test_axes_that_vary_together_words_and_single_precision_are_cut(given, chunks):
+    assert_same_bits(computed(**given, chunks=chunks), swept(**given))
 
 
 def test_threads_have_the_same_bits():
@@ -99,6 +117,10 @@ def test_threads_have_the_same_bits():
 def test_nothing_is_computed_before_somebody_asks(monkeypatch):
     monkeypatch.setattr(chunked_light, "run_block", None)
     assert swept(chunks=4).S0.chunks == ((4, 3), (4, 1), (4, 2))
+    single = swept(chunks=4, composer=SINGLE).data_vars.values()
+    assert {each.dtype for each in single} == {np.dtype("float32")}
+    one, same, other = (swept(chunks=4, n1=n).S0.data.name for n in (0.18, 0.18, 0.2))
+    assert one == same != other
 
 
 def test_the_blocks_that_are_touched_are_run_once_for_all_that_is_asked_of_them(monkeypatch):
@@ -109,17 +131,12 @@ def test_the_blocks_that_are_touched_are_run_once_for_all_that_is_asked_of_them(
         return run_block(recipe, block)
 
     monkeypatch.setattr(chunked_light, "run_block", counted)
-    swept(chunks={"delta": 4}).compute(scheduler="synchronous")
+    computed(chunks={"delta": 4})
     assert sorted(blocks) == [(3, 5, 6), (4, 5, 6)]
     blocks.clear()
     found = swept(chunks={"delta": 1}).DoP.isel(delta=3).compute(scheduler="synchronous")
     assert blocks == [(1, 5, 6)]
     assert np.array_equal(found, swept().DoP.isel(delta=3))
-
-
-def test_the_same_sweep_has_the_same_names_and_another_has_others():
-    one, same, other = swept(chunks=4), swept(chunks=4), swept(chunks=4, n1=0.2)
-    assert one.S0.data.name == same.S0.data.name != other.S0.data.name
 
 
 def test_several_detectors_are_in_one_block():
@@ -136,42 +153,19 @@ def test_several_detectors_are_in_one_block():
     assert_same_bits(found.compute(scheduler="synchronous"), path.sweep(angle=angles))
 
 
-def test_axes_that_vary_together_are_cut_together():
-    given = {"delta": AXES["delta"], "phi": AXES["delta"] / 2, "zip": ("delta", "phi")}
-    found = swept(**given, chunks=3)
-    assert_same_bits(found.compute(scheduler="synchronous"), swept(**given))
-
-
-def test_axes_of_words_are_cut():
-    words = ["none", "horizontal", "vertical"]
-    found = swept(filter=words, chunks=2)
-    xr.testing.assert_identical(
-        found.compute(scheduler="synchronous"), swept(filter=words).compute()
-    )
-
-
-def test_single_precision_stays_single():
-    composer = op.Composer(dtype="float32")
-    found = swept(chunks=4, composer=composer)
-    assert {each.dtype for each in found.data_vars.values()} == {np.dtype("float32")}
-    assert_same_bits(found.compute(scheduler="synchronous"), swept(composer=composer))
-
-
-def test_a_chunk_does_not_keep_the_light_that_it_is_of():
+def test_the_memory_of_light_is_that_of_its_numbers_and_a_chunk_does_not_keep_it():
     with dask.config.set(scheduler="synchronous"):
         found = swept(chunks=-1).S0.persist().data.compute()
     whole = found
     while whole.base is not None:
         whole = whole.base
     assert whole.nbytes == found.nbytes
-
-
-def test_the_memory_of_light_is_that_of_its_numbers():
-    recipe, grid = _recipe_and_grid()
-    block = run_block(recipe, grid)
-    assert sys.getsizeof(block) >= 4 * 8 * grid.points
-    there = pickle.loads(pickle.dumps(block))
-    assert sys.getsizeof(there) == sys.getsizeof(block)
+    plan = MALUS.compose()
+    grid = grid_of(plan.inputs, {"angle": np.linspace(0.0, 1.0, 1000)})
+    chunked = in_chunks.swept_in_chunks(MALUS, plan, grid, "auto")
+    block = run_block(chunked.recipe, chunked.grid)
+    assert sys.getsizeof(block) >= 4 * 8 * chunked.grid.points
+    assert sys.getsizeof(pickle.loads(pickle.dumps(block))) == sys.getsizeof(block)
 
 
 def test_a_path_without_a_form_in_toml_is_refused_with_its_reason():
@@ -180,24 +174,16 @@ def test_a_path_without_a_form_in_toml_is_refused_with_its_reason():
 
         @staticmethod
         def mueller_rows(xp, angle):
-            return [[1.0 * (i == j) for j in range(4)] for i in range(4)]
+            return np.eye(4).tolist()
 
     path = op.Source() >> Bare(op.Parameter("angle")) >> op.Detector()
     with pytest.raises(op.PathError, match="kind"):
         path.sweep(angle=[0.0, 1.0], chunks=1)
 
 
-def _recipe_and_grid():
-    path = op.load_preset("malus")
-    plan = path.compose()
-    found = in_chunks.swept_in_chunks(path, plan, _grid(plan), "auto")
-    return found.recipe, found.grid
-
-
-def _grid(plan):
-    from optipath.sweeps.axes.read_axes import grid_of  # noqa: PLC0415 - for this alone
-
-    return grid_of(plan.inputs, {"angle": np.linspace(0.0, 1.0, 1000)})
+def sent(path, *composer):
+    """The recipe of a plan, as another process has it."""
+    return pickle.loads(pickle.dumps(PlanRecipe.of(path, *composer)))
 
 
 @settings(max_examples=15, deadline=None)
@@ -205,7 +191,7 @@ def _grid(plan):
 def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
     draw = Draw(seed)
     path = draw.path(loops=seed % 3 == 0)
-    here, there = path.compose(), pickle.loads(pickle.dumps(PlanRecipe.of(path))).plan
+    here, there = path.compose(), sent(path).plan
     lights, others = here.run_all(**draw.values), there.run_all(**draw.values)
     assert lights.keys() == others.keys()
     for name, light in lights.items():
@@ -213,21 +199,14 @@ def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
         assert light.noise.tobytes() == others[name].noise.tobytes()
 
 
-def test_options_of_the_composer_travel():
-    composer = op.Composer(dtype="float32", engine="numpy", method="textbook")
-    recipe = PlanRecipe.of(op.load_preset("malus"), composer)
-    plan = pickle.loads(pickle.dumps(recipe)).plan
+def test_options_of_the_composer_travel_and_a_plan_is_made_once_a_process():
+    plan = sent(MALUS, op.Composer(dtype="float32", engine="numpy", method="textbook")).plan
     assert (plan.dtype, plan.chosen, plan.method) == ("float32", "numpy", "textbook")
-
-
-def test_a_plan_is_made_once_a_process():
-    one, same = (PlanRecipe.of(op.load_preset("malus")) for _ in range(2))
-    assert one.plan is same.plan
+    assert PlanRecipe.of(MALUS).plan is PlanRecipe.of(op.load_preset("malus")).plan
 
 
 def test_a_module_that_is_not_there_is_told():
-    recipe = PlanRecipe.of(op.load_preset("malus"))
-    lost = PlanRecipe(recipe.text, own=(OwnClass("elements_of_nobody", "Half"),))
+    lost = PlanRecipe(PlanRecipe.of(MALUS).text, own=(OwnClass("elements_of_nobody", "Half"),))
     with pytest.raises(op.PathError, match="'elements_of_nobody', which cannot be imported here"):
         _ = lost.plan
 
@@ -263,26 +242,11 @@ def test_a_module_with_elements_is_imported(tmp_path, monkeypatch):
         SCRIPT.split("path =", maxsplit=1)[0].replace("script", "module")
     )
     monkeypatch.syspath_prepend(tmp_path)
-    text = """
-format = 1
-
-[elements.lamp]
-kind = "source"
-
-[elements.half]
-kind = "half-of-a-module"
-
-[elements.eye]
-kind = "detector"
-
-[[links]]
-from = "lamp.out"
-to = "half.in"
-
-[[links]]
-from = "half.out"
-to = "eye.in"
-"""
+    text = "format = 1\n"
+    for name, kind in (("lamp", "source"), ("half", "half-of-a-module"), ("eye", "detector")):
+        text += f'[elements.{name}]\nkind = "{kind}"\n'
+    for link in ('from = "lamp.out"\nto = "half.in"', 'from = "half.out"\nto = "eye.in"'):
+        text += f"[[links]]\n{link}\n"
     other = PlanRecipe(text, own=(OwnClass("halving", "Half", "0123"),))
     with pytest.raises(op.PathError, match="'Half' of module 'halving' is another one on the work"):
         _ = other.plan
@@ -321,5 +285,5 @@ def test_where_a_plan_is_not_made_yet_it_is_made_of_the_same_classes_or_not_at_a
     assert np.isclose(old.plan.run(angle=0.1).stokes[1], np.cos(0.4))
     with pytest.raises(op.PathError, match="is another one on the worker"):
         _ = pickle.loads(pickle.dumps(old)).plan
-    again = pickle.loads(pickle.dumps(PlanRecipe.of(rotator(2)))).plan
+    again = sent(rotator(2)).plan
     assert np.isclose(again.run(angle=0.1).stokes[1], np.cos(0.2))
