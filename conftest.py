@@ -20,18 +20,15 @@ collect_ignore = [] if find_spec("jax") else OF_JAX
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Keep compiled code in a folder of these tests, which all workers share.
-
-    So is bytecode where none is written beside the text: many tests start a process.
-    """
+    """Keep compiled code in a folder of these tests, which all workers share."""
     if not hasattr(config, "workerinput"):
         folder = tempfile.mkdtemp(prefix="optipath-tests-")
         config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
         os.environ["OPTIPATH_CACHE"] = os.path.join(folder, "cache")  # noqa: PTH118 - a text
         os.environ["JAX_COMPILATION_CACHE_DIR"] = os.path.join(folder, "jax")  # noqa: PTH118
         os.environ["JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS"] = "0"
-        if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
-            os.environ["PYTHONPYCACHEPREFIX"] = os.path.join(folder, "bytecode")  # noqa: PTH118
+        # Many tests start a process, each of which would compile the text of the library anew.
+        os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
