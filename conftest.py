@@ -16,7 +16,8 @@ OF_JAX = [
     "src/optipath/values/arrays/jax_primitives.py",
 ]
 
-collect_ignore = [] if find_spec("jax") else OF_JAX
+# User code that is type-checked, and run by a test: not by every worker that looks for examples.
+collect_ignore = ["tests/typing/api.py", *([] if find_spec("jax") else OF_JAX)]
 
 
 def pytest_configure(config: pytest.Config) -> None:

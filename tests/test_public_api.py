@@ -1,5 +1,6 @@
 import ast
 import re
+import runpy
 import subprocess
 import sys
 import tomllib
@@ -208,3 +209,7 @@ def test_packages_list_no_names_of_their_modules():
 def test_no_module_is_longer_than_320_lines():
     lengths = {str(file): len(file.read_text("utf-8").splitlines()) for _, file in modules()}
     assert {name: length for name, length in lengths.items() if length > 320} == {}
+
+
+def test_the_user_code_that_is_type_checked_runs():
+    runpy.run_path(str(Path(__file__).parent / "typing" / "api.py"))
