@@ -10,24 +10,10 @@ from optipath.errors import OptipathError
 from optipath.explorer.explored_presets import ExploredPresets
 from tables import rows
 
-OWN = """
-format = 1
-description = "Open and bound values of its own"
-links = [
-  { from = "L.out", to = "P.in" },
-  { from = "P.out", to = "Q.in" },
-  { from = "Q.out", to = "E.in" },
-]
-[parameters]
-a = { default = "30 deg", unit = "deg", bound = true }
-state = { default = [1, 0, 0, 0] }
-b = { unit = "deg" }
-[elements]
-L = { kind = "source", stokes = "$state" }
-P = { kind = "polarizer", angle = "$a" }
-Q = { kind = "polarizer", angle = "$b" }
-E = { kind = "detector" }
-"""
+TITLE = "Open and bound values of its own"
+A, B = op.Polarizer(op.Parameter("a", "30 deg", "deg")), op.Polarizer(op.Parameter("b", unit="deg"))
+PATH = op.Source(stokes=op.Parameter("state", [1, 0, 0, 0])) >> A >> B >> op.Detector().named("E")
+OWN = PATH.bind(a="30 deg").to_toml().replace('description = ""', f'description = "{TITLE}"')
 
 
 @pytest.fixture
@@ -44,14 +30,12 @@ def test_parameters_are_told_with_units_ends_and_words(answers):
     delta = found["delta"]
     assert delta["unit"] == delta["units"][0] == "deg"
     assert {"rad", "mrad"} < {*delta["units"]}
-    assert [delta[end] for end in ("minimum", "maximum", "default")] == [0.0, 90.0, "53"]
-    assert delta["slider"] == [0.0, 90.0, 0.1]
-    assert delta["words"] == []
-    assert [delta[name] for name in ("bound", "array", "materials")] == [False] * 3
-    assert found["filter"]["words"] == ["horizontal", "vertical", "diagonal", "none"]
-    assert found["filter"]["default"] == "none"
-    assert found["n1"]["maximum"] is None
-    assert found["n1"]["units"] == []
+    told = {"minimum": 0.0, "maximum": 90.0, "default": "53", "slider": [0.0, 90.0, 0.1]}
+    told |= {"words": [], "bound": False, "array": False, "materials": False}
+    assert delta | told == delta
+    words = ["horizontal", "vertical", "diagonal", "none"]
+    assert (found["filter"]["words"], found["filter"]["default"]) == (words, "none")
+    assert (found["n1"]["maximum"], found["n1"]["units"]) == (None, [])
 
 
 def test_materials_are_offered_with_a_wavelength_where_media_may_absorb(answers):
@@ -72,11 +56,9 @@ def test_choices_cases_detectors_and_links_are_told(answers):
     eight = next(case for case in found["cases"] if case["name"] == "8")
     assert eight["values"]["delta"] == "48 deg"
     assert eight["published"] == {"E": [19.1245, 10.9873, -13.0076, -8.70795]}
-    assert found["detectors"] == ["E"]
-    assert found["links"][0] == "L.out -> P.in"
+    assert (found["detectors"], found["links"][0]) == (["E"], "L.out -> P.in")
     moved = answers.open({"preset": "npgr026", "places": {"place": "eye"}})
-    assert moved["choices"][0]["default"] == "eye"
-    assert moved["links"][-1] == "P.out -> E.in"
+    assert (moved["choices"][0]["default"], moved["links"][-1]) == ("eye", "P.out -> E.in")
 
 
 @rows("preset", op.preset_names())
@@ -99,11 +81,11 @@ def test_every_slider_holds_the_default_and_every_case(answers, preset):
             assert all(ends[0] - slack <= number <= ends[1] + slack for number in numbers)
 
 
-def test_a_file_of_ones_own_stands_first_by_its_name_alone(own, tmp_path):
+def test_a_file_of_ones_own_stands_first_and_values_without_a_slider_are_told(own, tmp_path):
     found = own.presets()
     first, *others = found["presets"]
-    told = {"name": "own.toml", "description": "Open and bound values of its own", "file": True}
-    assert (found["opened"], first) == ("own.toml", told)
+    assert found["opened"] == "own.toml"
+    assert first == {"name": "own.toml", "description": TITLE, "file": True}
     assert not any(each["file"] for each in others)
     # No other file can be opened, nor this one by its place.
     (tmp_path / "other.toml").write_text(OWN, "utf-8")
@@ -111,9 +93,7 @@ def test_a_file_of_ones_own_stands_first_by_its_name_alone(own, tmp_path):
     for place in (*places, "../own.toml", "other.toml"):
         (fault,) = own.open({"preset": place})["faults"]
         assert (fault["field"], "is unknown" in fault["sentence"]) == ("preset", True)
-
-
-def test_bound_values_arrays_and_what_must_be_given_have_no_slider_or_default(own):
+    # Bound values and arrays have no slider, and what must be given no default.
     found = parameters(own, "own.toml")
     assert found["a"]["bound"]
     assert found["state"]["array"]
