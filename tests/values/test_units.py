@@ -19,66 +19,48 @@ from optipath.values.units import UNITS, format_quantity, in_unit, parse_quantit
 from paths import chain
 from tables import rows
 
+READ = {
+    "angle": {"90 deg": math.pi / 2, "-1.5rad": -1.5, "60 arcmin": math.pi / 180},
+    "length": {"516 nm": 516e-9, "1e-3 mm": 1e-6, "2 dm": 0.2},
+    "inverse length": {"0.5 1/cm": 50.0, "3 1/um": 3e6},
+    "angle per length": {"66.5 deg/dm": math.radians(665), "2 rad/mm": 2000.0},
+    "magnetic field": {"30 mT": 0.03, "2.5 kG": 0.25},
+    "Verdet constant": {"-134 rad/(T m)": -134.0, "1 deg/(T cm)": math.radians(100)}
+    | {"0.12 arcmin/(G cm)": math.radians(0.12 / 60) * 1e6},
+    "": {" 2.5 ": 2.5},
+}
 
-@rows(
-    "text, dimension, value",
-    [
-        ("90 deg", "angle", math.pi / 2),
-        ("-1.5rad", "angle", -1.5),
-        ("60 arcmin", "angle", math.pi / 180),
-        ("516 nm", "length", 516e-9),
-        ("1e-3 mm", "length", 1e-6),
-        ("2 dm", "length", 0.2),
-        ("0.5 1/cm", "inverse length", 50.0),
-        ("3 1/um", "inverse length", 3e6),
-        ("66.5 deg/dm", "angle per length", math.radians(665)),
-        ("2 rad/mm", "angle per length", 2000.0),
-        ("30 mT", "magnetic field", 0.03),
-        ("2.5 kG", "magnetic field", 0.25),
-        ("-134 rad/(T m)", "Verdet constant", -134.0),
-        ("1 deg/(T cm)", "Verdet constant", math.radians(100)),
-        ("0.12 arcmin/(G cm)", "Verdet constant", math.radians(0.12 / 60) * 1e6),
-        (" 2.5 ", "", 2.5),
-    ],
-)
-def test_quantities_are_read_in_their_units(text, dimension, value):
-    assert parse_quantity(text, dimension) == pytest.approx(value, rel=1e-15)
+
+@rows("dimension, quantities", READ.items())
+def test_quantities_are_read_in_their_units(dimension, quantities):
+    for text, value in quantities.items():
+        assert parse_quantity(text, dimension) == pytest.approx(value, rel=1e-15)
 
 
 @rows(
     "text, dimension, message",
     [
         ("30 dgr", "angle", "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
-        ("30°", "angle", "'°' of '30°' is unknown; did you mean 'deg'"),
-        ("0.2+3.4i", "", r"'0.2\+3.4i' is not a quantity; did you mean '0.2\+3.4j'"),
-        ("30,5 deg", "angle", "'30,5 deg' is not a quantity; did you mean '30.5 deg'"),
-        ("30,40", "", r"'30.40'\? \(a text is one value; several are an array, in Python\)$"),
-        ("45 degrees", "angle", "'degrees' of '45 degrees' is unknown; did you mean 'deg'"),
-        ("0.5 µm", "length", "'µm' of '0.5 µm' is unknown; did you mean 'um'"),
-        ("5000 Å", "length", "'Å' of '5000 Å' is unknown; did you mean 'angstrom'"),
         ("500 Nanometres", "length", "of '500 Nanometres' is unknown; did you mean 'nm'"),
-        ("-5 / cm", "inverse length", r"'-5 / cm' is not a quantity; did you mean '-5 1/cm'"),
         ("5 cm^-1", "inverse length", r"of '5 cm\^-1' is unknown; did you mean '1/cm'"),
-        ("30 furlongs", "angle", "unknown; there are: deg, rad, mrad, arcmin, arcsec$"),
-        ("0:90:10", "angle", "^'0:90:10' is not a quantity; write a number such as '30 deg'$"),
-        ("1, 2", "length", "^'1, 2' is not a quantity; write a number such as '30 nm'$"),
-        ("1.5+2i", "", r"^'1.5\+2i' is not a quantity; did you mean '1.5\+2j'\?$"),
-        ("30", "angle", "'30' has no unit"),
-        ("30 nm", "angle", "no angle"),
-        ("30 deg", "", "pure number"),
-        ("30", "length", "a length is asked for; add one of nm, um"),
-        ("5 mm", "inverse length", "no inverse length; use one of 1/um, 1/mm, 1/cm, 1/dm, 1/m"),
-        ("5 deg", "angle per length", "no angle per length; use one of deg/um"),
         ("5 deg/km", "angle per length", "'deg/km' of '5 deg/km' is unknown; did you mean 'deg/m'"),
-        ("3 tesla", "magnetic field", "'tesla' of '3 tesla' is unknown; did you mean 'T'"),
-        ("3 gauss", "magnetic field", "did you mean 'G'"),
         ("5 min/(Oe cm)", "Verdet constant", r"did you mean 'arcmin/\(G cm\)'"),
         ("5 rad/T/m", "Verdet constant", r"did you mean 'rad/\(T m\)'"),
+        ("30 furlongs", "angle", "unknown; there are: deg, rad, mrad, arcmin, arcsec$"),
+        ("30,5 deg", "angle", "'30,5 deg' is not a quantity; did you mean '30.5 deg'"),
+        ("-5 / cm", "inverse length", r"'-5 / cm' is not a quantity; did you mean '-5 1/cm'"),
+        ("1.5+2i", "", r"^'1.5\+2i' is not a quantity; did you mean '1.5\+2j'\?$"),
+        ("0:90:10", "angle", "^'0:90:10' is not a quantity; write a number such as '30 deg'$"),
+        ("1, 2", "length", "^'1, 2' is not a quantity; write a number such as '30 nm'$"),
+        *((text, "", "not a quantity") for text in ("", "1_000", "0.3+0.4", "0.30.4j")),
+        *((text, "", "not a quantity") for text in ("(0.3+0.4j", "1_0+2j", "0.3+0.4j deg")),
+        *((text, "angle", "not a quantity") for text in ("thirty deg", "nan deg")),
+        ("30", "angle", "'30' has no unit"),
+        ("30 deg", "", "pure number"),
+        ("30", "length", "a length is asked for; add one of nm, um"),
+        ("30 nm", "angle", "no angle"),
+        ("5 mm", "inverse length", "no inverse length; use one of 1/um, 1/mm, 1/cm, 1/dm, 1/m"),
         ("5 rad", "Verdet constant", "'5 rad' is no Verdet constant; use one of rad/"),
-        ("thirty deg", "angle", "not a quantity"),
-        ("", "", "not a quantity"),
-        ("nan deg", "angle", "not a quantity"),
-        ("1_000", "", "not a quantity"),
     ],
 )
 def test_what_is_no_quantity_is_refused(text, dimension, message):
@@ -119,48 +101,29 @@ def test_units_are_changed_without_noise(text, dimension, unit, written):
     assert in_unit(value, unit) == float(written.split()[0])
 
 
-def test_numbers_without_dimension_may_be_complex():
-    texts = ["0.3+0.4j", "0.4j", "(-0.9+0.1j)", " -0.3 - 2e-1j ", "1e-3j"]
-    for text, value in zip(texts, [0.3 + 0.4j, 0.4j, -0.9 + 0.1j, -0.3 - 0.2j, 1e-3j], strict=True):
+ONES, TWOS = "1" * 300, "2" * 300
+DIGITS = "0." + "0" * 300 + "1" * 700
+LONG = ["1" * 1000 + "+" + "1" * 999, "1." * 900, "1" * 1999, "1 " + " " * 1990 + "x"]
+LONG += ["(" + "1" * 1000 + "+" + "1" * 900 + ")", "1e" + "1" * 1900, "+" * 1990]
+LONG += ["1" * 10**6, " " * 10**6 + "x", "1+" * 10**6 + "j"]
+
+
+def test_numbers_may_be_complex_and_of_any_length():
+    texts = ["0.3+0.4j", "0.4j", "(-0.9+0.1j)", " -0.3 - 2e-1j ", "1e-3j", f"{ONES}+{TWOS}j"]
+    numbers = [0.3 + 0.4j, 0.4j, -0.9 + 0.1j, -0.3 - 0.2j, 1e-3j, complex(float(ONES), float(TWOS))]
+    for text, value in zip(texts, numbers, strict=True):
         assert parse_quantity(text, "") == value
         assert parse_quantity(format_quantity(value, ""), "") == value
-    for text in ("0.3+0.4", "0.30.4j", "(0.3+0.4j", "1_0+2j", "0.3+0.4j deg"):
-        with pytest.raises(UnitError):
-            parse_quantity(text, "")
-
-
-LONG = [
-    "1" * 1000 + "+" + "1" * 999,
-    "1." * 900,
-    "1" * 1999,
-    "1 " + " " * 1990 + "x",
-    "(" + "1" * 1000 + "+" + "1" * 900 + ")",
-    "1e" + "1" * 1900,
-    "+" * 1990,
-    "1" * 10**6,
-    " " * 10**6 + "x",
-    "1+" * 10**6 + "j",
-]
-
-
-@rows("text", LONG)
-@rows("dimension", ["", "length"])
-def test_long_texts_are_read_in_time_that_grows_with_their_length(text, dimension):
-    # Where digits could be read in two ways, the first of them took half a minute.
-    with suppress(UnitError):
-        assert parse_quantity(text, dimension) >= 1e300
-
-
-def test_numbers_of_any_length_are_read_as_the_nearest_or_told_by_their_ends():
+    assert parse_quantity(DIGITS, "") == float(DIGITS)
+    for text in ("1e5000 nm", "-1e400 mm", "1e999999999 m", "1e-999999999 m"):
+        assert parse_quantity(text, "length") in (math.inf, -math.inf, 0.0)
     with pytest.raises(UnitError, match="has 1000000 characters; no number needs as many") as error:
         parse_quantity("1" * 10**6, "")
     assert len(str(error.value)) < 300
-    digits = "0." + "0" * 300 + "1" * 700
-    assert parse_quantity(digits, "") == float(digits)
-    ones, twos = "1" * 300, "2" * 300
-    assert parse_quantity(f"{ones}+{twos}j", "") == complex(float(ones), float(twos))
-    for text in ("1e5000 nm", "-1e400 mm", "1e999999999 m", "1e-999999999 m"):
-        assert parse_quantity(text, "length") in (math.inf, -math.inf, 0.0)
+    # Where digits could be read in two ways, the first of these took half a minute.
+    for text, dimension in product(LONG, ("", "length")):
+        with suppress(UnitError):
+            assert parse_quantity(text, dimension) >= 1e300
 
 
 def test_units_are_those_of_the_documents_and_all_are_listed():
@@ -173,34 +136,23 @@ def test_units_are_those_of_the_documents_and_all_are_listed():
     assert set(str(told.value).partition("there are: ")[2].split(", ")) == set(UNITS)
 
 
-@rows("unit", ["deg", "rad", "m", "um", "nm", "deg/mm"])
-def test_a_common_name_of_a_unit_is_told_how_it_is_written(unit):
-    common = {
-        "deg": ["degrees", "Degree", "°"],
-        "rad": ["radians"],
-        "m": ["meter", "metres"],
-        "um": ["micron", "µm", "μm"],
-        "nm": ["nanometers"],
-        "deg/mm": ["degrees per millimetre"],
-    }
-    for name in common[unit]:
+COMMON = {"deg": "degrees, Degree, °", "rad": "radians", "m": "meter, metres", "T": "tesla"}
+COMMON |= {"um": "micron, µm, μm", "nm": "nanometers", "angstrom": "Å", "G": "gauss"}
+COMMON |= {"deg/mm": "degrees per millimetre"}
+
+
+@rows("unit, names", COMMON.items())
+def test_a_common_name_of_a_unit_is_told_how_it_is_written(unit, names):
+    for name in names.split(", "):
         with pytest.raises(op.OptipathError, match=f"'{name}' is unknown; did you mean '{unit}'"):
             op.Parameter("p", unit=name)
-
-
-@rows(
-    "text, readings",
-    [
+    for text, readings in (
         ("30 grad", "a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg"),
-        ("30 gon", "a gon is 0.9 deg; write it in deg"),
         ("1,000 deg", "a decimal point or part thousands; write '1.000 deg' or '1000 deg'"),
-        ("30 grads", "in German; write it in deg"),
-    ],
-)
-def test_a_text_that_may_be_read_in_two_ways_is_told_with_both(text, readings):
-    with pytest.raises(op.OptipathError) as told:
-        op.Polarizer(text)
-    assert str(told.value).endswith(readings)
+    ):
+        with pytest.raises(op.OptipathError) as told:
+            op.Polarizer(text)
+        assert str(told.value).endswith(readings)
 
 
 def warned(action):
@@ -213,23 +165,21 @@ def warned(action):
 WARNED = (
     "is a plain number beyond 2 pi, in radians; write degrees as '48 deg', and radians as '48 rad'"
 )
-
-
+A, T = op.Parameter("a"), op.Parameter("t")
 D, HALF = op.Parameter("d", maximum=90), op.Parameter("d", 0.5, maximum=90)
-UP = op.Parameter("f", words={"up": 90})
+UP, F = (op.Parameter("f", words={"up": angle}) for angle in (90, "400 deg"))
+TURN = chain([op.Rotator(T)])
 
 
 @rows(
     "action, what",
     [
         (lambda: op.Polarizer(45), "Polarizer angle"),
-        (lambda: op.Retarder(90.0), "Retarder retardance"),
         (lambda: op.Rotator(4.0 * np.pi), "Rotator angle"),
         (lambda: op.Rotator(np.linspace(0, 180, 7)), "Rotator angle"),
         (lambda: op.Rotator([30.0, "1 deg"]), "Rotator angle"),
         (lambda: op.Rotator(np.float32(-45)), "Rotator angle"),
         (lambda: op.Interface(1.5, 0.1, azimuth=30), "Interface azimuth"),
-        (lambda: op.Medium(1.0, angle=45), "Medium angle"),
         (lambda: op.VerticesByAngles((0.1, 0.2), (45,)), "turns[0]"),
         (lambda: op.Parameter("t", 45, unit="deg"), "parameter 't'"),
         (lambda: op.Parameter("t", unit="deg", maximum=180), "the maximum of parameter 't'"),
@@ -247,41 +197,29 @@ def test_a_plain_number_beyond_a_whole_turn_is_warned_of(action, what):
 
 
 def test_a_warning_is_of_the_line_of_who_wrote_it_and_told_once_of_each_line():
-    path = chain([op.Rotator(op.Parameter("turn"))])
-    for action in (lambda: op.Polarizer(45), lambda: path.trace(turn=45)):
+    for action in (lambda: op.Polarizer(45), lambda: TURN.trace(t=45)):
         with pytest.warns(op.AngleWarning) as told:
             action()
         assert told[0].filename == __file__
-    path = chain([op.Rotator(op.Parameter("turn"))])
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("default")
         for angle in np.linspace(10.0, 90.0, 500):
-            path.trace(turn=angle)
+            TURN.trace(t=angle)
     assert len(told) == 1
-    of_turns = [key for key in __warningregistry__ if "parameter 'turn' is" in str(key)]
-    assert len(of_turns) == 1
-
-
-T = op.Parameter("t")
-F = op.Parameter("f", words={"up": "400 deg"})
+    assert sum("parameter 't' is" in str(key) for key in __warningregistry__) == 1
 
 
 @rows(
     "action",
     [
-        lambda: op.Polarizer("720 deg"),
-        lambda: op.Rotator(["720 deg", "45 rad"]),
-        lambda: op.Rotator(2.0 * np.pi),
+        *(lambda: op.Polarizer("720 deg"), lambda: op.Rotator(["720 deg", "45 rad"])),
+        *(lambda: op.Rotator(2.0 * np.pi), lambda: op.Parameter("t", 45.0)),
         lambda: op.Rotator(np.linspace(-2.0 * np.pi, 2.0 * np.pi, 9, dtype=np.float32)),
-        lambda: op.Medium(1.0, rotation="500 rad/m"),
         lambda: op.Medium(op.Parameter("length"), rotation=500.0),
         lambda: chain([op.Medium(op.Parameter("l"), rotation="500 rad/m")]).bind(l=1.0).trace(),
         lambda: op.Polarizer(op.Parameter("f", words={"up": "400 deg"}, maximum="720 deg")),
-        lambda: chain([op.Polarizer(F)]).bind(f="up"),
-        lambda: op.Parameter("t", "720 deg"),
-        lambda: op.Parameter("t", 45.0),
-        lambda: [chain([op.Rotator(T)]).trace(t=t) for t in ("720 deg", op.CosSin(0.6, 0.8))],
-        lambda: chain([op.Rotator(T)]).trace(t=["720 deg", 0.5]),
+        *(lambda: chain([op.Polarizer(F)]).bind(f="up"), lambda: op.Parameter("t", "720 deg")),
+        lambda: [TURN.trace(t=t) for t in ("720 deg", ["720 deg", 0.5], op.CosSin(0.6, 0.8))],
         lambda: op.load_preset("malus", angle="340 deg").trace(),
         lambda: op.Polarizer(azimuth="45 rad") @ op.Light([1.0, 1.0, 0.0, 0.0]),
     ],
@@ -290,50 +228,34 @@ def test_what_is_said_to_be_in_degrees_or_is_in_radians_is_no_reason_to_warn(act
     assert warned(action) == []
 
 
-@rows(
-    "ask",
-    [
-        "trace",
-        "every link",
-        "trace_all",
-        "mueller",
-        "paths",
-        "bind",
-        "certificate",
-        "stream",
-        "run",
-    ],
-)
+ASKS = {
+    "every link": lambda **given: TURN.trace(keep="all", **given),
+    "stream": lambda **given: list(TURN.compose().stream(10, **given)),
+    "certificate": lambda **given: TURN.compose().certificate(**given),
+    "run": lambda **given: op.Composer(engine="numpy").compose(TURN).run(**given),
+}
+
+
+@rows("ask", ["trace", "trace_all", "mueller", "paths", "bind", *ASKS])
 @rows("angle", [45, 45.0, np.linspace(0.0, 180.0, 4)])
 def test_what_is_given_to_a_run_is_warned_of_once(ask, angle):
-    path = chain([op.Rotator(op.Parameter("turn"))])
-    asks = {
-        "every link": lambda **given: path.trace(keep="all", **given),
-        "stream": lambda **given: list(path.compose().stream(10, **given)),
-        "certificate": lambda **given: path.compose().certificate(**given),
-        "run": lambda **given: op.Composer(engine="numpy").compose(path).run(**given),
-    }
-    (sentence,) = warned(lambda: asks.get(ask, getattr(path, ask, None))(turn=angle))
-    assert sentence.startswith("parameter 'turn' ")
+    (sentence,) = warned(lambda: ASKS.get(ask, getattr(TURN, ask, None))(t=angle))
+    assert sentence.startswith("parameter 't' ")
 
 
 def test_each_run_that_is_given_degrees_is_warned_of_however_often_and_however_many():
-    path = chain([op.Rotator(op.Parameter("turn"))])
-    plan = path.compose()
+    plan = TURN.compose()
     for angle in (45, 60.0, [0.1, 45.0], np.arange(180.0)):
         for _ in range(2):
-            assert len(warned(lambda: plan.run(turn=angle))) == 1  # noqa: B023
+            assert len(warned(lambda: plan.run(t=angle))) == 1  # noqa: B023
     for first in (0.1, np.linspace(0.0, 1.0, 5)):
-        path = chain([op.Rotator(op.Parameter("turn"))])
+        path = chain([op.Rotator(T)])
         for _ in range(10):
-            path.trace(turn=first)
-        assert len(warned(lambda: path.trace(turn=first * 100.0 + 50.0))) == 1  # noqa: B023
+            path.trace(t=first)
+        assert len(warned(lambda: path.trace(t=first * 100.0 + 50.0))) == 1  # noqa: B023
     large = np.zeros(10**6)
     large[300_000:700_000] = 90.0
-    assert len(warned(lambda: path.trace(turn=large))) == 1
-
-
-A = op.Parameter("a")
+    assert len(warned(lambda: path.trace(t=large))) == 1
 
 
 IN_RADIANS = A * (np.pi / 180)
@@ -341,7 +263,6 @@ WITHIN = [
     *((IN_RADIANS, given) for given in ([10.0, 45.0, 720.0], np.arange(0.0, 720.0, 0.7))),
     (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
     *((10 * A, given) for given in (4.5, "30 deg", np.radians(90.0))),
-    *((5 * A, given) for given in (np.linspace(0.0, 3.0, 31), np.float32(2.1))),
     (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
     *((A / 100, 270.0), (A * (2.0 * np.pi * 0.009 / 550e-9), 1e-3)),
 ]
@@ -358,20 +279,19 @@ def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn_and_not_withi
 
 
 def test_a_unit_for_what_the_path_turns_into_radians_is_warned_of_and_plain_degrees_are_not():
-    path = chain([op.Rotator(A * (np.pi / 180))])
+    path = chain([op.Rotator(IN_RADIANS)])
     for value in ("45 deg", ["45 deg", "0.1 rad"]):
         sentence = warned(lambda: path.trace(a=value))[0]  # noqa: B023
         assert sentence.startswith("parameter 'a' has a unit, and the path multiplies it by pi")
-    assert (
-        warned(lambda: path.trace(a=[10.0, 45.0, 720.0])) == warned(lambda: path.bind(a=1.0)) == []
-    )
+    assert warned(lambda: path.bind(a=1.0)) == []
     for default in (45, 0.5):
         path = chain([op.Rotator(op.Parameter("a", default) * (np.pi / 180))])
         assert warned(path.trace) == []
 
 
 NPGR026 = op.load_preset("npgr026")
-FACE = chain([op.Interface(1.5, op.Parameter("t"))])
+FACE = chain([op.Interface(1.5, T)])
+TWICE, ACROSS = (chain([op.Interface(1.5, a)]) for a in (2 * A - "20 deg", "90 deg" - A))
 
 
 @rows(
@@ -381,44 +301,32 @@ FACE = chain([op.Interface(1.5, op.Parameter("t"))])
         *(lambda: op.load_preset("npgr026", delta=48), lambda: NPGR026.bind(delta=48)),
         *(lambda: op.Interface(1.5, 48), lambda: op.Interface(1.5, op.Parameter("t", 48))),
         *(lambda: FACE.trace(t=48), lambda: FACE.bind(t=48), lambda: op.refraction_angle(1.5, 48)),
-        lambda: op.Parameter("t", 48, "deg", 0.0, 1.5),
+        *(lambda: op.Parameter("t", 48, "deg", 0.0, 1.5), lambda: TWICE.trace(a=[0.3, 48.0])),
+        *(lambda: TWICE.bind(a=48), lambda: ACROSS.trace(a=48), lambda: ACROSS.bind(a=[0.3, 48.0])),
     ],
 )
 def test_degrees_that_are_refused_are_offered_with_their_unit(action):
     with pytest.raises(op.OptipathError) as error:
         action()
-    assert "48 rad, which is 2750.2 deg" in str(error.value)
     assert str(error.value).endswith("; did you mean '48 deg' or np.radians(48)?")
+    assert "'a'" in str(error.value) or "48 rad, which is 2750.2 deg" in str(error.value)
+    for path in (TWICE, ACROSS):
+        path.trace(a="48 deg")
 
 
-@rows("angle", [2 * A - "20 deg", "90 deg" - A])
-def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(angle):
-    path = chain([op.Interface(1.5, angle)])
-    for give, value in product((path.trace, path.bind), (48, [0.3, 48.0])):
-        with pytest.raises(op.ParameterError, match=r"; did you mean '48 deg' or np.radians\(48\)"):
-            give(a=value)
-    path.trace(a="48 deg")
-
-
-def test_what_are_no_plain_degrees_or_become_radians_in_the_path_is_offered_no_unit():
-    paths = [
-        chain([op.Interface(1.5, angle)])
-        for angle in (A * (np.pi / 180), "90 deg" - A * (np.pi / 180), 2 * (np.pi / 180) * A)
-    ]
+def test_what_are_no_plain_degrees_or_become_radians_in_the_path_is_offered_no_unit(capsys):
+    paths = [chain([op.Interface(1.5, angle)]) for angle in (IN_RADIANS, "90 deg" - IN_RADIANS)]
     refused = [(give, {"a": 100}) for path in paths for give in (path.trace, path.bind)]
-    trace = op.load_preset("npgr026").trace
-    refused += [(trace, {"delta": delta}) for delta in ("100 deg", np.radians(100.0), 1.6, 200.0)]
+    given = ("100 deg", np.radians(100.0), 1.6, 200.0)
+    refused += [(NPGR026.trace, {"delta": delta}) for delta in given]
+    path = chain([op.Rotator(op.Parameter("d", maximum=80) * (np.pi / 180))])
+    refused += [(give, {"d": 85}) for give in (path.trace, path.bind)]
     for give, values in refused:
         with pytest.raises(op.ParameterError) as error:
             give(**values)
         assert "did you mean" not in str(error.value)
-    path = chain([op.Rotator(op.Parameter("d", maximum=80) * (np.pi / 180))])
-    for give in (path.trace, path.bind):
-        with pytest.raises(op.ParameterError, match=r"'d' is 85, .* range; give 80 or less$"):
-            give(d=85)
-
-
-def test_the_command_line_reads_degrees_and_speaks_of_no_radians(capsys):
+        assert "d" not in values or str(error.value).endswith("range; give 80 or less")
+    # The command line reads degrees, and speaks of no radians.
     for delta in ("100", "48 rad", "100 deg"):
         assert main(["run", "npgr026", "--delta", delta]) == 2
         said = capsys.readouterr().err

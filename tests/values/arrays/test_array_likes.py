@@ -64,25 +64,43 @@ def endless():
     return within
 
 
-MORE_THAN_NUMBERS = {
-    "a masked array": masked,
-    "a masked entry": lambda values: [np.ma.masked, values],
-    "a list of masked arrays": lambda values: [masked(values), masked(values)],
-    "an array with dimensions": labelled,
-    "a list of such": lambda values: [labelled(values), labelled(values)],
-    "a column of a table, as of pandas": lambda v: Made(v, index=range(2), to_numpy=True),
-    "a quantity": lambda values: np.asarray(values, float).view(Quantity),
-    "a list of quantities": lambda values: [np.asarray(values, float).view(Quantity)] * 2,
-    "a magnitude, as of pint": lambda values: Made(values, units="degree"),
-}
-CURES = {"mask": ".compressed()", "dimension": ".values", "such": ".values"}
-CURES |= {"column": ".to_numpy()"}
-CURES |= dict.fromkeys(["quantit", "magnitude"], "in radians or metres")
+def deep(value):
+    for _ in range(500):
+        value = [value]
+    return value
+
+
+class NoArray:
+    def __array__(self, dtype=None, copy=None):
+        raise RuntimeError("cannot be made an array")
+
+
+class Itself:
+    def __array__(self, dtype=None, copy=None):
+        return self
+
+
+class NoFloat:
+    def __float__(self):
+        raise ZeroDivisionError
+
+
+MORE_THAN_NUMBERS = [
+    (masked, ".compressed()"),
+    (lambda values: [np.ma.masked, values], ".compressed()"),
+    (labelled, ".values"),
+    (lambda values: [labelled(values), labelled(values)], ".values"),
+    (lambda values: Made(values, index=range(2), to_numpy=True), ".to_numpy()"),  # As of pandas.
+    (lambda values: np.asarray(values, float).view(Quantity), "in radians or metres"),
+    (lambda values: Made(values, units="degree"), "in radians or metres"),  # As of pint.
+]
 MANY_AXES, UNEQUAL = np.full((1,) * 40, 0.5), [[0.5], [0.5, 0.5]]
 NO_NUMBERS = [Raises(), [0.5, Raises()], np.array(["2020-01-01"], "M8[D]"), np.array([1], "m8[s]")]
 NO_NUMBERS += [np.zeros(2, [("a", float)]), {0.5}, {"a": 0.5}, (x for x in [0.5]), Decimal("0.5")]
 NO_NUMBERS += [Fraction(1, 2), complex(np.nan, 1.0), np.array([0.5, None]), b"0.5"]
-NO_NUMBERS += [np.array([b"0.5"]), float, 10**5000, endless(), UNEQUAL, MANY_AXES]
+NO_NUMBERS += [np.array([b"0.5"]), float, 10**5000, endless(), UNEQUAL, MANY_AXES, deep(5e-7)]
+NO_NUMBERS += [NoArray(), [NoArray(), 1.0], Itself(), NoFloat(), range(10**15)]
+NO_NUMBERS += [np.broadcast_to(np.float64(0.3), (10**12,))]
 
 
 def path():
@@ -103,6 +121,7 @@ def lit(**state):
     return (op.Source(**state) >> op.Detector()).trace()
 
 
+TWO = [5e-7, 6e-7]
 SCALARS = {
     "a field": lambda v: op.Interface(1.5, v).mueller(),
     "an index": lambda v: op.Interface(v, 0.1).mueller(),
@@ -153,6 +172,11 @@ VECTORS = {
     "indices of a stack": (lambda v: op.LayerStack(v, 0.1).mueller(), [1.0, 1.3, 1.5]),
     "incidences": (op.vertices_from_angles, [0.1]),
     "diattenuations": (lambda v: op.intensity_bounds(0.1, v), [0.1]),
+    "values of a table": (lambda v: op.tabulated(TWO, v), [1.5, 1.6]),
+    "n of a table": (lambda v: op.Material.tabulated(TWO, n=v), [1.5, 1.6]),
+    "k of a table": (lambda v: op.Material.tabulated(TWO, n=[1.5, 1.6], k=v), [0.1, 0.2]),
+    "wavelengths of a table": (lambda v: op.Material.tabulated(v, n=[1.5, 1.6]), TWO),
+    "a wavelength": (lambda v: op.load_preset("copper-gold-spectrum").trace(wavelength=v), TWO),
 }
 PAIRS = ["an index", "a layer", "fresnel_reflection", "a material of a chain", "trace of an index"]
 """Where a tuple of two may be the parts of one complex number."""
@@ -162,13 +186,12 @@ PLACES = {**{name: (use, [0.5, 0.25]) for name, use in SCALARS.items()}, **VECTO
 @rows("place", PLACES)
 def test_masks_labels_and_units_are_refused_with_the_cure(place):
     use, values = PLACES[place]
-    for given, made in MORE_THAN_NUMBERS.items():
-        if place == "incidences" and given.startswith(("a list", "a masked entry")):
+    for made, cure in MORE_THAN_NUMBERS:
+        if place == "incidences" and isinstance(made(values), list):
             continue  # Two incidences ask for a turn first.
         with pytest.raises(op.OptipathError) as error:
             use(made(values))
-        cure = next(cure for word, cure in CURES.items() if word in given)
-        assert cure in str(error.value), given
+        assert cure in str(error.value)
 
 
 @rows("place", PLACES)
@@ -194,9 +217,10 @@ def test_arrays_that_say_no_more_than_their_numbers_are_taken_for_them(given):
         asked = isinstance(given, (tuple, list)) and name in PAIRS
         if name not in ("a limit", "a word", "a cosine", "fresnel_transmission") and not asked:
             use(given)
-    fixed = op.Interface(1.5, given)
     assert np.array_equal(path().trace(theta=given).stokes, path().trace(theta=[0.5, 0.25]).stokes)
-    assert fixed == op.Interface(1.5, [0.5, 0.25])
+    assert op.Interface(1.5, given) == op.Interface(1.5, [0.5, 0.25])
+    of_matrix = path().trace(theta=np.array([[0.5, 0.25]]).view(np.matrix))
+    assert of_matrix.stokes.shape == (1, 2, 4)
 
 
 def test_an_array_that_is_made_of_something_else_is_looked_at_once():
@@ -219,8 +243,6 @@ def test_an_array_that_is_made_of_something_else_is_looked_at_once():
         path().trace(theta=Slow())
     assert not same(Raises(), 0.5)
     assert not same((Raises(),), (0.5,))
-    given = np.array([[0.5, 0.25]]).view(np.matrix)
-    assert path().trace(theta=given).stokes.shape == (1, 2, 4)
 
 
 def each(call, options):
@@ -259,6 +281,9 @@ def test_options_that_raise_when_they_are_looked_at_are_refused(use):
             use(value)
 
 
+MOST = np.longdouble("1e400")
+
+
 @rows("endless", [range(10**12), range(2**62)])
 def test_more_numbers_than_there_is_memory_for_are_refused_before_they_are_made(endless):
     for give in (
@@ -271,14 +296,13 @@ def test_more_numbers_than_there_is_memory_for_are_refused_before_they_are_made(
             give()
 
 
-@rows("most", [np.longdouble("1e400"), -np.longdouble("1e400")])
+@pytest.mark.skipif(not np.isfinite(MOST), reason="longdouble is float64 here")
+@rows("most", [MOST, -MOST])
 def test_what_is_beyond_a_double_is_refused_in_a_sentence(most):
-    if not np.isfinite(most) or abs(most) == np.finfo(float).max:
-        pytest.skip("longdouble is float64 here")
+    slab, bound = op.load_preset("glass-slab"), op.load_preset("npgr026").bind
     for use in (
-        lambda: op.load_preset("glass-slab").trace_all(length=most, absorption=np.zeros(3, "g")),
-        lambda: op.load_preset("npgr026").bind(n2=most).trace_all(),
-        lambda: op.load_preset("npgr026").bind(n2=np.array([most, 1.0])).trace_all(),
+        lambda: slab.trace_all(length=most, absorption=np.zeros(3, "g")),
+        *(lambda: bound(n2=most).trace_all(), lambda: bound(n2=np.array([most, 1])).trace_all()),
     ):
         with pytest.raises(op.OptipathError):
             use()
@@ -289,10 +313,9 @@ def test_what_is_beyond_a_double_is_refused_in_a_sentence(most):
 
 def test_a_number_of_jax_is_taken_wherever_a_number_is():
     jnp = pytest.importorskip("jax.numpy")
-    number = jnp.array(0.5)
-    path = op.Source(100) >> op.Polarizer(op.Parameter("a")) >> op.Detector()
-    assert path.trace(a=number) == path.trace(a=0.5)
-    assert path.trace(a=jnp.array([0.5, 0.75])[0]) == path.trace(a=0.5)
+    number, malus = jnp.array(0.5), op.load_preset("malus")
+    for given in (number, jnp.array([0.5, 0.75])[0]):
+        assert malus.trace(angle=given) == malus.trace(angle=0.5)
     assert op.Polarizer(number) == op.Polarizer(0.5)
     assert op.Frame().turned(number) == op.Frame().turned(0.5)
     assert op.refraction_angle(number, 1.5) == op.refraction_angle(0.5, 1.5)
@@ -311,51 +334,3 @@ def test_a_number_of_jax_is_taken_wherever_a_number_is():
 def test_light_and_matrices_with_frames_are_no_numbers(given, cure, take):
     with pytest.raises(op.OptipathError, match=cure):
         take(given)
-
-
-def deep(value):
-    for _ in range(500):
-        value = [value]
-    return value
-
-
-class NoArray:
-    def __array__(self, dtype=None, copy=None):
-        raise RuntimeError("cannot be made an array")
-
-
-class Itself:
-    def __array__(self, dtype=None, copy=None):
-        return self
-
-
-class NoFloat:
-    def __float__(self):
-        raise ZeroDivisionError
-
-
-WIDE = np.broadcast_to(np.float64(0.3), (10**12,))
-HOSTILE = [deep(5e-7), [[1.0], [1.0, 2.0]], NoArray(), [NoArray(), 1.0], Itself(), NoFloat()]
-HOSTILE += [[NoFloat(), 1.0], range(10**15), WIDE, [WIDE]]
-
-
-TWO = [5e-7, 6e-7]
-
-
-@rows(
-    "take",
-    [
-        lambda value: op.load_preset("malus").trace(angle=value),
-        lambda value: op.load_preset("malus").bind(angle=value),
-        lambda value: op.load_preset("copper-gold-spectrum").trace(wavelength=value),
-        *(SCALARS["an index"], SCALARS["a layer"], lambda value: op.Polarizer(value).mueller()),
-        lambda value: op.Material.tabulated(TWO, n=value),
-        lambda value: op.Material.tabulated(value, n=[1.5, 1.6]),
-        lambda value: op.Material.tabulated(TWO, n=[1.5, 1.6], k=value),
-        lambda value: op.tabulated(TWO, value),
-    ],
-)
-def test_what_is_no_array_is_refused_in_a_sentence_wherever_numbers_are_given(take):
-    for value in HOSTILE:
-        with pytest.raises(op.OptipathError):
-            take(value)
