@@ -29,3 +29,15 @@ def polarised(seed):
     """A Stokes vector that is polarised by 100 %, any way."""
     vector = np.random.default_rng(seed).normal(size=3)
     return [1.0, *(vector * (1.0 - 1e-15) / np.linalg.norm(vector))]
+
+
+def fresnel(n1, n2, angle):
+    """What a face reflects of s and p (M. Born, E. Wolf, Principles of Optics, eq. 1.5.21)."""
+    c1, c2 = np.cos(angle), np.sqrt(1.0 - (n1 * np.sin(angle) / n2) ** 2)
+    pairs = (n1 * c1, n2 * c2), (n2 * c1, n1 * c2)
+    return np.array([((a - b) / (a + b)) ** 2 for a, b in pairs])
+
+
+def rounds(upper, lower):
+    """What two faces reflect of light that goes to and fro between them: a geometric series."""
+    return upper + (1.0 - upper) ** 2 * lower / (1.0 - upper * lower)
