@@ -1,8 +1,5 @@
 """What is given for the axes of a sweep: numbers, texts, columns, and how they make a grid."""
 
-import subprocess
-import sys
-import warnings
 from contextlib import suppress
 
 import numpy as np
@@ -59,12 +56,14 @@ def written(folder, text):
     return file
 
 
-def test_plain_numbers_are_radians_as_they_are():
-    numbers = np.array([0.1, 0.2, 0.7])
-    axis = axis_of({"delta": numbers})
+def test_plain_numbers_lists_ranges_and_arrays_are_axes_in_radians_as_they_are():
+    axis = axis_of({"delta": np.array([0.1, 0.2, 0.7])})
     assert (axis.name, axis.dimension, axis.unit) == ("delta", "delta", "rad")
-    assert axis.given.tolist() == axis.shown.tolist() == numbers.tolist()
+    assert axis.given.tolist() == axis.shown.tolist() == [0.1, 0.2, 0.7]
     assert axis.help == NPGR.inputs.open["delta"].help
+    for several in ([0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)):
+        axis = axis_of({"k1": several})
+        assert (axis.given.tolist(), axis.given.dtype, axis.unit) == ([0.0, 1.0], np.float64, "")
 
 
 def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
@@ -76,13 +75,6 @@ def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
         numbers[1] = 0.4
         assert axis.given.tolist() == [0.1, 0.2]
         numbers[1] = 0.2
-
-
-@rows("several", [[0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)])
-def test_lists_ranges_and_arrays_are_axes(several):
-    axis = axis_of({"k1": several})
-    assert axis.given.tolist() == [0.0, 1.0]
-    assert (axis.given.dtype, axis.unit) == (np.float64, "")
 
 
 def test_arrays_of_jax_are_arrays():
@@ -98,7 +90,7 @@ def test_a_single_value_is_fixed_and_no_axis():
     assert found.fixed == {"delta": 48 * DEG, "rho": 0.1, "n1": 1.3, "filter": "none"}
 
 
-def test_texts_are_shown_in_the_unit_of_the_first():
+def test_texts_are_shown_in_the_unit_of_the_first_and_several_kinds_of_wavelengths_as_lengths():
     axis = axis_of({"delta": ["10 deg", "0.5 rad", "600 arcmin"]})
     assert axis.unit == "deg"
     assert axis.shown.tolist() == pytest.approx([10.0, np.degrees(0.5), 10.0], rel=1e-15)
@@ -106,48 +98,36 @@ def test_texts_are_shown_in_the_unit_of_the_first():
     axis = axis_of({"phi": "0 deg:80 deg:9"})
     assert (axis.unit, axis.shown.tolist()) == ("deg", [10.0 * step for step in range(9)])
     assert axis.given[3] == 30 * DEG
+    axis = axis_of({"wavelength": "1.8 eV:2.4 eV:4"}, COLOURED)
+    assert (axis.unit, axis.shown.tolist()) == ("eV", [1.8, 2.0, 2.2, 2.4])
+    assert axis.given[0] == pytest.approx(688.801e-9, rel=1e-6)
+    for texts, shown in (
+        (["2 eV", "500 nm"], [619.9209921660013, 500.0]),
+        (["20000 1/cm", "19000 cm^-1"], [500.0, 1e7 / 19000]),
+    ):
+        axis = axis_of({"wavelength": texts}, COLOURED)
+        assert axis.unit == "nm"
+        assert axis.shown == pytest.approx(shown, rel=1e-14)
 
 
-def test_words_are_shown_as_texts_which_give_them_back():
+def test_words_are_shown_as_texts_which_give_them_back_and_are_numbers_without_none():
     axis = axis_of({"filter": ["none", "horizontal", 0.5, "30 deg"]})
     assert axis.unit == ""
     assert axis.shown.tolist() == ["none", "horizontal", "0.5 rad", "30 deg"]
     assert axis.given.tolist() == ["none", 0.0, 0.5, 30 * DEG]
     assert axis_of({"filter": labelled(axis.shown)}).given.tolist() == axis.given.tolist()
+    for plan, angles in (
+        (NPGR, {"vertical": np.pi / 2, "horizontal": 0.0}),
+        (FILTER, {"antidiagonal": -np.pi / 4, "vertical": np.pi / 2}),
+    ):
+        axis = axis_of({"filter": [*angles]}, plan)
+        assert axis.shown.tolist() == [*angles]
+        assert (axis.given.tolist(), axis.given.dtype) == ([*angles.values()], np.float64)
 
 
-@rows(
-    "plan, words, angles",
-    [
-        (NPGR, ["vertical", "horizontal"], [np.pi / 2, 0.0]),
-        (FILTER, ["antidiagonal", "vertical"], [-np.pi / 4, np.pi / 2]),
-    ],
-)
-def test_words_without_none_are_numbers_for_a_run(plan, words, angles):
-    axis = axis_of({"filter": words}, plan)
-    assert axis.shown.tolist() == words
-    assert axis.given.dtype == np.float64
-    assert axis.given.tolist() == angles
-
-
-@rows(
-    "given, unit, shown",
-    [
-        ("1.8 eV:2.4 eV:4", "eV", [1.8, 2.0, 2.2, 2.4]),
-        (["2 eV", "500 nm"], "nm", [619.9209921660013, 500.0]),
-        (["20000 1/cm", "19000 cm^-1"], "nm", [500.0, 1e7 / 19000]),
-    ],
-)
-def test_wavelengths_of_one_unit_are_shown_in_it_and_of_several_as_lengths(given, unit, shown):
-    axis = axis_of({"wavelength": given}, COLOURED)
-    assert axis.unit == unit
-    assert axis.shown == pytest.approx(shown, rel=1e-14)
-    if unit == "eV":
-        assert axis.shown.tolist() == shown
-        assert axis.given[0] == pytest.approx(688.801e-9, rel=1e-6)
-
-
-def test_complex_indices_are_an_axis_and_a_material_is_its_index():
+def test_numbers_without_a_dimension_need_no_unit_may_be_complex_and_of_a_material():
+    for unit in ("", "1", "dimensionless", None):
+        assert axis_of({"n1": labelled([1.3, 1.5], unit)}).unit == ""
     assert axis_of({"n": np.array([1.5, 0.2 + 3j])}, INDEX).given.tolist() == [1.5, 0.2 + 3j]
     found = grid({"n1": op.Material(1.4), "n2": [op.Material(1.5), 1.6, 1.7]})
     assert found.fixed == {"n1": 1.4}
@@ -178,28 +158,21 @@ def test_the_axis_of_an_array_with_units_has_the_very_numbers_of_its_texts(data)
     assert axis.shown.tolist() == numbers
 
 
-@rows("unit", ["", "1", "dimensionless", None])
-def test_numbers_without_a_dimension_need_no_unit(unit):
-    assert axis_of({"n1": labelled([1.3, 1.5], unit)}).unit == ""
-
-
 @rows(
     "value, told",
     [
         (labelled([10.0, 48.0]), "is a DataArray without a unit; write one of deg, rad"),
-        (labelled([10.0, 48.0], "1"), "is a DataArray without a unit"),
         (labelled([10.0, 48.0], "degrees"), "did you mean 'deg'?"),
         (labelled([10.0, 48.0], "nm"), "'1 nm' is no angle"),
         (labelled([10.0, 48.0], 3), "the unit of parameter 'delta' is 3"),
         (labelled([10 + 1j], "deg"), "'(10+1j) deg' is not a quantity"),
+        (labelled([True], "deg"), "must be a number"),
         (np.zeros((2, 3)), "has the shape (2, 3), and an axis has one dimension"),
         ([["1 deg"], ["2 deg"]], "has the shape (2, 1), and an axis has one dimension"),
         ([], "has no values; give one at least"),
         (None, "has no value; give one, delta=..."),
         (True, "must be a number, not True"),
-        ([True, False], "must be a number, not [True, False]"),
         (["1 deg", None], "must be a number, not None"),
-        ({1: 2}, "must be a number, not {1: 2}"),
         (np.array(["2020-01-01"], "M8[D]"), "must be a number, not array(['2020-01-01']"),
         (np.ma.masked_array([0.1, 0.2], [0, 1]), "has masked entries"),
         (op.CosSin(0.6, 0.8), "is a cosine and a sine, which no axis shows; give the angle"),
@@ -207,8 +180,6 @@ def test_numbers_without_a_dimension_need_no_unit(unit):
         ([0.1, 1 + 1j], "is complex"),
         ("0:90:91", "'0:90:91' has no unit; write '0 deg:90 deg:91' if it is in deg"),
         ("0 nm:90 nm:91", "'0 nm' is no angle"),
-        ("0 deg:90 deg", "does not say how many values there are"),
-        (["10 degs", "horizontal"], "did you mean 'deg'?"),
     ],
 )
 def test_what_is_no_axis_or_has_no_unit_is_told(value, told):
@@ -217,36 +188,22 @@ def test_what_is_no_axis_or_has_no_unit_is_told(value, told):
     assert "delta" in message
 
 
+IN_PLACE = op.Material(op.Parameter("n"), 0.1)
+MILLION = dict.fromkeys(("delta", "rho", "phi"), np.zeros(10**6))
+
+
 @rows(
     "given, plan, told",
     [
-        (
-            {"n1": op.Material(op.Parameter("n"), 0.1)},
-            NPGR,
-            "is put in place before a path runs; write path.bind(n1=...)",
-        ),
-        (
-            {"s": [1, 0, 0, 0]},
-            STATE,
-            "takes several numbers for one path, which no axis has; bind it, by path.bind(s=...)",
-        ),
+        ({"n1": IN_PLACE}, NPGR, "is put in place before a path runs; write path.bind(n1=...)"),
+        ({"s": [1, 0, 0, 0]}, STATE, "which no axis has; bind it, by path.bind(s=...)"),
         ({"n": (0.2, 3.4)}, INDEX, "which may be n and k, or the indices of two paths"),
-        ({"k1": np.array([0, 1, np.nan])}, NPGR, "'k1' is nan at 2; give a finite number"),
-        ({"k1": np.array([0, 1, np.inf])}, NPGR, "'k1' is inf at 2; give a finite number"),
-        ({"k1": np.array([0, 1, -np.inf])}, NPGR, "'k1' is -inf at 2; give a finite number"),
+        ({"k1": np.array([0, np.nan])}, NPGR, "parameter 'k1' is nan at 1; give a finite number"),
+        ({"k1": np.array([0, -np.inf])}, NPGR, "parameter 'k1' is -inf at 1; give a finite"),
         ({"delta": [0.1, 1.6]}, NPGR, "'delta' is 91.6732 deg at 1, outside its range"),
-        ({"rho": [0.1, 0.2, 7.0]}, NPGR, "at 2, outside its range"),
         ({"delta": range(91)}, NPGR, "did you mean '2 deg' or np.radians(2)?"),
-        (
-            {"wavelength": range(400, 701)},
-            SPECTRUM,
-            "is 400 metres, which is no wavelength of light; for nanometres write '400 nm'",
-        ),
-        (
-            dict.fromkeys(("delta", "rho", "phi"), np.zeros(10**6)),
-            NPGR,
-            "a batch has 9e+15 paths at most, not 1e+18 paths",
-        ),
+        ({"wavelength": range(400, 701)}, SPECTRUM, "for nanometres write '400 nm'"),
+        (MILLION, NPGR, "a batch has 9e+15 paths at most, not 1e+18 paths"),
         ({"delta": [0.1]}, BOUND, "parameter 'delta' is bound to"),
     ],
 )
@@ -255,29 +212,13 @@ def test_values_of_an_axis_that_do_not_do_are_told_with_their_place_or_their_cur
 ):
     (fault,) = refused(given, plan=plan)
     assert told in fault
-    if "finite" in told:
-        assert fault.startswith(f"parameter {told}")
 
 
 def test_degrees_for_radians_are_warned_of_once_from_the_line_of_the_caller():
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with pytest.warns(op.AngleWarning, match="parameter 'a' is a plain number") as caught:
         TURNED.sweep(a=[0.1, 45.0]).DoP.load()
-        TURNED.sweep(a="0 deg:1000 deg:7").DoP.load()  # Texts are what they say.
-    (warning,) = caught
-    assert warning.category is op.AngleWarning
-    assert warning.filename == __file__
-    assert "parameter 'a' is a plain number" in str(warning.message)
-
-
-def test_axes_are_read_without_xarray():
-    code = (
-        "import sys; import optipath as op; from optipath.sweeps.axes.read_axes import grid_of;"
-        "grid_of(op.load_preset('malus').compose().inputs, {'angle': [0.1]});"
-        "print('xarray' in sys.modules)"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "False\n"
+    assert [warning.filename for warning in caught] == [__file__]
+    TURNED.sweep(a="0 deg:1000 deg:7").DoP.load()  # Texts are what they say.
 
 
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
@@ -286,11 +227,8 @@ def test_a_sweep_is_of_the_numbers_of_single_runs_and_labels_of_half_precision_a
     axis = axis_of({"a": labelled([48.0, 12.3], "deg")}, plan)
     for text, number in zip(["48 deg", "12.3 deg"], axis.given, strict=True):
         assert np.array_equal(plan.run(a=text).stokes, plan.run(a=float(number)).stokes)
-    half, malus = np.array([0.1, 0.2], np.float16), op.load_preset("malus")
-    found = malus.sweep(angle=half)
-    assert found.angle.dtype == np.float32
-    assert (found.angle.values == half).all()
-    assert (found.S0.values == malus.compose().run(angle=half).S0).all()
+    found = TURNED.sweep(a=np.array([0.1, 0.2], np.float16))
+    assert (found.a.dtype, found.a.values.tolist()) == (np.float32, [*np.float16([0.1, 0.2])])
 
 
 def test_dimensions_are_called_as_parameters_in_the_order_given_or_as_zip_says():
@@ -318,7 +256,6 @@ def test_dimensions_are_called_as_parameters_in_the_order_given_or_as_zip_says()
         ("delta", "zip is 'delta'; write zip=('a', 'b')"),
         (("delta",), "a group is two names or more"),
         ([("delta", 3)], "a group is two names or more"),
-        (3, "zip is 3; write zip=('a', 'b')"),
     ],
 )
 def test_what_zip_cannot_mean_is_told(zipped, told):
@@ -339,15 +276,13 @@ def test_all_faults_are_told_at_once_and_those_of_several_axes_in_their_order():
         "parameter 'n1' is -1 at 1",
     ):
         assert any(told in fault for fault in faults), told
-    faults = refused({"delta": [0.1, 1.6], "rho": [0.1, 0.2, 7.0]})
-    assert "'delta' is 91.6732 deg at 1" in faults[0]
-    assert "at 2, outside its range" in faults[1]
+    first, second = refused({"delta": [0.1, 1.6], "rho": [0.1, 0.2, 7.0]})
+    assert "'delta' is 91.6732 deg at 1" in first
+    assert "at 2, outside its range" in second
     # A hundred million points are refused at once for one of an axis.
     given = {"delta": np.zeros(10_000), "rho": np.append(np.zeros(9_999), 7.0)}
-    with pytest.raises(op.ParameterError) as caught:
+    with pytest.raises(op.ParameterError, match="at 9999, outside its range"):
         grid_of(NPGR.inputs, given, ranges=False)
-    (fault,) = caught.value.faults
-    assert "at 9999, outside its range" in fault
 
 
 def test_parameters_without_a_value_or_with_an_array_or_called_as_a_keyword_are_told():
@@ -369,9 +304,8 @@ def test_arrays_along_one_dimension_are_asked_about():
     assert ", or .rename(point='rho') for all combinations" in fault
     assert grid(given, zip={"point": PAIR}).sizes == {"point": 2}
     apart = given | {"rho": given["rho"].rename(point="rho")}
-    assert (
-        grid(apart).sizes == grid(TWO | {"delta": given["delta"]}).sizes == {"delta": 2, "rho": 2}
-    )
+    for axes in (apart, TWO | {"delta": given["delta"]}):
+        assert grid(axes).sizes == {"delta": 2, "rho": 2}
 
 
 def test_columns_of_a_file_vary_together_and_the_only_one_is_an_axis_of_its_own(tmp_path):
@@ -388,36 +322,24 @@ def test_columns_of_a_file_vary_together_and_the_only_one_is_an_axis_of_its_own(
     assert found.n1.units == "1"
 
 
-@rows(
-    "text, told",
-    [
-        ("delta\n10\n", "column 'delta' has no unit; write its name as 'delta (deg)'"),
-        ("detla (deg)\n10\n", "parameter 'detla' is unknown; did you mean 'delta'?"),
-        ("delta (degs)\n10\n", "unit 'degs' of '10 degs' is unknown; did you mean 'deg'?"),
-        ("n1\nhigh\n", "parameter 'n1' knows no word 'high'"),
-        ("n1,n1\n1,2\n", "line 1 names 'n1' twice"),
-    ],
-)
-def test_what_is_wrong_in_a_file_is_told_with_its_name(tmp_path, text, told):
-    (fault,) = refused(coords=written(tmp_path, text))
-    assert "points.csv: " in fault
-    assert told in fault
-
-
-def test_faults_of_cells_are_told_with_their_lines(tmp_path):
+def test_what_is_wrong_in_a_file_is_told_with_its_name_and_the_lines_of_cells(tmp_path):
     def told_in(text):
         file = written(tmp_path, text)
-        with pytest.raises(op.OptipathError) as told:
-            PATH.sweep(coords=file)
-        about = f"{told.value.about}: " if told.value.about else ""
-        return [f"{about}{each}".replace(f"{file}: ", "") for each in told.value.faults]
+        faults = refused(coords=file)
+        assert all(fault.startswith(f"{file}: ") for fault in faults)
+        return [fault.removeprefix(f"{file}: ") for fault in faults]
 
-    assert told_in("delta (deg);rho (deg)\n10,5;5\n11;1.000,5\n") == [
-        "line 2: '10,5' has a comma; write '10.5'",
-        "line 3: '1.000,5' has a comma; write a point alone",
-    ]
-    (found,) = told_in("delta (deg),rho (deg)\n10,5,20,5\n")
-    assert found.endswith("; write one for each, and points where commas are decimal: '10.5,20.5'")
+    for text, sentence in {
+        "delta\n10\n": "column 'delta' has no unit; write its name as 'delta (deg)'",
+        "detla (deg)\n10\n": "parameter 'detla' is unknown; did you mean 'delta'?",
+        "delta (degs)\n10\n": "unit 'degs' of '10 degs' is unknown; did you mean 'deg'?",
+        "n1\nhigh\n": "parameter 'n1' knows no word 'high'",
+        "n1,n1\n1,2\n": "line 1 names 'n1' twice",
+        "delta (deg),rho (deg)\n10,5,20,5\n": "points where commas are decimal: '10.5,20.5'",
+        "delta (deg);rho (deg)\n11;1.000,5\n": "line 2: '1.000,5' has a comma; write a point",
+    }.items():
+        (fault,) = told_in(text)
+        assert sentence in fault
     assert told_in("n1,delta (deg)\n1.5,20\nnan,120\n-1,130\n") == [
         "line 3: parameter 'n1' is 'nan', which is not finite; write a number",
         "line 4: parameter 'n1' is -1, outside its range; give 0 or more",
@@ -426,20 +348,14 @@ def test_faults_of_cells_are_told_with_their_lines(tmp_path):
     ]
     found = told_in("delta (deg)\n" + "100\n" * 50)
     assert [found[0][:7], found[-1]] == ["line 2:", "and 38 more"]
-
-
-@rows(
-    "coords, told",
-    [
-        ("nowhere.csv", "nowhere.csv: there is no such file; look at its name"),
-        (3, "coords is 3; give the name of a CSV file, a Dataset"),
-        ("before.nc", "give what it holds, coords=xr.open_dataset('before.nc')"),
-        ("before.zarr", "coords=xr.open_zarr('before.zarr')"),
-    ],
-)
-def test_coords_of_another_kind_are_told(coords, told):
-    (fault,) = refused(coords=coords)
-    assert fault.startswith(told) or fault.endswith(told)
+    for coords, sentence in {
+        "nowhere.csv": "nowhere.csv: there is no such file",
+        3: "coords is 3; give the name of a CSV file, a Dataset",
+        "before.nc": "give what it holds, coords=xr.open_dataset('before.nc')",
+        "before.zarr": "coords=xr.open_zarr('before.zarr')",
+    }.items():
+        (fault,) = refused(coords=coords)
+        assert sentence in fault
 
 
 MEASURED = xr.Dataset(
@@ -480,9 +396,7 @@ def test_coordinates_that_are_no_axes_are_told_with_a_cure():
     assert "coordinate 'k1' is along point, phi, and an axis has one dimension" in faults[1]
     assert grid(coords=several.drop_vars(["foo", "k1"])).points == 6
     (fault,) = refused(coords=MEASURED.rename_dims(point="k1"))
-    assert (
-        "is along the dimension 'k1', which is the name of a parameter with another axis" in fault
-    )
+    assert "is along the dimension 'k1', which is the name of a parameter with" in fault
 
 
 def test_the_dataset_of_a_sweep_gives_the_same_axes_again():
@@ -498,12 +412,16 @@ def test_the_dataset_of_a_sweep_gives_the_same_axes_again():
 def test_tables_are_no_axes_and_no_coords_and_what_to_give_is_told():
     pandas = pytest.importorskip("pandas")
     df = pandas.DataFrame(TWO)
-    (fault,) = refused({"delta": pandas.Series([0.1, 0.2])})
-    assert "give its numbers alone, .to_numpy()" in fault
-    (fault,) = refused({"delta": df})
-    assert "is a DataFrame; give one of its columns, such as df['delta'].to_numpy()" in fault
-    (fault,) = refused({"delta": xr.Dataset(coords=TWO)})
-    assert "is a Dataset; give one of its coordinates, such as ds['delta']" in fault
+    for table, told in (
+        ({"delta": df["delta"]}, "give its numbers alone, .to_numpy()"),
+        ({"delta": df}, "is a DataFrame; give one of its columns, such as df['delta'].to_numpy()"),
+        (
+            {"delta": xr.Dataset(coords=TWO)},
+            "is a Dataset; give one of its coordinates, such as ds",
+        ),
+    ):
+        (fault,) = refused(table)
+        assert told in fault
     (fault,) = refused(coords=df)
     assert fault.startswith("coords is a DataFrame; give a CSV file, a Dataset, or columns by name")
     assert "{'delta': df['delta'].to_numpy()}, and zip=" in fault

@@ -4,11 +4,13 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from multiprocessing import resource_tracker
 from multiprocessing.resource_tracker import ResourceTracker
 from pathlib import Path
+from unittest.mock import Mock
 
 import distributed
 import numpy as np
@@ -58,26 +60,20 @@ def holds_powers(store, blocks):
     return marked(store) == {*range(blocks)}
 
 
-def test_all_blocks_are_computed_once_and_kept(tmp_path):
+def test_all_blocks_are_computed_once_and_kept_as_a_dataset_without_the_record(tmp_path):
     for scheduler in (None, "synchronous", "threads"):
         log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
         assert keep_blocks(Powers(7, str(log)), store, scheduler) == store
         assert sorted(computed(log)) == list(range(7))
         assert holds_powers(store, 7)
-
-
-def test_a_store_is_a_dataset_with_names_and_units_and_without_the_record(store):
-    keep_blocks(Powers(3), store)
     with xr.open_zarr(store) as found:
-        assert {*found.data_vars} == {"power", "total"}
-        assert {*found.coords} == {"number", "called"}
+        assert ({*found.data_vars}, {*found.coords}) == ({"power", "total"}, {"number", "called"})
         assert found.power.dims == ("number", "exponent")
         assert found.power.attrs == {"units": "1", "long_name": "power"}
         assert found.number.attrs == {"units": "m"}
         assert found.called.values.tolist() == ["itself", "square", "cube"]
         assert found.attrs == {"path": "[vertices]\n", "title": "powers"}
-        assert found.power.dtype == "float64"
-        assert found.total.dtype == "int64"
+        assert (found.power.dtype, found.total.dtype) == ("float64", "int64")
 
 
 def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_path, store, log):
@@ -100,54 +96,44 @@ def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_pat
     assert len(computed(log)) < 50
 
 
-@rows("scheduler", ["synchronous", "threads"])
-def test_who_interrupts_keeps_what_is_done(tmp_path, scheduler):
-    log, store = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr"
-    with pytest.raises(KeyboardInterrupt):
-        keep_blocks(Powers(40, str(log)), store, scheduler, when(3, interrupt))
-    before = marked(store)
-    assert 3 <= len(before) < 40
-    already = len(computed(log))
-    keep_blocks(Powers(40, str(log)), store, scheduler)
-    assert sorted(computed(log)[already:]) == sorted({*range(40)} - before)
+def test_who_interrupts_keeps_what_is_done_and_has_it_counted(tmp_path):
+    for scheduler in ("synchronous", "threads"):
+        log, store, told = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr", []
+
+        def progress(done, _, told=told):
+            told.append(done)
+            if len(told) == 4:
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            keep_blocks(Powers(40, str(log), slow=0.02), store, scheduler, progress)
+        before = marked(store)
+        assert 3 <= len(before) == told[-1] < 40
+        assert told[-1] > told[-2] or scheduler == "synchronous"
+        already = len(computed(log))
+        keep_blocks(Powers(40, str(log)), store, scheduler)
+        assert sorted(computed(log)[already:]) == sorted({*range(40)} - before)
 
 
 def test_progress_is_told_from_what_was_done_to_the_end(store):
     told = []
-    with pytest.raises(op.ValueFault):
-        keep_blocks(Powers(4, fails_at=2), store, "synchronous", lambda *how: told.append(how))
-    keep_blocks(Powers(4), store, "synchronous", lambda *how: told.append(how))
-    assert told == [(0, 4), (1, 4), (2, 4), (2, 4), (3, 4), (4, 4)]
-    keep_blocks(Powers(4), store, "synchronous", lambda *how: told.append(how))
-    assert told[6:] == [(4, 4)]
-
-
-class Counting(AtOnce):
-    """Counts what it is given."""
-
-    given = 0
-
-    def submit(self, fn, /, *args, **kwargs):
-        self.given += 1
-        return super().submit(fn, *args, **kwargs)
+    for job in (Powers(4, fails_at=2), Powers(4), Powers(4)):
+        with suppress(op.ValueFault):
+            keep_blocks(job, store, "synchronous", lambda *how: told.append(how))
+    assert told == [(0, 4), (1, 4), (2, 4), (2, 4), (3, 4), (4, 4), (4, 4)]
 
 
 def test_no_more_is_handed_out_than_there_may_be_at_a_time(store):
-    executor, job = Counting(), Powers(20)
+    executor, job = Mock(wraps=AtOnce()), Powers(20)
     found = _handed_out(job, BlockStore.of(job, store), [*range(20)], Workers(executor, lambda: 6))
-    ahead = [executor.given - place for place, _ in enumerate(found)]
-    assert ahead[0] == 6
-    assert max(ahead) == 6
-    assert executor.given == 20
+    ahead = [executor.submit.call_count - place for place, _ in enumerate(found)]
+    assert (ahead[0], max(ahead), executor.submit.call_count) == (6, 6, 20)
 
 
 def test_two_runs_at_a_time_come_to_the_same_bits(store):
     job = Powers(30, slow=0.002)
-    runs = [threading.Thread(target=keep_blocks, args=(job, store)) for _ in "ab"]
-    for run in runs:
-        run.start()
-    for run in runs:
-        run.join()
+    with ThreadPoolExecutor(2) as executor:
+        assert [*executor.map(keep_blocks, [job] * 2, [store] * 2)] == [store] * 2
     assert holds_powers(store, 30)
 
 
@@ -169,34 +155,17 @@ def test_what_is_no_scheduler_or_does_not_answer_is_told(store, monkeypatch, sch
     assert not store.exists()
 
 
-def test_after_an_interrupt_the_blocks_that_came_to_their_end_are_counted(tmp_path):
-    told, store = [], tmp_path / "powers.zarr"
-
-    def progress(done, _):
-        told.append(done)
-        if len(told) == 2:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        keep_blocks(Powers(40, slow=0.05), store, "threads", progress)
-    assert told[-1] == len(marked(store)) > told[-2]
-
-
 TESTS = Path(__file__).parents[1]
+QUIET = {"dashboard_address": None, "silence_logs": "CRITICAL"}
 
 
 @pytest.fixture(scope="module")
 def cluster_client():
     """Two processes of one thread, which nannies start again when they die."""
+    scheduler = {"allowed_failures": 1, "dashboard_address": "127.0.0.1:0"}
+    options = {"n_workers": 2, "threads_per_worker": 1, "host": "127.0.0.1"}
     with (
-        distributed.LocalCluster(
-            n_workers=2,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address=None,
-            silence_logs="CRITICAL",
-            scheduler_kwargs={"allowed_failures": 1, "dashboard_address": "127.0.0.1:0"},
-        ) as cluster,
+        distributed.LocalCluster(**options, **QUIET, scheduler_kwargs=scheduler) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
     ):
         yield client
@@ -209,37 +178,38 @@ def client(cluster_client):
     return cluster_client
 
 
-def test_a_cluster_computes_every_block_once(store, log, client):
+def killing_one(client):
+    """Progress that ends a worker at five blocks; its process."""
+    victim = next(iter(client.run(os.getpid).values()))
+    return when(5, lambda: os.kill(victim, signal.SIGKILL)), victim
+
+
+def test_a_cluster_computes_every_block_once_and_tells_an_error_of_a_block_as_it_is(
+    tmp_path, store, log, client
+):
     told = []
     keep_blocks(Powers(9, str(log)), store, client, lambda *how: told.append(how))
     assert holds_powers(store, 9)
     assert sorted(computed(log)) == list(range(9))
     assert told == [(done, 9) for done in range(10)]
-
-
-def test_the_address_of_a_cluster_is_enough_and_the_client_that_is_active_is_taken(
-    tmp_path, store, client, monkeypatch
-):
+    store = tmp_path / "dark.zarr"
+    with pytest.raises(op.ValueFault, match="block 1 is dark"):
+        keep_blocks(Powers(3, fails_at=1), store, client)
+    # Its address is enough.
     keep_blocks(Powers(3), store, client.scheduler.address)
     assert holds_powers(store, 3)
+
+
+def test_the_client_that_is_active_is_taken(store, client, monkeypatch):
     monkeypatch.setattr(distributed, "default_client", lambda: client)
-    keep_blocks(WhoComputes(3), tmp_path / "who.zarr")
-    with xr.open_zarr(tmp_path / "who.zarr") as found:
+    keep_blocks(WhoComputes(3), store)
+    with xr.open_zarr(store) as found:
         pids = {*found.power.values.ravel().astype(int)}
     assert pids <= {*client.run(os.getpid).values()}
 
 
-def test_an_error_of_a_block_comes_from_a_cluster_as_it_is(store, client):
-    with pytest.raises(op.ValueFault, match="block 1 is dark"):
-        keep_blocks(Powers(3, fails_at=1), store, client)
-    keep_blocks(Powers(3), store, client)
-    assert holds_powers(store, 3)
-
-
 def test_a_worker_that_dies_loses_nothing(store, log, client):
-    victim = next(iter(client.run(os.getpid).values()))
-    kill = when(5, lambda: os.kill(victim, signal.SIGKILL))
-    keep_blocks(Powers(20, str(log), slow=0.02), store, client, kill)
+    keep_blocks(Powers(20, str(log), slow=0.02), store, client, killing_one(client)[0])
     assert holds_powers(store, 20)
     assert 20 <= len(computed(log)) <= 22
 
@@ -257,27 +227,29 @@ def test_a_block_that_kills_its_workers_is_told_and_the_others_stay(store, log, 
     assert kept.isdisjoint(computed(log)[already:])
 
 
-def test_a_job_that_a_worker_cannot_load_is_told_and_one_with_long_axes_is_sent(store, client):
+def test_a_job_that_a_worker_cannot_load_is_told_and_one_with_long_axes_is_sent(
+    store, client, monkeypatch
+):
     # The module of a test, as pytest imports it, is there in its own process alone.
     class Elsewhere(Powers):
         pass
 
     Elsewhere.__module__, Elsewhere.__qualname__ = "elsewhere", "Elsewhere"
-    sys.modules["elsewhere"] = type(sys)("elsewhere")
+    monkeypatch.setitem(sys.modules, "elsewhere", type(sys)("elsewhere"))
     sys.modules["elsewhere"].Elsewhere = Elsewhere
     with pytest.raises(JobError, match="a worker cannot load the job: No module named 'elsewhere'"):
         keep_blocks(Elsewhere(2), store, client)
-    del sys.modules["elsewhere"]
     # One with long axes is sent without a warning.
     keep_blocks(Powers(2, axis=b"p" * 12_000_000), store, client)
     assert holds_powers(store, 2)
 
 
 def test_a_cluster_that_is_lost_is_told_and_finished_blocks_stay(store):
-    options = {"processes": False, "dashboard_address": None, "silence_logs": "CRITICAL"}
-    options["scheduler_kwargs"] = {"dashboard_address": "127.0.0.1:0"}
+    scheduler = {"dashboard_address": "127.0.0.1:0"}
     with (
-        distributed.LocalCluster(n_workers=1, **options) as cluster,
+        distributed.LocalCluster(
+            n_workers=1, processes=False, **QUIET, scheduler_kwargs=scheduler
+        ) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
         pytest.raises(JobError, match=r"the cluster was lost.*; start again when it is back"),
     ):
@@ -288,26 +260,25 @@ def test_a_cluster_that_is_lost_is_told_and_finished_blocks_stay(store):
 def test_a_closed_client_and_a_cluster_itself_are_told(store, client):
     closed = distributed.Client(client.scheduler.address, set_as_default=False)
     closed.close()
-    with pytest.raises(JobError, match="client of the cluster is closed; give one that is conn"):
-        keep_blocks(Powers(3), store, closed)
-    with pytest.raises(JobError, match=r"give cluster.get_client\(\)"):
-        keep_blocks(Powers(3), store, client.cluster)
+    for scheduler, told in ((closed, "cluster is closed; give one"), (client.cluster, r"get_clie")):
+        with pytest.raises(JobError, match=told):
+            keep_blocks(Powers(3), store, scheduler)
 
 
 def test_processes_are_of_this_machine_and_gone_afterwards(store, log):
-    seen = set()
+    own, seen = psutil.Process(), set()
 
     def look(*_):
-        own = [psutil.Process(), *psutil.Process().children(recursive=True)]
-        ports = [each for process in own for each in process.net_connections("inet")]
-        seen.update(each.laddr.ip for each in ports if each.status == "LISTEN")
+        for process in (own, *own.children(recursive=True)):
+            ports = process.net_connections("inet")
+            seen.update(each.laddr.ip for each in ports if each.status == "LISTEN")
 
-    before = {each.pid for each in psutil.Process().children(recursive=True)}
+    before = {*own.children(recursive=True)}
     keep_blocks(Powers(5, str(log)), store, "processes", look)
     assert holds_powers(store, 5)
     assert seen == {"127.0.0.1"}
-    left = [each for each in psutil.Process().children(recursive=True) if each.pid not in before]
-    assert [each for each in left if "resource_tracker" not in " ".join(each.cmdline())] == []
+    left = {*own.children(recursive=True)} - before
+    assert not [each for each in left if "resource_tracker" not in " ".join(each.cmdline())]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no masks of signals")
@@ -378,11 +349,10 @@ def assert_same_bits(found, expected):
 
 
 def test_a_cluster_keeps_the_bits_of_one_process_though_a_worker_dies(tmp_path, client, alone):
-    found = swept(store=tmp_path / "sweep.zarr", chunks=CHUNKS, scheduler=client)
-    assert_same_bits(found, alone)
-    victim = next(iter(client.run(os.getpid).values()))
-    given = {"store": tmp_path / "other.zarr", "chunks": CHUNKS, "scheduler": client}
-    found = swept(**given, progress=when(3, lambda: os.kill(victim, signal.SIGKILL)))
+    given = {"chunks": CHUNKS, "scheduler": client}
+    assert_same_bits(swept(store=tmp_path / "sweep.zarr", **given), alone)
+    kill, victim = killing_one(client)
+    found = swept(store=tmp_path / "other.zarr", **given, progress=kill)
     assert not psutil.pid_exists(victim)
     assert_same_bits(found, alone)
 
@@ -394,19 +364,13 @@ def test_a_cluster_computes_dask_arrays_without_a_change(client, alone):
 
 
 def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, alone, monkeypatch):
-    store, computed, compute = tmp_path / "sweep.zarr", [], SweepBlock.compute
-
-    stopped = when(4, interrupt)
+    given, computed = {"store": tmp_path / "sweep.zarr", "chunks": CHUNKS}, []
     with pytest.raises(KeyboardInterrupt):
-        swept(store=store, chunks=CHUNKS, scheduler=client, progress=stopped)
-    there = {each.stem for each in (store / "blocks" / "done").glob("*.0")}
-
-    def counted(job, number):
-        computed.append(str(number))
-        return compute(job, number)
-
-    monkeypatch.setattr(SweepBlock, "compute", counted)
-    found = swept(store=store, chunks=CHUNKS, scheduler="synchronous")
+        swept(**given, scheduler=client, progress=when(4, interrupt))
+    there = marked(given["store"])
+    compute = SweepBlock.compute
+    monkeypatch.setattr(SweepBlock, "compute", lambda *a: computed.append(a[1]) or compute(*a))
+    found = swept(**given, scheduler="synchronous")
     assert len(there) >= 4
     assert not there & {*computed}
     assert_same_bits(found, alone)

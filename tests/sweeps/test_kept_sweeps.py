@@ -17,7 +17,7 @@ from optipath.sweeps.axes.read_axes import grid_of
 from optipath.sweeps.chunked.in_chunks import swept_in_chunks
 from optipath.sweeps.kept.sweep_block import SweepBlock
 from optipath.sweeps.kept.sweep_job import SweepJob
-from tables import rows, slow
+from tables import slow
 
 pytest.importorskip("zarr")
 pytest.importorskip("h5netcdf")
@@ -85,18 +85,13 @@ def test_what_any_scheduler_keeps_is_the_sweep_in_memory(store, scheduler):
     assert_same_bits(kept(store, scheduler=scheduler), swept())
 
 
-def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, computed):
-    counted = SweepBlock.compute
-
-    def interrupted(job, number):
-        if number == 4:
+def test_what_was_interrupted_goes_on_where_it_stopped(store, computed):
+    def interrupted(done, _):
+        if done == 4:
             raise KeyboardInterrupt
-        return counted(job, number)
 
-    with monkeypatch.context() as patch:
-        patch.setattr(SweepBlock, "compute", interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            kept(store, scheduler="synchronous")
+    with pytest.raises(KeyboardInterrupt):
+        kept(store, scheduler="synchronous", progress=interrupted)
     assert sorted(computed) == [0, 1, 2, 3]
     assert_same_bits(kept(store), swept())
     assert sorted(computed) == list(range(6))
@@ -112,10 +107,13 @@ def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store
 
 
 def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path, monkeypatch):
+    def mine(job, number):
+        file.write_text("mine")
+        return COMPUTE(job, number)
+
     store.write_text("mine")
     with pytest.raises((JobError, op.ParameterError), match="is there"):
         kept(store)
-    assert store.read_text() == "mine"
     os.mkfifo(tmp_path / "pipe.nc")
     (tmp_path / "device.nc").symlink_to("/dev/zero")
     for name in ("pipe.nc", "device.nc"):
@@ -124,15 +122,10 @@ def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path, monkeypatch
     # What came to be there meanwhile, too.
     file = tmp_path / "folder" / "sweep.nc"
     file.parent.mkdir()
-
-    def beside(job, number):
-        file.write_text("mine")
-        return COMPUTE(job, number)
-
-    monkeypatch.setattr(SweepBlock, "compute", beside)
+    monkeypatch.setattr(SweepBlock, "compute", mine)
     with pytest.raises(op.ParameterError, match="is there already"):
         kept(file)
-    assert file.read_text() == "mine"
+    assert file.read_text() == store.read_text() == "mine"
     assert {each.name for each in file.parent.iterdir()} == {"sweep.nc", ".sweep.nc.blocks"}
 
 
@@ -163,57 +156,45 @@ def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
     assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
 
 
+PROGRAM = """
+import numpy as np; import optipath as op
+op.load_preset('malus').sweep(angle=np.linspace(0.0, 1.5, 1000), store='sweep.nc').close()
+"""
+
+
 @pytest.mark.parametrize("place", [0.01, *map(slow, (0, 0.05, 0.3))])
 def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
-    file, angles = tmp_path / "sweep.nc", np.linspace(0.0, 1.5, 1000)
-    op.load_preset("malus").sweep(angle=angles, store=file).close()
-    content = bytearray(file.read_bytes())
+    def ended():  # Since HDF5 itself may abort at such a file, and its process with it.
+        program, pipes = [sys.executable, "-c", PROGRAM], {"capture_output": True, "text": True}
+        return subprocess.run(program, cwd=tmp_path, check=False, **pipes)
+
+    assert ended().returncode == 0
+    content = bytearray((tmp_path / "sweep.nc").read_bytes())
     start = int(place * len(content))
     content[start : start + 2000] = b"x" * 2000
-    file.write_bytes(content)
-    program = (
-        "import numpy as np; import optipath as op; angles = np.linspace(0.0, 1.5, 1000); "
-        "op.load_preset('malus').sweep(angle=angles, store='sweep.nc').close()"
-    )
-    ended = subprocess.run(  # Since HDF5 itself may abort at such a file, and its process with it.
-        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
-    assert ended.returncode <= 0 or "\noptipath.errors." in ended.stderr
-    assert file.read_bytes() == content
+    (tmp_path / "sweep.nc").write_bytes(content)
+    again = ended()
+    assert again.returncode <= 0 or "\noptipath.errors." in again.stderr
+    assert (tmp_path / "sweep.nc").read_bytes() == content
 
 
-@pytest.mark.filterwarnings("ignore:Consolidated metadata")
-def test_what_was_kept_can_be_written_elsewhere_in_any_version(tmp_path):
-    found = kept(tmp_path / "a.zarr")
-    for version in (2, 3):
-        copy = tmp_path / f"{version}.zarr"
-        found.to_zarr(copy, zarr_format=version)
-        assert_same_bits(xr.open_zarr(copy), swept())
-
-
-FORMS = r"ends in \.zarr or \.nc, such as '.+\.zarr'"
-LONG = op.Composer(dtype="longdouble")
-
-
-@rows(
-    "given, told",
-    [
+def test_what_stores_have_not_or_is_for_them_alone_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    long = op.Composer(dtype="longdouble")
+    named = ("sweep.csv", "sweep", "", 3, True, ".zarr", ".nc")
+    for given, told in (
         ({"scheduler": "threads"}, "scheduler= is for"),
         ({"progress": True}, "progress= is for"),
         ({"scheduler": "threads", "progress": True, "chunks": 2}, "scheduler= and progress= are"),
-        *(({"store": store}, FORMS) for store in ("sweep.csv", "sweep", "", 3, True)),
-        *(({"store": store}, r"such as 'sweep\.zarr'") for store in (".zarr", ".nc")),
+        *(({"store": store}, r"ends in \.zarr or \.nc, such as 'sweep\.zarr'") for store in named),
         *(
-            ({"store": f"sweep.{form}", "composer": LONG}, "stores have no numbers of dtype 'long")
+            ({"store": f"sweep.{form}", "composer": long}, "stores have no numbers of dtype 'long")
             for form in ("zarr", "nc")
             if np.longdouble != np.float64
         ),
-    ],
-)
-def test_what_stores_have_not_or_is_for_them_alone_is_refused(tmp_path, monkeypatch, given, told):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(op.ParameterError, match=told):
-        swept(**given)
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            swept(**given)
     assert not [*tmp_path.iterdir()]
 
 
@@ -224,10 +205,14 @@ def test_a_bar_ends_with_all_blocks(store, capsys):
     assert shown.endswith(f"[{'#' * 40}] 6 of 6 blocks\n")
 
 
-def test_a_store_that_was_moved_is_still_the_sweep_of_numbers_of_numpy_and_of_python(
-    tmp_path, computed
-):
-    kept(tmp_path / "a.zarr")
+@pytest.mark.filterwarnings("ignore:Consolidated metadata")
+def test_a_store_that_was_moved_or_written_elsewhere_is_still_the_sweep(tmp_path, computed):
+    found = kept(tmp_path / "a.zarr")
+    for version in (2, 3):
+        copy = tmp_path / f"{version}.zarr"
+        found.to_zarr(copy, zarr_format=version)
+        assert_same_bits(xr.open_zarr(copy), swept())
+    # Numbers of NumPy and of Python are the same.
     kept(tmp_path / "a.zarr", n=np.float64(1.5), delta=DELTAS.tolist())
     shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
     assert_same_bits(kept(tmp_path / "b.zarr"), swept())
@@ -262,51 +247,34 @@ def test_blocks_cover_the_grid_have_every_variable_and_are_the_same_when_pickled
     assert np.all(seen == 1)
     found = job.compute(5)
     assert found.keys() == job.arrays.keys()
-    for region, values in found.values():
-        assert region == (slice(8, 10), slice(4, 6))
-        assert values.shape == (2, 2)
+    regions = [(region, values.shape) for region, values in found.values()]
+    assert regions == [((slice(8, 10), slice(4, 6)), (2, 2))] * len(found)
     there = pickle.loads(pickle.dumps(job))
     assert there.identity == job.identity
     assert there.compute(2)["S1"][1].tobytes() == job.compute(2)["S1"][1].tobytes()
-
-
-SIX = np.linspace(0.0, 1.0, 6)
-
-
-@rows(
-    "one, other, same",
-    [
-        ({"n1": 0.2}, {"n1": np.float64(0.2)}, True),
-        ({"rho": 0.5}, {"rho": np.array(0.5)}, True),
-        ({"rho": "10 deg"}, {"rho": np.radians(10.0)}, False),
-        *(
-            ({"n1": 0.2}, {"n1": 0.2, **other}, False)
-            for other in (
-                {"n1": 0.2 + 1e-15},
-                {"phi": np.nextafter(SIX, 2.0)},
-                {"phi": [f"{value} deg" for value in np.degrees(SIX)]},
-                {"chunks": 5},
-                {"filter": "vertical"},
-            )
-        ),
-    ],
-)
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
-def test_whatever_changes_the_bits_or_the_units_is_another_identity(one, other, same):
-    assert (job_of(**one).identity == job_of(**other).identity) == same
-
-
-def test_the_first_line_that_differs_says_what_is_another():
-    lines = zip(*(job_of(n1=n).identity.splitlines() for n in (0.2, 0.3)), strict=True)
-    assert [pair for pair in lines if pair[0] != pair[1]] == [("fixed n1: 0.2", "fixed n1: 0.3")]
-
-
-def test_a_block_is_sent_without_the_axes_of_the_others():
+    # One is sent without the axes of the others.
     angle = np.linspace(0.0, 1.0, 20_000)
     job = job_of(100, "malus", angle=angle)
     whole, part = (len(pickle.dumps(each)) for each in (job, job.part(7)))
-    assert whole > angle.nbytes
-    assert part < angle.nbytes / 10
+    assert part < angle.nbytes / 10 < angle.nbytes < whole
     (region,), numbers = job.part(7).compute(7)["S0"]
     assert region == slice(700, 800)
     assert numbers.tolist() == op.load_preset("malus").sweep(angle=angle[region]).S0.values.tolist()
+
+
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_whatever_changes_the_bits_or_the_units_is_another_identity_and_its_line_says_what():
+    six, given = np.linspace(0.0, 1.0, 6), {"n1": 0.2, "rho": 0.5}
+    identity = job_of(**given).identity
+    assert identity == job_of(n1=np.float64(0.2), rho=np.array(0.5)).identity
+    for other in (
+        {"n1": 0.2 + 1e-15},
+        {"rho": f"{np.degrees(0.5)} deg"},
+        {"phi": np.nextafter(six, 2.0)},
+        {"phi": [f"{value} deg" for value in np.degrees(six)]},
+        {"chunks": 5},
+        {"filter": "vertical"},
+    ):
+        assert job_of(**given | other).identity != identity
+    lines = zip(*(job_of(n1=n).identity.splitlines() for n in (0.2, 0.3)), strict=True)
+    assert [pair for pair in lines if pair[0] != pair[1]] == [("fixed n1: 0.2", "fixed n1: 0.3")]

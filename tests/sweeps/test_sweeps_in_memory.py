@@ -27,31 +27,30 @@ PLAIN = op.Composer(engine="numpy", dtype="float32")
 
 def with_two_detectors():
     path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(2.0))
     sheet = path.add("filter", op.Polarizer(op.Parameter("angle")))
     glass = path.add("glass", op.Interface(1.5, op.Parameter("theta")))
-    lamp >> sheet >> glass
-    path.add("above", op.Detector())
-    path.add("below", op.Detector())
-    path.connect("glass.reflected", "above.in")
-    path.connect("glass.transmitted", "below.in")
+    path.add("lamp", op.Source(2.0)) >> sheet >> glass
+    for name, port in (("above", "reflected"), ("below", "transmitted")):
+        path[f"glass.{port}"] >> path.add(name, op.Detector())
     return path
 
 
 def assert_equals_the_loop(path, axes, **fixed):
     """Every variable has the bits that a run for one point alone has."""
     found = path.sweep(**axes, **fixed)
-    ends = found["detector"].values if "detector" in found.dims else [None]
+    angles = ("Psi", "Delta") if "Psi" in found else ("psi", "delta")
+    attributes = {
+        **DERIVED,
+        **{f"S{i}": f"S{i}" for i in range(4)},
+        **{n: n.lower() for n in angles},
+    }
     for point in product(*[range(len(values)) for values in axes.values()]):
         at = dict(zip(axes, point, strict=True))
         lights = path.trace_all(**{name: axes[name][i] for name, i in at.items()}, **fixed)
-        for end in ends:
-            part = found.isel(at) if end is None else found.isel(at).sel(detector=end)
-            light = next(iter(lights.values())) if end is None else lights[end]
-            stokes = [part[f"S{i}"].values for i in range(4)]
-            np.testing.assert_array_equal(stokes, light.stokes)
-            angles = ("Psi", "Delta") if "Psi" in found else ("psi", "delta")
-            for name, attribute in {**DERIVED, **{each: each.lower() for each in angles}}.items():
+        for end, light in lights.items():
+            part = found.isel(at)
+            part = part.sel(detector=end) if "detector" in found.dims else part
+            for name, attribute in attributes.items():
                 np.testing.assert_array_equal(part[name].values, getattr(light, attribute))
 
 
@@ -66,28 +65,15 @@ def test_a_sweep_of_a_random_path_is_the_loop_over_single_runs(seed):
     assert_equals_the_loop(path, axes, **fixed)
 
 
-SPECTRUM = {"wavelength": np.array([450e-9, 516e-9, 640e-9]), "phi": np.array([0.2, 0.9])}
-
-
-@rows(
-    "path, axes",
-    [
-        (
-            with_two_detectors(),
-            {"theta": np.linspace(0.0, 1.5, 4), "angle": np.linspace(-1.0, 1.0, 3)},
-        ),
-        (op.load_preset("copper-gold-spectrum"), SPECTRUM),
-    ],
-)
-def test_a_sweep_of_several_detectors_or_a_spectrum_is_the_loop_over_single_runs(path, axes):
-    assert_equals_the_loop(path, axes)
-
-
-def test_what_is_dark_but_for_rounding_has_no_polarisation_as_in_a_single_run():
+def test_a_sweep_of_detectors_a_spectrum_or_the_dark_is_the_loop_over_single_runs():
+    axes = {"theta": np.linspace(0.0, 1.5, 4), "angle": np.linspace(-1.0, 1.0, 3)}
+    assert_equals_the_loop(with_two_detectors(), axes)
+    axes = {"wavelength": np.array([450e-9, 516e-9, 640e-9]), "phi": np.array([0.2, 0.9])}
+    assert_equals_the_loop(op.load_preset("copper-gold-spectrum"), axes)
+    # What is dark but for rounding has no polarisation.
     angles = np.array([0.0, np.pi / 4, np.pi / 2])
     path = op.Source() >> op.Polarizer(0.0) >> op.Polarizer(op.Parameter("angle")) >> op.Detector()
-    found = path.sweep(angle=angles)
-    assert np.isnan(found.DoP.values).tolist() == [False, False, True]
+    assert np.isnan(path.sweep(angle=angles).DoP.values).tolist() == [False, False, True]
     assert_equals_the_loop(path, {"angle": angles})
 
 
@@ -105,19 +91,21 @@ def test_axes_that_vary_together_are_one_dimension_and_words_are_values_of_one()
     assert found["filter"].values.tolist() == ["none", "horizontal"]
 
 
-@rows("path, names", [(MALUS, ["angle"]), (with_two_detectors(), ["angle", "theta"])])
-def test_components_are_views_of_one_array_that_cannot_be_written_to(path, names):
-    found = path.sweep(**dict.fromkeys(names, np.linspace(0.1, 1.0, 300)))
-    s0, s1 = (found[name].values for name in ("S0", "S1"))
-    assert np.may_share_memory(s0, s1)
-    assert not s0.flags.writeable
+def test_components_are_views_of_one_array_that_cannot_be_written_to_and_a_deep_copy_can():
+    for path, names in ((MALUS, ["angle"]), (with_two_detectors(), ["angle", "theta"])):
+        found = path.sweep(**dict.fromkeys(names, np.linspace(0.1, 1.0, 300)))
+        assert np.may_share_memory(found.S0.values, found.S1.values)
+        assert not found.S0.values.flags.writeable
+        copied = found.copy(deep=True)
+        for name in copied.data_vars:
+            copied[name].values[0] = 0.0
+            assert not copied[name].values[0].any()
+        assert (found.S0.values > 0.0).all()
 
 
 def test_a_sweep_without_axes_is_a_single_run():
     found = MALUS.sweep(angle=0.3)
-    assert found.S0.shape == ()
-    assert found.S0 == MALUS.trace(angle=0.3).S0
-    assert found.DoP == 1.0
+    assert (found.S0.shape, found.S0, found.DoP) == ((), MALUS.trace(angle=0.3).S0, 1.0)
 
 
 def test_an_axis_on_which_an_element_does_not_depend_costs_no_evaluation(monkeypatch):
@@ -155,12 +143,11 @@ def test_tolerances_are_those_of_the_plan_and_what_a_detector_does_not_read_is_n
     deltas = np.linspace(0.0, 0.2, 5)
     found = path.sweep(delta=deltas, composer=composer)
     np.testing.assert_array_equal(found.S0.values, composer.compose(path).run(delta=deltas).S0)
-    assert found.attrs["tolerance"] == 0.01
+    assert found.tolerance == 0.01
     found = path.sweep(delta=[0.1, 0.2], phi=[0.3, 0.4, 0.5])
-    assert np.isnan(found.S1.values).all()
-    assert np.isnan(found.DoP.values).all()
-    assert not np.isnan(found.S0.values).any()
-    assert found.attrs["unread"] == "NaN: S1, S2 and S3 at E, which reads S0"
+    nan = [np.isnan(found[name].values).all() for name in ("S1", "DoP")]
+    assert (nan, np.isnan(found.S0.values).any()) == ([True, True], False)
+    assert found.unread == "NaN: S1, S2 and S3 at E, which reads S0"
 
 
 def test_faint_light_alone_has_its_polarisation_and_the_logarithm_of_its_intensity():
@@ -172,17 +159,6 @@ def test_faint_light_alone_has_its_polarisation_and_the_logarithm_of_its_intensi
     np.testing.assert_allclose(found.DoP.values, 0.5, rtol=1e-15)
     np.testing.assert_allclose(found.log10_intensity.values, [-600.0, np.log10(0.125)], rtol=1e-14)
     assert "log10_intensity" not in MALUS.sweep(angle=[0.1, 0.2])
-
-
-def test_a_deep_copy_can_be_written_to_as_the_docs_say():
-    found = MALUS.sweep(angle=[0.1, 0.2])
-    with pytest.raises(ValueError, match="read-only"):
-        found.S0.values[0] = 0.0
-    copied = found.copy(deep=True)
-    for name in copied.data_vars:
-        copied[name].values[0] = 0.0
-        assert copied[name].values[0] == 0.0
-    assert found.S0.values[0] > 0.0
 
 
 def test_more_than_is_free_is_one_sentence_with_cures(monkeypatch):
@@ -197,7 +173,6 @@ def test_more_than_is_free_is_one_sentence_with_cures(monkeypatch):
 
 MANY = dict.fromkeys(("delta", "phi", "rho", "intensity"), np.linspace(0.1, 1.0, 1_000_000))
 MANY["n1"] = 1.0 + MANY["delta"]
-OF_ENGINE = r"composer=op\.Composer\(engine='numpy'\)$"
 
 
 @rows(
@@ -205,19 +180,12 @@ OF_ENGINE = r"composer=op\.Composer\(engine='numpy'\)$"
     [
         (lambda: NPGR.sweep(delta=[0.1, 2.5]), "delta"),
         (lambda: MALUS.sweep(angle=[0.1], composer=op.Composer(keep="all")), "leave keep out"),
-        (
-            lambda: MALUS.sweep(angle=[0.1], composer="numba"),
-            "composer= takes a Composer, not 'numba'",
-        ),
+        (lambda: MALUS.sweep(angle=[0.1], composer="numba"), "takes a Composer, not 'numba'"),
         (lambda: NPGR.sweep(**MANY), r"not 1e\+30 paths.*; give fewer values"),
+        (lambda: NPGR.sweep(delta=DELTA, wavelength=WAVELENGTHS), "'wavelength' is unknown"),
         (
-            lambda: NPGR.sweep(delta=DELTA, wavelength=WAVELENGTHS),
-            "parameter 'wavelength' is unknown",
-        ),
-        (lambda: MALUS.propagate(angle=(0.1, 0.01), engine="numpy"), OF_ENGINE),
-        (
-            lambda: MALUS.propagate(angle=(0.1, 0.01), agle=1.0),
-            r"parameter 'agle' is unknown; did you mean",
+            lambda: MALUS.propagate(angle=(0.1, 0.01), engine="numpy"),
+            r"composer=op\.Composer\(engine='numpy'\)$",
         ),
     ],
 )
@@ -237,17 +205,17 @@ def test_options_of_a_composer_are_given_in_one():
     assert MALUS.sweep(angle=[0.1], composer=PLAIN).S0.dtype == "float32"
 
 
-@rows("options", [{}, {"dtype": "float32"}, {"composing": "jones"}])
-def test_a_run_takes_little_more_than_was_told(options):
-    plan = op.Composer(engine="numpy", **options).compose(op.load_preset("npgr026"))
+def test_a_run_takes_little_more_than_was_told():
     axis, points = np.linspace(0.1, 1.0, 400), 400**2
     given = {"delta": axis[:, None], "phi": axis}
-    plan.run(**given)
-    tracemalloc.start()
-    plan.run(**given)
-    _, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert peak / points <= 1.6 * memory_of.bytes_of_a_point(plan, points)
+    for options in ({}, {"dtype": "float32"}, {"composing": "jones"}):
+        plan = op.Composer(engine="numpy", **options).compose(op.load_preset("npgr026"))
+        plan.run(**given)
+        tracemalloc.start()
+        plan.run(**given)
+        _, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        assert peak / points <= 1.6 * memory_of.bytes_of_a_point(plan, points)
 
 
 def test_limits_of_the_process_and_of_the_container_count(monkeypatch):
@@ -265,9 +233,7 @@ DELTA = np.linspace(0.1, 1.4, 5)
 GIVEN = ("--wavelength", "400 nm:700 nm:4")
 
 
-@pytest.fixture
-def idle():
-    return IdleValues(WAVELENGTHS * 1e9, "nm", WAVELENGTHS)
+IDLE = IdleValues(WAVELENGTHS * 1e9, "nm", WAVELENGTHS)
 
 
 def assert_same_along(found, alone):
@@ -277,32 +243,29 @@ def assert_same_along(found, alone):
         assert all(one.to_numpy().tobytes() == each.to_numpy().tobytes() for one in along)
 
 
-@rows("first", [True, False])
-@rows("chunks", [None, 2, {"wavelength": 1}])
-def test_all_is_the_same_along_an_idle_axis_to_the_last_bit(first, chunks, idle):
+def test_all_is_the_same_along_an_idle_axis_to_the_last_bit():
     given = {"delta": DELTA, "filter": np.array([0.3, 1.5])}
-    axes = {"wavelength": idle, **given} if first else {**given, "wavelength": idle}
-    found = NPGR.sweep(**axes, chunks=chunks)
-    assert list(found.sizes)[0 if first else -1] == "wavelength"
-    assert found.wavelength.attrs == {"long_name": "nothing depends on it", "units": "nm"}
-    assert_same_along(found, NPGR.sweep(**given))
-
-
-def test_parts_of_variables_and_noise_are_the_same_along_it(idle):
-    found, alone = NPGR.sweep(wavelength=idle, delta=DELTA), NPGR.sweep(delta=DELTA)
+    alone = NPGR.sweep(**given)
+    for chunks, place in product((None, 2, {"wavelength": 1}), (0, -1)):
+        axes = {"wavelength": IDLE, **given} if place == 0 else {**given, "wavelength": IDLE}
+        found = NPGR.sweep(**axes, chunks=chunks)
+        assert list(found.sizes)[place] == "wavelength"
+        assert found.wavelength.attrs == {"long_name": "nothing depends on it", "units": "nm"}
+        assert_same_along(found, alone)
+    found, alone = NPGR.sweep(wavelength=IDLE, delta=DELTA), NPGR.sweep(delta=DELTA)
     assert found.DoP[1:3, ::2].to_numpy().tolist() == [alone.DoP[::2].to_numpy().tolist()] * 2
     assert float(found.AoP[3, 4]) == float(alone.AoP[4])
     assert found.DoLP[:0].shape == (0, 5)
     angle = np.radians([30.0, 90.0])
-    found = MALUS.sweep(wavelength=idle, angle=angle)
+    found = MALUS.sweep(wavelength=IDLE, angle=angle)
     assert_same_along(found, MALUS.sweep(angle=angle))
     assert np.isnan(found.DoP[:, 1]).all()
 
 
-def test_an_idle_axis_alone_has_one_light_and_varies_together_with_another(idle, monkeypatch):
-    assert_same_along(NPGR.sweep(wavelength=idle), NPGR.sweep())
-    assert_same_along(NPGR.sweep(wavelength=idle, chunks=3).compute(), NPGR.sweep())
-    found = NPGR.sweep(delta=DELTA[:4], wavelength=idle, zip=("delta", "wavelength"))
+def test_an_idle_axis_alone_has_one_light_and_varies_together_with_another(monkeypatch):
+    assert_same_along(NPGR.sweep(wavelength=IDLE), NPGR.sweep())
+    assert_same_along(NPGR.sweep(wavelength=IDLE, chunks=3).compute(), NPGR.sweep())
+    found = NPGR.sweep(delta=DELTA[:4], wavelength=IDLE, zip=("delta", "wavelength"))
     assert dict(found.sizes) == {"delta_wavelength": 4}
     assert found.S0.to_numpy().tolist() == NPGR.sweep(delta=DELTA[:4]).S0.to_numpy().tolist()
     shapes, lights = [], Answers.lights
@@ -312,45 +275,44 @@ def test_an_idle_axis_alone_has_one_light_and_varies_together_with_another(idle,
         return lights(answers, given)
 
     monkeypatch.setattr(Answers, "lights", seen)
-    NPGR.sweep(delta=DELTA, wavelength=idle)
+    NPGR.sweep(delta=DELTA, wavelength=IDLE)
     assert shapes == [(5, 1)]  # It is run at one value.
 
 
 def test_the_command_line_writes_it_in_every_form(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     given = ["sweep", "npgr026", "--delta", "10:80:3", *GIVEN]
-    alone = NPGR.sweep(delta="10 deg:80 deg:3")
+    alone, four = NPGR.sweep(delta="10 deg:80 deg:3"), [400.0, 500.0, 600.0, 700.0]
     told = "nothing in 'npgr026' depends on the wavelength; all is the same along it"
     for form in ("json", "csv", "nc", "zarr"):
         by = ["--scheduler", "synchronous"] if form in ("nc", "zarr") else []
         assert main([*given, "--out", f"a.{form}", *by]) == 0
-        captured = capsys.readouterr()
-        assert captured.err == f"optipath: {told}\n"
-        assert captured.out == f"wrote a.{form}: 12 points (delta 3, wavelength 4)\n"
-    with xr.open_zarr("a.zarr") as found:
-        assert_same_along(found.load(), alone)
-        assert found.wavelength.to_numpy().tolist() == [400.0, 500.0, 600.0, 700.0]
-    with xr.open_dataset("a.nc") as found:
-        assert_same_along(found.load(), alone)
+        wrote = f"wrote a.{form}: 12 points (delta 3, wavelength 4)\n"
+        assert capsys.readouterr() == (wrote, f"optipath: {told}\n")
+    for opened in (xr.open_zarr("a.zarr"), xr.open_dataset("a.nc")):
+        with opened as found:
+            assert_same_along(found.load(), alone)
+            assert found.wavelength.to_numpy().tolist() == four
     laid_out = np.repeat(alone.S0.to_numpy(), 4).tolist()
     with (tmp_path / "a.csv").open(encoding="utf-8") as file:
         assert [float(row["S0"]) for row in csv.DictReader(file)] == laid_out
     found = json.loads((tmp_path / "a.json").read_bytes())
-    assert found["axes"]["wavelength"] == {"unit": "nm", "values": [400.0, 500.0, 600.0, 700.0]}
+    assert found["axes"]["wavelength"] == {"unit": "nm", "values": four}
     stokes = np.array(found["detectors"]["E"]["stokes"])
     assert stokes[..., 0].ravel().tolist() == laid_out
 
 
 def test_tables_have_it_too_and_errors_that_are_allowed_are_the_same_along_it(capsys, monkeypatch):
+    def lines_of(*line):
+        assert main([*line, *GIVEN]) == 0
+        return [line.split() for line in capsys.readouterr().out.splitlines()]
+
     monkeypatch.setenv("COLUMNS", "80")
-    assert main(["sweep", "malus", "--angle", "0:90:3", *GIVEN]) == 0
-    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
-    assert ["45", *["0.25"] * 4] in lines
-    assert main(["run", "malus", *GIVEN]) == 0
-    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
-    light = [line for line in lines if line[:1] and line[0] in ("400", "500", "600", "700")]
-    assert len(light) == 4
-    assert len({*map(tuple, [line[1:] for line in light])}) == 1
+    assert ["45", *["0.25"] * 4] in lines_of("sweep", "malus", "--angle", "0:90:3")
+    lines = [
+        line for line in lines_of("run", "malus") if {*line[:1]} & {"400", "500", "600", "700"}
+    ]
+    assert (len(lines), len({tuple(line[1:]) for line in lines})) == (4, 1)
     given = ["npgr026", "--tolerance", "0.1", "--reads", "intensity", "--rho", "0"]
     given += ["--filter", "horizontal", "--json", "--delta"]
     for angles, shape in (("10, 20", (2, 4)), ("10", (4,))):
@@ -358,14 +320,9 @@ def test_tables_have_it_too_and_errors_that_are_allowed_are_the_same_along_it(ca
         found = json.loads(capsys.readouterr().out)["tolerance"]["error"]
         assert np.shape(found) == shape
         assert np.ptp(found, axis=-1).max() == 0.0
-
-
-def test_what_is_no_axis_of_wavelengths_is_told(capsys):
-    assert main(["run", "malus", "--wavelength", "500 nm", "--json"]) == 0
-    captured = capsys.readouterr()
-    assert "axes" not in json.loads(captured.out)
-    assert "--wavelength is not used" in captured.err
-    assert main(["explain", "malus", *GIVEN]) == 2
-    assert "--wavelength is given several values" in capsys.readouterr().err
-    assert main(["sweep", "malus", "--wavelength", "-400 nm:700 nm:4"]) == 2
-    assert "wavelength" in capsys.readouterr().err
+    for line, told in (
+        (["explain", "malus", *GIVEN], "--wavelength is given several values"),
+        (["sweep", "malus", "--wavelength", "-400 nm:700 nm:4"], "wavelength"),
+    ):
+        assert main(line) == 2
+        assert told in capsys.readouterr().err

@@ -4,6 +4,7 @@ import copy
 import pickle
 import subprocess
 import sys
+from itertools import product
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ DARKENED = op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()
 GLASS = op.Source() >> op.Interface(op.Parameter("m"), 0.3) >> op.Detector()
 BARE = op.Source(op.Parameter("i")) >> op.Detector()
 DIAGONAL = op.Source(stokes=[1, 0, 1, 0])
+METHODS = ("differences", "monte-carlo")
 
 
 def by_slopes(path, /, **given):
@@ -64,37 +66,36 @@ def test_a_path_that_jax_does_not_trace_or_takes_long_for_has_differences_and_it
     assert found.method.startswith("differences, since JAX takes long for 1,0")
 
 
-def test_importing_what_propagates_brings_neither_jax_nor_xarray():
-    code = "import optipath as op; op.load_preset('malus').propagate(angle=(0.5, 0.01), "
-    code += "method='differences'); import sys; print({'jax', 'xarray', 'dask'} & {*sys.modules})"
+def test_what_propagates_and_what_reads_axes_bring_neither_jax_nor_xarray():
+    code = """import sys; import optipath as op; from optipath.sweeps.axes.read_axes import grid_of
+path = op.load_preset("malus"); path.propagate(angle=(0.5, 0.01), method="differences")
+grid_of(path.compose().inputs, {"angle": [0.1]}); print({"jax", "xarray", "dask"} & {*sys.modules})
+"""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"
 
 
 def test_one_of_several_detectors_is_named():
     path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(op.Parameter("i")))
-    lamp >> path.add("cube", op.BeamSplitter(op.Parameter("t", 0.3)))
+    cube = path.add("cube", op.BeamSplitter(op.Parameter("t", 0.3)))
+    path.add("lamp", op.Source(op.Parameter("i"))) >> cube
     for name, port in (("ahead", "transmitted"), ("aside", "reflected")):
-        path.add(name, op.Detector())
-        path.connect(f"cube.{port}", name)
+        path[f"cube.{port}"] >> path.add(name, op.Detector())
     (fault,) = refused(path, i=(2.0, 0.1))
     assert "use propagate(detector='ahead', ...)" in fault
-    lights = path.trace_all(i=2.0)
-    for name in ("ahead", "aside"):
+    for name, light in path.trace_all(i=2.0).items():
         found = by_slopes(path, detector=name, i=(2.0, 0.1))
-        assert found.light == lights[name]
-        np.testing.assert_allclose(found.uncertainty_of("S0"), 0.05 * lights[name].intensity)
+        assert found.light == light
+        np.testing.assert_allclose(found.uncertainty_of("S0"), 0.05 * light.intensity)
 
 
-@rows("method", ["differences", "monte-carlo"])
-@rows("options", [{"dtype": "float32"}, {"composing": "jones"}])
-def test_a_composer_is_asked_for_the_light(method, options):
-    composer = op.Composer(**options)
-    found = MALUS.propagate(angle=(0.5, 0.01), method=method, composer=composer)
-    assert found.light == composer.compose(MALUS).run(angle=0.5)
-    rough = {"rtol": 1e-9 if method == "differences" else 0.05}
-    np.testing.assert_allclose(found.uncertainty_of("S0"), 0.005 * np.sin(1.0), **rough)
+def test_a_composer_is_asked_for_the_light():
+    for method, options in product(METHODS, ({"dtype": "float32"}, {"composing": "jones"})):
+        composer = op.Composer(**options)
+        found = MALUS.propagate(angle=(0.5, 0.01), method=method, composer=composer)
+        assert found.light == composer.compose(MALUS).run(angle=0.5)
+        rough = {"rtol": 1e-9 if method == "differences" else 0.05}
+        np.testing.assert_allclose(found.uncertainty_of("S0"), 0.005 * np.sin(1.0), **rough)
 
 
 @rows(
@@ -110,16 +111,14 @@ def test_a_composer_is_asked_for_the_light(method, options):
     ],
 )
 def test_what_is_no_option_is_refused(options, told):
-    with pytest.raises(op.ParameterError) as fault:
-        MALUS.propagate(angle=(0.5, 0.01), **options)
-    assert told in str(fault.value)
+    (fault,) = refused(MALUS, angle=(0.5, 0.01), **options)
+    assert told in fault
 
 
 def test_a_parameter_that_is_called_as_an_option_is_told_with_a_cure_that_works():
     path = op.Source(op.Parameter("seed")) >> op.Attenuator(op.Parameter("t")) >> op.Detector()
-    with pytest.raises(op.ParameterError, match=r"path\.bind\(seed=\.\.\.\)") as fault:
-        path.propagate(t=(0.5, 0.1), seed=3)
-    assert len(fault.value.faults) == 1
+    (fault,) = refused(path, t=(0.5, 0.1), seed=3, method="auto")
+    assert "path.bind(seed=...)" in fault
     found = by_slopes(path.bind(seed=3.0), t=(0.5, 0.1))
     np.testing.assert_allclose(found.uncertainty_of("S0"), 0.3)
     # As that for complex values does.
@@ -141,11 +140,11 @@ def test_what_cannot_be_asked_is_refused(monkeypatch):
 def test_the_answer_is_a_table_with_its_notes_below():
     found = by_slopes(MALUS, angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002))
     lines = str(found).splitlines()
-    assert lines[0] == "differences: angle = 30 deg +- 0.1 deg; intensity = 1 +- 0.002"
-    assert lines[1].split() == ["value", "uncertainty", "angle", "intensity"]
-    assert lines[2].split() == ["S0", "0.3750", "0.0011", "50", "%", "50", "%"]
-    assert lines[8].split() == ["AoP", "30.00", "deg", "0.10", "deg", "100", "%", "0", "%"]
     assert len(lines) == 12
+    words = [" ".join(line.split()) for line in lines]
+    assert words[1:3] == ["value uncertainty angle intensity", "S0 0.3750 0.0011 50 % 50 %"]
+    assert words[8] == "AoP 30.00 deg 0.10 deg 100 % 0 %"
+    assert lines[0] == "differences: angle = 30 deg +- 0.1 deg; intensity = 1 +- 0.002"
     lines = str(by_slopes(MALUS, angle=(["30 deg", "45 deg"], "0.1 deg"))).splitlines()
     assert lines[0] == "differences, shape (2,): angle, shape (2,)"
     assert "0.25 .. 0.375" in lines[2]
@@ -182,43 +181,30 @@ def test_an_uncertainty_equals_that_of_the_same_and_its_copies_and_nobody_can_ch
         made.mean = 0.0
 
 
-@rows(
-    "path, one, same",
-    [
+def test_texts_and_words_have_units_of_their_own_each_and_lists_and_arrays_are_exact():
+    for path, one, same in (
         (MALUS, {"angle": ("30 deg", "1 mrad")}, {"angle": (np.radians(30.0), 0.001)}),
         (NPGR, {"filter": ("diagonal", "1 deg")}, {"filter": ("45 deg", "1 deg")}),
-    ],
-)
-def test_texts_and_words_have_units_of_their_own_each(path, one, same):
-    found, other = (by_slopes(path, **given).uncertainties for given in (one, same))
-    np.testing.assert_array_equal(found, other)
+    ):
+        found, other = (by_slopes(path, **given).uncertainties for given in (one, same))
+        np.testing.assert_array_equal(found, other)
     path = op.load_preset("copper-gold-spectrum")
     found = by_slopes(path, wavelength=("516 nm", "1 nm")).uncertainty_of("S0")
     above, below = (path.trace(wavelength=at).intensity for at in (516.001e-9, 515.999e-9))
     np.testing.assert_allclose(found, abs(above - below) / 0.002, rtol=1e-6)
-
-
-def test_lists_and_arrays_are_exact_and_uncertainties_may_have_more_axes_than_values():
     found = by_slopes(MALUS, angle=["10 deg", "30 deg"], intensity=(2.0, [0.1, 0.2]))
     expected = np.cos(np.radians([10.0, 30.0])) ** 2 / 2.0 * [0.1, 0.2]
     np.testing.assert_allclose(found.uncertainty_of("S0"), expected)
+    # Uncertainties may have more axes than values.
     found = by_slopes(MALUS, angle=(0.5, [[0.1], [0.2]]))
     assert found.light.shape == found.uncertainty_of("S0").shape == (2, 1)
 
 
 def test_every_fault_is_told_at_once():
-    faults = refused(
-        NPGR,
-        delta=("48 deg", "0.1 mm"),
-        n1=(1.5, -0.1),
-        k1=(0.1, np.nan),
-        n2=(1.5, 0.1, 0.2),
-        phy=(0.1, 0.2),
-        k2=(-1.0, 0.1),
-        filter=("none", 0.1),
-    )
-    assert len(faults) == 7
-    told = "\n".join(faults)
+    given = {"delta": ("48 deg", "0.1 mm"), "n1": (1.5, -0.1), "k1": (0.1, np.nan)}
+    given |= {"n2": (1.5, 0.1, 0.2), "phy": (0.1, 0.2), "k2": (-1.0, 0.1), "filter": ("none", 0.1)}
+    faults = refused(NPGR, **given)
+    assert len(faults) == len(given)
     for words in (
         "uncertainty of parameter 'delta': '0.1 mm' is no angle; use one of deg, rad",
         "uncertainty of parameter 'n1' is -0.1; give a finite number of 0 or more",
@@ -228,18 +214,16 @@ def test_every_fault_is_told_at_once():
         "parameter 'k2' is -1, outside its range; give 0 or more",
         "parameter 'filter' is 'none', which takes an element out of the path",
     ):
-        assert words in told
+        assert words in "\n".join(faults)
     path = op.Source(op.Parameter("a")) >> op.Attenuator(op.Parameter("b")) >> op.Detector()
-    assert refused(path, a=(1.0, -1.0)) == (
-        "the standard uncertainty of parameter 'a' is -1; give a finite number of 0 or more",
-        "parameter 'b' has no value; give one, b=...",
-    )
+    first, second = refused(path, a=(1.0, -1.0))
+    assert "of parameter 'a' is -1; give a finite number of 0 or more" in first
+    assert second == "parameter 'b' has no value; give one, b=..."
 
 
+CORNER = [[0.0, 0, 2], [0, 0, 0], [0, 2, 0]]
 VERTICES = op.path_from_vertices(op.Parameter("points"), materials=[1.5])
-POINTS = np.array([[0.0, 0, 2], [0, 0, 0], [0, 2, 0]])
 IN_PARTS = "op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
-SEVERAL = "several numbers, which have no uncertainty here; give them exactly"
 
 
 @rows(
@@ -250,11 +234,15 @@ SEVERAL = "several numbers, which have no uncertainty here; give them exactly"
         (GLASS, {"m": ([1.5, 0.2], 0.1)}, "may be n and k, or the indices of two paths"),
         (GLASS, {"m": (1.5 + 0.1j, 0.1)}, IN_PARTS),
         (GLASS, {"m": (op.Material(1.5, 0.1), 0.1)}, IN_PARTS),
-        (VERTICES, {"points": (POINTS, 0.1)}, SEVERAL),
-        *(
-            (MALUS, {"intensity": (1.0, sigma)}, "the standard uncertainty of parameter 'intens")
-            for sigma in (1j, None, "wide", [0.1, [0.2]], True)
+        (VERTICES, {"points": (CORNER, 0.1)}, "several numbers, which have no uncertainty here"),
+        (
+            MALUS,
+            {"intensity": (1.0, 1j)},
+            "the standard uncertainty of parameter 'intensity' is com",
         ),
+        (MALUS, {"intensity": (1.0, "wide")}, "the standard uncertainty of parameter 'intensity'"),
+        (MALUS, {"intensity": (1.0, [0.1, [0.2]])}, "the standard uncertainty of parameter 'inten"),
+        (MALUS, {"intensity": (1.0, True)}, "the standard uncertainty of parameter 'intensity' is"),
     ],
 )
 def test_what_has_no_uncertainty_is_refused(path, given, told):
@@ -262,7 +250,7 @@ def test_what_has_no_uncertainty_is_refused(path, given, told):
     assert told in fault
 
 
-@rows("method", ["differences", "monte-carlo"])
+@rows("method", METHODS)
 @rows(
     "given, about",
     [
@@ -275,28 +263,22 @@ def test_a_number_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_use
     method, given, about
 ):
     by_slopes(ANALYZED, a=("720 deg", "1 deg"))  # With a unit there is no warning.
-    with pytest.warns(op.AngleWarning) as told:
+    with pytest.warns(op.AngleWarning, match=f"^{about}") as told:
         DARKENED.propagate(a=given, method=method)
-    (warning,) = told
-    assert str(warning.message).startswith(about)
-    assert warning.filename == __file__
+    assert [warning.filename for warning in told] == [__file__]
 
 
-@rows(
-    "options, words",
-    [
+def test_every_wrong_option_and_pair_is_told_but_that_of_a_value_that_cannot_be_read():
+    for options, words in (
         ({"seed": -1, "correlation": 2}, ["seed", "correlation must be a mapping"]),
-        ({"samples": 1, "correlation": 4}, ["samples", "correlation must be a mapping"]),
         ({"samples": 1, "correlation": {("a", "b"): 2}}, ["samples", "names 'b'"]),
-    ],
-)
-def test_what_is_wrong_with_options_and_with_correlation_is_told_at_once(options, words):
-    faults = refused(DARKENED, a=(0.1, 0.1), method="monte-carlo", **options)
-    assert len(faults) == len(words)
-    assert all(word in told for word, told in zip(words, faults, strict=True))
-
-
-INDICES = {"n1": (1.5, 0.1), "k1": (0.2, 0.1), "n2": (1.5, 0.1)}
+        ({"correlation": {("a", "b"): 0.1, ("a", "c"): 0.1}}, ["names 'b'", "names 'c'"]),
+    ):
+        faults = refused(DARKENED, a=(0.1, 0.1), method="monte-carlo", **options)
+        assert all(word in told for word, told in zip(words, faults, strict=True))
+    given = {"n1": (1.5, -0.1), "k1": (0.2, 0.1), "correlation": {("n1", "k1"): 0.3}}
+    (told,) = refused(NPGR, **given, method="auto")
+    assert "the standard uncertainty of parameter 'n1' is" in told
 
 
 @rows(
@@ -310,25 +292,16 @@ INDICES = {"n1": (1.5, 0.1), "k1": (0.2, 0.1), "n2": (1.5, 0.1)}
         ({("n1", "k1"): 0.1, ("k1", "n1"): 0.1}, "is given twice"),
         ([0.3], "must be a mapping"),
         # 1, -1 and 1: what goes with n1 and against k1 cannot go with both.
-        (
-            {("n1", "k1"): -0.9, ("n1", "n2"): 0.9, ("k1", "n2"): 0.9},
-            "has the eigenvalue -0.8",
-        ),
+        ({("n1", "k1"): -0.9, ("n1", "n2"): 0.9, ("k1", "n2"): 0.9}, "has the eigenvalue -0.8"),
     ],
 )
 def test_what_is_no_correlation_is_refused(correlation, told):
-    (fault,) = refused(NPGR, **INDICES, correlation=correlation)
+    indices = {"n1": (1.5, 0.1), "k1": (0.2, 0.1), "n2": (1.5, 0.1)}
+    (fault,) = refused(NPGR, **indices, correlation=correlation)
     assert told in fault
 
 
-def test_every_wrong_pair_is_told_but_that_of_a_value_that_cannot_be_read():
-    assert len(refused(NPGR, **INDICES, correlation={("n1", "k2"): 0.1, ("n1", "k1"): 2.0})) == 2
-    given = {"n1": (1.5, -0.1), "k1": (0.2, 0.1), "correlation": {("n1", "k1"): 0.3}}
-    (told,) = refused(NPGR, **given, method="auto")
-    assert "the standard uncertainty of parameter 'n1' is" in told
-
-
-@rows("method", ["differences", "monte-carlo"])
+@rows("method", METHODS)
 def test_what_is_wholly_correlated_may_cancel(method):
     # Two turns against each other: only their sum is seen.
     turned = LAMP >> op.Rotator(op.Parameter("a")) >> op.Rotator(op.Parameter("b"))
@@ -391,15 +364,12 @@ def test_corners_of_degrees_and_angles_have_no_uncertainty():
     assert np.isnan(by_slopes(circular, r=(np.pi / 2, 0.01)).uncertainty_of("ellipticity"))
 
 
-def test_light_too_faint_for_a_float_has_none_and_says_so_and_other_light_has_its_share():
+def test_light_too_faint_for_a_float_has_none_and_says_so():
     faint = op.Attenuator(1e-200)
     path = op.Source(op.Parameter("i")) >> faint >> op.Attenuator(1e-200) >> op.Detector()
     found = by_slopes(path, i=(1.0, 0.1))
     assert np.isnan(found.uncertainties).all()
     assert found.notes == ("nan: the light of 1 in 1 paths is too faint or bright for a float",)
-    for share in (1e-150, 1e150):
-        found = by_slopes(BARE, i=(share, 0.1 * share))
-        np.testing.assert_allclose(found.uncertainty_of("S0"), 0.1 * share, rtol=1e-9)
 
 
 def test_a_jump_within_three_uncertainties_is_told():
