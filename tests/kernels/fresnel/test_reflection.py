@@ -17,6 +17,7 @@ from tables import rows
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 8.0))
 ANGLES = st.floats(0.0, np.pi / 2)
+STABLE = REFLECTION.by_method("stable")
 
 
 def by_amplitudes(n, k, c, s):
@@ -44,84 +45,65 @@ def test_stable_reflection_agrees_with_50_digit_amplitudes(n, k, angle):
 
 
 @rows("method", METHODS)
-def test_a_metal_agrees_with_50_digit_amplitudes_by_every_method(method):
+def test_a_metal_and_normal_incidence_on_glass_are_exact_by_every_method_in_its_precision(method):
     numbers = op.fresnel_reflection(0.608 + 2.12j, 0.8, 0.6, method=method)
     np.testing.assert_allclose(numbers, by_amplitudes(0.608, 2.12, 0.8, 0.6), rtol=1e-13)
+    numbers = op.fresnel_reflection(1.5, 1.0, 0.0, method)
+    np.testing.assert_allclose(numbers, [0.04, 0.0, -0.04, 0.0], rtol=0, atol=1e-16)
+    for dtype in ("float32", "float64"):
+        for function in (op.fresnel_reflection, op.fresnel_transmission):
+            for index in (1.5, [1.5, 0.2 + 3j]):
+                found = function(index, 0.8, 0.6, method, dtype)
+                assert {number.dtype for number in found} == {np.dtype(dtype)}
 
 
 @rows("method", METHODS)
 @given(n=INDICES, k=EXTINCTIONS, angle=ANGLES)
-def test_reflection_never_gives_more_than_it_gets(method, n, k, angle):
-    A, B, C, S = op.fresnel_reflection(complex(n, k), np.cos(angle), np.sin(angle), method)
+def test_reflection_never_gives_more_than_it_gets_and_the_rest_is_let_through(method, n, k, angle):
+    given_ = (complex(n, k), np.cos(angle), np.sin(angle), method)
+    (A, B, C, S), (TA, TB, TC, TS) = (
+        function(*given_) for function in (op.fresnel_reflection, op.fresnel_transmission)
+    )
     assert 0.0 <= A <= 1.0 + 1e-14
     assert abs(B) <= A
     # A reflection does not depolarise: A^2 = B^2 + C^2 + S^2.
     assert abs(A * A - B * B - C * C - S * S) <= 1e-14
-
-
-@rows("method", METHODS)
-def test_normal_incidence_gives_the_closed_form_and_turns_y(method):
-    A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0, method)
-    assert pytest.approx(0.04, abs=1e-16) == A
-    assert pytest.approx(0.0, abs=1e-16) == B
-    assert pytest.approx(-0.04, abs=1e-16) == C
-    assert pytest.approx(0.0, abs=1e-16) == S
+    if angle <= 1.5:
+        # The two old methods lose some digits here already.
+        slack = 1e-13 if method in {"stable", "compensated"} else 1e-6
+        assert pytest.approx((1.0, 0.0), abs=slack) == (A + TA, B + TB)
+        assert abs(TC**2 + TS**2 - (TA + TB) * (TA - TB)) <= slack
 
 
 def test_brewsters_angle_and_total_reflection_are_those_of_the_books():
-    norm = np.hypot(1.0, 1.5)
-    A, B, C, _ = op.fresnel_reflection(1.5, 1.0 / norm, 1.5 / norm)
     # tan(theta) = n: r_s = (1 - n^2) / (1 + n^2), r_p = 0.
+    brewster = 1.5, *np.divide((1.0, 1.5), np.hypot(1.0, 1.5))
+    A, B, C, _ = op.fresnel_reflection(*brewster)
     assert pytest.approx(0.5 * (1.25 / 3.25) ** 2, rel=1e-15) == A
     assert B == A
     assert abs(C) <= 1e-16
-    # Born & Wolf, sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2.
+    # Born & Wolf, sec. 1.5.3: T_p = 1, T_s = 1 - (1-n^2)^2/(1+n^2)^2.
+    A, B, C, S = op.fresnel_transmission(*brewster)
+    Ts = 1 - (1.25 / 3.25) ** 2
+    assert pytest.approx((1.0, Ts, np.sqrt(Ts)), abs=1e-15) == (A - B, A + B, C)
+    assert S == 0.0
+    # Sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2.
     angle, n = np.radians(54.6), 1 / 1.5105
     c, s = np.cos(angle), np.sin(angle)
     half = np.arctan(c * np.sqrt(s * s - n * n) / (s * s))
     _, _, C, S = op.fresnel_reflection(n, c, s)
     # arg r_s = -2 atan(b/c) and arg r_p = -2 atan(b/(n^2 c)) with g = i b: r_p is further behind.
     assert np.arctan2(S, C) == pytest.approx(2 * half, abs=1e-14)
-    # Born & Wolf, sec. 1.5.3, at Brewster's angle: T_p = 1, T_s = 1 - (1-n^2)^2/(1+n^2)^2.
-    norm = np.hypot(1.0, 1.5)
-    A, B, C, S = op.fresnel_transmission(1.5, 1.0 / norm, 1.5 / norm)
-    Ts = 1 - (1.25 / 3.25) ** 2
-    assert pytest.approx(1.0, abs=1e-15) == A - B
-    assert pytest.approx(Ts, abs=1e-15) == A + B
-    assert pytest.approx(np.sqrt(Ts), abs=1e-15) == C
-    assert S == 0.0
     found = op.fresnel_transmission(0.5, [0.6, 0.0], [0.8, 1.0])
     np.testing.assert_array_equal(found, np.zeros((4, 2)))
-
-
-@given(n=st.floats(0.1, 0.9), angle=st.floats(0.0, 1.0))
-def test_total_reflection_is_total_to_the_last_bit(n, angle):
-    incidence = np.arcsin(n) * (1 - angle) + np.pi / 2 * angle
-    assume(np.sin(incidence) > n)
-    A, B, C, S = op.fresnel_reflection(n, np.cos(incidence), np.sin(incidence))
-    assert A == 1.0
-    assert B == 0.0
-    assert pytest.approx(1.0, abs=1e-14) == C * C + S * S
-
-
-@rows("index", [1.5, 0.5, 0.608 + 2.12j, 1e6, 1.0 + 1e-9j])
-def test_exactly_grazing_light_is_reflected_whole(index):
-    assert [float(x) for x in op.fresnel_reflection(index, 0.0, 1.0)] == [1.0, 0.0, 1.0, 0.0]
-
-
-@rows("angle", [0.0, 0.7, 1.570796, np.pi / 2])
-def test_an_equal_medium_reflects_nothing(angle):
-    A, B, C, S = op.fresnel_reflection(1.0, np.cos(angle), np.sin(angle))
-    assert max(abs(A), abs(B), abs(C), abs(S)) <= 1e-15
 
 
 @given(n=INDICES, k=EXTINCTIONS, angle=st.floats(0.0, 1.57))
 def test_plain_floats_give_the_bits_that_numpy_gives(n, k, angle):
     arguments = (1.2, n, k, float(np.cos(angle)), float(np.sin(angle)))
-    plain = REFLECTION.by_method("stable").made_for(FLOAT)(*arguments)
+    plain = STABLE.made_for(FLOAT)(*arguments)
     assert all(type(number) is float for number in plain)
-    block = REFLECTION.by_method("stable").made_for(NUMPY)(*map(np.float64, arguments))
-    assert list(plain) == [float(number) for number in block]
+    assert [*plain] == [*map(float, STABLE.made_for(NUMPY)(*map(np.float64, arguments)))]
 
 
 @given(n=INDICES, k=EXTINCTIONS, outside=st.floats(0.5, 3.0), angle=st.floats(0.0, 1.57))
@@ -141,35 +123,21 @@ def test_an_index_that_vanishes_reflects_everything(index):
     np.testing.assert_allclose(C * C + S * S, 1.0, rtol=0, atol=1e-15)
 
 
-def test_unknown_methods_and_precisions_are_refused_and_the_known_are_named():
-    with pytest.raises(op.ComposerError, match="did you mean 'stable'"):
-        op.fresnel_reflection(1.5, 1.0, 0.0, method="stabel")
-    with pytest.raises(op.ComposerError, match="'flaot64' is unknown; give 'float64', 'float32'"):
-        op.fresnel_reflection(1.5, 1.0, 0.0, dtype="flaot64")
-
-
 @rows(
     "arguments, message",
     [
+        ((1.5, 1.0, 0.0, "stabel"), "did you mean 'stable'"),
+        ((1.5, 1.0, 0.0, "stable", "flaot64"), "'flaot64' is unknown; give 'float64', 'float32'"),
         ((-1.5, 1.0, 0.0), "index is"),
-        ((1.5 - 0.1j, 1.0, 0.0), "absorbs"),
-        ((np.nan, 1.0, 0.0), "finite"),
         ((1.5, 0.5, 0.5), "no angle"),
         ((1.5, -1.0, 0.0), "cos_incidence is -1"),
-        (("glass", 1.0, 0.0), "index: 'glass' is no number; give n and k as numbers"),
+        (("glass", 1.0, 0.0), "'glass' is no number; give n and k"),
         ((np.ones(2), np.ones(3), np.zeros(3)), r"\(2,\).*\(3,\)"),
     ],
 )
-def test_values_that_make_no_reflection_are_refused(arguments, message):
+def test_what_makes_no_reflection_is_refused(arguments, message):
     with pytest.raises(op.OptipathError, match=message):
         op.fresnel_reflection(*arguments)
-
-
-@given(n=st.floats(1.0, 4.0), off=st.floats(-1e-6, 1e-6))
-def test_b_never_exceeds_a_next_to_brewsters_angle(n, off):
-    angle = np.arctan(n) + off
-    A, B, _, _ = op.fresnel_reflection(n, np.cos(angle), np.sin(angle))
-    assert abs(B) <= A
 
 
 @rows("method", ["stable", "compensated"])
@@ -179,58 +147,29 @@ def test_the_cheaper_kernel_for_lossless_media_gives_the_same_bits(
     family, method, n, outside, angle
 ):
     whole = family.by_method(method)
-    c, s = float(np.cos(angle)), float(np.sin(angle))
-    cheaper, given_ = whole.specialised((outside, n, 0.0, c, s), lambda number: number == 0.0)
+    all_ = (outside, n, 0.0, float(np.cos(angle)), float(np.sin(angle)))
+    cheaper, given_ = whole.specialised(all_, lambda number: number == 0.0)
     assert len(given_) == 4
-    one, other = (
-        kernel.made_for(FLOAT)(*arguments)
-        for kernel, arguments in ((whole, (outside, n, 0.0, c, s)), (cheaper, given_))
-    )
-    assert [float(number) for number in one] == [float(number) for number in other]
     denser = cheaper.never_less(given_, lambda number: (number, number))
-    assert [float(number) for number in denser.made_for(FLOAT)(*given_)] == list(map(float, one))
+    expected = [*map(float, whole.made_for(FLOAT)(*all_))]
+    for kernel in (cheaper, denser):
+        assert [*map(float, kernel.made_for(FLOAT)(*given_))] == expected
 
 
 @given(n=INDICES, k=EXTINCTIONS, outside=st.floats(0.5, 3.0), angle=ANGLES)
 def test_powers_alone_are_those_of_the_whole_kernel(n, k, outside, angle):
-    c, s = float(np.cos(angle)), float(np.sin(angle))
-    whole = REFLECTION.by_method("stable")
-    Fs, Fp, over = whole.powers.made_for(FLOAT)(outside, n, k, c, s)
-    wanted = whole.made_for(FLOAT)(outside, n, k, c, s)[:2]
+    given_ = outside, n, k, float(np.cos(angle)), float(np.sin(angle))
+    Fs, Fp, over = STABLE.powers.made_for(FLOAT)(*given_)
+    wanted = STABLE.made_for(FLOAT)(*given_)[:2]
     assert (Fs / over, Fp / over) == pytest.approx(wanted, rel=4e-15, abs=4e-15 * Fs / over)
 
 
 def test_an_index_that_absorbs_nothing_takes_the_cheaper_kernel():
-    path = op.PathGraph()
-    glass = path.add("glass", op.Interface(np.array([1.4, 1.5]), 0.3))
-    path.add("lamp", op.Source()) >> glass >> path.add("metal", op.Interface(0.2 + 3j, 0.4))
-    path["metal"] >> path.add("eye", op.Detector())
-    names = [evaluation.kernel.name for evaluation in path.compose().program.evaluations]
-    assert "Fresnel reflection (stable, lossless, from the rarer side)" in names
-    assert "Fresnel reflection (stable)" in names
-
-
-@rows("method", METHODS)
-@given(n=INDICES, k=EXTINCTIONS, angle=st.floats(0.0, 1.5))
-def test_what_is_let_through_and_what_is_reflected_is_all_the_light(method, n, k, angle):
-    given_ = (complex(n, k), np.cos(angle), np.sin(angle), method)
-    (A, B, _, _), (TA, TB, TC, TS) = (
-        function(*given_) for function in (op.fresnel_reflection, op.fresnel_transmission)
-    )
-    # The two old methods lose some digits here already.
-    slack = 1e-13 if method in {"stable", "compensated"} else 1e-6
-    assert pytest.approx(1.0, abs=slack) == A + TA
-    assert pytest.approx(0.0, abs=slack) == B + TB
-    assert abs(TC**2 + TS**2 - (TA + TB) * (TA - TB)) <= slack
-
-
-@rows("dtype", ["float32", "float64"])
-@rows("method", METHODS)
-def test_the_result_has_the_precision_that_was_asked_for(method, dtype):
-    for function in (op.fresnel_reflection, op.fresnel_transmission):
-        for index in (1.5, [1.5, 0.2 + 3j]):
-            found = function(index, 0.8, 0.6, method, dtype)
-            assert {number.dtype for number in found} == {np.dtype(dtype)}
+    path = op.Source() >> op.Interface(np.array([1.4, 1.5]), 0.3) >> op.Interface(0.2 + 3j, 0.4)
+    program = (path >> op.Detector()).compose().program
+    names = {evaluation.kernel.name for evaluation in program.evaluations}
+    lossless = "Fresnel reflection (stable, lossless, from the rarer side)"
+    assert {lossless, "Fresnel reflection (stable)"} <= names
 
 
 LOST = (2.1601279950827297, 1.2841725811036993, 0.8035599507794031)
@@ -242,14 +181,13 @@ LOST = (2.1601279950827297, 1.2841725811036993, 0.8035599507794031)
 def test_what_was_all_reflected_before_is_all_reflected_by_every_kernel(n, k):
     _, n1, angle = LOST
     given = (3.0, np.cos(angle), np.sin(angle))
-    whole = REFLECTION.methods["stable"]
-    cheaper = [] if k else [whole.without[1], whole.without[1].denser[2]]
     inhomogeneous = REFLECTION_FROM_ABSORBING.methods["stable"]
-    kernels = [(whole, (n1, n, k)), (inhomogeneous, (n1, 0.0, n, k))]
-    kernels += [(kernel, (n1, n)) for kernel in cheaper]
+    kernels = [(STABLE, (n1, n, k)), (inhomogeneous, (n1, 0.0, n, k))]
+    if not k:
+        cheaper = STABLE.without[1]
+        kernels += [(cheaper, (n1, n)), (cheaper.denser[2], (n1, n))]
     for kernel, media in kernels:
-        Fs, Fp, B, *_ = kernel.made_for(FLOAT)(*media, *given)
-        assert (Fs, Fp, B) == (1.0, 1.0, 0.0), kernel.name
+        assert kernel.made_for(FLOAT)(*media, *given)[:3] == (1.0, 1.0, 0.0), kernel.name
         Fs, Fp, over = kernel.powers.made_for(FLOAT)(*media, *given)
         assert (Fs / over, Fp / over) == (pytest.approx(1.0, rel=1e-15),) * 2, kernel.name
 
@@ -261,11 +199,11 @@ def test_powers_are_never_more_than_all_next_to_where_light_gets_no_further(
     c, s = np.cos(angle), np.sin(angle)
     assume(s > 0.01)
     n1, n = n0 * s * (1.0 + first), n0 * s * (1.0 + other)
-    for kernel, media in (
+    for family, media in (
         (REFLECTION, (n1, n, 0.0)),
         (REFLECTION_FROM_ABSORBING, (n1, 0.0, n, 0.0)),
     ):
-        powers = kernel.methods["stable"].powers
+        powers = family.by_method("stable").powers
         Fs, Fp, over = powers.made_for(FLOAT)(*media, n0, c, s)
         assert 0.0 <= Fp <= (1.0 + 1e-15) * Fs
         assert Fs <= (1.0 + 1e-15) * over
