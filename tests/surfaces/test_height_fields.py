@@ -1,9 +1,13 @@
-"""Height fields: what they are made of, their mesh, how fine it is to be, and what is refused."""
+"""Height fields: what they are made of, their mesh, how fine it is to be, and random waves."""
 
 import ast
 import copy
+import math
+import os
 import pickle
 import re
+import subprocess
+import sys
 import warnings
 
 import numpy as np
@@ -15,6 +19,7 @@ import optipath as op
 from optipath.surfaces import HeightField
 from optipath.surfaces.fields.given_fields import period_faults
 from optipath.surfaces.fields.mesh_resolution import converged_cells
+from optipath.surfaces.fields.random_waves import RandomWaves
 from tables import rows, slow
 
 MAP = np.array([[0.0, 1.0, 4.0], [2.0, 7.0, 1.0], [5.0, 3.0, 8.0], [1.0, 1.0, 2.0]])
@@ -78,13 +83,10 @@ def test_each_cell_is_two_triangles_beside_the_diagonal_from_its_first_corner(pe
     field = HeightField.from_heights(MAP, (3.0, 7.0), periodic=periodic)
     expected = np.mean(np.square(list(triangles_of(field))), axis=0)
     assert field.mean_square_slopes == pytest.approx(tuple(expected), rel=1e-13)
-
-
-def test_rows_are_along_y_and_columns_along_x():
-    plane = np.multiply.outer([0.0, 3.0, 6.0], [1.0, 1.0, 1.0, 1.0, 1.0])
-    field = HeightField.from_heights(plane, (8.0, 2.0))
-    assert (field.cells, field.spacing) == ((4, 2), (2.0, 1.0))
-    assert field.mean_square_slopes == (0.0, 9.0)
+    # Rows are along y and columns along x.
+    plane = HeightField.from_heights(np.multiply.outer([0.0, 3.0, 6.0], np.ones(5)), (8.0, 2.0))
+    known = plane.cells, plane.spacing, plane.mean_square_slopes
+    assert known == ((4, 2), (2.0, 1.0), (0.0, 9.0))
 
 
 def test_heights_of_any_real_type_become_float64_one_after_the_other_in_memory():
@@ -92,38 +94,34 @@ def test_heights_of_any_real_type_become_float64_one_after_the_other_in_memory()
         field = HeightField.from_heights(MAP.astype(dtype), 2.0)
         assert field.heights.dtype == np.float64
         assert np.array_equal(field.heights, MAP)
-    for field in (HeightField(MAP.T, 1.0), HeightField(MAP.T, 1.0, periodic=True)):
-        assert field.vertices().flags.c_contiguous
-        assert field.vertices().dtype == np.float64
-        assert field.vertices().shape == (field.cells[1] + 1, field.cells[0] + 1)
+    for periodic in (False, True):
+        field = HeightField(MAP.T, 1.0, periodic)
+        vertices = field.vertices()
+        assert (vertices.flags.c_contiguous, vertices.dtype) == (True, np.float64)
+        assert vertices.shape == (field.cells[1] + 1, field.cells[0] + 1)
 
 
 def test_the_same_seed_gives_the_same_bits_and_a_sequence_is_not_used_up():
     sequence = np.random.SeedSequence(5)
     first = HeightField.beckmann(0.3, size=100.0, seed=5)
-    for seed in (5, np.int64(5), sequence, sequence):
+    for seed in (np.int64(5), sequence, sequence):
         assert HeightField.beckmann(0.3, size=100.0, seed=seed) == first
     for seed in (6, np.random.SeedSequence(5, spawn_key=(0,))):
         assert HeightField.beckmann(0.3, size=100.0, seed=seed) != first
 
 
 def test_a_field_knows_whether_it_has_a_direction_and_says_what_it_is():
-    assert HeightField.beckmann(0.3, size=100.0).isotropic
     assert HeightField.beckmann(0.3, 0.3, size=(100.0, 120.0)).isotropic
-    assert not HeightField.beckmann(0.3, 0.2, size=100.0).isotropic
     assert not HeightField.from_heights(MAP, 1.0).isotropic
     assert HeightField.from_heights(np.full((3, 3), 2.0), 1.0).isotropic
     field = HeightField.beckmann(0.3, 0.2, size=(100.0, 120.5), cells=(240, 200), seed=1)
+    assert not field.isotropic
     assert repr(field) == (
         "HeightField.beckmann of alpha (0.3, 0.2), 240 x 200 cells, 100 x 120.5, periodic"
     )
-
-
-def test_a_flat_field_has_neither_heights_nor_slopes():
-    field = HeightField.flat()
-    assert (field.deviation, field.mean_square_slopes, field.alpha) == (0.0, (0.0, 0.0), None)
-    assert field.periodic
-    assert field.isotropic
+    flat = HeightField.flat()
+    assert (flat.deviation, flat.mean_square_slopes, flat.alpha) == (0.0, (0.0, 0.0), None)
+    assert (flat.periodic, flat.isotropic) == (True, True)
 
 
 def test_a_field_does_not_change_nor_do_its_copies():
@@ -137,89 +135,64 @@ def test_a_field_does_not_change_nor_do_its_copies():
     with pytest.raises(AttributeError, match="cannot"):
         field.size = (1.0, 1.0)
     for found in (copy.copy(field), copy.deepcopy(field), pickle.loads(pickle.dumps(field))):
-        assert found == field
-        assert hash(found) == hash(field)
+        assert (found, hash(found)) == (field, hash(field))
         assert not found.heights.flags.writeable
 
 
-PAIR = "or two of them"
-WRONG = [
-    *(
-        ({"alpha": each}, "alpha must be a positive number (HeightField.flat() is a flat surface)")
-        for each in (0, -0.1, np.inf, np.nan, True, "0.1", None, 1j, (0.1, 0.2))
-    ),
-    *(
-        ({"cells": each}, f"cells must be a whole number of 2 or more, {PAIR}")
-        for each in (0, 1, -4, 2.5, (640,), (640, 1), "many", True)
-    ),
-    *(
-        ({"seed": each}, "seed must be a whole number of 0 or more, or a numpy.random.Seed")
-        for each in (-1, 0.5, None, "3", [1, 2])
-    ),
-    ({"waves": 10**13}, "a sum of 1e+13 waves"),
-]
-
-
-@rows("wrong, start", WRONG)
-def test_a_random_field_is_refused_that_cannot_be(wrong, start):
-    (fault,) = faults_of(HeightField.beckmann, **{"alpha": 0.3} | wrong)
-    assert fault.startswith(start)
-
-
-@rows("asked", [{"size": 1e9}, {"size": 1e20}, {"cells": 10**7}])
-def test_a_mesh_larger_than_the_memory_is_refused(asked):
-    (fault,) = faults_of(HeightField.beckmann, 1.0, **{"size": 400.0} | asked)
-    said = "^a mesh of .*and this machine has.*take fewer cells, or a smaller field$"
-    assert re.search(said, fault)
-
-
-NO_SIZE = f"size must be a positive number, {PAIR} for x and y, not "
-SIZES = [0, -1.0, np.inf, "400 um", (1, 2, 3), (400.0, 0.0), [], None]
-WRONG_HEIGHTS = [
-    ([[1.0]], "heights of shape (1, 1) are too few; give 3 x 3 or more, for 2 x 2 cells"),
-    ([[1.0, 2.0]] * 2, "heights of shape (2, 2) are too few"),
-    ([1.0, 2.0, 3.0], "heights must have two dimensions, rows along y and columns along x"),
-    (np.zeros((3, 4, 3)), "not the shape (3, 4, 3)"),
-    (3.0, "heights must have two dimensions"),
-    ([[0.0, np.nan, 1.0]] * 3, "3 of 9 heights are not finite, the first nan at heights[0, 1]"),
-    (np.where(MAP == 8.0, -np.inf, MAP), "1 of 12 heights is not finite, the first -inf at"),
-    (MAP + 1j, "heights must be real numbers, not an array of complex128"),
-    (MAP > 2.0, "heights must be real numbers, not an array of bool"),
-    ([["a"] * 3] * 3, "heights must be real numbers"),
-    ([[1.0, 2.0], [3.0]], "the array of heights has rows of unequal lengths"),
-    (np.ma.masked_greater(MAP, 4.0), "the array of heights has masked entries"),
-    (1e300 * MAP, "give them in a unit in which they are numbers of 1e+30 at most"),
-]
+ALPHA = "alpha must be a positive number (HeightField.flat() is a flat surface), not "
+PAIR = "or two of them for x and y, not "
+SIZE, LIMITS = f"size must be a positive number, {PAIR}", "give it in a unit of which it is 1e-30 "
+CELLS = f"cells must be a whole number of 2 or more, {PAIR}"
+SEED = "seed must be a whole number of 0 or more, or a numpy.random.SeedSequence, not "
+MESH = "and this machine has"
 
 
 @rows(
-    "given, said",
+    "wrong, said",
     [
-        *(({"heights": heights}, said) for heights, said in WRONG_HEIGHTS),
-        *(
-            ({"size": size}, f"size must be a positive number, {PAIR} for x and y")
-            for size in SIZES
-        ),
-        ({"size": 1e-300}, "size is 1e-300; give it in a unit of which it is 1e-30 .. 1e+30"),
-        *(
-            ({"periodic": each}, "periodic must be True or False, not ")
-            for each in (1, "no", None, np.array([True, False]))
-        ),
-        ({"heights": MAP[:1], "periodic": True}, "give 2 x 2 or more"),
+        *(({"alpha": each}, ALPHA) for each in (0, np.inf, True, (0.1, 0.2))),
+        *(({"cells": each}, CELLS) for each in (1, 2.5, (640,), (640, 1))),
+        *(({"seed": each}, SEED) for each in (-1, None)),
+        ({"waves": 10**13}, "a sum of 1e+13 waves"),
+        *(({"alpha": 1.0} | each, MESH) for each in ({"size": 1e20}, {"cells": 10**7})),
+        *(({"size": each}, SIZE) for each in (0, "400 um", (1, 2, 3), (400.0, 0.0), [])),
+        *(({"size": each}, LIMITS) for each in (9e-31, 1.1e30)),
+        ({"periodic": 1}, "periodic must be True or False, not 1"),
     ],
 )
-def test_a_map_of_heights_is_refused_that_cannot_be(given, said):
-    (fault,) = faults_of(HeightField.from_heights, **{"heights": MAP, "size": 1.0} | given)
-    assert fault.startswith(said) or ("heights" in given and said in fault)
+def test_a_random_field_is_refused_that_cannot_be(wrong, said):
+    (fault,) = faults_of(HeightField.beckmann, **{"alpha": 0.3} | wrong)
+    assert said in fault
+    assert said != MESH or fault.endswith("take fewer cells, or a smaller field")
+
+
+@rows(
+    "heights, periodic, said",
+    [
+        ([[1.0, 2.0]] * 2, False, "heights of shape (2, 2) are too few; give 3 x 3 or more"),
+        (MAP[:1], True, "give 2 x 2 or more"),
+        (np.zeros((3, 4, 3)), False, "along y and columns along x, not the shape (3, 4, 3)"),
+        ([[0.0, np.nan, 1.0]] * 3, False, "3 of 9 heights are not finite, the first nan at heigh"),
+        (np.where(MAP == 8.0, -np.inf, MAP), False, "1 of 12 heights is not finite, the first -i"),
+        *(
+            (each, False, "heights must be real numbers, not an arr")
+            for each in (MAP + 1j, MAP > 2)
+        ),
+        (np.ma.masked_greater(MAP, 4.0), False, "the array of heights has masked entries"),
+        (1e300 * MAP, False, "give them in a unit in which they are numbers of 1e+30 at most"),
+    ],
+)
+def test_a_map_of_heights_is_refused_that_cannot_be(heights, periodic, said):
+    (fault,) = faults_of(HeightField.from_heights, heights, 1.0, periodic=periodic)
+    assert said in fault
     assert HeightField.from_heights(MAP[:2], 1.0, periodic=True).cells == (3, 2)
 
 
 def test_all_faults_of_a_field_are_told_at_once():
     wrong = {"size": -1, "cells": 1, "waves": 0, "seed": -1, "periodic": "no"}
     faults = faults_of(HeightField.beckmann, 0, np.nan, **wrong)
-    assert [fault.split(" must")[0] for fault in faults] == [
-        *("alpha", "alpha_y", "size", "periodic", "cells", "seed", "waves")
-    ]
+    places = ["alpha", "alpha_y", "size", "periodic", "cells", "seed", "waves"]
+    assert [fault.split(" must")[0] for fault in faults] == places
     assert len(faults_of(HeightField, [[np.nan]], -1, periodic=1, alpha=0.0)) == 5
 
 
@@ -241,44 +214,38 @@ def test_the_size_that_is_offered_is_taken_and_little_larger_than_needed(alpha_x
     assert offered == pytest.approx((20.0 / alpha_x, 20.0 / alpha_y), rel=2e-4)
 
 
-@rows(
-    "alpha, size, cells",
-    [((1.0, 1.0), (80.0, 80.0), (640, 640)), ((0.1, 0.3), (400.0, 400.0), (320, 960))],
-)
-def test_sixteen_cells_a_correlation_length_are_enough(alpha, size, cells):
-    assert converged_cells(alpha, size) == cells
-    for length, side, number in zip(alpha, size, cells, strict=True):
-        assert number == pytest.approx(16.0 * side / (2.0 / length))
-    assert HeightField.beckmann(0.25, size=160.0).cells == (320, 320), "where nobody says"
-
-
-def test_a_coarse_mesh_is_warned_of_with_what_it_costs_and_what_would_do():
-    with pytest.warns(op.MeshWarning, match="about 4.7 % of the light") as caught:
-        HeightField.beckmann(1.0, size=40.0, cells=80)
-    said = str(caught[0].message)
-    assert "80 x 80 cells has 4 a correlation length 2/alpha, and needs 16 at alpha 1" in said
-    assert said.endswith("cells=(320, 320) are enough")
-    assert caught[0].filename == __file__
-    # The rougher axis tells how many cells both need.
-    with pytest.warns(op.MeshWarning, match=r"cells=\(800, 320\) are enough"):
-        HeightField.beckmann(0.5, 0.2, size=200.0, cells=(400, 160))
+def test_sixteen_cells_a_correlation_length_are_enough_and_taken_where_nobody_says():
+    assert converged_cells((1.0, 1.0), (80.0, 80.0)) == (640, 640)
+    assert converged_cells((0.1, 0.3), (400.0, 400.0)) == (320, 960)
+    assert HeightField.beckmann(0.25, size=160.0).cells == (320, 320)
 
 
 @rows(
     "alpha, size, cells, said",
     [
-        (1.0, 40.0, 10, "slopes are lost, and more than 12 % of the light that is"),
-        (1.0, 40.0, 40, "slopes are lost, and about 12 % of the light that is"),
-        (1.0, 40.0, 319, "slopes are lost, and about 0.2 % of the light that is"),
+        (1.0, 40.0, 10, "slopes are lost, and more than 12 % of the light that is transmitted"),
+        (1.0, 40.0, 40, "slopes are lost, and about 12 % of the light that is transmitted"),
+        (1.0, 40.0, 319, "slopes are lost, and about 0.2 % of the light that is transmitted"),
+        (
+            1.0,
+            40.0,
+            80,
+            "80 x 80 cells has 4 a correlation length 2/alpha, and needs 16 at alpha 1",
+        ),
+        (1.0, 40.0, 80, r"about 4.7 % of the light .*; cells=\(320, 320\) are enough"),
         # Five cells are enough for smoother surfaces.
         (0.3, 100.0, 74, r"cells=\(75, 75\) are enough"),
         (0.31, 100.0, 247, r"cells=\(248, 248\) are enough"),
         (0.5, 80.0, (320, 160), "has 8 a correlation length"),
+        # The rougher axis tells how many cells both need.
+        ((0.5, 0.2), 200.0, (400, 160), r"cells=\(800, 320\) are enough"),
     ],
 )
-def test_the_warning_says_what_is_lost_and_how_many_cells_are_enough(alpha, size, cells, said):
-    with pytest.warns(op.MeshWarning, match=said):
-        HeightField.beckmann(alpha, size=size, cells=cells)
+def test_a_coarse_mesh_is_warned_of_with_what_is_lost_and_what_would_do(alpha, size, cells, said):
+    alphas = alpha if isinstance(alpha, tuple) else (alpha,)
+    with pytest.warns(op.MeshWarning, match=said) as caught:
+        HeightField.beckmann(*alphas, size=size, cells=cells)
+    assert caught[0].filename == __file__
     if cells in (319, 74, 247):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -293,3 +260,128 @@ def test_the_mesh_loses_the_slopes_that_the_warning_speaks_of():
     step = coarse.spacing[0]
     kept = (1.0 - np.exp(-(step**2) / 4.0)) * 2.0 / step**2
     assert coarse.mean_square_slopes == pytest.approx((kept, kept), rel=2e-3)
+
+
+# Random waves: their variances, the distribution of their slopes, and their sum.
+LIMIT = np.sqrt(np.log(2.0 / 1e-6) / 2.0)
+"""What the distance of Kolmogorov and Smirnov exceeds once in a million: 2 exp(-2 d^2)."""
+alphas, lengths, seeds = st.floats(0.01, 3.0), st.floats(10.0, 60.0), st.integers(0, 1 << 40)
+
+
+def angles_of(waves, x, y):
+    """The phase of each wave at each point."""
+    at = waves.phase + np.multiply.outer(x, waves.x_number)
+    return at + np.multiply.outer(y, waves.y_number)
+
+
+def distance(sample, cumulative):
+    """The largest distance of Kolmogorov and Smirnov, times the root of how many there are."""
+    expected = cumulative(np.sort(sample))
+    steps = np.arange(sample.size + 1) / sample.size
+    found = max(np.max(steps[1:] - expected), np.max(expected - steps[:-1]))
+    return found * np.sqrt(sample.size)
+
+
+def far_apart_slopes(alpha, rng, *, periodic=True):
+    """Slopes at points 2.5 correlation lengths apart, of 16 surfaces."""
+    period = tuple(80.0 / a for a in alpha)
+    grid = np.arange(16) * 5.0
+    x, y = (each.ravel() / a for each, a in zip(np.meshgrid(grid, grid), alpha, strict=True))
+    found = []
+    for seed in range(16):
+        waves = RandomWaves.drawn(alpha, 1000, seed, period if periodic else None)
+        start = rng.random(2) * period
+        rise = -waves.amplitude * np.sin(angles_of(waves, x + start[0], y + start[1]))
+        found.append([np.sum(rise * each, -1) for each in (waves.x_number, waves.y_number)])
+    return np.concatenate(found, axis=1) / np.reshape(alpha, (2, 1))
+
+
+@given(alphas, alphas, lengths, lengths, st.integers(10, 2000), seeds)
+def test_every_surface_has_the_variances(alpha_x, alpha_y, long, wide, number, seed):
+    for period in ((2.0 * long / alpha_x, 2.0 * wide / alpha_y), None):
+        waves = RandomWaves.drawn((alpha_x, alpha_y), number, seed, period)
+        power = waves.amplitude**2 / 2.0
+        assert period or waves.phase.size == number
+        numbers = np.array([np.ones_like(power), waves.x_number, waves.y_number])
+        expected = [1.0, alpha_x**2 / 2.0, alpha_y**2 / 2.0]
+        np.testing.assert_allclose(numbers**2 @ power, expected, rtol=1e-12)
+
+
+@given(lengths, lengths, st.integers(1, 2000), seeds)
+def test_periodic_waves_are_whole_and_none_interferes_with_another(long, wide, number, seed):
+    period = np.array([2.0 * long, 2.0 * wide])
+    waves = RandomWaves.drawn((1.0, 1.0), number, seed, tuple(period))
+    counts = np.array([waves.x_number, waves.y_number]).T * period / (2.0 * np.pi)
+    whole = np.rint(counts)
+    assert np.allclose(counts, whole, rtol=0.0, atol=1e-9)
+    both = np.concatenate([whole, -whole])
+    assert len(np.unique(both, axis=0)) == len(both)
+
+
+@given(seeds, st.floats(0.0, math.pi), st.sampled_from([None, (80.0, 40.0)]))
+def test_heights_are_correlated_over_two_by_alpha(seed, turn, period):
+    # The transform of the density of wave vectors, exp(-f^2 / alpha^2) / (pi alpha^2).
+    waves = RandomWaves.drawn((1.0, 2.0), 1000, seed, period)
+    apart = np.linspace(0.0, 8.0, 33)
+    along = waves.x_number * np.cos(turn) + waves.y_number * np.sin(turn) / 2.0
+    found = np.cos(np.multiply.outer(apart, along)) @ (waves.amplitude**2 / 2.0)
+    assert np.max(np.abs(found - np.exp(-(apart**2) / 4.0))) < 0.02
+
+
+@rows("number", [1, 2, 3, 5])
+def test_a_few_waves_have_powers_all_the_same(number):
+    for seed in range(20):
+        amplitude = RandomWaves.drawn((1.0, 1.0), number, seed).amplitude
+        assert np.all(np.isfinite(amplitude))
+        assert 0.0 <= amplitude.min() <= amplitude.max() > 0.0
+
+
+@rows("alpha", [(1.0, 1.0), (0.1, 0.1), (0.4, 0.1)])
+@rows("periodic", [True, False])
+def test_slopes_have_the_density_of_beckmann_and_rougher_ones_would_be_told(alpha, periodic, rng):
+    # exp(-tan^2 / alpha^2) / (pi alpha^2): squares of scaled slopes are exponential, directions
+    # uniform. Those of a surface that is rougher by a tenth are not.
+    x, y = far_apart_slopes(alpha, rng, periodic=periodic)
+    right, rougher = (
+        distance(scale * (x**2 + y**2), lambda square: -np.expm1(-square)) for scale in (1.0, 1.21)
+    )
+    assert right < LIMIT < rougher
+    turned = np.arctan2(y, x) % (2.0 * np.pi)
+    assert distance(turned, lambda turn: turn / (2.0 * np.pi)) < LIMIT
+
+
+@rows("period", [None, (20.0, 30.0)])
+def test_heights_are_the_sum_of_cosines(period, rng):
+    waves = RandomWaves.drawn((1.0, 0.7), 1000, 3, period)
+    x, y = rng.uniform(-20.0, 20.0, 7), rng.uniform(-20.0, 20.0, 5)
+    angles = angles_of(waves, *np.meshgrid(x, y))
+    expected = np.sum(waves.amplitude * np.cos(angles), -1)
+    assert waves.heights(x, y) == pytest.approx(expected, abs=1e-12)
+
+
+def test_heights_in_parts_of_rows_and_with_any_number_of_threads_are_the_same_bits():
+    waves = RandomWaves.drawn((1.0, 1.0), 1000, 0)
+    x, y = np.linspace(0.0, 20.0, 5), np.linspace(0.0, 200.0, 2500)
+    parts = [waves.heights(x, part) for part in (y[:7], y[7:])]
+    assert np.array_equal(np.concatenate(parts), waves.heights(x, y))
+    code = (
+        "from optipath.surfaces.fields.random_waves import RandomWaves as R; import hashlib as h;"
+        "import numpy as n; x = n.linspace(0, 60, 300); w = R.drawn((1., 1.), 1000, 0);"
+        "print(h.sha256(w.heights(x, x).tobytes()).hexdigest())"
+    )
+    found = set()
+    for threads in "12":
+        own = os.environ | {"OPENBLAS_NUM_THREADS": threads, "MKL_NUM_THREADS": threads}
+        run = [sys.executable, "-c", code]
+        found.add(subprocess.run(run, env=own, capture_output=True, check=True).stdout)
+    assert len(found) == 1
+
+
+def test_heights_of_many_surfaces_are_normal(rng):
+    points, several = np.arange(8) * 10.0, []
+    for seed in range(30):
+        waves = RandomWaves.drawn((1.0, 1.0), 1000, seed, (80.0, 80.0))
+        x, y = rng.uniform(0.0, 80.0, 2)
+        several.append(waves.heights(points + x, points + y))
+    erf = np.vectorize(math.erf)
+    assert distance(np.ravel(several), lambda z: (1.0 + erf(z / np.sqrt(2.0))) / 2.0) < LIMIT

@@ -105,26 +105,18 @@ def test_metals_are_those_of_the_database_from_380_to_700_nm(name):
         assert medium == sample.indices().base
         return
     wavelengths = np.linspace(380.0, 700.0, 321) * 1e-9
-    page = op.Material.named(PAGES[medium]).at(wavelengths)
-    found = sample.indices(wavelengths)
-    np.testing.assert_allclose(found.n, page.n, rtol=1e-12)
-    np.testing.assert_allclose(found.k, page.k, rtol=1e-12)
+    page, found = op.Material.named(PAGES[medium]).at(wavelengths), sample.indices(wavelengths)
+    np.testing.assert_allclose([found.n, found.k], [page.n, page.k], rtol=1e-12)
 
 
 def test_gold_and_the_perfect_reflector_are_what_they_are_called():
     # Johnson's and Christy's.
     found = op.load_sample("gold-rough").indices(["381.5 nm", "659.5 nm"])
-    np.testing.assert_allclose(found.n, [1.46, 0.14], rtol=1e-12)
-    np.testing.assert_allclose(found.k, [1.933, 3.697], rtol=1e-12)
+    np.testing.assert_allclose([found.n, found.k], [[1.46, 0.14], [1.933, 3.697]], rtol=1e-12)
     for incidence in (0.0, 0.5, 1.0, 1.5):
         stack = op.load_sample("perfect-reflector-rough").smooth(incidence)
         # |r_s| = |r_p| = 1 where the index has no real part.
         assert stack.mueller("in", "reflected").matrix[0, 0] == pytest.approx(1.0, abs=1e-15)
-
-
-def load_bytes(folder, content):
-    (folder / "own.toml").write_bytes(content)
-    return folder / "own.toml"
 
 
 @rows(
@@ -132,19 +124,17 @@ def load_bytes(folder, content):
     [
         ("glas-rough", "sample 'glas-rough' is unknown; did you mean 'gl"),
         (3, "a sample is a name or the path of a file, not 3"),
-        ("Glass", "is neither the name of a sample"),
         ("../samples/glass-rough", "did you mean 'glass-rough'?"),
-        ("sample.txt", "see the names with op.sample_names()"),
+        ("sample.txt", "is neither the name of a sample .* see the names with op.sample_names"),
         ("nowhere/sample.toml", "'nowhere/sample.toml' cannot be read: No such file"),
-        ("nul\0.toml", "cannot be read: "),
-        (b"\xff\xfe", "is not UTF-8"),
-        (b"#" * (4 * 1024**2 + 1), "is larger than 4 MiB; no sample"),
     ],
 )
 def test_what_is_neither_a_name_nor_a_file_of_text_is_refused(of, sentence, tmp_path):
-    with pytest.raises(op.SurfaceError) as error:
-        op.load_sample(load_bytes(tmp_path, of) if isinstance(of, bytes) else of)
-    assert sentence in str(error.value)
+    with pytest.raises(op.SurfaceError, match=sentence):
+        op.load_sample(of)
+    (tmp_path / "own.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(op.SurfaceError, match=r"own\.toml' is not UTF-8"):
+        op.load_sample(tmp_path / "own.toml")
 
 
 def test_all_that_a_sample_takes_stands_in_a_file(loaded):
@@ -167,22 +157,20 @@ def test_all_that_a_sample_takes_stands_in_a_file(loaded):
     assert loaded(text) == op.Sample(layers, 1.33, **options, description="a varnish")
 
 
+CAUCHY = "cauchy = { coefficients = [1.5, 0.004] }"
+TABLE = 'wavelengths = [400, 600], unit = "nm", n = [1.0, 0.5], k = [1.0, 3.0], name = "m"'
+METAL = op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="m")
+
+
 @rows(
     "index, expected",
     [
-        ('"1.5"', 1.5),
         ('"0.5+2.1j"', 0.5 + 2.1j),
         ("{ n = 1.5 }", 1.5),
         ("{ n = 0, k = 1 }", 1j),
-        (
-            '{ cauchy = { coefficients = [1.5, 0.004] }, name = "c" }',
-            op.Material.cauchy([1.5, 0.004], name="c"),
-        ),
-        ('{ cauchy = { coefficients = [1.5, 0.004] }, wavelength = "500 nm" }', 1.516),
-        (
-            '{ wavelengths = [400, 600], unit = "nm", n = [1.0, 0.5], k = [1.0, 3.0], name = "m" }',
-            op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="m"),
-        ),
+        (f'{{ {CAUCHY}, name = "c" }}', op.Material.cauchy([1.5, 0.004], name="c")),
+        (f'{{ {CAUCHY}, wavelength = "500 nm" }}', 1.516),
+        (f"{{ {TABLE} }}", METAL),
         ('{ material = "gold" }', "gold"),
     ],
 )
@@ -194,55 +182,38 @@ def test_an_index_is_written_as_in_presets(loaded, index, expected):
     assert sample == op.Sample([(expected, 0.1)])
 
 
-WHOLE, NONE = (
-    "the sample: ",
-    "the sample has no layers; add a table [[layers]] for each, from the top",
-)
-CLEAR = (
-    "give a real index of refraction within 1e-60 .. 1e+60, since only the last medium may absorb"
-)
-
-FLAT = 'write alpha = 0.1, alpha = 0 for a flat interface, or heights = "FILE" with a size'
-LIST = "[0.5, 2.1] is a list; write one index, such as 1.5 or { n = 0.5, k = 2.1 }"
-SEVERAL = "array([1.5, 1.6]), but a sample has one index there; give one, such as 1.5 or "
-SEVERAL += "{ n = 0.5, k = 2.1 }, and make a sample for each"
-
-LISTED = "'layers' must be a list of tables, each headed [[layers]], not 3"
-KEYS = "there are: index, alpha, heights, size, periodic"
+NONE = "the sample has no layers; add a table [[layers]] for each, from the top"
+LISTED = "the sample: 'layers' must be a list of tables, each headed [[layers]], not 3"
+CURE = "give one, such as 1.5 or { n = 0.5, k = 2.1 }, and make a sample for each"
 NO_PARAMETERS = "a sample has no parameters; write a number, or a table of a material"
-PARAMETERS = '"$n"', '{ n = "$n" }', '{ parameter = "n" }', '{ cauchy = { coefficients = ["$b"] } }'
 OF_INDICES = {
-    "[0.5, 2.1]": f"layers[0].index: {LIST}",
-    "{ n = [1.5, 1.6] }": f"layers[0].index is {SEVERAL}",
-    "true": "layers[0].index: true is not a number",
-} | dict.fromkeys(PARAMETERS, f"layers[0].index: {NO_PARAMETERS}")
+    "[0.5, 2.1]": ": [0.5, 2.1] is a list; write one index, such as 1.5 or { n = 0.5, k = 2.1 }",
+    "{ n = [1.5, 1.6] }": f" is array([1.5, 1.6]), but a sample has one index there; {CURE}",
+} | dict.fromkeys(['"$n"', '{ cauchy = { coefficients = ["$b"] } }'], f": {NO_PARAMETERS}")
 
 
 @rows(
     "text, sentence",
     [
         ("", NONE),
-        ("layers = []", NONE),
-        ("layers = 3", WHOLE + LISTED),
+        ("layers = 3", LISTED),
         ("layers = [3]", "layers[0] must be a table headed [[layers]], not 3"),
-        (
-            LAYER.replace("layers", "layer"),
-            f"{WHOLE}key 'layer' is unknown; did you mean 'layers'?",
-        ),
-        ("surface = 3\n" + LAYER, f"{WHOLE}key 'surface' is unknown; did you mean 'surfaces'?"),
-        ("surfaces = 2.5\n" + LAYER, f"{WHOLE}'surfaces' must be a whole number, not 2.5"),
-        ("periodic = 1\n" + LAYER, f"{WHOLE}'periodic' must be true or false, not 1"),
-        ("outside = 0\n" + LAYER, f"outside is 0; {CLEAR}"),
-        (LAYER + "rough = 0.1\n", f"layers[0]: key 'rough' is unknown; {KEYS}"),
-        (LAYER + "alpah = 0.1\n", "layers[0]: key 'alpah' is unknown; did you mean 'alpha'?"),
+        (LAYER.replace("layers", "layer"), "key 'layer' is unknown; did you mean 'layers'?"),
+        ("surfaces = 2.5\n" + LAYER, "the sample: 'surfaces' must be a whole number, not 2.5"),
+        ("outside = 0\n" + LAYER, "outside is 0; give a real index of refraction within 1e-60"),
+        (LAYER + "rough = 0.1\n", "'rough' is unknown; there are: index, alpha, heights, size, pe"),
         (LAYER[:11] + LAYER[23:], "layers[0]: 'index' is missing; write that of the medium below"),
-        ("[[layers]]\nindex = 1.5", f"layers[0]: 'alpha' is missing; {FLAT}"),
+        ("[[layers]]\nindex = 1.5", "layers[0]: 'alpha' is missing; write alpha = 0.1, alpha = 0"),
         (LAYER + "size = 3.0\n", "layers[0]: 'size' is of heights out of a file; leave it out"),
-        *((f"[[layers]]\nindex = {of}\nalpha = 0.1", told) for of, told in OF_INDICES.items()),
+        *(
+            (f"[[layers]]\nindex = {of}\nalpha = 0.1", f"layers[0].index{told}")
+            for of, told in OF_INDICES.items()
+        ),
     ],
 )
 def test_a_fault_is_told_with_its_place_and_its_cure(faults, text, sentence):
-    assert faults(text) == [sentence]
+    (fault,) = faults(text)
+    assert sentence in fault
     for before, told in (
         ("", "the sample: 'format' is missing; add format = 1"),
         ("format = 2\n", "format is 2, but this version reads format 1"),
@@ -251,7 +222,7 @@ def test_a_fault_is_told_with_its_place_and_its_cure(faults, text, sentence):
         assert faults(LAYER, before=before) == [told]
 
 
-def test_all_faults_of_a_file_are_told_at_once(faults):
+def test_all_faults_of_a_file_are_told_at_once_with_their_file(loaded, faults):
     text = """
         outside = "glass"
         seed = -1
@@ -268,19 +239,12 @@ def test_all_faults_of_a_file_are_told_at_once(faults):
         index = 0
         alpha = "steep"
     """
-    assert [fault.partition(" ")[0].rstrip(":") for fault in faults(text)] == [
-        "the", "outside", "layers[0]", "layers[1].heights", "layers[0].alpha", "layers[1].index",
-        "layers[2].index", "layers[2].alpha", "cells", "seed",
-    ]  # fmt: skip
-
-
-def test_faults_name_their_file_and_what_is_no_toml_is_refused(loaded, faults):
+    first = "the outside layers[0] layers[1].heights layers[0].alpha layers[1].index"
+    places = [fault.partition(" ")[0].rstrip(":") for fault in faults(text)]
+    assert places == [*first.split(), "layers[2].index", "layers[2].alpha", "cells", "seed"]
     with pytest.raises(op.SurfaceError, match=r"^own\.toml: layers\[0\]\.alpha is -1"):
         loaded("[[layers]]\nindex = 1.5\nalpha = -1")
-    # The last three take long to read.
-    for text in ("layers = [", "a" * 2000, "a.b." * 20 + "c = 1", "layers = " + "[" * 99):
-        (fault,) = faults(text)
-        assert "own.toml' is not TOML" in fault
+    assert "own.toml' is not TOML" in faults("layers = [")[0]
 
 
 def test_only_what_is_not_usual_is_written():
@@ -317,7 +281,7 @@ def test_every_sample_of_numbers_is_read_back_the_same(tmp_path_factory, above, 
     "material",
     [
         op.Material.cauchy([1.5, 0.004]),
-        op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="metal"),
+        METAL,
         op.Material.sellmeier([1.04, 0.23], [0.006, 0.02], span=("300 nm", "2 um")),
     ],
 )
@@ -330,10 +294,9 @@ def test_what_has_no_form_in_a_file_cannot_be_written(loaded, tmp_path):
     heights = HeightField.from_heights(np.eye(5), (3.0, 4.0))
     with pytest.raises(op.SurfaceError) as error:
         op.Sample([(1.5, heights), (2.4, 0.1), (1.5, heights)]).to_toml()
-    first, second = error.value.faults
-    told = "layers[0]: its heights are in no file that it knows of; save them by numpy.save("
-    assert first.startswith(told)
-    assert second.startswith("layers[2]: its heights are in no file")
+    told = ": its heights are in no file that it knows of; save them by numpy.save("
+    for place, fault in zip((0, 2), error.value.faults, strict=True):
+        assert fault.startswith(f"layers[{place}]{told}")
     # The cure, as it says.
     np.save(tmp_path / "heights.npy", heights.heights)
     text = '[[layers]]\nindex = 1.5\nheights = "heights.npy"\nsize = [3.0, 4.0]\n'

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.surfaces import HeightField
+from rough_samples import fresnel, rounds
 from tables import rows
 
 GLASS = op.Material.cauchy([1.5, 0.004])
@@ -44,22 +45,15 @@ def faults_at(layers, wavelength=None, **others):
     return error.value.faults
 
 
-def test_layers_keep_their_index_and_their_roughness_along_both_axes():
-    sample = op.Sample([(1.5, 0.1), (op.Material(0.5, 2.1), (0.1, 0.2))])
-    upper, lower = sample.layers
-    assert (upper.index, upper.roughness) == (1.5, (0.1, 0.1))
-    assert (lower.index, lower.roughness) == (0.5 + 2.1j, (0.1, 0.2))
-    assert op.Sample(sample.layers) == sample
-    assert op.Sample([upper, (2.4, 0.3)]) == op.Sample([(1.5, 0.1), (2.4, 0.3)])
-
-
 def test_samples_are_equal_by_all_that_is_given_and_cannot_change():
+    sample = op.Sample([(1.5, 0.1), (op.Material(0.5, 2.1), (0.1, 0.2))])
+    known = [(each.index, each.roughness) for each in sample.layers]
+    assert known == [(1.5, (0.1, 0.1)), (0.5 + 2.1j, (0.1, 0.2))]
+    assert op.Sample(sample.layers) == sample
     plain = op.Sample([(1.5, 0.1), (0.5 + 2.1j, 0.2)], outside=1.3, cells=(400, 300))
-    alpha = np.float32(0.1).astype(np.float64).round(6)
-    written = [["1.5", alpha], ("0.5+2.1j", np.array([0.2, 0.2]))]
+    written = [["1.5", np.float64(0.1)], ("0.5+2.1j", np.array([0.2, 0.2]))]
     assert op.Sample(written, outside=np.array(1.3), cells=[np.int64(400), 300]) == plain
     sample = op.Sample([(1.5, 0.1)])
-    assert sample == op.Sample([(op.Material(1.5), (0.1, 0.1))])
     others = {"outside": 1.3, "cells": 400, "surfaces": 4, "seed": 1, "periodic": False}
     for name, value in others.items():
         assert sample != op.Sample([(1.5, 0.1)], **{name: value})
@@ -84,12 +78,10 @@ def test_a_pickled_sample_draws_the_same_surfaces_and_takes_none_along():
     fields = sample.fields(1)
     for content in (before, pickle.dumps(sample)):
         copy = pickle.loads(content)
-        assert copy == sample
-        assert copy.fields(1) == fields
-        assert len(content) == len(before)
+        assert (copy, copy.fields(1), len(content)) == (sample, fields, len(before))
 
 
-def test_each_layer_of_each_surface_has_a_seed_of_its_own():
+def test_each_layer_of_each_surface_has_a_seed_of_its_own_and_given_fields_are_those_of_all():
     sample = op.Sample([(1.5, 0.4), (2.4, (0.4, 0.8))], seed=3)
     key = np.random.SeedSequence(3, spawn_key=(2, 1))
     expected = HeightField.beckmann(0.4, 0.8, size=(200.0, 100.0), cells=640, seed=key)
@@ -98,20 +90,6 @@ def test_each_layer_of_each_surface_has_a_seed_of_its_own():
     assert not np.array_equal(first, second)
     assert not np.array_equal(first, op.Sample([(1.5, 0.4)], seed=4).fields(0)[0].heights)
     assert sample.fields(0)[0] is sample.fields(0)[0], "drawn once"
-
-
-def test_fields_are_forty_correlation_lengths_wide_with_sixteen_cells_each():
-    (field,) = op.Sample([(1.5, (0.25, 0.5))]).fields()
-    assert (field.size, field.cells) == ((320.0, 160.0), (640, 640))
-    assert field.periodic
-    assert not op.Sample([(1.5, 0.4)], periodic=False).fields()[0].periodic
-    # Too few cells are warned of when they are drawn.
-    sample = op.Sample([(1.5, 0.4)], cells=200)
-    with pytest.warns(op.MeshWarning, match="200 x 200 cells"):
-        sample.fields()
-
-
-def test_fields_that_are_given_are_those_of_every_surface():
     sample = op.Sample([(1.5, bumps := heights()), (2.4, 0)])
     for surface in (0, 7):
         first, second = sample.fields(surface)
@@ -119,10 +97,16 @@ def test_fields_that_are_given_are_those_of_every_surface():
         assert second.is_flat
 
 
-@rows("surface", [-1, 0.5, True, None])
-def test_a_surface_that_there_is_not_is_refused(surface):
+def test_fields_are_forty_correlation_lengths_wide_with_sixteen_cells_each():
+    (field,) = op.Sample([(1.5, (0.25, 0.5))]).fields()
+    assert (field.size, field.cells, field.periodic) == ((320.0, 160.0), (640, 640), True)
+    assert not op.Sample([(1.5, 0.4)], periodic=False).fields()[0].periodic
+    # Too few cells are warned of when they are drawn.
+    sample = op.Sample([(1.5, 0.4)], cells=200)
+    with pytest.warns(op.MeshWarning, match="200 x 200 cells"):
+        sample.fields()
     with pytest.raises(op.SurfaceError, match="surface must be a whole number of 0 or more"):
-        op.Sample([(1.5, 0.4)]).fields(surface)
+        sample.fields(-1)
 
 
 @rows(
@@ -141,34 +125,30 @@ def test_a_sample_is_isotropic_where_all_its_interfaces_are(layers, isotropic):
 
 
 RANGE = "give a roughness within 1e-06 .. 100, or 0 for a flat interface"
+ONE_SIDE = "give two numbers above 0, or 0 for a flat interface"
 PAIR = "give one number, a pair along x and y, or heights"
-ROUGHNESSES = [
-    ([-0.1, 1e-7, 101.0, "-0.1", (0.1, -0.1)], "layers[0].alpha is ", RANGE),
-    ([np.nan, np.inf, (0.1, np.nan)], "", "give a finite roughness"),
-    ([None, True, {}, "rough", 0.1j, op.Material(1.5)], "layers[0].alpha", ""),
-    ([(), (0.1,), (0.1, 0.2, 0.3), np.linspace(0.1, 0.5, 5)], "", PAIR),
-    (
-        [((0.1, 0.2), 0.1), [[0.1], [0.2]], ([], 0.1)],
-        "",
-        "for one number; give a pair along x and y",
-    ),
-    ([(0.1, 0), (0, 0.1)], "", "give two numbers above 0, or 0 for a flat interface"),
-    (
-        [op.Parameter("a", 0.1)],
-        "layers[0].alpha is parameter 'a'; give a number, and make a sample for each",
-        "",
-    ),
-]
+PARAMETER = "is parameter 'a'; give a number, and make a sample for each"
 
 
-@rows("roughness, start, end", [(each, *words) for all_, *words in ROUGHNESSES for each in all_])
-def test_what_is_no_roughness_is_refused(roughness, start, end):
+@rows(
+    "sentence, roughness",
+    [
+        *((RANGE, each) for each in (9e-7, 101.0, (0.1, -0.1))),
+        ("give a finite roughness", np.nan),
+        ("", None),
+        *((PAIR, each) for each in ((0.1,), (0.1, 0.2, 0.3), np.linspace(0.1, 0.5, 5))),
+        ("for one number; give a pair along x and y", ((0.1, 0.2), 0.1)),
+        *((ONE_SIDE, each) for each in ((0.1, 0), (0, 0.1))),
+        (PARAMETER, op.Parameter("a", 0.1)),
+    ],
+)
+def test_what_is_no_roughness_is_refused(sentence, roughness):
     fault = fault_of([(1.5, roughness)])
-    assert fault.startswith(start)
-    assert fault.endswith(end)
+    assert fault.startswith("layers[0].alpha")
+    assert fault.endswith(sentence)
 
 
-@rows("roughness", [0, 0.0, (0, 0), "0", 1e-6, 100.0])
+@rows("roughness", [0, (0, 0), "0", 1e-6, 100.0])
 def test_all_of_the_range_can_be_drawn_and_0_is_flat(roughness):
     sample = op.Sample([(1.5, roughness)], seed=2)
     (field,) = sample.fields()
@@ -179,35 +159,48 @@ def test_all_of_the_range_can_be_drawn_and_0_is_flat(roughness):
         assert field.mean_square_slopes == pytest.approx((roughness**2 / 2,) * 2, rel=0.02)
 
 
-INDEX, SEVERAL = "layers[0].index is ", "but a sample has one index there; give one, such as 1.5 or"
-NO_INDICES = [None, True, "gold", op.FOLLOWS, op.Spectrum.black_body(3000.0), op.Polarizer(), {}]
-LISTS = [(0.5, 2.1), [1.5, 1.6], np.array([1.5, 1.6]), op.Material(np.array([1.5, 1.6])), []]
-WRONG_LAYERS = [
-    *(([(each, 0.1)], INDEX, "") for each in (0, 0.0, 0j, -1.5, np.nan, np.inf, 1.5 - 0.1j)),
-    *(([(each, 0.1), (1.5, 0.1)], INDEX, "") for each in (0, -1.5, np.nan, 1e-70, 1e70)),
-    *(([(each, 0.1)], "layers[0].index", "") for each in NO_INDICES),
-    *(([(each, 0.1)], "", f"{SEVERAL} 0.5+2.1j") for each in LISTS),
-    *(
-        (each, "layers is ", "its roughness, such as [(1.5, 0.1)]")
-        for each in ([], (), None, 1.5, "glass", {(1.5, 0.1)})
-    ),
-    *(
-        ([(1.5, 0.1), each], "layers[1] is ", "roughness, such as (1.5, 0.1)")
-        for each in (1.5, (1.5,), (1.5, 0.1, 0.2), None, "1.5")
-    ),
-    (
-        [*op.Sample([(0.5 + 2.1j, 0.1)]).layers, (1.5, 0.1)],
-        "layers[0].index is (0.5+2.1j), which absorbs",
-        "",
-    ),
-]
+FIRST, SEVERAL = "layers[0].index is ", "but a sample has one index there; give one, such as 1.5 or"
+ABSORBS = "which absorbs; give a real index of refraction"
 
 
-@rows("layers, start, within", WRONG_LAYERS)
+@rows(
+    "layers, start, within",
+    [
+        *(([(each, 0.1)], FIRST, "") for each in (0, -1.5, np.nan, 1.5 - 0.1j)),
+        *(([(each, 0.1), (1.5, 0.1)], FIRST, "") for each in (0, 1e-70, 1e70)),
+        *(([(each, 0.1)], "layers[0].index", "") for each in (None, "gold", op.Polarizer())),
+        *(
+            ([(each, 0.1)], FIRST, f"{SEVERAL} 0.5+2.1j")
+            for each in ((0.5, 2.1), np.array([1.5, 1.6]), op.Material(np.array([1.5, 1.6])))
+        ),
+        *((each, "layers is ", "such as [(1.5, 0.1)]") for each in ([], None)),
+        *(([(1.5, 0.1), each], "layers[1] is ", "such as (1.5, 0.1)") for each in (1.5, (1.5,))),
+        *(
+            ([(each, 0.1), (2.4, 0.1)], FIRST, ABSORBS)
+            for each in (1.5 + 1e-9j, "1.5+0.1j", op.Material(1.5, 0.1))
+        ),
+        ([*op.Sample([(0.5 + 2.1j, 0.1)]).layers, (1.5, 0.1)], f"{FIRST}(0.5+2.1j)", ABSORBS),
+    ],
+)
 def test_layers_and_indices_that_are_none_are_refused(layers, start, within):
     fault = fault_of(layers)
     assert fault.startswith(start)
     assert within in fault
+
+
+def test_media_that_do_not_absorb_may_be_anywhere_and_the_last_may_absorb():
+    for index in (1.5, 1, "1.5", 1.5 + 0j, op.Material(1.5), np.array(1.5), BK7):
+        op.Sample([(index, 0.1), (index, 0.2), (index, 0.3)], outside=index)
+    for index in (0.5 + 2.1j, "0.5+2.1j", op.Material(0.5, 2.1), GOLD):
+        op.Sample([(1.5, 0.1), (index, 0.1)])
+    assert fault_of([(1.5, 0.1)], outside=1j).startswith(f"outside is 1j, {ABSORBS}")
+    # A material that absorbs at every wavelength is known without one.
+    assert refused([(GOLD, 0.1), (2.4, 0.1)], outside=GOLD) == tuple(
+        f"k of gold is 0 at no wavelength, and {place}.k takes 0, since only the last medium may "
+        f"absorb: take the medium without its k, such as Material(glass.n)"
+        for place in ("outside", "layers[0].index")
+    )
+    op.Sample([(op.Material(GOLD.n), 0.1), (2.4, 0.1)])
 
 
 def test_cells_and_periods_of_no_interface_are_refused():
@@ -223,64 +216,34 @@ def test_cells_and_periods_of_no_interface_are_refused():
     "option, value, sentence",
     [
         ("surfaces", 0, "must be a whole number of 1 or more, not 0"),
-        ("surfaces", 2.0, "must be a whole number of 1 or more, not 2.0"),
         ("seed", -1, "must be a whole number of 0 or more, not -1"),
-        ("seed", True, "must be a whole number of 0 or more, not True"),
         ("periodic", 1, "is 1; give True or False"),
         ("cells", 1, "must be a whole number of 2 or more, or two of them for x and y, not 1"),
         ("description", 3, "must be a text, not 3"),
     ],
 )
-def test_an_option_that_is_none_is_told_with_the_cure(option, value, sentence):
+def test_an_option_that_is_none_is_told_with_the_cure_and_all_faults_at_once(
+    option, value, sentence
+):
     assert fault_of([(1.5, 0.1)], **{option: value}) == f"{option} {sentence}"
-
-
-def test_all_faults_are_told_at_once():
     layers = [(1.5j, -0.1), 3, (0, np.nan)]
     others = {"outside": -1, "cells": 0, "surfaces": 0, "seed": -1, "periodic": "no"}
+    first = "outside layers[0].index layers[0].alpha layers[1] layers[2].index layers[2].alpha"
     places = [fault.split()[0] for fault in refused(layers, **others)]
-    assert places == [
-        "outside", "layers[0].index", "layers[0].alpha", "layers[1]", "layers[2].index",
-        "layers[2].alpha", "cells", "surfaces", "seed", "periodic",
-    ]  # fmt: skip
+    assert places == [*first.split(), "cells", "surfaces", "seed", "periodic"]
 
 
-def test_a_medium_that_does_not_absorb_may_be_anywhere_and_the_last_may_absorb():
-    for index in (1.5, 1, "1.5", 1.5 + 0j, op.Material(1.5), np.array(1.5), BK7):
-        op.Sample([(index, 0.1), (index, 0.2), (index, 0.3)], outside=index)
-    for index in (0.5 + 2.1j, 1j, "0.5+2.1j", op.Material(0.5, 2.1), GOLD):
-        op.Sample([(1.5, 0.1), (index, 0.1)])
-
-
-@rows("index", [1.5 + 1e-9j, "1.5+0.1j", 1j, op.Material(1.5, 0.1)])
-@rows("place", ["outside", "layers[0].index"])
-def test_a_medium_above_the_last_must_not_absorb(index, place):
-    first, outside = (1.5, index) if place == "outside" else (index, 1.0)
-    fault = fault_of([(first, 0.1), (2.4, 0.1)], outside=outside)
-    assert fault.startswith(f"{place} is ")
-    assert "which absorbs; give a real index of refraction" in fault
-    assert fault.endswith("since only the last medium may absorb")
-
-
-def test_a_material_that_absorbs_at_every_wavelength_is_refused_above_the_last():
-    assert refused([(GOLD, 0.1), (2.4, 0.1)], outside=GOLD) == tuple(
-        f"k of gold is 0 at no wavelength, and {place}.k takes 0, since only the last medium may "
-        f"absorb: take the medium without its k, such as Material(glass.n)"
-        for place in ("outside", "layers[0].index")
-    )
-    op.Sample([(op.Material(GOLD.n), 0.1), (2.4, 0.1)])
+CAUCHY = op.Material.cauchy
 
 
 @rows(
     "index, name",
     [
         (op.Parameter("n"), "n"),
-        (op.Parameter("n", 1.5), "n"),
         (op.Material(op.Parameter("n", 1.5)), "n"),
-        (op.Material.cauchy([1.5, op.Parameter("b", 0.004)]), "b"),
-        (op.Material.cauchy([1.5, 0.004], wavelength=op.Wavelength("colour")), "colour"),
-        (op.Material.cauchy([1.5, 0.004], wavelength=2 * op.Wavelength()), "wavelength"),
-        (op.Material.cauchy([1.5, 0.004], wavelength=op.Wavelength(default=5e-7)), "wavelength"),
+        (CAUCHY([1.5, op.Parameter("b", 0.004)]), "b"),
+        (CAUCHY([1.5, 0.004], wavelength=2 * op.Wavelength()), "wavelength"),
+        (CAUCHY([1.5, 0.004], wavelength=op.Wavelength(default=5e-7)), "wavelength"),
     ],
 )
 def test_a_medium_that_follows_from_a_parameter_is_refused(index, name):
@@ -293,13 +256,16 @@ def test_a_medium_that_follows_from_a_parameter_is_refused(index, name):
 
 def test_indices_are_numbers_and_those_of_materials_at_the_wavelength():
     found = op.Sample([(1.5, 0.1), (2.4, 0.1), (0.5 + 2.1j, 0.1)], outside=1.3).indices()
-    assert (found.outside, found.inner) == (1.3, (1.5, 2.4))
-    assert (found.n.shape, found.k.shape) == ((), ())
-    assert (float(found.n), float(found.k)) == (0.5, 2.1)
+    assert (found.outside, found.inner, found.base) == (1.3, (1.5, 2.4), 0.5 + 2.1j)
+    assert found.n.shape == found.k.shape == ()
     assert op.Sample([(1.0, 0.1), (1.0, 0.1)]).indices().inner == (1.0,), "equal neighbours"
+    for index, opaque in ((1.5, False), (1.5 + 1e-9j, True)):
+        assert op.Sample([(index, 0.1)]).indices().opaque is opaque
     # Cauchy's formula: 1.5 + 0.004 / 0.5^2; and halfway between two samples.
     found = op.Sample([(GLASS, 0.1), (METAL, 0.1)], outside=GLASS).indices("500 nm")
-    assert found.outside == pytest.approx(1.516, rel=1e-15)
+    assert [found.outside, *found.inner] == pytest.approx([1.516, 1.516], rel=1e-15)
+    assert found.n.shape == ()
+    np.testing.assert_allclose([found.n, found.k], [0.75, 2.0], rtol=1e-12)
     assert found.inner == pytest.approx((1.516,), rel=1e-15)
     assert (found.n.shape, float(found.n)) == ((), pytest.approx(0.75, rel=1e-12))
     assert float(found.k) == pytest.approx(2.0, rel=1e-12)
@@ -316,45 +282,31 @@ def test_numbers_that_jax_traces_are_refused():
         jax.grad(lambda wavelength: sample.indices(wavelength).n)(5e-7)
 
 
-@rows("wavelength", [["400 nm", "500 nm"], [4e-7, 5e-7], np.array([[4e-7], [5e-7]])])
+@rows("wavelength", [["400 nm", "500 nm"], np.array([[4e-7], [5e-7]])])
 def test_the_base_has_the_shape_of_the_wavelengths(wavelength):
     found = op.Sample([(1.5, 0.1), (METAL, 0.1)]).indices(wavelength)
     assert found.n.shape == found.k.shape == np.shape(wavelength)
-    np.testing.assert_allclose(found.n.ravel(), [1.0, 0.75], rtol=1e-12)
-    np.testing.assert_allclose(found.k.ravel(), [1.0, 2.0], rtol=1e-12)
+    parts = [found.n.ravel(), found.k.ravel()]
+    np.testing.assert_allclose(parts, [[1.0, 0.75], [1.0, 2.0]], rtol=1e-12)
     assert found.inner == (1.5,)
     # Of numbers too, where a medium above takes a wavelength.
     found = op.Sample([(WHITE, 0.1), (0.5 + 2.1j, 0.1)]).indices(wavelength)
     assert found.inner == (1.6,)
-    np.testing.assert_array_equal(found.n.ravel(), [0.5, 0.5])
-    np.testing.assert_array_equal(found.k.ravel(), [2.1, 2.1])
-
-
-@rows("index, opaque", [(1.5, False), (0.5 + 2.1j, True), (1.5 + 1e-9j, True)])
-def test_a_base_that_absorbs_is_opaque(index, opaque):
-    assert op.Sample([(index, 0.1)]).indices().opaque is opaque
+    np.testing.assert_array_equal([found.n.ravel(), found.k.ravel()], [[0.5] * 2, [2.1] * 2])
 
 
 ONE, BOTH = "give one wavelength at a time", ["400 nm", "500 nm"]
-UNUSED = "^wavelength is given, but no medium depends on it; leave it out"
-METRES = "550 metres, which is no wavelength of light; for nanometres write '550 nm'"
 
 
 @rows(
     "layers, wavelength, sentence",
     [
         ([GLASS, METAL], None, "depends on the wavelength; give one, such as '550 nm'$"),
-        ([1.5], "550 nm", UNUSED),
+        ([1.5], "550 nm", "^wavelength is given, but no medium depends on it; leave it out"),
         ([INK, 1.5], "500 nm", r"^k of ink at 500 nm is 0\.1, and layers\[0\]\.index\.k takes 0"),
-        *(
-            ([INK], each, rf"^layers\[0\]\.index lets light .*{ONE}$")
-            for each in (BOTH, BOTH[::-1])
-        ),
-        ([GLASS], 550, METRES),
-        ([GLASS], "550", "has no unit"),
-        ([GLASS], "a", "knows no word 'a'"),
-        ([GLASS], np.nan, "is nan"),
-        ([GLASS], True, "True"),
+        ([INK], BOTH, rf"^layers\[0\]\.index lets light .*{ONE}$"),
+        ([INK], BOTH[::-1], rf"^layers\[0\]\.index lets light .*{ONE}$"),
+        ([GLASS], 550, "550 metres, which is no wavelength of light; for nanometres write"),
         ([GLASS], [], "wavelength is empty; give one or more"),
     ],
 )
@@ -388,18 +340,9 @@ def test_smooth_is_the_stack_of_the_same_media_by_the_parameter_incidence():
 
 
 def test_smooth_glass_on_glass_sums_up_light_that_goes_to_and_fro():
-    # Fresnel's equations and the geometric series, of light along s and along p.
-    theta = np.radians([65.0])
-    first, second = (np.arcsin(np.sin(theta) / n) for n in (1.5, 2.4))
-
-    def reflectances(n1, n2, t1, t2):
-        c1, c2 = np.cos(t1), np.cos(t2)
-        pairs = (n1 * c1, n2 * c2), (n1 * c2, n2 * c1)
-        return np.array([((a - b) / (a + b)) ** 2 for a, b in pairs])
-
-    upper = reflectances(1.0, 1.5, theta, first)
-    lower = reflectances(1.5, 2.4, first, second)
-    along_s, along_p = upper + (1 - upper) ** 2 * lower / (1 - upper * lower)
+    theta = np.radians(65.0)
+    faces = fresnel(1.0, 1.5, theta), fresnel(1.5, 2.4, np.arcsin(np.sin(theta) / 1.5))
+    along_s, along_p = rounds(*faces)
     light = (op.Source() >> op.load_sample("glass-on-glass").smooth(theta) >> op.Detector()).trace()
     np.testing.assert_allclose(light.intensity, (along_s + along_p) / 2, rtol=1e-14)
     np.testing.assert_allclose(light.dolp, (along_s - along_p) / (along_s + along_p), rtol=1e-13)
