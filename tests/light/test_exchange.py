@@ -11,7 +11,6 @@ from random_matrices import jones, of_jones
 from tables import rows
 
 STOKES = np.array([[2.0, 0.7, -0.4, 1.1], [1.0, 0.0, 0.0, -1.0]])
-every_convention = pytest.mark.parametrize("name", sorted(CONVENTIONS))
 
 
 def test_the_signs_are_those_of_the_page():
@@ -30,10 +29,19 @@ def test_the_signs_are_those_of_the_page():
     assert {name: stokes.tolist() for name, stokes in found.items()} == expected
 
 
-@every_convention
-def test_light_comes_back_as_it_was(name):
+@rows("name", CONVENTIONS)
+def test_light_and_matrices_come_back_and_act_on_each_other_in_every_convention(name):
     light = op.Light(STOKES, op.Frame().turned(0.3))
     assert op.Light.from_(name, light.to(name), light.frame) == light
+    frames = op.Frame().turned(0.3), op.Frame().turned(-0.2)
+    rng = np.random.default_rng(1)
+    one, two = (op.Mueller(of_jones(jones(rng))) for _ in range(2))
+    matrix = op.Mueller(one.matrix, *frames)
+    assert op.Mueller.from_(name, matrix.to(name), *frames) == matrix
+    apart, light = two.to(name) @ one.to(name), op.Light(STOKES)
+    np.testing.assert_allclose((two @ one).to(name), apart, rtol=0, atol=1e-13)
+    after = light.to(name) @ apart.T
+    np.testing.assert_allclose((two @ one @ light).to(name), after, rtol=0, atol=1e-12)
 
 
 def test_faint_and_measured_light_is_taken():
@@ -48,24 +56,6 @@ def test_faint_and_measured_light_is_taken():
     assert np.isnan(changed_delta("scatmech", np.array([np.nan]))).all()
 
 
-@every_convention
-def test_a_matrix_comes_back_as_it_was(name):
-    frames = op.Frame().turned(0.3), op.Frame().turned(-0.2)
-    matrix = op.Mueller(of_jones(jones(np.random.default_rng(1))), *frames)
-    assert op.Mueller.from_(name, matrix.to(name), *frames) == matrix
-
-
-@every_convention
-def test_matrices_act_on_light_and_on_each_other_in_every_convention(name):
-    rng = np.random.default_rng(2)
-    one, two = (op.Mueller(of_jones(jones(rng))) for _ in range(2))
-    light = op.Light(STOKES)
-    apart = two.to(name) @ one.to(name)
-    np.testing.assert_allclose((two @ one).to(name), apart, rtol=0, atol=1e-13)
-    after = light.to(name) @ apart.T
-    np.testing.assert_allclose((two @ one @ light).to(name), after, rtol=0, atol=1e-12)
-
-
 def test_names_and_shapes_that_there_are_not_are_refused():
     light, matrix = op.Light([1.0, 0.0, 0.0, 0.0]), op.Polarizer(0.1).mueller()
     for act in (
@@ -75,12 +65,12 @@ def test_names_and_shapes_that_there_are_not_are_refused():
         lambda name: op.Light.from_(name, [1.0, 0.0, 0.0, 0.0]),
         lambda name: op.Mueller.from_(name, np.eye(4)),
     ):
-        with pytest.raises(
-            op.OptipathError, match="convention 'mitsuba3' is unknown; did you mean 'mitsuba'"
+        for name, told in (
+            ("mitsuba3", "'mitsuba3' is .*; did you mean 'mitsuba'"),
+            (None, "None"),
         ):
-            act("mitsuba3")
-        with pytest.raises(op.OptipathError, match="convention None is unknown"):
-            act(None)
+            with pytest.raises(op.OptipathError, match=f"convention {told}"):
+                act(name)
     with pytest.raises(op.OptipathError, match="'hecht' has no psi and Delta; there are: ellips"):
         op.Light([1.0, 0.0, 1.0, 0.0]).ellipsometric_angles("hecht")
     with pytest.raises(op.OptipathError, match=r"of shape \(\.\.\., 4\)"):
@@ -123,49 +113,32 @@ def test_jax_takes_slopes_through_a_convention():
     assert jax.grad(s3)(0.3) == pytest.approx(-0.5)
 
 
-figures = pytest.importorskip("matplotlib.figure")
-
-LIGHT = op.Light([1.0, 0.0, 0.6, 0.8])
-
-
-@rows("kind", ["ellipse", "poincare", "stokes"])
-def test_each_kind_is_the_function_of_its_name(kind):
-    titles = [drawn.get_title() for drawn in (LIGHT.plot(kind), getattr(op.plots, kind)(LIGHT))]
-    assert titles[0] == titles[1]
-
-
-def test_ellipses_and_matrices_draw_themselves_into_axes_that_are_given():
+def test_each_kind_of_picture_is_the_function_of_its_name_in_axes_that_may_be_given():
+    figures = pytest.importorskip("matplotlib.figure")
+    light = op.Light([1.0, 0.0, 0.6, 0.8])
+    for kind in ("ellipse", "poincare", "stokes"):
+        one, other = light.plot(kind), getattr(op.plots, kind)(light)
+        assert one.get_title() == other.get_title()
     ax = figures.Figure().add_subplot()
-    assert LIGHT.plot(ax=ax) is ax
+    assert light.plot(ax=ax) is ax
     assert ax.get_title().startswith("right-handed elliptical")
     batch = op.Light([[1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, -1.0]])
     ax = batch.plot("poincare", by=[0.0, 1.0], label="turns")
     assert [each.get_ylabel() for each in ax.figure.axes[1:]] == ["turns"]
     ax = figures.Figure().add_subplot()
     assert op.Mueller(np.eye(4)).plot(ax) is ax
-
-
-@rows(
-    "kind, options, told",
-    [
+    for kind, options, told in (
         ("elipse", {}, "kind of picture 'elipse' is unknown; did you mean 'ellipse'"),
-        ("map", {}, "there are: ellipse, poincare, stokes"),
         (3, {}, "there are: ellipse, poincare, stokes"),
-        (
-            "stokes",
-            {"publish": [1]},
-            "stokes option 'publish' is unknown; did you mean 'published'",
-        ),
+        ("stokes", {"publish": [1]}, "stokes option 'publish' .* did you mean 'published'"),
         ("ellipse", {"by": [1]}, "ellipse option 'by' is unknown"),
-    ],
-)
-def test_kinds_and_options_that_are_not_there_are_told(kind, options, told):
-    with pytest.raises(op.ParameterError, match=told):
-        LIGHT.plot(kind, **options)
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            light.plot(kind, **options)
 
 
 def test_without_matplotlib_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.delitem(vars(op.plots), "ellipse", raising=False)
     with pytest.raises(op.OptipathError, match="matplotlib"):
-        LIGHT.plot()
+        op.Light([1.0, 0.0, 0.6, 0.8]).plot()

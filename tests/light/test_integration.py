@@ -39,21 +39,16 @@ def test_a_constant_spectrum_comes_to_the_width(wavelengths, falls):
 def test_what_is_linear_comes_to_its_mean_times_the_width():
     grid = np.linspace(380.0, 780.0, 1001)
     assert abs(light_of(np.ones(1001), grid * NM).integrate().S0 / 400.0 - 1.0) < 1e-15
-    path = op.Source(line(0.2, 0.9)) >> op.Detector()
-    found = path.trace(wavelength=GRID).integrate()
+    found = (op.Source(line(0.2, 0.9)) >> op.Detector()).trace(wavelength=GRID).integrate()
     np.testing.assert_allclose(found.stokes, [0.55 * 300.0, 0, 0, 0], rtol=1e-14)
 
 
-def test_sums_are_as_exact_as_those_of_python(rng):
-    grid = np.sort(rng.uniform(380.0, 780.0, 500)) * NM
-    values = rng.uniform(0.0, 1.0, 500)
-    nm = grid * 1e9
-    steps = np.diff(nm)
-    expected = math.fsum(0.5 * steps * (values[:-1] + values[1:]))
+def test_sums_are_as_exact_as_those_of_python_and_the_same_alone_and_in_batches_to_the_last_bit(
+    rng,
+):
+    grid, values = np.sort(rng.uniform(380.0, 780.0, 500)) * NM, rng.uniform(0.0, 1.0, 500)
+    expected = math.fsum(0.5 * np.diff(grid * 1e9) * (values[:-1] + values[1:]))
     np.testing.assert_allclose(light_of(values, grid).integrate().S0, expected, rtol=1e-15 * 4)
-
-
-def test_the_result_is_the_same_alone_and_in_batches_to_the_last_bit(rng):
     values = rng.uniform(0.0, 1.0, (5, 300, 3))
     grid = np.linspace(380.0, 780.0, 300) * NM
     lights = light_of(values, grid[:, None], dop=0.3)
@@ -91,32 +86,26 @@ def test_faint_and_dark_light_is_added_up():
     stokes = [[s0, np.nan, np.nan, np.nan] for s0 in (0.0, 1.0, 0.0)]
     light = op.Light(stokes, wavelength=[4e-7, 5e-7, 6e-7], exponent=[0, -5000, 0])
     assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
-    with pytest.raises(op.LightError, match="none at all"):
-        op.Light(np.zeros((0, 4)), wavelength=np.zeros(0)).integrate()
 
 
 @rows("dtype", ["f4", "f8"])
 def test_the_precision_stays(dtype):
-    light = op.Light(np.ones((3, 4), dtype) * [[1, 0, 0, 0]], wavelength=EVEN[:3])
-    light = op.Light(light.stokes.astype(dtype), wavelength=EVEN[:3])
-    assert light.integrate().stokes.dtype == dtype
+    light = op.Light(np.ones((3, 4), dtype) * np.eye(4, dtype=dtype)[0], wavelength=EVEN[:3])
+    assert light.integrate().stokes.dtype == light.stokes.dtype == dtype
 
 
 def test_edges_and_responses_weigh_what_is_added_up():
-    light = light_of([1.0, 2.0, 4.0], np.array([400.0, 500.0, 600.0]) * NM)
+    light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"], dop=1.0)
     found = light.integrate(edges=["350 nm", "480 nm", "510 nm", "700 nm"])
     np.testing.assert_allclose(found.S0, 130.0 + 2 * 30.0 + 4 * 190.0, rtol=1e-14)
-    light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"], dop=1.0)
-    given = op.Spectrum.sampled(["400 nm", "600 nm"], [0.0, 1.0])
-    for response in ([0.0, 0.5, 1.0], np.array([0.0, 0.5, 1.0]), given):
+    rising = op.Spectrum.sampled(["400 nm", "600 nm"], [0.0, 1.0])
+    for response in ([0.0, 0.5, 1.0], np.array([0.0, 0.5, 1.0]), rising):
         found = light.integrate(response=response)
         np.testing.assert_allclose(found.stokes, [300.0, 0, 300.0, 0], rtol=1e-12)
-    light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"])
     assert light.integrate(response=2.0).intensity == pytest.approx(900.0, rel=1e-14)
     values = on_line(0.2, 0.9, GRID)
-    widths = np.array([30.0, 75.0, 120.0, 75.0])
     found = light_of(values, GRID).integrate().S0
-    np.testing.assert_allclose(found, values @ widths, rtol=1e-14)
+    np.testing.assert_allclose(found, values @ [30.0, 75.0, 120.0, 75.0], rtol=1e-14)
 
 
 @rows(
@@ -140,23 +129,16 @@ def test_a_response_that_is_power_is_refused_as_a_detector_refuses_it(power):
 @rows(
     "shape, wavelength, expected",
     [
-        ((), 5e-7, ()),
-        ((1,), [5e-7], ()),
-        ((3,), 5e-7, (3,)),
-        ((3,), [5e-7] * 3, (3,)),
-        ((3, 1), [5e-7], (3,)),
-        ((1, 3), [[5e-7]], (3,)),
+        *[((), 5e-7, ()), ((1,), [5e-7], ()), ((3,), 5e-7, (3,)), ((3,), [5e-7] * 3, (3,))],
+        *[((3, 1), [5e-7], (3,)), ((1, 3), [[5e-7]], (3,))],
     ],
 )
 def test_light_of_one_wavelength_fills_one_bin(shape, wavelength, expected):
     light = light_of(np.full(shape, 2.0), wavelength, dop=0.5)
     for edges in (["490 nm", "520 nm"], ["520 nm", "490 nm"]):
-        found = light.integrate(edges=edges)
-        assert found.shape == expected
-        every = [*expected, 4]
-        np.testing.assert_allclose(
-            found.stokes, np.broadcast_to([60.0, 0, 30.0, 0], every), rtol=1e-14
-        )
+        found = light.integrate(edges=edges).stokes
+        every = np.broadcast_to([60.0, 0, 30.0, 0], [*expected, 4])
+        np.testing.assert_allclose(found, every, rtol=1e-14, strict=True)
     assert light.integrate(response=0.5, edges=edges).intensity == pytest.approx(30.0, rel=1e-14)
     with pytest.raises(op.ValueFault, match="bin 0 is from 400 nm to 450 nm"):
         light.integrate(edges=["400 nm", "450 nm"])
@@ -186,14 +168,11 @@ def test_frames_stay_and_those_that_differ_by_wavelength_are_refused():
     "light, sentence",
     [
         (op.Light([[1, 0, 0, 0]] * 3), "light of no known wavelengths has no spectrum"),
-        (light_of(1.0, 5e-7), "light of one wavelength, 500 nm, has no spectrum"),
-        (light_of([1.0, 1.0], 5e-7), "light of one wavelength, 500 nm"),
+        (op.Light(np.zeros((0, 4)), wavelength=np.zeros(0)), "none at all"),
+        (light_of([1.0, 1.0], 5e-7), "light of one wavelength, 500 nm, has no spectrum"),
         (light_of([1.0, 1.0, 1.0], [5e-7, 6e-7, 5e-7]), "wavelengths of the light neither rise"),
         (light_of([1.0, 1.0, 1.0], [5e-7, 6e-7, 6e-7]), "wavelengths of the light are repeated"),
-        (
-            light_of(np.ones((2, 3)), [[5e-7, 6e-7, 7e-7], [4e-7, 5e-7, 6e-7]]),
-            r"vary along axes 0 and 1 of light of shape \(2, 3\)",
-        ),
+        (light_of(np.eye(2), [[5e-7, 6e-7], [4e-7, 5e-7]]), r"axes 0 and 1 .* \(2, 2\)"),
     ],
 )
 def test_light_that_is_no_spectrum_is_refused(light, sentence):
@@ -207,7 +186,6 @@ def test_light_that_is_no_spectrum_is_refused(light, sentence):
         ({"response": [1.0, 2.0]}, r"the response has the shape \(2,\), and there are 3"),
         ({"response": [1.0, -2.0, 1.0]}, "the response is -2"),
         ({"response": [1.0, np.nan, 1.0]}, "the response is nan"),
-        ({"response": -1.0}, "the response is -1"),
         ({"response": ["a", "b", "c"]}, "the response must be of real numbers"),
         ({"edges": [4e-7, 5e-7]}, "3 wavelengths have 4 edges of bins"),
         ({"edges": [3e-7, 4.1e-7, 4.2e-7, 7e-7]}, "bin 1 is from 410 nm to 420 nm, and its wave"),

@@ -11,37 +11,11 @@ jax = pytest.importorskip("jax")
 jnp = jax.numpy
 
 STOKES = np.array([[2.0, 0.6, -0.3, 0.8], [1.0, 1 / 3, 0.2, 0.1]])
-MUELLER = [
-    "diattenuation",
-    "diattenuation_vector",
-    "polarizance",
-    "polarizance_vector",
-    "depolarization_index",
-    "psi",
-    "delta",
-    "retardance",
-    "coherency",
-    "cloude_eigenvalues",
-]
-NOT_TRACED = [
-    lambda m: m.coherency,
-    lambda m: m.cloude_eigenvalues,
-    lambda m: m.is_physical(),
-    lambda m: m.nearest_physical().matrix,
-    lambda m: m.lu_chipman().retarder.matrix,
-    lambda m: m.retardance,
-]
-
-
-@pytest.fixture
-def x64():
-    jax.config.update("jax_enable_x64", val=True)
-    yield
-    jax.config.update("jax_enable_x64", val=False)
-
-
-def matrix():
-    return np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
+MATRIX = np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
+MUELLER = (
+    "diattenuation diattenuation_vector polarizance polarizance_vector depolarization_index psi "
+    "delta retardance coherency cloude_eigenvalues"
+).split()
 
 
 def doubles(values):
@@ -53,39 +27,36 @@ def doubles(values):
         jax.config.update("jax_enable_x64", val=False)
 
 
-@rows("name", LIGHT)
-def test_figures_of_known_light_keep_its_precision(name):
-    found = getattr(op.Light(doubles(STOKES)), name)
-    expected = getattr(op.Light(STOKES), name)
-    np.testing.assert_array_equal(found, expected)
-    assert found.dtype == expected.dtype
-
-
-@rows("name", MUELLER)
-def test_figures_of_a_known_matrix_keep_its_precision(name):
-    found, expected = (getattr(op.Mueller(m), name) for m in (doubles(matrix()), matrix()))
-    np.testing.assert_array_equal(found, expected)
-    assert found.dtype == expected.dtype
-
-
-def test_what_is_done_to_known_light_keeps_its_precision():
-    light, metal = op.Light(STOKES), op.Mueller(matrix())
-    same, same_metal = op.Light(doubles(STOKES)), op.Mueller(doubles(matrix()))
+def test_figures_of_what_is_known_and_what_is_done_to_it_keep_its_precision():
+    light, metal = op.Light(STOKES), op.Mueller(MATRIX)
+    same, same_metal = op.Light(doubles(STOKES)), op.Mueller(doubles(MATRIX))
+    for one, other, names in ((light, same, LIGHT), (metal, same_metal, MUELLER)):
+        for name in names:
+            expected, found = getattr(one, name), getattr(other, name)
+            np.testing.assert_array_equal(found, expected, err_msg=name)
+            assert found.dtype == expected.dtype, name
     frame = op.Frame().turned(0.3)
-    assert same == light
-    assert same_metal == metal
-    assert same.in_frame(frame) == light.in_frame(frame)
-    assert same + same == light + light
-    assert same_metal @ same == metal @ light
-    assert same_metal @ same_metal == metal @ metal
+    for found, expected in (
+        *[(same, light), (same + same, light + light), (same_metal, metal)],
+        *[(same_metal @ same, metal @ light), (same_metal @ same_metal, metal @ metal)],
+        (same.in_frame(frame), light.in_frame(frame)),
+        (same_metal.nearest_physical(), metal.nearest_physical()),
+    ):
+        assert found == expected
     assert same_metal.is_physical()
-    assert same_metal.nearest_physical() == metal.nearest_physical()
 
 
-@rows("figure", NOT_TRACED)
+@rows(
+    "figure",
+    [
+        *[lambda m: m.coherency, lambda m: m.cloude_eigenvalues, lambda m: m.is_physical()],
+        lambda m: m.nearest_physical().matrix,
+        *[lambda m: m.lu_chipman().retarder.matrix, lambda m: m.retardance],
+    ],
+)
 def test_what_takes_numbers_says_so_where_jax_traces(figure):
     with pytest.raises(op.ParameterError, match="numbers, not values that JAX traces"):
-        jax.jit(lambda m: figure(op.Mueller(m)))(matrix())
+        jax.jit(lambda m: figure(op.Mueller(m)))(MATRIX)
 
 
 def test_light_that_jax_traces_has_no_exponent_and_no_tolerance():
@@ -117,9 +88,9 @@ def test_what_is_done_to_light_that_jax_traces_is_what_numpy_does(done):
     def traced(stokes, metal):
         return done(op.Light(stokes), op.Mueller(metal))
 
-    expected = traced(STOKES, matrix())
-    np.testing.assert_allclose(jax.jit(traced)(STOKES, matrix()), expected, rtol=1e-5, atol=1e-6)
-    slopes = jax.jacobian(traced)(jax.numpy.array(STOKES), jax.numpy.array(matrix()))
+    expected = traced(STOKES, MATRIX)
+    np.testing.assert_allclose(jax.jit(traced)(STOKES, MATRIX), expected, rtol=1e-5, atol=1e-6)
+    slopes = jax.jacobian(traced)(jax.numpy.array(STOKES), jax.numpy.array(MATRIX))
     assert np.isfinite(slopes).all()
 
 
@@ -149,41 +120,32 @@ def test_what_takes_numbers_alone_says_so_of_what_jax_traces(ask):
         jax.jit(traced)(0.2)
 
 
+@pytest.mark.usefixtures("jax")
 def test_a_default_that_jax_traces_has_a_slope():
     def intensity(angle):
         first = op.Polarizer(op.Parameter("angle", default=angle))
-        path = op.Source(1.0) >> first >> op.Polarizer(0.0) >> op.Detector()
-        return path.trace().S0
+        return (op.Source() >> first >> op.Polarizer(0.0) >> op.Detector()).trace().S0
 
-    jax.config.update("jax_enable_x64", val=True)
-    try:
-        found = jax.grad(intensity)(0.3)
-    finally:
-        jax.config.update("jax_enable_x64", val=False)
     # Half of cos^2 has the slope -sin cos.
-    np.testing.assert_allclose(found, -np.sin(0.3) * np.cos(0.3), rtol=1e-12)
+    slope = jax.grad(intensity)(0.3)
+    np.testing.assert_allclose(slope, -np.sin(0.3) * np.cos(0.3), rtol=1e-12)
 
 
-def test_an_index_may_be_traced():
+def test_an_index_may_be_traced_and_takes_one_of_several_frames_at_which_nobody_looks():
     lights, matrices = op.Light(STOKES), op.Retarder([0.1, 0.2]).mueller()
     np.testing.assert_allclose(jax.jit(lambda i: lights[i].S0)(1), 1.0)
     np.testing.assert_allclose(jax.jit(lambda i: lights[None][0, i].S1)(0), 0.6, rtol=1e-6)
-    found = jax.jit(lambda i: matrices[i].matrix)(1)
-    np.testing.assert_allclose(found, matrices.matrix[1], rtol=1e-6)
-
-
-def test_a_traced_index_takes_one_of_several_frames_at_which_nobody_looks():
-    matrices = op.Polarizer(0.0, azimuth=[0.0, 0.5, 1.0]).mueller()
-    lights = matrices @ op.Light(STOKES[0])
+    turned = op.Polarizer(0.0, azimuth=[0.0, 0.5, 1.0]).mueller()
+    for several, place in ((matrices, 1), (turned, 2)):
+        found = jax.jit(lambda i, several=several: several[i].matrix)(place)
+        np.testing.assert_allclose(found, several.matrix[place], rtol=1e-6)
+    lights, world = turned @ op.Light(STOKES[0]), op.Frame()
     found = jax.jit(lambda i: (2 * lights[i]).stokes)(2)
     np.testing.assert_allclose(found, 2 * lights.stokes[2], rtol=1e-6)
-    np.testing.assert_allclose(
-        jax.jit(lambda i: matrices[i].matrix)(2), matrices.matrix[2], rtol=1e-6
-    )
     with pytest.raises(op.FrameError, match=r"light\.in_frame\(frame\)\[i\]"):
-        jax.jit(lambda i: lights[i].in_frame(op.Frame()).stokes)(2)
-    cured = jax.jit(lambda i: lights.in_frame(op.Frame())[i].stokes)(2)
-    np.testing.assert_allclose(cured, lights[2].in_frame(op.Frame()).stokes, rtol=1e-6)
+        jax.jit(lambda i: lights[i].in_frame(world).stokes)(2)
+    cured = jax.jit(lambda i: lights.in_frame(world)[i].stokes)(2)
+    np.testing.assert_allclose(cured, lights[2].in_frame(world).stokes, rtol=1e-6)
 
 
 @rows("done", [lambda light, x: light * x, lambda light, x: light / x])
@@ -212,26 +174,18 @@ def test_a_traced_matrix_that_makes_no_light_of_light_gives_nan_with_its_slopes(
     np.testing.assert_allclose(jax.jit(lambda x: made(x, free))(2.0), 8.0)
 
 
-FROM_VERTICES = [
-    lambda light, _: (2 * light).stokes,
-    lambda light, _: (light / 3 + 2 * light).stokes,
-    lambda light, _: light[0].stokes,
-    lambda light, _: jnp.stack([one.stokes for one in light]),
-    lambda light, _: light.reshape(2, 1)[:, 0].stokes,
-    lambda _, matrix: matrix.matrix,
-    lambda _, matrix: matrix[0].matrix,
-]
-
-
-@pytest.mark.usefixtures("x64")
+@pytest.mark.usefixtures("jax")
 def test_frames_of_traced_vertices_are_made_where_somebody_asks_alone():
     plan = op.path_from_vertices(op.Parameter("points"), materials=[1.5, 1.3 + 3.4j]).compose()
     points = np.array([[0, 0, 2], [0, 0, 0], [0, 2, 0], [1, 2, 1.0]])
     both = np.stack([points, points * [1, 2, 1]])
 
     def found(points):
+        light, matrix = plan.run(points=points), plan.mueller(points=points)
         return [
-            done(plan.run(points=points), plan.mueller(points=points)) for done in FROM_VERTICES
+            *[(2 * light).stokes, (light / 3 + 2 * light).stokes, light[0].stokes],
+            *[jnp.stack([one.stokes for one in light]), light.reshape(2, 1)[:, 0].stokes],
+            *[matrix.matrix, matrix[0].matrix],
         ]
 
     for traced, known in zip(jax.jit(found)(both), found(both), strict=True):
