@@ -39,19 +39,6 @@ def told(run):
 
 
 @pytest.fixture
-def says(run):
-    """Give a command that ends well and says all of some parts."""
-
-    def give(line, *parts):
-        status, out, _ = run(line)
-        assert status == 0, line
-        for part in parts:
-            assert part in out, (line, part)
-
-    return give
-
-
-@pytest.fixture
 def found(told):
     """Give a command that has nothing to complain of; what it tells as JSON."""
     return lambda line, *words: json.loads(told(line, *words, "--json"))

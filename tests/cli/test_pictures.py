@@ -18,7 +18,6 @@ from optipath.values.axis_texts import AxisValues
 from pictures import faults_of, texts_of
 
 pytest.importorskip("matplotlib")
-DOCS = Path(__file__).parents[2] / "docs"
 
 
 def pictures_of(preset):
@@ -29,7 +28,7 @@ def pictures_of(preset):
 
 
 def request(preset, kind, case=None, *, x=(), y=None, reads=None, along=None, **values):
-    about = Chosen(preset, op.load_preset(preset), case, values, *([along] if along else []))
+    about = Chosen(preset, op.load_preset(preset), case, values, along or {})
     given = {"x": x, "y": y, "detector": None, "reads": reads}
     return request_of(about, kind, KINDS[kind].counts, **given)
 
@@ -86,47 +85,41 @@ def test_a_picture_is_drawn_into_a_file(table, told):
 
 
 def test_a_title_says_preset_case_and_changes_and_breaks_between_values_if_it_is_long(tmp_path):
-    figure = picture("npgr026", "stokes", "8", delta=0.5235987755982988, filter="none")
-    assert figure.get_suptitle() == "npgr026, case 8, delta 30 deg, filter none"
-    many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)
-    figure = picture("npgr026", "stokes", "8", **many)
-    assert "\n" in figure.get_suptitle()
-    assert faults_of(figure) == []
-    values = {"intensity": 123456789.123456, "n1": 0.123456789012345}
-    values |= dict.fromkeys(("delta", "rho", "phi", "filter", "n2", "k2"), 0.5812345678901)
-    for kind in ("stokes", "mueller"):
-        figure = picture("npgr026", kind, None, **values)
+    def title(*given, **values):
+        figure = picture(*given, **values)
         assert faults_of(figure) == []
-        lines = figure.get_suptitle().split("\n")
+        return figure.get_suptitle()
+
+    told = title("npgr026", "stokes", "8", delta=0.5235987755982988, filter="none")
+    assert told == "npgr026, case 8, delta 30 deg, filter none"
+    many = ("delta", "rho", "phi", "filter", "n2", "k2")
+    assert "\n" in title("npgr026", "stokes", "8", **dict.fromkeys((*many[:3], "n1", "k1"), 0.5))
+    values = {"intensity": 123456789.123456, "n1": 0.123456789012345}
+    for kind in ("stokes", "mueller"):
+        lines = title("npgr026", kind, **values, **dict.fromkeys(many, 0.5812345678901)).split("\n")
         assert len(lines) > 3
         assert all(line.endswith(",") for line in lines[:-1])
     file = tmp_path / ("w" * 150 + ".toml")
     file.write_text(op.load_preset("malus").to_toml(), "utf-8")
-    figure = picture(str(file), "stokes", angle=0.5)
-    assert faults_of(figure) == []
     # Where a line breaks at a space, the space is not drawn.
-    assert "".join(str(file).split()) in "".join(figure.get_suptitle().split())
+    assert "".join(str(file).split()) in "".join(title(str(file), "stokes", angle=0.5).split())
 
 
-def test_values_along_an_axis_keep_the_unit_they_are_given_in():
+def test_values_along_an_axis_keep_their_unit_and_each_source_has_a_matrix_of_its_own():
     values = AxisValues(np.array([1.7, 2.0]), "eV", np.array([729e-9, 620e-9]))
     figure = picture("quartz-quarter-wave", "curve", y="S3", along={"wavelength": values})
     assert figure.axes[0].get_xlabel().endswith("(eV)")
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx([1.7, 2.0])
-
-
-def test_each_source_has_a_matrix_of_its_own():
     words = [text.get_text() for text in texts_of(picture("sky-and-window", "mueller"))]
-    assert sum(text.startswith("heaven to camera") for text in words) == 1
-    assert sum(text.startswith("lamp to camera") for text in words) == 1
+    for source in ("heaven to camera", "lamp to camera"):
+        assert sum(text.startswith(source) for text in words) == 1
 
 
 def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, told, refused):
     path, theta = op.PathGraph(), op.Parameter("theta", 0.9)
     path.add("lamp", op.Source()) >> path.add("glass", op.Interface(1.5, theta))
     for port in ("reflected", "transmitted"):
-        path.add(f"eye-{port}", op.Detector())
-        path.connect(f"glass.{port}", f"eye-{port}.in")
+        path[f"glass.{port}"] >> path.add(f"eye-{port}", op.Detector())
     (tmp_path / "two.toml").write_text(path.to_toml(), "utf-8")
     for kind in ("ellipse", "stokes", "mueller"):
         told(f"plot two.toml --kind {kind} --out a.svg")
@@ -138,23 +131,34 @@ def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, tol
         asked = f"plot two.toml --kind {kind} --x theta --out a.svg"
         assert several in refused(asked)
         told(f"{asked} --detector eye-reflected")
+    # More than there are colours are refused with the option that names one.
+    path, last = op.PathGraph(), "lamp.out"
+    path.add("lamp", op.Source())
+    for number in range(7):
+        path[last] >> path.add(f"split{number}", op.BeamSplitter())
+        path[f"split{number}.reflected"] >> path.add(f"eye{number}", op.Detector())
+        last = f"split{number}.transmitted"
+    (tmp_path / "many.toml").write_text(path.to_toml(), "utf-8")
+    asked = "plot many.toml --kind stokes --out a.svg"
+    assert "add --detector eye0" in refused(asked)
+    told(f"{asked} --detector eye0")
 
 
 def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_path, told, refused):
     path = op.Source(op.Parameter("power", np.array([1.0, 2.0]))) >> op.Detector()
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
+    several = "parameter 'power' has several values in the file, and a picture is of one"
     for kind in ("ellipse", "mueller", "energy"):
         asked = f"plot x.toml --kind {kind} --out a.svg"
-        several = "parameter 'power' has several values in the file, and a picture is of one"
         assert several in refused(asked)
         told(f"{asked} --power 2")
 
 
 def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_path, told):
-    sheet = op.Polarizer(op.Parameter("a", 0.3))
     path = op.PathGraph()
-    lamp, glass = path.add("\u706f", op.Source()), path.add("\u504f", sheet)
-    lamp >> glass >> path.add("\u5149", op.Detector())
+    lamp = path.add("\u706f", op.Source())
+    sheet = path.add("\u504f", op.Polarizer(op.Parameter("a", 0.3)))
+    lamp >> sheet >> path.add("\u5149", op.Detector())
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
     for kind in KINDS:
         x = "--x a" if kind == "curve" else ""
@@ -163,30 +167,11 @@ def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_pa
             told(f"plot x.toml --kind {kind} {x} --out a.svg")
 
 
-def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(
-    tmp_path, told, refused
-):
-    path = op.PathGraph()
-    path.add("lamp", op.Source())
-    last = "lamp.out"
-    for number in range(7):
-        path.add(f"split{number}", op.BeamSplitter())
-        path.add(f"eye{number}", op.Detector())
-        path.connect(last, f"split{number}.in")
-        path.connect(f"split{number}.reflected", f"eye{number}.in")
-        last = f"split{number}.transmitted"
-    (tmp_path / "many.toml").write_text(path.to_toml(), "utf-8")
-    asked = "plot many.toml --kind stokes --out a.svg"
-    assert "add --detector eye0" in refused(asked)
-    told(f"{asked} --detector eye0")
-
-
 def test_what_a_case_published_and_its_values_are_those_of_the_case_alone():
     path, case = op.load_preset("npgr026"), op.load_preset("npgr026", case="8")
     assert request("npgr026", "stokes", "8").published == path.cases["8"].published
-    assert request("npgr026", "stokes", None).published == {}
-    assert request("npgr026", "stokes", "8", delta=0.5).published == {}
-    assert request("npgr026", "stokes", "8", reads="intensity").published == {}
+    for of, given in ((None, {}), ("8", {"delta": 0.5}), ("8", {"reads": "intensity"})):
+        assert request("npgr026", "stokes", of, **given).published == {}
     asked = request("npgr026", "curve", "8", x=("delta",)).path
     assert asked.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
     assert float(asked.parameters["delta"].default) == float(case.parameters["delta"].default)
@@ -194,9 +179,9 @@ def test_what_a_case_published_and_its_values_are_those_of_the_case_alone():
 
 def test_all_that_is_wrong_and_a_missing_extra_are_told(refused, monkeypatch):
     faults = refused("plot npgr026 --delta north", lines=4)
-    assert "3 faults:" in faults
-    assert "--kind is missing" in faults
-    assert "--out is missing, and a picture is drawn into a file; add --out plot.png" in faults
+    missing = "--out is missing, and a picture is drawn into a file; add --out plot.png"
+    for part in ("3 faults:", "--kind is missing", missing):
+        assert part in faults
     monkeypatch.delattr("optipath.plots.save", raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     missing = refused("plot npgr026 --kind ellipse --out a.png")
@@ -222,8 +207,14 @@ def test_how_long_it_takes_is_told_before_and_progress_in_lines(run):
     assert Path("chart.png").exists()
 
 
-def test_the_title_of_a_chart_says_what_was_changed(run, monkeypatch):
+def test_errors_near_a_place_are_drawn_with_what_was_changed_and_drawn_again(run, monkeypatch):
     monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
+    assert run("chart --interface --near all --data a.json --out a.svg")[0] == 0
+    places = [place["name"] for place in read("a.json")["places"]]
+    assert places == ["brewster", "critical", "grazing", "normal"]
+    assert run("chart --from a.json --out b.svg")[0] == 0
+    a, b = (Path(name).read_text("utf-8") for name in ("a.svg", "b.svg"))
+    assert a.count("<path") == b.count("<path")
     monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:1])
     given = "--case 8 --delta 30 --filter none --near normal --data a.json"
     assert run(f"chart npgr026 {given}")[0] == 0
@@ -259,13 +250,3 @@ def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(run, monke
     assert read("a.json")["regions"] == {"measured": 1, "of": 4}
     assert "interrupted: 1 of 4 regions" in Path("a.svg").read_text("utf-8")
     assert run("chart --from a.json --out b.svg")[0] == 0
-
-
-def test_errors_near_a_place_are_measured_drawn_and_drawn_again(run, monkeypatch):
-    monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
-    assert run("chart --interface --near all --data a.json --out a.svg")[0] == 0
-    places = [place["name"] for place in read("a.json")["places"]]
-    assert places == ["brewster", "critical", "grazing", "normal"]
-    assert run("chart --from a.json --out b.svg")[0] == 0
-    a, b = (Path(name).read_text("utf-8") for name in ("a.svg", "b.svg"))
-    assert a.count("<path") == b.count("<path")

@@ -14,6 +14,7 @@ from optipath.errors import OptipathError
 from optipath.light.light import Light
 from optipath.sweeps.whole.quick_dataset import quick_dataset
 from optipath.sweeps.whole.stacked_views import stacked
+from tables import rows
 
 xr, pd = pytest.importorskip("xarray"), pytest.importorskip("pandas")
 NPGR, MALUS = op.load_preset("npgr026"), op.load_preset("malus")
@@ -265,7 +266,6 @@ SPLIT.add("lamp", op.Source(op.Parameter("power", 1.0))) >> SPLIT.add("split", o
 SPLIT["split.reflected"] >> SPLIT.add("one", op.Detector())
 SPLIT["split.transmitted"] >> SPLIT.add("two", op.Detector())
 POWERS = SPLIT.sweep(power=[1.0, 2.0])
-SPLIT.add("lamp", op.Source(op.Parameter("power", 1.0))) >> SPLIT.add("split", op.BeamSplitter())
 
 
 def drawn(ax):
