@@ -12,10 +12,10 @@ jnp = jax.numpy
 
 STOKES = np.array([[2.0, 0.6, -0.3, 0.8], [1.0, 1 / 3, 0.2, 0.1]])
 MATRIX = np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
-MUELLER = (
-    "diattenuation diattenuation_vector polarizance polarizance_vector depolarization_index psi "
-    "delta retardance coherency cloude_eigenvalues"
-).split()
+MUELLER = [
+    *["diattenuation", "diattenuation_vector", "polarizance", "polarizance_vector", "psi"],
+    *["delta", "depolarization_index", "retardance", "coherency", "cloude_eigenvalues"],
+]
 
 
 def doubles(values):

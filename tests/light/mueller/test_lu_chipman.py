@@ -1,3 +1,5 @@
+"""Lu and Chipman's parts of any matrix, and of what does not depolarise, however dim."""
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -24,13 +26,21 @@ def is_rotation(matrices):
     np.testing.assert_array_equal(matrices[..., 0, :] - [1.0, 0, 0, 0], 0.0)
 
 
-@rows("scale", [1e-300, 1e-160, 1.0, 1e160, 1e300])
-def test_the_parts_of_a_product_come_back(scale):
-    depolarizer, retarder, first = parts(np.random.default_rng(4), 2000)
+@rows("scale", [1e-300, 1e-160, 1e-12, 1.0, 1e160, 1e300])
+def test_the_parts_of_a_product_come_back_and_no_scale_makes_them_pure(scale):
+    rng = np.random.default_rng(4)
+    depolarizer, retarder, first = parts(rng, 2000)
     found = op.Mueller(scale * (depolarizer @ retarder @ first)).lu_chipman()
     np.testing.assert_allclose(found.depolarizer.matrix, depolarizer, rtol=0, atol=1e-12)
     np.testing.assert_allclose(found.retarder.matrix, retarder, rtol=0, atol=1e-12)
     np.testing.assert_allclose(found.diattenuator.matrix / scale, first, rtol=0, atol=1e-13)
+    slight = np.diag([1.0, *(1.0 - np.array([1e-5, 2e-5, 3e-5]))])
+    found = op.Mueller(scale * (slight @ retarder @ first)).lu_chipman()
+    np.testing.assert_allclose(found.depolarization, 2e-5, rtol=0, atol=1e-11)
+    matrices = of_jones(jones(rng, 500))
+    found = op.Mueller(scale * matrices).lu_chipman()
+    np.testing.assert_array_equal(found.depolarization, 0.0)
+    np.testing.assert_allclose(product(found) / scale, matrices, rtol=0, atol=1e-13)
 
 
 @given(seed=st.integers(0, 10**6), power=st.integers(-290, 290))
@@ -44,9 +54,7 @@ def test_the_figures_are_those_of_the_parts(seed, power):
     assert found.diattenuation == pytest.approx(size, abs=1e-14)
     np.testing.assert_allclose(found.diattenuation_vector, size * along, rtol=0, atol=1e-14)
     assert found.retardance == pytest.approx(angle, abs=1e-11)
-    np.testing.assert_allclose(
-        np.sin(angle) * found.fast_axis, np.sin(angle) * axis, rtol=0, atol=1e-11
-    )
+    np.testing.assert_allclose(np.sin(angle) * (found.fast_axis - axis), 0.0, rtol=0, atol=1e-11)
     assert found.depolarization == pytest.approx(0.4, abs=1e-12)
     np.testing.assert_allclose(found.polarizance_vector, 0.0, rtol=0, atol=1e-12)
 
@@ -59,9 +67,8 @@ def test_a_retarder_has_its_retardance_and_its_fast_axis(retardance, angle):
     assert found.retardance == pytest.approx(retardance, rel=1e-14, abs=1e-15)
     # A half-wave plate has two fast axes, and where little is retarded the matrix knows little.
     sign = np.sign(found.fast_axis @ axis) if retardance == np.pi else 1.0
-    np.testing.assert_allclose(
-        sign * found.fast_axis, axis, rtol=0, atol=1e-15 / min(retardance, 1.0)
-    )
+    slack = 1e-15 / min(retardance, 1.0)
+    np.testing.assert_allclose(sign * found.fast_axis, axis, rtol=0, atol=slack)
     np.testing.assert_allclose(found.retardance_vector, found.fast_axis * found.retardance)
     assert found.diattenuation == 0.0
     assert found.depolarization == pytest.approx(0.0, abs=1e-15)
@@ -89,13 +96,15 @@ def test_a_metal_retards_s_against_p_and_diattenuates(incidence):
 
 def test_parts_stand_in_the_frames_of_their_light_and_are_known_apart():
     numbers = op.Interface(0.6 + 2.1j, 0.8).mueller().matrix
-    metal = op.Mueller(
-        numbers, op.Frame().turned(0.3), op.Frame.from_direction((1, 0, 0), (0, 1, 0))
-    )
+    before, behind = op.Frame().turned(0.3), op.Frame.from_direction((1, 0, 0), (0, 1, 0))
+    metal = op.Mueller(numbers, before, behind)
     found = metal.lu_chipman()
-    assert found.diattenuator.frame_in == found.diattenuator.frame_out == metal.frame_in
-    assert found.depolarizer.frame_in == found.depolarizer.frame_out == metal.frame_out
-    assert (found.retarder.frame_in, found.retarder.frame_out) == (metal.frame_in, metal.frame_out)
+    for part, frames in (
+        (found.diattenuator, (before, before)),
+        (found.retarder, (before, behind)),
+        (found.depolarizer, (behind, behind)),
+    ):
+        assert (part.frame_in, part.frame_out) == frames
     np.testing.assert_allclose(product(found), metal.matrix, rtol=0, atol=1e-15)
     matrix = op.Mueller(np.diag([1.0, 0.3, 0.2, 0.1])) @ op.Polarizer().mueller()
     found = matrix.lu_chipman()
@@ -159,9 +168,8 @@ def test_axes_of_depolarisers_keep_their_sign_and_turn_by_no_rounding():
     # Lu and Chipman put the sign of the determinant before the whole root.
     matrix = np.diag([1.0, 0.3, 0.4, -0.5]) @ bordered(turn((0.0, 0.6, 0.8), 0.7))
     found = op.Mueller(matrix).lu_chipman()
-    np.testing.assert_allclose(
-        found.depolarizer.matrix, np.diag([1, -0.3, -0.4, -0.5]), rtol=0, atol=1e-15
-    )
+    left = np.diag([1, -0.3, -0.4, -0.5])
+    np.testing.assert_allclose(found.depolarizer.matrix, left, rtol=0, atol=1e-15)
     np.testing.assert_allclose(product(found), matrix, rtol=0, atol=1e-15)
     is_rotation(found.retarder.matrix)
     found = op.Mueller(np.diag([1.0, 0.5, 0.4, -1e-17])).lu_chipman()
@@ -213,29 +221,73 @@ def test_noise_on_elements_is_borne(noise):
     assert np.abs(found.retardance[:, 1] - np.pi).max() < 20 * noise + 1e-14
 
 
-def test_what_does_not_depolarise_or_is_dark_has_no_depolariser():
-    matrices = of_jones(jones(np.random.default_rng(7), 500))
-    found = op.Mueller(matrices).lu_chipman()
-    gap = 1 - found.diattenuation
-    assert (np.abs(found.depolarization) < 1e-14 / gap).all()
-    np.testing.assert_allclose(product(found), matrices, rtol=0, atol=1e-13)
+def test_what_is_dark_has_no_parts_and_every_batch_and_precision_is_taken_apart_in_double():
     found = op.Mueller(np.zeros((4, 4))).lu_chipman()
     np.testing.assert_array_equal(found.diattenuator.matrix, 0.0)
-    np.testing.assert_array_equal(found.retarder.matrix, np.eye(4))
-    np.testing.assert_array_equal(found.depolarizer.matrix, np.eye(4))
+    np.testing.assert_array_equal([found.retarder, found.depolarizer], [np.eye(4)] * 2)
     assert found.diattenuation == found.retardance == found.depolarization == 0.0
     assert op.Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).retardance == 0.0
+    for batch in ((), (5,), (2, 1, 0)):
+        found = op.Mueller(np.ones((*batch, 4, 4))).lu_chipman()
+        for name in FIGURES:
+            tail = (3,) if name in ("retardance_vector", "fast_axis") else ()
+            assert getattr(found, name).shape == (*batch, *tail), name
+    for dtype in (np.float32, np.float64, np.longdouble):
+        found = op.Mueller(np.eye(4, dtype=dtype)).lu_chipman()
+        assert found.retarder.matrix.dtype == np.float64
 
 
-@rows("batch", [(), (5,), (2, 1, 0)])
-def test_each_figure_has_the_shape_of_the_batch(batch):
-    found = op.Mueller(np.ones((*batch, 4, 4))).lu_chipman()
-    for name in FIGURES:
-        tail = (3,) if name in ("retardance_vector", "fast_axis") else ()
-        assert getattr(found, name).shape == (*batch, *tail), name
+ANGLES = np.linspace(0.1, 1.4, 200)
 
 
-@rows("dtype", [np.float32, np.float64, np.longdouble])
-def test_matrices_of_any_precision_are_taken_apart_in_double(dtype):
-    found = op.Mueller(np.eye(4, dtype=dtype)).lu_chipman()
-    assert found.retarder.matrix.dtype == np.float64
+def nearly_crossed(e):
+    return op.Polarizer(ANGLES + np.pi / 2 - e).mueller() @ op.Polarizer(ANGLES).mueller()
+
+
+@rows("e", [0.05, 1e-2, 1e-3, 1e-4, 1e-5])
+def test_polarisers_nearly_crossed_depolarise_nothing_and_turn_least(e):
+    matrix, slack = nearly_crossed(e), 1e-15 / e**2
+    found = matrix.lu_chipman()
+    np.testing.assert_array_equal(found.depolarizer.matrix, np.broadcast_to(np.eye(4), (200, 4, 4)))
+    np.testing.assert_allclose(found.diattenuation, 1.0, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found.retardance, np.pi - 2 * e, rtol=0, atol=slack)
+    np.testing.assert_allclose(matrix.retardance, found.retardance)
+    over = matrix.matrix[:, :1, :1]
+    np.testing.assert_allclose(product(found) / over, matrix.matrix / over, rtol=0, atol=slack)
+    # A retarder between them does not depolarise either; a depolariser behind keeps its degree.
+    for retardance in (0.5, 1.5, 3.0):
+        between = op.Retarder(retardance, ANGLES + e).mueller()
+        last = op.Polarizer(ANGLES + np.pi / 2 - e).mueller()
+        found = (last @ between @ op.Polarizer(ANGLES).mueller()).lu_chipman()
+        np.testing.assert_array_equal(found.depolarization, 0.0)
+        np.testing.assert_allclose(found.diattenuation, 1.0, rtol=0, atol=1e-15)
+        np.testing.assert_allclose(found.retardance, np.pi - 2 * e, rtol=0, atol=10 * slack)
+    found = (op.Mueller(np.diag([1.0, 0.6, 0.6, 0.6])) @ matrix).lu_chipman()
+    np.testing.assert_allclose(found.depolarization, 0.4, rtol=0, atol=slack)
+    np.testing.assert_allclose(found.retardance, np.pi - 2 * e, rtol=0, atol=slack)
+
+
+@given(seed=st.integers(0, 10**6), gap=st.floats(0.0, 12.0))
+def test_a_jones_matrix_near_a_polariser_keeps_its_turn(seed, gap):
+    rng = np.random.default_rng(seed)
+    axis, angle = unit_vectors(rng, 1)[0], rng.uniform(0.0, np.pi)
+    along = unit_vectors(rng, 1)[0]
+    # Of the state that is blocked, so much passes: 1 - D is 2 p / (1 + p).
+    p = 10.0**-gap
+    D, a = (1 - p) / (1 + p), 2 * np.sqrt(p) / (1 + p)
+    lower = a * np.eye(3) + (1 - a) * np.outer(along, along)
+    matrix = bordered(turn(axis, angle)) @ bordered(lower, D * along, D * along)
+    found = op.Mueller(matrix).lu_chipman()
+    np.testing.assert_array_equal(found.depolarization, 0.0)
+    np.testing.assert_allclose(
+        found.retarder.matrix[1:, 1:], turn(axis, angle), rtol=0, atol=1e-14 / a
+    )
+    np.testing.assert_allclose(product(found), matrix, rtol=0, atol=1e-14)
+
+
+def test_the_rounding_of_single_precision_does_not_depolarise():
+    elements = [op.Polarizer(0.3), op.Retarder(1.0, 0.2), op.Interface(0.6 + 2.1j, 0.8)]
+    matrices = np.stack([element.mueller().matrix for element in elements])
+    found = op.Mueller(matrices.astype(np.float32)).lu_chipman()
+    np.testing.assert_array_equal(found.depolarization, 0.0)
+    np.testing.assert_allclose(found.retardance, op.Mueller(matrices).retardance, rtol=0, atol=1e-6)
