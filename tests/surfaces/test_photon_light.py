@@ -1,7 +1,4 @@
-"""The light of photons, beside closed forms, kernels, symmetries and small steps.
-
-Statistical tests have fixed seeds, and would fail by chance once in a million of other seeds.
-"""
+"""The light of photons, beside closed forms, kernels, symmetries and small steps."""
 
 import math
 
@@ -138,23 +135,18 @@ def test_light_at_flat_interfaces_is_that_of_kernels(indices, incidence):
     expect_kernels(op.Sample([(index, 0) for index in indices]), incidence, 20)
 
 
-@rows("apart", [-0.3, -1e-8, 0.0, 1e-8, 0.3])
-def test_light_about_the_critical_angle_is_that_of_kernels(apart):
-    ends = expect_kernels(op.Sample([(1.0, 0)], outside=1.5), CRITICAL + apart, 50)
-    assert apart <= 0.0 or layout.DOWN not in ends
-
-
 @pytest.mark.filterwarnings("ignore::optipath.MeshWarning")
-@rows(
-    "layers",
-    [
+def test_light_about_the_critical_angle_and_at_rough_interfaces_is_that_of_kernels():
+    for apart in (-0.3, -1e-8, 0.0, 1e-8, 0.3):
+        ends = expect_kernels(op.Sample([(1.0, 0)], outside=1.5), CRITICAL + apart, 50)
+        assert apart <= 0.0 or layout.DOWN not in ends
+    for layers in (
         [(1.5, 1.0)],
         [(1.5, 0.3), (2.4, (0.2, 0.5)), (1.3, 0.6)],
-        *([(1.5, 0.5), (index, 0.7)] for index in (0.5 + 2.1j, 1j)),
-    ],
-)
-def test_light_at_rough_interfaces_is_that_of_kernels(layers):
-    expect_kernels(op.Sample(layers, cells=160, surfaces=1), 1.0, 40)
+        [(1.5, 0.5), (0.5 + 2.1j, 0.7)],
+        [(1.5, 0.5), (1j, 0.7)],
+    ):
+        expect_kernels(op.Sample(layers, cells=160, surfaces=1), 1.0, 40)
 
 
 PHOTONS = 100_000
@@ -190,19 +182,6 @@ def test_a_surface_turned_over_or_mirrored_with_the_light_does_so_to_the_result(
         assert np.all(np.abs(first - second) < SIGMAS * np.sqrt(its + others) + 1e-12)
 
 
-def test_turning_an_anisotropic_sample_and_the_light_changes_nothing():
-    def walk(alpha, azimuth, seed=0):
-        sample = op.Sample([(0.5 + 2.1j, alpha)], cells=(400, 400), surfaces=4)
-        return surfaces.energy(sample, "60 deg", photons=4 * 16384, azimuth=azimuth, seed=seed)
-
-    one, other = walk((0.3, 0.1), 0.5), walk((0.1, 0.3), 0.5 + math.pi / 2, seed=1)
-    for name in ("R_s", "R_m", "R"):
-        error = math.hypot(getattr(one, f"{name}_se"), getattr(other, f"{name}_se"))
-        assert abs(getattr(one, name) - getattr(other, name)) < SIGMAS * error
-    crossed = walk((0.1, 0.3), 0.5)
-    assert abs(crossed.R_m - one.R_m) > SIGMAS * crossed.R_m_se
-
-
 def test_what_goes_from_here_to_there_goes_from_there_to_here():
     # Helmholtz's reciprocity, by all that goes into rings of 6 degrees.
     sample = op.Sample([(1.5, 0.3), (0.2 + 3.4j, 0.3)], cells=200, surfaces=1)
@@ -225,68 +204,63 @@ def ring(sample, incidence, at):
 #
 # Intensities alone, without polarisation. What is met is found where the height above the surface
 # changes sign, to the last digits by halving; a photon is reflected by the mean of Fresnel's
-# shares.
-STEPS, HALVINGS = 200, 40
+# shares. The surface is periodic, with the period 1 along x and y.
+STEPS, HALVINGS, MOST = 200, 40, 20
+WAVES = [(1, 0, 0.3), (0, 1, 1.1), (1, 1, 2.0), (1, -1, 4.0), (2, 1, 0.5), (-1, 2, 3.3)]
+"""Whole numbers of waves along x and along y, and phases."""
+VECTORS, PHASES = 2 * np.pi * np.array(WAVES)[:, :2], np.array(WAVES)[:, 2]
+AMPLITUDE = 0.05
+HIGHEST = AMPLITUDE * len(WAVES)
 
 
-class Waves:
-    """A periodic surface of cosines, its period 1 along x and y."""
-
-    def __init__(self, waves, amplitude):
-        """Waves are rows of (whole number along x, along y, phase)."""
-        along_x, along_y, self.phases = np.transpose(waves)
-        self.vectors = 2 * np.pi * np.stack([along_x, along_y], axis=-1)
-        self.amplitude = amplitude
-        self.highest = amplitude * len(waves)
-
-    def heights(self, places):
-        return self.amplitude * np.cos(places[..., :2] @ self.vectors.T + self.phases).sum(axis=-1)
-
-    def normals(self, places):
-        waves = np.sin(places[..., :2] @ self.vectors.T + self.phases)
-        slopes = -self.amplitude * waves @ self.vectors
-        normals = np.concatenate([-slopes, np.ones((*slopes.shape[:-1], 1))], axis=-1)
-        return normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+def heights(places):
+    return AMPLITUDE * np.cos(places[..., :2] @ VECTORS.T + PHASES).sum(axis=-1)
 
 
-def shares(waves, index, incidence, photons, numbers, most=20):
-    """The shares that go up and down after 1, 2, ... events, each of shape (most,)."""
-    places = np.column_stack([numbers.random((photons, 2)), np.full(photons, waves.highest)])
+def normals_at(places):
+    slopes = -AMPLITUDE * np.sin(places[..., :2] @ VECTORS.T + PHASES) @ VECTORS
+    normals = np.concatenate([-slopes, np.ones((*slopes.shape[:-1], 1))], axis=-1)
+    return normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+
+
+def shares(index, incidence, photons, numbers):
+    """The shares that go up and down after 1, 2, ... events, each of shape (MOST,)."""
+    places = np.column_stack([numbers.random((photons, 2)), np.full(photons, HIGHEST)])
     ways = np.tile([np.sin(incidence), 0.0, -np.cos(incidence)], (photons, 1))
-    sides = np.ones(photons)
-    up, down = np.zeros(most), np.zeros(most)
-    for number in range(most):
-        met, places = next_places(waves, places, ways, sides)
+    sides, up, down = np.ones(photons), np.zeros(MOST), np.zeros(MOST)
+    for number in range(MOST):
+        met, places = next_places(places, ways, sides)
         up[number - 1] += np.sum(~met & (sides > 0))
         down[number - 1] += np.sum(~met & (sides < 0))
         places, ways, sides = places[met], ways[met], sides[met]
-        ways, sides = reflected_or_refracted(waves, index, places, ways, sides, numbers)
+        ways, sides = reflected_or_refracted(index, places, ways, sides, numbers)
     return up / photons, down / photons
 
 
-def next_places(waves, places, ways, sides):
+def next_places(places, ways, sides):
     """Whether photons meet the surface again, and where."""
-    towards = np.where(ways[:, 2] > 0, waves.highest, -waves.highest)
+
+    def below(lengths):
+        there = places + lengths[:, np.newaxis] * ways
+        return sides * (there[:, 2] - heights(there)) < 0
+
+    towards = np.where(ways[:, 2] > 0, HIGHEST, -HIGHEST)
     lengths = (towards - places[:, 2]) / ways[:, 2]
     begin, end, met = np.zeros(len(places)), np.zeros(len(places)), np.zeros(len(places), bool)
     # The first step leaves the surface that a photon comes from.
     for step in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
-        there = places + (step * lengths)[:, np.newaxis] * ways
-        crossed = ~met & (sides * (there[:, 2] - waves.heights(there)) < 0)
-        begin[~met], end[crossed] = end[~met], (step * lengths)[crossed]
-        end[~met & ~crossed] = (step * lengths)[~met & ~crossed]
+        crossed = ~met & below(step * lengths)
+        begin[~met], end[~met] = end[~met], (step * lengths)[~met]
         met |= crossed
     for _ in range(HALVINGS):
         middle = 0.5 * (begin + end)
-        there = places + middle[:, np.newaxis] * ways
-        below = sides * (there[:, 2] - waves.heights(there)) < 0
-        begin, end = np.where(below, begin, middle), np.where(below, middle, end)
+        begin, end = np.where(below(middle), [begin, middle], [middle, end])
     return met, places + begin[:, np.newaxis] * ways
 
 
-def reflected_or_refracted(waves, index, places, ways, sides, numbers):
+def reflected_or_refracted(index, places, ways, sides, numbers):
     """Directions and sides behind an event."""
-    normals = sides[:, np.newaxis] * waves.normals(places)
+    normals = sides[:, np.newaxis] * normals_at(places)
     n1, n2 = np.where(sides > 0, 1.0, index), np.where(sides > 0, index, 1.0)
     cos = -np.sum(normals * ways, axis=-1)
     behind = 1.0 - (n1 / n2) ** 2 * (1.0 - cos**2)
@@ -299,66 +273,45 @@ def reflected_or_refracted(waves, index, places, ways, sides, numbers):
     return np.where(back[:, np.newaxis], reflected, refracted), np.where(back, sides, -sides)
 
 
-WAVES = [(1, 0, 0.3), (0, 1, 1.1), (1, 1, 2.0), (1, -1, 4.0), (2, 1, 0.5), (-1, 2, 3.3)]
-CELLS, WALKED = 256, 4000
-
-
 def test_as_many_photons_leave_after_each_number_of_events(rng):
-    waves = Waves(WAVES, amplitude=0.05)
-    grid = np.stack(np.meshgrid(np.arange(CELLS), np.arange(CELLS)), axis=-1) / CELLS
-    field = surfaces.HeightField(waves.heights(grid), 1.0, periodic=True)
+    cells, walks = 256, 4000
+    grid = np.stack(np.meshgrid(np.arange(cells), np.arange(cells)), axis=-1) / cells
+    field = surfaces.HeightField(heights(grid), 1.0, periodic=True)
     found = surfaces.energy(op.Sample([(1.5, field)]), 1.0, photons=200_000).scalar
-    up, down = shares(waves, 1.5, 1.0, WALKED, rng)
+    up, down = shares(1.5, 1.0, walks, rng)
     for one, other in ((up, found.reflected), (down, found.transmitted)):
-        expected = np.array([*other[:3], other[3:].sum()])
-        counted = np.array([*one[:3], one[3:].sum()])
-        error = np.sqrt((expected + 1.0 / WALKED) / WALKED)
+        counted, expected = (np.array([*each[:3], each[3:].sum()]) for each in (one, other))
+        error = np.sqrt((expected + 1.0 / walks) / walks)
         assert np.all(np.abs(counted - expected) < SIGMAS * error)
     assert found.transmitted[1] > 0.05
 
 
-SILVER = op.Sample([(0.5 + 2.1j, 0.3)])
-
-
-def test_they_are_the_photons_that_energy_counts():
-    found = surfaces.photon_ends(SILVER, "40 deg", photons=20_000, seed=3)
-    shares = surfaces.energy(SILVER, "40 deg", photons=20_000, seed=3)
-    up = found.ends == "up"
-    assert found.stokes[up, 0].sum() / 20_000 == pytest.approx(float(shares.R), rel=1e-12)
-    assert found.scalar[up].sum() / 20_000 == pytest.approx(float(shares.scalar.R), rel=1e-12)
-
-
-def test_frames_are_perpendicular_to_the_meridional_plane():
-    found = surfaces.photon_ends(SILVER, "40 deg", photons=2000)
+def test_frames_are_perpendicular_to_the_meridional_plane_and_light_is_polarised_as_it_can_be():
+    found = surfaces.photon_ends(op.Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=20_000)
     across = np.cross([0.0, 0.0, 1.0], found.directions)
     across /= np.linalg.norm(across, axis=-1, keepdims=True)
     assert np.allclose(found.x, across, atol=1e-9)
     assert np.allclose(np.linalg.norm(found.directions, axis=-1), 1.0, atol=1e-12)
-    # Light reflected by a flat mirror goes on along x.
-    found = surfaces.photon_ends(op.Sample([(1j, 0)]), "30 deg", photons=100)
-    assert np.allclose(found.directions, [0.5, 0.0, np.sqrt(0.75)], atol=1e-12)
-    assert np.allclose(found.x, [0.0, 1.0, 0.0], atol=1e-12)
-    with pytest.raises(op.SurfaceError, match="photons must be a whole number of 1 or more"):
-        surfaces.photon_ends(SILVER, "40 deg", photons=0)
-
-
-def test_light_is_polarised_by_no_more_than_all_of_it_and_not_circularly_after_one_event():
-    found = surfaces.photon_ends(SILVER, "40 deg", photons=20_000)
+    # Not circularly after one event, and by no more than all of it.
     assert np.all(found.stokes[found.events == 1, 3] == 0.0)
     assert np.any(found.stokes[found.events > 1, 3] != 0.0)
     sample = op.Sample([(1.5, 0.5), (0.5 + 2.1j, 0.7)], surfaces=4)
     stokes = surfaces.photon_ends(sample, "70 deg", photons=20_000).stokes
     assert np.all(stokes[:, 0] >= 0.0)
     assert np.all(np.linalg.norm(stokes[:, 1:], axis=-1) <= stokes[:, 0] * (1.0 + 1e-12))
-
-
-def test_light_at_several_wavelengths_has_an_axis_for_them():
+    # At several wavelengths it has an axis for them.
     gold = op.Sample([(op.Material.named("gold"), 0.3)])
     found = surfaces.photon_ends(gold, "40 deg", photons=50, wavelength=[450e-9, 650e-9])
     assert (found.stokes.shape, found.scalar.shape) == ((50, 2, 4), (50, 2))
+    with pytest.raises(op.SurfaceError, match="photons must be a whole number of 1 or more"):
+        surfaces.photon_ends(gold, "40 deg", photons=0)
 
 
 def test_light_along_the_normal_is_in_the_frame_of_light_beside_it():
+    # Light reflected by a flat mirror goes on along x.
+    found = surfaces.photon_ends(op.Sample([(1j, 0)]), "30 deg", photons=100)
+    assert np.allclose(found.directions, [0.5, 0.0, np.sqrt(0.75)], atol=1e-12)
+    assert np.allclose(found.x, [0.0, 1.0, 0.0], atol=1e-12)
     # A flat face sends polarised light back as it was, however the sample below it lies.
     sample = op.Sample([(1.5, 0.0), (0.5 + 2.1j, (0.3, 0.15))], cells=400)
     found = surfaces.photon_ends(sample, 0.0, 200, azimuth=0.7, stokes=[1, 1, 0, 0])

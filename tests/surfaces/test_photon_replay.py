@@ -10,7 +10,7 @@ from optipath.surfaces import HeightField
 from optipath.surfaces.replay.event_path import event_path
 from optipath.surfaces.replay.event_table import event_table
 from optipath.surfaces.replay.photon_event import PhotonEvent
-from rough_samples import drawn_sample, polarised, rough
+from rough_samples import drawn_sample, fresnel, polarised, rough
 from tables import rows, slow
 
 pytest.importorskip("numba")
@@ -19,21 +19,23 @@ from optipath.surfaces.ends.photon_ends import photon_ends
 from optipath.surfaces.energies.energy import energy
 from optipath.surfaces.walk.photon_beam import BLOCK, PORTION
 
-PHOTONS = 50
 
-
-def events_of(sample, incidence=1.0, photons=PHOTONS):
-    for number in range(photons):
+def events_of(sample, incidence=1.0):
+    for number in range(50):
         photon = sample.photon(number, incidence)
         fields = sample.fields(photon.surface)
         for event in photon.events:
             yield event, fields[event.layer]
 
 
+FINITE = HeightField.from_heights(np.random.default_rng(2).random((9, 11)), (5.0, 4.0))
+
+
 @pytest.fixture(scope="module")
 def met():
-    """Events and their fields, of samples of several layers."""
-    return [each for seed in (1, 3, 7) for each in events_of(*drawn_sample(seed))]
+    """Events and their fields, of samples of several layers and of a finite one."""
+    drawn = [each for seed in (1, 3, 7) for each in events_of(*drawn_sample(seed))]
+    return [*drawn, *events_of(op.Sample([(1.5, FINITE)]), 0.5)]
 
 
 def facet_of(event, field):
@@ -58,9 +60,11 @@ def test_points_and_normals_are_those_of_the_mesh_of_their_layer(met):
         assert event.cos == pytest.approx(-event.normal @ event.direction, abs=1e-12)
         across = np.linalg.norm(np.cross(event.normal, event.direction))
         assert event.incidence == pytest.approx(np.arctan2(across, event.cos), abs=1e-12)
+        on_it = (event.on_mesh[:2] >= 0.0) & (event.on_mesh[:2] <= field.size)
+        assert field.periodic or np.all(on_it)
 
 
-def test_light_is_reflected_and_refracted_by_snells_law(met):
+def test_light_is_reflected_and_refracted_by_snells_law_as_often_as_the_mean_share_of_s_and_p(met):
     """n k keeps its part along the facet, and has the length n, behind the facet or before it."""
     for event, _ in met:
         after = event.n1 if event.reflected else event.n2
@@ -68,20 +72,22 @@ def test_light_is_reflected_and_refracted_by_snells_law(met):
         assert after * np.cross(event.normal, event.onwards) == pytest.approx(along, abs=1e-11)
         assert np.linalg.norm(event.onwards) == pytest.approx(1.0, abs=1e-12)
         assert (event.onwards @ event.normal > 0.0) == event.reflected
-
-
-def test_facets_reflect_as_often_as_the_mean_of_the_shares_of_s_and_p(met):
     for event, _ in met[:: len(met) // 50]:
         face = op.Interface(event.n2, event.incidence, event.n1)
         port = "reflected" if event.reflected else "transmitted"
         mean = face.mueller("in", port).matrix[0, 0]
         expected = mean if np.isrealobj(event.n2) else 1.0
         assert event.probability == pytest.approx(expected, rel=1e-9)
+    # Media are those above and below the layer.
+    for event, _ in events_of(op.Sample([(1.5, rough(0.5)), (2.4, rough(0.3))]), 0.7):
+        both = [1.0, 1.5, 2.4][event.layer : event.layer + 2]
+        assert sorted((event.n1, event.n2)) == both
+        assert event.n1 == both[0 if event.normal[2] > 0.0 else 1]
 
 
 def test_light_goes_straight_on_and_turns_lead_to_the_line_across_the_plane_of_incidence():
     sample = op.Sample([(1.5, rough(0.5)), (1j, rough(0.3, seed=1))])
-    for number in range(PHOTONS):
+    for number in range(50):
         photon = sample.photon(number, 0.7)
         for one, other in itertools.pairwise(photon.events):
             way = other.position - one.position
@@ -98,33 +104,9 @@ def test_light_goes_straight_on_and_turns_lead_to_the_line_across_the_plane_of_i
             x = s
 
 
-def test_media_are_those_above_and_below_the_layer():
-    sample = op.Sample([(1.5, rough(0.5)), (2.4, rough(0.3))])
-    for event, _ in events_of(sample, 0.7):
-        both = [1.0, 1.5, 2.4][event.layer : event.layer + 2]
-        assert sorted((event.n1, event.n2)) == both
-        assert event.n1 == both[0 if event.normal[2] > 0.0 else 1]
-
-
-def test_points_on_a_finite_field_are_where_they_are():
-    heights = np.random.default_rng(2).random((9, 11))
-    field = HeightField.from_heights(heights, (5.0, 4.0))
-    for event, _ in events_of(op.Sample([(1.5, field)]), 0.5):
-        assert np.all((event.on_mesh[:2] >= 0.0) & (event.on_mesh[:2] <= field.size))
-
-
 ANGLE = np.radians(50.0)
 WAVELENGTHS = ["450 nm", "550 nm", "650 nm"]
 BASE = op.Material(op.Material.cauchy([0.3, 0.05]).n, 2.5)
-
-
-def fresnel(n1, n2, angle):
-    """The shares of s and p that are reflected, as textbooks have them."""
-    c1 = np.cos(angle)
-    c2 = np.sqrt(1.0 - (n1 * np.sin(angle) / n2) ** 2)
-    s = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)
-    p = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2)
-    return s**2, p**2
 
 
 def test_a_photon_in_a_flat_film_is_that_of_a_sum_by_hand():
@@ -142,11 +124,10 @@ def test_a_photon_in_a_flat_film_is_that_of_a_sum_by_hand():
     assert photon.stokes[0] == pytest.approx(0.5 * sum(intensities), rel=1e-13)
     assert photon.stokes[1] == pytest.approx(0.5 * (intensities[0] - intensities[1]), rel=1e-11)
     assert photon.stokes[2:] == pytest.approx(0.0, abs=1e-13)
-    assert photon.scalar == pytest.approx(1.0, rel=1e-13)
-    assert photon.weight == pytest.approx(through**-2, rel=1e-13)
+    assert (photon.scalar, photon.weight) == pytest.approx((1.0, through**-2), rel=1e-13)
 
 
-def test_light_comes_from_the_azimuth_that_is_given_and_goes_up_from_a_mirror_as_it_came_down():
+def test_light_comes_from_the_azimuth_that_is_given_and_ends_in_the_frame_of_the_last_facet():
     photon = op.Sample([(1j, 0.0)]).photon(0, ANGLE)
     down, up = photon.start.z, photon.frame.z
     assert down[2] == pytest.approx(-np.cos(ANGLE))
@@ -162,9 +143,6 @@ def test_light_comes_from_the_azimuth_that_is_given_and_goes_up_from_a_mirror_as
     sample = op.Sample([(1.5, rough(0.3))])
     first, second = (sample.photon(number, ANGLE).start.z for number in range(2))
     assert abs(first @ second) < 0.999
-
-
-def test_the_frame_at_the_end_has_s_of_the_last_facet():
     sample, incidence = drawn_sample(3)
     for number in range(50):
         photon = sample.photon(number, incidence)
@@ -181,26 +159,14 @@ def test_several_wavelengths_ride_on_one_photon_and_its_path():
     assert photon.path().trace().stokes == pytest.approx(photon.stokes, rel=1e-12, abs=1e-13)
     for place, wavelength in enumerate(WAVELENGTHS):
         one = photon.path(place).trace().stokes
-        alone = sample.photon(4, ANGLE, wavelength=wavelength)
         assert one == pytest.approx(photon.stokes[place], rel=1e-12, abs=1e-13)
+        alone = sample.photon(4, ANGLE, wavelength=wavelength)
         assert np.array_equal(alone.stokes, photon.stokes[place])
-
-
-def test_a_wavelength_that_is_not_there_is_refused():
-    photon = op.Sample([(BASE, 0.0)]).photon(0, ANGLE, wavelength=WAVELENGTHS)
-    for which in (3, True, slice(0, 2), "550 nm", 1.0):
+    for which in (3, True):
         with pytest.raises(op.SurfaceError, match=r"which is .*shape \(3,\); .* such as 2$"):
             photon.path(which)
     with pytest.raises(op.SurfaceError, match="one light; leave it out"):
         op.Sample([(1.5, 0.0)]).photon(0, ANGLE).path(0)
-
-
-def test_a_photon_is_printed_with_a_line_for_each_event():
-    photon = op.Sample([(1.5, 0.0), (0.5 + 2.1j, 0.0)]).photon(0, ANGLE)
-    lines = str(photon).splitlines()
-    assert lines[0].startswith(f"Photon 0 of seed 0: {photon.end} after {len(photon.events)} event")
-    assert len(lines) == 3 + len(photon.events)
-    assert lines[2].split() == ["layer", "media", "incidence", "turn", "probability", "x", "y", "z"]
 
 
 STOKES = [1.0, 0.3, -0.5, 0.2]
@@ -216,11 +182,14 @@ def test_the_sum_over_photons_is_the_energy():
     found = energy(sample, 0.8, photons, stokes=STOKES, seed=3)
     each = [sample.photon(number, 0.8, stokes=STOKES, seed=3) for number in range(photons)]
     for end, share, scalar in [("up", found.R, found.scalar.R), ("down", found.T, found.scalar.T)]:
-        there = [photon for photon in each if photon.end == end]
-        total = sum(photon.stokes[0] for photon in there)
-        assert total / photons == pytest.approx(float(share), rel=1e-13)
-        without = sum(photon.scalar for photon in there)
-        assert without / photons == pytest.approx(float(scalar), rel=1e-13)
+        there = [(photon.stokes[0], photon.scalar) for photon in each if photon.end == end]
+        means = np.sum(there, axis=0) / photons
+        np.testing.assert_allclose(means, [share, scalar], rtol=1e-13)
+    # A photon keeps what it is replayed by.
+    photon = each[7]
+    again = photon.sample.photon(photon.number, 0.8, stokes=STOKES, seed=photon.seed)
+    assert photon.sample is sample
+    assert np.array_equal(again.stokes, photon.stokes)
 
 
 def test_a_photon_ends_where_it_ended_among_all():
@@ -228,11 +197,10 @@ def test_a_photon_ends_where_it_ended_among_all():
     found = photon_ends(sample, 0.8, photons, azimuth=0.4, stokes=STOKES)
     for number in range(photons):
         photon = sample.photon(number, 0.8, azimuth=0.4, stokes=STOKES)
-        assert photon.end == found.ends[number]
-        assert len(photon.events) == found.events[number]
+        known = found.ends[number], found.events[number], found.scalar[number]
+        assert (photon.end, len(photon.events), photon.scalar) == known
         assert photon.frame.z == pytest.approx(found.directions[number], abs=1e-14)
         assert photon.stokes[0] == pytest.approx(found.stokes[number, 0], rel=1e-14)
-        assert photon.scalar == found.scalar[number]
         # In the frame of those, across the meridional plane, it has their Stokes vector.
         frame = op.Frame.from_direction(photon.frame.z, found.x[number])
         light = op.Light(photon.stokes, frame=photon.frame).in_frame(frame)
@@ -244,14 +212,6 @@ def test_a_photon_ends_where_it_ended_among_all():
     assert photon.frame.z == pytest.approx(ends.directions[number], abs=1e-14)
 
 
-def test_a_photon_keeps_what_it_is_replayed_by():
-    sample = brushed()
-    photon = sample.photon(7, 0.8, seed=5)
-    again = photon.sample.photon(photon.number, 0.8, seed=photon.seed)
-    assert photon.sample is sample
-    assert np.array_equal(again.stokes, photon.stokes)
-
-
 def test_a_photon_is_given_up_after_the_most_events():
     sample = op.Sample([(1.5, 0.0), (1j, 0.0)])
     photons = (sample.photon(number, 0.8, most_events=2) for number in range(100))
@@ -260,23 +220,24 @@ def test_a_photon_is_given_up_after_the_most_events():
     assert photon.path().trace().stokes == pytest.approx(photon.stokes, abs=1e-13)
 
 
-def walled():
-    """A finite mirror with a wall at its far end, a hundred thousandth wide."""
+def missing_a_wall():
+    """A photon over a finite mirror with a wall at its far end, a hundred thousandth wide."""
     heights = np.zeros((10**5, 3))
     heights[:2, -1] = 1.0
-    return op.Sample([(1j, HeightField.from_heights(heights, (1.0, 1.0)))])
+    field = HeightField.from_heights(heights, (1.0, 1.0))
+    op.Sample([(1j, field)]).photon(0, "89.99 deg")
 
 
-FLAT, NUMBER = op.Sample([(1.5, 0.0)]), "number must be a whole number of 0 or more"
+FLAT = op.Sample([(1.5, 0.0)])
 
 
 @rows(
     "ask, sentence",
     [
-        *((lambda each=each: FLAT.photon(each), NUMBER) for each in (-1, 0.5, True, "3", None)),
+        (lambda: FLAT.photon(-1), "number must be a whole number of 0 or more"),
         (lambda: FLAT.photon(-1, "95 deg", seed=-1, wavelength="550 nm"), "4 faults"),
         (lambda: FLAT.photon(0, most_events=10**15), "fewer most_events"),
-        (lambda: walled().photon(0, "89.99 deg"), "photons meet nothing of the sample"),
+        (missing_a_wall, "photons meet nothing of the sample"),
     ],
 )
 def test_a_photon_that_cannot_be_is_refused(ask, sentence):
@@ -298,31 +259,21 @@ def test_the_path_has_the_light_of_the_walk(samples, photons):
             expect_light_of_the_walk(sample.photon(number, incidence, **given))
 
 
-def goes_down(photon):
-    return photon.end == "down"
-
-
-def is_held(photon):
-    return len(photon.events) > 100
-
-
-HOLDING = op.Sample([(2.4, rough(0.1)), (1j, rough(0.1, seed=1))])
-
-
 @rows(
     "sample, incidence, kind, tolerance",
     [
         # Refracted within a millionth of total reflection, searched for.
-        (op.Sample([(1.0, 0.0)], outside=1.5), np.arcsin(1.0 / 1.5) - 1e-6, goes_down, 1e-13),
+        (op.Sample([(1.0, 0.0)], outside=1.5), np.arcsin(1.0 / 1.5) - 1e-6, "down", 1e-13),
         # Refracted along a facet.
-        (op.Sample([(1.5, 0.0)]), np.pi / 2 - 1e-3, goes_down, 1e-12),
+        (op.Sample([(1.5, 0.0)]), np.pi / 2 - 1e-3, "down", 1e-12),
         # Held between a mirror and diamond, for some hundred facets.
-        (HOLDING, 0.5, is_held, 1e-12),
+        (op.Sample([(2.4, rough(0.1)), (1j, rough(0.1, seed=1))]), 0.5, "held", 1e-12),
     ],
 )
 def test_the_light_of_a_rare_way_is_that_of_the_walk(sample, incidence, kind, tolerance):
     photons = (sample.photon(number, incidence) for number in range(2000))
-    expect_light_of_the_walk(next(filter(kind, photons)), tolerance)
+    rare = (each for each in photons if kind in (each.end, "held" * (len(each.events) > 100)))
+    expect_light_of_the_walk(next(rare), tolerance)
 
 
 def test_nodes_are_called_by_the_order_of_events_and_links_by_what_facets_do():
@@ -335,9 +286,7 @@ def test_nodes_are_called_by_the_order_of_events_and_links_by_what_facets_do():
     ports = ["reflected" if event.reflected else "transmitted" for event in photon.events]
     links = [name.partition(" -> ")[0] for name in kept if " -> " in name]
     assert links == ["source.out", *(f"facet-{n}.{port}" for n, port in enumerate(ports, 1))]
-
-
-def test_a_photon_that_met_nothing_leaves_as_it_came():
+    # A photon that met nothing leaves as it came.
     light = event_path(op.Source(3.0, [1.0, 0.5, 0.0, 0.0]), [], None, "").trace()
     assert np.array_equal(light.stokes, [3.0, 1.5, 0.0, 0.0])
 
@@ -350,7 +299,12 @@ def event(n2, *, reflected):
     return PhotonEvent(layer=1, facet=(3, 4, 0), **place, **way, **met)
 
 
-def test_columns_stand_under_their_heads_without_a_sign_of_zero():
+def test_a_photon_is_printed_with_a_line_for_each_event():
+    photon = op.Sample([(1.5, 0.0), (0.5 + 2.1j, 0.0)]).photon(0, ANGLE)
+    lines = str(photon).splitlines()
+    assert lines[0].startswith(f"Photon 0 of seed 0: {photon.end} after {len(photon.events)} event")
+    assert len(lines) == 3 + len(photon.events)
+    # Columns stand under their heads, without a sign of zero.
     met = [event(1.5, reflected=False), event(0.5 + 2.1j, reflected=True)]
     expected = """\
    layer                    media   incidence       turn  probability      x      y       z

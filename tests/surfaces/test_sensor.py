@@ -35,35 +35,28 @@ def test_solid_angles_are_those_of_many_small_cells(projection, pixels):
     radius = np.hypot(middle, middle[:, None])
     inside = np.where(radius < 1.0, density(projection, radius), 0.0)
     expected = inside.reshape(pixels, parts, pixels, parts).sum(axis=(1, 3))
-    found = op.surfaces.Sensor(pixels, projection).solid_angle
+    found = surfaces.Sensor(pixels, projection).solid_angle
     # Cells on the rim count as a whole or not at all.
     assert np.allclose(found, expected * (2.0 / (parts * pixels)) ** 2, rtol=2e-3)
 
 
 @rows("projection", PROJECTIONS)
-@rows("pixels", [1, 2, 7, 16, 128])
-def test_solid_angles_are_those_of_a_hemisphere(projection, pixels):
-    found = op.surfaces.Sensor(pixels, projection).solid_angle
+@rows("pixels", [1, 2, 6, 7, 16, 32, 128])
+def test_pixels_have_the_solid_angles_of_a_hemisphere_and_directions_that_fall_on_them(
+    projection, pixels
+):
+    sensor = surfaces.Sensor(pixels, projection)
+    found, along = sensor.solid_angle, sensor.coordinates
     assert found.sum() == pytest.approx(2.0 * np.pi, rel=1e-12)
     assert found.min() >= -1e-15
     for image in (found[::-1], found[:, ::-1], found.T):
         assert np.allclose(image, found, rtol=1e-9, atol=1e-14)
-
-
-def test_pixels_of_equal_area_within_the_hemisphere_are_equal():
-    sensor = op.surfaces.Sensor(32, "equal-area")
-    corner = np.abs(sensor.coordinates) + 1.0 / 32
-    within = np.hypot(corner, corner[:, None]) <= 1.0
-    assert np.allclose(sensor.solid_angle[within], 2.0 * (2.0 / 32) ** 2, rtol=1e-12)
-
-
-@rows("projection", PROJECTIONS)
-@rows("pixels", [1, 6, 7, 16, 128])
-def test_the_direction_of_a_centre_falls_on_its_pixel_unless_it_is_beyond_the_horizon(
-    projection, pixels
-):
-    sensor = op.surfaces.Sensor(pixels, projection)
-    beyond = np.hypot(sensor.coordinates, sensor.coordinates[:, None]) > 1.0
+    if projection == "equal-area":
+        corner = np.abs(along) + 1.0 / pixels
+        within = np.hypot(corner, corner[:, None]) <= 1.0
+        assert np.allclose(found[within], 2.0 * (2.0 / pixels) ** 2, rtol=1e-12)
+    # The direction of a centre falls on its pixel, unless it is beyond the horizon.
+    beyond = np.hypot(along, along[:, None]) > 1.0
     for each in (sensor.theta, sensor.phi, sensor.directions.sum(axis=-1)):
         assert np.array_equal(np.isnan(each), beyond)
     assert np.nanmax(sensor.theta) < np.pi / 2.0
@@ -78,7 +71,7 @@ TURNS, KINDS = st.floats(-np.pi, np.pi), st.sampled_from(PROJECTIONS)
 
 @given(st.floats(0.0, 1.0), TURNS, st.integers(1, 300), KINDS)
 def test_every_direction_falls_within_half_a_pixel_of_a_centre(cos, azimuth, pixels, projection):
-    sensor, sin = op.surfaces.Sensor(pixels, projection), np.sqrt(1.0 - cos * cos)
+    sensor, sin = surfaces.Sensor(pixels, projection), np.sqrt(1.0 - cos * cos)
     place = sensor.place([sin * np.cos(azimuth), sin * np.sin(azimuth), cos])
     theta = np.arctan2(sin, cos)
     radius = 2.0 * theta / np.pi
@@ -91,15 +84,11 @@ def test_every_direction_falls_within_half_a_pixel_of_a_centre(cos, azimuth, pix
 
 
 def test_light_that_goes_on_is_on_the_right_and_y_goes_with_rows():
-    sensor = op.surfaces.Sensor(5)
+    sensor = surfaces.Sensor(5)
     assert sensor.place([[0.6, 0, 0.8], [0, 0.6, 0.8], [0, 0, 1]]).tolist() == [13, 17, 12]
-    assert sensor.phi[2, 4] == 0.0
-    assert sensor.phi[4, 2] == pytest.approx(np.pi / 2.0)
-
-
-def test_all_faults_of_a_sensor_are_told_at_once():
+    assert (sensor.phi[2, 4], sensor.phi[4, 2]) == (0.0, pytest.approx(np.pi / 2.0))
     with pytest.raises(op.SurfaceError) as caught:
-        op.surfaces.Sensor(0, "equi-area", 1)
+        surfaces.Sensor(0, "equi-area", 1)
     assert [*caught.value.faults] == [
         "pixels must be a whole number of 1 or more, not 0",
         "parts must be a whole number of 2 or more, not 1",
@@ -107,34 +96,26 @@ def test_all_faults_of_a_sensor_are_told_at_once():
     ]
 
 
-@rows("projection", ["equidistant", "equal-area"])
-def test_points_lie_within_their_pixels(projection):
-    sensor = op.surfaces.Sensor(9, projection)
-    places = np.arange(81).reshape(9, 9)
+@rows("projection", PROJECTIONS)
+def test_points_lie_within_their_pixels_and_average_polynomials_as_over_the_hemisphere(projection):
+    sensor, places = surfaces.Sensor(9, projection), np.arange(81).reshape(9, 9)
     for directions, areas in pixel_points(sensor, 3):
         lit = areas > 0.0
         assert np.array_equal(sensor.place(directions[lit]), places[lit])
         assert np.all(directions[..., 2] > 0.0)
         assert np.allclose(np.linalg.norm(directions, axis=-1), 1.0, atol=1e-14)
-
-
-@rows("projection", ["equidistant", "equal-area"])
-def test_polynomials_of_directions_are_averaged_as_over_the_hemisphere(projection):
-    sensor, found = op.surfaces.Sensor(32, projection), np.zeros(4)
-    for directions, areas in pixel_points(sensor, 4):
+    found = np.zeros(4)
+    for directions, areas in pixel_points(surfaces.Sensor(32, projection), 4):
         x, y, z = np.moveaxis(directions, -1, 0)
         found += [np.sum(areas * each) for each in (z, z * z, x * x * z, x * y)]
-    expected = np.pi * np.array([1.0, 2.0 / 3.0, 1.0 / 4.0, 0.0])
-    assert np.allclose(found, expected, atol=2e-5)
-
-
-LIGHT = np.array([[np.nan, 1.0], [2.0, 9.0]])
+    assert np.allclose(found, np.pi * np.array([1.0, 2.0 / 3.0, 0.25, 0.0]), atol=2e-5)
 
 
 def test_pixels_count_that_are_bright_and_known_by_a_share_or_by_themselves():
-    bright = PixelMask(brighter_than=0.5).bright(LIGHT)  # The mean is 4.
+    light = np.array([[np.nan, 1.0], [2.0, 9.0]])  # The mean is 4.
+    bright = PixelMask(brighter_than=0.5).bright(light)
     np.testing.assert_array_equal(bright, [[False, False], [False, True]])
-    assert PixelMask(brighter_than=0.3).bright(LIGHT).sum() == 2
+    assert PixelMask(brighter_than=0.3).bright(light).sum() == 2
     mask = PixelMask(noise=0.2, known_to=0.001)
     known = mask.known(np.array([-0.1, 0.1, 0.0, 0.1]), np.array([0.019, 0.021, 0.001, np.nan]))
     np.testing.assert_array_equal(known, [True, False, True, False])
@@ -172,19 +153,16 @@ def test_a_mean_of_equal_parts_has_the_error_of_a_mean():
     for found, expected in zip(more.estimate(np.exp), parts.estimate(np.exp), strict=True):
         assert np.allclose(found, expected, rtol=1e-13)
 
-
-def test_the_error_of_a_ratio_is_that_of_its_linear_part():
-    random = np.random.default_rng(3)
-    sums = 1000.0 + random.normal(size=SHAPE)
+    # That of a ratio is that of its linear part.
+    sums = 1000.0 + np.random.default_rng(3).normal(size=SHAPE)
     parts = PartSums(sums, np.ones(SHAPE[1:4], int), np.full(6, 100))
     _, error = parts.estimate(lambda light: light[..., 1] / light[..., 0])
     a, b = sums[..., 0], sums[..., 1]
-    ratio = b.mean(axis=0) / a.mean(axis=0)
-    linear = (b - ratio * a) / a.mean(axis=0)
+    linear = (b - b.mean(axis=0) / a.mean(axis=0) * a) / a.mean(axis=0)
     assert np.allclose(error, linear.std(axis=0, ddof=1) / np.sqrt(6), rtol=1e-2)
 
 
-def test_mirror_images_are_those_of_mueller_matrices():
+def test_mirror_images_are_those_of_mueller_matrices_and_sums_are_added_in_place():
     parts = drawn()
     found = parts.mirrored().sums
     matrices = parts.sums[..., :16].reshape(*SHAPE[:-1], 4, 4)
@@ -195,18 +173,14 @@ def test_mirror_images_are_those_of_mueller_matrices():
     for numbers in (1, 16, 17):
         once = drawn(shape=(*SHAPE[:-1], numbers)).mirrored()
         assert np.allclose(once.mirrored().sums, once.sums, rtol=1e-15), "of an image, itself"
-
-
-def test_sums_are_added_in_place():
     one, other = drawn(1), drawn(2)
-    expected = one.sums + other.sums, one.counts + other.counts, one.photons + other.photons
+    expected = [here + there for here, there in zip(one, other, strict=True)]
     one.add(other)
-    for found, value in zip(one, expected, strict=True):
-        assert np.array_equal(found, value)
+    assert all(np.array_equal(*pair) for pair in zip(one, expected, strict=True))
 
 
 SAMPLE = op.Sample([(1.5, 0.3), (0.5 + 2.1j, (0.1, 0.2))])
-HEIGHTS = np.zeros((4, 4))
+UPPER, BASE = SAMPLE.layers
 
 
 def identity(sample=SAMPLE, incidence="50 deg", photons=100, when=(np.nan,), code="1", **options):
@@ -216,32 +190,31 @@ def identity(sample=SAMPLE, incidence="50 deg", photons=100, when=(np.nan,), cod
     return chunk_identity(SensedBeam(beam, sensor, *kinds), np.array(when), photons, code)
 
 
-def with_heights(heights, size=3.0, **options):
-    return op.Sample([(1.5, surfaces.HeightField.from_heights(heights, size, **options))])
-
-
-UPPER, BASE = SAMPLE.layers
-
-
-OTHER_SAMPLES = {"outside": 1.1, "cells": 700, "surfaces": 3, "seed": 1, "periodic": False}
+OTHER_LAYERS = [
+    *([(1.5, np.nextafter(0.3, 1.0)), BASE], [(1.4, 0.3), BASE]),
+    *(
+        [UPPER, (index, alpha)]
+        for index, alpha in ((0.5 + 2.1j, (0.2, 0.1)), (0.5 + 2.2j, (0.1, 0.2)))
+    ),
+]
+OTHER_OPTIONS = {"outside": 1.1, "cells": 700, "surfaces": 3, "seed": 1, "periodic": False}
+OTHERS = {
+    "incidence": np.nextafter(np.radians(50.0), 1.0),
+    "azimuth": 0.1,
+    "photons": 101,
+    "seed": 1,
+}
+OTHERS |= {"most_events": 7, "polarized": "polarized", "events": 1, "when": (5e-7,), "code": "2"}
+SENSORS = [surfaces.Sensor(17), surfaces.Sensor(16, "equal-area"), surfaces.Sensor(16, parts=8)]
 
 
 @rows(
     "other",
     [
-        {"sample": op.Sample([(1.5, np.nextafter(0.3, 1.0)), BASE])},
-        {"sample": op.Sample([UPPER, (0.5 + 2.1j, (0.2, 0.1))])},
-        {"sample": op.Sample([(1.4, 0.3), BASE])},
-        {"sample": op.Sample([UPPER, (0.5 + 2.2j, (0.1, 0.2))])},
-        *({"sample": op.Sample(SAMPLE.layers, **dict([each]))} for each in OTHER_SAMPLES.items()),
-        {"incidence": np.nextafter(np.radians(50.0), 1.0)},
-        *({name: value} for name, value in (("azimuth", 0.1), ("photons", 101), ("seed", 1))),
-        {"most_events": 7},
-        {"sensor": surfaces.Sensor(17)},
-        {"sensor": surfaces.Sensor(16, "equal-area")},
-        {"sensor": surfaces.Sensor(16, parts=8)},
-        *({name: value} for name, value in (("polarized", "polarized"), ("events", 1))),
-        *({name: value} for name, value in (("when", (5e-7,)), ("code", "2"))),
+        *({"sample": op.Sample(layers)} for layers in OTHER_LAYERS),
+        *({"sample": op.Sample(SAMPLE.layers, **dict([each]))} for each in OTHER_OPTIONS.items()),
+        *(dict([each]) for each in OTHERS.items()),
+        *({"sensor": sensor} for sensor in SENSORS),
     ],
 )
 def test_whatever_changes_the_bits_is_another_identity(other):
@@ -249,18 +222,18 @@ def test_whatever_changes_the_bits_is_another_identity(other):
 
 
 def test_heights_are_told_apart_by_all_that_they_are():
-    higher = HEIGHTS.copy()
+    heights = np.zeros((4, 4))
+    higher = heights.copy()
     higher[2, 1] = 1e-300
-    others = [with_heights(each) for each in (HEIGHTS, higher, np.zeros((4, 5)))]
-    others += [with_heights(HEIGHTS, size) for size in (np.nextafter(3.0, 4.0), (3.0, 2.0))]
-    others.append(with_heights(HEIGHTS, periodic=True))
-    assert len({identity(each) for each in others}) == len(others) == 6
+    given = [(each, 3.0, False) for each in (heights, higher, np.zeros((4, 5)))]
+    given += [(heights, np.nextafter(3.0, 4.0), False), (heights, (3.0, 2.0), False)]
+    fields = [surfaces.HeightField(*each) for each in (*given, (heights, 3.0, True))]
+    assert len({identity(op.Sample([(1.5, field)])) for field in fields}) == 6
 
 
 def test_what_makes_no_difference_is_none_nor_is_an_index_by_name():
     there = identity(op.Sample([(op.Material.cauchy([1.5]), 0.3)]), wavelength="500 nm")
     assert there == identity(op.Sample([(1.5, 0.3)]))
-    described = op.Sample(SAMPLE.layers, description="glass over metal")
-    assert identity(described) == identity()
+    assert identity(op.Sample(SAMPLE.layers, description="glass over metal")) == identity()
     assert identity(seed=np.int64(3)) == identity(seed=3)
     assert identity(sensor=surfaces.Sensor(np.int64(16))) == identity()

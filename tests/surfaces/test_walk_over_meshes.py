@@ -32,13 +32,10 @@ from optipath.surfaces.walk.packed_meshes import packed_meshes
 from optipath.surfaces.walk.random_stream import uniform
 
 
-def fields(rng):
+def test_meshes_are_found_by_their_places_and_apart_by_two_deviations_of_the_rougher(rng):
     shapes = [((5, 9), True), ((33, 3), False), ((2, 2), True)]
-    return [HeightField(rng.normal(size=shape), (3.0, 7.0), periodic) for shape, periodic in shapes]
-
-
-def test_heights_and_their_extremes_are_found_by_their_places(rng):
-    meshes = packed.packed_meshes(given := fields(rng))
+    given = [HeightField(rng.normal(size=shape), (3.0, 7.0), whole) for shape, whole in shapes]
+    meshes = packed_meshes(given)
     for place, field in enumerate(given):
         wholes = meshes.wholes[packed.WHOLES * place :][: packed.WHOLES]
         across, down = field.cells
@@ -52,26 +49,21 @@ def test_heights_and_their_extremes_are_found_by_their_places(rng):
         for level, values in enumerate(levels[1:], 1):
             at = wholes[packed.PYRAMID + level]
             assert meshes.extremes[at:][: values.size].tolist() == values.ravel().tolist()
-
-
-def test_meshes_are_apart_by_two_deviations_of_the_rougher_and_flat_ones_too(rng):
-    given = fields(rng)
-    numbers = packed.packed_meshes(given).numbers.reshape(-1, packed.NUMBERS)
-    for place in (1, 2):
-        gap = numbers[place - 1, packed.LOW] - numbers[place, packed.HIGH]
-        deviation = max(given[place - 1].deviation, given[place].deviation)
-        assert gap == pytest.approx(2.0 * deviation, rel=1e-12)
+    numbers = meshes.numbers.reshape(-1, packed.NUMBERS)
+    gaps = numbers[:-1, packed.LOW] - numbers[1:, packed.HIGH]
+    deviations = [field.deviation for field in given]
+    assert gaps == pytest.approx(2.0 * np.maximum(deviations[:-1], deviations[1:]), rel=1e-12)
     assert np.all(numbers[:, packed.HIGH] >= numbers[:, packed.LOW])
-    numbers = packed.packed_meshes([HeightField.flat()] * 2).numbers.reshape(-1, packed.NUMBERS)
+    # Flat ones are apart too.
+    numbers = packed_meshes([HeightField.flat()] * 2).numbers.reshape(-1, packed.NUMBERS)
     assert numbers[0, packed.LOW] > numbers[1, packed.HIGH]
 
 
-CELLS = [(1, 1), (1, 2), (1, 17), (33, 1), (4, 4), (5, 4), (16, 64), (17, 65), (63, 3)]
-
-
-@rows("cells", CELLS)
-def test_extremes_are_those_of_all_corners_of_blocks_from_cells_to_one_of_all(cells, rng):
-    across, down = cells
+@rows(
+    "across, down",
+    [(1, 1), (1, 2), (1, 17), (33, 1), (4, 4), (5, 4), (16, 64), (17, 65), (63, 3)],
+)
+def test_extremes_are_those_of_all_corners_of_blocks_from_cells_to_one_of_all(across, down, rng):
     vertices = rng.normal(size=(down + 1, across + 1))
     levels = pyramid_of(vertices)
     assert len(levels) == levels_of(across, down) + 1
@@ -140,10 +132,8 @@ LEVEL = itertools.product((-1.0, 0.0, 1.0), (1.0, 5.0), (0.0, -1e-300, -1e-30))
 def test_light_along_a_periodic_mesh_comes_to_one_of_its_cells(along, height, upwards):
     field = HeightField(TENT, 3.0, periodic=True)
     inside, point, x, y = entered(field, (0.0, 0.0, height), (along, 1.0, upwards))
-    assert inside
-    assert point[2] == 1.0
-    assert 0.0 <= x < 3.0
-    assert 0.0 <= y < 3.0
+    assert (inside, point[2]) == (True, 1.0)
+    assert 0.0 <= min(x, y) <= max(x, y) < 3.0
 
 
 # Where rays meet meshes, in exact fractions: where the height above the surface comes to 0.
@@ -300,24 +290,18 @@ def test_rays_from_facets_leave_these_and_meet_others(field, seed, side, facet):
     expect_meeting(field, start, direction, side, found)
 
 
-@rows("side", [1.0, -1.0])
-@rows("x", [0.0, 0.25, 1.0])
-def test_vertical_rays(side, x):
-    field = HeightField([[0.0, 1.0, 3.0], [2.0, 5.0, 0.0], [1.0, 1.0, 1.0]], 3.0, periodic=True)
-    edge = 5.0 if side > 0.0 else 0.0
-    start, direction = (x, 0.5, edge), (0.0, 0.0, -side)
-    outcome, t = outcome_of(field, start, direction, side)
-    assert outcome == walk.MET
-    assert t == first_meeting(field, start, direction, side)
-
-
-def test_light_along_a_periodic_mesh_is_given_up_and_leaves_a_finite_one_at_its_side(monkeypatch):
+def test_vertical_rays_and_such_along_a_mesh_that_are_given_up_or_leave_at_its_side(monkeypatch):
+    heights = [[0.0, 1.0, 3.0], [2.0, 5.0, 0.0], [1.0, 1.0, 1.0]]
+    field = HeightField(heights, 3.0, periodic=True)
+    for side, x in itertools.product((1.0, -1.0), (0.0, 0.25, 1.0)):
+        start, direction = (x, 0.5, 5.0 if side > 0.0 else 0.0), (0.0, 0.0, -side)
+        expected = first_meeting(field, start, direction, side)
+        assert outcome_of(field, start, direction, side) == (walk.MET, expected)
     monkeypatch.setitem(mesh_hit.__globals__, "_MOST_STEPS", 100)
     field = HeightField([[0.0, 1.0], [2.0, 0.0]], 2.0, periodic=True)
     assert outcome_of(field, (0.0, 0.5, 3.0), (1.0, 0.0, 0.0), 1.0)[0] == walk.LOST
     field = HeightField(np.zeros((3, 3)), 2.0)
-    outcome, t = outcome_of(field, (0.5, 0.5, 1.0), (1.0, 0.25, -0.1), 1.0)
-    assert (outcome, t) == (walk.LEFT, 1.5)
+    assert outcome_of(field, (0.5, 0.5, 1.0), (1.0, 0.25, -0.1), 1.0) == (walk.LEFT, 1.5)
 
 
 SPACING = np.array([0.5, 0.8])
@@ -326,13 +310,12 @@ SPACING = np.array([0.5, 0.8])
 def steep_field(seed, *, periodic):
     heights = np.random.default_rng(seed).normal(size=(8, 6))
     cells = np.array([6, 8]) - (not periodic)
-    return surfaces.HeightField(heights, tuple(SPACING * cells), periodic)
+    return HeightField(heights, tuple(SPACING * cells), periodic)
 
 
 def first_photon(field, index, seed):
     """Events of the first photon of a seed, and where on the mesh it starts, in cells."""
-    beam = given_beam(op.Sample([(index, field)]), 0.8, 0.4, seed=seed)
-    record = beam.block(0, wanted=0).record
+    record = given_beam(op.Sample([(index, field)]), 0.8, 0.4, seed=seed).block(0, wanted=0).record
     stream = np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(0,)))
     start = np.random.Generator(stream).random(2) * field.cells
     return record[0], record[1 : 1 + int(record[0, layout.EVENTS])], start
@@ -363,22 +346,6 @@ def test_photons_stay_on_their_side_of_the_surface_from_event_to_event(periodic,
     assert met > 20
 
 
-@rows("index", [1.5, 1j])
-def test_light_changes_sides_where_it_is_refracted(index):
-    for seed in range(30):
-        _, events, _ = first_photon(steep_field(seed, periodic=True), index, seed)
-        side = 1.0
-        for event in events:
-            assert event[layout.SIDE] == side
-            along = event[layout.DIRECTION : layout.DIRECTION + 3]
-            normal = event[layout.NORMAL : layout.NORMAL + 3]
-            assert along @ normal < 0.0
-            assert side * normal[2] > 0.0
-            media = (1.0, index.real) if side > 0.0 else (index.real, 1.0)
-            assert tuple(event[[layout.N1, layout.N2]]) == media
-            side *= 1.0 if event[layout.REFLECTED] else -1.0
-
-
 def test_photons_get_stuck_or_lost_and_leave_finite_fields_sideways():
     mirror = op.Sample([(1j, steep_field(0, periodic=True))])
     found = surfaces.photon_ends(mirror, 0.8, 1000, most_events=2)
@@ -388,16 +355,12 @@ def test_photons_get_stuck_or_lost_and_leave_finite_fields_sideways():
     assert set(found.ends) == {"up", "down", "sideways"}
     # Light that never comes down is lost, and counted as stuck.
     heights = np.outer([0.0, 0.0, 1.0, 0.0], [1.0, 1.0])
-    ridges = op.Sample([(1.5, surfaces.HeightField(heights, 4.0, periodic=True))])
-    given = {"photons": 3, "azimuth": 0.0, "threads": 1, "seed": 1}
-    found = surfaces.energy(ridges, np.pi / 2 - 1e-11, **given)
+    ridges = op.Sample([(1.5, HeightField(heights, 4.0, periodic=True))])
+    found = surfaces.energy(ridges, np.pi / 2 - 1e-11, photons=3, threads=1, seed=1)
     assert found.stuck + found.sideways == found.stuck > 0
     assert found.lost == pytest.approx(found.stuck / 3, rel=1e-12)
-
-
-def test_normals_of_cliffs_are_of_length_1():
-    cliffs = surfaces.HeightField(1e6 * (np.indices((8, 8)).sum(axis=0) % 2), 8.0, periodic=True)
-    beam = given_beam(op.Sample([(1j, cliffs)]), 0.1)
-    record = beam.block(0, wanted=50).record
+    # Normals of cliffs are of length 1.
+    cliffs = HeightField(1e6 * (np.indices((8, 8)).sum(axis=0) % 2), 8.0, periodic=True)
+    record = given_beam(op.Sample([(1j, cliffs)]), 0.1).block(0, wanted=50).record
     normals = record[1 : 1 + int(record[0, layout.EVENTS]), layout.NORMAL : layout.NORMAL + 3]
     assert np.linalg.norm(normals, axis=-1) == pytest.approx(1.0, abs=1e-15)
