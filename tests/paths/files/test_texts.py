@@ -18,11 +18,9 @@ ENOUGH = 30_000
 
 @pytest.fixture
 def folder(tmp_path):
-    for name in ("thick", "thin"):
-        (tmp_path / f"{name}.toml").write_text(name, "utf-8")
-    (tmp_path / "other.txt").write_text("", "utf-8")
     (tmp_path / "more").mkdir()
-    (tmp_path / "more" / "hidden.toml").write_text("", "utf-8")
+    for name in ("thick.toml", "thin.toml", "other.txt", "more/hidden.toml"):
+        (tmp_path / name).write_text("", "utf-8")
     return tmp_path
 
 
@@ -37,114 +35,59 @@ def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(f
     assert text_of(folder / "thin.toml", "film") == "a = 1"
     with pytest.raises(op.PresetError, match="cannot be read: it is no file"):
         text_of(folder / "more", "film")
-
-
-@rows(
-    "given, sentence",
-    [
+    for given, sentence in (
         ("thinn", "film 'thinn' is unknown; did you mean 'thin'?"),
         ("hidden", "film 'hidden' is unknown; there are: thick, thin"),
-        *(
-            (name, f"{name!r} is neither the name of a film (a-z, 0-9 and -) nor the path ")
-            for name in ("more/hidden", "../thin")
-        ),
+        ("../thin", "'../thin' is neither the name of a film (a-z, 0-9 and -) nor the path "),
         (None, "a film is a name or the path of a file, not None"),
-    ],
-)
-def test_what_is_neither_is_refused(folder, given, sentence):
-    with pytest.raises(op.PresetError) as error:
-        file_of(given, "film", folder, "a look")
-    assert str(error.value).startswith(sentence)
+    ):
+        with pytest.raises(op.PresetError) as error:
+            file_of(given, "film", folder, "a look")
+        assert str(error.value).startswith(sentence)
 
 
-UNWIELDY = [
-    # Keys and headers with many dots; the last five behind texts, literals and comments.
-    "a" + ".a" * ENOUGH + " = 1",
-    "a" + " . a" * ENOUGH + " = 1",
-    '"a"' + ".'a'" * ENOUGH + " = 1",
-    "[" + "a." * ENOUGH + "a]",
-    "[[" + "a." * ENOUGH + "a]]",
-    "x = { " + "a." * ENOUGH + "a = 1 }",
-    "x = [\n1, {" + "a." * ENOUGH + "a = 1}]",
-    'x = ["""a"""", {' + "a." * ENOUGH + "a = 1}]",
-    "x = ['''a''''', {" + "a." * ENOUGH + "a = 1}]",
-    'x = ["\\"", {' + "a." * ENOUGH + "a = 1}]",
-    'x = [ # "\n{' + "a." * ENOUGH + "a = 1}]",
-    # Lists and tables in each other.
-    "x = " + "[" * ENOUGH,
-    "x = " + "[" * 1500 + "]" * 1500,
-    "x = " + "{a = " * ENOUGH,
-    "x = " + "[{a = " * ENOUGH,
-    # Digits, and other words.
-    "x = " + "1" * 4000,
-    "x = 0x" + "f" * ENOUGH,
-    "x = 1." + "1" * ENOUGH,
-    "x" * ENOUGH + " = 1",
-    "\0" * ENOUGH,
-]
-
-
-@rows("text", UNWIELDY)
-def test_what_would_take_long_to_parse_is_refused_before(text, tmp_path):
-    with pytest.raises(op.PresetError, match=r"line [123] (has a|opens)"):
-        refuse_unwieldy(text)
-    file = tmp_path / "x.toml"
-    file.write_text(text, "utf-8")
-    with pytest.raises(op.PresetError, match="is not TOML as presets use it: line") as error:
-        op.load_preset(file)
-    assert len(str(error.value)) < 300
-
-
+# Keys with many dots, some behind texts, literals and comments; brackets in each other; long words.
+UNWIELDY = ["[[" + "a." * ENOUGH + "a]]", '"a"' + ".'a'" * ENOUGH + " = 1", "x" * ENOUGH + " = 1"]
+BEHIND = ["1", '"""a""""', "'''a'''''", '"\\""', '# "\n']
+UNWIELDY += [f"x = [{before}, {{{'a.' * ENOUGH}a = 1}}]" for before in BEHIND]
+UNWIELDY += ["x = " + "[" * 1500 + "]" * 1500, "x = " + "[{a = " * ENOUGH, "x = " + "1" * 4000]
+# A text of brackets and quotes, a comment; the deepest list and key, the longest word.
 HANDY = [
-    # A sentence, texts of brackets and quotes, a comment.
-    'x = "' + "one.two." * ENOUGH + '"',
-    "x = '" + "[{" * ENOUGH + "'",
-    "x = '''" + "[\n" * ENOUGH + "'''",
     'x = """' + 'a""[\\"""' * ENOUGH + '"""',
-    "# " + "a." * ENOUGH + "[" * ENOUGH + '"""' + "\nx = 1",
-    # Long lists, many headers, the deepest list and key, the longest word.
-    "x = [" + "1.5," * ENOUGH + "]",
-    "x = [" + "[1.5, 2.5]," * ENOUGH + "]",
-    "".join(f"[a.x{number}]\n" for number in range(1000)),
-    "x = " + "[" * DEEPEST + "]" * DEEPEST,
-    ".".join("a" * DEEPEST) + " = 1",
-    "x" * LONGEST_WORD + " = 1",
-    "x = 1\r\ny = 2.5\r\n",
-    "x = [" + "1979-05-27T07:32:00.999-07:00," * 1000 + "]",
+    "# " + "a." * ENOUGH + "[" * ENOUGH + '"""\nx = 1',
 ]
-
-
-@rows("text", [*HANDY, *(op.load_preset(name).to_toml() for name in op.preset_names())])
-def test_what_is_long_but_flat_is_not_nor_is_any_preset(text):
-    refuse_unwieldy(text)
-    tomllib.loads(text)
-
-
+HANDY += ["x = '''" + "[\n" * ENOUGH + "'''", "x = [" + "[1.5, 2.5]," * ENOUGH + "]"]
+HANDY += ["x = " + "[" * DEEPEST + "]" * DEEPEST, ".".join("a" * DEEPEST) + " = 1"]
+HANDY += ["x" * LONGEST_WORD + " = 1", "x = 1\r\ny = 2.5\r\n"]
 # Each of these took time that grew with its square, or more, when it was looked at piece by piece.
-PARTS = ['"', "'", '"\\', "\\", '"""a', "'''a", "a.", "a .", " ", "#", "[]", "]", "-", "\n", "é."]
+PARTS = ["'", '"\\', '"""a', "a.", " ", "#", "[]", "-", "é."]
 
 
-@rows("part", PARTS)
-@rows("start", ["x = ", 'x = "', "x = '''", 'x = """'])
-def test_the_look_takes_time_that_grows_with_the_text(part, start):
-    # It would take hours otherwise.
-    with suppress(op.PresetError):
-        refuse_unwieldy(start + part * (200_000 // len(part)))
+def test_what_would_take_long_to_parse_is_refused_before_and_what_is_flat_is_not(tmp_path):
+    file = tmp_path / "x.toml"
+    for text in UNWIELDY:
+        with pytest.raises(op.PresetError, match=r"line [123] (has a|opens)"):
+            refuse_unwieldy(text)
+        file.write_text(text, "utf-8")
+        with pytest.raises(op.PresetError, match="is not TOML as presets use it: line") as error:
+            op.load_preset(file)
+        assert len(str(error.value)) < 300
+    for text in (*HANDY, *(op.load_preset(name).to_toml() for name in op.preset_names())):
+        refuse_unwieldy(text)
+        tomllib.loads(text)
+    for start in ("x = ", 'x = "', "x = '''", 'x = """'):
+        for part in PARTS:
+            with suppress(op.PresetError):
+                refuse_unwieldy(start + part * (200_000 // len(part)))
 
 
 MEANT = [
-    ("optional = True", "optional = true"),
-    ("optional = False # no", "optional = false"),
-    ("tap = yes", "tap = true"),
-    ("kind = interface", 'kind = "interface"'),
-    ("index = 0.17+3.15j", 'index = "0.17+3.15j"'),
+    ("optional = True # no", "optional = true"),
     ("angle = 30 deg", 'angle = "30 deg"'),
-    ("angle = $theta", 'angle = "$theta"'),
     ("index = 1,5", "index = 1.5"),
     ("share = .5", "share = 0.5"),
     ("share = 5.", "share = 5.0"),
     ('kind = "interface', 'kind = "interface"'),
-    ("kind: interface", 'kind = "interface"'),
     ('kind: "interface"', 'kind = "interface"'),
 ]
 OTHER_SLIPS = [
@@ -153,27 +96,22 @@ OTHER_SLIPS = [
     ("loops = 'sum'\nloops = 'sum'", "loops is there already: leave one of them out"),
     ("indices = [1, 1.5", "close what is open: a quote or a bracket"),
     ("angle = None", "leave angle out"),
-    (
-        "intensity = 1,000",
-        "a comma may be a point or part thousands: write intensity = 1.000 or 1000",
-    ),
-    *(
-        (line, f"look at '{line}'")
-        for line in ("matrix = [1, two]", "angle = np.pi/4", 'angle = "30" deg', "just a line")
-    ),
+    ("intensity = 1,000", "may be a point or part thousands: write intensity = 1.000 or 1000"),
+    *((line, f"look at '{line}'") for line in ("matrix = [1, two]", "angle = np.pi/4")),
+    *((line, f"look at '{line}'") for line in ('angle = "30" deg', "just a line")),
 ]
 
 
-@rows("text, cure", [(line, f"write {meant}") for line, meant in MEANT] + OTHER_SLIPS)
+@rows("text, cure", [(line, f"; write {meant}") for line, meant in MEANT] + OTHER_SLIPS)
 def test_a_slip_is_told_with_the_line_that_was_meant_or_what_to_do(tmp_path, text, cure):
     file = tmp_path / "slip.toml"
     file.write_text("format = 1\n" + text + "\n")
     with pytest.raises(op.PresetError) as error:
         op.load_preset(file)
-    assert f"; {cure}" in str(error.value)
-    if any(text == line for line, _ in MEANT):
-        assert str(error.value).endswith(f"; {cure}")
-        tomllib.loads(cure.removeprefix("write "))
+    assert cure in str(error.value)
+    if cure.startswith(";"):
+        assert str(error.value).endswith(cure)
+        tomllib.loads(cure.removeprefix("; write "))
 
 
 # Every type of TOML, with the values of each that are at an end of it.
@@ -188,47 +126,33 @@ STRANGE = [
     *("{re=[1,2],im=[1,2,3]}", "{w=[1,[2]]}", "{w=1979-05-27}", "{w=nan}", "{none=1}", '{""=1}'),
     *("{incidences=[1]}", '{incidences=["1 deg","2 deg"],turns=[1]}'),
     *("{incidences=[[1]],turns={}}", "{in=1}", "{in={x=1,y=2,z=3}}"),
-    "{in={x=[1,[2]],y=[0,1,0],z=[0,0,1]}}",
-    "{in={x=[nan,0,0],y=[0,1,0],z=[0,0,1]}}",
+    *("{in={x=[1,[2]],y=[0,1,0],z=[0,0,1]}}", "{in={x=[nan,0,0],y=[0,1,0],z=[0,0,1]}}"),
 ]
 # All of them take a minute; a part that differs from place to place will do otherwise.
 SHARES = [10, pytest.param(1, marks=pytest.mark.slow)]
-PLACES = {
-    "npgr026": (
-        "choices choices.place choices.place.element choices.place.behind choices.place.help "
-        "choices.place.behind.eye"
-    ),
-    "npgr026-3d": (
-        "format description loops parameters parameters.filter parameters.filter.default "
-        "parameters.filter.unit parameters.filter.range parameters.filter.help "
-        "parameters.filter.words parameters.filter.optional parameters.filter.bound "
-        "parameters.filter.words.horizontal parameters.filter.range.0 parameters.delta.default "
-        "elements elements.P elements.X1.kind elements.X1.index elements.X1.vertices "
-        "elements.X1.place elements.X1.outside elements.X1.reflections elements.X1.frames "
-        "elements.X1.azimuth elements.X2.place elements.X1.index.n elements.X1.vertices.incidences "
-        "elements.X1.vertices.incidences.0 elements.P.angle elements.P.frames "
-        "elements.L.intensity elements.L.stokes elements.E.reads links links.0 links.0.from "
-        "links.0.to links.0.azimuth links.0.tap cases cases.1 cases.1.values cases.1.published "
-        "cases.1.note cases.1.values.delta cases.1.published.E"
-    ),
-}
+IN_X1 = "index index.n vertices vertices.incidences vertices.incidences.0 place outside"
+PLACES = [
+    ("npgr026", "choices", "place place.element place.behind place.help place.behind.eye"),
+    ("npgr026-3d", "parameters", "filter delta.default"),
+    ("npgr026-3d", "parameters.filter", "default unit range range.0 words words.horizontal"),
+    ("npgr026-3d", "parameters.filter", "help optional bound"),
+    ("npgr026-3d", "elements.X1", f"{IN_X1} reflections frames azimuth kind"),
+    ("npgr026-3d", "elements", "P P.angle P.frames X2.place L.intensity L.stokes E.reads"),
+    ("npgr026-3d", "links", "0 0.from 0.to 0.azimuth 0.tap"),
+    ("npgr026-3d", "cases", "1 1.values 1.published 1.note 1.values.delta 1.published.E"),
+]
 ELEMENTS = {
     "layer-stack": {"indices": [1, 1.5], "incidence": "1 deg"},
-    "mirror": {"r_s": 0.9, "r_p": 0.9},
     "mueller": {"matrix": [[1, 0, 0, 0]] * 4},
-    "medium": {"length": "1 mm", "absorption": "1 1/mm"},
-    "diattenuator": {"maximum": 1, "minimum": 0.5},
-    "beam-splitter": {},
-    "combiner": {},
-    "retarder": {"retardance": "1 deg"},
-    "rotator": {"angle": "1 deg"},
-    "attenuator": {"transmittance": 0.5},
-    "depolarizer": {},
     "faraday-rotator": {"verdet": "1 rad/(T m)", "field": "1 T", "length": "1 mm"},
-    "circular-polarizer": {"handedness": "left"},
-    "polarizing-beam-splitter": {"extinction_transmitted": 1000},
     "waveplate": {"thickness": "1 mm", "birefringence": 0.01, "wavelength": "589 nm"},
 }
+ELEMENTS |= {"mirror": {"r_s": 0.9, "r_p": 0.9}, "diattenuator": {"maximum": 1, "minimum": 0.5}}
+ELEMENTS |= {"medium": {"length": "1 mm", "absorption": "1 1/mm"}, "beam-splitter": {}}
+ELEMENTS |= {"combiner": {}, "retarder": {"retardance": "1 deg"}, "rotator": {"angle": "1 deg"}}
+ELEMENTS |= {"attenuator": {"transmittance": 0.5}, "depolarizer": {}}
+ELEMENTS |= {"circular-polarizer": {"handedness": "left"}}
+ELEMENTS |= {"polarizing-beam-splitter": {"extinction_transmitted": 1000}}
 
 
 class InputKey(str):
@@ -280,8 +204,10 @@ def document_of(name):
 
 @pytest.mark.parametrize("share", SHARES)
 def test_every_value_of_every_key_and_field_is_read_or_refused(share, tmp_path):
-    for name, places in PLACES.items():
-        try_all(document_of(name), places.split(), tmp_path, share)
+    for name, table, keys in PLACES:
+        places = [table, *(f"{table}.{key}" for key in keys.split())]
+        try_all(document_of(name), places, tmp_path, share)
+    try_all(document_of("npgr026-3d"), ["format", "description", "loops"], tmp_path, share)
     document = document_of("malus")
     for kind, fields in ELEMENTS.items():
         document["elements"]["analyzer"] = {"kind": kind, **fields}
@@ -289,19 +215,20 @@ def test_every_value_of_every_key_and_field_is_read_or_refused(share, tmp_path):
         try_all(document, places, tmp_path, share)
 
 
+PIECES = [b'"', b"'", b"[", b"]", b"{", b"}", b".", b"=", b"\n", b"\\", b"\0", b"\xff", b"#", b"$"]
+PIECES += [b"\xef\xbb\xbf", b"\r", b'"""', b"9" * 50, b"1e9", b"nan", b"\xed\xa0\x80", b"-"]
+
+
 def test_every_sequence_of_bytes_is_read_or_refused_with_a_few_suggestions(tmp_path):
     dice = random.Random(1)  # noqa: S311
     file = tmp_path / "x.toml"
     texts = [op.load_preset(name).to_toml().encode() for name in ("malus", "glass-slab")]
-    pieces = [b'"', b"'", b"[", b"]", b"{", b"}", b".", b"=", b"\n", b"\\", b"\0", b"\xff", b"#"]
-    pieces += [b"\xef\xbb\xbf", b"\r", b'"""', b"9" * 50, b"1e9", b"nan"]
-    pieces += [b"\xed\xa0\x80", b"$", b"-"]
     for _ in range(200):
         text = bytearray(dice.choice(texts))
         for _ in range(dice.randint(1, 4)):
             start = dice.randrange(len(text))
             end = start + dice.choice([0, 0, 1, 5, 50])
-            text[start:end] = dice.choice([*pieces, bytes(text[:: dice.randint(50, 99)])])
+            text[start:end] = dice.choice([*PIECES, bytes(text[:: dice.randint(50, 99)])])
         file.write_bytes(bytes(text))
         with suppress(op.OptipathError):
             op.load_preset(file)
@@ -313,18 +240,15 @@ def test_every_sequence_of_bytes_is_read_or_refused_with_a_few_suggestions(tmp_p
     assert 1 <= sum("did you mean" in fault for fault in error.value.faults) <= 20
 
 
+UNEQUAL = '{kind="mirror", r_s={re=[1,2],im=[1,2,3]}, r_p=0.9}'
+
+
 @rows(
     "name, place, value, message",
     [
         ("npgr026-3d", "elements.X2.place", "[1, 2]", "place must be a whole number"),
-        (
-            *("npgr026-3d", "parameters.filter.words", '{w = ["1 deg", ["2 deg"]]}'),
-            "word 'w' of parameter 'filter'",
-        ),
-        (
-            *("malus", "elements.analyzer", '{kind="mirror", r_s={re=[1,2],im=[1,2,3]}, r_p=0.9}'),
-            "the shapes of 're' and 'im' do not fit",
-        ),
+        ("npgr026-3d", "parameters.filter.words", '{w = ["1 deg", ["2 deg"]]}', "word 'w' of para"),
+        ("malus", "elements.analyzer", UNEQUAL, "the shapes of 're' and 'im' do not fit"),
     ],
 )
 def test_lists_that_do_not_fit_are_told_of(name, place, value, message, tmp_path):

@@ -27,35 +27,32 @@ class OddlyNamed(op.Element, kind="oddly-named"):
         return (t, 0, 0, 0), (0, t, 0, 0), (0, 0, t, 0), (0, 0, 0, t)
 
 
-D, N = op.Parameter("d"), op.Parameter("n")
+D, N, L, P = op.Parameter("d"), op.Parameter("n"), op.Parameter("l", 1e-3), op.Parameter
 QUARTZ = op.Crystal.named("quartz").rotatory_power
+MIRROR, SLAB = op.Mirror(-0.5 + 0.25j, 0.1), op.Medium(0.1, 50.0, rotation=np.radians(1000.0))
+PLATE = op.Waveplate("1 mm", 0.009, "550 nm")
 ELEMENTS = [
-    (op.Mirror(), ""),
-    (op.Mirror(-0.97 + 0.12j, 0.92 - 0.26j, azimuth=0.3), ""),
-    (op.Mirror(np.array([-0.9 + 0.1j, 0.3j]), -op.Parameter("r", 0.5 - 0.5j)), ""),
-    (op.Mirror(np.array([-0.9, 0.3]), op.Parameter("r", np.array([0.5, 0.5j]))), ""),
-    (op.Mirror(np.array([-0.9, 0.3]), op.Parameter("r", np.array([0.5, 0.25]))), ""),
-    (op.Mirror(-0.5 + 0.25j, 0.1), "r_s = { re = -0.5, im = 0.25 }"),
-    (op.Mirror(0.1, op.Parameter("r", 0.5j)), "default = { re = 0.0, im = 0.5 }"),
-    (op.Interface(np.array([0.17, 3.15]), 0.3), ""),
-    (op.LayerStack([1.0, np.array([1.5, 1.6]), np.array([0.17, 3.15])], 0.3), ""),
-    (op.LayerStack([1.0, 1.5, 0.2 + 3.0j], 0.3), ""),
-    (op.Diattenuator(0.9, op.Parameter("least"), angle=0.2, azimuth=0.1), ""),
-    (op.Depolarizer(0.3), ""),
-    (op.Medium(op.Parameter("l", 0.2, unit="dm")), 'default = "2 dm"'),
-    (op.Medium(0.2, 0.7, rotation=-np.radians(66.5)), ""),
-    (op.Medium(op.Parameter("l", 1e-3, minimum=0.0), 12.3, retardance=97.3, angle=0.1), ""),
-    (op.Medium(op.Parameter("l", 1e-3), 12.3, retardance=97.3, azimuth=0.2), ""),
-    (op.FaradayRotator(-0.3), ""),
-    (op.FaradayRotator(verdet=-1.0, field=-op.Parameter("b", "5 mT", unit="mT"), length=0.02), ""),
-    (op.CircularPolarizer("left", 0.9, op.Parameter("leakage")), ""),
-    (op.Waveplate(op.Parameter("d", "1 mm"), 0.0091, np.array([5e-7, 6e-7]), 0.1, azimuth=0.2), ""),
-    (op.Medium(0.1, op.Parameter("a", [1.0, 2.0], unit="1/m"), rotation=op.Parameter("b")), ""),
-    (op.CircularDiattenuator(0.9, 0.1), ""),
-    (op.CircularDiattenuator(0.9, op.Parameter("l", 0.1)), ""),
-    (op.CircularDiattenuator([0.9, 0.8], [0.1, 0.2]), ""),
-    (OddlyNamed(0.5, 0.25, 0.75), ""),
-    # Multiples with an offset.
+    *(op.Mirror(), op.Mirror(-0.97 + 0.12j, 0.92 - 0.26j, azimuth=0.3), op.Depolarizer(0.3)),
+    op.Mirror(np.array([-0.9 + 0.1j, 0.3j]), -P("r", 0.5 - 0.5j)),
+    *(op.Mirror(np.array([-0.9, 0.3]), P("r", np.array([0.5, r]))) for r in (0.5j, 0.25)),
+    *(op.Interface(np.array([0.17, 3.15]), 0.3), op.LayerStack([1.0, 1.5, 0.2 + 3.0j], 0.3)),
+    op.LayerStack([1.0, np.array([1.5, 1.6]), np.array([0.17, 3.15])], 0.3),
+    *(op.Diattenuator(0.9, P("least"), angle=0.2, azimuth=0.1), op.FaradayRotator(-0.3)),
+    op.Medium(0.2, 0.7, rotation=-np.radians(66.5)),
+    op.Medium(P("l", 1e-3, minimum=0.0), 12.3, retardance=97.3, angle=0.1),
+    op.Medium(L, 12.3, retardance=97.3, azimuth=0.2),
+    op.FaradayRotator(verdet=-1.0, field=-P("b", "5 mT", unit="mT"), length=0.02),
+    *(op.CircularPolarizer("left", 0.9, P("leakage")), op.CircularDiattenuator(0.9, 0.1)),
+    op.Waveplate(P("d", "1 mm"), 0.0091, np.array([5e-7, 6e-7]), 0.1, azimuth=0.2),
+    op.Medium(0.1, P("a", [1.0, 2.0], unit="1/m"), rotation=P("b")),
+    op.CircularDiattenuator(0.9, P("l", 0.1)),
+    *(op.CircularDiattenuator([0.9, 0.8], [0.1, 0.2]), OddlyNamed(0.5, 0.25, 0.75)),
+]
+WRITTEN = [
+    (MIRROR, "r_s = { re = -0.5, im = 0.25 }"),
+    (op.Mirror(0.1, P("r", 0.5j)), "default = { re = 0.0, im = 0.5 }"),
+    (op.Medium(P("l", 0.2, unit="dm")), 'default = "2 dm"'),
+    # Multiples with an offset, and crystals by their names.
     (op.Polarizer(2 * D + "10 deg"), '{ parameter = "d", scale = 2.0, offset = "10 deg" }'),
     (op.Polarizer(D + 0.5), '{ parameter = "d", offset = '),
     (op.Polarizer(-D), '"-$d"'),
@@ -63,35 +60,33 @@ ELEMENTS = [
     (op.Medium(D + "2 mm"), 'offset = "2 mm" }'),
     (op.LayerStack([1.5, 2 * N], 0.3), '[1.5, { parameter = "n", scale = 2.0 }]'),
     (op.Interface(op.Material(1.5, N / 4), 0.3), 'k = { parameter = "n", scale = 0.25 } }'),
-    # Crystals by their names.
     (op.Waveplate.quarter("550 nm", "calcite", order=2), 'crystal = "calcite"'),
     (op.Medium("1 mm", dextrorotation=QUARTZ), 'crystal = "quartz"'),
 ]
 
 
-@rows("element, written", ELEMENTS)
+@rows("element, written", [*((element, "") for element in ELEMENTS), *WRITTEN])
 def test_an_element_is_written_and_read_back_and_drawn(element, written, tmp_path):
     path = chain([element], [1.0, 1.0, 0.0, 0.0])
     assert written in path.to_toml()
-    assert read_back(path, tmp_path) == path
+    again = read_back(path, tmp_path)
+    assert again == path
     assert element.kind in draw(path)
     if "crystal" in written:
-        light = [one.trace(wavelength="500 nm") for one in (path, read_back(path, tmp_path))]
-        assert light[0].stokes.tolist() == light[1].stokes.tolist()
+        light = [one.trace(wavelength="500 nm").stokes.tolist() for one in (path, again)]
+        assert light[0] == light[1]
 
 
 def test_amplitudes_links_and_cases_take_numbers_without_a_part_multiples_and_axes(tmp_path):
     text = chain([op.Mirror(-0.5 + 0.25j, 1.0)]).to_toml()
     text = text.replace("re = -0.5, im = 0.25", "re = -0.5")
     assert loaded(text, tmp_path) == chain([op.Mirror(-0.5, 1.0)])
-    path = affine(
-        tmp_path,
-        share='{ parameter = "share", scale = 2, offset = -0.25 }',
-        azimuth='{ parameter = "d", scale = 3 }',
-    )
+    share = '{ parameter = "share", scale = 2, offset = -0.25 }'
+    text = affine_text(share=share, azimuth='{ parameter = "d", scale = 3 }')
+    path = loaded(text, tmp_path)
     assert path.trace().intensity == pytest.approx(0.375)
     np.testing.assert_allclose(path.trace(share=0.25).intensity, 0.125)
-    crossed = op.Source(100, [1, 1, 0, 0]) >> op.Polarizer(op.Parameter("a", 0.3)) >> op.Detector()
+    crossed = op.Source(100, [1, 1, 0, 0]) >> op.Polarizer(P("a", 0.3)) >> op.Detector()
     text = crossed.to_toml() + '[cases.x]\nvalues = { a = ["vertical", "45 deg", "horizontal"] }\n'
     path = read(tomllib.loads(text))
     # Malus, at 90, 45 and 0 degrees.
@@ -103,19 +98,16 @@ def test_amplitudes_links_and_cases_take_numbers_without_a_part_multiples_and_ax
 
 @rows("place", ["field", "default", "case"])
 def test_a_pair_of_numbers_for_an_index_is_asked_about(place, tmp_path):
-    index = op.Parameter("gold", 1.5) if place != "field" else 1.5
-    text = chain([op.Interface(index, 0.3)]).to_toml()
+    index = 1.5 if place == "field" else P("gold", 1.5)
+    text = chain([op.Interface(index, 0.3)]).to_toml() + "[cases.a]\nvalues = {}\n"
+    old = {"field": "index = 1.5", "default": "default = 1.5", "case": "values = {}"}[place]
+    new = "values = { gold = PAIR }" if place == "case" else old.replace("1.5", "PAIR")
+    given = text.replace(old, new)
     told = r"\{ n = 0\.17, k = 3\.15 \} for the one, \{ n = \[0\.17, 3\.15\] \} for the other"
-    given = {
-        "field": text.replace("index = 1.5", "index = PAIR"),
-        "default": text.replace("default = 1.5", "default = PAIR"),
-        "case": text + "[cases.a]\nvalues = { gold = PAIR }\n",
-    }[place]
     with pytest.raises(op.PathError, match=told):
         loaded(given.replace("PAIR", "[0.17, 3.15]"), tmp_path)
-    case = "a" if place == "case" else None
     one, two = (
-        loaded(given.replace("PAIR", index), tmp_path, case=case).trace()
+        loaded(given.replace("PAIR", index), tmp_path, case="a").trace()
         for index in ("{ n = 0.17, k = 3.15 }", "{ n = [0.17, 3.15] }")
     )
     assert one == chain([op.Interface(op.Material(0.17, 3.15), 0.3)]).trace()
@@ -138,9 +130,8 @@ links = [
 """
 
 
-def affine(tmp_path, value='"$d"', share='"$share"', azimuth='"0 deg"'):
-    text = AFFINE.replace("VALUE", value).replace("SHARE", share).replace("AZIMUTH", azimuth)
-    return loaded(text, tmp_path)
+def affine_text(value='"$d"', share='"$share"', azimuth='"0 deg"'):
+    return AFFINE.replace("VALUE", value).replace("SHARE", share).replace("AZIMUTH", azimuth)
 
 
 @rows(
@@ -155,7 +146,7 @@ def affine(tmp_path, value='"$d"', share='"$share"', azimuth='"0 deg"'):
     ],
 )
 def test_a_table_stands_for_a_multiple_with_an_offset(value, degrees, tmp_path):
-    path = affine(tmp_path, value)
+    path = loaded(affine_text(value), tmp_path)
     # What a linear polariser lets through of unpolarised light is along its axis.
     half = np.radians(2 * degrees)
     expected = 0.25 * np.array([1.0, np.cos(half), np.sin(half), 0.0])
@@ -164,109 +155,90 @@ def test_a_table_stands_for_a_multiple_with_an_offset(value, degrees, tmp_path):
     assert read_back(path, tmp_path).compose() == path.compose()
 
 
-@rows(
-    "value, message",
-    [
-        ('{ parameter = "d", scael = 2 }', "key 'scael' is unknown; did you mean 'scale'"),
-        ('{ parameter = "dd" }', "parameter 'dd' is not declared; there are: d, share"),
-        ('{ parameter = "$d" }', r"parameter '\$d' is not declared; did you mean 'd'"),
-        ("{ parameter = 3 }", "parameter 3 is not declared"),
-        ("{ scale = 2 }", "needs 'parameter'"),
-        ('{ parameter = "d", scale = 0 }', "a scale other than 0"),
-        ('{ parameter = "d", scale = nan }', "finite real numbers"),
-        ('{ parameter = "d", scale = [1, 2] }', r"'scale' must be one number, not \[1, 2\]"),
-        ('{ parameter = "d", scale = "2 deg" }', "'2 deg' has the unit 'deg', but a pure number"),
-        ('{ parameter = "d", scale = "1j" }', "finite real numbers"),
-        ('{ parameter = "d", scale = true }', "true is not a number"),
-        ('{ parameter = "d", offset = 10 }', "10 has no unit, but an angle is asked for"),
-        ('{ parameter = "d", offset = "10 nm" }', "'10 nm' is no angle"),
-        ('{ parameter = "share", offset = "10 deg" }', "parameter 'share'"),
-        ('{ crystal = "quartz" }', "gives no angle"),
-    ],
-)
-def test_what_is_wrong_with_a_table_is_told_with_a_cure(value, message, tmp_path):
-    with pytest.raises(op.OptipathError, match=message):
-        affine(tmp_path, value).trace()
-
-
-MIRROR, SLAB = op.Mirror(-0.5 + 0.25j), op.Medium(0.1, 50.0, rotation=np.radians(1000.0))
-PLATE = op.Waveplate("1 mm", 0.009, "550 nm")
-
-
-@rows(
-    "old, new, expected",
-    [
-        ("re = -0.5, im = 0.25", "im = 0.25", ["an amplitude written as a table needs 're'"]),
-        ("re = -0.5, im = 0.25", "n = 1, k = 2", ["key 'n' is unknown", "needs 're'"]),
-        ("re = -0.5, im = 0.25", 're = "$a"', ["parameter '$a' is not declared"]),
-        ("re = -0.5, im = 0.25", "re = 3", ["e0.r_s is (3+0j); give"]),
-        ('"100 mm"', '"100 deg"', ["'100 deg' is no length; use one of nm, um"]),
-        ('"100 mm"', "100", ["100 has no unit, but a length is asked for; write '100 mm'"]),
-        ('"0.5 1/cm"', "0.5", ["an inverse length is asked for; write '0.5 1/cm'"]),
-        ('"1 deg/mm"', '"1 deg"', ["'1 deg' is no angle per length; use one of deg/um"]),
-        ('"0 1/cm"', '"1 1/cm"', ["'e1' would amplify some light", "give an absorption of 1.41"]),
-        ("= 0.009", '= { crystal = "quarz" }', ["did you mean 'quartz'"]),
-        ("= 0.009", "= { crystal = 3 }", ["'crystal' must be a text, not 3"]),
-        ("= 0.009", '= { crystal = "quartz", orders = 3 }', ["'orders'"]),
-    ],
-)
-def test_faults_of_elements_are_named_with_a_cure(old, new, expected, tmp_path):
-    text = chain([MIRROR, SLAB, PLATE]).to_toml()
-    assert old in text
-    with pytest.raises(op.OptipathError) as error:
-        loaded(text.replace(old, new), tmp_path)
-    for part in expected:
-        assert part in str(error.value)
-
-
 # h c in eV nm, CODATA 2018.
 HC = 1239.841984e-9
 
 
-@pytest.fixture
-def declared(tmp_path):
-    def of(text):
-        metal = "index = { cauchy = { coefficients = [1.5, 0.01] } }"
-        written = chain([op.Interface(1.5, "30 deg")]).to_toml().replace("index = 1.5", metal)
-        path = loaded(f"{written}\n[parameters.wavelength]\n{text}\n", tmp_path)
-        return path.parameters["wavelength"]
-
-    return of
+METAL = "index = { cauchy = { coefficients = [1.5, 0.01] } }"
+OF_METAL = chain([op.Interface(1.5, "30 deg")]).to_toml().replace("index = 1.5", METAL)
+OF_FIELDS = chain([MIRROR, SLAB, PLATE]).to_toml()
 
 
-@rows(
-    "text, metres",
-    [('default = "2.4 eV"', HC / 2.4), ('default = "516 nm"', 516e-9), ('help = "light"', None)],
-)
-def test_a_wavelength_needs_no_unit_of_its_own(declared, text, metres):
-    found = declared(text)
-    assert (type(found), found.unit) == (op.Wavelength, "nm")
-    assert found.default == (metres and pytest.approx(metres, rel=1e-9))
+def declaring(text):
+    return f"{OF_METAL}\n[parameters.wavelength]\n{text}\n"
 
 
-@rows("unit", ["", 'unit = "nm"'])
-def test_a_range_of_photon_energies_is_one_of_wavelengths(declared, unit):
-    found = declared(f'{unit}\nrange = ["2.0 eV", "3.0 eV"]')
-    limits = [found.minimum, found.maximum]
-    assert limits == pytest.approx([HC / 3.0, HC / 2.0], rel=1e-9)
-    assert limits == [(one := op.Wavelength(minimum="2 eV", maximum="3 eV")).minimum, one.maximum]
+def test_a_wavelength_needs_no_unit_of_its_own_and_its_range_may_be_of_photon_energies(tmp_path):
+    def declared(text):
+        return loaded(declaring(text), tmp_path).parameters["wavelength"]
+
+    for text, metres in (('"2.4 eV"', HC / 2.4), ('"516 nm"', 516e-9)):
+        found = declared(f"default = {text}")
+        assert (type(found), found.unit) == (op.Wavelength, "nm")
+        assert found.default == pytest.approx(metres, rel=1e-9)
+    assert declared('help = "light"').default is None
+    of_python = op.Wavelength(minimum="2 eV", maximum="3 eV")
+    for unit in ("", 'unit = "nm"'):
+        found = declared(f'{unit}\nrange = ["2.0 eV", "3.0 eV"]')
+        limits = [found.minimum, found.maximum]
+        assert limits == pytest.approx([HC / 3.0, HC / 2.0], rel=1e-9)
+        assert limits == [of_python.minimum, of_python.maximum]
 
 
-@rows(
-    "text, sentence",
-    [
-        ("default = 516", "default: 516 has no unit, but a length is asked for; write '516 nm'"),
-        ("range = [400, 700]", "range: 400 has no unit"),
-        ('default = "30 deg"', "is in nm, but '30 deg' is an angle; let them agree"),
-        ('default = "2.4 ev"', "did you mean 'eV'?"),
-        ('unit = "eV"\ndefault = 2.4', "leave unit out, and write values as texts with it, such"),
-        ('range = ["700 nm", "400 nm"]', "begin with the lower end"),
-    ],
-)
-def test_what_is_no_wavelength_is_refused_with_its_cure(declared, text, sentence):
-    with pytest.raises(op.OptipathError) as caught:
-        declared(text)
-    assert sentence in str(caught.value)
+MULTIPLES = [
+    ('{ parameter = "d", scael = 2 }', "key 'scael' is unknown; did you mean 'scale'"),
+    ('{ parameter = "dd" }', "parameter 'dd' is not declared; there are: d, share"),
+    ('{ parameter = "$d" }', "parameter '$d' is not declared; did you mean 'd'"),
+    ("{ parameter = 3 }", "parameter 3 is not declared"),
+    ("{ scale = 2 }", "needs 'parameter'"),
+    ('{ parameter = "d", scale = 0 }', "a scale other than 0"),
+    ('{ parameter = "d", scale = nan }', "finite real numbers"),
+    ('{ parameter = "d", scale = [1, 2] }', "'scale' must be one number, not [1, 2]"),
+    ('{ parameter = "d", scale = "2 deg" }', "'2 deg' has the unit 'deg', but a pure number"),
+    ('{ parameter = "d", scale = "1j" }', "finite real numbers"),
+    ('{ parameter = "d", scale = true }', "true is not a number"),
+    ('{ parameter = "d", offset = 10 }', "10 has no unit, but an angle is asked for"),
+    ('{ parameter = "d", offset = "10 nm" }', "'10 nm' is no angle"),
+    ('{ parameter = "share", offset = "10 deg" }', "parameter 'share'"),
+    ('{ crystal = "quartz" }', "gives no angle"),
+]
+FIELDS = [
+    ("re = -0.5, im = 0.25", "im = 0.25", "an amplitude written as a table needs 're'"),
+    ("re = -0.5, im = 0.25", "n = 1, k = 2", "key 'n' is unknown"),
+    ("re = -0.5, im = 0.25", "n = 1, k = 2", "needs 're'"),
+    ("re = -0.5, im = 0.25", 're = "$a"', "parameter '$a' is not declared"),
+    ("re = -0.5, im = 0.25", "re = 3", "e0.r_s is (3+0j); give"),
+    ('"100 mm"', '"100 deg"', "'100 deg' is no length; use one of nm, um"),
+    ('"100 mm"', "100", "100 has no unit, but a length is asked for; write '100 mm'"),
+    ('"0.5 1/cm"', "0.5", "an inverse length is asked for; write '0.5 1/cm'"),
+    ('"1 deg/mm"', '"1 deg"', "'1 deg' is no angle per length; use one of deg/um"),
+    ('"0 1/cm"', '"1 1/cm"', "'e1' would amplify some light"),
+    ('"0 1/cm"', '"1 1/cm"', "give an absorption of 1.41"),
+    ("= 0.009", '= { crystal = "quarz" }', "did you mean 'quartz'"),
+    ("= 0.009", "= { crystal = 3 }", "'crystal' must be a text, not 3"),
+    ("= 0.009", '= { crystal = "quartz", orders = 3 }', "'orders'"),
+]
+WAVELENGTHS = [
+    ("default = 516", "default: 516 has no unit, but a length is asked for; write '516 nm'"),
+    ("range = [400, 700]", "range: 400 has no unit"),
+    ('default = "30 deg"', "is in nm, but '30 deg' is an angle; let them agree"),
+    ('default = "2.4 ev"', "did you mean 'eV'?"),
+    ('unit = "eV"\ndefault = 2.4', "leave unit out, and write values as texts with it, such"),
+    ('range = ["700 nm", "400 nm"]', "begin with the lower end"),
+]
+FAULTS = [(affine_text(value), told) for value, told in MULTIPLES]
+FAULTS += [(OF_FIELDS.replace(old, new), told) for old, new, told in FIELDS]
+FAULTS += [(declaring(text), told) for text, told in WAVELENGTHS]
+
+
+@rows("text, told", FAULTS)
+def test_what_is_wrong_with_a_table_a_field_or_a_wavelength_is_told_with_a_cure(
+    text, told, tmp_path
+):
+    assert text != OF_FIELDS
+    with pytest.raises(op.OptipathError) as error:
+        loaded(text, tmp_path).trace()
+    assert told in str(error.value)
 
 
 BY_HAND = """
@@ -287,7 +259,7 @@ cases.steep = { values = { theta = "80 deg" } }
 @rows("index", [op.Material(1.2, 7.0), 1.2 + 7.0j])
 def test_a_path_built_in_python_equals_the_one_read(index):
     path = op.PathGraph("a lamp, a mirror, an eye", {"steep": op.Case({"theta": np.radians(80.0)})})
-    theta = op.Parameter("theta", np.radians(30.0), unit="deg", minimum=0.0, maximum=np.pi / 2)
+    theta = P("theta", np.radians(30.0), unit="deg", minimum=0.0, maximum=np.pi / 2)
     lamp = path.add("lamp", op.Source())
     lamp >> path.add("mirror", op.Interface(index, theta))
     path.add("eye", op.Detector())
@@ -299,17 +271,16 @@ def test_a_path_built_in_python_equals_the_one_read(index):
 
 def sorts_of_values():
     """Paths with numbers of NumPy, arrays, words, notes, frames, and a unit that is not given."""
-    q = op.Parameter(
-        "q", np.float64(0.1), unit="deg", minimum=np.float64(0.0), words={"up": np.float64(0.3)}
-    )
-    m = op.Parameter("m", default=[1 + 2j, 2 + 1j])
+    tenth, up = np.float64(0.1), {"up": np.float64(0.3)}
+    q = P("q", tenth, unit="deg", minimum=np.float64(0.0), words=up)
+    m = P("m", default=[1 + 2j, 2 + 1j])
     numbers = op.Source() >> op.Interface(m, q, outside=op.Material(1.2)) >> op.Detector()
-    numbers.cases["one"] = op.Case({"q": np.float64(0.1)})
-    word = op.Parameter("a", [0.1, "up"], unit="rad", words={"up": 0.5}, help="é")
+    numbers.cases["one"] = op.Case({"q": tenth})
+    word = P("a", [0.1, "up"], unit="rad", words={"up": 0.5}, help="é")
     elements = {
         "lamp": op.Source(stokes=[[1.0, 0, 0, 1.0], [1.0, 0, 0, 0]]),
         "turn": op.Rotator(-word),
-        "glass": op.Interface(op.Parameter("m", 1.5 + 0.2j), [0.1, 0.2], outside=1.1),
+        "glass": op.Interface(P("m", 1.5 + 0.2j), [0.1, 0.2], outside=1.1),
         "metal": op.Interface([1 + 1j, 2 + 1j], 0.3, 1.1, azimuth=word),
         "any": op.MuellerElement(np.eye(4)),
         "eye": op.Detector(reads="linear"),
@@ -320,7 +291,7 @@ def sorts_of_values():
     frames = op.PathGraph()
     lamp = frames.add("lamp", op.Source(), {"out": op.Frame()})
     lamp >> frames.add("filter", op.Polarizer(), {"in": op.Frame().turned(0.3)}) >> op.Detector()
-    unitless = chain([op.Rotator(op.Parameter("theta", 0.5))])
+    unitless = chain([op.Rotator(P("theta", 0.5))])
     assert unitless.parameters["theta"].unit == "deg"
     return [numbers, words, frames, unitless]
 

@@ -98,9 +98,10 @@ MANY_AXES, UNEQUAL = np.full((1,) * 40, 0.5), [[0.5], [0.5, 0.5]]
 NO_NUMBERS = [Raises(), [0.5, Raises()], np.array(["2020-01-01"], "M8[D]"), np.array([1], "m8[s]")]
 NO_NUMBERS += [np.zeros(2, [("a", float)]), {0.5}, {"a": 0.5}, (x for x in [0.5]), Decimal("0.5")]
 NO_NUMBERS += [Fraction(1, 2), complex(np.nan, 1.0), np.array([0.5, None]), b"0.5"]
-NO_NUMBERS += [np.array([b"0.5"]), float, 10**5000, endless(), UNEQUAL, MANY_AXES, deep(5e-7)]
-NO_NUMBERS += [NoArray(), [NoArray(), 1.0], Itself(), NoFloat(), range(10**15)]
-NO_NUMBERS += [np.broadcast_to(np.float64(0.3), (10**12,))]
+NO_NUMBERS += [np.array([b"0.5"]), float, 10**5000, endless(), UNEQUAL, MANY_AXES]
+WIDE = np.broadcast_to(np.float64(0.3), (10**12,))
+HOSTILE = [deep(5e-7), UNEQUAL, NoArray(), [NoArray(), 1.0], Itself(), NoFloat()]
+HOSTILE += [[NoFloat(), 1.0], range(10**15), WIDE, [WIDE]]
 
 
 def path():
@@ -121,7 +122,6 @@ def lit(**state):
     return (op.Source(**state) >> op.Detector()).trace()
 
 
-TWO = [5e-7, 6e-7]
 SCALARS = {
     "a field": lambda v: op.Interface(1.5, v).mueller(),
     "an index": lambda v: op.Interface(v, 0.1).mueller(),
@@ -172,11 +172,6 @@ VECTORS = {
     "indices of a stack": (lambda v: op.LayerStack(v, 0.1).mueller(), [1.0, 1.3, 1.5]),
     "incidences": (op.vertices_from_angles, [0.1]),
     "diattenuations": (lambda v: op.intensity_bounds(0.1, v), [0.1]),
-    "values of a table": (lambda v: op.tabulated(TWO, v), [1.5, 1.6]),
-    "n of a table": (lambda v: op.Material.tabulated(TWO, n=v), [1.5, 1.6]),
-    "k of a table": (lambda v: op.Material.tabulated(TWO, n=[1.5, 1.6], k=v), [0.1, 0.2]),
-    "wavelengths of a table": (lambda v: op.Material.tabulated(v, n=[1.5, 1.6]), TWO),
-    "a wavelength": (lambda v: op.load_preset("copper-gold-spectrum").trace(wavelength=v), TWO),
 }
 PAIRS = ["an index", "a layer", "fresnel_reflection", "a material of a chain", "trace of an index"]
 """Where a tuple of two may be the parts of one complex number."""
@@ -334,3 +329,24 @@ def test_a_number_of_jax_is_taken_wherever_a_number_is():
 def test_light_and_matrices_with_frames_are_no_numbers(given, cure, take):
     with pytest.raises(op.OptipathError, match=cure):
         take(given)
+
+
+TWO = [5e-7, 6e-7]
+
+
+@rows(
+    "take",
+    [
+        *(SCALARS[place] for place in ("an index", "a layer", "trace", "bind")),
+        lambda value: op.Polarizer(value).mueller(),
+        lambda value: op.load_preset("copper-gold-spectrum").trace(wavelength=value),
+        lambda value: op.Material.tabulated(TWO, n=value),
+        lambda value: op.Material.tabulated(value, n=[1.5, 1.6]),
+        lambda value: op.Material.tabulated(TWO, n=[1.5, 1.6], k=value),
+        lambda value: op.tabulated(TWO, value),
+    ],
+)
+def test_what_is_no_array_is_refused_in_a_sentence_wherever_numbers_are_given(take):
+    for value in HOSTILE:
+        with pytest.raises(op.OptipathError):
+            take(value)
