@@ -12,10 +12,14 @@ from optipath.elements import chaining
 from optipath.paths.drawing import draw
 from paths import chain
 from tables import rows
+from wired import read_back, wired
+
+STATE = [1.0, 0.6, 0.3, 0.2]
 
 
 class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
     angle: op.Angle = 0.0
+    azimuth: op.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp, angle):
@@ -35,34 +39,22 @@ class Coating(op.Element, kind="test-coating"):
         return (op.Coupling("in", "out", through + dimmed),)
 
 
-def traced(element, stokes, **values):
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(stokes=stokes))
-    lamp >> path.add("element", element) >> path.add("eye", op.Detector())
-    return path.trace(**values).stokes
-
-
 def test_an_element_of_ones_own_is_one_of_the_library_in_light_files_and_kinds(tmp_path):
-    angle, stokes = np.linspace(0, 1, 7), [1.0, 0.6, 0.3, 0.2]
-    own = traced(HalfWavePlate(angle=op.Parameter("a")), stokes, a=angle)
-    library = traced(op.Retarder(np.pi, angle=op.Parameter("a")), stokes, a=angle)
-    np.testing.assert_allclose(own, library, rtol=0, atol=1e-15)
-    path = op.PathGraph("own")
-    (
-        path.add("lamp", op.Source())
-        >> path.add("plate", HalfWavePlate(0.25))
-        >> path.add("eye", op.Detector())
+    given = {"a": np.linspace(0, 1, 7), "z": 0.4}
+    A, Z = op.Parameter("a"), op.Parameter("z")
+    own, library = (
+        chain([plate], STATE).trace(**given).stokes
+        for plate in (HalfWavePlate(A, azimuth=Z), op.Retarder(np.pi, A, Z))
     )
-    file = tmp_path / "own.toml"
-    file.write_text(path.to_toml(), "utf-8")
-    assert op.load_preset(file) == path
+    np.testing.assert_allclose(own, library, rtol=0, atol=1e-15)
+    path = chain([HalfWavePlate(0.25)])
+    assert read_back(path, tmp_path) == path
     with pytest.raises(op.PathError, match="'polarizer' is taken"):
 
         class Other(op.Element, kind="polarizer"):
             pass
 
-    dim = traced(Coating(1.5, dimming=0.25), [1.0, 0, 0, 0])
-    bright = traced(Coating(1.5, dimming=1.0), [1.0, 0, 0, 0])
+    dim, bright = (chain([Coating(1.5, share)]).trace().stokes for share in ("0.25", 1.0))
     np.testing.assert_allclose(dim, 0.25 * bright)
 
 
@@ -80,52 +72,26 @@ SIDE = {
     "frame_in": op.Frame(),
     "frame_out": op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0)),
 }
+CROSSED = op.Polarizer(0.0, azimuth=np.pi / 2)
 
 
 @rows(
-    "act, fault, sentence",
+    "act, sentence",
     [
-        (lambda: HalfWavePlate(np.nan), op.ValueFault, "^HalfWavePlate angle is nan"),
-        (lambda: Nothing().mueller(), op.PathError, "mueller_rows"),
-        (lambda: Short().mueller(), op.PathError, "four rows"),
-        (
-            lambda: op.Polarizer(op.Parameter("a")).mueller(),
-            op.PathError,
-            "parameter 'a' of polarizer",
-        ),
-        (lambda: op.Polarizer().mueller(**SIDE), op.PathError, "one frame"),
-        (lambda: op.Interface(1.5, 0.1).mueller(**SIDE), op.PathError, "incidence of 45 deg"),
-        (
-            lambda: op.Interface(1.5, 0.1).mueller("back", "back"),
-            op.PathError,
-            "there are: in -> reflected, in -> tran",
-        ),
+        (lambda: HalfWavePlate(np.nan), "^HalfWavePlate angle is nan"),
+        (lambda: Nothing().mueller(), "mueller_rows"),
+        (lambda: Short().mueller(), "four rows"),
+        (lambda: op.Polarizer(op.Parameter("a")).mueller(), "parameter 'a' of polarizer"),
+        (lambda: op.Polarizer().mueller(**SIDE), "one frame"),
+        (lambda: op.Interface(1.5, 0.1).mueller(**SIDE), "incidence of 45 deg"),
+        (lambda: op.Interface(1.5, 0.1).mueller("back", "back"), "are: in -> reflected, in -> tr"),
+        (lambda: CROSSED.mueller(frame_in=op.Frame()), "world frames and by an azimuth; give one"),
+        (lambda: CROSSED.mueller(frame_out=op.Frame()), "world frames and by an azimuth; give one"),
     ],
 )
-def test_what_an_element_cannot_do_is_refused(act, fault, sentence):
-    with pytest.raises(fault, match=sentence):
+def test_what_an_element_cannot_do_is_refused(act, sentence):
+    with pytest.raises((op.ValueFault, op.PathError), match=sentence):
         act()
-
-
-def test_an_azimuth_of_ones_own_element_turns_its_frame():
-    class Turnable(op.Element):
-        axis: op.Angle = 0.0
-        azimuth: op.Angle = 0.0
-
-        @staticmethod
-        def mueller_rows(xp, axis):
-            c, s = xp.cos(2 * axis) / 2, xp.sin(2 * axis) / 2
-            return (
-                (0.5, c, s, 0),
-                (c, 2 * c * c, 2 * c * s, 0),
-                (s, 2 * c * s, 2 * s * s, 0),
-                (0,) * 4,
-            )
-
-    own = traced(Turnable(0.3, azimuth=0.4), [1.0, 0.6, 0.3, 0.2])
-    np.testing.assert_allclose(
-        own, traced(op.Polarizer(0.3, 0.4), [1.0, 0.6, 0.3, 0.2]), rtol=1e-15, atol=1e-16
-    )
 
 
 def test_elements_are_equal_by_their_values_which_do_not_change():
@@ -136,25 +102,18 @@ def test_elements_are_equal_by_their_values_which_do_not_change():
     with pytest.raises(ValueError, match="read-only"):
         polarizer.angle[0] = 1.0
     assert op.Polarizer([0.0, 1.0]) == op.Polarizer(np.array([0.0, 1.0]))
-    assert op.Polarizer(0.1) != op.Polarizer(0.2)
-    assert op.Polarizer(0.1) != op.Rotator(0.1)
+    assert op.Polarizer(0.1) not in (op.Polarizer(0.2), op.Rotator(0.1))
     bound = op.Polarizer(op.Parameter("a", 0.3, bound=True)).mueller()
     assert bound == op.Polarizer(0.3).mueller()
 
 
 def test_matrices_and_states_may_be_batches():
-    matrix = np.arange(16.0).reshape(4, 4)
-    np.testing.assert_array_equal(
-        traced(op.MuellerElement(matrix, physical=False), [1.0, 0.5, 0.25, 0.0]),
-        matrix @ [1.0, 0.5, 0.25, 0.0],
-    )
     batch = np.random.default_rng(1).normal(size=(5, 4, 4))
-    element = op.MuellerElement(op.Parameter("M"), physical=False)
-    path_light = traced(element, [1.0, 0.5, 0.25, 0.0], M=batch)
-    np.testing.assert_allclose(path_light, batch @ [1.0, 0.5, 0.25, 0.0], rtol=0, atol=1e-15)
+    path = chain([op.MuellerElement(op.Parameter("M"), physical=False)], STATE)
+    np.testing.assert_allclose(path.trace(M=batch).stokes, batch @ STATE, rtol=0, atol=1e-15)
     states = np.array([[1.0, 1.0, 0, 0], [2.0, 0, 0, 1.0], [0, 0, 0, 0]])
-    lights = traced(op.Attenuator(0.5), op.Parameter("state"), state=states)
-    np.testing.assert_allclose(lights, 0.5 * states)
+    lights = chain([op.Attenuator(0.5)], op.Parameter("state")).trace(state=states)
+    np.testing.assert_allclose(lights.stokes, 0.5 * states)
 
 
 class Passage(op.Element, kind="test-passage"):
@@ -169,42 +128,27 @@ class Passage(op.Element, kind="test-passage"):
 
 
 def test_light_may_pass_an_element_twice_by_different_ways():
-    path = op.PathGraph()
-    for name, element in (("lamp", op.Source()), ("two", Passage()), ("eye", op.Detector())):
-        path.add(name, element)
-    path.add("grey", op.Attenuator(0.5))
-    for start, end in (("lamp.out", "two.a"), ("two.c", "grey.in"), ("grey.out", "two.b")):
-        path.connect(start, end)
-    path.connect("two.d", "eye.in")
+    grey, ends = op.Attenuator(0.5), {"lamp": op.Source(), "eye": op.Detector()}
+    links = "lamp.out -> two.a, two.c -> grey.in, grey.out -> two.b, two.d -> eye.in"
+    path = wired({**ends, "two": Passage(), "grey": grey}, links)
     assert path.trace().intensity == 0.5
     assert draw(path).splitlines()[0].startswith("lamp")
 
 
-CROSSED = op.Polarizer(0.0, azimuth=np.pi / 2)
-
-
-def in_a_path(*elements):
-    chain = op.Source(stokes=[1.0, 1.0, 0.0, 0.0])
-    for element in elements:
-        chain = chain >> element
-    return chain >> op.Detector()
-
-
-@rows(
-    "found",
-    [
-        lambda light: CROSSED.mueller() @ light,
-        lambda light: CROSSED @ light,
-        lambda light: CROSSED.mueller() @ op.Polarizer(0.0).mueller() @ light,
-        lambda light: CROSSED.mueller() @ op.Polarizer(0.0) @ light,
-        lambda light: CROSSED @ op.Polarizer(0.0).mueller() @ light,
-        lambda light: op.Polarizer(0.0).mueller() @ CROSSED.mueller() @ light,
-        lambda _: in_a_path(CROSSED).trace(),
-        lambda light: in_a_path(CROSSED).mueller() @ light,
-    ],
-)
-def test_an_azimuth_turns_an_element_alone_as_in_a_path(found):
-    assert abs(found(op.Light([1.0, 1.0, 0.0, 0.0])).S0) < 1e-15
+def test_an_azimuth_turns_an_element_alone_as_in_a_path():
+    light, crossed, other = op.Light([1.0, 1.0, 0.0, 0.0]), CROSSED.mueller(), op.Polarizer(0.0)
+    path = chain([CROSSED], light.stokes)
+    for dark in (
+        crossed @ light,
+        CROSSED @ light,
+        crossed @ other.mueller() @ light,
+        crossed @ other @ light,
+        CROSSED @ other.mueller() @ light,
+        other.mueller() @ crossed @ light,
+        path.trace(),
+        path.mueller() @ light,
+    ):
+        assert abs(dark.S0) < 1e-15
 
 
 def test_an_azimuth_turns_the_frames_of_the_matrix():
@@ -221,25 +165,13 @@ def test_an_azimuth_turns_the_frames_of_the_matrix():
     np.testing.assert_allclose(light.in_frame(op.Frame()).stokes, [1, 1, 0, 0], rtol=0, atol=1e-15)
 
 
-@rows("port", ["frame_in", "frame_out"])
-def test_a_world_frame_and_an_azimuth_are_refused_together(port):
-    with pytest.raises(op.PathError, match="world frames and by an azimuth; give one of them"):
-        CROSSED.mueller(**{port: op.Frame()})
-
-
-def test_a_chain_without_paths_is_refused_in_words(monkeypatch):
-    source, detector = op.Source(), op.Detector()
-    monkeypatch.setattr(chaining, "_BEGINNINGS", [])
-    with pytest.raises(op.PathError, match="from optipath import PathGraph"):
-        source >> detector
-
-
-def test_elements_are_chained_whatever_else_of_the_library_is_imported():
-    code = (
-        "from optipath import Detector, Source;print((Source(2.0) >> Detector()).trace().intensity)"
-    )
+def test_elements_are_chained_whatever_else_of_the_library_is_imported(monkeypatch):
+    code = "from optipath import Detector as D, Source as S; print((S(2.0) >> D()).trace().S0)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "2.0"
+    monkeypatch.setattr(chaining, "_BEGINNINGS", [])
+    with pytest.raises(op.PathError, match="from optipath import PathGraph"):
+        op.Source() >> op.Detector()
 
 
 A, B, C = (op.Parameter(name) for name in "abc")
@@ -278,11 +210,9 @@ def test_slopes_of_a_plate_are_those_of_its_retardance(jax, order):
 
 
 def of_a_cube(jax, port):
-    path = op.PathGraph()
-    path.add("lamp", op.Source(stokes=(1.0, 0.3, 0.5, 0.6)))
-    path["lamp"] >> path.add("cube", op.PolarizingBeamSplitter(A, B))
-    path.add("eye", op.Detector())
-    path.connect(f"cube.{port}", "eye.in")
+    nodes = {"lamp": op.Source(stokes=(1.0, 0.3, 0.5, 0.6)), "eye": op.Detector()}
+    nodes["cube"] = op.PolarizingBeamSplitter(A, B)
+    path = wired(nodes, f"lamp -> cube, cube.{port} -> eye")
     return jax.jacobian(lambda v: path.trace(a=v[0], b=v[1]).stokes)
 
 

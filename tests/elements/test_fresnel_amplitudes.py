@@ -86,13 +86,7 @@ def test_amplitudes_of_nearly_equal_media_have_all_digits(contrast, sign, k, ang
     assert max(units_off((complex(n, k), *angle, 1.5))) <= 16.0
 
 
-@given(
-    n=INDICES,
-    k=EXTINCTIONS,
-    n1=INDICES,
-    share=st.floats(-14.0, -0.2),
-    angle=st.one_of(ANGLES, NORMAL),
-)
+@given(n=INDICES, k=EXTINCTIONS, n1=INDICES, share=st.floats(-14.0, -0.2), angle=ANGLES | NORMAL)
 def test_amplitudes_out_of_an_absorbing_medium_have_all_digits(n, k, n1, share, angle):
     outside = complex(n1, n1 * 10.0**share)
     assume(angle[0] > 1e-6)
@@ -108,10 +102,8 @@ def test_amplitudes_out_of_an_absorbing_medium_have_all_digits(n, k, n1, share, 
         ((0.1 + 1.0759455e-7j, 0.9999999999298715, 1.1843000608717061e-05, 2.13), 11.0),
         (
             (
-                0.4385014911987668 + 7.665294999319383e-06j,
-                1.1056503059421287e-05,
-                0.9999999999388768,
-                0.3433323580527496 + 1.2061656076512248e-14j,
+                *(0.4385014911987668 + 7.665294999319383e-06j, 1.1056503059421287e-05),
+                *(0.9999999999388768, 0.3433323580527496 + 1.2061656076512248e-14j),
             ),
             13.0,
         ),
@@ -171,8 +163,11 @@ def test_a_boundary_is_met_from_either_side_by_stokes_relations():
     np.testing.assert_allclose(out.t_p * into.t_p, 1.0 - into.r_p**2, rtol=1e-14)
 
 
-def test_slopes_are_those_of_50_digits(jax):
+def test_slopes_are_those_of_50_digits_and_what_is_not_allowed_is_nan_where_it_is_traced(jax):
     jnp = jax.numpy
+    reflected = jax.jit(lambda m, c: op.fresnel_amplitudes(m, c, 0.6).r_s)
+    traced = [reflected(*given) for given in ((1.5, 0.8), (-1.5, 0.8), (1.5, 0.7))]
+    assert np.isfinite(traced).tolist() == [True, False, False]
 
     def found(n, k, angle, n1):
         c, s = jnp.cos(angle), jnp.sin(angle)
@@ -196,13 +191,6 @@ def test_slopes_are_those_of_50_digits(jax):
                 np.testing.assert_allclose(there, expected, rtol=1e-12, atol=1e-13)
 
 
-def test_what_jax_traces_and_is_not_allowed_is_nan(jax):
-    reflected = jax.jit(lambda m, c: op.fresnel_amplitudes(m, c, 0.6).r_s)
-    assert np.isfinite(reflected(1.5, 0.8))
-    assert np.isnan(reflected(-1.5, 0.8))
-    assert np.isnan(reflected(1.5, 0.7))
-
-
 @rows(
     "given, fault",
     [
@@ -210,13 +198,9 @@ def test_what_jax_traces_and_is_not_allowed_is_nan(jax):
         ((1.5, 0.5, 0.5), "belong to no angle"),
         ((1.5, 0.0, 1.0, 1.0 + 0.1j), "right angle out of a medium that absorbs"),
         ((1.5, 1.0, 0.0, 0.0), "outside is 0.0; .* n above 0"),
+        ((np.ones(2), np.ones(3), np.zeros(3)), r"index \(2,\), .*incidence \(3,\)"),
     ],
 )
 def test_what_no_boundary_has_is_refused_in_words(given, fault):
-    with pytest.raises(op.ValueFault, match=fault):
+    with pytest.raises((op.ValueFault, op.ShapeError), match=fault):
         op.fresnel_amplitudes(*given)
-
-
-def test_values_that_do_not_broadcast_are_refused():
-    with pytest.raises(op.ShapeError, match=r"index \(2,\), .*incidence \(3,\)"):
-        op.fresnel_amplitudes(np.array([1.5, 1.6]), np.ones(3), np.zeros(3))

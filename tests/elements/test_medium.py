@@ -5,6 +5,7 @@ import optipath as op
 from chains import ENGINES
 from paths import chain
 from tables import rows
+from wired import read
 
 STATE = [1.0, 0.5, 0.6, 0.4]
 
@@ -46,40 +47,27 @@ def test_a_sugar_solution_turns_light_clockwise_to_who_looks_at_the_source(z):
 def test_a_dextrorotation_is_a_rotation_of_the_other_sign(engine):
     turns = np.linspace(-40.0, 40.0, 3000)
     medium = op.Medium(0.1, 2.0, dextrorotation=op.Parameter("d"))
-    plan = op.Composer(engine=engine).compose(chain([medium], STATE))
+    path = chain([medium], STATE)
+    assert path.parameters["d"].unit == "deg/dm"
+    plan = op.Composer(engine=engine).compose(path)
     wanted = chain([op.Medium(0.1, 2.0, rotation=-turns)], STATE).trace().stokes
     np.testing.assert_allclose(np.asarray(plan.run(d=turns).stokes), wanted, rtol=0, atol=2e-7)
     known = chain([op.Medium(0.1, 2.0, dextrorotation=turns)], STATE).trace().stokes
     np.testing.assert_allclose(known, wanted, rtol=0, atol=1e-15)
 
 
-def test_presets_and_the_command_line_take_the_chemists_sign_in_the_chemists_unit(tmp_path):
-    file = tmp_path / "polarimeter.toml"
-    file.write_text(
-        """
-        format = 1
-        description = "sugar in a polarimeter"
-        [parameters.sugar]
-        default = "66.5 deg/dm"
-        unit = "deg/dm"
-        [elements.lamp]
-        kind = "source"
-        stokes = [1, 1, 0, 0]
-        [elements.tube]
-        kind = "medium"
-        length = "2 dm"
-        dextrorotation = "$sugar"
-        [elements.eye]
-        kind = "detector"
-        [[links]]
-        from = "lamp.out"
-        to = "tube.in"
-        [[links]]
-        from = "tube.out"
-        to = "eye.in"
-        """
-    )
-    path = op.load_preset(file)
+SUGAR = """
+format = 1
+parameters.sugar = { default = "66.5 deg/dm", unit = "deg/dm" }
+elements.lamp = { kind = "source", stokes = [1, 1, 0, 0] }
+elements.tube = { kind = "medium", length = "2 dm", dextrorotation = "$sugar" }
+elements.eye = { kind = "detector" }
+links = [{ from = "lamp.out", to = "tube.in" }, { from = "tube.out", to = "eye.in" }]
+"""
+
+
+def test_presets_take_the_chemists_sign_in_the_chemists_unit(tmp_path):
+    path = read(SUGAR, tmp_path)
     # 133 degrees clockwise are 47 counter-clockwise.
     assert np.degrees(path.trace().aop) == pytest.approx(47.0, abs=1e-12)
     assert np.degrees(path.trace(sugar=np.radians(6.65) / 0.1).aop) == pytest.approx(-13.3)
@@ -87,10 +75,10 @@ def test_presets_and_the_command_line_take_the_chemists_sign_in_the_chemists_uni
 
 
 @rows("rotation", [1.0, op.Parameter("a"), np.array([0.0, 1.0]), -0.1])
-@rows("dextrorotation", [1.0, op.Parameter("b"), np.array([1.0, 0.0])])
-def test_a_rotation_by_both_signs_is_refused(rotation, dextrorotation):
-    with pytest.raises(op.ValueFault, match=r"rotation.*the same rotation with the other sign"):
-        op.Medium(0.1, rotation=rotation, dextrorotation=dextrorotation)
+def test_a_rotation_by_both_signs_is_refused(rotation):
+    for other in (1.0, op.Parameter("b"), np.array([1.0, 0.0])):
+        with pytest.raises(op.ValueFault, match=r"rotation.*the same rotation with the other sign"):
+            op.Medium(0.1, rotation=rotation, dextrorotation=other)
 
 
 def test_a_medium_turns_as_a_rotator_and_retards_as_a_plate():
@@ -121,21 +109,14 @@ def test_absorption_comes_from_the_extinction_coefficient():
 
 @rows("engine, dtype", [("numpy", "float32"), ("numpy", "float64"), ("numba", "float64")])
 @rows("acts", ["rotation", "retardance"])
-def test_all_values_may_be_parameters(engine, dtype, acts):
+def test_all_values_may_be_parameters_which_have_the_usual_units(engine, dtype, acts):
     names = ("length", "absorption", acts, "angle")
     path = chain([op.Medium(**{name: op.Parameter(name) for name in names})], STATE)
+    assert [path.parameters[name].unit for name in names] == ["mm", "1/cm", "deg/mm", "deg"]
     values = dict(zip(names, np.random.default_rng(2).uniform(0, 1, (4, 3000)), strict=True))
     found = op.Composer(engine=engine, dtype=dtype).compose(path).run(**values).stokes
     wanted = chain([op.Medium(**values)], STATE).trace().stokes
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-6 if dtype == "float32" else 1e-15)
-
-
-def test_parameters_have_the_units_that_are_usual_for_a_medium():
-    units = {"length": "mm", "absorption": "1/cm", "rotation": "deg/mm"}
-    path = chain([op.Medium(*map(op.Parameter, units))])
-    assert {name: path.parameters[name].unit for name in units} == units
-    path = chain([op.Medium(0.1, dextrorotation=op.Parameter("sugar"))])
-    assert path.parameters["sugar"].unit == "deg/dm"
 
 
 def test_a_medium_that_does_nothing_takes_no_step_and_jones_columns_pass():
@@ -145,7 +126,7 @@ def test_a_medium_that_does_nothing_takes_no_step_and_jones_columns_pass():
     np.testing.assert_allclose(jones, path.trace().stokes, rtol=0, atol=1e-15)
 
 
-@rows("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
+@rows("zero", [np.zeros(3), op.Parameter("a", 0.0, bound=True)])
 def test_one_of_both_may_be_0(zero):
     found = op.Medium(0.5, rotation=zero, retardance=1.0).mueller().matrix
     several = np.zeros((*np.shape(zero), 1, 1))
@@ -158,12 +139,13 @@ def test_all_faults_are_told_at_once():
     with pytest.raises(op.ValueFault) as error:
         op.Medium(-0.1, -2.0, rotation="x", retardance=op.Parameter("r", unit="deg"))
     found = "\n".join(error.value.faults)
-    assert "Medium length is -100 mm; give a real length of 0 mm or more" in found
-    assert "Medium absorption is -0.02 1/cm" in found
-    assert "Medium rotation: 'x' is not a quantity; write a number such as '30 deg/mm'" in found
-    assert "parameter 'r' is in deg, but Medium retardance takes a real angle per length" in found
-    with pytest.raises(op.ValueFault, match="is in deg, but Medium length takes a real length"):
-        op.Medium(op.Parameter("l", unit="deg"))
+    for part in (
+        "Medium length is -100 mm; give a real length of 0 mm or more",
+        "Medium absorption is -0.02 1/cm",
+        "Medium rotation: 'x' is not a quantity; write a number such as '30 deg/mm'",
+        "parameter 'r' is in deg, but Medium retardance takes a real angle per length",
+    ):
+        assert part in found
 
 
 @rows("engine", ["numpy", "numba"])
@@ -190,22 +172,15 @@ def test_light_too_faint_for_a_medium_is_dark_and_never_polarised_by_more_than_a
     right = absorption <= (150.0 if dtype == "float32" else 2000.0)
     rounding = 1e-6 if dtype == "float32" else 1e-14
     np.testing.assert_allclose(light.dop[right], 1.0, rtol=rounding)
-    dark = np.isinf(light.log10_intensity)
-    assert np.all(light.dop[~dark] <= 1.0 + rounding)
-    np.testing.assert_array_equal(light.stokes[dark], 0.0)
-    np.testing.assert_array_equal(light.dop[dark], np.nan)
-    wanted = -absorption / np.log(10)
-    np.testing.assert_allclose(
-        light.log10_intensity[~dark], wanted[~dark], rtol=rounding, atol=1e-6
-    )
-
-
-@rows("depth", [720.0, 740.0, 744.0, 2000.0])
-def test_a_matrix_too_faint_for_floats_is_dark(depth):
-    light = op.Medium(1.0, depth).mueller() @ op.Light([1.0, 0.6, 0.0, 0.8])
-    np.testing.assert_array_equal(light.stokes, 0.0)
-    np.testing.assert_array_equal(light.dop, np.nan)
-    assert light.log10_intensity == -np.inf
+    lit = np.isfinite(light.log10_intensity)
+    assert np.all(light.dop[lit] <= 1.0 + rounding)
+    wanted = -absorption[lit] / np.log(10)
+    np.testing.assert_allclose(light.log10_intensity[lit], wanted, rtol=rounding, atol=1e-6)
+    matrix = op.Medium(1.0, np.array([720.0, 740.0, 744.0, 2000.0])).mueller()
+    for dark in (light[~lit], matrix @ op.Light([1.0, 0.6, 0.0, 0.8])):
+        np.testing.assert_array_equal(dark.stokes, 0.0)
+        np.testing.assert_array_equal(dark.dop, np.nan)
+        np.testing.assert_array_equal(dark.log10_intensity, -np.inf)
 
 
 @rows(
@@ -223,22 +198,19 @@ def test_a_medium_that_is_never_dense_takes_one_step(length, absorption, steps):
     assert len(coupling.operations) == steps
 
 
-RATES = ("absorption", "rotation", "retardance", "dextrorotation")
-MORE_RATES = ("dichroism", "circular_dichroism", "depolarization")
-
-
 @pytest.mark.filterwarnings("error")
-@rows("rate", [*RATES, *MORE_RATES])
-def test_what_is_no_float_over_the_whole_length_is_refused(rate):
-    with pytest.raises(op.ValueFault, match=rf"{rate} is .*, over a length of 1e\+200 m, within"):
-        op.Medium(1e200, **{rate: 1e200})
+def test_what_is_no_float_over_the_whole_length_is_refused():
+    rates = "absorption rotation retardance dextrorotation dichroism circular_dichroism"
+    for rate in (*rates.split(), "depolarization"):
+        with pytest.raises(op.ValueFault, match=rf"{rate} is .*, over a length of 1e\+200 m, with"):
+            op.Medium(1e200, **{rate: 1e200})
 
 
 @pytest.mark.filterwarnings("error")
 @rows(
     "options, message",
     [
-        ({"k": 1e300, "wavelength": 1e-12}, "k is up to 1e\\+300, .* give a smaller k"),
+        ({"k": 1e300, "wavelength": 1e-12}, "k is up to 1e.300, .* give a smaller k"),
         ({"wavelength": 500}, "wavelength is 500 m; give a real wavelength in metres within 1e-12"),
         ({"absorption": 3.0}, "absorption is computed from k and wavelength; leave it out"),
         ({"rotaton": 3.0}, "option 'rotaton' .* did you mean 'rotation'"),

@@ -9,6 +9,7 @@ import optipath as op
 from chains import ENGINES
 from paths import chain
 from tables import rows
+from wired import wired
 
 
 def operations(share):
@@ -24,19 +25,12 @@ class Splits(op.Element):
     natural = "a"
 
     def couplings(self):
-        return [
-            op.Coupling("in", "a", operations(self.a)),
-            op.Coupling("in", "b", operations(self.b)),
-        ]
+        return [op.Coupling("in", port, operations(getattr(self, port))) for port in "ab"]
 
 
 def both(a, b):
-    path = op.PathGraph()
-    splits = path.add("splits", Splits(a, b))
-    path.add("lamp", op.Source()) >> splits
-    path["splits.a"] >> path.add("first", op.Detector())
-    path["splits.b"] >> path.add("second", op.Detector())
-    return path
+    nodes = {"lamp": op.Source(), "splits": Splits(a, b), "A": op.Detector(), "B": op.Detector()}
+    return wired(nodes, "lamp -> splits, splits.a -> A, splits.b -> B")
 
 
 def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
@@ -52,28 +46,31 @@ def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
 
 DIMS = op.Attenuator(0.5).couplings()[0].operations[0].kernel
 
-WRONG = op.Operation(DIMS, ())
+
+def doing(kernel, values):
+    return [op.Coupling("in", "out", (op.Operation(kernel, values),))]
 
 
 @rows(
-    "kernel, values, told",
+    "couplings, told",
     [
-        (3, (0.5,), r"op\.Operation the kernel 3; give an optipath\.kernels\."),
-        (DIMS, 0.5, r"kernel 'attenuator' the values 0\.5; give a tuple"),
-        (DIMS, (0.5, 0.5), r"the values \(0\.5, 0\.5\); give as many .*, \(transmittance\)"),
-        (DIMS, WRONG.results(1), r"the values \(\); give as many as it takes, \(transmittance\)"),
-        (DIMS, ("half",), "kernel 'attenuator' 'half', which is no number"),
-        (DIMS, (op.Parameter("f", 0.5),), "parameter 'f', which is in no field; give it to one"),
+        (doing(3, (0.5,)), r"op\.Operation the kernel 3; give an optipath\.kernels\."),
+        (doing(DIMS, 0.5), r"kernel 'attenuator' the values 0\.5; give a tuple"),
+        (doing(DIMS, (0.5, 0.5)), r"\(0\.5, 0\.5\); give as many .*, \(transmittance\)"),
+        (doing(DIMS, op.Operation(DIMS, ()).results(1)), r"the values \(\); give as many as it"),
+        (doing(DIMS, ("half",)), "kernel 'attenuator' 'half', which is no number"),
+        (doing(DIMS, (op.Parameter("f", 0.5),)), "parameter 'f', which is in no field; give it"),
+        ([op.Coupling("in", "out", operations(0.1))] * 2, "from 'in' to 'out' more than once"),
+        ([op.Coupling("inn", "out", operations(0.1))], "lead from 'inn'; its inputs are 'in'"),
+        ([op.Coupling("in", "oot", operations(0.1))], "lead to 'oot'; its outputs are 'out'"),
+        ([op.Coupling("in", "out", 3)], "operations 3; give a tuple of op.Operation"),
+        ([op.Coupling("in", "out", (op.Attenuator(0.5),))], r"operations \(Attenuator"),
     ],
 )
-def test_operations_that_cannot_be_done_are_told_with_the_class(kernel, values, told):
-    class Own(op.Element):
-        def couplings(self):
-            return [op.Coupling("in", "out", (op.Operation(kernel, values),))]
-
-    told = rf"^couplings\(\) of element class Own give .*{told}"
-    for act in (chain([Own()]).check, chain([Own()]).trace, Own().mueller):
-        with pytest.raises(op.PathError, match=told):
+def test_ways_and_operations_that_cannot_be_are_told_with_the_class(couplings, told):
+    own = type("Own", (op.Element,), {"couplings": lambda _: couplings})
+    for act in (chain([own()]).check, chain([own()]).trace, own().mueller):
+        with pytest.raises(op.PathError, match=rf"^couplings\(\) of element class Own .*{told}"):
             act()
 
 
@@ -108,65 +105,31 @@ def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
 
 
 @rows(
-    "couplings, told",
+    "body, told",
     [
-        ([op.Coupling("in", "out", operations(0.1))] * 2, "from 'in' to 'out' more than once"),
-        ([op.Coupling("inn", "out", operations(0.1))], "lead from 'inn'; its inputs are 'in'"),
-        ([op.Coupling("in", "oot", operations(0.1))], "lead to 'oot'; its outputs are 'out'"),
-        ([op.Coupling("in", "out", 3)], "operations 3; give a tuple of op.Operation"),
-        ([op.Coupling("in", "out", (op.Attenuator(0.5),))], r"operations \(Attenuator"),
+        (
+            {"inputs": ("x",), "mueller_rows": staticmethod(lambda _: np.eye(4))},
+            r"its inputs are 'x'.*mueller_rows lead from 'in' to",
+        ),
+        ({"couplings": lambda _: ()}, "carries no light: Own names 'out'"),
     ],
 )
-def test_ways_that_do_not_fit_the_element_are_told_with_its_class(couplings, told):
-    class Own(op.Element):
-        def couplings(self):
-            return couplings
-
-    for act in (chain([Own()]).check, Own().mueller):
-        with pytest.raises(op.PathError, match=rf"^couplings\(\) of element class Own .*{told}"):
-            act()
+def test_ports_of_other_names_and_without_light_are_told(body, told):
+    with pytest.raises(op.PathError, match=told):
+        (op.Source() >> type("Own", (op.Element,), body)() >> op.Detector()).check()
 
 
-def test_rows_beside_ports_of_other_names_are_told():
-    class Own(op.Element):
-        inputs = ("x",)
-
-        @staticmethod
-        def mueller_rows(xp):
-            return np.eye(4)
-
-    with pytest.raises(op.PathError, match=r"its inputs are 'x'.*mueller_rows lead from 'in' to"):
-        (op.Source() >> Own() >> op.Detector()).check()
-
-
-def test_a_class_without_a_kind_is_called_by_its_name_where_it_gives_no_light():
-    class Own(op.Element):
-        def couplings(self):
-            return ()
-
-    with pytest.raises(op.PathError, match="carries no light: Own names 'out'"):
-        chain([Own()]).check()
-
-
-THIRDS = np.float32([1 / 3, 2 / 3])
-
-HUNDREDTHS = np.float32([0.01, 0.99])
-
-TENTHS = np.float32([0.6, 0.4])
-
-
-@rows("shares", [THIRDS, HUNDREDTHS, TENTHS])
-def test_shares_in_float32_may_make_up_the_whole_to_their_rounding(shares):
-    both(*shares).check()
+def test_shares_in_float32_may_make_up_the_whole_to_their_rounding():
     path = both(op.Parameter("first"), op.Parameter("second"))
-    first, second = shares
-    for dtype in ("float64", "float32"):
-        plan = op.Composer(dtype=dtype).compose(path)
-        for given in (shares, np.repeat(shares[:, None], 3, axis=1)):
-            lights = plan.run_all(first=given[0], second=given[1])
-            np.testing.assert_allclose(sum(light.S0 for light in lights.values()), 1.0, 1e-7)
-    with pytest.raises(op.PathError, match=r"up to 1\.0001\d* times"):
-        both(first, second + np.float32(1e-4)).check()
+    for first, second in np.float32([[1 / 3, 2 / 3], [0.01, 0.99], [0.6, 0.4]]):
+        both(first, second).check()
+        for dtype in ("float64", "float32"):
+            plan = op.Composer(dtype=dtype).compose(path)
+            for times in (1, np.ones(3, np.float32)):
+                lights = plan.run_all(first=first * times, second=second * times)
+                np.testing.assert_allclose(sum(light.S0 for light in lights.values()), 1.0, 1e-7)
+        with pytest.raises(op.PathError, match=r"up to 1\.0001\d* times"):
+            both(first, second + np.float32(1e-4)).check()
 
 
 class AnyMatrix(op.Element):
@@ -187,21 +150,22 @@ class Lamp(op.Element):
 
 
 def test_own_elements_and_sources_take_what_those_of_the_library_take_in_float32():
-    for a, b in np.random.default_rng(6).uniform(0.0, 3.0, (12, 2)):
+    rng = np.random.default_rng(6)
+    for a, b in rng.uniform(0.0, 3.0, (12, 2)):
         matrix = (op.Polarizer(a) @ op.Retarder(b, angle=2.0 * a)).matrix.astype(np.float32)
         op.MuellerElement(matrix)
         chain([AnyMatrix(matrix)]).check()
         chain([AnyMatrix(op.Parameter("m"))]).trace(m=matrix)
         with pytest.raises(op.PathError, match=r"makes light up to .* times as bright"):
             chain([AnyMatrix(2.0 * matrix)]).check()
-    state = op.Parameter("state")
-    for direction in np.random.default_rng(7).normal(size=(12, 3)):
+    lamp = Lamp(op.Parameter("state")) >> op.Detector()
+    for direction in rng.normal(size=(12, 3)):
         pure = np.float32([1.0, *direction / np.linalg.norm(direction)])
         (op.Source(stokes=pure) >> op.Detector()).check()
         (Lamp(pure) >> op.Detector()).check()
-        (Lamp(state) >> op.Detector()).trace(state=pure)
+        lamp.trace(state=pure)
         with pytest.raises(op.OptipathError, match="more than 100 %"):
-            (Lamp(state) >> op.Detector()).trace(state=pure * np.float32([1.0, 1.1, 1.1, 1.1]))
+            lamp.trace(state=pure * np.float32([1.0, 1.1, 1.1, 1.1]))
 
 
 class Times(op.Element):
@@ -249,57 +213,39 @@ def test_rows_that_are_not_finite_are_told_with_their_element(element_class):
 
 
 CHAIN = ((0, 0, 0), (0, 0, 3), (0, 2, 4), (1, 3, 5), (2, 0, 0))
+FIRST, SECOND, THIRD = (op.SpecularVertex(1.5, CHAIN, place) for place in (1, 2, 3))
 
 
-class Foil(op.Element):
-    """Reflects as glass does, at the second vertex of the chain."""
+class Mute(op.Element):
+    """Has the frame of the second vertex, and does not say how it stands to others."""
 
     outputs: ClassVar[tuple[str, ...]] = ("reflected",)
     natural: ClassVar[str] = "reflected"
     straight: ClassVar[bool] = False
     self_placed: ClassVar[bool] = True
-    like: ClassVar[op.Element] = op.SpecularVertex(1.5, CHAIN, 2)
-    vertices, place = like.vertices, like.place
 
     def couplings(self):
-        return self.like.couplings()
+        return SECOND.couplings()
 
     def own_frame(self, port):
-        return self.like.own_frame(port)
+        return SECOND.own_frame(port)
+
+
+class Foil(Mute):
+    """Reflects as glass does, at the second vertex of the chain."""
+
+    vertices, place = SECOND.vertices, SECOND.place
 
     def turn_from(self, before):
-        return self.like.turn_from(before)
+        return SECOND.turn_from(before)
 
     def fault_behind(self, before):
         return "" if getattr(before, "place", 0) == 1 else "must come from the first vertex"
 
 
-class Mute(op.Element):
-    """Has a frame, and does not say how it stands to others."""
-
-    outputs: ClassVar[tuple[str, ...]] = ("reflected",)
-    natural: ClassVar[str] = "reflected"
-    straight: ClassVar[bool] = False
-    self_placed: ClassVar[bool] = True
-
-    def couplings(self):
-        return Foil.like.couplings()
-
-    def own_frame(self, port):
-        return Foil.like.own_frame(port)
-
-
 def path(*elements):
     """Light along elements, with a turned polariser behind them."""
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source())
-    for place, element in enumerate(elements):
-        node = node >> path.add(f"e{place}", element)
-    node >> path.add("foil", op.Polarizer(0.3, azimuth=0.2)) >> path.add("eye", op.Detector())
-    return path
-
-
-FIRST, SECOND, THIRD = (op.SpecularVertex(1.5, CHAIN, place) for place in (1, 2, 3))
+    return chain([*elements, op.Polarizer(0.3, azimuth=0.2)])
 
 
 @rows("model", ["auto", "full"])
@@ -310,11 +256,8 @@ def test_an_element_of_ones_own_is_placed_among_vertices_as_a_vertex_is(model):
     np.testing.assert_array_equal(found.stokes, wanted.stokes)
     for axis in "xyz":
         np.testing.assert_array_equal(getattr(found.frame, axis), getattr(wanted.frame, axis))
-
-
-def test_light_before_and_behind_it_is_in_its_frames():
     lights = path(Foil()).trace(keep="all")
-    for link, port in (("lamp.out -> e0.in", "in"), ("e0.reflected -> foil.in", "reflected")):
+    for link, port in (("lamp.out -> e0.in", "in"), ("e0.reflected -> e1.in", "reflected")):
         np.testing.assert_array_equal(lights[link].frame.z, Foil().own_frame(port).frame({}).z)
 
 
@@ -323,10 +266,7 @@ def test_light_before_and_behind_it_is_in_its_frames():
     [
         ((THIRD, Foil()), r"'e0.reflected -> e1.in' must come from the first ver"),
         ((FIRST, Mute()), r"Mute does not say .* give it a method turn_from"),
-        (
-            (FIRST, op.Rotator(0.1), Foil()),
-            "'e1' stands relatively between the vertices 'e0' and",
-        ),
+        ((FIRST, op.Rotator(0.1), Foil()), "'e1' stands relatively between the vertices 'e0' and"),
     ],
 )
 def test_what_does_not_follow_a_vertex_is_refused(elements, sentence):

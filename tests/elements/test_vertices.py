@@ -11,187 +11,140 @@ from optipath.kernels.geometry.events import Event
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.domains.indices import LIT_INDEX, OUTSIDE
 from optipath.values.domains.wavelengths import WAVELENGTH
+from paths import chain
 from tables import rows
+from wired import wired
 
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
-
 TWICE = [*CORNER, [2.0, 4.0, 0.0]]
 INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
 MIXED = [*INTO_GLASS, [0.0, 2.0, -np.sqrt(3.5) + 1.0]]
 TURNED = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-
-
-def path_of(*nodes, links=True):
-    path, before = op.PathGraph(), None
-    for name, element in nodes:
-        node = path.add(name, element)
-        if before is not None and links:
-            before >> node
-        before = node
-    return path
-
-
-@rows("index, outside", [(0.608 + 2.12j, 1.0), (1.0, 1.5)])
-def test_a_vertex_reflects_as_an_interface_at_its_angle_does(index, outside):
-    matrix = op.SpecularVertex(index, CORNER, place=1, outside=outside).mueller()
-    expected = op.Interface(index, np.pi / 4, outside).mueller()
-    np.testing.assert_allclose(matrix.matrix, expected.matrix, rtol=0, atol=1e-15)
-    np.testing.assert_array_equal(matrix.frame_in.z, [0, 0, -1])
-    np.testing.assert_array_equal(matrix.frame_out.z, [0, 1, 0])
+DOWN = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
+BEND = [[0.0, 0, 1], [0, 0, 0], [0, 1, -2]]
+GLASS, LAMP, EYE = op.SpecularVertex(1.5, CORNER, 1), op.Source(), op.Detector()
+METAL = 0.608 + 2.12j
+INSIDE = np.arcsin(np.sqrt(0.5) / 1.5)
 
 
 @rows("method", ["stable", "compensated", "amplitude", "textbook"])
-def test_every_method_is_there_for_vertices(method):
-    vertex = op.SpecularVertex(0.608 + 2.12j, CORNER, place=1)
-    expected = op.Interface(0.608 + 2.12j, np.pi / 4).mueller(method=method)
-    np.testing.assert_allclose(
-        vertex.mueller(method=method).matrix, expected.matrix, rtol=0, atol=1e-14
-    )
+@rows(
+    "vertex, interface, atol",
+    [
+        (op.SpecularVertex(METAL, CORNER, 1), op.Interface(METAL, np.pi / 4), 1e-15),
+        (op.SpecularVertex(1.0, CORNER, 1, 1.5), op.Interface(1.0, np.pi / 4, 1.5), 1e-15),
+        (op.RefractingVertex(1.5, INTO_GLASS, 1), op.Interface(1.5, np.pi / 4), 1e-15),
+        (op.RefractingVertex(1.0, INTO_GLASS[::-1], 1, 1.5), op.Interface(1.0, INSIDE, 1.5), 1e-14),
+    ],
+)
+def test_a_vertex_does_what_an_interface_at_its_angle_does(vertex, interface, atol, method):
+    found = vertex.mueller(method=method).matrix
+    expected = interface.mueller("in", vertex.natural, method=method).matrix
+    atol = 1e-14 if vertex.natural == "reflected" and method != "stable" else atol
+    np.testing.assert_allclose(found, expected, rtol=0, atol=atol)
 
 
-def test_light_behind_filters_is_told_in_the_frame_of_the_vertex():
-    path = path_of(
-        ("lamp", op.Source()),
-        ("filter", op.Polarizer(angle=0.3)),
-        ("vertex", op.SpecularVertex(1.5, CORNER, place=1)),
-        ("eye", op.Detector()),
-    )
-    expected = path_of(
-        ("lamp", op.Source()),
-        ("filter", op.Polarizer(angle=0.3)),
-        ("glass", op.Interface(1.5, np.pi / 4)),
-        ("eye", op.Detector()),
-    )
-    np.testing.assert_allclose(path.trace().stokes, expected.trace().stokes, rtol=1e-15, atol=1e-16)
+@rows("method", ["stable", "compensated", "amplitude", "textbook"])
+@rows(
+    "vertex, other",
+    [
+        (op.Vertex(1.5, CORNER, 1, events=[0]), GLASS),
+        (op.Vertex(0.2 + 3.4j, CORNER, 1, events=[0]), op.SpecularVertex(0.2 + 3.4j, CORNER, 1)),
+        (op.Vertex(1.5, BEND, 1, events=[1]), op.RefractingVertex(1.5, BEND, 1)),
+        (op.Vertex(1.0, BEND, 1, 1.5, events=[1]), op.RefractingVertex(1.0, BEND, 1, 1.5)),
+    ],
+)
+def test_a_vertex_of_an_event_is_the_one_that_does_just_that(vertex, other, method):
+    found, expected = (one.mueller(method=method) for one in (vertex, other))
+    atol = 1e-15 if other.natural == "reflected" else 4e-15
+    np.testing.assert_allclose(found.matrix, expected.matrix, rtol=0, atol=atol)
+    assert found.frame_out == expected.frame_out
+
+
+def test_light_is_told_in_the_frame_of_the_vertex_before_and_behind_filters():
+    matrix = GLASS.mueller()
+    np.testing.assert_array_equal([matrix.frame_in.z, matrix.frame_out.z], [[0, 0, -1], [0, 1, 0]])
+    matrix = op.RefractingVertex(1.5, INTO_GLASS, place=1).mueller()
+    np.testing.assert_allclose(matrix.frame_in.z, [0, np.sqrt(0.5), -np.sqrt(0.5)], rtol=1e-15)
+    np.testing.assert_array_equal(matrix.frame_out.x, [1, 0, 0])
+    path = chain([op.Polarizer(0.3), GLASS])
+    expected = chain([op.Polarizer(0.3), op.Interface(1.5, np.pi / 4)]).trace().stokes
+    np.testing.assert_allclose(path.trace().stokes, expected, rtol=1e-15, atol=1e-16)
     np.testing.assert_array_equal(path.mueller().frame_in.x, [-1, 0, 0])
-    vertex = op.SpecularVertex(1.5, CORNER, place=1)
-    nodes = [("lamp", op.Source()), ("vertex", vertex)]
-    straight = path_of(*nodes, ("analyzer", op.Polarizer(0.2)), ("eye", op.Detector()))
+    straight = chain([GLASS, op.Polarizer(0.2)])
     np.testing.assert_array_equal(straight.trace().frame.z, [0, 1, 0])
-    path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=0.4)))
-    lights = path.trace(keep="all")
-    np.testing.assert_allclose(
-        lights["analyzer.out -> eye.in"].frame.x, own.turned(0.4).x, rtol=0, atol=1e-15
-    )
-    arriving = op.SpecularVertex(1.5, CORNER, place=1).own_frame("in").frame({})
-    np.testing.assert_array_equal(lights["lamp.out -> vertex.in"].frame.x, arriving.x)
+    lights = chain([GLASS, op.Polarizer(azimuth=0.4)]).trace(keep="all")
+    found, expected = lights["e1.out -> eye.in"].frame, OWN.turned(0.4)
+    np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-15)
+    arriving = GLASS.own_frame("in").frame({})
+    np.testing.assert_array_equal(lights["lamp.out -> e0.in"].frame.x, arriving.x)
 
 
+OWN = GLASS.own_frame("reflected").frame({})
 TURNS = [0.4, np.array([0.1, -0.4, 2.0]), op.Parameter("turn", 0.4), -op.Parameter("turn", 0.4)]
 
 
 def angle_of(turn):
-    if isinstance(turn, op.Parameter):
-        return turn.placed(turn.default)
-    return turn
+    return turn.placed(turn.default) if isinstance(turn, op.Parameter) else turn
 
 
-def behind_a_vertex(*between, azimuth=None):
-    """A path in which light meets a vertex and then, maybe, other elements."""
-    vertex = op.SpecularVertex(1.5, CORNER, place=1)
-    path = path_of(("lamp", op.Source()), ("vertex", vertex), *between)
-    last = f"{between[-1][0]}.{between[-1][1].outputs[-1]}" if between else "vertex.reflected"
-    path.add("eye", op.Detector())
+def behind_a_vertex(between=None, azimuth=None):
+    """A path in which light meets a vertex and then, maybe, another element."""
+    nodes = {"lamp": LAMP, "vertex": GLASS, "eye": EYE} | ({"more": between} if between else {})
+    path = wired(nodes, "lamp -> vertex, vertex -> more" if between else "lamp -> vertex")
+    last = f"more.{between.outputs[-1]}" if between else "vertex"
     path.connect(last, "eye.in", azimuth=azimuth)
-    return path, vertex.own_frame("reflected").frame({})
+    return path
 
 
 @rows("turn", TURNS)
-def test_a_turned_link_behind_a_vertex_turns_the_frame_of_the_light(turn):
-    path, own = behind_a_vertex(azimuth=turn)
-    light = path.trace()
-    expected = own.turned(angle_of(turn))
+def test_a_turned_link_or_element_behind_a_vertex_turns_the_frame_of_the_light(turn):
+    light, expected = behind_a_vertex(azimuth=turn).trace(), OWN.turned(angle_of(turn))
     for axis in "xyz":
         found = getattr(light.frame, axis)
         np.testing.assert_allclose(found, np.broadcast_to(getattr(expected, axis), found.shape))
-    plain = behind_a_vertex()[0].trace().stokes
-    np.testing.assert_allclose(light.in_frame(own).stokes - plain, 0.0, rtol=1e-15, atol=1e-16)
-
-
-@rows("turn", TURNS)
-def test_a_turned_element_behind_a_vertex_turns_the_frame_of_the_light(turn):
-    path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=turn)))
-    assert path.trace().frame.x.shape == (*np.shape(angle_of(turn)), 3)
-    np.testing.assert_allclose(
-        path.trace().frame.x, own.turned(angle_of(turn)).x, rtol=0, atol=1e-15
-    )
-    twice, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=turn)), azimuth=0.3)
-    expected = own.turned(angle_of(turn) + 0.3)
-    np.testing.assert_allclose(twice.trace().frame.x, expected.x, rtol=0, atol=1e-15)
+    plain = behind_a_vertex().trace().stokes
+    np.testing.assert_allclose(light.in_frame(OWN).stokes - plain, 0.0, rtol=1e-15, atol=1e-16)
+    for more in (0.0, 0.3):
+        found = behind_a_vertex(op.Polarizer(azimuth=turn), more or None).trace().frame.x
+        assert found.shape == (*np.shape(angle_of(turn)), 3)
+        expected = OWN.turned(angle_of(turn) + more).x
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
 
 
 def test_the_turn_of_a_frame_is_the_one_that_a_run_was_given():
-    path, own = behind_a_vertex(azimuth=op.Parameter("turn"))
-    several = np.linspace(-1.0, 1.0, 5)
-    np.testing.assert_allclose(
-        path.trace(turn=several).frame.x, own.turned(several).x, rtol=0, atol=1e-15
-    )
-    plan = path.compose()
-    for where, light in plan.stream(2, turn=several):
-        np.testing.assert_allclose(light.frame.x, own.turned(several[where]).x, rtol=0, atol=1e-15)
-    bound = path.bind(turn=0.7).trace()
-    np.testing.assert_allclose(bound.frame.x, own.turned(0.7).x, rtol=0, atol=1e-15)
+    path, several = behind_a_vertex(azimuth=op.Parameter("turn")), np.linspace(-1.0, 1.0, 5)
+    for turn, light in (
+        (several, path.trace(turn=several)),
+        *((several[where], light) for where, light in path.compose().stream(2, turn=several)),
+        (0.7, path.bind(turn=0.7).trace()),
+    ):
+        np.testing.assert_allclose(light.frame.x, OWN.turned(turn).x, rtol=0, atol=1e-15)
 
 
 def test_light_keeps_the_frame_of_the_vertex_through_a_splitter_unless_it_may_come_from_behind():
-    splitter = ("splitter", op.BeamSplitter(azimuth=0.2))
-    path, own = behind_a_vertex(splitter, azimuth=0.3)
-    np.testing.assert_allclose(path.trace().frame.x, own.turned(0.5).x, rtol=0, atol=1e-15)
+    path = behind_a_vertex(op.BeamSplitter(azimuth=0.2), azimuth=0.3)
+    np.testing.assert_allclose(path.trace().frame.x, OWN.turned(0.5).x, rtol=0, atol=1e-15)
     path.add("side", op.Detector())
-    path.connect("splitter.reflected", "side.in")
+    path.connect("more.reflected", "side.in")
     lights = path.compose().run_all()
-    np.testing.assert_allclose(lights["eye"].frame.x, own.turned(0.5).x, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(lights["eye"].frame.x, OWN.turned(0.5).x, rtol=0, atol=1e-15)
     assert lights["side"].frame == op.Frame(), "where it goes is not known"
-    path, _ = behind_a_vertex(("splitter", op.BeamSplitter()))
+    path = behind_a_vertex(op.BeamSplitter())
     path.add("other", op.Source())
-    path.connect("other.out", "splitter.back")
+    path.connect("other.out", "more.back")
     assert path.trace().frame == op.Frame()
 
 
 @rows("turn", TURNS[::2])
 def test_light_before_a_vertex_is_told_in_the_frame_that_its_turns_lead_from(turn):
-    vertex = op.SpecularVertex(1.5, CORNER, place=1)
-    path = path_of(
-        ("lamp", op.Source()),
-        ("filter", op.Polarizer(0.1, azimuth=turn)),
-        ("splitter", op.BeamSplitter(azimuth=0.2)),
-        links=False,
-    )
-    path["lamp"] >> path["filter"] >> path["splitter"]
-    path.add("vertex", vertex) >> path.add("eye", op.Detector())
+    filters = {"filter": op.Polarizer(0.1, azimuth=turn), "splitter": op.BeamSplitter(azimuth=0.2)}
+    nodes = {"lamp": LAMP, **filters, "vertex": GLASS, "eye": EYE}
+    path = wired(nodes, "lamp -> filter, filter -> splitter, vertex -> eye")
     path.connect("splitter.transmitted", "vertex.in", azimuth=0.3)
     frame = (path.bind(turn=0.4) if path.parameters else path).mueller().frame_in
-    own = vertex.own_frame("in").frame({})
+    own = GLASS.own_frame("in").frame({})
     np.testing.assert_allclose(frame.turned(angle_of(turn) + 0.5).x, own.x, rtol=0, atol=1e-15)
-
-
-def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
-    first, second = (op.SpecularVertex(1.5, TWICE, place) for place in (1, 2))
-    path = op.PathGraph()
-    for name, element in (("b", second), ("a", first), ("lamp", op.Source()), ("e", op.Detector())):
-        path.add(name, element)
-    path["lamp"] >> path["a"] >> path["b"] >> path["e"]
-    expected = op.path_from_vertices(TWICE, [1.5, 1.5]).trace()
-    assert path.trace() == expected
-
-
-@rows(
-    "chain, place, others, message",
-    [
-        (CORNER, 2, {}, r"^SpecularVertex.place must be .* of 1 .. 1, not 2"),
-        (CORNER, 0, {}, r"place must be .* not 0"),
-        (CORNER, 1.5, {}, r"place must be .* not 1.5"),
-        (CORNER, 1, {"reflections": -1}, r"reflections must be .* not -1"),
-        (CORNER, 1, {"reflections": 2}, r"vertices must have shape \(..., 4, 3\), not \(3, 3\)"),
-        (op.Parameter("v"), 1, {}, r"tell the number of reflections"),
-        ([1.0, 2.0], 1, {}, r"shape \(..., 3, 3\), not \(2,\)"),
-        ([[0, 0, 0], [1, 1]], 1, {}, "rows of unequal lengths"),
-        ([[1j, 0, 0], [0, 1, 0], [0, 0, 1]], 1, {}, "is complex"),
-    ],
-)
-def test_a_vertex_that_is_not_in_its_chain_is_refused(chain, place, others, message):
-    with pytest.raises(op.ValueFault, match=message):
-        op.SpecularVertex(1.5, chain, place, **others)
 
 
 @rows("place", [1, 1.0, np.float64(1.0), "1"])
@@ -201,24 +154,15 @@ def test_a_place_is_a_whole_number_however_it_is_given(place):
     assert type(vertex.place) is int
 
 
-@rows(
-    "framed, frames, sentence",
-    [
-        ("vertex", {"in": op.Frame()}, "'vertex' has its frames from its vertices"),
-        ("lamp", {"out": op.Frame()}, "'lamp' has world frames of its own"),
-    ],
-)
-def test_a_vertex_takes_no_frames_but_its_own(framed, frames, sentence):
-    path = op.PathGraph()
-    elements = op.Source(), op.SpecularVertex(1.5, CORNER, 1), op.Detector()
-    for name, element in zip(("lamp", "vertex", "eye"), elements, strict=True):
-        path.add(name, element, frames if name == framed else None)
-    path["lamp"] >> path["vertex"] >> path["eye"]
-    with pytest.raises(op.PathError, match=sentence):
-        path.check()
-
-
 FIRST, SECOND = (op.SpecularVertex(1.5, TWICE, place) for place in (1, 2))
+
+
+def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
+    nodes = {"b": SECOND, "a": FIRST, "lamp": LAMP, "e": EYE}
+    path = wired(nodes, "lamp -> a, a -> b, b -> e")
+    assert path.trace() == op.path_from_vertices(TWICE, [1.5, 1.5]).trace()
+
+
 INTO = op.RefractingVertex(1.5, MIXED, 1)
 NO_NEXT = "must lead from a vertex to the next of one chain"
 
@@ -229,130 +173,97 @@ NO_NEXT = "must lead from a vertex to the next of one chain"
         ((FIRST, FIRST), NO_NEXT),
         ((FIRST, op.SpecularVertex(1.5, TWICE[::-1], 2)), NO_NEXT),
         ((INTO, op.SpecularVertex(2.0, TURNED, 1, 1.5)), NO_NEXT),
-        ((FIRST, op.Polarizer(), SECOND), "'b' stands relatively between .* 'a' and 'c'"),
-        (
-            (INTO, op.SpecularVertex(0.2 + 3.4j, MIXED, 2)),
-            r"lit from n = 1.5 behind 'a'.*outside is 1; give",
-        ),
+        ((FIRST, op.Polarizer(), SECOND), "'e1' stands relatively between .* 'e0' and 'e2'"),
+        ((INTO, op.SpecularVertex(0.2 + 3.4j, MIXED, 2)), "n = 1.5 behind 'e0'.*is 1; give"),
     ],
 )
 def test_vertices_that_do_not_follow_each_other_are_refused(elements, sentence):
-    path = path_of(
-        ("lamp", op.Source()), *zip("abc", elements, strict=False), ("eye", op.Detector())
-    )
     with pytest.raises(op.PathError, match=sentence):
-        path.check()
+        chain(elements).check()
 
 
 def test_what_cannot_stand_between_vertices_is_refused():
-    path = path_of(("lamp", op.Source()), ("a", op.SpecularVertex(1.5, TWICE, 1)), links=False)
-    path.add("b", op.SpecularVertex(1.5, TWICE, 2)) >> path.add("eye", op.Detector())
-    path["lamp"] >> path["a"]
+    path = wired({"lamp": LAMP, "a": FIRST, "b": SECOND, "eye": EYE}, "lamp -> a, b -> eye")
     path.connect("a.reflected", "b.in", azimuth=0.1)
     with pytest.raises(op.PathError, match="by its vertices and by an azimuth"):
         path.check()
-    path = path_of(("lamp", op.Source()), ("a", op.SpecularVertex(1.5, CORNER, 1)))
-    path["lamp"] >> path.add("b", op.SpecularVertex(1.5, CORNER, 1))
-    eye = path.add("eye", op.Detector())
-    path["a"] >> eye
-    path["b"] >> eye
+    nodes = {"lamp": LAMP, "a": GLASS, "b": op.SpecularVertex(1.5, CORNER, 1), "eye": EYE}
     with pytest.raises(op.PathError, match="several lights meet at 'eye' in frames of vertices"):
-        path.check()
+        wired(nodes, "lamp -> a, lamp -> b, a -> eye, b -> eye").check()
     path = op.path_from_vertices(INTO_GLASS, [op.Parameter("n")], events="T")
     with pytest.raises(op.ParameterError, match="light goes on in"):
         path.trace(n=1.5 + 0.1j)
     masked = op.Vertex(1.5, CORNER, 1, events=[3], bad="mask")
-    path = op.PathGraph()
-    node = path.add("light", op.Source()) >> path.add("vertex", masked)
-    node >> path.add("eye", op.Detector())
-    assert np.all(np.isnan(path.trace().stokes))
+    assert np.all(np.isnan(chain([masked]).trace().stokes))
     with pytest.raises(op.ValueFault, match="there is no such chain, says the event at 'Vertex'"):
         op.Vertex(1.5, CORNER, 1, events=[3])
-
-
-@rows("method", ["stable", "compensated", "amplitude", "textbook"])
-def test_a_vertex_lets_through_what_an_interface_at_its_angle_does(method):
-    matrix = op.RefractingVertex(1.5, INTO_GLASS, place=1).mueller(method=method)
-    expected = op.Interface(1.5, np.pi / 4).mueller("in", "transmitted", method=method)
-    np.testing.assert_allclose(matrix.matrix, expected.matrix, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(matrix.frame_in.z, [0, np.sqrt(0.5), -np.sqrt(0.5)], rtol=1e-15)
-    np.testing.assert_array_equal(matrix.frame_out.x, [1, 0, 0])
-
-
-@rows("method", ["stable", "compensated", "amplitude", "textbook"])
-def test_light_out_of_glass_is_that_into_it(method):
-    back = op.RefractingVertex(1.0, INTO_GLASS[::-1], place=1, outside=1.5)
-    angle = np.arcsin(np.sin(np.pi / 4) / 1.5)
-    expected = op.Interface(1.0, angle, outside=1.5).mueller("in", "transmitted", method=method)
-    np.testing.assert_allclose(
-        back.mueller(method=method).matrix, expected.matrix, rtol=0, atol=1e-14
-    )
+    for node, frames, sentence in (
+        ("vertex", {"in": op.Frame()}, "'vertex' has its frames from its vertices"),
+        ("lamp", {"out": op.Frame()}, "'lamp' has world frames of its own"),
+    ):
+        path = op.PathGraph()
+        for name, element in (("lamp", LAMP), ("vertex", GLASS), ("eye", EYE)):
+            path.add(name, element, frames if name == node else None)
+        path["lamp"] >> path["vertex"] >> path["eye"]
+        with pytest.raises(op.PathError, match=sentence):
+            path.check()
 
 
 def test_a_refraction_may_follow_a_reflection_and_go_before_one():
-    path = path_of(
-        ("lamp", op.Source()),
-        ("filter", op.Polarizer(0.3)),
-        ("top", op.RefractingVertex(op.Material(1.5), MIXED, 1)),
-        ("bottom", op.SpecularVertex(0.2 + 3.4j, MIXED, 2, outside=op.FOLLOWS)),
-        ("eye", op.Detector()),
-    )
+    bottom = op.SpecularVertex(0.2 + 3.4j, MIXED, 2, outside=op.FOLLOWS)
+    path = chain([op.Polarizer(0.3), op.RefractingVertex(op.Material(1.5), MIXED, 1), bottom])
     light = path.trace()
-    chain = op.path_from_vertices(MIXED, [1.5, 0.2 + 3.4j], events="TR")
+    whole = op.path_from_vertices(MIXED, [1.5, 0.2 + 3.4j], events="TR")
     polarized = op.Polarizer(0.3).mueller().matrix[:, 0]
-    np.testing.assert_allclose(light.stokes, chain.mueller().matrix @ polarized, rtol=1e-14)
-    assert light.frame == chain.trace().frame
-
-
-@rows(
-    "arguments, others, message",
-    [
-        ((1.5, TURNED, 1), {}, "by 90 deg at 'RefractingVertex', but .* turns it by 48.1896851"),
-        ((1.5, INTO_GLASS, 2), {}, "place must be a whole number of 1 .. 1, not 2"),
-        ((1.5, INTO_GLASS, 1), {"count": 0}, "count must be a whole number above 0, not 0"),
-        ((1.5, op.Parameter("p"), 1), {}, "tell the number of vertices of the chain, count=..."),
-        ((1.5 + 1j, INTO_GLASS, 1), {}, "index is complex; give a real index .* light goes on in"),
-        (
-            (op.Material(1.5, 1), INTO_GLASS, 1),
-            {},
-            "index.k is 1; give 0, since light goes on in there",
-        ),
-        ((1.5, op.VerticesByAngles((0.3,)), 1), {}, "are angles, which say reflections alone"),
-    ],
-)
-def test_what_is_no_such_vertex_is_refused(arguments, others, message):
-    with pytest.raises(op.ValueFault, match=message) as error:
-        op.RefractingVertex(*arguments, **others)
-    assert len(error.value.faults) == 1
-
-
-def test_a_chain_that_refracts_is_explained_and_drawn():
+    np.testing.assert_allclose(light.stokes, whole.mueller().matrix @ polarized, rtol=1e-14)
+    assert light.frame == whole.trace().frame
     path = op.path_from_vertices(INTO_GLASS, [1.5], events="T")
     assert "Fresnel transmission (stable, lossless)" in path.compose().explain()
     assert "RefractingVertex" in str(path) or "refracting-vertex" in path.to_toml()
 
 
-DOWN = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
-
-BEND = [[0.0, 0, 1], [0, 0, 0], [0, 1, -2]]
-
-
-@rows("method", ["stable", "compensated", "amplitude", "textbook"])
-@rows("index", [1.5, 0.2 + 3.4j])
-def test_it_reflects_as_a_specular_vertex_does(method, index):
-    found = op.Vertex(index, CORNER, 1, events=[0]).mueller(method=method)
-    expected = op.SpecularVertex(index, CORNER, 1).mueller(method=method)
-    np.testing.assert_allclose(found.matrix, expected.matrix, rtol=0, atol=1e-15)
-    assert found.frame_out == expected.frame_out
+SPECULAR, REFRACTING = op.SpecularVertex, op.RefractingVertex
+ABSORBING, AT = op.Material(1.5, 1), (1.5, CORNER, 1)
+ANGLES, OPEN = op.VerticesByAngles((0.3,)), op.Parameter("v")
 
 
-@rows("method", ["stable", "compensated", "amplitude", "textbook"])
-@rows("front, behind", [(1.0, 1.5), (1.5, 1.0)])
-def test_it_refracts_as_a_refracting_vertex_does(method, front, behind):
-    found = op.Vertex(behind, BEND, 1, front, events=[1]).mueller(method=method)
-    expected = op.RefractingVertex(behind, BEND, 1, front).mueller(method=method)
-    np.testing.assert_allclose(found.matrix, expected.matrix, rtol=0, atol=4e-15)
-    assert found.frame_out == expected.frame_out
+@rows(
+    "kind, arguments, others, message",
+    [
+        (SPECULAR, (1.5, CORNER, 2), {}, r"^SpecularVertex.place must be .* of 1 .. 1, not 2"),
+        (SPECULAR, (1.5, CORNER, 0), {}, r"place must be .* not 0"),
+        (SPECULAR, (1.5, CORNER, 1.5), {}, r"place must be .* not 1.5"),
+        (SPECULAR, AT, {"reflections": -1}, r"reflections must be .* not -1"),
+        (SPECULAR, AT, {"reflections": 2}, r"shape \(..., 4, 3\), not \(3, 3\)"),
+        (SPECULAR, (1.5, OPEN, 1), {}, r"tell the number of reflections"),
+        (SPECULAR, (1.5, [1.0, 2.0], 1), {}, r"shape \(..., 3, 3\), not \(2,\)"),
+        (SPECULAR, (1.5, [[0, 0, 0], [1, 1]], 1), {}, "rows of unequal lengths"),
+        (SPECULAR, (1.5, [[1j, 0, 0], [0, 1, 0], [0, 0, 1]], 1), {}, "is complex"),
+        (REFRACTING, (1.5, TURNED, 1), {}, "by 90 deg at .*, but .* turns it by 48.1896851"),
+        (REFRACTING, (1.5, INTO_GLASS, 2), {}, "place must be a whole number of 1 .. 1, not 2"),
+        (REFRACTING, (1.5, INTO_GLASS, 1), {"count": 0}, "count must be .* above 0, not 0"),
+        (REFRACTING, (1.5, OPEN, 1), {}, "tell the number of vertices of the chain, count=..."),
+        (REFRACTING, (1.5 + 1j, INTO_GLASS, 1), {}, "is complex; give a real index .* goes on"),
+        (REFRACTING, (ABSORBING, INTO_GLASS, 1), {}, "index.k is 1; give 0, since light goes"),
+        (REFRACTING, (1.5, ANGLES, 1), {}, "are angles, which say reflections alone"),
+        (op.Vertex, AT, {"events": [0.5]}, "events is 0.5"),
+        (op.Vertex, AT, {"events": [4]}, "events is 4"),
+        (op.Vertex, AT, {"events": [-1]}, "events is -1"),
+        (op.Vertex, AT, {"events": [0, 0]}, r"vertices must have shape \(..., 4, 3\)"),
+        (op.Vertex, AT, {"events": 0}, r"events must have shape \(..., 1\), not \(\)"),
+        (op.Vertex, AT, {"events": "R"}, "events"),
+        (op.Vertex, AT, {"events": OPEN}, "events cannot be a parameter"),
+        (op.Vertex, (0.2 + 3j, CORNER, 1), {"events": [1]}, "into a medium that absorbs, k = 3"),
+        (op.Vertex, AT, {"events": [1]}, "light is turned by 90 deg at 'Vertex'"),
+        (op.Vertex, AT, {"events": [0], "bad": "no"}, "bad is 'no'"),
+        (op.Vertex, (1.5, CORNER, 2), {"events": [0]}, "place must be a whole number of 1 .. 1"),
+        (op.Vertex, (1.5, ANGLES, 1), {"events": [1]}, "are angles, which say"),
+    ],
+)
+def test_what_is_no_such_vertex_is_refused(kind, arguments, others, message):
+    with pytest.raises(op.ValueFault, match=message) as error:
+        kind(*arguments, **others)
+    assert len(error.value.faults) == 1 or kind is not REFRACTING
 
 
 def test_behind_the_end_of_a_chain_light_is_exactly_as_it_was():
@@ -363,40 +274,12 @@ def test_behind_the_end_of_a_chain_light_is_exactly_as_it_was():
     assert ended.mueller().frame_out == before.mueller().frame_out
 
 
-@rows(
-    "given, message",
-    [
-        ({"events": [0.5]}, "events is 0.5"),
-        ({"events": [4]}, "events is 4"),
-        ({"events": [-1]}, "events is -1"),
-        ({"events": [0, 0]}, r"vertices must have shape \(..., 4, 3\)"),
-        ({"events": 0}, r"events must have shape \(..., 1\), not \(\)"),
-        ({"events": "R"}, "events"),
-        ({"events": op.Parameter("e")}, "events cannot be a parameter"),
-        ({"events": [1], "index": 0.2 + 3j}, "into a medium that absorbs, k = 3"),
-        ({"events": [1]}, "light is turned by 90 deg at 'Vertex'"),
-        ({"events": [0], "bad": "no"}, "bad is 'no'"),
-        ({"events": [0], "place": 2}, "place must be a whole number of 1 .. 1"),
-        ({"events": [1], "vertices": op.VerticesByAngles((0.3,))}, "are angles, which say"),
-    ],
-)
-def test_what_is_wrong_is_told_in_words(given, message):
-    with pytest.raises(op.ValueFault, match=message):
-        op.Vertex(**{"index": 1.5, "vertices": CORNER, "place": 1, **given})
-
-
 def test_media_of_two_vertices_agree_for_each_chain():
     events = [[1.0, 0.0], [0.0, 0.0]]
-    points = [DOWN, DOWN]
-    path = op.PathGraph()
-    first = path.add("first", op.Vertex(1.5, points, 1, events=events))
-    path.add("light", op.Source()) >> first
-    second = op.Vertex(1.2, points, 2, outside=[1.5, 1.5], events=events)
-    first >> path.add("second", second) >> path.add("eye", op.Detector())
-    with pytest.raises(
-        op.PathError, match=r"'second.in' is lit from n = 1 .* \(at 1, of 2 paths\)"
-    ):
-        path.check()
+    first = op.Vertex(1.5, [DOWN, DOWN], 1, events=events)
+    second = op.Vertex(1.2, [DOWN, DOWN], 2, outside=[1.5, 1.5], events=events)
+    with pytest.raises(op.PathError, match=r"'e1.in' is lit from n = 1 .* \(at 1, of 2 paths\)"):
+        chain([first, second]).check()
 
 
 def test_light_can_go_so_where_the_kernel_has_an_angle_or_the_chain_has_ended():
