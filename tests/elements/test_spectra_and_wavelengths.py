@@ -16,13 +16,11 @@ from optipath.elements.known_elements import STANDARD
 from optipath.lab.accuracy.path_reference import exact_stokes
 from optipath.values.spectra.grid_bins import grid_widths
 from tables import rows
+from wired import wired
 
 GRID = op.wavelengths("380 nm", "700 nm", "40 nm")
-
 LASER = op.Spectrum.line("633 nm", power=2.0)
-
 LED = op.Spectrum.led("550 nm", "100 nm")
-
 SMOOTH = [
     op.Spectrum.sampled(["300 nm", "500 nm", "800 nm"], [1.0, 2.0, 0.5]),
     op.Spectrum.histogram(np.linspace(300e-9, 800e-9, 11), np.arange(10.0)),
@@ -32,6 +30,9 @@ SMOOTH = [
     op.Spectrum.constant(3.0),
     LED,
 ]
+
+
+STATE = [1.0, 0.5, 0.3, 0.0]
 
 
 def seen(spectrum, response=None, stokes=None):
@@ -50,19 +51,18 @@ def seen(spectrum, response=None, stokes=None):
     ],
 )
 def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
-    plan = op.Composer(engine=engine).compose(seen(spectrum, LED, [1.0, 0.5, 0.0, 0.0]))
-    plain = seen(None, None, [1.0, 0.5, 0.0, 0.0]).trace().stokes
-    expected = (spectrum.at(GRID) * LED.at(GRID))[:, None] * plain
+    path, plain = (seen(one, two, STATE) for one, two in ((spectrum, LED), (None, None)))
+    expected = (spectrum.at(GRID) * LED.at(GRID))[:, None] * plain.trace().stokes
+    plan = op.Composer(engine=engine).compose(path)
     for _ in range(3):
         np.testing.assert_allclose(plan.run(wavelength=GRID).stokes, expected, rtol=1e-14)
-
-
-@rows("spectrum", SMOOTH)
-def test_one_wavelength_alone_has_the_bits_of_the_spectral_run(spectrum):
-    path = seen(spectrum, LED)
-    together = path.trace(wavelength=GRID).stokes
-    alone = [path.trace(wavelength=place).stokes for place in GRID]
-    np.testing.assert_array_equal(together, alone)
+    if spectrum in SMOOTH:
+        for options in ({"model": "full"}, {"composing": "jones"}):
+            found = op.Composer(**options).compose(path).run(wavelength=GRID).stokes
+            np.testing.assert_allclose(found, expected, rtol=1e-14, atol=1e-16)
+        together = path.trace(wavelength=GRID).stokes
+        alone = [path.trace(wavelength=place).stokes for place in GRID]
+        np.testing.assert_array_equal(together, alone)
 
 
 @rows("engine", ENGINES)
@@ -88,11 +88,9 @@ def test_a_line_keeps_its_power_along_other_axes_and_in_streams():
 @rows(
     "wavelength, sentence",
     [
-        (5e-7, "one wavelength alone"),
         (GRID[:1], "one wavelength alone"),
         (np.r_[GRID, GRID[-1:]], "are repeated"),
         (GRID[[0, 4, 2]], "neither rise nor fall"),
-        (GRID[:8].reshape(2, 4)[::-1], r"have the shape \(2, 4\), not one axis"),
         (GRID[:8].reshape(2, 4), r"have the shape \(2, 4\), not one axis"),
         (np.tile(GRID[:4], (2, 1)), "along one axis, with which all else broadcasts"),
         ([], "none at all"),
@@ -116,46 +114,31 @@ def test_a_line_may_be_left_out_or_wait_for_its_grid():
     bound = path.bind(wavelength=GRID)
     np.testing.assert_array_equal(bound.trace().stokes, path.trace(wavelength=GRID).stokes)
     assert other.bind(wavelength=5e-7).trace() == other.trace(wavelength=5e-7)
+    path = seen(op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 2.0], name="the lamp"))
+    with pytest.raises(op.ParameterError, match=r"source.spectrum.*the lamp.*outside=0.0"):
+        path.trace(wavelength="600 nm")
+    assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")
     with pytest.raises(op.ValueFault, match="is the class Parameter, and none of its kind"):
         op.Attenuator(op.Parameter)
 
 
-def test_beyond_a_spectrum_is_an_error_that_names_the_place():
-    path = seen(op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 2.0], name="the lamp"))
-    with pytest.raises(op.ParameterError, match=r"source.spectrum.*the lamp.*outside=0.0"):
-        path.trace(wavelength="600 nm")
-
-
-@rows("response", [LASER, SMOOTH[1], LED + LASER])
-def test_power_is_no_response(response):
-    with pytest.raises(op.ValueFault, match="which is power and no response"):
-        op.Detector(response=response)
-
-
-@rows("engine", ENGINES)
-def test_a_response_may_be_a_number_of_any_size(engine):
+def test_a_response_may_be_a_number_of_any_size_and_no_power():
     plain, seven = op.Source(3.0) >> op.Detector(), op.Source(3.0) >> op.Detector(response=7.0)
-    assert op.Composer(engine=engine).compose(seven).run().intensity == 21.0
-    np.testing.assert_allclose(
-        seven.compose().mueller().matrix, 7.0 * plain.compose().mueller().matrix
-    )
+    for engine in ENGINES:
+        assert op.Composer(engine=engine).compose(seven).run().intensity == 21.0
+    np.testing.assert_allclose(seven.mueller().matrix, 7.0 * plain.mueller().matrix)
     with pytest.raises(op.ValueFault, match="Detector response is -1"):
         op.Detector(response=-1.0)
-
-
-@rows("options", [{"model": "full"}, {"composing": "jones"}])
-def test_all_ways_of_composing_read_the_same(options):
-    path = seen(SMOOTH[0], LED, [1.0, 0.0, 1.0, 0.0])
-    found = op.Composer(**options).compose(path).run(wavelength=GRID).stokes
-    np.testing.assert_allclose(found, path.trace(wavelength=GRID).stokes, rtol=1e-14, atol=1e-16)
+    for power in (LASER, SMOOTH[1], LED + LASER):
+        with pytest.raises(op.ValueFault, match="which is power and no response"):
+            op.Detector(response=power)
 
 
 def test_the_reference_in_many_digits_has_spectra_and_responses():
-    path = seen(SMOOTH[2], LED, [1.0, 0.5, 0.0, 0.0])
+    path = seen(SMOOTH[2], LED, STATE)
     (exact,) = exact_stokes(path, wavelength=5.2e-7).values()
-    np.testing.assert_allclose(
-        path.trace(wavelength=5.2e-7).stokes, [float(part) for part in exact], rtol=1e-14
-    )
+    found = path.trace(wavelength=5.2e-7).stokes
+    np.testing.assert_allclose(found, [float(part) for part in exact], rtol=1e-14)
 
 
 @rows("spectrum", SMOOTH)
@@ -164,11 +147,9 @@ def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum, jax):
     slope_at = jax.jit(jax.grad(lambda w: plan.run(wavelength=w).intensity))
     for place in (4.23e-7, 5.517e-7):
         step = 1e-12
-        near = [spectrum.at(at) * LED.at(at) for at in (place - step, place, place + step)]
-        expected = (near[2] - near[0]) / (2.0 * step)
-        assert float(slope_at(place)) == pytest.approx(
-            expected, rel=1e-5, abs=1e-6 * near[1] / place
-        )
+        less, here, more = (spectrum.at(w) * LED.at(w) for w in (place - step, place, place + step))
+        expected = pytest.approx((more - less) / (2.0 * step), rel=1e-5, abs=1e-6 * here / place)
+        assert float(slope_at(place)) == expected
 
 
 def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
@@ -177,15 +158,10 @@ def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
         jax.jit(lambda w: plan.run(wavelength=w).stokes)(jax.numpy.asarray(GRID))
 
 
-def test_elements_say_their_spectrum_in_words():
-    assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")
-
-
 @rows(
     "spectrum, sentence",
     [
-        ("D65", r"'D65' is no spectrum by itself; write op.Spectrum.illuminant\(\"D65\"\)"),
-        ("d65", r"write op.Spectrum.illuminant\(\"D65\"\)"),
+        ("d65", r"'d65' is no spectrum .* write op.Spectrum.illuminant\(\"D65\"\)"),
         ("633 nm", r"'633 nm' is no spectrum by itself; write op.Spectrum.line\(\"633 nm\"\)"),
         ("red", "'red' is not a quantity"),
         (op.Spectrum, r"spectrum is the class Spectrum; give one of it, op.Spectrum.illuminant"),
@@ -198,22 +174,10 @@ def test_what_is_no_spectrum_is_told_with_the_one_that_was_meant(spectrum, sente
 
 POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2]])
 
-GENERAL = op.Medium(
-    0.1,
-    9.0,
-    2.0,
-    7.0,
-    0.3,
-    0.2,
-    dichroism=4.0,
-    dichroic_angle=0.8,
-    circular_dichroism=-3.0,
-    depolarization=5.0,
-)
-
-TINTED = op.LayerStack(
-    [1.0, op.Material(1.5, 1e-6), 1.7], 0.7, 0.2, lengths=[1e-3], wavelength=5e-7
-)
+DICHROIC = {"dichroism": 4.0, "dichroic_angle": 0.8, "circular_dichroism": -3.0}
+GENERAL = op.Medium(0.1, 9.0, 2.0, 7.0, 0.3, 0.2, **DICHROIC, depolarization=5.0)
+TINT = op.Material(1.5, 1e-6)
+TINTED = op.LayerStack([1.0, TINT, 1.7], 0.7, 0.2, lengths=[1e-3], wavelength=5e-7)
 
 ELEMENTS = [
     op.Attenuator(0.3),
@@ -275,17 +239,9 @@ def places():
 def path_of(element, way):
     if isinstance(element, op.Source):
         return element >> op.Detector()
-    path = op.PathGraph()
-    path.add("lamp", op.Source(2.0, [1.0, 0.3, -0.4, 0.5]))
-    path.add("it", element)
-    path.add("eye", op.Detector())
-    path.connect("lamp", f"it.{way.enters}")
-    path.connect(f"it.{way.leaves}", "eye")
-    return path
-
-
-def ways(element):
-    return element.couplings() or (None,)
+    lamp = op.Source(2.0, [1.0, 0.3, -0.4, 0.5])
+    nodes = {"lamp": lamp, "it": element, "eye": op.Detector()}
+    return wired(nodes, f"lamp -> it.{way.enters}, it.{way.leaves} -> eye")
 
 
 def test_every_element_that_takes_a_number_is_looked_at():
@@ -297,7 +253,7 @@ def test_light_is_that_of_the_numbers_at_each_wavelength(element, name, value, d
     # Some numbers may not grow, others may not shrink.
     last = next(v for v in (0.98 * value, 1.02 * value) if np.all(domain.allows(np.asarray(v))))
     dispersive = with_value(element, name, line(value, last))
-    for way in ways(element):
+    for way in element.couplings() or (None,):
         numbers = on_line(value, last, PLACES)
         expected = [
             path_of(with_value(element, name, float(number)), way).trace().stokes
