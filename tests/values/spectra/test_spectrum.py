@@ -1,4 +1,4 @@
-"""Spectra, and arithmetic with them."""
+"""Spectra, arithmetic with them, and what they are between their samples and beyond them."""
 
 from __future__ import annotations
 
@@ -6,14 +6,22 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import optipath as op
+from optipath.paths.format.spectrum_tables import spectrum_of, spectrum_table
 from optipath.values.spectra.grid_bins import grid_widths
 from tables import rows
+from wired import read_back
 
 SI = {"h": 6.62607015e-34, "c": 299792458.0, "k": 1.380649e-23}
 STEFAN_BOLTZMANN = 2 * math.pi**5 * SI["k"] ** 4 / (15 * SI["h"] ** 3 * SI["c"] ** 2)
-GRID = np.linspace(380e-9, 700e-9, 9)
+HC_EV_NM = SI["h"] * SI["c"] / 1.602176634e-19 * 1e9
+THREE = np.array([400e-9, 500e-9, 600e-9])
+sampled, histogram, line, led = (
+    getattr(op.Spectrum, make) for make in ("sampled", "histogram", "line", "led")
+)
 
 
 @pytest.fixture(scope="module")
@@ -24,13 +32,13 @@ def colour():
 
 
 def test_samples_are_joined_by_straight_lines_and_may_fall():
-    lamp = op.Spectrum.sampled(["400 nm", "500 nm", "700 nm"], [1.0, 3.0, 0.0])
+    lamp = op.Spectrum(["400 nm", "500 nm", "700 nm"], [1.0, 3.0, 0.0], name="lamp")
+    assert lamp == sampled(["400 nm", "500 nm", "700 nm"], [1.0, 3.0, 0.0], name="lamp")
     np.testing.assert_allclose(lamp.at([450e-9, 500e-9, 600e-9]), [2.0, 3.0, 1.5], rtol=1e-14)
     assert lamp.power() == pytest.approx(200.0 + 300.0, rel=1e-14)
     assert lamp.power("450 nm", "600 nm") == pytest.approx(125.0 + 225.0, rel=1e-14)
-    rising = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0])
-    assert op.Spectrum.sampled([5e-7, 4e-7], [3.0, 1.0]) == rising
-    lamp = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0])
+    lamp = sampled([4e-7, 5e-7], [1.0, 3.0])
+    assert sampled([5e-7, 4e-7], [3.0, 1.0]) == lamp
     np.testing.assert_array_equal(lamp.values, [1.0, 3.0])
     with pytest.raises(op.ValueFault, match=r"has no powers; ask for those of spectrum.rebin"):
         lamp.powers  # noqa: B018
@@ -39,17 +47,16 @@ def test_samples_are_joined_by_straight_lines_and_may_fall():
 
 
 def test_histograms_and_lines_have_their_power_spread_over_bins_or_counted_once():
-    lamp = op.Spectrum.histogram(["400 nm", "500 nm", "700 nm"], [10.0, 40.0])
+    lamp = histogram(["400 nm", "500 nm", "700 nm"], [10.0, 40.0])
     found = lamp.at(["400 nm", "499 nm", "500 nm", "700 nm"])
     np.testing.assert_allclose(found, [0.1, 0.1, 0.2, 0.2], rtol=1e-12)
     assert lamp.power() == pytest.approx(50.0, rel=1e-14)
-    turned = op.Spectrum.histogram(["700 nm", "500 nm", "400 nm"], [40.0, 10.0])
-    assert turned == lamp
-    lamp = op.Spectrum.constant(1.0) + op.Spectrum.line("500 nm", 2.0)
+    assert histogram(["700 nm", "500 nm", "400 nm"], [40.0, 10.0]) == lamp
+    lamp = op.Spectrum.constant(1.0) + line("500 nm", 2.0)
     parts = [lamp.power("400 nm", "500 nm"), lamp.power("500 nm", "600 nm")]
     assert parts == pytest.approx([100.0, 102.0], rel=1e-13)
     assert lamp.power("400 nm", "600 nm") == pytest.approx(sum(parts), rel=1e-13)
-    laser = op.Spectrum.line("500 nm", 2.0)
+    laser = line("500 nm", 2.0)
     assert [laser.power(high="500 nm"), laser.power("500 nm"), laser.power()] == [0.0, 2.0, 2.0]
 
 
@@ -63,18 +70,6 @@ def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
     expected = whole * (1.0 - beyond)
     assert lamp.power(1e-9, 1e-3) == pytest.approx(expected, rel=1e-6 * beyond + 1e-13)
     assert (0.3 * lamp).power() == pytest.approx(0.3 * whole, rel=1e-14)
-
-
-def test_whole_powers_of_sums_and_of_diodes_are_those_of_their_terms():
-    led = op.Spectrum.led("530 nm", "30 nm", power=2.0)
-    assert led.power() == 2.0
-    assert led.power("200 nm", "900 nm") == pytest.approx(2.0, rel=1e-13)
-    peak, low, high = led.at(["530 nm", "515 nm", "545 nm"])
-    assert [low / peak, high / peak] == pytest.approx([0.5, 0.5], rel=1e-12)
-    lamp = op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 3.0], outside=0.0)
-    body = op.Spectrum.black_body(300.0)
-    whole = lamp + body + op.Spectrum.line("633 nm", 5.0)
-    assert whole.power() == pytest.approx(205.0 + body.power(), rel=1e-14)
 
 
 def test_black_body_peaks_by_wiens_law_and_agrees_with_planck_in_many_digits():
@@ -91,7 +86,16 @@ def test_black_body_peaks_by_wiens_law_and_agrees_with_planck_in_many_digits():
             assert found == pytest.approx(float(expected), rel=1e-13)
 
 
-HC_EV_NM = SI["h"] * SI["c"] / 1.602176634e-19 * 1e9
+def test_whole_powers_of_sums_and_of_diodes_are_those_of_their_terms():
+    diode = led("530 nm", "30 nm", power=2.0)
+    assert diode.power() == 2.0
+    assert diode.power("200 nm", "900 nm") == pytest.approx(2.0, rel=1e-13)
+    peak, low, high = diode.at(["530 nm", "515 nm", "545 nm"])
+    assert [low / peak, high / peak] == pytest.approx([0.5, 0.5], rel=1e-12)
+    lamp = sampled(["400 nm", "500 nm"], [1.0, 3.0], outside=0.0)
+    body = op.Spectrum.black_body(300.0)
+    whole = lamp + body + line("633 nm", 5.0)
+    assert whole.power() == pytest.approx(205.0 + body.power(), rel=1e-14)
 
 
 @rows(
@@ -105,8 +109,7 @@ HC_EV_NM = SI["h"] * SI["c"] / 1.602176634e-19 * 1e9
     ],
 )
 def test_a_width_of_a_diode_is_that_between_its_edges_in_the_unit_given(peak, width, low, high):
-    led = op.Spectrum.led(peak, width)
-    assert led.kind.width * 1e9 == pytest.approx(high - low, rel=1e-12)
+    assert led(peak, width).kind.width * 1e9 == pytest.approx(high - low, rel=1e-12)
 
 
 @rows("name", ["A", "D65", "E"])
@@ -136,31 +139,31 @@ def test_d65_in_the_infrared_is_daylight_by_its_components(colour):
 @rows(
     "place, grid",
     [
-        ("633 nm", GRID),
-        ("633 nm", GRID[::-1]),
-        ("633 nm", np.array([380.0, 381.0, 500.0, 640.0, 700.0]) * 1e-9),
-        ("633 nm", np.array([633.0, 700.0]) * 1e-9),
-        ("633 nm", np.array([500.0, 633.0]) * 1e-9),
-        ("550 nm", np.array([400.0, 500.0, 600.0]) * 1e-9),
+        *(("633 nm", np.linspace(380, 700, 9)[::step]) for step in (1, -1)),
+        ("633 nm", np.array([380.0, 381.0, 500.0, 640.0, 700.0])),
+        *(("633 nm", np.array([633.0, 700.0])), ("633 nm", np.array([500.0, 633.0]))),
+        ("550 nm", np.array([400.0, 500.0, 600.0])),
     ],
 )
 def test_a_line_keeps_its_power_on_any_grid(place, grid):
-    density = op.Spectrum.line(place, power=2.5).at(grid)
+    density = line(place, power=2.5).at(grid * 1e-9)
     assert np.count_nonzero(density) == 1
-    assert np.dot(density, grid_widths(grid)) == pytest.approx(2.5, rel=1e-15)
+    assert np.dot(density, grid_widths(grid * 1e-9)) == pytest.approx(2.5, rel=1e-15)
 
 
 def test_spectra_beyond_their_range_are_an_error_or_0_where_that_is_said():
-    samples, bins = ([4e-7, 5e-7], [1.0, 3.0]), ([4e-7, 5e-7], [1.0])
-    for make, known in ((op.Spectrum.sampled, samples), (op.Spectrum.histogram, bins)):
+    for make, known in (
+        (sampled, ([4e-7, 5e-7], [1.0, 3.0])),
+        (histogram, ([4e-7, 5e-7], [1.0])),
+    ):
         with pytest.raises(op.ValueFault, match=r"400 nm .. 500 nm.*give outside=0.0"):
             make(*known).at("550 nm")
         np.testing.assert_array_equal(make(*known, outside=0.0).at([3e-7, 6e-7]), 0.0)
     # 830 * 1e-9 is the number above 830e-9, and the end of a range is within it by its rounding.
-    assert op.Spectrum.illuminant("D65").at(830 * 1e-9) == 60.3125
-    lamp = op.Spectrum.sampled(["300 nm", "830 nm"], [1.0, 2.0], outside=0.0)
-    assert lamp.at(830 * 1e-9) == 2.0
-    path = op.Source(spectrum=op.Spectrum.illuminant("D65")) >> op.Detector()
+    daylight = op.Spectrum.illuminant("D65")
+    assert daylight.at(830 * 1e-9) == 60.3125
+    assert sampled(["300 nm", "830 nm"], [1.0, 2.0], outside=0.0).at(830 * 1e-9) == 2.0
+    path = op.Source(spectrum=daylight) >> op.Detector()
     assert path.trace(wavelength=np.array([300, 830]) * 1e-9).intensity[1] == 60.3125
 
 
@@ -168,23 +171,19 @@ def test_a_file_has_samples_by_the_name_of_their_column(tmp_path):
     file = tmp_path / "lamp.csv"
     file.write_text("# measured\nwavelength (nm); Power; noise\n400; 1; 0\n600; 3; 0\n")
     lamp = op.Spectrum.from_csv(file)
-    assert lamp == op.Spectrum.sampled(["400 nm", "600 nm"], [1.0, 3.0], name="lamp")
+    assert lamp == sampled(["400 nm", "600 nm"], [1.0, 3.0], name="lamp")
     with pytest.raises(op.ValueFault, match=r"lamp.csv.*'?respons"):
         op.Spectrum.from_csv(file, "response")
     file.write_text("wavelength (nm), power\n400, -1\n500, 1")
-    with pytest.raises(
-        op.ValueFault,
-        match=r"lamp.csv: line 2: power is -1; write none below 0, such as 0 for what",
-    ):
+    told = r"lamp.csv: line 2: power is -1; write none below 0, such as 0 for what"
+    with pytest.raises(op.ValueFault, match=told):
         op.Spectrum.from_csv(file)
 
 
 PLACES = op.wavelengths("400 nm", "700 nm", "50 nm")
-LAMP = op.Spectrum.sampled(PLACES, np.linspace(1.0, 4.0, 7))
+LAMP = sampled(PLACES, np.linspace(1.0, 4.0, 7))
 FINE = LAMP.resample(op.wavelengths("400 nm", "700 nm", "5 nm"))
-BINS = op.Spectrum.histogram(PLACES, np.arange(6.0))
-LASER = op.Spectrum.line("633 nm", 2.0)
-LED = op.Spectrum.led("530 nm", "30 nm")
+BINS, LASER, LED = histogram(PLACES, np.arange(6.0)), line("633 nm", 2.0), led("530 nm", "30 nm")
 KINDS = [LAMP, BINS, LED, op.Spectrum.black_body(3000.0), op.Spectrum.illuminant("A")]
 BETWEEN = np.linspace(405e-9, 695e-9, 17)
 
@@ -199,17 +198,14 @@ def test_sums_are_sums_at_each_wavelength_and_multiples_have_as_much_more_power(
         assert multiple.power("400 nm", "700 nm") == pytest.approx(2.5 * whole, rel=1e-13)
 
 
-def test_sums_keep_bins_and_lines_and_are_those_of_lists():
+def test_sums_keep_bins_and_lines_and_products_are_those_of_samples_and_of_values_at_lines():
     np.testing.assert_array_equal((BINS + BINS).powers, 2.0 * BINS.powers)
     both = LAMP + LASER
     assert both.power() == pytest.approx(LAMP.power() + 2.0, rel=1e-14)
     assert both.rebin(PLACES).powers.sum() == pytest.approx(both.power(), rel=1e-14)
     assert sum([LAMP, LED, LASER]) == LAMP + LED + LASER
-    assert op.Spectrum.line("633 nm") == op.Spectrum.line(633e-9)
+    assert line("633 nm") == line(633e-9)
     assert op.Spectrum.illuminant("A") != op.Spectrum.illuminant("E")
-
-
-def test_products_are_those_of_samples_and_of_values_at_lines():
     np.testing.assert_array_equal((LAMP * LAMP).values, LAMP.values**2)
     at_fine = LED.at(FINE.wavelengths)
     np.testing.assert_allclose((FINE * LED).values, FINE.values * at_fine, rtol=1e-15)
@@ -217,34 +213,46 @@ def test_products_are_those_of_samples_and_of_values_at_lines():
     np.testing.assert_allclose((1.0 / LAMP).values, 1.0 / LAMP.values, rtol=1e-15)
     seen = LASER * LAMP
     assert seen.power() == pytest.approx(2.0 * float(LAMP.at("633 nm")), rel=1e-14)
-    assert (FINE * (LASER + LED)).power() == pytest.approx(
-        seen.power() + (FINE * LED).power(), rel=1e-13
-    )
+    expected = seen.power() + (FINE * LED).power()
+    assert (FINE * (LASER + LED)).power() == pytest.approx(expected, rel=1e-13)
 
 
-ULTRAVIOLET = op.Spectrum.sampled([2e-7, 3e-7], [1.0, 1.0])
+PAIR, TWO, SAME = [4e-7, 5e-7], histogram(THREE, [1.0, 4.0]), [4e-7, 4e-7]
+ULTRAVIOLET = sampled([2e-7, 3e-7], [1.0, 1.0])
 REFUSED = [
-    (lambda: op.Spectrum.led("2 eV", "4 eV"), r"'4 eV' around a peak at 619.92.* nm reaches down"),
-    (lambda: op.Spectrum.led("2 eV", "4 eV"), "nm reaches down to 0"),
-    (lambda: op.Spectrum.led("2 eV", "30"), "'30' has no unit"),
-    (lambda: op.Spectrum.led("2 eV", "0 nm"), "give a width above 0"),
-    (lambda: op.Spectrum.led("2 eV", 30), "write '30 nm'"),
+    (lambda: led("2 eV", "4 eV"), r"'4 eV' around a peak at 619.92.* nm reaches down to 0"),
+    (lambda: led("2 eV", "30"), "'30' has no unit"),
+    (lambda: led("2 eV", "0 nm"), "give a width above 0"),
+    (lambda: led("2 eV", 30), "write '30 nm'"),
     (lambda: op.Spectrum(1.0), "use Spectrum.sampled"),
-    (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, -1.0]), "is -1 at 1; give numbers of 0"),
-    (lambda: op.Spectrum.sampled([400.0, 500.0], [1.0, 1.0]), "1e-9"),
-    (lambda: op.Spectrum.sampled([4e-7, 4e-7], [1.0, 1.0]), "400 nm twice"),
-    (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, np.nan]), "nan"),
-    (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, 1.0], outside=1.0), "give 0.0 where"),
-    (lambda: op.Spectrum.histogram([4e-7, 5e-7], [1.0, 1.0]), "give 1 powers"),
-    (lambda: op.Spectrum.histogram([4e-7, 4e-7], [1.0]), "neither rise nor fall"),
-    (lambda: op.Spectrum.line(633), "write '633 nm', or 633e-9"),
-    (lambda: op.Spectrum.line("633 nm", -1.0), "power of a line is -1"),
-    (lambda: op.Spectrum.line(["633 nm"]), "one wavelength"),
-    (lambda: op.Spectrum.line("633 nm", op.Parameter("p")), r"Source\(intensity=...\)"),
+    (lambda: op.Spectrum([1, 2]), "is not made of"),
+    (lambda: op.Spectrum(THREE, [1.0, 2.0]), "3 wavelengths and 2"),
+    (lambda: op.Spectrum(THREE, THREE, outside="near"), "'nearest' and 'linear'"),
+    (lambda: sampled(PAIR, [1.0, -1.0]), "is -1 at 1; give numbers of 0 or more"),
+    (lambda: sampled([400.0, 500.0], [1.0, 1.0]), "1e-9"),
+    (lambda: sampled(SAME, [1.0, 1.0]), "400 nm twice"),
+    (lambda: sampled(PAIR, [1.0, np.nan]), "nan"),
+    (lambda: sampled(PAIR, None), "value"),
+    (lambda: sampled(PAIR, [1.0, 1.0], outside=1.0), "give 0.0 where"),
+    (lambda: histogram(PAIR, [1.0, 1.0]), "give 1 powers"),
+    (lambda: histogram(PAIR, [1.0], outside="linear"), "leave it out"),
+    (lambda: histogram(SAME, [1.0]), "neither rise nor fall"),
+    (lambda: line(633), "write '633 nm', or 633e-9"),
+    (lambda: line("633 nm", -1.0), "power of a line is -1"),
+    (lambda: line(["633 nm"]), "one wavelength"),
+    (lambda: line("633 nm", op.Parameter("p")), r"Source\(intensity=...\)"),
     (lambda: op.Spectrum.black_body(0.0), "temperature of a black body"),
     (lambda: op.Spectrum.illuminant("D56"), "there are: A, D65, E"),
     (lambda: op.Spectrum.constant(-1.0), "constant spectrum is -1"),
     (lambda: op.Spectrum.constant(1.0).power(), "give two ends"),
+    (lambda: TWO.rebin(PAIR), "a power of 4 beyond the bins.*outside='drop'"),
+    (lambda: LASER.rebin(PAIR), "a power of 2 beyond"),
+    (lambda: TWO.rebin([4e-7, 7e-7]), r"400 nm .. 600 nm"),
+    (lambda: LASER.resample([5e-7, 6e-7]), r"spectrum.rebin\(edges\)"),
+    (
+        lambda: LAMP.resample([3e-7, 5e-7], outside=0.0),
+        "outside=0.0 where the spectrum is made.*ne",
+    ),
     (lambda: BINS * LASER, "a histogram is power in bins"),
     (lambda: LASER * LASER, "the line at 633 nm is power at single wavelengths"),
     (lambda: LASER / LAMP, r"spectrum.rebin\(edges\)"),
@@ -257,9 +265,9 @@ REFUSED = [
     (lambda: np.ones(2) * LAMP, "must be one number"),
     (lambda: LAMP * 1e308 * 10.0, "inf at"),
     (lambda: LAMP + ULTRAVIOLET, "no wavelength in common; give outside=0.0"),
+    (lambda: LAMP * ULTRAVIOLET, "no wavelength in common"),
     (lambda: LASER - LED, r"power of the line at 633 nm is no spectrum.*\.at\("),
-    (lambda: 1.0 - LED, r"power of the diode at 530 nm is no spectrum"),
-    (lambda: np.ones(2) - LED, r"is no spectrum"),
+    *((lambda one=one: one - LED, "is no spectrum") for one in (1.0, np.ones(2))),
     (lambda: -LED, r"difference .* of the diode at 530 nm is no spectrum, .* below 0"),
     (lambda: LED**2, r"power of the diode at 530 nm is no spectrum, .*; compute with its numb"),
     (lambda: 2**LED, r"power of the diode at 530 nm is no spectrum"),
@@ -274,3 +282,130 @@ REFUSED = [
 def test_what_is_no_spectrum_and_what_does_not_fit_one_is_refused_with_the_cure(make, sentence):
     with pytest.raises((op.ValueFault, op.UnitError), match=sentence):
         make()
+
+
+@st.composite
+def edges(draw, least=350.0, most=800.0):
+    inner = draw(st.lists(st.floats(least + 1e-3, most - 1e-3), max_size=30, unique=True))
+    places = np.unique([least, *np.round(inner, 6), most])
+    return places * 1e-9
+
+
+@given(edges(), edges(), st.integers(0, 2**32 - 1), st.floats(350.0, 800.0))
+def test_other_bins_get_what_overlaps_and_keep_all_power(old, new, seed, place):
+    powers = np.random.default_rng(seed).uniform(0.0, 10.0, old.size - 1)
+    found = histogram(old, powers).rebin(new).powers
+    assert found.sum() == pytest.approx(powers.sum(), rel=1e-14)
+    low = np.maximum(old[:-1, None], new[None, :-1])
+    high = np.minimum(old[1:, None], new[None, 1:])
+    expected = powers @ (np.maximum(high - low, 0.0) / np.diff(old)[:, None])
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+    of_line = line(place * 1e-9, power=3.0).rebin(new).powers
+    assert sorted(of_line)[-1] == of_line.sum() == 3.0
+
+
+def test_bins_have_the_integrals_of_lines_and_of_error_functions_and_samples_keep_values():
+    lamp = sampled(THREE, [0.0, 2.0, 0.0])
+    found = lamp.rebin([4e-7, 4.5e-7, 5.5e-7, 6e-7]).powers
+    np.testing.assert_allclose(found, [25.0, 150.0, 25.0], rtol=1e-12)
+    places = op.wavelengths("480 nm", "580 nm", "10 nm")
+    np.testing.assert_array_equal(LED.resample(places).values, LED.at(places))
+    special = pytest.importorskip("scipy.special")
+    places = np.array([500.0, 520.0, 530.0, 600.0])
+    sigma = 30.0 / (2.0 * np.sqrt(2.0 * np.log(2.0)))
+    expected = np.diff(special.ndtr((places - 530.0) / sigma))
+    np.testing.assert_allclose(LED.rebin(places * 1e-9).powers, expected, rtol=1e-12)
+
+
+def test_what_is_beyond_new_bins_may_be_dropped_and_what_is_beyond_old_ones_be_0():
+    assert TWO.rebin(PAIR, outside="drop").powers == pytest.approx([1.0])
+    assert LASER.rebin(PAIR, outside="drop").powers == [0.0]
+    wider = histogram(PAIR, [1.0], outside=0.0).rebin([3e-7, 5e-7, 6e-7])
+    assert wider.powers == pytest.approx([1.0, 0.0])
+    # Now it is known that nothing else is there.
+    assert wider.at("700 nm") == 0.0
+    known = sampled(PAIR, [1.0, 3.0], outside=0.0)
+    assert known.resample([3e-7, 5e-7], outside=0.0).values.tolist() == [0.0, 3.0]
+
+
+FAR = np.array([300e-9, 380e-9, 450e-9, 700e-9])
+
+
+@rows(
+    "outside, values, expected",
+    [
+        (0.0, [2.0, 1.0, 3.0], [0.0, 0.0, 1.5, 0.0]),
+        ("nearest", [2.0, 1.0, 3.0], [2.0, 2.0, 1.5, 3.0]),
+        ("linear", [2.0, 1.0, 3.0], [3.0, 2.2, 1.5, 5.0]),
+        ("linear", [0.5, 1.0, 0.2], [0.0, 0.4, 0.75, 0.0]),
+    ],
+)
+def test_what_a_sampled_spectrum_is_beyond_its_samples(outside, values, expected, tmp_path):
+    lamp = op.Spectrum(THREE, values, outside=outside, name="lamp")
+    assert spectrum_of(spectrum_table(lamp)) == lamp
+    np.testing.assert_allclose(lamp.at(FAR), expected, rtol=1e-12, atol=1e-12)
+    path = read_back(op.Source(spectrum=lamp) >> op.Detector(), tmp_path)
+    found = path.trace(wavelength=FAR).intensity
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
+    with pytest.raises(op.OptipathError, match="outside='nearest'"):
+        op.Spectrum(THREE, values).at(FAR)
+
+
+def test_what_goes_on_beyond_samples_is_counted_and_computed_with_there():
+    first = op.Spectrum(THREE, [0.5, 1.0, 0.2], outside="linear")
+    # It is 0 from 625 nm on.
+    assert first.power("600 nm", "900 nm") == pytest.approx(0.5 * 25 * 0.2, rel=1e-9)
+    with pytest.raises(op.ValueFault, match="does not end"):
+        first.power()
+    far = np.array([300e-9, 700e-9, 900e-9])
+    second = op.Spectrum(THREE, [1.0, 1.0, 1.5], outside="linear")
+    np.testing.assert_allclose((first + second).at(far), first.at(far) + second.at(far))
+    np.testing.assert_allclose((2 * first).at(far), 2 * first.at(far))
+    np.testing.assert_allclose((first * op.Spectrum.constant(3)).at(far), 3 * first.at(far))
+
+
+def test_a_product_has_the_samples_of_both():
+    lamp = op.Spectrum(["400 nm", "500 nm", "700 nm"], [1.0, 2.0, 0.0])
+    glass = op.Spectrum(["450 nm", "600 nm", "800 nm"], [0.2, 0.8, 0.4])
+    seen = lamp * glass
+    np.testing.assert_allclose(seen.wavelengths * 1e9, [450, 500, 600, 700])
+    np.testing.assert_allclose(seen.values, [0.3, 0.8, 0.8, 0.0], rtol=1e-12, atol=1e-12)
+    # Trapezoids.
+    assert seen.power() == pytest.approx(50 * 0.55 + 100 * 0.8 + 100 * 0.4, rel=1e-12)
+    ratio = glass / op.Spectrum(["400 nm", "700 nm"], [1.0, 4.0])
+    np.testing.assert_allclose(ratio.at("600 nm"), 0.8 / 3.0, rtol=1e-12)
+    first, second = ([f"{low} nm", f"{low + 50} nm"] for low in (400, 500))
+    dark = op.Spectrum(first, [1, 1], outside=0.0) * op.Spectrum(second, [1, 1], outside=0.0)
+    assert dark.at("520 nm") == 0.0
+
+
+@rows(
+    "one, other, at, expected",
+    [
+        (0.0, 0.0, "500 nm", [0.0, 2.0 * 4.0, 0.0]),
+        ("nearest", "nearest", "450 nm", [1.0 * 3.0, 1.5 * 3.0, 2.0 * 6.0]),
+        ("nearest", 0.0, "500 nm", [0.0, 2.0 * 4.0, 0.0]),
+        *((one, "nearest", "", []) for one in (None, "linear")),
+    ],
+)
+def test_a_product_is_known_beyond_samples_where_both_say_so(one, other, at, expected):
+    first = op.Spectrum(["400 nm", "500 nm"], [1.0, 2.0], outside=one)
+    second = op.Spectrum(["450 nm", "600 nm"], [3.0, 6.0], outside=other)
+    for seen in (first * second, second * first):
+        if at:
+            np.testing.assert_allclose(seen.at(["350 nm", at, "700 nm"]), expected, rtol=1e-12)
+        else:
+            with pytest.raises(op.OptipathError, match="is known"):
+                seen.at("700 nm")
+
+
+def test_a_diode_between_coarse_samples_keeps_its_power():
+    coarse = op.Spectrum(["380 nm", "550 nm", "700 nm"], [0.1, 0.9, 0.3])
+    # A straight line from 0.1 at 380 nm to 0.9 at 550 nm, by what is even around 450 nm.
+    expected = 0.1 + 0.8 * 70.0 / 170.0
+    for width in ("20 nm", "1 nm", "0.001 nm"):
+        diode = led("450 nm", width)
+        for seen in (coarse * diode, diode * coarse, (diode + op.Spectrum.constant(0)) * coarse):
+            assert seen.power() == pytest.approx(expected, rel=1e-5)
+    far = coarse * led("900 nm", "20 nm")
+    np.testing.assert_array_equal(far.wavelengths, coarse.wavelengths)
