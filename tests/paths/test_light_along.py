@@ -47,7 +47,7 @@ def test_powers_are_told_of_sources_loops_and_what_amplifies_but_not_of_rounding
     found = energy_along(op.load_preset("malus"), angle="60 deg", intensity=8.0)
     assert numbers(found.given) == {"lamp": 8.0}
     assert numbers(found.taken) == pytest.approx({"polarizer": 4.0, "analyzer": 3.0})
-    assert found.ended["eye"] == pytest.approx(1.0)
+    assert numbers(found.ended) == pytest.approx({"eye": 1.0})
     assert not found.left
     assert not found.notes
     found = assert_conserved(op.load_preset("malus"), intensity=0.0)
@@ -59,8 +59,8 @@ def test_powers_are_told_of_sources_loops_and_what_amplifies_but_not_of_rounding
     inner = {link.name: link.power for link in found.links if link.in_loop}
     assert inner["front.transmitted -> down.in"] == pytest.approx(0.96 / (1 - 0.04**2))
     assert len(inner) == 4
-    assert len(found.notes) == 1
-    assert found.notes[0].startswith("light goes round")
+    (note,) = found.notes
+    assert note.startswith("light goes round")
     # A way there and back through one element is none.
     path = op.load_preset("double-pass-waveplate")
     assert not any(link.in_loop for link in energy_along(path).links)
@@ -118,22 +118,16 @@ def test_many_values_keep_their_shape_and_are_written_as_json():
     assert [each.light.intensity for each in lights_along(path, keep=3.0)] == [3.0]
 
 
-BACK = "mirror.reflected -> analyzer-back.in", "polarizer-back.out -> returned.in"
-
-
-@rows(
-    "preset, before, behind",
-    [
-        ("npgr026", "X2.transmitted", "X1.reflected -> E.in"),
-        ("sky-and-window", "tilt.out -> pane.in", "pane.reflected -> polarizer.in"),
-        ("glass-slab", "front.transmitted -> down.in", "up.out -> front.back"),
-        ("ellipsometer-pcsa", "S.transmitted", "A.out -> photometer.in"),
-        ("faraday-isolator", *BACK),
-    ],
-)
-def test_light_stands_in_the_order_of_travel(preset, before, behind):
-    found = [each.name for each in lights_along(op.load_preset(preset))]
-    assert found.index(before) < found.index(behind)
+ORDER = {
+    "npgr026": ("X2.transmitted", "X1.reflected -> E.in"),
+    "sky-and-window": ("tilt.out -> pane.in", "pane.reflected -> polarizer.in"),
+    "glass-slab": ("front.transmitted -> down.in", "up.out -> front.back"),
+    "ellipsometer-pcsa": ("S.transmitted", "A.out -> photometer.in"),
+    "faraday-isolator": (
+        "mirror.reflected -> analyzer-back.in",
+        "polarizer-back.out -> returned.in",
+    ),
+}
 
 
 @rows("preset", PRESETS)
@@ -144,4 +138,8 @@ def test_all_light_on_the_way_stands_behind_what_leads_to_it_unless_light_goes_r
         arrives = {end for _, end in path.graph.in_edges(each.start)}
         assert not arrives or each.start in met or path.compose().program.loops
         met.add(each.end)
-    assert {each.name for each in found} == {*path.trace(keep="all")} - {*path.graph}
+    names = [each.name for each in found]
+    assert {*names} == {*path.trace(keep="all")} - {*path.graph}
+    if preset in ORDER:
+        before, behind = ORDER[preset]
+        assert names.index(before) < names.index(behind)

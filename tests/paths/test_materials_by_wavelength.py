@@ -12,7 +12,7 @@ from batches_of_chains import quickly
 from chains import ENGINES
 from optipath.lab.accuracy.path_reference import exact_stokes
 from optipath.paths.drawing import draw
-from tables import rows
+from tables import rows, slow
 from wired import read_back, wired
 
 STATE = (1.0, 0.3, 0.2, 0.1)
@@ -20,14 +20,17 @@ B, C = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.
 BK7 = op.Material.sellmeier(B, C, name="BK7")
 TINTED = op.Material.sellmeier(B, C, k=2e-6, name="tinted glass")
 SILICA = op.Material.cauchy([1.458, 0.00354], name="silica")
-GOLD = op.Material.tabulated(
-    ["400 nm", "500 nm", "521 nm", "700 nm"],
-    [1.47, 0.97, 0.62, 0.13],
-    [1.95, 1.87, 2.08, 4.0],
-    name="gold",
-)
+OF_GOLD = [4e-7, 5e-7, 5.21e-7, 7e-7], [1.47, 0.97, 0.62, 0.13], [1.95, 1.87, 2.08, 4.0]
+GOLD = op.Material.tabulated(*OF_GOLD, name="gold")
 WAVELENGTHS = np.array([450e-9, 516e-9, 633e-9])
 FOLLOWING = op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)
+BELOW = op.Material.tabulated([5e-7, 6e-7], [0.9, 0.1], [2, 3], name="metal", extrapolate="linear")
+GRID = np.array([4.0e-7, 4.4e-7, 5.16e-7])
+NODES, N, K = [4e-7, 5e-7, 6e-7], [1.5, 1.0, 0.3], [1.9, 1.8, 2.9]
+TGG = op.drude_rotation([-41.72], [0.08909], unit="rad/(T m)", label="TGG")
+GREEN = op.tabulated(["500 nm", "600 nm"], [0.2, 0.8], label="green")
+ISOLATOR, PANES = op.load_preset("faraday-isolator"), op.load_preset("npgr026")
+OF_N, SHARED_K = op.Parameter("n"), op.Parameter("k")
 
 
 def as_it_is(given):
@@ -52,8 +55,7 @@ def slab_with_echoes(at, _):
 
 
 def stack(at, wavelength):
-    layers = [1.0, at(TINTED), at(SILICA), at(GOLD)]
-    lengths = ["1 mm", "2 mm"]
+    layers, lengths = [1.0, at(TINTED), at(SILICA), at(GOLD)], ["1 mm", "2 mm"]
     pane = op.LayerStack(layers, 0.6, lengths=lengths, wavelength=wavelength)
     return op.Source(1.0, STATE) >> pane >> op.Detector()
 
@@ -69,21 +71,13 @@ def double_pass(at, _):
     return op.Source(1.0, STATE) >> way >> op.Detector()
 
 
-def turned_round(at, _):
-    return slab(at, _).reversed()
-
-
-PATHS = [slab, slab_with_echoes, stack, chain, double_pass, turned_round]
+PATHS = [slab, slab_with_echoes, stack, chain, double_pass, lambda at, _: slab(at).reversed()]
 
 
 # Loops and stacks are compiled for many seconds, by JAX most of all.
 @pytest.mark.parametrize(
     ("engine", "built"),
-    [
-        ("numpy", PATHS),
-        *((engine, [slab]) for engine in ENGINES[1:]),
-        pytest.param("numba", PATHS, marks=pytest.mark.slow),
-    ],
+    [("numpy", PATHS), *((name, [slab]) for name in ENGINES[1:]), slow(("numba", PATHS))],
 )
 def test_light_of_each_wavelength_is_that_of_the_numbers_there(engine, built):
     for build in built:
@@ -100,15 +94,11 @@ def test_light_of_each_wavelength_is_that_of_the_numbers_there(engine, built):
         np.testing.assert_allclose(bound, path.trace(wavelength="516 nm").stokes, rtol=1e-14)
 
 
-@rows("outside", [SILICA, 1.5])
-def test_two_materials_on_both_sides_of_a_link_are_refused_by_their_names(outside):
-    with pytest.raises(op.OptipathError) as fault:
-        slab(outside=outside).trace(wavelength="516 nm")
-    told = str(fault.value)
-    assert "'back.in' is lit from n = 1.520" in told
-    assert "(n of BK7) behind 'front'" in told
-    assert told.endswith("op.FOLLOWS for outside")
-    assert "[" not in told
+def test_two_materials_on_both_sides_of_a_link_are_refused_by_their_names():
+    told = r"^[^[]*'back.in' is lit from n = 1\.520[^[]*\(n of BK7\) behind 'front'[^[]*outside$"
+    for outside in (SILICA, 1.5):
+        with pytest.raises(op.OptipathError, match=told):
+            slab(outside=outside).trace(wavelength="516 nm")
     # One material on both sides is one medium.
     by_hand = slab(outside=BK7).trace(wavelength="516 nm")
     assert by_hand == slab().trace(wavelength="516 nm")
@@ -130,47 +120,25 @@ def test_rays_are_refracted_by_the_index_of_their_wavelength_and_are_nan_where_i
     assert np.isfinite(light(5e-7)).all()
 
 
-BELOW = op.Material.tabulated(
-    [500e-9, 600e-9], [0.9, 0.1], [2.0, 3.0], name="metal", extrapolate="linear"
-)
-
-
-@rows(
-    "call, sentences",
-    [
-        (op.Interface(GOLD, 0.3).mueller, ["n of gold of interface depends on the wavelength"]),
-        *(
-            (
-                lambda end=end: stack(as_it_is, op.Wavelength()).trace(wavelength=["500 nm", end]),
-                ["within 400 nm .. 700 nm, for which gold is known", "layer-stack.indices[3].n"],
-            )
-            for end in ("300 nm", "5 um")
-        ),
-        (
-            lambda: (op.Source() >> op.Interface(BELOW, 0.3) >> op.Detector()).trace(
-                wavelength=["550 nm", "700 nm"]
-            ),
-            [
-                "n of metal at 700 nm is -0.7 (beyond its samples a straight line goes on), and ",
-                "and interface.index.n takes a real index of refraction of 0 or more; give another",
-            ],
-        ),
-    ],
-)
-def test_where_a_material_is_not_known_it_is_refused_where_it_stands(call, sentences):
-    with pytest.raises(op.OptipathError) as fault:
-        call()
-    for sentence in sentences:
-        assert sentence in str(fault.value)
+def test_where_a_material_is_not_known_it_is_refused_where_it_stands():
+    with pytest.raises(op.OptipathError, match="n of gold of interface depends on the wavelength"):
+        op.Interface(GOLD, 0.3).mueller()
+    path = stack(as_it_is, op.Wavelength())
+    for end in ("300 nm", "5 um"):
+        with pytest.raises(op.OptipathError, match=r"within 400 nm .. 700 nm, .* gold") as fault:
+            path.trace(wavelength=["500 nm", end])
+        assert "layer-stack.indices[3].n" in str(fault.value)
+    told = "n of metal at 700 nm is -0.7 .beyond its .* interface.index.n takes a real index"
+    with pytest.raises(op.OptipathError, match=told):
+        lit(BELOW).trace(wavelength=["550 nm", "700 nm"])
 
 
 def reference(wavelength, strength, plasma, length):
     """The intensity behind a pane of glass that absorbs, of light reflected by a metal there."""
     w = wavelength * 10**6
     strengths = (strength, *map(mp.mpf, B[1:]))
-    glass = mp.sqrt(
-        1 + sum(b * w**2 / (w**2 - mp.mpf(c)) for b, c in zip(strengths, C, strict=True))
-    )
+    terms = (b * w**2 / (w**2 - mp.mpf(c)) for b, c in zip(strengths, C, strict=True))
+    glass = mp.sqrt(1 + sum(terms))
     constant = mp.mpf("6.62607015e-34") * 299792458 / mp.mpf("1.602176634e-19")
     energy = constant / wavelength
     metal = mp.sqrt(4 - plasma**2 / (energy * (energy + mp.mpc(0, 1) * mp.mpf(0.07))))
@@ -221,10 +189,6 @@ def test_slopes_of_light_in_wavelength_coefficients_and_thickness_have_twelve_di
             assert float(slope) == pytest.approx(float(wanted), rel=1e-12)
 
 
-GRID = np.array([4.0e-7, 4.4e-7, 5.16e-7])
-NODES, N, K = [4e-7, 5e-7, 6e-7], [1.5, 1.0, 0.3], [1.9, 1.8, 2.9]
-
-
 def paint(wavelength=None):
     return op.Material.tabulated(NODES, N, K, name="paint", wavelength=wavelength)
 
@@ -264,25 +228,17 @@ def test_materials_bound_to_indices_give_n_and_k_of_the_path_at_one_wavelength()
     np.testing.assert_allclose(light.stokes, path.trace(m=1.0 + 1.8j).stokes, rtol=1e-13)
 
 
-OF_N, SHARED_K = op.Parameter("n"), op.Parameter("k")
-
-
 def lit(*indices):
     path = op.Source()
     for index in indices:
-        path = path >> op.Interface(index, 0.3)
+        medium = op.Material(*index) if isinstance(index, tuple) else index
+        path = path >> op.Interface(medium, 0.3)
     return path >> op.Detector()
 
 
 def bound_in_a_part_of_a_path_and_open_in_another():
     part = (op.Source() >> op.Interface(paint(), 0.3)).bind(wavelength="500 nm")
     (part >> op.Interface(paint(), 0.3) >> op.Detector()).trace()
-
-
-TGG = op.drude_rotation([-41.72], [0.08909], unit="rad/(T m)", label="TGG")
-GREEN = op.tabulated(["500 nm", "600 nm"], [0.2, 0.8], label="green")
-ISOLATOR = op.load_preset("faraday-isolator")
-PANES = op.load_preset("npgr026")
 
 
 @rows(
@@ -293,21 +249,12 @@ PANES = op.load_preset("npgr026")
         (lambda: PANES.with_defaults(n1=paint()), r"bind it, by path.bind\(.1=...\)"),
         (lambda: PANES.bind(delta=paint()), "'delta' .* stands for an index of refraction"),
         (lambda: PANES.bind(k1=paint()), "'k1' .* stands for an index of refraction"),
-        (
-            lambda: PANES.bind(n1=paint(), wavelength="1 um"),
-            "1000 nm; .* 400 nm .. 600 nm, for which paint",
-        ),
+        (lambda: PANES.bind(n1=paint(), wavelength="1 um"), "1000 nm; .* .. 600 nm, for .* paint"),
         (lambda: PANES.bind(n1=paint(), wavelength=516), "write '516 nm'"),
-        (lambda: lit(op.Material(OF_N, 2.0)).bind(n=paint()), "k is 2 where the path is built"),
-        (
-            lambda: lit(op.Material(OF_N, SHARED_K), op.Material(1.5, SHARED_K)).bind(n=paint()),
-            r"'k' stands at interface-2.index.k besides",
-        ),
-        (lambda: lit(op.Material(0.5 * OF_N, SHARED_K)).bind(n=paint()), r"'n' stands as 0.5 \* n"),
-        (
-            bound_in_a_part_of_a_path_and_open_in_another,
-            r"'wavelength' is open at .*, and bound elsewhere to 500 nm; bind it",
-        ),
+        (lambda: lit((OF_N, 2.0)).bind(n=paint()), "k is 2 where the path is built"),
+        (lambda: lit((OF_N, SHARED_K), (1.5, SHARED_K)).bind(n=paint()), "'k' .* interface-2.ind"),
+        (lambda: lit((0.5 * OF_N, SHARED_K)).bind(n=paint()), r"'n' stands as 0.5 \* n"),
+        (bound_in_a_part_of_a_path_and_open_in_another, "'w.*' is open .*, and bound .* to 500 nm"),
         # Curves of one number.
         (lambda: ISOLATOR.bind(length=TGG), "rad/"),
         (lambda: ISOLATOR.with_defaults(verdet=TGG), r"bind it, by path\.bind\(verdet"),
@@ -336,8 +283,7 @@ def test_a_path_with_a_material_is_copied_written_drawn_and_explained(tmp_path):
     assert "parameter wavelength: must be given" in explained
     assert "n of paint follows from wavelength" in explained
     green = str(path.bind(wavelength="516 nm").compose().explanation())
-    assert "parameter wavelength = 516 nm" in green
-    assert "paint" not in green
+    assert ("parameter wavelength = 516 nm" in green, "paint" in green) == (True, False)
 
 
 def test_questions_of_a_plan_and_the_reference_take_the_wavelength():
@@ -358,13 +304,9 @@ def test_questions_of_a_plan_and_the_reference_take_the_wavelength():
     np.testing.assert_allclose(light.stokes, exact, rtol=20 * 2.0**-52)
 
 
-def _verdet(micrometres):
-    return -41.72 / (micrometres**2 - 0.08909)
-
-
 def test_a_curve_stands_where_a_parameter_does_with_its_multiple():
-    turned = _verdet(0.6328) * -0.5 * 20e-3
-    expected = np.cos(np.pi / 4 - turned) ** 2
+    verdet = -41.72 / (0.6328**2 - 0.08909)
+    expected = np.cos(np.pi / 4 - verdet * -0.5 * 20e-3) ** 2
     at = {"wavelength": "632.8 nm"}
     lights = [
         op.load_preset("faraday-isolator", verdet=TGG).trace_all(**at),
@@ -378,7 +320,7 @@ def test_a_curve_stands_where_a_parameter_does_with_its_multiple():
     # It takes precedence over a case.
     path = op.load_preset("faraday-isolator", case="tgg", verdet=TGG)
     again = op.load_preset("faraday-isolator", case="tgg").parameters
-    assert again["verdet"].default == pytest.approx(_verdet(0.6328), rel=1e-2)
+    assert again["verdet"].default == pytest.approx(verdet, rel=1e-2)
     assert path.trace_all(**at)["passed"].intensity == pytest.approx(1.0, abs=1e-3)
     share = op.Parameter("share")
     path = op.Source() >> op.Attenuator(0.1 + 0.5 * share) >> op.Detector()
@@ -392,27 +334,18 @@ def test_a_curve_stands_where_a_parameter_does_with_its_multiple():
 
 
 def test_curves_of_the_numbers_of_all_presets_give_the_same_light():
-    faults, tried = [], 0
+    tried = 0
     for preset in op.preset_names():
         path = op.load_preset(preset)
+        given = {"wavelength": 5e-7} if "wavelength" not in path.parameters else {}
         for name, one in path.parameters.items():
             number = isinstance(one.default, float) and not one.bound and np.isfinite(one.default)
             if not number or isinstance(one, op.Wavelength) or one.words or one.optional:
                 continue
-            unit = one.unit if one.unit else ""
-            text = one.text(one.default)
-            curve = op.tabulated(["100 nm", "10 um"], [text, text], unit)
-            given = {"wavelength": 5e-7} if "wavelength" not in path.parameters else {}
-            try:
-                found = path.bind(**{name: curve}).trace_all(**given)
-            except op.OptipathError as fault:
-                faults.append(f"{preset} {name}: {fault}")
-                continue
             tried += 1
+            curve = op.tabulated(["100 nm", "10 um"], [one.text(one.default)] * 2, one.unit or "")
+            found, told = path.bind(**{name: curve}).trace_all(**given), f"{preset} {name}"
             for end, light in path.trace_all().items():
-                if not np.allclose(
-                    found[end].stokes, light.stokes, rtol=1e-9, atol=1e-12, equal_nan=True
-                ):
-                    faults.append(f"{preset} {name}: {found[end]} {light}")
-    assert faults == []
+                stokes = found[end].stokes
+                np.testing.assert_allclose(stokes, light.stokes, 1e-9, 1e-12, err_msg=told)
     assert tried > 50

@@ -3,6 +3,7 @@
 import copy
 import functools
 import json
+import operator
 import pickle
 
 import numpy as np
@@ -24,15 +25,11 @@ npgr026 = functools.partial(op.load_preset, "npgr026")
 
 def built(place, angle):
     """Case 8 of the two reflections, with the filter at a place, element by element."""
-    lamp = op.Source(100.0)
     second = op.Interface(0.608 + 2.12j, np.radians(20.0))
     first = op.Interface(1.12 + 2.16j, np.radians(48.0), azimuth=np.radians(-34.0))
-    row = [lamp, second, first, op.Detector()]
+    row = [op.Source(100.0), second, first, op.Detector()]
     row.insert([*ROWS].index(place) + 1, op.Polarizer(angle))
-    path = row[0]
-    for element in row[1:]:
-        path = path >> element
-    return path
+    return functools.reduce(operator.rshift, row)
 
 
 @rows("place", [*ROWS])
@@ -71,19 +68,17 @@ def turned(plate=None, link=None, **own):
 @rows("how", [{"azimuth": 0.35}, {"link": 0.35}])
 @rows("plate", [None, 0.1, op.Parameter("a", 0.1)])
 def test_a_filter_that_is_moved_stays_turned_in_the_light(plate, how):
-    path, by_angle = turned(plate, **how), op.Source(100) >> op.Polarizer(0.55)
+    path, gold = turned(plate, **how), op.Interface(0.17 + 3.15j, "45 deg")
     # The eye stays as it was turned, too.
     eye = op.Retarder(0.0, azimuth=0.35) >> op.Detector()
-    by_angle = by_angle >> op.Interface(0.17 + 3.15j, "45 deg") >> eye
-    expected, before = by_angle.trace().stokes, path.trace().stokes
+    expected = (op.Source(100) >> op.Polarizer(0.55) >> gold >> eye).trace().stokes
     moved = path.bind(place="lamp")
-    np.testing.assert_allclose(moved.trace().stokes, expected, rtol=1e-13, atol=1e-13)
-    back = moved.bind(place="gold")
-    np.testing.assert_allclose(back.trace().stokes, before, rtol=1e-13, atol=1e-13)
+    found = [moved.trace().stokes, moved.bind(place="gold").trace().stokes]
+    np.testing.assert_allclose(found, [expected, path.trace().stokes], rtol=1e-13, atol=1e-13)
     if plate is not None:
         path.remove("plate")
-        moved = path.bind(place="lamp")
-        np.testing.assert_allclose(moved.trace().stokes, expected, rtol=1e-13, atol=1e-13)
+        found = path.bind(place="lamp").trace().stokes
+        np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
 
 
 def test_a_filter_is_moved_past_a_turned_plate_or_by_hand():
@@ -115,8 +110,7 @@ def test_a_filter_is_moved_past_a_turned_plate_or_by_hand():
 def test_choices_are_copied_compared_joined_and_chosen_again(tmp_path):
     path = npgr026()
     assert path == npgr026(place="light")
-    names = ("delta", "rho", "phi", "n1", "k1", "n2", "k2", "filter", "intensity")
-    assert tuple(path.parameters) == names
+    assert " ".join(path.parameters) == "delta rho phi n1 k1 n2 k2 filter intensity"
     assert path.choices["place"].place(path.graph) == "light"
     moved = npgr026(place="eye")
     assert moved.bind(place="between").bind(place="light") == path
@@ -149,16 +143,10 @@ def test_choices_are_copied_compared_joined_and_chosen_again(tmp_path):
 @rows(
     "choose, told",
     [
-        (
-            lambda: npgr026(place="eyes", delta="steep"),
-            r"(?s)place 'eyes' is unknown; did you mean 'eye'\?.*delta",
-        ),
+        (lambda: npgr026(place="eyes", delta="steep"), r"(?s)'eyes' .* you mean 'eye'\?.*delta"),
         (lambda: npgr026(plce="eye"), "did you mean 'place'"),
         (lambda: npgr026().trace(place="eye"), r"path\.bind\(place=\.\.\.\)"),
-        (
-            lambda: npgr026().compose().run(delta=[0.1, 0.2], place="eye"),
-            r"path\.bind\(place=\.\.\.\)",
-        ),
+        (lambda: npgr026().compose().run(delta=[0.1, 0.2], place="eye"), r"path\.bind\(place="),
     ],
 )
 def test_a_place_is_chosen_by_its_word_before_a_path_runs(choose, told):
@@ -173,8 +161,7 @@ def test_a_place_is_chosen_by_its_word_before_a_path_runs(choose, told):
         (("place", "X1", {"light": "L.out"}), "not go straight through 'X1'"),
         (("place", "P", {"light": "L.ou"}), "did you mean 'L.out'"),
         (("place", "P", {"out": "X1.transmitted"}), "feeds no one link"),
-        (("place", "P", {}), "a port for each word"),
-        (("place", "P", ["L.out"]), "a port for each word"),
+        *((("place", "P", given), "a port for each word") for given in ({}, ["L.out"])),
         (("place", "E", {"light": "L.out"}), "'E' has no way out"),
         (("place", "P", {"own": "P.out"}), "feeds no one link"),
         (("a b", "P", {"light": "L.out"}), "letters, digits and underscores"),
@@ -197,20 +184,15 @@ def test_places_that_cannot_be_taken_are_told_when_they_are_offered(offered, tol
         ("[choices.place]", "[choices.rho]", "'rho' is a parameter and a choice"),
     ],
 )
-def test_faults_of_choices_in_a_file_have_their_place(old, new, told, tmp_path):
+def test_faults_of_choices_in_a_file_have_their_place_and_nodes(old, new, told, tmp_path):
     text = npgr026().to_toml()
     with pytest.raises(op.PathError, match=told):
         read(text.replace(old, new, 1), tmp_path)
-
-
-def test_a_node_that_is_removed_has_no_choice_and_one_whose_ports_are_gone_is_not_written():
     path = npgr026()
     path.cases.clear()
     path.remove("P")
-    assert not path.choices
-    assert "choices" not in path.to_toml()
+    assert ("choices" in path.to_toml(), {*path.choices}) == (False, set())
     path = npgr026()
-    assert "place" in path.choices
     path.disconnect("X1", "E")
     with pytest.raises(op.PathError, match=r"choice 'place': place 'eye': 'X1\.reflected' feeds"):
         path.to_toml()

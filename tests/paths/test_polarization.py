@@ -27,9 +27,8 @@ INCIDENCES = st.floats(0.0, 1.55)
 
 def stack(media, incidence, port="reflected", **others):
     """A path on which unpolarised light meets a stack."""
-    layers = op.LayerStack(media, incidence, **others)
-    ends = {"lamp": op.Source(), "layers": layers, "eye": op.Detector()}
-    return wired(ends, f"lamp -> layers, layers.{port} -> eye")
+    ends = {"lamp": op.Source(), "layers": op.LayerStack(media, incidence, **others)}
+    return wired({**ends, "eye": op.Detector()}, f"lamp -> layers, layers.{port} -> eye")
 
 
 def layer_by_hand(n, below, incidence, port="reflected", medium=None):
@@ -40,10 +39,8 @@ def layer_by_hand(n, below, incidence, port="reflected", medium=None):
     if medium is not None:
         ends |= {"down": medium, "up": medium}
         links = "top.transmitted -> down, down -> bottom, bottom.reflected -> up, up -> top.back"
-    leaves = f"{'top' if port == 'reflected' else 'bottom'}.{port}"
-    return wired(
-        {**ends, "eye": op.Detector()}, f"lamp -> top, {links}, {leaves} -> eye", loops="sum"
-    )
+    links = f"lamp -> top, {links}, {'top' if port == 'reflected' else 'bottom'}.{port} -> eye"
+    return wired({**ends, "eye": op.Detector()}, links, loops="sum")
 
 
 def fresnel(n1, n2, y):
@@ -61,11 +58,8 @@ def mean(n1, n2, y):
 
 def test_layers_on_others_differ_from_the_scalar_model_as_their_loops_do():
     found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
-    np.testing.assert_allclose(
-        100.0 * found.difference, [-1.785, -2.498, -2.900, -3.167], rtol=0, atol=5e-4
-    )
-    assert found.exact[3] == pytest.approx(0.16024, abs=5e-6)
-    assert found.scalar[3] == pytest.approx(0.16548, abs=5e-6)
+    assert 100.0 * found.difference == pytest.approx([-1.785, -2.498, -2.900, -3.167], abs=5e-4)
+    assert (found.exact[3], found.scalar[3]) == pytest.approx((0.16024, 0.16548), abs=5e-6)
     sample = op.Sample([(1.5, 0.1), (2.4, 0.1)])
     found = op.polarization(op.Source() >> sample.smooth("56 deg") >> op.Detector())
     assert found.difference == pytest.approx(-0.02498, abs=5e-6)
@@ -105,16 +99,10 @@ def test_layers_that_absorb_agree_with_50_digits(media, lengths, port):
     angles = [0.0, 0.4, 0.98, 1.5]
     found = op.polarization(stack(media, angles, port, lengths=lengths, wavelength=5e-7))
     for name in ("scalar", "exact"):
-        exact = [
-            getattr(exact_stack(media, lengths, 5e-7, angle, scalar=name == "scalar"), port)
-            for angle in angles
-        ]
-        expected = [float((s + p) / 2) for s, p, _ in exact]
+        exact = [exact_stack(media, lengths, 5e-7, a, scalar=name == "scalar") for a in angles]
+        expected = [float(sum(getattr(each, port)[:2]) / 2) for each in exact]
         np.testing.assert_allclose(getattr(found, name), expected, rtol=1e-12)
-
-
-@rows("port", ["reflected", "transmitted"])
-def test_a_stack_and_the_same_boundaries_in_a_loop_agree_to_the_last_digits(port):
+    # A stack and the same boundaries in a loop agree to the last digits.
     for n, below in ((1.5, 2.4), (2.4, 1.5), (1.3, 1.0)):
         one = op.polarization(stack([1.0, n, below], ANGLES, port))
         other = op.polarization(layer_by_hand(n, below, ANGLES, port))
@@ -145,8 +133,7 @@ def test_sums_over_all_rounds_are_those_of_means_and_nothing_gets_lost():
         out, light = out + 0.3 * light, 0.7 * light
     found = op.polarization(path)
     assert found.scalar == pytest.approx(out, rel=1e-14)
-    assert found.exact == path.trace().intensity
-    assert found.certificate is None
+    assert (found.exact, found.certificate) == (path.trace().intensity, None)
     bottom = op.Interface(2.4, op.FOLLOWS, outside=op.FOLLOWS)
     ends = {"lamp": op.Source(), "top": op.LayerStack([1.0, 1.5, 1.8], 0.9), "bottom": bottom}
     links = "lamp -> top, top.transmitted -> bottom, bottom.reflected -> top.back, top -> eye"
@@ -195,35 +182,24 @@ def test_what_is_exact_keeps_within_bounds_of_a_stack_among_others(media, incide
 
 
 @rows("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
-def test_batches_give_what_single_paths_give(make):
+def test_batches_give_what_single_paths_give_and_values_that_jax_traces_are_refused(make):
     path, angles = make([1.0, 1.5, 2.4], op.Parameter("a")), np.linspace(0.0, 1.57, 20_000)
     found = op.polarization(path, a=angles)
     for place in (0, 7_777, -1):
         one = op.polarization(path, a=float(angles[place]))
         for name in ("exact", "scalar", "difference"):
             assert getattr(found, name)[place] == getattr(one, name)
+    jax = pytest.importorskip("jax")
+    with pytest.raises(op.ParameterError, match="not of values that JAX traces"):
+        jax.jit(lambda a: op.polarization(path, a=a).difference)(ANGLES)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "make",
-    [lambda a: stack([1.0, 1.5, 2.4], a), lambda a: ring([op.Polarizer(a), op.Polarizer(0.3)])],
-)
-def test_jax_gives_what_the_others_give(make):
-    jax = pytest.importorskip("jax")
-    path = make(op.Parameter("a"))
-    found = op.polarization(path, a=jax.numpy.asarray(ANGLES))
-    np.testing.assert_allclose(
-        found.difference, op.polarization(path, a=ANGLES).difference, rtol=1e-4, atol=1e-6
-    )
-
-
-@rows("make", [stack, lambda media, a: layer_by_hand(*media[1:], a)])
-def test_values_that_jax_traces_are_refused(make):
-    jax = pytest.importorskip("jax")
-    path = make([1.0, 1.5, 2.4], op.Parameter("a"))
-    with pytest.raises(op.ParameterError, match="not of values that JAX traces"):
-        jax.jit(lambda a: op.polarization(path, a=a).difference)(ANGLES)
+def test_jax_gives_what_the_others_give():
+    jax, a = pytest.importorskip("jax"), op.Parameter("a")
+    for path in (stack([1.0, 1.5, 2.4], a), ring([op.Polarizer(a), op.Polarizer(0.3)])):
+        found, expected = (op.polarization(path, a=n) for n in (jax.numpy.asarray(ANGLES), ANGLES))
+        np.testing.assert_allclose(found.difference, expected.difference, rtol=1e-4, atol=1e-6)
 
 
 def test_the_command_says_that_loops_have_no_bounds(capsys):
@@ -250,11 +226,9 @@ def test_a_stack_is_taken_as_a_whole_and_a_detector_by_its_name():
     found, exact = plan.run(a=angle).intensity, path.trace(a=angle).intensity
     np.testing.assert_allclose(found, exact, rtol=0.03)
     assert np.max(np.abs(found / exact - 1.0)) > 0.01  # The scalar model has been run for some.
-    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25)}
-    path = wired(
-        {**ends, "a": op.Detector(), "b": op.Detector()},
-        "lamp -> split, split.reflected -> a, split.transmitted -> b",
-    )
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "a": op.Detector()}
+    links = "lamp -> split, split.reflected -> a, split.transmitted -> b"
+    path = wired({**ends, "b": op.Detector()}, links)
     assert op.polarization(path, "b").exact == 0.75
     for asked, told in (
         ((path,), "2 detectors"),
@@ -268,16 +242,13 @@ def test_a_stack_is_taken_as_a_whole_and_a_detector_by_its_name():
 def test_the_elements_that_bring_the_difference_in_are_named_with_their_shares():
     elements = [op.Interface(0.05 + 3.9j, 0.5), op.Retarder(1.0, 0.3), op.Polarizer(0.7)]
     found = op.polarization(chain(elements, [1.0, 0.0, 0.9, 0.0]))
-    assert found.culprits == ("e2",)
-    assert set(found.elements) == {"e0", "e1", "e2"}
+    assert (found.culprits, {*found.elements}) == (("e2",), {"e0", "e1", "e2"})
     assert found.elements["e1"] == 0.0
     found = op.polarization(chain([op.Rotator(0.3), op.Attenuator(0.5)], [1.0, 0.5, 0.0, 0.2]))
-    assert found.difference == 0.0
-    assert found.culprits == ()
+    assert (found.difference, found.culprits) == (0.0, ())
     assert found.certificate.error >= 0.0
     crossed = op.polarization(op.load_preset("two-panes"))
-    assert crossed.exact == pytest.approx(0.0, abs=1e-15)
-    assert crossed.difference == pytest.approx(-1.0)
+    assert (crossed.exact, crossed.difference) == pytest.approx((0.0, -1.0), abs=1e-15)
     dark = op.polarization(chain([op.Attenuator(0.0), op.Polarizer(0.1), op.Polarizer(1.0)]))
     assert dark.scalar == dark.difference == 0.0
     found = op.polarization(stack([1.5, 1.0, 1.5], [0.8, 1.2]))
@@ -289,9 +260,8 @@ def test_the_elements_that_bring_the_difference_in_are_named_with_their_shares()
     found = op.polarization(panes, delta=angle, phi=angle)
     A, B, _, _ = op.fresnel_reflection(1.5, np.cos(angle), np.sin(angle))
     np.testing.assert_allclose(found.scalar, 100.0 * A * A, rtol=1e-13)
-    np.testing.assert_allclose(found.difference, -((B / A) ** 2), rtol=0, atol=1e-13)
     # Without one of the two nothing is lost.
-    for share in (found.elements["X1"], found.elements["X2"]):
+    for share in (found.difference, found.elements["X1"], found.elements["X2"]):
         np.testing.assert_allclose(share, -((B / A) ** 2), rtol=0, atol=1e-13)
     found = op.polarization(stack([1.0, 1.5, 2.4], ANGLES))
     for bound in (found.certificate.lower, found.certificate.upper):

@@ -1,7 +1,7 @@
 """Elements put into the links of a path, taken out of it, and exchanged; nothing else is turned."""
 
-import dataclasses
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +12,8 @@ from wired import read_back, wired
 
 A = op.Parameter("a")
 AT = {"a": 0.37}
+FRAME = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+SEVERAL = np.array([0.1, 0.2])
 
 
 def two_reflections(case=8):
@@ -26,11 +28,14 @@ def stokes(path):
 def test_elements_are_inserted_before_the_eye_between_turns_and_at_one_of_several_links():
     path = op.load_preset("npgr026")
     before = path.trace()
-    node = path.insert("P2", op.Polarizer(angle=0.3), behind="X1.reflected")
-    assert repr(node) == "Node 'P2'"
+    assert repr(path.insert("P2", op.Polarizer(0.3), behind="X1.reflected")) == "Node 'P2'"
     assert repr(path) == "<PathGraph: L >> P >> X2 >> X1 >> P2 >> E>"
     # Malus; the light is along x but for 2e-10 of it, near Brewster's angle.
     assert path.trace().intensity == pytest.approx(before.intensity * np.cos(0.3) ** 2, rel=1e-8)
+    for where in ({"before": "E"}, {"before": "E.in"}, {"behind": "X1", "before": "E.in"}):
+        other = op.load_preset("npgr026")
+        other.insert("P2", op.Polarizer(0.3), **where)
+        assert other == path
     path = two_reflections()
     path.insert("P2", op.Polarizer(0.4), behind="X2")
     elements = {name: path.element(name) for name in ("L", "P", "X2", "P2", "X1", "E")}
@@ -68,16 +73,11 @@ def test_azimuths_and_taps_stay_with_their_ports_when_something_is_inserted():
             np.testing.assert_allclose(light.stokes, expected, rtol=1e-14)
 
 
-FRAME = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
-
-
 def placed(*elements):
     """A path whose nodes stand in one world frame each."""
-    path = op.PathGraph()
-    node = None
+    path, node = op.PathGraph(), None
     for element in elements:
-        port = "in" if element.inputs else "out"
-        new = path.add(element.kind, element, {port: FRAME})
+        new = path.add(element.kind, element, {"in" if element.inputs else "out": FRAME})
         node = new if node is None else node >> new
     return path
 
@@ -101,14 +101,6 @@ def test_world_frames_stay_where_an_element_is_inserted_or_replaced():
     assert path.trace().intensity == 0.25
 
 
-@rows("where", [{"before": "E"}, {"before": "E.in"}, {"behind": "X1", "before": "E.in"}])
-def test_an_element_is_inserted_before_a_port_as_behind_the_other_of_the_link(where):
-    path, other = two_reflections(), two_reflections()
-    path.insert("P2", op.Polarizer(0.3), **where)
-    other.insert("P2", op.Polarizer(0.3), behind="X1")
-    assert path == other
-
-
 def put(element=None, name="new", **where):
     return lambda path: path.insert(name, op.Polarizer() if element is None else element, **where)
 
@@ -117,75 +109,63 @@ def swap(element):
     return lambda path: path.replace("X1", element)
 
 
-@rows(
-    "change, told",
-    [
-        (put(op.BeamSplitter(), behind="X2"), "'new' has no one natural way out"),
-        (put(op.Detector(), behind="X2"), "'new' has no way out"),
-        (put(op.Source(), behind="X2"), "'new' has no way in"),
-        (put(behind="X2.transmitted"), r"'X2\.transmitted' feeds no link"),
-        (
-            put(name="D", behind="X1.transmitted"),
-            r"write path\.add\('D', \.\.\.\) and path\.connect\('X1",
-        ),
-        (put(behind="X2.in"), "lets light in"),
-        (put(behind="E"), "'E' has no way out"),
-        (put(behind="X3"), "node .X3. does not exist"),
-        (put("red", behind="X2"), "must be an element such as"),
-        (put(), r"is told no link; give it behind='node\.port'"),
-        (put(before="X1.back"), r"write path\.add\('new', \.\.\.\) and path\.connect\('new', 'X"),
-        (put(behind="X2", before="E"), r"no link 'X2\.reflected -> E\.in'; did you mean 'X1"),
-        (put(name="X1", behind="X2"), "choose another"),
-        (put(name="a.b", behind="X2"), "choose another"),
-        (
-            lambda path: path.remove("X1"),
-            r"not go straight .* 'X2\.reflected -> X1\.in' and 'X1\.reflected -> E",
-        ),
-        (lambda path: path.remove("X3"), "node 'X3' does not exist"),
-        (
-            swap(op.Interface(op.Material(0.17, 3.15), 0.3)),
-            r"'X1' is turned by its azimuth -rho, .* 0\.0 for none",
-        ),
-        (swap(op.Polarizer()), r"no 'X1\.reflected', .* it has 'X1\.in' and 'X1\.out'"),
-        (swap(op.Detector()), r"no 'X1\.reflected', .* it has 'X1\.in'"),
-        (swap(op.Source()), r"no 'X1\.in' and 'X1\.reflected', .* it has 'X1\.out'"),
-        (swap(1.5), "must be an element such as"),
-        (
-            lambda path: path.disconnect("X2", "E"),
-            r"no link 'X2\.reflected -> E\.in'; did you mean",
-        ),
-    ],
-)
-def test_a_change_that_cannot_be_is_told_and_leaves_the_path_as_it_was(change, told):
-    path = two_reflections()
-    with pytest.raises(op.PathError, match=told):
-        change(path)
-    assert path == two_reflections()
+def drop(name):
+    return lambda path: path.remove(name)
 
 
 @rows(
-    "preset, change, told",
+    "change, told, preset",
     [
-        (
-            *("glass-slab", lambda path: path.remove("front")),
-            r"several links meet at 'front', .*'up\.out -> front\.back'",
+        (drop("front"), r"links meet at 'front', .*'up\.out -> front\.back'", "glass-slab"),
+        (drop("X2"), "not go straight through 'X2'", "npgr026-3d"),
+        (put(behind="X2"), "stands relatively between the vertices", "npgr026-3d"),
+        *(
+            (*given, "npgr026")
+            for given in (
+                (put(op.BeamSplitter(), behind="X2"), "'new' has no one natural way out"),
+                (put(op.Detector(), behind="X2"), "'new' has no way out"),
+                (put(op.Source(), behind="X2"), "'new' has no way in"),
+                (put(behind="X2.transmitted"), r"'X2\.transmitted' feeds no link"),
+                (put(name="D", behind="X1.transmitted"), r"\.add\('D', .* path\.connect\('X1"),
+                (put(behind="X2.in"), "lets light in"),
+                (put(behind="E"), "'E' has no way out"),
+                (put(behind="X3"), "node .X3. does not exist"),
+                (put("red", behind="X2"), "must be an element such as"),
+                (put(), r"is told no link; give it behind='node\.port'"),
+                (put(before="X1.back"), r"\.add\('new', .* and path\.connect\('new', 'X"),
+                (put(behind="X2", before="E"), r"'X2\.reflected -> E\.in'; did you mean 'X1"),
+                (put(name="X1", behind="X2"), "choose another"),
+                (put(name="a.b", behind="X2"), "choose another"),
+                (drop("X1"), r"not go straight .* 'X2\.reflected -> X1\.in' and 'X1\.ref.* -> E"),
+                (drop("X3"), "node 'X3' does not exist"),
+                (swap(op.Interface(2.0, 0.3)), r"'X1' is turned by .* -rho, .* 0\.0 for none"),
+                (swap(op.Polarizer()), r"no 'X1\.reflected', .* it has 'X1\.in' and 'X1\.out'"),
+                (swap(op.Detector()), r"no 'X1\.reflected', .* it has 'X1\.in'"),
+                (swap(op.Source()), r"no 'X1\.in' and 'X1\.reflected', .* it has 'X1\.out'"),
+                (swap(1.5), "must be an element such as"),
+                (lambda path: path.disconnect("X2", "E"), r"X2\.reflected -> E\.in'; did you mean"),
+            )
         ),
-        ("npgr026-3d", lambda path: path.remove("X2"), "not go straight through 'X2'"),
-        ("npgr026-3d", put(behind="X2"), "stands relatively between the vertices"),
     ],
 )
-def test_gaps_that_do_not_close_by_themselves_and_points_in_space_are_told(preset, change, told):
+def test_a_change_that_cannot_be_is_told_and_leaves_the_path_as_it_was(change, told, preset):
     path = op.load_preset(preset)
     with pytest.raises(op.PathError, match=told):
         change(path)
     assert path == op.load_preset(preset)
 
 
-def test_what_is_removed_leaves_no_gap_unless_something_is_in_the_way():
+def test_what_is_removed_leaves_no_gap_or_turn_unless_something_is_in_the_way():
     path = op.Source() >> op.Polarizer() >> op.Polarizer(0.5).named("between") >> op.Detector()
     path.remove("between")
-    assert repr(path) == "<PathGraph: source >> polarizer >> detector>"
-    assert path.trace().intensity == 0.5
+    assert path == op.Source() >> op.Polarizer() >> op.Detector()
+    for turned in ({"angle": 0.3}, {"azimuth": 0.3}):
+        path, by_its_angle = two_reflections(), two_reflections()
+        path.insert("P2", op.Polarizer(**turned), behind="X1")
+        by_its_angle.insert("P2", op.Polarizer(0.3), behind="X1")
+        np.testing.assert_allclose(stokes(path), stokes(by_its_angle), rtol=1e-14, atol=1e-15)
+        path.remove("P2")
+        assert path == two_reflections()
     space = op.load_preset("npgr026-3d", case=7)
     space.insert("grey", op.Attenuator(0.5), behind="P")
     space.remove("grey")
@@ -221,16 +201,6 @@ def test_what_is_removed_leaves_no_gap_unless_something_is_in_the_way():
         path.remove("grey")
 
 
-@rows("turned", [{"angle": 0.3}, {"azimuth": 0.3}])
-def test_what_was_inserted_turned_nothing_and_can_be_removed(turned):
-    path, by_angle = two_reflections(), two_reflections()
-    path.insert("P2", op.Polarizer(**turned), behind="X1")
-    by_angle.insert("P2", op.Polarizer(0.3), behind="X1")
-    np.testing.assert_allclose(stokes(path), stokes(by_angle), rtol=1e-14, atol=1e-15)
-    path.remove("P2")
-    assert path == two_reflections()
-
-
 def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
     path = two_reflections()
     mirror = op.Mirror(azimuth=path.element("X1").azimuth)
@@ -240,70 +210,54 @@ def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
     lights = path.trace(keep="all")
     expected = lights["X2.reflected -> X1.in"].intensity
     assert lights["E"].intensity == pytest.approx(expected, rel=1e-14)
-    path, gold = two_reflections(), op.Material(0.17, 3.15)
-    delta, azimuth = path.element("X1").incidence, path.element("X1").azimuth
-    path.replace("X1", op.Interface(gold, delta, azimuth=azimuth))
-    assert path.element("X1").azimuth == azimuth
-    unturned = two_reflections()
+    path, unturned = two_reflections(), two_reflections()
+    gold = replace(path.element("X1"), index=op.Material(0.17, 3.15))
+    path.replace("X1", gold)
+    assert path.element("X1") == gold
     unturned.disconnect("X2.reflected", "X1.in")
     unturned.connect("X2.reflected", "X1.in", azimuth=0.0)
-    unturned.replace("X1", op.Interface(gold, delta))
+    unturned.replace("X1", replace(gold, azimuth=0.0))
     np.testing.assert_array_equal(stokes(unturned), path.trace(rho=0.0).stokes)
-    path, azimuth = op.load_preset("glass-slab"), 0.3
+    path = op.load_preset("glass-slab")
     path.disconnect("lamp")
     path.connect("lamp", "front")  # Behind the one to front.back.
     front = path.element("front")
-    path.replace("front", dataclasses.replace(front, azimuth=azimuth))
+    path.replace("front", replace(front, azimuth=0.3))
     with pytest.raises(op.PathError, match=r"path\.disconnect\('lamp\.out', 'front\.in'\)"):
         path.replace("front", front)
 
 
 def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
-    path = op.load_preset("npgr026")
+    path, other = op.load_preset("npgr026"), op.load_preset("npgr026")
+    other.insert("P2", op.Polarizer(0.3), behind="X1")
     path.add("P2", op.Polarizer(0.3))
     path.connect("X1.reflected", "P2.in")
     path.connect("P2.out", "E.in")
-    call = 'path.disconnect("X1.reflected", "E.in")'
-    with pytest.raises(op.PathError) as fault:
+    call = r"by path.disconnect\(\"X1.reflected\", \"E.in\"\)"
+    with pytest.raises(op.PathError, match=f"take all but one out, {call}, and put one"):
         path.trace()
-    assert f"take all but one out, by {call}, and put one" in str(fault.value)
-    with pytest.raises(op.PathError) as fault:
+    with pytest.raises(op.PathError, match=f"take all but one out first, {call}$"):
         path.insert("P3", op.Polarizer(0.3), behind="X1.reflected")
-    assert str(fault.value).endswith(f"take all but one out first, by {call}")
     path.disconnect("X1.reflected", "E.in")
-    other = op.load_preset("npgr026")
-    other.insert("P2", op.Polarizer(0.3), behind="X1")
     assert path == other
-    path, other = op.load_preset("npgr026"), op.load_preset("npgr026")
-    path.add("P2", op.Polarizer(0.3))
     # A path is judged when it is whole.
-    path.connect("X1", "P2")
-    path.disconnect("X1.reflected", "E.in")
+    path.disconnect("P2", "E")
     path.connect("P2", "E")
-    other.insert("P2", op.Polarizer(0.3), behind="X1")
     assert path == other
     path, other = two_reflections(), two_reflections()
     path.disconnect("X1.reflected")
     other.disconnect("X1.reflected", "E.in")
     assert path == other
-    with pytest.raises(op.PathError, match=r"'X1\.reflected' feeds no link; there are: L\.out"):
-        path.disconnect("X1")
-    with pytest.raises(op.PathError, match=r"no link 'X1\.reflected -> E\.in'; there are: L\.out"):
-        path.disconnect("X1", "E")
+    for ends, told in ((["X1"], "'X1.reflected' feeds no"), (["X1", "E"], r"no link .* -> E\.in'")):
+        with pytest.raises(op.PathError, match=rf"{told}.*; there are: L\.out"):
+            path.disconnect(*ends)
     with pytest.raises(op.PathError, match="reaches no detector"):
         path.trace()
     path = op.load_preset("ellipsometer-pcsa")
-    with pytest.raises(op.PathError) as told:
+    with pytest.raises(op.PathError, match=r"such as path\.disconnect\('S\.reflected', 'A\.in'\)$"):
         path.disconnect("S")
-    assert str(told.value).endswith("such as path.disconnect('S.reflected', 'A.in')")
     path.disconnect("S.reflected", "A.in")
     assert not path.graph.has_edge("S", "A")
-
-
-@rows("element, name", [(op.Rotator(0.2), "rotator"), (op.Rotator(0.2).named("a"), "a")])
-def test_an_element_without_a_name_is_told_how_to_add_it(element, name):
-    with pytest.raises(op.PathError, match=rf"path\.add\('{name}', Rotator\(angle=0\.2\)\)$"):
-        op.PathGraph().add(element)
 
 
 @rows(
@@ -333,9 +287,6 @@ def by_angle(turn, behind, path=None):
     return stokes(path)
 
 
-SEVERAL = np.array([0.1, 0.2])
-
-
 @rows("azimuth, turn", [(0.5, 0.5), (0.0, 0.0), (A, 0.37), (2 * A + 0.1, 0.84), (SEVERAL, SEVERAL)])
 @rows("first", [0.3, A])
 @rows("behind", ["P", "X1"])
@@ -351,10 +302,7 @@ def test_what_replaces_an_inserted_element_turns_nothing_behind_it(behind, first
 @rows(
     "own, turn, behind",
     [
-        (0.25, 0.25, 0.1),
-        (0.25, 0.25, 2 * A),
-        (A, 0.37, 0.1),
-        (A, 0.37, 2 * A),
+        *((own, turn, by) for own, turn in ((0.25, 0.25), (A, 0.37)) for by in (0.1, 2 * A)),
         ("10 deg" - A, np.radians(10) - 0.37, A + 0.25),
         (SEVERAL, SEVERAL, 0.1),
     ],
@@ -425,9 +373,7 @@ def test_turns_that_make_no_one_azimuth_are_refused_with_a_cure_that_does(remove
         last = op.Mirror(-0.9, 0.7, azimuth=op.Parameter("rho", 0.2))
         path = path >> last.named("X1") >> op.Detector()
     before = path.to_toml()
-    with pytest.raises(
-        op.PathError, match=r"'X1' would be turned by .* no one azimuth does"
-    ) as told:
+    with pytest.raises(op.PathError, match=r"'X1' would be turned by .* no one azimuth") as told:
         change(path)
     assert path.to_toml() == before
     expected = stokes(path) if removed else by_angle(0.37, "X2")

@@ -32,6 +32,11 @@ def of_preset(name, parameter, **given):
     return usual_range(op.load_preset(name).with_defaults(**given), parameter)
 
 
+QUARTER, HALF, WHOLE = math.pi / 2, math.pi, 2 * math.pi
+STATE = op.Source(stokes=op.Parameter("a", [1, 0, 0, 0])) >> op.Detector()
+BOUND = op.load_preset("malus", angle="30 deg")
+
+
 @rows("preset", op.preset_names())
 def test_the_range_holds_the_default_and_every_case_and_is_allowed(preset):
     path = op.load_preset(preset)
@@ -44,9 +49,6 @@ def test_the_range_holds_the_default_and_every_case_and_is_allowed(preset):
         given = [parameter.default, *(case.values.get(name) for case in path.cases.values())]
         numbers = [parameter.resolve(one) for one in given if one is not None]
         assert all(low <= one.value <= high for one in numbers if one.present.all())
-
-
-QUARTER, HALF, WHOLE = math.pi / 2, math.pi, 2 * math.pi
 
 
 @rows(
@@ -79,17 +81,12 @@ QUARTER, HALF, WHOLE = math.pi / 2, math.pi, 2 * math.pi
         # Far limits make no range wide where there is a default, here of 0.09 / um.
         (lambda: of_preset("dichroic-sheet", "dichroism"), pytest.approx((-2e5, 2e5))),
         (lambda: of_preset("absorbing-pile", "thickness"), pytest.approx((0.0, 4e-3))),
-        (
-            lambda: of_preset("solc-filter", "wavelength", wavelength="1500 nm"),
-            pytest.approx((380e-9, 1500e-9)),
-        ),
+        (lambda: of_preset("solc-filter", "wavelength", wavelength=1.5e-6), (380e-9, 1.5e-6)),
     ],
 )
 def test_the_usual_range_is_known_by_kind_default_cases_and_limits(find, expected):
     assert find() == expected
-
-
-def test_a_least_angle_beyond_a_turn_begins_the_range():
+    # A least angle beyond a turn begins the range.
     low, high = of(op.Parameter("a", minimum="400 deg"))
     assert np.degrees(low) == pytest.approx(400.0)
     assert low < high
@@ -108,14 +105,10 @@ def test_of_huge_values_the_range_has_ends_in_its_unit_as_well(unit, given):
     }[unit]() >> op.Detector()
     low, high = usual_range(path, "p")
     assert low < high
-    points = np.linspace(low, high, 5)
-    assert np.isfinite([in_unit(each, unit) for each in points]).all()
+    assert np.isfinite([in_unit(each, unit) for each in np.linspace(low, high, 5)]).all()
     # One with a sign is no wider than floats.
     low, high = of(op.Parameter("a", 1e308), op.Retarder, one=-1e308)
     assert np.isfinite(high - low)
-
-
-STATE = op.Source(stokes=op.Parameter("a", [1, 0, 0, 0])) >> op.Detector()
 
 
 @rows(
@@ -125,14 +118,8 @@ STATE = op.Source(stokes=op.Parameter("a", [1, 0, 0, 0])) >> op.Detector()
         (lambda: of_index(0.6 + 2.1j), "complex value"),
         (lambda: usual_range(STATE, "a"), "'a' is an array"),
         (lambda: of_preset("malus", "angel"), r"'angel' is unknown; did you mean 'angle'\?"),
-        (
-            lambda: usual_range(op.load_preset("malus", angle="30 deg"), "angle"),
-            "'angle' is bound to 30 deg",
-        ),
-        (
-            lambda: of_preset("copper-gold-spectrum", "place"),
-            "'place' is chosen before a path runs",
-        ),
+        (lambda: usual_range(BOUND, "angle"), "'angle' is bound to 30 deg"),
+        (lambda: of_preset("copper-gold-spectrum", "place"), "'place' is chosen before a path"),
     ],
 )
 def test_what_has_no_range_is_told(find, told):
