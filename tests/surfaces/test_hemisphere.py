@@ -284,18 +284,17 @@ def test_light_that_is_reflected_once_has_no_difference_and_no_circular_part():
     assert np.any(op.measure(SILVER, "40 deg", 30_000, sensor=16).stokes().sel(out="S3") != 0.0)
 
 
-@rows(
-    "projection, width, area",
-    # Polar angles 2 arcsin(r / sqrt(2)); the whole pixels of an area of 2 pi on a disc of pi.
-    [("equidistant", 180.0 / 32, None), ("equal-area", np.degrees(2**0.5 / 16), 8 / 32**2)],
-)
-def test_pixels_are_told_as_the_projection_has_them(projection, width, area):
-    sensor = op.surfaces.Sensor(32, projection)
-    told = op.measure(op.Sample([(1.5, 0.0)]), 0.5, sensor=sensor).adm(noise=None).attrs
-    assert told["pixel_degrees_at_normal"] == pytest.approx(width, rel=1e-12)
-    # Between the axes of the sensor and 1 / 32 of its radius, nearly square.
-    nearly = pytest.approx(np.radians(width) ** 2, rel=3e-3)
-    assert told["largest_pixel_solid_angle"] == (pytest.approx(area, rel=1e-12) if area else nearly)
+def test_pixels_are_told_as_the_projection_has_them():
+    # Between the axes of the sensor and 1 / 32 of its radius, nearly square; polar angles
+    # 2 arcsin(r / sqrt(2)), and the whole pixels of an area of 2 pi on a disc of pi.
+    for projection, width, area, rel in (
+        ("equidistant", 180.0 / 32, (np.pi / 32) ** 2, 3e-3),
+        ("equal-area", np.degrees(2**0.5 / 16), 8 / 32**2, 1e-12),
+    ):
+        sensor = op.surfaces.Sensor(32, projection)
+        told = op.measure(op.Sample([(1.5, 0.0)]), 0.5, sensor=sensor).adm(noise=None).attrs
+        assert told["pixel_degrees_at_normal"] == pytest.approx(width, rel=1e-12)
+        assert told["largest_pixel_solid_angle"] == pytest.approx(area, rel=rel)
 
 
 def test_a_paired_run_needs_300_times_fewer_photons_than_two_separate_ones():

@@ -99,10 +99,24 @@ def test_what_is_kept_has_the_bits_of_what_is_not_and_a_chunk_has_all_threads_if
     assert_same_bits(found, expected)
 
 
-def test_heights_that_are_given_travel_along(store, rng):
+def test_heights_that_are_given_travel_along_and_a_coarse_mesh_is_told_where_it_is_asked_for(
+    store, rng
+):
     heights = surfaces.HeightField.from_heights(rng.normal(size=(40, 40)), 20.0, periodic=True)
     sample = op.Sample([(1j, heights)])
     assert_same_bits(measured(sample, store=store, scheduler="threads"), measured(sample))
+    coarse = op.Sample([(1.5, 0.3)], cells=100, surfaces=1)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("default")
+        op.measure(
+            coarse,
+            "50 deg",
+            100,
+            sensor=4,
+            store=store.with_name("coarse.zarr"),
+            scheduler="threads",
+        )
+    assert told[0].filename == __file__
 
 
 def test_an_interrupted_run_goes_on_from_there_and_what_is_there_is_not_walked_again(store, walked):
@@ -178,14 +192,6 @@ def test_a_worker_of_another_version_is_refused(monkeypatch):
     job = ChunkJob(None, None, 1, code="0.2, new")
     with pytest.raises(op.SurfaceError, match=r"worker has optipath 0.1, old.* begun by 0.2, new"):
         job.compute(0)
-
-
-def test_a_coarse_mesh_is_told_where_the_measurement_is_asked_for(store):
-    coarse = op.Sample([(1.5, 0.3)], cells=100, surfaces=1)
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("default")
-        op.measure(coarse, "50 deg", 100, sensor=4, store=store, scheduler="threads")
-    assert told[0].filename == __file__
 
 
 @pytest.mark.slow

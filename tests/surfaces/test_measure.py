@@ -106,15 +106,13 @@ def test_wavelengths_ride_on_the_same_photons():
     assert together.wavelength.values.tolist() == [450e-9, 550e-9, 650e-9]
 
 
-def test_any_number_of_threads_gives_the_same_bits():
+def test_threads_give_the_same_bits_and_numbers_of_facets_all_photons_that_there_are():
     given = {"photons": 70_001, "sensor": 16}
     one, *others = [op.measure(GLASS, "60 deg", threads=n, **given).parts for n in (1, 2, 5)]
     for other in others:
         assert all(np.array_equal(*each) for each in zip(one, other, strict=True))
     assert one.photons.sum() == 70_001
-
-
-def test_photons_that_have_met_each_number_of_facets_are_all_that_there_are():
+    # Those that have met each number of facets are all.
     sample = op.Sample([(0.5 + 2.1j, 0.5)], cells=640, surfaces=1)
     whole = op.measure(sample, "50 deg", 5000, sensor=8).parts
     each = [op.measure(sample, "50 deg", 5000, sensor=8, events=n).parts for n in range(1, 13)]
@@ -144,12 +142,9 @@ def test_what_cannot_be_measured_is_told_and_all_of_it_at_once(given, sentence):
 
 
 GLASS_ON_DIAMOND = op.Sample([(1.5, 0.0), (2.4, 0.0)])
-SAMPLES = [
-    op.Sample([(1.5, HeightField.flat())]),
-    GLASS_ON_DIAMOND,
-    op.Sample([(1.2, 0.0)], outside=1.5),  # Reflects all beyond 53 deg.
-    op.Sample([(1.5, 0.0), (1.3, 0.0), (0.2 + 3.4j, 0.0)]),
-]
+MEDIA = [(1.0, 1.5, 2.4), (1.5, 1.2), (1.0, 1.5, 1.3, 0.2 + 3.4j), (1.7, 1.2, 2.0)]
+MEDIA += [(1.33, 2.4, 1.1, 1.8), (1.5, 1.2, 1j)]
+SAMPLES = [op.Sample([(index, 0.0) for index in below], outside) for outside, *below in MEDIA]
 # Without it, no photon is walked over what is flat.
 WALKED = {"most_events": 999}
 
@@ -163,7 +158,7 @@ def gathered(found):
 
 
 @rows("incidence", ["0 deg", "45 deg", "70 deg"])
-@rows("sample", SAMPLES)
+@rows("sample", [*SAMPLES, op.Sample([(1.5, HeightField.flat())])])
 def test_light_of_flat_samples_that_is_known_is_that_of_photons(sample, incidence):
     known = op.measure(sample, incidence, sensor=9)
     walked = op.measure(sample, incidence, 30_000, sensor=9, **WALKED)
@@ -191,10 +186,9 @@ def test_rounds_between_two_faces_add_up_to_a_geometric_series(incidence, percen
 
 def test_nothing_is_counted_and_nothing_is_uncertain_nor_kept(tmp_path):
     known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8)
-    data = known.dataset
-    assert known.photons == data.attrs["photons"] == 0
+    assert known.photons == known.dataset.attrs["photons"] == 0
     for name in ("count", "mueller_se", "scalar_se", "difference_se"):
-        assert not data[name].any(), name
+        assert not known.dataset[name].any(), name
     assert "known without photons" in repr(known)
     for polarized, numbers in (("polarized", 16), ("scalar", 1)):
         known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8, polarized=polarized)

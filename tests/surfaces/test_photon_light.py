@@ -26,11 +26,6 @@ from optipath.surfaces.walk.given_beam import given_beam
 SIGMAS = 5.5
 
 
-def reflected(sample, incidence, stokes=(1.0, 0.0, 0.0, 0.0)):
-    """The light that a stack of layers reflects, over all ways to and fro."""
-    return sample.smooth(incidence).mueller("in", "reflected").matrix @ stokes
-
-
 def test_glass_on_diamond_is_as_published():
     sample = op.Sample([(1.5, 0), (2.4, 0)])
     found = surfaces.energy(sample, "65 deg", photons=400_000)
@@ -46,31 +41,11 @@ def test_glass_on_diamond_is_as_published():
     assert s3 == 0.0
 
 
-@rows("incidence", [0.0, 0.9, 1.4])
-@rows(
-    "outside, indices",
-    [
-        (1.0, (1.5,)),
-        (1.7, (1.2, 2.0)),
-        (1.0, (1.3, 1.5, 0.2 + 3.4j)),
-        (1.33, (2.4, 1.1, 1.8)),
-        (1.5, (1.2, 1j)),
-    ],
-)
-def test_stokes_vectors_are_those_of_a_stack_of_layers(outside, indices, incidence):
-    sample = op.Sample([(index, 0) for index in indices], outside=outside)
-    source = np.array([1.0, 0.3, -0.4, 0.5])
-    ends = surfaces.photon_ends(sample, incidence, 50_000, azimuth=0.7, stokes=source, seed=2)
-    light = np.where((ends.ends == "up")[:, np.newaxis], ends.stokes, 0.0)
-    error = light.std(axis=0) / math.sqrt(len(light))
-    apart = light.mean(axis=0) - reflected(sample, incidence, source)
-    assert np.all(np.abs(apart) < SIGMAS * error + 1e-12)
-
-
 def test_slightly_rough_is_nearly_flat_and_all_sizes_reflect_alike():
     rough, flat = (op.Sample([(1.5, a), (2.4, a)], surfaces=1) for a in (1e-3, 0))
     found = surfaces.energy(rough, 1.0, photons=200_000)
-    assert abs(found.R - reflected(flat, 1.0)[0]) < SIGMAS * found.R_se + 1e-5
+    exact = flat.smooth(1.0).mueller("in", "reflected").matrix[0, 0]
+    assert abs(found.R - exact) < SIGMAS * found.R_se + 1e-5
     heights, shares = np.random.default_rng(0).normal(size=(16, 16)), set()
     for size in (2.0**-20, 1.0, 2.0**20):
         field = surfaces.HeightField(size * heights, 16 * size, periodic=True)
@@ -79,7 +54,6 @@ def test_slightly_rough_is_nearly_flat_and_all_sizes_reflect_alike():
 
 
 ELLIPTICAL = (1.0, 0.3, -0.4, 0.5)
-BREWSTER, CRITICAL = math.atan(1.5), math.asin(1 / 1.5)
 
 
 def vector(record, place):
@@ -129,16 +103,15 @@ def expect_kernels(sample, incidence, photons):
     return ends
 
 
-@rows("incidence", [0.0, 1e-9, 0.7, BREWSTER, 1.5, math.pi / 2 - 1e-9])
-@rows("indices", [[1.5], [1.5, 2.4], [1.5, 0.2 + 3.4j], [1j]])
-def test_light_at_flat_interfaces_is_that_of_kernels(indices, incidence):
-    expect_kernels(op.Sample([(index, 0) for index in indices]), incidence, 20)
-
-
 @pytest.mark.filterwarnings("ignore::optipath.MeshWarning")
-def test_light_about_the_critical_angle_and_at_rough_interfaces_is_that_of_kernels():
+def test_light_at_flat_and_rough_interfaces_is_that_of_kernels():
+    incidences = (0.0, 1e-9, 0.7, math.atan(1.5), 1.5, math.pi / 2 - 1e-9)
+    for indices in ([1.5], [1.5, 2.4], [1.5, 0.2 + 3.4j], [1j]):
+        for incidence in incidences:
+            expect_kernels(op.Sample([(index, 0) for index in indices]), incidence, 20)
     for apart in (-0.3, -1e-8, 0.0, 1e-8, 0.3):
-        ends = expect_kernels(op.Sample([(1.0, 0)], outside=1.5), CRITICAL + apart, 50)
+        critical = math.asin(1 / 1.5)
+        ends = expect_kernels(op.Sample([(1.0, 0)], outside=1.5), critical + apart, 50)
         assert apart <= 0.0 or layout.DOWN not in ends
     for layers in (
         [(1.5, 1.0)],
@@ -205,7 +178,7 @@ def ring(sample, incidence, at):
 # Intensities alone, without polarisation. What is met is found where the height above the surface
 # changes sign, to the last digits by halving; a photon is reflected by the mean of Fresnel's
 # shares. The surface is periodic, with the period 1 along x and y.
-STEPS, HALVINGS, MOST = 200, 40, 20
+MOST = 20
 WAVES = [(1, 0, 0.3), (0, 1, 1.1), (1, 1, 2.0), (1, -1, 4.0), (2, 1, 0.5), (-1, 2, 3.3)]
 """Whole numbers of waves along x and along y, and phases."""
 VECTORS, PHASES = 2 * np.pi * np.array(WAVES)[:, :2], np.array(WAVES)[:, 2]
@@ -215,12 +188,6 @@ HIGHEST = AMPLITUDE * len(WAVES)
 
 def heights(places):
     return AMPLITUDE * np.cos(places[..., :2] @ VECTORS.T + PHASES).sum(axis=-1)
-
-
-def normals_at(places):
-    slopes = -AMPLITUDE * np.sin(places[..., :2] @ VECTORS.T + PHASES) @ VECTORS
-    normals = np.concatenate([-slopes, np.ones((*slopes.shape[:-1], 1))], axis=-1)
-    return normals / np.linalg.norm(normals, axis=-1, keepdims=True)
 
 
 def shares(index, incidence, photons, numbers):
@@ -248,11 +215,11 @@ def next_places(places, ways, sides):
     lengths = (towards - places[:, 2]) / ways[:, 2]
     begin, end, met = np.zeros(len(places)), np.zeros(len(places)), np.zeros(len(places), bool)
     # The first step leaves the surface that a photon comes from.
-    for step in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
+    for step in np.linspace(0.0, 1.0, 201)[1:]:
         crossed = ~met & below(step * lengths)
         begin[~met], end[~met] = end[~met], (step * lengths)[~met]
         met |= crossed
-    for _ in range(HALVINGS):
+    for _ in range(40):
         middle = 0.5 * (begin + end)
         begin, end = np.where(below(middle), [begin, middle], [middle, end])
     return met, places + begin[:, np.newaxis] * ways
@@ -260,7 +227,9 @@ def next_places(places, ways, sides):
 
 def reflected_or_refracted(index, places, ways, sides, numbers):
     """Directions and sides behind an event."""
-    normals = sides[:, np.newaxis] * normals_at(places)
+    slopes = -AMPLITUDE * np.sin(places[:, :2] @ VECTORS.T + PHASES) @ VECTORS
+    normals = sides[:, np.newaxis] * np.column_stack([-slopes, np.ones(len(slopes))])
+    normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
     n1, n2 = np.where(sides > 0, 1.0, index), np.where(sides > 0, index, 1.0)
     cos = -np.sum(normals * ways, axis=-1)
     behind = 1.0 - (n1 / n2) ** 2 * (1.0 - cos**2)

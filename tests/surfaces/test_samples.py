@@ -5,18 +5,13 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import optipath as op
 from optipath.surfaces import HeightField
-from rough_samples import fresnel, rounds
 from tables import rows
 
 GLASS = op.Material.cauchy([1.5, 0.004])
-BK7 = op.Material.sellmeier(
-    [1.03961212, 0.231792344, 1.01046945], [0.00600069867, 0.0200179144, 103.560653], name="BK7"
-)
+BK7 = op.Material.sellmeier([1.04, 0.23, 1.01], [0.006, 0.02, 103.6], name="BK7")
 METAL = op.Material.tabulated(["400 nm", "600 nm"], [1.0, 0.5], [1.0, 3.0], name="metal")
 GOLD = op.Material.tabulated(["500 nm", "600 nm"], [0.9, 0.3], [1.8, 2.8], name="gold")
 INK = op.Material.tabulated(["400 nm", "600 nm"], [1.5, 1.5], [0.0, 0.2], name="ink")
@@ -63,8 +58,7 @@ def test_samples_are_equal_by_all_that_is_given_and_cannot_change():
         with pytest.raises(AttributeError):
             setattr(each, name, 3)
 
-
-def test_the_repr_says_all_that_is_not_usual():
+    # The repr says all that is not usual.
     layers = [(1.5, 0.1), (2.4, (0.1, 0.2)), (1j, 0.0)]
     assert repr(op.Sample(layers)) == f"Sample({layers})"
     others = "outside=1.3, cells=(640, 320), surfaces=4, seed=7, periodic=False"
@@ -109,25 +103,16 @@ def test_fields_are_forty_correlation_lengths_wide_with_sixteen_cells_each():
         sample.fields(-1)
 
 
-@rows(
-    "layers, isotropic",
-    [
-        ([(1.5, 0.1)], True),
-        ([(1.5, (0.1, 0.2))], False),
-        ([(1.5, 0.1), (2.4, 0)], True),
-        ([(1.5, 0.1), (2.4, (0.2, 0.1))], False),
-        ([(1.5, HeightField.flat())], True),
-        ([(1.5, heights())], False),
-    ],
-)
-def test_a_sample_is_isotropic_where_all_its_interfaces_are(layers, isotropic):
-    assert op.Sample(layers).isotropic is isotropic
+def test_a_sample_is_isotropic_where_all_its_interfaces_are():
+    for layers in ([(1.5, 0.1), (2.4, 0)], [(1.5, HeightField.flat())]):
+        assert op.Sample(layers).isotropic
+    for layers in ([(1.5, (0.1, 0.2))], [(1.5, 0.1), (2.4, (0.2, 0.1))], [(1.5, heights())]):
+        assert not op.Sample(layers).isotropic
 
 
 RANGE = "give a roughness within 1e-06 .. 100, or 0 for a flat interface"
 ONE_SIDE = "give two numbers above 0, or 0 for a flat interface"
 PAIR = "give one number, a pair along x and y, or heights"
-PARAMETER = "is parameter 'a'; give a number, and make a sample for each"
 
 
 @rows(
@@ -139,7 +124,7 @@ PARAMETER = "is parameter 'a'; give a number, and make a sample for each"
         *((PAIR, each) for each in ((0.1,), (0.1, 0.2, 0.3), np.linspace(0.1, 0.5, 5))),
         ("for one number; give a pair along x and y", ((0.1, 0.2), 0.1)),
         *((ONE_SIDE, each) for each in ((0.1, 0), (0, 0.1))),
-        (PARAMETER, op.Parameter("a", 0.1)),
+        (" is parameter 'a'; give a number, and make a sample for each", op.Parameter("a", 0.1)),
     ],
 )
 def test_what_is_no_roughness_is_refused(sentence, roughness):
@@ -203,15 +188,6 @@ def test_media_that_do_not_absorb_may_be_anywhere_and_the_last_may_absorb():
     op.Sample([(op.Material(GOLD.n), 0.1), (2.4, 0.1)])
 
 
-def test_cells_and_periods_of_no_interface_are_refused():
-    for roughness in (0, HeightField.flat(), heights()):
-        fault = fault_of([(1.5, roughness)], cells=640)
-        assert fault == "cells is given, but no interface is random; leave it out"
-    fault = fault_of([(1.5, 0.1), (2.4, heights(periodic=True))], periodic=False)
-    assert fault.startswith("periodic is False, but the heights of layers[1] are periodic")
-    op.Sample([(1.5, 0.1), (2.4, heights()), (1.5, HeightField.flat())], periodic=False)
-
-
 @rows(
     "option, value, sentence",
     [
@@ -231,27 +207,27 @@ def test_an_option_that_is_none_is_told_with_the_cure_and_all_faults_at_once(
     first = "outside layers[0].index layers[0].alpha layers[1] layers[2].index layers[2].alpha"
     places = [fault.split()[0] for fault in refused(layers, **others)]
     assert places == [*first.split(), "cells", "surfaces", "seed", "periodic"]
+    # Cells and periods are of random interfaces.
+    for roughness in (0, HeightField.flat(), heights()):
+        fault = fault_of([(1.5, roughness)], cells=640)
+        assert fault == "cells is given, but no interface is random; leave it out"
+    fault = fault_of([(1.5, 0.1), (2.4, heights(periodic=True))], periodic=False)
+    assert fault.startswith("periodic is False, but the heights of layers[1] are periodic")
+    op.Sample([(1.5, 0.1), (2.4, heights()), (1.5, HeightField.flat())], periodic=False)
 
 
-CAUCHY = op.Material.cauchy
-
-
-@rows(
-    "index, name",
-    [
+def test_a_medium_that_follows_from_a_parameter_is_refused():
+    of = op.Material.cauchy
+    for index, name in (
         (op.Parameter("n"), "n"),
         (op.Material(op.Parameter("n", 1.5)), "n"),
-        (CAUCHY([1.5, op.Parameter("b", 0.004)]), "b"),
-        (CAUCHY([1.5, 0.004], wavelength=2 * op.Wavelength()), "wavelength"),
-        (CAUCHY([1.5, 0.004], wavelength=op.Wavelength(default=5e-7)), "wavelength"),
-    ],
-)
-def test_a_medium_that_follows_from_a_parameter_is_refused(index, name):
-    assert refused([(index, 0.1), (index, 0.1)]) == tuple(
-        f"layers[{place}].index follows from the parameter '{name}'; give numbers, or a Material "
-        f"that follows from the wavelength alone, made without wavelength=..."
-        for place in (0, 1)
-    )
+        (of([1.5, op.Parameter("b", 0.004)]), "b"),
+        (of([1.5, 0.004], wavelength=2 * op.Wavelength()), "wavelength"),
+        (of([1.5, 0.004], wavelength=op.Wavelength(default=5e-7)), "wavelength"),
+    ):
+        for place, fault in zip((0, 1), refused([(index, 0.1), (index, 0.1)]), strict=True):
+            told = f"layers[{place}].index follows from the parameter '{name}'; give numbers, or a"
+            assert fault.startswith(told)
 
 
 def test_indices_are_numbers_and_those_of_materials_at_the_wavelength():
@@ -266,11 +242,6 @@ def test_indices_are_numbers_and_those_of_materials_at_the_wavelength():
     assert [found.outside, *found.inner] == pytest.approx([1.516, 1.516], rel=1e-15)
     assert found.n.shape == ()
     np.testing.assert_allclose([found.n, found.k], [0.75, 2.0], rtol=1e-12)
-    assert found.inner == pytest.approx((1.516,), rel=1e-15)
-    assert (found.n.shape, float(found.n)) == ((), pytest.approx(0.75, rel=1e-12))
-    assert float(found.k) == pytest.approx(2.0, rel=1e-12)
-    sample = op.Sample([(op.Material.cauchy([1.5, 0.004], wavelength="500 nm"), 0.1)])
-    assert sample.layers[0].index == pytest.approx(1.516, rel=1e-15), "whatever the light has"
 
 
 def test_numbers_that_jax_traces_are_refused():
@@ -328,43 +299,6 @@ def test_a_wavelength_that_several_places_cannot_have_is_told_for_each():
 
 
 def test_smooth_is_the_stack_of_the_same_media_by_the_parameter_incidence():
-    sample = op.Sample([(1.5, 0.1), (0.5 + 2.1j, 0.3)], outside=1.2)
-    media = [1.2, 1.5, 0.5 + 2.1j]
+    sample, media = op.Sample([(GLASS, 0.1), (METAL, 0.3)], outside=1.2), [1.2, GLASS, METAL]
     assert sample.smooth() == op.LayerStack(media, op.Parameter("incidence"))
     assert sample.smooth("30 deg") == op.LayerStack(media, "30 deg")
-    # Of one layer it is its interface.
-    stack, glass = op.Sample([(1.5, 0.1)]).smooth(0.7), op.Interface(1.5, 0.7)
-    for port in ("reflected", "transmitted"):
-        given, expected = (each.mueller("in", port).matrix for each in (stack, glass))
-        np.testing.assert_allclose(given, expected, rtol=0, atol=1e-15)
-
-
-def test_smooth_glass_on_glass_sums_up_light_that_goes_to_and_fro():
-    theta = np.radians(65.0)
-    faces = fresnel(1.0, 1.5, theta), fresnel(1.5, 2.4, np.arcsin(np.sin(theta) / 1.5))
-    along_s, along_p = rounds(*faces)
-    light = (op.Source() >> op.load_sample("glass-on-glass").smooth(theta) >> op.Detector()).trace()
-    np.testing.assert_allclose(light.intensity, (along_s + along_p) / 2, rtol=1e-14)
-    np.testing.assert_allclose(light.dolp, (along_s - along_p) / (along_s + along_p), rtol=1e-13)
-    assert light.intensity == pytest.approx(0.16024, abs=5e-6)
-
-
-def test_smooth_media_may_follow_from_the_wavelength():
-    lengths, sample = ["400 nm", "550 nm", "700 nm"], op.load_sample("glass-on-gold")
-    path = op.Source() >> sample.smooth("60 deg") >> op.Detector()
-    indices = sample.indices(lengths)
-    at_once = path.trace(wavelength=lengths).intensity
-    for index, expected in zip(indices.n + 1j * indices.k, at_once, strict=True):
-        light = (op.Source() >> op.LayerStack([1.0, 1.5, index], "60 deg") >> op.Detector()).trace()
-        assert light.intensity == pytest.approx(expected, rel=1e-14)
-
-
-@given(
-    st.lists(st.tuples(st.floats(0.1, 10.0), st.floats(1e-6, 100.0)), min_size=1, max_size=5),
-    st.floats(0.0, 1.5),
-)
-def test_smooth_layers_reflect_and_let_through_all_light(layers, incidence):
-    stack = op.Sample(layers).smooth(incidence)
-    ports = ("reflected", "transmitted")
-    total = sum(stack.mueller("in", port).matrix[0, 0] for port in ports)
-    assert total == pytest.approx(1.0, abs=1e-12)

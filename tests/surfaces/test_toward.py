@@ -88,16 +88,6 @@ def test_the_states_of_the_cases_are_those_of_polariser_and_compensator(rough):
         np.testing.assert_allclose(case.trace().stokes, expected, rtol=0, atol=1e-15)
 
 
-def test_light_scattered_once_in_the_plane_is_that_of_facets():
-    once = measured("60 deg", 200_000, sensor=91, events=1)
-    for angle in once.sensor.theta[45, [65, 73, 81]]:
-        theta = 0.5 * (np.radians(60.0) + angle)
-        facet = op.Interface(GOLD, theta).mueller("in", "reflected").matrix
-        found, error = once.estimate_toward(lambda matrix: matrix / matrix[0, 0], angle)
-        # Pixels are 2 deg wide, over which light and matrix are not the same.
-        assert np.all(np.abs(found - facet / facet[0, 0]) < 5.0 * error + 1.5e-3)
-
-
 def test_it_is_the_share_of_the_light_that_falls_on_the_pixel(rough):
     row, column = 15, rough.sensor.around(rough.frames_toward("30 deg")["out"].z)[1][0]
     expected = rough.mueller[0][0, row, column, 0]
@@ -130,6 +120,7 @@ def test_an_angle_is_a_direction_in_the_plane_of_incidence(rough):
     assert found["photometer"].intensity.shape == (4, 11)
 
 
+@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
 def test_in_world_frames_light_leaves_toward_the_direction(rough):
     direction = np.array([0.6, 0.28, math.sqrt(1.0 - 0.36 - 0.0784)])
     frames = rough.frames_toward(direction)
@@ -142,10 +133,7 @@ def test_in_world_frames_light_leaves_toward_the_direction(rough):
     np.testing.assert_allclose(light.frame.x @ [0.0, 0.0, 1.0], 0.0, atol=1e-15)
     np.testing.assert_array_equal(light.stokes, rough.toward(direction).matrix @ [1, 1, 0, 0])
     np.testing.assert_allclose(frames["in"].z, [math.sqrt(0.5), 0.0, -math.sqrt(0.5)], atol=1e-15)
-
-
-@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
-def test_the_plane_of_incidence_turns_with_the_light():
+    # The plane of incidence turns with the light.
     turned = measured(photons=20_000, alpha=(0.2, 0.1), sensor=15, azimuth="90 deg")
     frames = turned.frames_toward("45 deg")
     np.testing.assert_allclose(frames["out"].z, [0, math.sqrt(0.5), math.sqrt(0.5)], atol=1e-15)
@@ -160,20 +148,6 @@ def test_what_is_let_through_is_seen_from_below():
     for direction in (below, [math.sin(below), 0.0, -math.cos(below)]):
         found = flat.toward(direction, "transmitted").matrix
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
-
-
-@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
-@rows("alpha", [0.02, 0.3])
-@rows("layers", [[GOLD], [1.5], [1.5, 2.4], [1.5, GOLD], [1j]])
-def test_every_pixel_is_an_element_that_can_be(alpha, layers):
-    pytest.importorskip("numba")
-    sample = op.Sample([(index, alpha) for index in layers], cells=200, surfaces=1)
-    found = op.measure(sample, "60 deg", 3000, sensor=8)
-    for place, side in enumerate(found.seen.sides):
-        lit = (found.mueller[0][place, :, :, 0, 0, 0] > 0.0) & ~np.isnan(found.sensor.theta)
-        directions = found.sensor.directions[lit] * (1, 1, 1 - 2 * place)
-        assert len(directions)
-        assert found.toward(directions, side).physical is True
 
 
 @rows(
