@@ -20,16 +20,12 @@ class Foil(op.Element, kind="test-imported-foil"):
     def mueller_rows(xp, share):
         return [[share * (row == column) for column in range(4)] for row in range(4)]
 """
+FOIL = "elements.foil"
 POST_INIT = """
     def __post_init__(self):
         super().__post_init__()
         if self.share > 0.5:
             raise ValueError(f"{self.share} is too much")
-"""
-ROWS = """
-    @staticmethod
-    def mueller_rows(xp, share):
-        raise {}
 """
 FILE = """
 format = 1
@@ -42,8 +38,6 @@ lamp = { kind = "source" }
 foil = { kind = "test-imported-foil", share = "$share" }
 eye = { kind = "detector" }
 """
-FOIL = "elements.foil"
-ONE_OF = "takes the name of a module or a file that ends in .py, not "
 
 
 @pytest.fixture(autouse=True)
@@ -58,37 +52,27 @@ def folder(tmp_path):
 
 
 @rows("modules", ["imported_foils", "imported_foils.py", "./imported_foils.py imported_foils"])
-def test_a_module_or_a_file_of_python_brings_its_elements(modules, found):
-    imported = "".join(f"--import {name} " for name in modules.split())
+def test_a_module_or_a_file_brings_elements_to_the_explorer_too(modules, found, run, monkeypatch):
+    served, imported = [], "".join(f"--import {name} " for name in modules.split())
     light = found(f"{imported} run path.toml --share 0.25")
     assert light["detectors"]["eye"]["stokes"][0] == 0.25
+    monkeypatch.setattr(PageServer, "serve_forever", lambda *one: served.extend(one))
+    assert run(f"{imported} explore path.toml --no-browser")[0] == 0
+    shown = served[0].answers.trace({"preset": "path.toml", "want": ["scene", "energy"]})
+    assert shown["detectors"]["eye"]["texts"] == ["0.5", "0", "0", "0"]
 
 
-def test_what_a_module_prints_is_no_part_of_the_json(folder, run):
-    (folder / "imported_foils.py").write_text("print('hello')\n" + MODULE, "utf-8")
+def test_what_a_module_prints_is_no_json(folder, tmp_path_factory, monkeypatch, run):
+    file = folder / "imported_foils.py"
+    file.write_text("print('hello')\n" + MODULE, "utf-8")
     status, out, err = run("--import imported_foils run path.toml --json")
     assert (status, err) == (0, "hello\n")
     assert json.loads(out)["preset"] == "path.toml"
-
-
-def test_a_file_elsewhere_is_imported_by_its_path(folder, tmp_path_factory, monkeypatch, run):
+    del sys.modules["imported_foils"], KINDS["test-imported-foil"]
     monkeypatch.chdir(tmp_path_factory.mktemp("elsewhere"))
-    file = folder / "imported_foils.py"
     status, out, _ = run("--import", file, "explain", folder / "path.toml")
     assert status == 0
     assert "1 source" in out
-
-
-def test_the_explorer_traces_elements_of_ones_own(run, monkeypatch):
-    served = []
-
-    def serve(server):
-        served.append(server)
-
-    monkeypatch.setattr(PageServer, "serve_forever", serve)
-    assert run("--import imported_foils explore path.toml --no-browser")[0] == 0
-    found = served[0].answers.trace({"preset": "path.toml", "want": ["scene", "energy"]})
-    assert found["detectors"]["eye"]["texts"] == ["0.5", "0", "0", "0"]
 
 
 def test_without_it_the_kind_is_unknown_and_a_file_never_says_what_is_imported(folder, refused):
@@ -109,7 +93,8 @@ def test_without_it_the_kind_is_unknown_and_a_file_never_says_what_is_imported(f
         ("broken", "import no_such_module", "'broken' raises ModuleNotFoundError: No module named"),
         ("no_such_module", "", "there is no module 'no_such_module' in this folder or on Python"),
         ("no_such_file.py", "", "there is no file 'no_such_file.py'"),
-        *((name, "", f"{ONE_OF}'{name}'") for name in ("path.toml", "", ".")),
+        ("path.toml", "", "a module or a file that ends in .py, not 'path.toml'"),
+        ("", "", "takes the name of a module or a file that ends in .py, not ''"),
         ("json.py", "x = 1", "a module named 'json' is there already; rename 'json.py'"),
     ],
 )
@@ -121,17 +106,16 @@ def test_what_cannot_be_imported_is_told_in_a_line(name, text, expected, folder,
 
 
 @pytest.mark.parametrize(
-    ("method", "share", "expected"),
+    ("old", "new", "share", "expected"),
     [
-        (POST_INIT, "0.75", f"{FOIL}: element class Foil raises ValueError: 0.75 is too much"),
-        (POST_INIT, '"x"', f"{FOIL}.share: 'x' is not a quantity"),
-        (ROWS.format("SystemExit(7)"), "0.5", "class Foil raises SystemExit: 7"),
-        (ROWS.format("MemoryError"), "0.5", "the memory of this machine does not suffice"),
+        ("", "", '"x"', f"{FOIL}.share: 'x' is not a quantity"),
+        ("", POST_INIT, "0.75", f"{FOIL}: element class Foil raises ValueError: 0.75 is too much"),
+        ("return", "raise SystemExit(7) #", "0.5", "class Foil raises SystemExit: 7"),
+        ("return", "raise MemoryError #", "0.5", "the memory of this machine does not suffice"),
     ],
 )
-def test_whatever_code_of_ones_own_raises_is_told_in_a_line(
-    method, share, expected, folder, refused
-):
-    (folder / "imported_foils.py").write_text(MODULE + method, "utf-8")
+def test_whatever_own_code_raises_is_told(old, new, share, expected, folder, refused):
+    module = MODULE.replace(old, new) if old else MODULE + new
+    (folder / "imported_foils.py").write_text(module, "utf-8")
     (folder / "path.toml").write_text(FILE.replace('"$share"', share), "utf-8")
     assert expected in refused("--import imported_foils run path.toml")

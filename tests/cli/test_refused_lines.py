@@ -108,9 +108,7 @@ REFUSED += [
 
 
 @rows("line, parts", [(line, parts) for line, *parts in REFUSED])
-def test_a_wrong_line_is_refused_in_one_sentence_before_anything_is_done(
-    line, parts, refused, tmp_path
-):
+def test_a_wrong_line_is_refused_before_anything_is_done(line, parts, refused, tmp_path):
     # A table whose columns lack their units, and a race that is none.
     files = {"angles.csv": "delta\n0\n30\n", "r.json": "{}"}
     for name, text in files.items():

@@ -56,7 +56,7 @@ def written(folder, text):
     return file
 
 
-def test_plain_numbers_lists_ranges_and_arrays_are_axes_in_radians_as_they_are():
+def test_numbers_lists_ranges_and_arrays_are_axes_in_radians_as_they_are_and_one_is_none():
     axis = axis_of({"delta": np.array([0.1, 0.2, 0.7])})
     assert (axis.name, axis.dimension, axis.unit) == ("delta", "delta", "rad")
     assert axis.given.tolist() == axis.shown.tolist() == [0.1, 0.2, 0.7]
@@ -64,6 +64,9 @@ def test_plain_numbers_lists_ranges_and_arrays_are_axes_in_radians_as_they_are()
     for several in ([0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)):
         axis = axis_of({"k1": several})
         assert (axis.given.tolist(), axis.given.dtype, axis.unit) == ([0.0, 1.0], np.float64, "")
+    found = grid({"delta": "48 deg", "rho": 0.1, "n1": np.array(1.3), "filter": "none"})
+    assert (found.axes, found.points) == ((), 1)
+    assert found.fixed == {"delta": 48 * DEG, "rho": 0.1, "n1": 1.3, "filter": "none"}
 
 
 def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
@@ -82,12 +85,6 @@ def test_arrays_of_jax_are_arrays():
     axis = axis_of({"delta": jnp.array([0.25, 0.5])})
     assert isinstance(axis.given, np.ndarray)
     assert axis.given.tolist() == [0.25, 0.5]
-
-
-def test_a_single_value_is_fixed_and_no_axis():
-    found = grid({"delta": "48 deg", "rho": 0.1, "n1": np.array(1.3), "filter": "none"})
-    assert (found.axes, found.points) == ((), 1)
-    assert found.fixed == {"delta": 48 * DEG, "rho": 0.1, "n1": 1.3, "filter": "none"}
 
 
 def test_texts_are_shown_in_the_unit_of_the_first_and_several_kinds_of_wavelengths_as_lengths():
@@ -207,9 +204,7 @@ MILLION = dict.fromkeys(("delta", "rho", "phi"), np.zeros(10**6))
         ({"delta": [0.1]}, BOUND, "parameter 'delta' is bound to"),
     ],
 )
-def test_values_of_an_axis_that_do_not_do_are_told_with_their_place_or_their_cure(
-    given, plan, told
-):
+def test_values_of_an_axis_that_do_not_do_are_told_with_place_or_cure(given, plan, told):
     (fault,) = refused(given, plan=plan)
     assert told in fault
 
@@ -370,10 +365,9 @@ MEASURED = xr.Dataset(
 )
 
 
-def test_coordinates_along_one_dimension_vary_together():
+def test_coordinates_along_one_dimension_vary_together_and_what_is_no_axis_is_told():
     found = grid({"k1": [0.0]}, coords=MEASURED)
-    assert found.sizes == {"k1": 1, "point": 2, "phi": 3}
-    assert found.fixed == {"n1": 1.2}
+    assert (found.sizes, found.fixed) == ({"k1": 1, "point": 2, "phi": 3}, {"n1": 1.2})
     assert found.axes[1].given.tolist() == [10 * DEG, 20 * DEG]
     assert grid(coords=MEASURED["measured"]).sizes == {"point": 2}
     beside = MEASURED.drop_vars("rho").assign_coords(rho=("phi", [0.0, 0.1, 0.2], {"units": "rad"}))
@@ -384,9 +378,6 @@ def test_coordinates_along_one_dimension_vary_together():
     assert grid(coords=named).sizes == {"point": 2, "phi": 3}
     stacked = MEASURED[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
     assert grid(coords=stacked.drop_vars("delta", errors="ignore")).sizes == {"point": 6}
-
-
-def test_coordinates_that_are_no_axes_are_told_with_a_cure():
     faults = refused(TWO, coords=MEASURED)
     assert all("such as coords.drop_vars(['delta', 'rho'])" in fault for fault in faults)
     assert grid(TWO, coords=MEASURED.drop_vars(["delta", "rho"])).points == 12
@@ -417,7 +408,7 @@ def test_tables_are_no_axes_and_no_coords_and_what_to_give_is_told():
         ({"delta": df}, "is a DataFrame; give one of its columns, such as df['delta'].to_numpy()"),
         (
             {"delta": xr.Dataset(coords=TWO)},
-            "is a Dataset; give one of its coordinates, such as ds",
+            "is a Dataset; give one of its coo",
         ),
     ):
         (fault,) = refused(table)

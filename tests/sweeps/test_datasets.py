@@ -85,28 +85,24 @@ def test_a_path_without_a_form_in_toml_is_swept_and_says_why():
     assert found.attrs["path"].startswith("the path cannot be written here, since it has no form")
 
 
-def swept_by(name, detectors=1):
+def swept_by(name, *ways):
     path = op.PathGraph()
-    lamp = path.add("lamp", op.Source())
-    lamp >> path.add("splitter", op.BeamSplitter(op.Parameter(name)))
-    for way in ["reflected", "transmitted"][:detectors]:
-        path.add(way, op.Detector())
-        path.connect(f"splitter.{way}", f"{way}.in")
+    path.add("lamp", op.Source()) >> path.add("splitter", op.BeamSplitter(op.Parameter(name)))
+    for way in ("reflected", *ways):
+        path[f"splitter.{way}"] >> path.add(way, op.Detector())
     return path.sweep(**{name: [0.2, 0.4]})
 
 
 def test_names_of_variables_and_dimensions_are_not_those_of_parameters():
     for name in ("psi", "delta"):
-        variables = {*swept_by(name).data_vars}
-        assert {"Psi", "Delta"} <= variables
-        assert not {"psi", "delta"} & variables
+        assert {"Psi", "Delta", "psi", "delta"} & {*swept_by(name).data_vars} == {"Psi", "Delta"}
     assert {"psi", "delta"} <= {*swept_by("share").data_vars}
     for name in ("S0", "DoP", "log10_intensity"):
         with pytest.raises(op.ParameterError, match=f"'{name}' is what a sweep calls a variable"):
             swept_by(name)
     assert swept_by("detector").S0.dims == ("detector",)
     with pytest.raises(op.ParameterError, match="calls a dimension of its own"):
-        swept_by("detector", 2)
+        swept_by("detector", "transmitted")
 
 
 AXES = {"delta": np.linspace(0.1, 1.0, 5), "phi": np.linspace(0.2, 1.1, 4)}
@@ -118,19 +114,9 @@ def a_sweep():
     return NPGR.sweep(**AXES)
 
 
-@pytest.fixture
-def asked(monkeypatch):
-    """The shapes of light of which a degree of polarisation has been computed."""
-    shapes = []
-    dop = Light.dop.fget
-    counted = property(lambda self: shapes.append(self.shape) or dop(self))
-    monkeypatch.setattr(Light, "dop", counted)
-    return shapes
-
-
-def test_nothing_is_computed_before_somebody_asks_and_then_that_part_alone_and_once(
-    asked, monkeypatch
-):
+def test_nothing_is_computed_before_somebody_asks_and_then_that_part_alone_and_once(monkeypatch):
+    asked, dop = [], Light.dop.fget  # The shapes of light of which a degree has been computed.
+    monkeypatch.setattr(Light, "dop", property(lambda self: asked.append(self.shape) or dop(self)))
     found = a_sweep()
     str(found)
     found._repr_html_()
@@ -226,9 +212,10 @@ PARTS = (
 def test_a_quick_dataset_is_what_xarray_makes_without_a_copy_of_long_axes(monkeypatch):
     quick, usual = quick_dataset(*PARTS), xr.Dataset(*PARTS)
     assert quick.identical(usual)
-    assert list(quick.variables) == list(usual.variables)
-    assert dict(quick.sizes) == dict(usual.sizes)
-    one, other = ({n: i.dtype for n, i in each.indexes.items()} for each in (quick, usual))
+    one, other = (
+        ([*each.variables], {**each.sizes}, {n: i.dtype for n, i in each.indexes.items()})
+        for each in (quick, usual)
+    )
     assert one == other
     assert quick.sel(word="horizontal", x=X[2]).identical(usual.sel(word="horizontal", x=X[2]))
     assert np.shares_memory(quick.x.values, X)
@@ -261,11 +248,7 @@ ALONE = SWEEP.isel(intensity=0)
 TOGETHER = MALUS.sweep(
     angle="0 deg:90 deg:3", intensity=[1.0, 2.0, 3.0], zip=("angle", "intensity")
 )
-SPLIT = op.PathGraph()
-SPLIT.add("lamp", op.Source(op.Parameter("power", 1.0))) >> SPLIT.add("split", op.BeamSplitter())
-SPLIT["split.reflected"] >> SPLIT.add("one", op.Detector())
-SPLIT["split.transmitted"] >> SPLIT.add("two", op.Detector())
-POWERS = SPLIT.sweep(power=[1.0, 2.0])
+SHARES = swept_by("share", "transmitted")
 
 
 def drawn(ax):
@@ -281,7 +264,8 @@ def test_a_curve_goes_over_the_only_dimension_or_that_which_is_named(tmp_path):
     reload(optipath.sweeps.sweep_pictures)  # To register twice is no warning.
     assert ALONE.optipath.curve().get_xlabel() == ax.get_xlabel()
     assert drawn(TOGETHER.optipath.curve("S0", "intensity"))[0].tolist() == [1.0, 2.0, 3.0]
-    assert drawn(POWERS.optipath.curve(detector="two"))[1].tolist() == pytest.approx([0.5, 1.0])
+    through = SHARES.optipath.curve(detector="transmitted")
+    assert drawn(through)[1].tolist() == pytest.approx([0.8, 0.6])
     # Radians are shown in degrees, and metres in nanometres.
     x, _ = drawn(MALUS.sweep(angle=np.linspace(0, np.pi, 3)).optipath.curve())
     np.testing.assert_allclose(x, [0.0, 90.0, 180.0])
@@ -298,25 +282,21 @@ def test_a_curve_goes_over_the_only_dimension_or_that_which_is_named(tmp_path):
     assert y[0] == pytest.approx(0.5)
 
 
-def test_a_map_goes_over_two_dimensions_in_their_order():
+def test_a_map_goes_over_two_dimensions_and_the_sphere_is_coloured_by_the_coordinate(monkeypatch):
     ax = SWEEP.optipath.map("S0")
     assert ax.get_xlabel().startswith("angle")
     values = ax.collections[0].get_array()
     assert values.shape == (2, 7)
     turned = SWEEP.optipath.map("S0", "intensity", "angle").collections[0].get_array()
     np.testing.assert_array_equal(turned, values.T)
-
-
-def test_the_sphere_is_coloured_by_the_coordinate(monkeypatch):
     assert ALONE.optipath.poincare().name == "3d"
     told = {}
     monkeypatch.setattr(op.plots, "poincare", lambda *given, **by: told.update(by, given=given))
     ALONE.optipath.poincare()
     light, ax = told["given"]
-    assert ax is None
+    assert (ax, told["label"]) == (None, "angle (°)")
     np.testing.assert_allclose(light.intensity[:2], [0.5, 0.5 * np.cos(np.radians(15)) ** 2])
     np.testing.assert_allclose(told["by"], np.linspace(0.0, 90.0, 7))
-    assert told["label"] == "angle (°)"
 
 
 LINEAR = MALUS.reading("linear").sweep(angle="0 deg:90 deg:3")
@@ -333,8 +313,8 @@ WORDS = op.load_preset("npgr026").sweep(filter=["none", "30 deg"])
         (WORDS.optipath.curve, "has words among its values"),
         (TOGETHER.optipath.curve, "has the coordinates angle and intensity; say which"),
         (lambda: TOGETHER.optipath.map("S0", "angle"), "a picture goes over 2 dimensions"),
-        (POWERS.optipath.curve, "the detectors one and two; say which"),
-        (lambda: POWERS.optipath.curve(detector="three"), "detector 'three' is unknown"),
+        (SHARES.optipath.curve, "the detectors reflected and transmitted; say which"),
+        (lambda: SHARES.optipath.curve(detector="three"), "detector 'three' is unknown"),
         (LINEAR.optipath.poincare, "components that are not read"),
     ],
 )

@@ -95,23 +95,19 @@ def test_a_sweep_in_chunks_is_that_in_memory_however_it_is_cut():
     assert_same_bits(swept(chunks=4).compute(scheduler="threads", num_workers=4), swept())
 
 
-def test_nothing_is_computed_before_somebody_asks(monkeypatch):
-    monkeypatch.setattr(chunked_light, "run_block", None)
+def test_nothing_is_computed_before_somebody_asks_and_each_block_then_once_for_all(monkeypatch):
+    def counted(recipe, block):
+        blocks.append(block.shape)
+        return run_block(recipe, block)
+
+    blocks = []
+    monkeypatch.setattr(chunked_light, "run_block", counted)
     assert swept(chunks=4).S0.chunks == ((4, 3), (4, 1), (4, 2))
     single = swept(chunks=4, composer=SINGLE).data_vars.values()
     assert {each.dtype for each in single} == {np.dtype("float32")}
     one, same, other = (swept(chunks=4, n1=n).S0.data.name for n in (0.18, 0.18, 0.2))
     assert one == same != other
-
-
-def test_the_blocks_that_are_touched_are_run_once_for_all_that_is_asked_of_them(monkeypatch):
-    blocks = []
-
-    def counted(recipe, block):
-        blocks.append(block.shape)
-        return run_block(recipe, block)
-
-    monkeypatch.setattr(chunked_light, "run_block", counted)
+    assert blocks == []
     computed(chunks={"delta": 4})
     assert sorted(blocks) == [(3, 5, 6), (4, 5, 6)]
     blocks.clear()
@@ -170,12 +166,11 @@ def sent(path, *composer):
 def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
     draw = Draw(seed)
     path = draw.path(loops=seed % 3 == 0)
-    here, there = path.compose(), sent(path).plan
-    lights, others = here.run_all(**draw.values), there.run_all(**draw.values)
-    assert lights.keys() == others.keys()
-    for name, light in lights.items():
-        assert light.stokes.tobytes() == others[name].stokes.tobytes()
-        assert light.noise.tobytes() == others[name].noise.tobytes()
+    here, there = (plan.run_all(**draw.values) for plan in (path.compose(), sent(path).plan))
+    assert here.keys() == there.keys()
+    for name, light in here.items():
+        assert light.stokes.tobytes() == there[name].stokes.tobytes()
+        assert light.noise.tobytes() == there[name].noise.tobytes()
 
 
 def test_options_of_the_composer_travel_and_a_plan_is_made_once_a_process():
@@ -212,9 +207,7 @@ eye = { kind = "detector" }
 """
 
 
-def test_modules_with_elements_are_imported_and_those_that_are_not_there_told(
-    tmp_path, monkeypatch
-):
+def test_modules_with_elements_are_imported_or_told_where_there_are_none(tmp_path, monkeypatch):
     module = SCRIPT.split("path =", maxsplit=1)[0].replace("script", "module")
     (tmp_path / "halving.py").write_text(module)
     monkeypatch.syspath_prepend(tmp_path)

@@ -272,25 +272,16 @@ def drawn(values, places, correlation=None, count=5_000, block=None):
     return samples.within(block or slice(0, count), [each.name for each in values])
 
 
-def test_samples_of_a_value_do_not_change_with_others_with_their_order_or_with_the_block():
+def test_samples_of_a_value_do_not_change_with_others_and_are_cut_off_by_themselves():
     a, b, c = value("a"), value("b", low=0.0), value("c", high=0.0)
     alone = drawn([b], [1])["b"]
     for values, places in ([[a, b, c], [0, 1, 2]], [[c, b], [2, 1]]):
         assert_array_equal(drawn(values, places)["b"], alone)
-    matrix, c = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.3], [0.0, 0.3, 1.0]]), value("c")
-    found = drawn([a, b, c], [4, 2, 7], matrix)
-    again = drawn([c, b, a], [7, 2, 4], matrix[::-1, ::-1])
-    assert_array_equal(*[[each[name] for name in "abc"] for each in (found, again)])
-    assert found["b"].min() >= 0.0
-    values, asked = [b, a], {"places": [0, 1], "count": 10_000}
-    whole, part = drawn(values, **asked), drawn(values, **asked, block=slice(4_000, 9_000))
-    assert_array_equal([part[n] for n in "ab"], [whole[n][4_000:9_000] for n in "ab"])
-
-
-def test_values_within_ranges_are_drawn_each_by_itself_and_cut_off():
+    assert_array_equal(drawn([b, a], [1, 0], block=slice(400, 900))["b"], alone[400:900])
     # Of 30 half-normals 1e-9 of all samples were inside at once.
     values = [value(f"a{number}", low=0.0) for number in range(30)]
     for samples in drawn(values, range(30)).values():
+        assert samples.min() >= 0.0
         assert_allclose(samples.mean(), np.sqrt(2.0 / np.pi), rtol=0.06)
     # A tenth of the sigma to both sides: nearly uniform, 8 % inside.
     (samples,) = drawn([value("a", low=-0.1, high=0.1)], [0]).values()
@@ -323,9 +314,9 @@ def test_memory_is_that_of_the_block_and_one_that_it_cannot_hold_is_refused_befo
     assert sampled(ANALYZED, a=(0.3, 0.1), samples=1_000).uncertainty_of("S0") > 0.0
 
 
-def test_small_uncertainties_are_those_of_the_first_order():
-    given = {"n1": (1.12, 0.001), "k1": (2.16, 0.001), "delta": (0.8, 0.001), "phi": (0.3, 0.002)}
-    first, found = by_slopes(NPGR, **given), sampled(NPGR, **given, samples=20_000)
+def test_small_uncertainties_and_correlated_ones_are_those_of_the_first_order():
+    asked = {"n1": (1.12, 0.001), "k1": (2.16, 0.001), "delta": (0.8, 0.001), "phi": (0.3, 0.002)}
+    first, found = by_slopes(NPGR, **asked), sampled(NPGR, **asked, samples=20_000)
     # The relative standard deviation of a standard deviation of M samples is 1 / sqrt(2 M).
     there = first.uncertainties > 1e-12
     assert there.sum() > 3
@@ -333,9 +324,16 @@ def test_small_uncertainties_are_those_of_the_first_order():
     assert_allclose(one, other, rtol=5.0 / np.sqrt(40_000))
     assert_allclose(found.shares[there], first.shares[there], atol=0.03)
     assert_allclose(found.covariance[0, 1], first.covariance[0, 1], rtol=0.05)
+    path = LAMP >> op.Rotator(op.Parameter("a")) >> op.Attenuator(op.Parameter("t"))
+    asked = {"a": (0.3, 0.01), "t": (0.5, 0.01), "correlation": {("a", "t"): -0.7}}
+    path = path >> op.Detector()
+    first = by_slopes(path, **asked).covariance
+    found = sampled(path, **asked, samples=40_000).covariance
+    size = np.sqrt(np.outer(np.diag(first), np.diag(first)))
+    assert np.all(np.abs(found - first) <= 0.03 * size + 1e-12)
 
 
-def test_an_extremum_has_the_moments_of_a_squared_normal():
+def test_an_extremum_and_the_end_of_a_range_have_the_moments_of_closed_forms_and_it_is_told():
     # I = cos^2 a = (1 + cos 2a) / 2, and the mean of cos 2a is exp(-2 s^2) about 0.
     sigma, count = 0.2, 40_000
     found = sampled(ANALYZED, a=(0.0, sigma), samples=count)
@@ -343,44 +341,8 @@ def test_an_extremum_has_the_moments_of_a_squared_normal():
     deviation = np.sqrt((1.0 + np.exp(-8.0 * sigma**2)) / 8.0 - np.exp(-4.0 * sigma**2) / 4.0)
     assert abs(found.mean[0] - mean) < 5.0 * deviation / np.sqrt(count)
     assert_allclose(found.uncertainty_of("S0"), deviation, rtol=0.04)
-
-
-def test_correlated_samples_have_the_covariance_of_the_first_order():
-    dimmer = op.Attenuator(op.Parameter("t"))
-    path = LAMP >> op.Rotator(op.Parameter("a")) >> dimmer >> op.Detector()
-    given = {"a": (0.3, 0.01), "t": (0.5, 0.01), "correlation": {("a", "t"): -0.7}}
-    first, found = by_slopes(path, **given).covariance, sampled(path, **given, samples=40_000)
-    size = np.sqrt(np.outer(np.diag(first), np.diag(first)))
-    assert np.all(np.abs(found.covariance - first) <= 0.03 * size + 1e-12)
-
-
-def test_one_seed_has_one_result_and_another_another_and_that_of_jax_is_the_same():
-    asked = {"a": (0.3, 0.1), "samples": 100}
-    one, same, other = (sampled(ANALYZED, **asked, seed=seed) for seed in (3, 3, 4))
-    assert_array_equal(one.uncertainties, same.uncertainties)
-    assert one.uncertainty_of("S0") != other.uncertainty_of("S0")
-    assert one.method == "Monte Carlo, 100 samples, seed 3"
-    if "jax" in ENGINES:  # Without a warning.
-        same = sampled(ANALYZED, **asked, seed=3, composer=op.Composer(engine="jax"))
-        assert_allclose(same.uncertainties, one.uncertainties, rtol=1e-9, atol=1e-12)
-
-
-def test_blocks_of_any_size_and_values_in_any_order_have_the_same_bits(monkeypatch):
-    given = {"delta": (0.8, 0.1), "n1": (1.1, 0.1), "k1": (2.2, 0.1), "samples": 100}
-    given["correlation"] = {("k1", "n1"): 0.3}
-    backwards = dict([*given.items()][::-1])
-    assert_same_bits(sampled(NPGR, **given), sampled(NPGR, **backwards), order=-1)
-    path = op.load_preset("copper-gold-spectrum")
-    given = {"delta": (0.8, 0.1), "wavelength": ([516e-9, 520e-9], 1e-9), "samples": 100}
-    whole = sampled(path, **given)
-    for size in (2, 14, 64):
-        monkeypatch.setattr(monte_carlo, "PATHS", size)
-        assert_same_bits(whole, sampled(path, **given))
-
-
-def test_samples_outside_a_range_are_drawn_again_and_told():
     # Half of a normal distribution: its mean is s sqrt(2 / pi), its variance s^2 (1 - 2 / pi).
-    found = sampled(BARE, i=(0.0, 0.5), samples=40_000)
+    found = sampled(BARE, i=(0.0, 0.5), samples=count)
     assert_allclose(found.mean[0], 0.5 * np.sqrt(2.0 / np.pi), rtol=0.02)
     assert_allclose(found.uncertainty_of("S0"), 0.5 * np.sqrt(1.0 - 2.0 / np.pi), rtol=0.02)
     (note,) = found.notes
@@ -391,18 +353,37 @@ def test_samples_outside_a_range_are_drawn_again_and_told():
     assert_allclose(found[1], 0.5, rtol=0.05)
 
 
-def test_what_values_do_together_is_the_share_of_none_and_figures_that_are_none_have_none():
+def test_one_seed_has_one_result_whatever_the_engine_the_order_and_the_size_of_blocks(monkeypatch):
+    asked = {"a": (0.3, 0.1), "samples": 100}
+    one, same, other = (sampled(ANALYZED, **asked, seed=seed) for seed in (3, 3, 4))
+    assert_same_bits(one, same)
+    assert one.uncertainty_of("S0") != other.uncertainty_of("S0")
+    assert one.method == "Monte Carlo, 100 samples, seed 3"
+    if "jax" in ENGINES:  # Without a warning.
+        same = sampled(ANALYZED, **asked, seed=3, composer=op.Composer(engine="jax"))
+        assert_allclose(same.uncertainties, one.uncertainties, rtol=1e-9, atol=1e-12)
+    asked = {"delta": (0.8, 0.1), "n1": (1.1, 0.1), "k1": (2.2, 0.1), "samples": 100}
+    asked["correlation"] = {("k1", "n1"): 0.3}
+    backwards = dict([*asked.items()][::-1])
+    assert_same_bits(sampled(NPGR, **asked), sampled(NPGR, **backwards), order=-1)
+    path = op.load_preset("copper-gold-spectrum")
+    asked = {"delta": (0.8, 0.1), "wavelength": ([516e-9, 520e-9], 1e-9), "samples": 100}
+    whole = sampled(path, **asked)
+    for size in (2, 14, 64):
+        monkeypatch.setattr(monte_carlo, "PATHS", size)
+        assert_same_bits(whole, sampled(path, **asked))
+
+
+def test_what_values_do_together_is_the_share_of_none_and_samples_are_within_ranges_and_tables():
     # I t about 0: neither changes the light without the other.
     path = LAMP >> op.Polarizer(op.Parameter("a")) >> op.Polarizer(op.Parameter("b"))
     found = sampled(path >> op.Detector(), a=(0.0, 0.1), b=(np.pi / 2, 0.1))
     assert sum(found.contributions_to("S0").values()) < 0.9
+    # Figures that are none have no uncertainty.
     path = LAMP >> op.Depolarizer(op.Parameter("d")) >> op.Detector()
     found = sampled(path, d=(1.0, 0.1), samples=100)
     assert np.isnan(found.uncertainty_of("aop"))
     assert 0.03 < found.uncertainty_of("dop") < 0.1
-
-
-def test_values_at_the_ends_of_ranges_and_tables_have_samples_within_them():
     path = op.load_preset("npgr026", case=7)
     found = sampled(path, delta=(0, 1e-6), k1=(0, 1e-6), k2=(0, 1e-6), samples=1_000)
     assert np.all(np.isfinite(found.uncertainty))
