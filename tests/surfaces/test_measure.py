@@ -106,7 +106,7 @@ def test_wavelengths_ride_on_the_same_photons():
     assert together.wavelength.values.tolist() == [450e-9, 550e-9, 650e-9]
 
 
-def test_threads_give_the_same_bits_and_numbers_of_facets_all_photons_that_there_are():
+def test_threads_change_no_bits_and_photons_by_number_of_facets_met_are_all_there_are():
     given = {"photons": 70_001, "sensor": 16}
     one, *others = [op.measure(GLASS, "60 deg", threads=n, **given).parts for n in (1, 2, 5)]
     for other in others:
