@@ -1,17 +1,20 @@
-"""The rule of engine "auto": what costs least, compiling included."""
+"""What engines say of themselves, and the rule of "auto": what costs least, with compiling."""
 
 import numpy as np
 import pytest
 
 import optipath as op
+from optipath import extras
 from optipath.composer import composer
 from optipath.engines import automatic
 from optipath.engines.automatic import FLOATS, HANDFUL, NUMPY_STEPS, EngineChoice
 from optipath.engines.engine import Engine
+from optipath.engines.float_engine import FLOAT_ENGINE
+from optipath.engines.formulas.formula import Formula
+from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.known_engines import REGISTRY
 from optipath.engines.numpy_engine import NumpyEngine
 from optipath.plan.running import shared
-from tables import rows
 
 
 class Paths:
@@ -48,64 +51,54 @@ def auto(*, floats=True):
 def test_the_first_runs_of_a_few_paths_make_nothing_and_a_handful_is_run_as_floats():
     choice = auto()
     assert [choice.of(10, Paths()) for _ in range(5)] == 3 * [NUMPY_STEPS] + 2 * [FLOATS]
-    choice = auto()
-    for _ in range(4):
-        choice.of(10, Paths())
-    assert choice.of(HANDFUL - 1, Paths()) == FLOATS
-    assert choice.of(HANDFUL, Paths()) == "numpy"
+    assert (choice.of(HANDFUL - 1, Paths()), choice.of(HANDFUL, Paths())) == (FLOATS, "numpy")
     choice = auto(floats=False)
-    found = [choice.of(10, Paths()) for _ in range(6)]
-    assert set(found) == {NUMPY_STEPS}
+    assert {choice.of(10, Paths()) for _ in range(6)} == {NUMPY_STEPS}
 
 
 def test_numba_is_waited_for_where_it_saves_more_than_it_costs():
     work = Paths()
-    assert auto().of(100_000, work) == "numpy"
-    assert work.asked == 0
-    assert auto().of(10**8, Paths()) == "numba"
+    assert (auto().of(100_000, work), work.asked) == ("numpy", 0)
+    assert auto().of(10**8, Paths()) == auto().of(1 << 20, Paths(), 10**8) == "numba"
+    assert auto().of(1 << 20, Paths()) == "numpy"
     choice, work = auto(), Paths()
     found = [choice.of(1_000_000, work) for _ in range(10)]
-    assert found[0] == "numpy"
-    assert found[-1] == "numba"
+    assert (found[0], found[-1]) == ("numpy", "numba")
     assert found == sorted(found, reverse=True)
-    assert auto().of(1 << 20, Paths(), 10**8) == "numba"
-    assert auto().of(1 << 20, Paths()) == "numpy"
-
-
-def test_code_that_has_been_compiled_before_is_run_once_looking_for_it_pays():
+    # Code that has been compiled before is run once looking for it pays.
     work = Paths(kept=True)
     assert auto().of(1_000_000, work) == "numba"
     choice = auto()
     found = [choice.of(1000, work) for _ in range(2000)]
-    assert found[3] == "numpy"
-    assert found[-1] == "numba"
+    assert (found[3], found[-1]) == ("numpy", "numba")
 
 
-def test_what_has_no_formula_or_too_long_a_one_is_not_compiled():
+def test_what_has_no_formula_or_too_long_a_one_is_not_compiled_and_no_other_engine_is_asked():
     choice = auto()
-    assert choice.of(10**8, Paths(None)) == NUMPY_STEPS
-    assert choice.of(10**8, Paths()) == NUMPY_STEPS
+    assert choice.of(10**8, Paths(None)) == choice.of(10**8, Paths()) == NUMPY_STEPS
     assert auto().of(10**8, Paths(4001)) == "numpy"
-    assert EngineChoice("numba", floats=True).of(10, Paths(4001)) == "numpy"
-
-
-def test_engines_by_name_are_asked_and_no_other():
-    assert EngineChoice("numba", floats=True).of(2, Paths()) == "numba"
-    choice = EngineChoice("numpy", floats=True)
-    found = [
-        choice.of(count, Paths(kept=True)) for count in (10, 10, 10, 10, 10, 1023, 1024, 10**8)
-    ]
+    numba, numpy = (EngineChoice(name, floats=True) for name in ("numba", "numpy"))
+    assert (numba.of(10, Paths(4001)), numba.of(2, Paths())) == ("numpy", "numba")
+    counts = (10, 10, 10, 10, 10, 1023, 1024, 10**8)
+    found = [numpy.of(count, Paths(kept=True)) for count in counts]
     assert found == 6 * [NUMPY_STEPS] + 2 * ["numpy"]
 
 
 def test_a_plan_says_what_ran():
     shared._RUNNERS.clear()
     plan = op.load_preset("malus").compose()
-    assert plan.engine_for(1) == FLOATS
-    assert plan.engine_for(1000) == "numpy"
+    assert (plan.engine_for(1), plan.engine_for(1000)) == (FLOATS, "numpy")
     assert plan.engine_for(10**400) == plan.engine_for(2**53)
     stream = plan.stream(1000, angle=np.linspace(0.0, 1.0, 2500))
     assert [part.light.stokes.shape[0] for part in stream] == [1000, 1000, 500]
+    for dtype, engine, how in (
+        ("float64", FLOATS, "as floats one by one"),
+        ("float32", NUMPY_STEPS, "step by step"),
+    ):
+        plan = op.Composer(dtype=dtype).compose(op.load_preset("malus"))
+        assert plan.engine_for(10) == plan.engine_for(HANDFUL - 1) == engine
+        assert plan.engine_for(HANDFUL) == "numpy"
+        assert f"fewer than 58 paths are run {how}, more by numpy" in plan.explain()
 
 
 class Toy(Engine):
@@ -152,15 +145,30 @@ def test_a_new_engine_is_given_nothing_beyond_its_limits(toy):
     assert not toy.compilations
 
 
-@rows(
-    "dtype, engine, words",
-    [
-        ("float64", FLOATS, "fewer than 58 paths are run as floats one by one, more by numpy"),
-        ("float32", NUMPY_STEPS, "fewer than 58 paths are run step by step, more by numpy"),
-    ],
-)
-def test_the_explanation_says_what_runs_a_few_paths(dtype, engine, words):
-    plan = op.Composer(dtype=dtype).compose(op.load_preset("malus"))
-    assert plan.engine_for(10) == plan.engine_for(HANDFUL - 1) == engine
-    assert plan.engine_for(HANDFUL) == "numpy"
-    assert words in plan.explain()
+def test_an_engine_whose_package_is_not_there_names_what_brings_it(monkeypatch):
+    monkeypatch.undo()
+    monkeypatch.setitem(extras._EXTRA_OF, "no_such_package", "fast")
+    monkeypatch.setattr(Toy, "name", "no_such_package")
+    monkeypatch.setattr(Toy, "extra", "fast")
+    assert not Toy().is_installed
+    assert "optipath[fast]" in str(Toy().missing)
+
+
+def test_numba_is_ready_for_what_it_has_compiled_and_others_always(tmp_path, monkeypatch):
+    # A formula that no plan has.
+    recorder = Recorder(np.dtype("float64"))
+    formula, again = (
+        Formula(recorder.dtype, (2.0 * recorder.input("x") + 0.1234,)) for _ in range(2)
+    )
+    assert FLOAT_ENGINE.is_ready(formula)
+    assert REGISTRY["numpy"].is_ready(formula)
+    pytest.importorskip("numba")
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    numba = REGISTRY["numba"]
+    assert not numba.is_ready(formula)
+    path, out = numba.compiled(formula), np.empty((1, 3))
+    assert path((0, 1), (0, 3), [np.array([1.0, 2.0, 3.0])], out, 0)
+    assert out.tolist() == [[2.1234, 4.1234, 6.1234]]
+    assert numba.is_ready(formula)
+    assert numba.is_ready(again)

@@ -1,10 +1,13 @@
 """Gradients by JAX, against differences and closed forms; needs the extra [jax]."""
 
+import mpmath as mp
 import numpy as np
 import pytest
 
 import optipath as op
 from optipath.lab.bench.random_values import random_values
+from paths import chain
+from slabs import slab
 from tables import rows, slow_except
 
 jax = pytest.importorskip("jax")
@@ -23,19 +26,14 @@ WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window"} - NO_MAT
 QUICK = [("npgr026", "jones"), ("glass-slab", "stokes"), ("copper-gold-spectrum", "stokes")]
 
 
-@pytest.mark.parametrize(
-    ("name", "composing"),
-    slow_except(
-        QUICK,
-        [(name, "stokes") for name in sorted(PRESETS)]
-        + [(name, "jones") for name in sorted(WITH_JONES)],
-    ),
-)
+EVERY = [(n, "stokes") for n in sorted(PRESETS)] + [(n, "jones") for n in sorted(WITH_JONES)]
+
+
+@pytest.mark.parametrize(("name", "composing"), slow_except(QUICK, EVERY))
 def test_every_preset_gives_what_numpy_gives(name, composing):
     path = op.load_preset(name)
-    plans = [
-        op.Composer(engine=engine, composing=composing).compose(path) for engine in ("numpy", "jax")
-    ]
+    composers = [op.Composer(engine=engine, composing=composing) for engine in ("numpy", "jax")]
+    plans = [composer.compose(path) for composer in composers]
     given = random_values(plans[0], 20)
     for expected, found in zip(*(plan.run_all(**given).values() for plan in plans), strict=True):
         scale = np.nanmax(np.abs(expected.stokes))
@@ -64,14 +62,19 @@ def test_slopes_are_those_of_differences(method):
         np.testing.assert_allclose(slope, expected, rtol=0, atol=3e-7)
 
 
-def test_a_path_can_be_built_of_what_is_not_known_yet():
-    def intensity(n):
-        path = op.load_preset("npgr026", n1=n, **METAL)
-        return path.trace().stokes[0]
+def test_a_path_can_be_built_of_what_is_not_known_yet_and_lights_looked_at_meanwhile():
+    path = op.load_preset("npgr026")
 
-    expected = jax.grad(lambda n: op.load_preset("npgr026").trace(n1=n, **METAL).stokes[0])(1.12)
-    np.testing.assert_allclose(jax.grad(intensity)(1.12), expected, rtol=1e-14)
-    np.testing.assert_allclose(jax.jit(intensity)(1.12), intensity(1.12), rtol=1e-14)
+    def built(n):
+        return op.load_preset("npgr026", n1=n, **METAL).trace().stokes[0]
+
+    expected = jax.grad(lambda n: path.trace(n1=n, **METAL).stokes[0])(1.12)
+    np.testing.assert_allclose(jax.grad(built)(1.12), expected, rtol=1e-14)
+    np.testing.assert_allclose(jax.jit(built)(1.12), built(1.12), rtol=1e-14)
+    dop = jax.jit(lambda n: path.trace(**METAL, n1=n).dop)(1.12)
+    np.testing.assert_allclose(dop, path.trace(**METAL, n1=1.12).dop, rtol=1e-14)
+    many = jax.vmap(lambda n: path.trace(**METAL, n1=n).intensity)(jnp.array([1.1, 1.2]))
+    assert many.shape == (2,)
 
 
 def test_slopes_of_faces_loops_and_degrees_are_those_of_closed_forms():
@@ -79,19 +82,11 @@ def test_slopes_of_faces_loops_and_degrees_are_those_of_closed_forms():
     # R = ((n - 1) / (n + 1))^2, so dR/dn = 4 (n - 1) / (n + 1)^3.
     slope = jax.grad(lambda n: path.trace(n1=n).stokes[0])(1.5)
     np.testing.assert_allclose(slope, 100 * 0.04 * 4 * 0.5 / 2.5**3, rtol=1e-12)
-    source = op.PathGraph()
-    lamp = source.add("lamp", op.Source(op.Parameter("intensity")))
-    lamp >> source.add("eye", op.Detector())
-    assert jax.grad(lambda i: source.trace(intensity=i).dop)(1.0) == 0.0
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source(1.0)) >> path.add("front", op.Interface(op.Parameter("n"), 0.0))
-    path.add("back", op.Interface(1.0, 0.0, outside=op.Parameter("n"), incidence_in=1.0))
-    path.add("eye", op.Detector())
-    path.connect("front.transmitted", "back.in")
-    path.connect("back.reflected", "front.back")
-    path.connect("back.transmitted", "eye.in")
+    source = op.Source(op.Parameter("i")) >> op.Detector()
+    assert jax.grad(lambda i: source.trace(i=i).dop)(1.0) == 0.0
+    path = slab(op.Parameter("n"), 0.0)
     # A slab lets 2 n / (n^2 + 1) through, so dT/dn = 2 (1 - n^2) / (n^2 + 1)^2.
-    slope = jax.grad(lambda n: path.trace(n=n).intensity)(1.5)
+    slope = jax.grad(lambda n: path.trace_all(n=n)["T"].intensity)(1.5)
     assert float(slope) == pytest.approx(2 * (1 - 1.5**2) / (1.5**2 + 1) ** 2, rel=1e-12)
 
 
@@ -102,26 +97,18 @@ def test_where_methods_fail_slopes_are_finite(name, value):
     assert np.all(np.isfinite(slope))
 
 
-def test_lights_can_be_looked_at_while_they_are_traced():
-    path = op.load_preset("npgr026")
-    dop = jax.jit(lambda n: path.trace(**METAL, n1=n).dop)(1.12)
-    np.testing.assert_allclose(dop, path.trace(**METAL, n1=1.12).dop, rtol=1e-14)
-    many = jax.vmap(lambda n: path.trace(**METAL, n1=n).intensity)(jnp.array([1.1, 1.2]))
-    assert many.shape == (2,)
-
-
 def test_what_jax_or_others_cannot_take_is_refused():
-    plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
-    with pytest.raises(op.ParameterError, match="engine='jax'"):
-        plan.run(n1=jnp.array(1.5))
-    plan = op.Composer(engine="jax").compose(op.load_preset("npgr026"))
-    with pytest.raises(op.ParameterError, match="outside its range"):
-        plan.run(delta=7.0)
-    with pytest.raises(op.ComposerError, match="longdouble"):
-        op.Composer(engine="jax", dtype="longdouble")
-    plan = op.Composer(engine="jax").compose(op.load_preset("malus"))
-    with pytest.raises(op.ParameterError, match="keeps a batch whole"):
-        next(plan.stream(10, angle=np.zeros(20)))
+    by_numpy, by_jax = (
+        op.Composer(engine=engine).compose(op.load_preset("npgr026")) for engine in ("numpy", "jax")
+    )
+    for refused, told in (
+        (lambda: by_numpy.run(n1=jnp.array(1.5)), "engine='jax'"),
+        (lambda: by_jax.run(delta=7.0), "outside its range"),
+        (lambda: next(by_jax.stream(10, delta=np.zeros(20))), "keeps a batch whole"),
+        (lambda: op.Composer(engine="jax", dtype="longdouble"), "longdouble"),
+    ):
+        with pytest.raises(op.OptipathError, match=told):
+            refused()
 
 
 def test_slopes_in_single_precision_are_not_taken_for_double():
@@ -132,12 +119,9 @@ def test_slopes_in_single_precision_are_not_taken_for_double():
     assert path.trace(n1=1.5).stokes.dtype == np.float64
 
 
-def surface(incidence, stokes=None):
+def surface(incidence, stokes=(1.0, 0.0, 0.0, 0.0)):
     metal = op.Material(op.Parameter("n"), op.Parameter("k"))
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source(stokes=stokes))
-    lamp >> path.add("surface", op.Interface(metal, incidence)) >> path.add("eye", op.Detector())
-    return path
+    return chain([op.Interface(metal, incidence)], stokes)
 
 
 @rows("composing", ["stokes", "jones"])
@@ -150,11 +134,8 @@ def test_slopes_where_the_polarisations_are_equally_bright_are_those_of_50_digit
 
 
 def exact_slope(n, k, angle):
-    import mpmath as mp  # noqa: PLC0415 - for this test only
-
     def powers(k):
-        m = mp.mpc(n, k)
-        c, s = mp.cos(mp.mpf(angle)), mp.sin(mp.mpf(angle))
+        m, c, s = mp.mpc(n, k), mp.cos(mp.mpf(angle)), mp.sin(mp.mpf(angle))
         g = mp.sqrt(m * m - s * s)
         g = g if g.imag >= 0 else -g
         rs, rp = (c - g) / (c + g), (m * m * c - g) / (m * m * c + g)
@@ -180,10 +161,8 @@ def test_slopes_at_brewsters_angle_are_those_of_differences(composing):
 def test_each_boundary_of_a_stack_stays_a_function_of_its_own_for_xla(transformed):
     # In one piece, XLA took minutes to compile second derivatives of four media.
     pytest.importorskip("jax.experimental.xla_metadata")
-    path = op.PathGraph()
     stack = op.LayerStack([1.0, 1.3, op.Parameter("layer"), 0.2 + 3j], 0.5)
-    lamp = path.add("lamp", op.Source())
-    lamp >> path.add("stack", stack) >> path.add("eye", op.Detector("intensity"))
+    path = chain([stack], reads="intensity")
     text = jax.jit(transformed(lambda n: path.trace(layer=n).intensity)).lower(1.5).as_text()
     # Of three boundaries, what is reflected and what is let through.
     assert text.count('inlineable = "false"') >= 6

@@ -18,7 +18,12 @@ sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
 pytestmark = pytest.mark.usefixtures("jax_once")
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40
-PORTS = {"reflection": "reflected", "transmission": "transmitted"}
+PORTS = ("reflected", "transmitted")
+NAMES = ("n1", "n", "k", "angle")
+N0, N1, ANGLE = map(op.Parameter, ("n0", "n1", "angle"))
+SUBSTRATE = op.Material(op.Parameter("n"), op.Parameter("k"))
+SEED, SETS = 1, 1
+"""Random partners: which, and how many of each kind."""
 
 
 def seen(A, B, C, S):
@@ -51,10 +56,10 @@ def differences(function, point, order=1):
         return np.array(slopes)
 
 
-def one_boundary(what):
+def one_boundary(port):
     def light(n1, n, k, angle):
         face = boundary(mpmath.mpc(n, k) / n1, *cos_sin(angle))
-        return seen(*mueller_numbers(*powers(getattr(face, PORTS[what]))))
+        return seen(*mueller_numbers(*powers(getattr(face, port))))
 
     return light
 
@@ -64,49 +69,36 @@ def several(*, reflected):
         *indices, k, angle = given
         media = [mpmath.mpc(n) for n in indices[:-1]] + [mpmath.mpc(indices[-1], k)]
         rows = stack(media, *cos_sin(angle), back=False, way=reflected)
-        return [sum(m * s for m, s in zip(row, LIGHT, strict=True)) for row in rows]
+        return [mpmath.fdot(row, LIGHT) for row in rows]
 
     return light
 
 
-def surface(what):
+def by_port(element, port, state=LIGHT):
     path = op.PathGraph()
-    media = op.Material(op.Parameter("n"), op.Parameter("k"))
-    path.add("lamp", op.Source(stokes=LIGHT))
-    path.add("face", op.Interface(media, op.Parameter("angle"), outside=op.Parameter("n1")))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "face.in")
-    path.connect(f"face.{PORTS[what]}", "eye.in")
+    path.add("lamp", op.Source(stokes=state)) >> path.add("it", element)
+    path[f"it.{port}"] >> op.Detector()
     return path
 
 
-def layers(what):
+def surface(port):
+    return by_port(op.Interface(SUBSTRATE, ANGLE, outside=N1), port)
+
+
+def layers(port):
     """A layer on a substrate as one element."""
-    media = [op.Parameter("n0"), op.Parameter("n1")]
-    path = op.PathGraph()
-    path.add("lamp", op.Source(stokes=LIGHT))
-    substrate = op.Material(op.Parameter("n"), op.Parameter("k"))
-    path.add("stack", op.LayerStack([*media, substrate], op.Parameter("angle")))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "stack.in")
-    path.connect(f"stack.{PORTS[what]}", "eye.in")
-    return path
+    return by_port(op.LayerStack([N0, N1, SUBSTRATE], ANGLE), port)
 
 
-def slab(what):
+def slab(port):
     """Two boundaries between which light goes round."""
     path = op.PathGraph(loops="sum")
-    first, layer = op.Parameter("n0"), op.Parameter("n1")
-    substrate = op.Material(op.Parameter("n"), op.Parameter("k"))
-    angle = op.Parameter("angle")
-    path.add("lamp", op.Source(stokes=LIGHT))
-    path.add("front", op.Interface(layer, angle, outside=first))
-    path.add("back", op.Interface(substrate, angle, outside=layer, incidence_in=first))
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "front.in")
-    path.connect("front.transmitted", "back.in")
-    path.connect("back.reflected", "front.back")
-    path.connect("front.reflected" if what == "reflection" else "back.transmitted", "eye.in")
+    front, back = op.Interface(N1, ANGLE, N0), op.Interface(SUBSTRATE, ANGLE, N1, incidence_in=N0)
+    path.add("lamp", op.Source(stokes=LIGHT)) >> path.add("front", front)
+    path.add("back", back)
+    path["front.transmitted"] >> path["back.in"]
+    path["back.reflected"] >> path["front.back"]
+    path[f"{'front' if port == 'reflected' else 'back'}.{port}"] >> op.Detector()
     return path
 
 
@@ -117,17 +109,14 @@ def slopes(plan, names, points, derivative):
         return plan.run(**dict(zip(names, given, strict=True))).stokes
 
     function = derivative(stokes, argnums=tuple(range(len(names))))
-    found = jax.jit(jax.vmap(function))(*np.array(points).T)
-    return np.stack(found, axis=1)
+    return np.stack(jax.jit(jax.vmap(function))(*np.array(points).T), axis=1)
 
 
 def agree(found, expected, points, limit=1e-10):
     scale = np.maximum(1.0, np.abs(expected).max(axis=-1, keepdims=True))
     apart = np.abs(found - expected) / scale
     worst = np.unravel_index(np.argmax(np.where(np.isnan(apart), np.inf, apart)), apart.shape)
-    said = (
-        f"argument {worst[1]} at {points[worst[0]]}: {found[worst[:2]]}, not {expected[worst[:2]]}"
-    )
+    said = f"{worst[1]} at {points[worst[0]]}: {found[worst[:2]]}, not {expected[worst[:2]]}"
     assert apart[worst] <= limit, said
 
 
@@ -154,53 +143,36 @@ def singular_points(seed):
     return [point for point in found if apart_from_critical(*point)]
 
 
-NAMES = ("n1", "n", "k", "angle")
-SEED, SETS = 1, 1
-"""Random partners: which, and how many of each kind."""
-
-
-@cache
-def expected_at(what, seed):
-    return np.array([differences(one_boundary(what), point) for point in points_of(seed)])
-
-
 def points_of(seed):
     return [*singular_points(seed), (1.0, 1.5, 0.0, np.pi / 2), (1.0, 0.2, 3.0, np.pi / 2)]
 
 
-@pytest.mark.parametrize(
-    ("what", "method"),
-    slow_except(
-        [("transmission", "stable"), ("reflection", "textbook")],
-        [(what, method) for what in PORTS for method in METHODS],
-    ),
-)
-def test_slopes_are_those_of_many_digits_at_every_singular_point(what, method):
-    plan, points = op.Composer(method=method).compose(surface(what)), points_of(SEED)
-    agree(slopes(plan, NAMES, points, jax.jacfwd), expected_at(what, SEED), points)
+@cache
+def expected_at(port, seed):
+    return np.array([differences(one_boundary(port), point) for point in points_of(seed)])
+
+
+WAYS = [(port, "method", method, jax.jacfwd) for port in PORTS for method in METHODS]
+WAYS += [(port, "composing", way, jax.jacrev) for port in PORTS for way in ("stokes", "jones")]
+QUICK = [("transmitted", "stable"), ("reflected", "textbook"), ("reflected", "jones")]
 
 
 @pytest.mark.parametrize(
-    ("what", "composing"),
-    slow_except(
-        [("reflection", "jones")],
-        [(what, composing) for what in PORTS for composing in ("stokes", "jones")],
-    ),
+    ("port", "option", "choice", "derivative"),
+    slow_except([way for way in WAYS if (way[0], way[2]) in QUICK], WAYS),
 )
-def test_slopes_backwards_are_those_of_many_digits_too(what, composing):
-    plan, points = op.Composer(composing=composing).compose(surface(what)), points_of(SEED)
-    agree(slopes(plan, NAMES, points, jax.jacrev), expected_at(what, SEED), points)
+def test_slopes_are_those_of_many_digits_at_every_singular_point(port, option, choice, derivative):
+    plan, points = op.Composer(**{option: choice}).compose(surface(port)), points_of(SEED)
+    agree(slopes(plan, NAMES, points, derivative), expected_at(port, SEED), points)
 
 
 @pytest.mark.parametrize(
-    ("what", "build"),
-    slow_except(
-        [("reflection", layers)], [(what, build) for what in PORTS for build in (slab, layers)]
-    ),
+    ("port", "build"),
+    slow_except([("reflected", layers)], [(port, f) for port in PORTS for f in (slab, layers)]),
 )
-def test_slopes_of_stacks_and_loops_are_those_of_many_digits(what, build):
-    plan, points = op.Composer().compose(build(what)), stacks(SEED)
-    light = several(reflected=what == "reflection")
+def test_slopes_of_stacks_and_loops_are_those_of_many_digits(port, build):
+    plan, points = op.Composer().compose(build(port)), stacks(SEED)
+    light = several(reflected=port == "reflected")
     expected = np.array([differences(light, point) for point in points])
     agree(slopes(plan, ("n0", *NAMES), points, jax.jacfwd), expected, points)
 
@@ -233,13 +205,7 @@ def test_a_slab_at_grazing_incidence_has_the_slopes_of_the_closed_form():
     slab_of_glass = op.load_preset("glass-slab", n=n)
     slope = jax.jacfwd(lambda angle: slab_of_glass.trace(theta=angle).stokes)(np.pi / 2)
     np.testing.assert_allclose(slope[:2], expected, rtol=1e-12)
-    path = op.PathGraph()
-    stack_of_glass = op.LayerStack([1.0, n, 1.0], op.Parameter("angle"))
-    path.add("lamp", op.Source(stokes=[1.0, 0.0, 0.5, 0.0]))
-    path.add("pane", stack_of_glass)
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "pane.in")
-    path.connect("pane.transmitted", "eye.in")
+    path = by_port(op.LayerStack([1.0, n, 1.0], ANGLE), "transmitted", [1.0, 0.0, 0.5, 0.0])
     slope = jax.jacrev(lambda angle: path.trace(angle=angle).stokes)(np.pi / 2)
     np.testing.assert_allclose(slope[:2], expected, rtol=1e-12)
     # S2 goes by T_s T_p / (1 - R_s R_p), which is T_s T_p / (T_s + T_p) where both are little.
@@ -248,17 +214,17 @@ def test_a_slab_at_grazing_incidence_has_the_slopes_of_the_closed_form():
 
 
 def test_matrices_have_the_slopes_of_lights():
-    plan = op.Composer().compose(surface("reflection"))
+    plan = op.Composer().compose(surface("reflected"))
     matrix = jax.jacfwd(lambda angle: plan.mueller(n1=1.0, n=1.5, k=0.0, angle=angle).matrix)
-    expected = differences(one_boundary("reflection"), (1.0, 1.5, 0.0, np.pi / 2))[3]
+    expected = differences(one_boundary("reflected"), (1.0, 1.5, 0.0, np.pi / 2))[3]
     np.testing.assert_allclose(matrix(np.pi / 2) @ np.array(LIGHT), expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("what", slow_except(["transmission"], PORTS))
-def test_second_slopes_are_those_of_many_digits(what):
+@pytest.mark.parametrize("port", slow_except(["transmitted"], PORTS))
+def test_second_slopes_are_those_of_many_digits(port):
     points = [point for point in points_of(SEED) if point[1] > 0.0 and point[:2] != (1.0, 0.2)]
     points = [p for p in points if p[2] > 0.0 or abs(p[1] - p[0]) > 1e-3]
-    plan = op.Composer().compose(surface(what))
+    plan = op.Composer().compose(surface(port))
 
     def stokes(*given):
         return plan.run(**dict(zip(NAMES, given, strict=True))).stokes
@@ -266,12 +232,12 @@ def test_second_slopes_are_those_of_many_digits(what):
     second = jax.jit(jax.vmap(jax.jacfwd(jax.jacfwd(stokes, (0, 1, 2, 3)), (0, 1, 2, 3))))
     found = second(*np.array(points).T)
     found = np.stack([found[place][place] for place in range(4)], axis=1)
-    expected = [differences(one_boundary(what), point, order=2) for point in points]
+    expected = [differences(one_boundary(port), point, order=2) for point in points]
     agree(found, np.array(expected), points, limit=1e-9)
 
 
 def test_values_are_the_same_whether_slopes_are_taken_or_not():
-    plan, points = op.Composer().compose(surface("transmission")), np.array(points_of(SEED)).T
+    plan, points = op.Composer().compose(surface("transmitted")), np.array(points_of(SEED)).T
     given = dict(zip(NAMES, points, strict=True))
 
     def stokes(angle):
@@ -284,12 +250,12 @@ def test_values_are_the_same_whether_slopes_are_taken_or_not():
 
 @pytest.mark.slow
 def test_single_precision_has_slopes_at_the_edges_too():
-    plan, points = op.Composer(dtype="float32").compose(surface("transmission")), points_of(SEED)
+    plan, points = op.Composer(dtype="float32").compose(surface("transmitted")), points_of(SEED)
     # Next to a right angle, and to an equal medium, float32 is somewhere else.
     points = [p for p in points if p[3] != 1e-9 and abs(p[3] - np.pi / 2) != 1e-9]
     points = [p for p in points if p[0] == p[1] or abs(p[0] - p[1]) > 1e-6]
     near = [p for p in points if apart_from_critical(*p[:3], p[3])]
-    expected = np.array([differences(one_boundary("transmission"), p) for p in near])
+    expected = np.array([differences(one_boundary("transmitted"), p) for p in near])
     agree(slopes(plan, NAMES, near, jax.jacfwd), expected, near, limit=2e-3)
 
 
@@ -307,7 +273,7 @@ def test_infinite_slopes_are_no_number_that_could_be_one(kernel, absorbing):
 
 def test_slopes_at_grazing_incidence_on_an_equal_medium_are_those_just_before_it():
     # There, any contrast reflects all light at once.
-    plan = op.Composer().compose(surface("reflection"))
+    plan = op.Composer().compose(surface("reflected"))
     (found,) = slopes(plan, NAMES, [(1.3, 1.3, 0.0, np.pi / 2)], jax.jacfwd)
     np.testing.assert_allclose(found, 0.0, rtol=0, atol=1e-15)
 

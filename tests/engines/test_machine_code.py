@@ -1,4 +1,7 @@
+"""Machine code by Numba: that it computes, many at a time, and is freed."""
+
 import gc
+import platform
 import re
 import threading
 from pathlib import Path
@@ -6,12 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("numba")
-from optipath.engines import code_key, machine_code
-from optipath.engines.array_address import address
-from optipath.engines.code_cache import CodeCache
-from optipath.engines.machine_code import MachineCode, compiled
+import optipath as op
+from optipath.engines.formulas.path_formula import lights_formula
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.values.operands import MANY
+from paths import chain
 from tables import rows
+
+numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
+from optipath.engines import code_key, machine_code  # noqa: E402 - needs numba
+from optipath.engines.array_address import address  # noqa: E402
+from optipath.engines.code_cache import CodeCache  # noqa: E402
+from optipath.engines.machine_code import MachineCode, assembly, compiled  # noqa: E402
+from optipath.engines.numba_engine import source  # noqa: E402
 
 TEXT = """
 def path(count: 'int64', factor: 'float64', given: '*float64', flags: '*uint8', out: '*float64'):
@@ -34,9 +44,7 @@ def test_machine_code_reads_and_writes_arrays(code, last):
     flags[-1] = last
     assert MachineCode(code)(100, 3.0, *map(address, (given, flags, out))) == last
     np.testing.assert_array_equal(out, 3.0 * given + 0.5)
-
-
-def test_the_address_of_an_array_is_found_whether_or_not_it_may_be_written():
+    # Whether or not they may be written.
     for array in (np.ones(3), np.ones(0), np.broadcast_to(1.0, 4), np.ones((2, 3))[1:]):
         assert address(array) == array.__array_interface__["data"][0]
 
@@ -48,33 +56,23 @@ def test_a_function_that_there_is_not_is_no_crash(code):
         MachineCode(damaged)
 
 
-def resident():
-    return int(re.search(r"VmRSS:\s+(\d+)", Path("/proc/self/status").read_text())[1])
+def grown(make, before, after):
+    """By how many KiB memory grows that is held after some runs."""
+    held = []
+    for numbers in (range(before), range(before, before + after)):
+        for number in numbers:
+            make(number)
+        gc.collect()
+        status = Path("/proc/self/status").read_text()
+        held.append(int(re.search(r"VmRSS:\s+(\d+)", status)[1]))
+    return held[1] - held[0]
 
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="tells memory on Linux")
-def test_code_that_is_dropped_frees_its_memory(code):
-    for _ in range(20):
-        MachineCode(code)
-    before = resident()
-    for _ in range(400):
-        MachineCode(code)
-    gc.collect()
-    # 2000 that are kept are some 100 MB.
-    assert resident() - before < 10_000
-
-
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="tells memory on Linux")
-def test_compiling_leaves_nothing_in_memory():
-    for number in range(5):
-        compiled(TEXT.format(number=float(number)))
-    gc.collect()
-    before = resident()
-    for number in range(5, 15):
-        compiled(TEXT.format(number=float(number)))
-    gc.collect()
-    # What the engine of Numba keeps of each is more than 1 MB.
-    assert resident() - before < 4_000
+def test_code_that_is_dropped_frees_its_memory_and_compiling_leaves_nothing(code):
+    # 2000 that are kept are some 100 MB; what the engine of Numba keeps of each is more than 1 MB.
+    assert grown(lambda _: MachineCode(code), 20, 400) < 10_000
+    assert grown(lambda number: compiled(TEXT.format(number=float(number))), 5, 10) < 4_000
 
 
 def test_memory_holds_as_many_functions_as_it_may(code, monkeypatch, tmp_path):
@@ -123,3 +121,55 @@ def test_altered_helpers_are_compiled_anew(code, monkeypatch, tmp_path):
     assert CodeCache().load("a text") is None
     monkeypatch.undo()
     code_key._maker.cache_clear()
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
+def test_a_path_is_computed_many_at_a_time():
+    plan = op.load_preset("npgr026").compose()
+    forms = {operand.input_key: MANY for operand in plan.program.operands if not operand.known}
+    forms = {key: "absent" if key.part == "present" else form for key, form in forms.items()}
+    formula = lights_formula(plan.program, StokesCarrier, "float64", forms, plan.inputs.limits)
+    text = assembly(source(formula))
+    packed, single = text.count("mulpd"), text.count("mulsd")
+    assert packed > 50
+    # The rest of a batch that fills no vector is done one by one.
+    assert packed >= single / 2
+
+
+def test_exponents_powers_of_two_and_rests_of_products_are_exact():
+    for number in (1.0, 0.75, -3e-310, 5e-324, 1e308, 0.0):
+        assert numba_helpers.exponent(number) == np.frexp(number)[1]
+    for power in (0, 5, -1070, 900, -3000, 3000):
+        with np.errstate(over="ignore", under="ignore"):
+            assert numba_helpers.ldexp(0.75, power) == np.ldexp(0.75, power)
+    a, b = 1.0 + 2.0**-30, 1.0 - 2.0**-29
+    rest = float(np.longdouble(a) * np.longdouble(b) - np.longdouble(a * b))
+    assert numba_helpers.product_rest(a, b) == rest
+
+
+def test_arrays_and_parts_of_complex_numbers_of_any_precision_are_read_as_what_they_are():
+    plan = op.Composer(engine="numba").compose(op.load_preset("malus"))
+    single = np.linspace(0.1, 1.0, 5, dtype=np.float32)
+    for kind in (np.float32, np.float16, ">f4", ">f8"):
+        given = single.astype(kind)
+        law = 0.5 * np.cos(given.astype(np.float64)) ** 2
+        np.testing.assert_allclose(plan.run(angle=given).intensity, law, rtol=1e-14)
+        np.testing.assert_allclose(plan.mueller(angle=given).matrix[:, 0, 0], law, rtol=1e-14)
+    m = (1.5 + single + 1j * single).astype(np.complex64)
+    law = np.abs((m.astype(complex) - 1.0) / (m.astype(complex) + 1.0)) ** 2
+    plan = op.Composer(engine="numba").compose(chain([op.Interface(op.Parameter("m"), 0.0)]))
+    np.testing.assert_allclose(plan.run(m=m).intensity, law, rtol=1e-13)
+
+
+@pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
+def test_whole_numbers_of_one_axis_of_a_grid_are_whole_numbers_along_the_other():
+    # Indices are scaled by powers of two, whose exponents depend on the indices alone.
+    material = op.Material(op.Parameter("n"), op.Parameter("k"))
+    layers = op.LayerStack([1.0, material, 1.5], op.Parameter("t"), lengths=[1e-6], wavelength=5e-7)
+    path = op.Source() >> layers >> op.Detector()
+    given = {"n": np.array([[1.3], [2.2], [4.5]]), "k": 0.01, "t": np.linspace(0.1, 1.2, 40)}
+    by_numpy, by_numba = (
+        op.Composer(engine=engine).compose(path).run(**given).stokes
+        for engine in ("numpy", "numba")
+    )
+    assert np.allclose(by_numba, by_numpy, rtol=1e-13, atol=1e-15)

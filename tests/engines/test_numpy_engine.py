@@ -1,6 +1,9 @@
-"""What the engine makes of whole paths, against products of the elements' matrices."""
+"""What engines make of whole paths, against products of the elements' matrices and step by step."""
 
+import re
+from dataclasses import replace
 from functools import reduce
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -8,6 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from optipath.engines.step_by_step import StepByStep
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.kernels.carriers.structures import BLOCK
+from optipath.kernels.numbers.primitives import FLOAT
 from paths import chain
 from tables import rows, slow
 
@@ -51,18 +58,13 @@ def matrix_of(element):
 
 
 @given(elements=CHAINS, state=states())
-def test_a_chain_is_the_product_of_its_matrices(elements, state):
+def test_a_chain_is_the_product_of_its_matrices_and_gives_no_more_than_it_gets(elements, state):
     start = op.Mueller(np.eye(4))
     product = reduce(lambda before, matrix: matrix @ before, map(matrix_of, elements), start)
-    expected = (product @ op.Light(state)).stokes
-    path = chain(elements, state)
-    np.testing.assert_allclose(path.trace().stokes, expected, rtol=0, atol=1e-13 * state[0])
+    expected, path = (product @ op.Light(state)).stokes, chain(elements, state)
+    light = path.trace()
+    np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-13 * state[0])
     np.testing.assert_allclose(path.mueller().matrix, product.matrix, rtol=0, atol=1e-13)
-
-
-@given(elements=CHAINS, state=states())
-def test_no_chain_gives_more_than_it_gets_nor_more_than_polarised_light(elements, state):
-    light = chain(elements, state).trace()
     assert -1e-15 * state[0] <= light.intensity <= state[0] * (1 + 1e-13)
     polarised = np.linalg.norm(light.stokes[1:])
     assert polarised <= light.intensity + 1e-13 * state[0]
@@ -70,20 +72,17 @@ def test_no_chain_gives_more_than_it_gets_nor_more_than_polarised_light(elements
 
 @given(elements=PAIRS, azimuth=ANGLES)
 def test_light_that_runs_backwards_sees_the_reciprocal_matrix(elements, azimuth):
-    forth, back = (op.PathGraph() for _ in range(2))
-    for path, (first, second) in ((forth, elements), (back, elements[::-1])):
-        turned = op.Interface(second.index, second.incidence, second.outside, azimuth)
-        straight = op.Interface(first.index, first.incidence, first.outside)
-        lamp = path.add("lamp", op.Source())
-        lamp >> path.add("a", straight) >> path.add("b", turned) >> path.add("eye", op.Detector())
+    forth, back = (
+        chain([replace(first, azimuth=0.0), replace(second, azimuth=azimuth)]).mueller().matrix
+        for first, second in (elements, elements[::-1])
+    )
     # Helmholtz reciprocity: the transpose, with y turned over (Sekera, J. Opt. Soc. Am. 56, 1966).
     over = np.diag([1.0, 1.0, -1.0, 1.0])
-    expected = over @ forth.mueller().matrix.T @ over
-    np.testing.assert_allclose(back.mueller().matrix, expected, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(back, over @ forth.T @ over, rtol=0, atol=1e-13)
 
 
 def test_lights_are_let_go_when_nothing_reads_them_any_more():
-    program = chain([op.Rotator(0.1)] * 3, [1.0, 0, 0, 0]).compose().program
+    program = chain([op.Rotator(0.1)] * 3).compose().program
     assert program.light_uses == (1,) * len(program.steps)
     assert sum(program.evaluation_uses) == len(program.steps)
 
@@ -107,11 +106,9 @@ ENTERED = {
 def test_formulas_give_what_the_steps_give_by_every_method(element, port, method):
     rng = np.random.default_rng(3)
     path = op.PathGraph()
-    path.add("lamp", op.Source(stokes=[1.3, 0.4, -0.55, 0.6]))
-    path.add("it", ENTERED[element])
-    path.add("eye", op.Detector())
-    path.connect("lamp.out", "it.in")
-    path.connect(f"it.{port}", "eye.in")
+    lamp = path.add("lamp", op.Source(stokes=[1.3, 0.4, -0.55, 0.6]))
+    lamp >> path.add("it", ENTERED[element])
+    path[f"it.{port}"] >> op.Detector()
     plan = op.Composer(method=method, engine="numpy").compose(path)
     for most in (2.0, 0.0):
         spans = {"n": (0.7, 2.2), "m": (1.2, 2.2), "k": (0.0, most), "a": (0.0, 1.5)}
@@ -119,7 +116,30 @@ def test_formulas_give_what_the_steps_give_by_every_method(element, port, method
         few = plan.run(**{name: numbers[:9] for name, numbers in values.items()}).stokes
         # From the fourth on, single runs are compiled.
         each = [{name: float(numbers[i]) for name, numbers in values.items()} for i in range(9)]
-        np.testing.assert_allclose(plan.run(**values).stokes[:9], few, rtol=0, atol=1e-11)
-        np.testing.assert_allclose(
-            [plan.run(**one).stokes for one in each], few, rtol=0, atol=1e-11
-        )
+        for found in (plan.run(**values).stokes[:9], [plan.run(**one).stokes for one in each]):
+            np.testing.assert_allclose(found, few, rtol=0, atol=1e-11)
+
+
+def test_light_is_carried_as_by_the_carrier_itself():
+    carrier = MatrixCarrier(FLOAT)
+    light, numbers = carrier.emit((1.0, 0.5, 0.25, 0.125)), (0.5, 0.25, 0.125, 0.3, 0.4)
+    by_step = StepByStep(carrier).act(BLOCK, numbers, light)
+    assert by_step == carrier.act(BLOCK, numbers, light)
+
+
+def largest_piece(jax, plates):
+    """How many instructions the largest piece has that XLA makes of so many plates."""
+    wavelength = op.Parameter("wavelength")
+    elements = [op.Waveplate(1e-4, 0.009, wavelength, angle=0.3 * k) for k in range(plates)]
+    plan = op.Composer(engine="jax").compose(chain(elements, (1.0, 1.0, 0.0, 0.0)))
+    compiled = jax.jit(lambda w: plan.run(wavelength=w).stokes).lower(5e-7).compile()
+    lines = compiled.as_text().splitlines()
+    starts = [k for k, line in enumerate(lines) if re.match(r"\S.*\{$", line)]
+    return max(end - start for start, end in pairwise([*starts, len(lines)]))
+
+
+def test_no_piece_that_xla_compiles_grows_with_the_path(jax):
+    pytest.importorskip("jax.experimental.xla_metadata")
+    if jax.default_backend() != "cpu":
+        pytest.skip("pieces are kept apart on a CPU")
+    assert largest_piece(jax, 4) < 1.2 * largest_piece(jax, 2)

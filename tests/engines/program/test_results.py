@@ -35,6 +35,7 @@ def cauchy(xp):
 CAUCHY = Kernel("Cauchy", None, cauchy)
 REFLECTED = REFLECTION.by_method("stable")
 COSINE, SINE = 0.8, 0.6
+GIVEN = [1.5, 0.004, 1.0, COSINE, SINE]
 
 
 def by_hand(reflections=1):
@@ -45,7 +46,7 @@ def by_hand(reflections=1):
     back = Evaluation(REFLECTED, (Result(1, 0), 2, Result(1, 1), 3, 4))
     steps = [Step("lamp.out", (), 0), Step("glass.reflected", (0,), 2), Step("back", (1,), 3)]
     return Program(
-        operands=tuple(map(Operand, (1.5, 0.004, 1.0, COSINE, SINE, op.Parameter("wavelength")))),
+        operands=tuple(map(Operand, (*GIVEN, op.Parameter("wavelength")))),
         evaluations=(Evaluation(UNPOLARIZED, (2,)), glass, reflected, back),
         steps=tuple(steps[: reflections + 1]),
         sources={"lamp": (0, op.Frame())},
@@ -60,15 +61,13 @@ def wanted(wavelength):
 
 
 def test_floats_and_arrays_are_given_what_an_earlier_evaluation_comes_to_once():
-    operands = [1.5, 0.004, 1.0, COSINE, SINE, 0.5]
-    found, _ = execute(by_hand(), operands, StokesCarrier(FLOAT))[1]
+    found, _ = execute(by_hand(), [*GIVEN, 0.5], StokesCarrier(FLOAT))[1]
     np.testing.assert_allclose(found, wanted(0.5), rtol=1e-14, atol=1e-17)
     several = np.array([0.4, 0.5, 0.7])
-    operands = [1.5, 0.004, 1.0, COSINE, SINE, several]
-    found, _ = execute(by_hand(), operands, StokesCarrier(NUMPY))[1]
+    found, _ = execute(by_hand(), [*GIVEN, several], StokesCarrier(NUMPY))[1]
     np.testing.assert_allclose(np.stack(found[:2], -1), wanted(several)[:, :2], rtol=1e-14)
     CALLS.clear()
-    execute(by_hand(reflections=2), [1.5, 0.004, 1.0, COSINE, SINE, 0.5], StokesCarrier(FLOAT))
+    execute(by_hand(reflections=2), [*GIVEN, 0.5], StokesCarrier(FLOAT))
     assert CALLS == [0.5]
     program = by_hand()
     assert set(program.given_to[2]) == {0, 1, 2, 3, 4, 5}
@@ -78,7 +77,7 @@ def test_floats_and_arrays_are_given_what_an_earlier_evaluation_comes_to_once():
 def test_formulas_record_it_as_if_it_stood_in_the_kernel():
     recorder = Recorder(np.dtype(np.float64))
     length = recorder.input("wavelength")
-    operands = [*map(np.float64, (1.5, 0.004, 1.0, COSINE, SINE)), length]
+    operands = [*map(np.float64, GIVEN), length]
     execute(by_hand(), operands, StokesCarrier(SYMBOLIC))
     count = len(recorder.symbols)
     index = cauchy(SYMBOLIC)(operands[0], operands[1], length)
@@ -104,21 +103,13 @@ class Glass(op.Element, kind="example-dispersive-glass"):
 
 
 def dispersive(wavelength):
-    path = op.PathGraph()
-    first = path.add("lamp", op.Source()) >> path.add("one", Glass(wavelength))
-    first >> path.add("two", Glass(wavelength, 0.4)) >> path.add("eye", op.Detector())
-    return path
+    return op.Source() >> Glass(wavelength) >> Glass(wavelength, 0.4) >> op.Detector()
 
 
 def plain(wavelength):
-    path = op.PathGraph()
-    panes = [op.Interface(1.5 + 0.004 / wavelength**2, np.arctan2(0.6, 0.8))] * 2
-    first = path.add("lamp", op.Source()) >> path.add("one", panes[0])
-    path.add("two", panes[1])
-    path.add("eye", op.Detector())
-    path.connect(f"{first.name}.reflected", "two.in", azimuth=0.4)
-    path.connect("two.reflected", "eye.in")
-    return path.trace()
+    index, incidence = 1.5 + 0.004 / wavelength**2, np.arctan2(0.6, 0.8)
+    panes = op.Interface(index, incidence) >> op.Interface(index, incidence, azimuth=0.4)
+    return (op.Source() >> panes >> op.Detector()).trace()
 
 
 @rows("options", [{}, {"model": "full"}, {"composing": "jones"}])
@@ -136,7 +127,8 @@ def test_indices_that_are_known_and_matrices_take_it_too():
     assert not any(plan.program.takes)
     np.testing.assert_allclose(Glass(0.5).mueller().matrix[:, 0], wanted(0.5), rtol=1e-14)
     plan = dispersive(op.Parameter("wavelength")).compose()
-    assert plan.evaluations(wavelength=np.array([0.4, 0.5]))["one.reflected"] == 2
+    counts = plan.evaluations(wavelength=np.array([0.4, 0.5]))
+    assert counts["example-dispersive-glass.reflected"] == 2
     assert plan.paths(wavelength=0.5)[0].light.intensity == pytest.approx(plain(0.5).intensity)
 
 
@@ -156,7 +148,5 @@ class Tabulated(Glass, kind="example-tabulated-glass"):
 
 
 def test_results_of_kernels_that_take_no_symbols_are_unknown_when_composing():
-    path = op.PathGraph()
-    first = path.add("lamp", op.Source()) >> path.add("one", Tabulated(op.Parameter("length")))
-    first >> path.add("eye", op.Detector())
+    path = op.Source() >> Tabulated(op.Parameter("length")) >> op.Detector()
     np.testing.assert_allclose(path.trace(length=0.5).stokes, wanted(0.5), rtol=1e-14, atol=1e-17)

@@ -128,9 +128,8 @@ def test_a_polariser_retards_by_the_least_turn_between_its_states(first, second)
     matrix = op.Rotator(second - first).mueller() @ op.Polarizer(first).mueller()
     found = matrix.lu_chipman()
     least = abs(np.angle(np.exp(2j * (second - first))))
-    assert found.diattenuation == 1.0
-    assert found.retardance == pytest.approx(least, abs=1e-14)
-    assert found.depolarization == pytest.approx(0.0, abs=1e-14)
+    figures = found.diattenuation, found.retardance, found.depolarization
+    assert figures == (1.0, pytest.approx(least, abs=1e-14), pytest.approx(0.0, abs=1e-14))
     np.testing.assert_allclose(product(found), matrix.matrix, rtol=0, atol=1e-15)
 
 
