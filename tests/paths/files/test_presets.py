@@ -20,15 +20,16 @@ def test_every_preset_and_case_runs_is_read_back_the_same_and_leaves_parameters_
     name, tmp_path
 ):
     whole = op.load_preset(name)
-    for case, said in whole.cases.items():
-        for parameter in op.load_preset(name, case=case).parameters.values():
+    of_cases = {case: op.load_preset(name, case=case) for case in whole.cases}
+    for case, path in of_cases.items():
+        for parameter in path.parameters.values():
             known = whole.parameters[parameter.name]
             assert not parameter.bound
-            default = said.values.get(parameter.name, known.default)
+            default = whole.cases[case].values.get(parameter.name, known.default)
             default = known.parse(default) if isinstance(default, str) else default
             assert np.all(parameter.default == default)
             assert replace(parameter, default=known.default) == known
-    for path in (whole, *(op.load_preset(name, case=case) for case in whole.cases)):
+    for path in (whole, *of_cases.values()):
         assert np.all(np.isfinite(path.trace().stokes))
         copy = read_back(path, tmp_path)
         assert copy == path
@@ -36,6 +37,7 @@ def test_every_preset_and_case_runs_is_read_back_the_same_and_leaves_parameters_
         assert list(copy.parameters) == list(path.parameters)
 
 
+MALUS = op.load_preset("malus")
 ANGLES = np.linspace(0.0, np.pi, 51)
 RETARDANCE = np.linspace(-np.pi, np.pi, 41)
 
@@ -94,23 +96,21 @@ def by_an_ellipsometer(n, k, theta, polarizer, compensator, retardance, analyzer
 
     Azzam & Bashara, Ellipsometry and Polarized Light (1977), sec. 3.4: Jones vectors (p, s).
     """
-
-    def along(angle):
-        return np.array([np.cos(angle), np.sin(angle)])
-
     N, c = n - 1j * k, np.cos(theta)
     g = np.sqrt(1.0 - (np.sin(theta) / N) ** 2)
     sample = np.diag([(N * c - g) / (N * c + g), (c - N * g) / (c + N * g)])
-    fast, slow = along(compensator), along(compensator + np.pi / 2)
+    angles = np.array([analyzer, polarizer, compensator, compensator + np.pi / 2])
+    last, first, fast, slow = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     plate = np.outer(fast, fast) + np.exp(-1j * retardance) * np.outer(slow, slow)
-    return 0.5 * abs(along(analyzer) @ sample @ plate @ along(polarizer)) ** 2
+    return 0.5 * abs(last @ sample @ plate @ first) ** 2
 
 
 def test_an_ellipsometer_counts_azimuths_from_p_towards_s_and_has_the_psi_and_delta_of_its_sample():
     rng = np.random.default_rng(7)
     limits = {"n": (0.2, 4.0), "k": (0.0, 4.0), "theta": (0.0, 1.5)}
     limits |= dict.fromkeys(["polarizer", "compensator", "retardance", "analyzer"], (-3.0, 3.0))
-    plan = op.load_preset("ellipsometer-pcsa").compose()
+    path = op.load_preset("ellipsometer-pcsa")
+    plan = path.compose()
     for _ in range(50):
         values = {name: rng.uniform(*between) for name, between in limits.items()}
         found = plan.run_all(**values)["photometer"].intensity
@@ -118,17 +118,14 @@ def test_an_ellipsometer_counts_azimuths_from_p_towards_s_and_has_the_psi_and_de
     # At Brewster's angle an analyser at 0 passes nothing of p; half the light before is s, of
     # which r_s = (1 - n^2) / (1 + n^2) is reflected.
     glass = {"n": 1.5, "k": 0.0, "theta": np.arctan(1.5), "retardance": 0.0}
-    along_p, along_s = (
-        plan.run_all(**glass, analyzer=analyzer)["photometer"].intensity
-        for analyzer in (0.0, np.pi / 2)
-    )
+    across = np.array([0.0, np.pi / 2])
+    along_p, along_s = plan.run_all(**glass, analyzer=across)["photometer"].intensity
     assert along_p < 1e-30
     assert along_s == pytest.approx(0.25 * (1.25 / 3.25) ** 2)
     values = {"n": np.linspace(0.2, 4.0, 20), "k": np.linspace(3.0, 0.1, 20), "theta": 1.2}
-    light = op.load_preset("ellipsometer-pcsa").trace(**values)
+    light = path.trace(**values)
     sample = op.Interface(values["n"] + 1j * values["k"], 1.2).mueller()
-    np.testing.assert_allclose(light.psi, sample.psi, rtol=1e-13)
-    np.testing.assert_allclose(light.delta, sample.delta, rtol=1e-13)
+    np.testing.assert_allclose([light.psi, light.delta], [sample.psi, sample.delta], rtol=1e-13)
 
 
 def test_values_take_precedence_over_a_case_and_stay_open_or_are_bound():
@@ -154,74 +151,58 @@ def test_values_take_precedence_over_a_case_and_stay_open_or_are_bound():
     path = op.load_preset("npgr026", case=7)
     assert path == op.load_preset("npgr026", case="7")
     assert path.parameters["filter"].default == "none"
-    np.testing.assert_array_equal(
-        path.trace(filter="horizontal").stokes,
-        op.load_preset("npgr026", case=7, filter="horizontal").trace().stokes,
-    )
-    path = op.load_preset("malus")
-    crossed = path.with_defaults(angle="90 deg")
-    assert crossed.trace().intensity == 0.0
-    assert crossed.trace(angle=0.0).intensity == 0.5
-    assert path.trace().intensity == pytest.approx(0.375)
+    np.testing.assert_array_equal(path.trace(filter="horizontal").stokes, found.trace().stokes)
+    crossed = MALUS.with_defaults(angle="90 deg")
+    assert [crossed.trace().intensity, crossed.trace(angle=0.0).intensity] == [0.0, 0.5]
+    assert MALUS.trace().intensity == pytest.approx(0.375)
 
 
 @rows(
-    "load, error, sentences",
+    "load, sentence",
     [
-        ("npgr62", op.PresetError, ["'npgr62' is unknown", "did you mean 'npgr026'"]),
-        *(
-            (name, op.PresetError, ["neither the name of a preset"])
-            for name in ("../npgr026", "../x", "", "NPGR026")
-        ),
-        ("no-such.toml", op.PresetError, ["cannot be read", "No such file"]),
-        ("a\0b.toml", op.PresetError, ["cannot be read"]),
-        (3, op.PresetError, ["not 3"]),
-        (None, op.PresetError, ["not None"]),
-        (
-            lambda: op.load_preset("two-panes", case="crosed"),
-            *(op.PresetError, ["case 'crosed'", "did you mean 'crossed'"]),
-        ),
-        (
-            lambda: op.load_preset("npgr026", detla=1.0, phi=9.0, n1=-1.0),
-            *(op.ParameterError, ["3 faults", "did you mean 'delta'"]),
-        ),
-        (
-            lambda: op.load_preset("malus").with_defaults(angel=0.1, intensity=-1.0),
-            *(op.ParameterError, ["2 faults"]),
-        ),
+        ("npgr62", "'npgr62' is unknown; did you mean 'npgr026'"),
+        *((name, "neither the name of a preset") for name in ("../npgr026", "", "NPGR026")),
+        ("no-such.toml", "cannot be read: No such file"),
+        ("a\0b.toml", "cannot be read"),
+        (None, "not None"),
+        (lambda: op.load_preset("two-panes", case="crosed"), "crossed; did you mean 'crossed'"),
+        (lambda: op.load_preset("npgr026", detla=1.0, phi=9.0, n1=-1.0), "3 faults"),
+        (lambda: op.load_preset("npgr026", detla=1.0), "did you mean 'delta'"),
+        (lambda: MALUS.with_defaults(angel=0.1, intensity=-1.0), "2 faults"),
     ],
 )
-def test_presets_cases_and_values_that_do_not_exist_are_refused(load, error, sentences):
-    with pytest.raises(error) as caught:
+def test_presets_cases_and_values_that_do_not_exist_are_refused(load, sentence):
+    values = callable(load) and "crossed" not in sentence
+    with pytest.raises(op.ParameterError if values else op.PresetError) as caught:
         load() if callable(load) else op.load_preset(load)
-    for sentence in sentences:
-        assert sentence in str(caught.value)
+    assert sentence in str(caught.value)
 
 
-MANY = ["".join(f"[{what}.x{n}]\n" for n in range(3001)) for what in ("elements", "parameters")]
-MANY.append("[[links]]\n" * 3001)
+MANY = {
+    what: "".join(f"[{what}.x{n}]\n" for n in range(3001)) for what in ("elements", "parameters")
+}
+MANY["links"] = "[[links]]\n" * 3001
 
 
 @rows(
-    "content, error, message",
+    "content, message",
     [
-        (b"\xff\xfe", op.OptipathError, "not UTF-8: byte 0 is 0xff"),
-        (b"a = = 1", op.OptipathError, "not TOML"),
-        (b"a = " + b"[" * 100_000, op.OptipathError, "not TOML"),
-        (b"format = 2", op.OptipathError, "has format 2, but this version reads format 1"),
-        (b"", op.OptipathError, "'format' is missing"),
-        (b"#" * (5 * 1024 * 1024), op.OptipathError, "larger than 4 MiB"),
+        (b"\xff\xfe", "not UTF-8: byte 0 is 0xff"),
+        (b"a = = 1", "not TOML"),
+        (b"format = 2", "has format 2, but this version reads format 1"),
+        (b"", "'format' is missing"),
+        (b"#" * (5 * 1024 * 1024), "larger than 4 MiB"),
         # Not all of a huge file is read.
-        (100 * 1024 * 1024, op.PresetError, "larger than"),
-        (None, op.PresetError, "cannot be read"),
+        (100 * 1024 * 1024, "larger than"),
+        (None, "cannot be read"),
         *(
-            (b"format = 1\n" + text.encode(), op.PathError, f"it has 3,001 {what}; give 3,000 at m")
-            for text, what in zip(MANY, ("elements", "parameters", "links"), strict=True)
+            (b"format = 1\n" + text.encode(), f"it has 3,001 {what}; give 3,000 at m")
+            for what, text in MANY.items()
         ),
     ],
 )
-def test_folders_and_files_that_are_no_presets_are_refused(content, error, message, tmp_path):
-    file = tmp_path / ("folder.toml" if content is None else "file.toml")
+def test_folders_and_files_that_are_no_presets_are_refused(content, message, tmp_path):
+    file = tmp_path / f"{content is None}.toml"
     if content is None:
         file.mkdir()
     elif isinstance(content, int):
@@ -229,7 +210,7 @@ def test_folders_and_files_that_are_no_presets_are_refused(content, error, messa
             handle.truncate(content)
     else:
         file.write_bytes(content)
-    with pytest.raises(error, match=message):
+    with pytest.raises(op.OptipathError, match=message):
         op.load_preset(file)
 
 
@@ -241,17 +222,14 @@ def test_a_dichroic_sheet_is_a_filter_and_a_plate_as_the_notes_of_its_cases_say(
     expected = abs(t1 - t2 * np.exp(1j * np.radians(20e6) * thickness)) ** 2 / 8
     found = path.trace(thickness=thickness).intensity
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
-    clear, aligned, skewed = (
-        float(op.load_preset("dichroic-sheet", case=case).trace().intensity)
-        for case in ("clear", "aligned", "skewed")
-    )
+    cases = (op.load_preset("dichroic-sheet", case=c) for c in ("clear", "aligned", "skewed"))
+    clear, aligned, skewed = (float(case.trace().intensity) for case in cases)
     assert clear == pytest.approx(np.sin(np.radians(250.0)) ** 2 / 2, rel=1e-14)
     assert aligned == pytest.approx(np.exp(-0.25) / 2, rel=1e-15)
     # One that is skewed is many thin filters and plates in turn.
     count = 4096
-    plate = np.radians(500.0) / count
-    plate = op.Retarder(plate / 2, "45 deg").mueller().matrix
-    passed = np.exp(-0.01 * 25 / count), np.exp(-0.19 * 25 / count)
+    plate = op.Retarder(np.radians(500.0) / count / 2, "45 deg").mueller().matrix
+    passed = np.exp(-np.array([0.01, 0.19]) * 25 / count)
     dye = op.Diattenuator(*passed, "25 deg").mueller().matrix
     whole = np.linalg.matrix_power(plate @ dye @ plate, count)
     first, last = (op.Polarizer(angle).mueller().matrix for angle in (0.0, "90 deg"))
@@ -368,19 +346,21 @@ def test_a_wave_plate_and_a_rhomb_retard_as_their_closed_forms_say(
         assert path.trace().docp == pytest.approx(1.0, abs=1e-15)
 
 
+def of_plate(thickness, wavelength):
+    return mpmath.cos(retardance(thickness, wavelength))
+
+
+def of_rhomb(incidence, wavelength):
+    return mpmath.cos(rhomb(incidence, wavelength)) / 2
+
+
 @pytest.mark.slow
 @rows(
     "name, number, closed, S, wavelengths",
     [
         ("lyot-filter", "thickness", lyot, 0, (4.3e-7, 5.461e-7, 6.57e-7)),
-        (
-            *("quartz-quarter-wave", "thickness"),
-            *(lambda d, w: mpmath.cos(retardance(d, w)), 2, (4.3e-7,)),
-        ),
-        (
-            *("achromatic-rhomb", "incidence"),
-            *(lambda a, w: mpmath.cos(rhomb(a, w)) / 2, 2, (4.1e-7, 6.5e-7)),
-        ),
+        ("quartz-quarter-wave", "thickness", of_plate, 2, (4.3e-7,)),
+        ("achromatic-rhomb", "incidence", of_rhomb, 2, (4.1e-7, 6.5e-7)),
     ],
 )
 def test_slopes_are_those_of_the_closed_forms(jax, name, number, closed, S, wavelengths):
@@ -416,15 +396,13 @@ def test_a_spectrum_of_copper_and_gold_is_that_of_its_samples_at_energies_within
     gold = 1.04 + 1.833j + share * ((0.62 + 2.081j) - (1.04 + 1.833j))
     copper = 1.22 + 2.564j + share * ((1.18 + 2.608j) - (1.22 + 2.564j))
     known = {"delta": "48 deg", "rho": "34 deg", "phi": "20 deg"}
-    same = op.load_preset("npgr026", **known).trace(
-        n1=copper.real, k1=copper.imag, n2=gold.real, k2=gold.imag
-    )
+    known |= {"n1": copper.real, "k1": copper.imag, "n2": gold.real, "k2": gold.imag}
+    same = op.load_preset("npgr026").trace(**known)
     light = op.load_preset("copper-gold-spectrum").trace(wavelength="516 nm")
     np.testing.assert_allclose(light.stokes, same.stokes, rtol=1e-13)
     path = op.load_preset("lyot-filter")
-    assert path.trace(wavelength="2.4 eV").intensity == pytest.approx(
-        path.trace(wavelength=1.2398419843320026e-6 / 2.4).intensity, abs=1e-12
-    )
+    energy, metres = path.trace(wavelength=["2.4 eV", 1.2398419843320026e-6 / 2.4]).intensity
+    assert energy == pytest.approx(metres, abs=1e-12)
     with pytest.raises(op.ParameterError, match=r"give 200 nm \.\. 2000 nm"):
         path.trace(wavelength="100 nm")
 
