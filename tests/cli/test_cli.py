@@ -16,18 +16,13 @@ from optipath.lab.accuracy.tables import SEARCHED
 from tables import rows
 
 
-@pytest.fixture
-def malus_with(tmp_path):
-    """Write the preset malus with texts replaced by others."""
-
-    def write(*changes):
-        text, file = op.load_preset("malus").to_toml(), tmp_path / "own malus.toml"
-        for old, new in zip(changes[::2], changes[1::2], strict=True):
-            text = text.replace(old, new)
-        file.write_text(text, "utf-8")
-        return str(file)
-
-    return write
+def malus_with(*changes):
+    """Write the preset malus with texts replaced by others; the name of its file."""
+    text = op.load_preset("malus").to_toml()
+    for old, new in zip(changes[::2], changes[1::2], strict=True):
+        text = text.replace(old, new)
+    Path("own malus.toml").write_text(text, "utf-8")
+    return "own malus.toml"
 
 
 def test_presets_are_listed_and_run_takes_units_and_words_and_has_known_keys(told, found):
@@ -75,34 +70,31 @@ def test_a_run_reads_the_file_of_its_preset_once_and_calls_few_functions(run, mo
 PARAMETERS = op.load_preset("npgr026").parameters
 
 
-@rows(
-    "line, parts",
-    [
-        ("--version", ["optipath"]),
-        ("", ["presets"]),
-        (
-            "run npgr026 --case 3",
-            ["published", "1.2e-10", "-1.21725e-10", "note: The pub"],
-        ),
-        ("show npgr026", ["delta", "53 deg", "0 deg .. 90 deg", "X2.in", "azimuth=-$rho", "0.666"]),
-        ("explain npgr026 --case 1 --rho 20", ["1 detector, 4 steps", "X2.reflected"]),
-        ("polarization npgr026 --n1 1.5 --n2 1.5 --rho 90", ["polarisation changes S0 by up to"]),
-        ("polarization fresnel-rhomb", ["polarisation changes nothing"]),
-        ("polarization npgr026 --case 1 --case 7", ["npgr026, case 1:", "npgr026, case 7:"]),
-        ("run npgr026 --case 1 --case 7 --delta 20", ["delta 20 deg"]),
-        ("run npgr026 --case 7 --case 8 --delta 0:90:1001", ["7 981 more", "8 981 more"]),
-        ("run npgr026 --help", ["--wavelength '516 nm'", "wavelength in vacuum"]),
-        ("run absorbing-pile --help", ["--wavelength", "wavelength in vacuum"]),
-        ("sweep malus --help", ["start:stop:count", "--out FILE"]),
-        ("sweep malus --angle 0:90:31 --intensity 1:4:31", ["961 points (angle 31, intensity 31)"]),
-        ("surface --help", ["optipath surface reproduce [NAME]..."]),
-        ("surface reproduce --help", ["Usage: optipath surface reproduce [OPTIONS] [NAME]..."]),
-        ("plot npgr026 --help", [f"--kind [{'|'.join(KINDS)}"]),
-        ("surface reproduce --list", ["wang-2017-table-2-alpha-0-1"]),
-        ("run npgr026 --help", [f"--{name}" for name in PARAMETERS]),
-        ("run npgr026 --help", [one.help.split()[0] for one in PARAMETERS.values()]),
-    ],
-)
+TOLD = [
+    ("--version", ["optipath"]),
+    ("", ["presets"]),
+    ("run npgr026 --case 3", ["published", "1.2e-10", "-1.21725e-10", "note: The pub"]),
+    ("show npgr026", ["delta", "53 deg", "0 deg .. 90 deg", "X2.in", "azimuth=-$rho", "0.666"]),
+    ("explain npgr026 --case 1 --rho 20", ["1 detector, 4 steps", "X2.reflected"]),
+    ("polarization npgr026 --n1 1.5 --n2 1.5 --rho 90", ["polarisation changes S0 by up to"]),
+    ("polarization fresnel-rhomb", ["polarisation changes nothing"]),
+    ("polarization npgr026 --case 1 --case 7", ["npgr026, case 1:", "npgr026, case 7:"]),
+    ("run npgr026 --case 1 --case 7 --delta 20", ["delta 20 deg"]),
+    ("run npgr026 --case 7 --case 8 --delta 0:90:1001", ["7 981 more", "8 981 more"]),
+    ("run npgr026 --help", ["--wavelength '516 nm'", "wavelength in vacuum"]),
+    ("run absorbing-pile --help", ["--wavelength", "wavelength in vacuum"]),
+    ("sweep malus --help", ["start:stop:count", "--out FILE"]),
+    ("sweep malus --angle 0:90:31 --intensity 1:4:31", ["961 points (angle 31, intensity 31)"]),
+    ("surface --help", ["optipath surface reproduce [NAME]..."]),
+    ("surface reproduce --help", ["Usage: optipath surface reproduce [OPTIONS] [NAME]..."]),
+    ("plot npgr026 --help", [f"--kind [{'|'.join(KINDS)}"]),
+    ("surface reproduce --list", ["wang-2017-table-2-alpha-0-1"]),
+    ("run npgr026 --help", [f"--{name}" for name in PARAMETERS]),
+    ("run npgr026 --help", [one.help.split()[0] for one in PARAMETERS.values()]),
+]
+
+
+@rows("line, parts", TOLD)
 def test_what_is_told(line, parts, run):
     status, out, _ = run(line)
     assert (status, [part for part in parts if part not in out]) == (0, [])
@@ -142,7 +134,7 @@ def test_explain_tells_the_model_the_cost_and_the_certificate(told, found):
     assert light["lower"] <= light["exact"] / light["scalar"] <= light["upper"]
 
 
-def test_a_file_works_wherever_a_name_does_and_run_names_what_ran_it(run, told, found, malus_with):
+def test_a_file_works_wherever_a_name_does_or_is_faulty(run, told, found, refused, tmp_path):
     for command in ("show", "run", "explain"):
         assert run(command, malus_with())[0] == 0
     light = found("run", malus_with(), "--angle", "60")["detectors"]["eye"]
@@ -167,9 +159,6 @@ def test_a_file_works_wherever_a_name_does_and_run_names_what_ran_it(run, told, 
         file = malus_with('default = "30 deg"', f"default = [{angles}]")
         assert found("run", file)["engine"] == ran
         assert " ".join(told("run", file).split()).endswith(f"engine {ran}")
-
-
-def test_faults_of_a_file_stand_on_a_line_each(refused, malus_with, tmp_path):
     file = malus_with("source", "sorce", "analyzer.in", "analyzer.inn")
     lamp = "elements.lamp: element kind 'sorce' is unknown; did you mean 'source'?"
     assert refused("run", file, lines=3).splitlines() == [

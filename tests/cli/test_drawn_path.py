@@ -128,7 +128,7 @@ def test_a_chain_hangs_straight_and_long_texts_in_any_letters_stay_in_their_boxe
     assert "".join(texts_of(svg)).count("$" + "n" * 30) == 20
 
 
-def test_a_link_over_several_layers_passes_no_box():
+def test_a_link_over_several_layers_passes_no_box_and_one_back_is_led_upwards():
     path = op.PathGraph()
     path.add("lamp", op.Source()) >> path.add("split", op.BeamSplitter())
     a, b = (path.add(name, op.Rotator(0.1)) for name in "ab")
@@ -142,16 +142,13 @@ def test_a_link_over_several_layers_passes_no_box():
     upright = [upright_lines(drawn) for drawn in links_of(svg)]
     assert not [line for lines in upright for line in lines if any(n.overlaps(line) for n in nodes)]
     assert max(map(len, upright)) == 4
-
-
-def test_light_that_goes_round_is_led_back_upwards():
     svg = path_picture(op.load_preset("glass-slab"), "glass-slab")
     (back,) = (drawn for drawn in links_of(svg) if "H" in drawn and drawn.count("V") == 3)
     places = [float(part.split("H")[0]) for part in back.split("V")[1:]]
     assert places[1] < places[2] < places[0]
 
 
-def test_taps_turns_and_notes_are_told_once_and_all_in_words_for_readers_of_screens():
+def test_taps_turns_notes_and_cases_are_told_once_and_all_in_words(tmp_path, run):
     svg = path_picture(op.load_preset("ellipsometer-rough"), "ellipsometer-rough")
     assert 'class="link tap"' in svg
     assert {"out, a tap", "in, turned by -90 deg"} <= {*texts_of(svg)}
@@ -162,9 +159,6 @@ def test_taps_turns_and_notes_are_told_once_and_all_in_words_for_readers_of_scre
     root = ET.fromstring(path_picture(op.load_preset("malus"), "malus"))  # noqa: S314 - our own
     assert (root.get("role"), root.find(f"{SPACE}title").text) == ("img", "The path malus")
     assert "| out --> " in root.find(f"{SPACE}desc").text
-
-
-def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, run):
     cases = ("", "npgr026", "default"), ("--case 8", "npgr026, case 8", "value")
     for case, name, column in cases:
         status, out, _ = run(f"show npgr026 {case} --svg x.svg")

@@ -16,7 +16,7 @@ GOLD = "gold (Johnson and Christy 1972)"
 GREEN = "--wavelength '516 nm'"
 
 
-def test_materials_are_listed_with_page_range_and_source_and_told_in_a_table(told, monkeypatch):
+def test_materials_are_listed_and_searched_for_with_page_range_and_source(told, monkeypatch, found):
     monkeypatch.setenv("COLUMNS", "200")
     lines = told("materials").splitlines()
     row = next(line for line in lines if line.startswith(" gold "))
@@ -31,9 +31,6 @@ def test_materials_are_listed_with_page_range_and_source_and_told_in_a_table(tol
     # The yellow line of sodium, as handbooks have it.
     for part in ("589.3 nm", " 1.4584 "):
         assert part in out
-
-
-def test_a_search_lists_pages_with_all_words_in_any_letters_short_names_first(found):
     listed = found("materials gold")["materials"]
     assert (listed[0]["name"], listed[0]["page"]) == ("gold", "main/Au/Johnson")
     assert listed[0]["range"] == {"n": [187.9, 1937.0], "k": [187.9, 1937.0]}
@@ -45,7 +42,7 @@ def test_a_search_lists_pages_with_all_words_in_any_letters_short_names_first(fo
     assert listed[0]["source"].startswith("Magnozzi et al. 2019")
 
 
-def test_a_material_at_a_wavelength(found):
+def test_a_material_at_a_wavelength_and_along_an_axis_of_several(found):
     gold = found("materials gold --at '516 nm' --incidence 60")
     assert gold["material"] == GOLD
     assert gold["page"] == "main/Au/Johnson"
@@ -66,9 +63,25 @@ def test_a_material_at_a_wavelength(found):
     copper = found("materials copper --at '516 nm'")
     known = op.Material.named("copper", wavelength="516 nm")
     assert (copper["n"], copper["k"]) == ([known.n], [known.k])
+    for name in ("silica", "main/SiO2/Malitson"):
+        light = found(f"run npgr026 --n1 {name} --k1 1e-4 --wavelength '3 um'")
+        own = light["materials"]["n1"]
+        # Malitson (1965) has 1.41925 in table II.
+        assert (round(own["n"], 5), own["k"]) == (1.41925, 1e-4)
+    assert found("materials SiO2 --page Malitson --at '600 nm' --k 0")["k"] == [0.0]
+    gold, where = op.Material.named("gold"), np.array([500e-9, 600e-9])
+    for command in (
+        "run npgr026 --wavelength '500 nm, 600 nm'",
+        "sweep npgr026 --delta 0:90:3 --wavelength '500 nm:600 nm:2'",
+        "run npgr026 --case all --wavelength '500 nm, 600 nm' --delta 10,20,30",
+    ):
+        light = found(f"{command} --n1 gold")
+        for each in light["cases"].values() if "cases" in light else [light]:
+            told = each["materials"]["n1"]
+            assert (told["n"], told["k"]) == (gold.n.at(where).tolist(), gold.k.at(where).tolist())
 
 
-def test_vacuum_is_found_without_a_page_and_has_no_range(told, found):
+def test_vacuum_has_no_range_and_a_wavelength_may_be_an_energy_and_not_used(told, found, run):
     row = told("materials vacuum").splitlines()[1]
     assert " ".join(row.split()) == "vacuum any wavelength n = 1, k = 0"
     assert found("materials vacuum")["materials"][0]["range"] is None
@@ -77,6 +90,14 @@ def test_vacuum_is_found_without_a_page_and_has_no_range(told, found):
     assert found("run npgr026 --n1 vacuum")["materials"] == vacuum
     lines = told("run npgr026 --n1 vacuum").splitlines()
     assert [line.split()[1] for line in lines if line[:4] == " n1 "] == ["vacuum"]
+    status, out, err = run(f"run npgr026 {GREEN} --json")
+    assert status == 0
+    unused = "nothing in 'npgr026' depends on the wavelength; --wavelength is not used"
+    assert err.splitlines() == [f"optipath: {unused}"]
+    assert json.loads(out) == found("run npgr026")
+    # h c / e = 1239.841984... eV nm, by the definitions of the SI.
+    wavelength = found("run absorbing-pile --wavelength '2.4 eV'")["parameters"]["wavelength"]
+    assert wavelength == pytest.approx(1239.8419843320026 / 2.4, rel=1e-15)
 
 
 def test_without_the_extra_one_line_says_what_to_install(refused, monkeypatch):
@@ -107,17 +128,6 @@ def test_an_index_may_be_the_name_of_a_material_in_all_commands_and_cases(run, t
     assert "published" not in out
 
 
-def test_a_wavelength_may_be_an_energy_and_is_not_used_where_nothing_depends_on_it(run, found):
-    status, out, err = run(f"run npgr026 {GREEN} --json")
-    assert status == 0
-    unused = "nothing in 'npgr026' depends on the wavelength; --wavelength is not used"
-    assert err.splitlines() == [f"optipath: {unused}"]
-    assert json.loads(out) == found("run npgr026")
-    # h c / e = 1239.841984... eV nm, by the definitions of the SI.
-    wavelength = found("run absorbing-pile --wavelength '2.4 eV'")["parameters"]["wavelength"]
-    assert wavelength == pytest.approx(1239.8419843320026 / 2.4, rel=1e-15)
-
-
 NPGR, PILE = "run npgr026", "run absorbing-pile"
 
 
@@ -130,7 +140,6 @@ NPGR, PILE = "run npgr026", "run absorbing-pile"
         ("materials Au --at '516 nm'", "name one by --page, or say 'gold'"),
         ("materials gold --at 516", "--at: '516' has no unit"),
         ("materials gold --at '5 um'", "or choose another page with --page"),
-        ("materials SiO2 --page Malitson --at '600 nm'", "has no k"),
         ("materials main/SiO2/Malitson --at '2.3 um'", "ask for --k 0.0, or give its k"),
         ("materials gold --at '500 nm' --incidence 100", "--incidence is 100 deg"),
         ("materials gold --page McPeak", "--page goes with --at; write --at '550 nm' as well"),
@@ -158,28 +167,3 @@ def test_what_is_wrong_with_a_material_or_a_wavelength_is_one_sentence(refused, 
     assert sentence in wrong
     assert "optipath: " not in wrong
     assert "extrapolate" not in wrong
-
-
-def test_the_k_of_a_material_may_be_given_where_its_page_lacks_it(found):
-    for name in ("silica", "main/SiO2/Malitson"):
-        light = found(f"run npgr026 --n1 {name} --k1 1e-4 --wavelength '3 um'")
-        own = light["materials"]["n1"]
-        # Malitson (1965) has 1.41925 in table II.
-        assert (round(own["n"], 5), own["k"]) == (1.41925, 1e-4)
-    assert found("materials SiO2 --page Malitson --at '600 nm' --k 0")["k"] == [0.0]
-
-
-@rows(
-    "command",
-    [
-        "run npgr026 --wavelength '500 nm, 600 nm'",
-        "sweep npgr026 --delta 0:90:3 --wavelength '500 nm:600 nm:2'",
-        "run npgr026 --case all --wavelength '500 nm, 600 nm' --delta 10,20,30",
-    ],
-)
-def test_json_has_n_and_k_of_a_material_along_an_axis_of_wavelengths(command, found):
-    light = found(f"{command} --n1 gold")
-    gold, where = op.Material.named("gold"), np.array([500e-9, 600e-9])
-    for each in light["cases"].values() if "cases" in light else [light]:
-        told = each["materials"]["n1"]
-        assert (told["n"], told["k"]) == (gold.n.at(where).tolist(), gold.k.at(where).tolist())

@@ -5,6 +5,7 @@ import sys
 import warnings
 from itertools import product
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -104,7 +105,7 @@ def test_a_title_says_preset_case_and_changes_and_breaks_between_values_if_it_is
     assert "".join(str(file).split()) in "".join(title(str(file), "stokes", angle=0.5).split())
 
 
-def test_values_along_an_axis_keep_their_unit_and_each_source_has_a_matrix_of_its_own():
+def test_axes_keep_their_unit_sources_their_matrix_and_cases_what_was_published():
     values = AxisValues(np.array([1.7, 2.0]), "eV", np.array([729e-9, 620e-9]))
     figure = picture("quartz-quarter-wave", "curve", y="S3", along={"wavelength": values})
     assert figure.axes[0].get_xlabel().endswith("(eV)")
@@ -112,6 +113,13 @@ def test_values_along_an_axis_keep_their_unit_and_each_source_has_a_matrix_of_it
     words = [text.get_text() for text in texts_of(picture("sky-and-window", "mueller"))]
     for source in ("heaven to camera", "lamp to camera"):
         assert sum(text.startswith(source) for text in words) == 1
+    path, case = op.load_preset("npgr026"), op.load_preset("npgr026", case="8")
+    assert request("npgr026", "stokes", "8").published == path.cases["8"].published
+    for of, given in ((None, {}), ("8", {"delta": 0.5}), ("8", {"reads": "intensity"})):
+        assert request("npgr026", "stokes", of, **given).published == {}
+    asked = request("npgr026", "curve", "8", x=("delta",)).path
+    assert asked.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
+    assert float(asked.parameters["delta"].default) == float(case.parameters["delta"].default)
 
 
 def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, told, refused):
@@ -143,7 +151,7 @@ def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, tol
     told(f"{asked} --detector eye0")
 
 
-def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_path, told, refused):
+def test_several_values_in_a_file_are_refused_and_any_letters_drawn(tmp_path, told, refused):
     path = op.Source(op.Parameter("power", np.array([1.0, 2.0]))) >> op.Detector()
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
     several = "parameter 'power' has several values in the file, and a picture is of one"
@@ -151,9 +159,6 @@ def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_p
         asked = f"plot x.toml --kind {kind} --out a.svg"
         assert several in refused(asked)
         told(f"{asked} --power 2")
-
-
-def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_path, told):
     path = op.PathGraph()
     lamp = path.add("\u706f", op.Source())
     sheet = path.add("\u504f", op.Polarizer(op.Parameter("a", 0.3)))
@@ -164,16 +169,6 @@ def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(tmp_pa
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             told(f"plot x.toml --kind {kind} {x} --out a.svg")
-
-
-def test_what_a_case_published_and_its_values_are_those_of_the_case_alone():
-    path, case = op.load_preset("npgr026"), op.load_preset("npgr026", case="8")
-    assert request("npgr026", "stokes", "8").published == path.cases["8"].published
-    for of, given in ((None, {}), ("8", {"delta": 0.5}), ("8", {"reads": "intensity"})):
-        assert request("npgr026", "stokes", of, **given).published == {}
-    asked = request("npgr026", "curve", "8", x=("delta",)).path
-    assert asked.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
-    assert float(asked.parameters["delta"].default) == float(case.parameters["delta"].default)
 
 
 def test_all_that_is_wrong_and_a_missing_extra_are_told(refused, monkeypatch):
@@ -194,7 +189,7 @@ def read(name):
     return json.loads(Path(name).read_text("utf-8"))
 
 
-def test_how_long_it_takes_is_told_before_and_progress_in_lines(run):
+def test_how_long_it_takes_is_told_and_errors_near_a_place_are_drawn_again(run, monkeypatch):
     status, _, err = run(f"{QUICK} --data a.json")
     assert status == 0
     first, *lines = err.splitlines()
@@ -204,9 +199,6 @@ def test_how_long_it_takes_is_told_before_and_progress_in_lines(run):
     assert shares == sorted(set(shares))
     assert read("a.json")["effort"]["samples"] == 3
     assert Path("chart.png").exists()
-
-
-def test_errors_near_a_place_are_drawn_with_what_was_changed_and_drawn_again(run, monkeypatch):
     monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
     assert run("chart --interface --near all --data a.json --out a.svg")[0] == 0
     places = [place["name"] for place in read("a.json")["places"]]
@@ -231,13 +223,10 @@ def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(run, monke
             raise KeyboardInterrupt
         return errors(*arguments)
 
-    def at_once(*_):
-        raise KeyboardInterrupt
-
     monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:3])
     monkeypatch.setattr(chart, "path_errors", interrupted)
     with monkeypatch.context() as patch:
-        patch.setattr(chart, "many_paths", at_once)
+        patch.setattr(chart, "many_paths", Mock(side_effect=KeyboardInterrupt))
         assert run(f"{QUICK} --data a.json")[0] == 130
         assert list(Path().iterdir()) == []  # Nothing was measured yet.
     given = "chart npgr026 --case 8 --engine numpy --quick --data a.json --out a.svg"

@@ -12,6 +12,7 @@ import webbrowser
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import Mock
 from urllib.request import Request, urlopen
 
 import pytest
@@ -19,7 +20,7 @@ import pytest
 import optipath as op
 from optipath.cli import explore_command
 from optipath.explorer.page_server import PageServer
-from tables import rows, slow
+from tables import slow
 
 START = [sys.executable, "-m", "optipath"]
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -35,6 +36,7 @@ def wait():
 ctypes.CFUNCTYPE(None)(wait)()
 """
 INTERRUPTED = (130, "optipath: interrupted\n")
+PIPES = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
 
 
 @pytest.fixture(autouse=True)
@@ -47,8 +49,7 @@ def interrupts_are_heard():
 
 def started(command, environment=None):
     """Start a command whose lines are read."""
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-    return subprocess.Popen(command, **pipes, env=environment)
+    return subprocess.Popen(command, **PIPES, env=environment)
 
 
 def ended(process, sent):
@@ -93,39 +94,44 @@ def test_a_signal_is_told_in_a_line(library, text, command, as_script, sent, fou
 
 def done(command, **given):
     """Let a command end; return its status, its output and what it told."""
-    given = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **given}
-    ran = subprocess.run(command, check=False, **given)
+    ran = subprocess.run(command, check=False, **PIPES | given)
     return ran.returncode, ran.stdout, ran.stderr
 
 
-def test_a_script_imports_the_library_and_keeps_its_own_way_with_interrupts(tmp_path):
+def test_a_script_keeps_its_own_way_with_interrupts_and_the_explorer_needs_no_extra(tmp_path):
     (tmp_path / "script.py").write_text(
         "import optipath, signal\nprint(optipath.Source().intensity)\n"
         "print(signal.getsignal(signal.SIGINT).__name__)\n"
     )
     code = "import pathlib, runpy; runpy.run_path(pathlib.Path('script.py'))"  # As argv has it.
     assert done([sys.executable, "-c", code]) == (0, "1.0\ndefault_int_handler\n", "")
+    code = """import sys; from optipath.cli import explore_command
+from optipath.explorer.explored_presets import ExploredPresets
+from optipath.explorer.page_answers import PageAnswers
+wanted = {"preset": "npgr026", "want": ["scene", "energy", "explanation"]}
+PageAnswers(ExploredPresets()).trace(wanted)
+print({"matplotlib", "xarray", "pandas", "numba", "jax", "scipy"} & {*sys.modules})
+"""
+    assert done([sys.executable, "-c", code]) == (0, "set()\n", "")
 
 
-@rows(
-    "command, streams, status, told",
-    [
-        ("run malus --json", ">&-", 2, "the output cannot be written: standard output is closed"),
+def test_closed_streams_are_told_of_and_broken_pipes_not():
+    unwritten = "optipath: the output cannot be written: "
+    for command, streams, status, told in (
+        ("run malus --json", ">&-", 2, f"{unwritten}standard output is closed\n"),
         ("run malus --json", "<&- >/dev/null", 0, ""),
         ("run malus --json", ">&- 2>&-", 2, ""),
-        ("run malus", ">/dev/full", 2, "the output cannot be written: No space left on device"),
+        ("run malus", ">/dev/full", 2, f"{unwritten}No space left on device\n"),
         ("presets", "| true", 0, ""),
         ("explain malus", "| true", 0, ""),
-    ],
-)
-def test_closed_streams_are_told_of_and_broken_pipes_not(command, streams, status, told):
-    reader, writer = os.pipe()
-    os.close(reader)
-    pipe, streams = (writer, "") if streams == "| true" else (subprocess.PIPE, streams)
-    line = f"exec {' '.join(START)} {command} {streams}"
-    found = done(["/bin/sh", "-c", line], stdout=pipe)
-    os.close(writer)
-    assert found[::2] == (status, f"optipath: {told}\n" if told else "")
+    ):
+        reader, writer = os.pipe()
+        os.close(reader)
+        broken = streams == "| true"
+        line = f"exec {' '.join(START)} {command} {'' if broken else streams}"
+        found = done(["/bin/sh", "-c", line], stdout=writer if broken else subprocess.PIPE)
+        os.close(writer)
+        assert found[::2] == (status, told), (command, streams)
 
 
 @pytest.mark.parametrize("command", ["show", slow("run"), slow("presets")])
@@ -180,28 +186,26 @@ def served(monkeypatch):
 
 
 def test_the_address_is_printed_and_opened_where_a_browser_is_wanted(run, served, monkeypatch):
-    def fails(_):
-        raise webbrowser.Error("could not locate runnable browser")
-
     def thread(target, args, daemon):  # It is done before it begins.
         assert daemon
         return SimpleNamespace(start=partial(target, *args))
 
-    opened = []
+    opens, fails = Mock(return_value=True), Mock(side_effect=webbrowser.Error("none is runnable"))
     monkeypatch.setattr(explore_command, "Thread", thread)
+    unopened = "no browser could be opened; open the address above"
     for line, browser, preset, told in (
-        ("malus", lambda address: opened.append(address) or True, "malus", "Ctrl-C ends it"),
+        ("malus", opens, "malus", "Ctrl-C ends it"),
         ("--no-browser", fails, "npgr026", "Ctrl-C ends it"),
-        ("", lambda _: False, "npgr026", "no browser could be opened; open the address above"),
-        ("", fails, "npgr026", "no browser could be opened; open the address above"),
+        ("", lambda _: False, "npgr026", unopened),
+        ("", fails, "npgr026", unopened),
     ):
         monkeypatch.setattr(webbrowser, "open", browser)
         status, out, _ = run(f"explore {line}")
         assert (status, served[-1].answers.presets()["opened"]) == (0, preset)
         assert served[-1].address in out
         assert told in out
-        assert ("no browser" in out) == ("no browser" in told)
-    assert opened == [served[0].address]
+        assert (unopened in out) == (told == unopened)
+    opens.assert_called_once_with(served[0].address)
 
 
 def test_what_cannot_be_opened_or_listened_at_is_told_at_once(refused, served, tmp_path):
@@ -235,14 +239,3 @@ def test_it_serves_until_an_interrupt_ends_it_in_one_line():
             assert ended(process, signal.SIGINT) == INTERRUPTED
         finally:
             process.kill()
-
-
-def test_it_needs_no_extra():
-    code = """import sys; from optipath.cli import explore_command
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
-wanted = {"preset": "npgr026", "want": ["scene", "energy", "explanation"]}
-PageAnswers(ExploredPresets()).trace(wanted)
-print({"matplotlib", "xarray", "pandas", "numba", "jax", "scipy"} & {*sys.modules})
-"""
-    assert done([sys.executable, "-c", code]) == (0, "set()\n", "")

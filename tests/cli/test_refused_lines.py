@@ -6,6 +6,7 @@ from tables import rows
 
 AT_THE_END = "unknown here; write it at the end: optipath"
 ALONE = "unknown here; it stands alone: optipath"
+BEFORE = "option '--import' is unknown here; write it before the command: optipath"
 QUOTED = "quote them: --filter '30 deg'"
 REFUSED = [
     ("run npgr62", "'npgr62'", "did you mean 'npgr026'"),
@@ -52,8 +53,9 @@ REFUSED = [
     ("run --case 8", f"{AT_THE_END} run PRESET --case ..."),
     ("--json presets", f"{AT_THE_END} presets --json ..."),
     ("-import mine run x.toml", "option '-import' is unknown; did you mean '--import'?"),
+    ("run npgr026 --import=mine.py --json", f"{BEFORE} --import=mine.py run npgr026 --json"),
+    ("explain npgr026 --import", f"{BEFORE} --import MODULE explain npgr026"),
     ("run npgr026 --version", f"{ALONE} --version"),
-    ("chart npgr026 --interface", f"{ALONE} chart --interface"),
     ("chart npgr026 --from a.json", f"{ALONE} chart --from a.json"),
     ("run npgr026 --delta @none.csv", "none.csv: there is no such file"),
     ("run npgr026 --n1 gold,silver", "--n1 takes one material"),
@@ -133,17 +135,3 @@ def test_unknown_options_and_cases_are_told_with_all_there_are_and_all_faults_at
     faults = refused("run npgr026 --delta 91 --n1 x --rho '3 dge' --case 99", lines=5)
     for part in ("'delta' is 91 deg", "--n1", "did you mean 'deg'", "case '99'"):
         assert part in faults
-
-
-@rows(
-    "words, meant",
-    [
-        ("own.toml --import mine", "--import mine run own.toml"),
-        ("npgr026 --import=mine.py --json", "--import=mine.py run npgr026 --json"),
-        ("npgr026 --import", "--import MODULE run npgr026"),
-    ],
-)
-def test_an_import_is_written_before_the_command(refused, tmp_path, words, meant):
-    (tmp_path / "own.toml").write_text('format = 1\n[elements.a]\nkind = "mine"\n', "utf-8")
-    cure = f"write it before the command: optipath {meant}"
-    assert refused(f"run {words}") == f"option '--import' is unknown here; {cure}"

@@ -1,5 +1,6 @@
 """Sweeps, several cases at once, and several values for an option: ranges, lists, columns."""
 
+from pathlib import Path
 from unittest.mock import Mock
 
 import numpy as np
@@ -12,7 +13,7 @@ ZARR = "sweep malus --angle 0:90:10 --out a.zarr --scheduler synchronous --chunk
 KEPT = "2 of 4 blocks are in a.zarr"
 
 
-def test_one_axis_is_a_table_two_are_a_plane_and_large_grids_are_summed_up(told, run):
+def test_one_axis_is_a_table_two_are_a_plane_and_regions_cover_a_grid(told, run):
     def lines_of(line):
         return [" ".join(words.split()) for words in run(line)[1].splitlines()]
 
@@ -29,9 +30,14 @@ def test_one_axis_is_a_table_two_are_a_plane_and_large_grids_are_summed_up(told,
     assert "--out FILE" in " ".join(lines)
     lines = lines_of("sweep malus --angle 0:90:31 --intensity 1:4:31")
     assert " ".join(lines).split("light at eye")[1].split()[:2] == ["0", "2"]
+    points = np.arange(2 * 3 * 4).reshape(2, 3, 4)
+    for most in (1, 2, 5, 6, 7, 100):
+        parts = [points[region].ravel() for region in regions(points.shape, most)]
+        assert all(len(part) <= most for part in parts)
+        np.testing.assert_array_equal(np.concatenate(parts), points.ravel())
 
 
-def test_json_has_axes_units_and_all_values(found):
+def test_json_has_axes_units_and_all_values_and_names_are_taken_as_written(found, run, tmp_path):
     grid = found("sweep malus --angle 0:60:3 --intensity '1, 2'")
     assert grid["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
     stokes = np.array(grid["detectors"]["eye"]["stokes"])
@@ -40,6 +46,12 @@ def test_json_has_axes_units_and_all_values(found):
     intensities = [stokes[0] for stokes in row["detectors"]["eye"]["stokes"]]
     assert intensities == pytest.approx([0.5, 0.75, 0.375], abs=1e-15)
     assert row["axes"]["angle"]["dimension"] == row["axes"]["intensity"]["dimension"]
+    assert run("sweep malus --angle 0:90:3 --out a.csv/")[0] == 0
+    assert (tmp_path / "a.csv").read_text("utf-8").startswith("angle (deg),S0,")
+    for names in ("sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"):
+        given = "--sky-angle 0:30:3 --theta 0:60:3 --zip"
+        axes = found(f"sweep sky-and-window {given}", names)["axes"]
+        assert {axis["dimension"] for axis in axes.values()} == {"sky_angle_theta"}
 
 
 def test_a_table_has_a_line_a_point_and_is_read_as_an_axis_or_as_points(told, found, tmp_path):
@@ -125,7 +137,7 @@ def test_nothing_is_overwritten_and_no_table_there_in_part(run, refused, tmp_pat
     assert not [*tmp_path.iterdir()]
 
 
-def test_all_that_is_wrong_with_options_and_values_is_told_at_once(refused):
+def test_all_that_is_wrong_with_options_values_and_cells_is_told(refused, run, tmp_path):
     wrong = "--out a.txt --chunks 0 --scheduler hreads --zip delta --coords none.csv"
     sentences = refused(f"sweep npgr026 {wrong} --delta 0:95:3 --phi 95", lines=9)
     for part in (
@@ -138,26 +150,6 @@ def test_all_that_is_wrong_with_options_and_values_is_told_at_once(refused):
         "'phi' is 95 deg,",
     ):
         assert part in sentences
-
-
-def test_regions_cover_a_grid_in_the_order_of_its_points():
-    points = np.arange(2 * 3 * 4).reshape(2, 3, 4)
-    for most in (1, 2, 5, 6, 7, 100):
-        parts = [points[region].ravel() for region in regions(points.shape, most)]
-        assert all(len(part) <= most for part in parts)
-        np.testing.assert_array_equal(np.concatenate(parts), points.ravel())
-
-
-def test_endings_and_names_are_taken_as_they_are_written(run, found, tmp_path):
-    assert run("sweep malus --angle 0:90:3 --out a.csv/")[0] == 0
-    assert (tmp_path / "a.csv").read_text("utf-8").startswith("angle (deg),S0,")
-    for names in ("sky-angle,theta", "sky_angle,theta", "--sky-angle, --theta"):
-        given = "--sky-angle 0:30:3 --theta 0:60:3 --zip"
-        axes = found(f"sweep sky-and-window {given}", names)["axes"]
-        assert {axis["dimension"] for axis in axes.values()} == {"sky_angle_theta"}
-
-
-def test_faults_of_values_and_of_cells_are_told_as_what_they_are(run, refused, tmp_path):
     for word in ("light,between,eye", "@places.csv", "light:eye:2"):
         several = f"--place takes one word of light, between and eye, and '{word}' is several"
         fault = refused("sweep npgr026 --delta 0:90:3 --place", word)
@@ -169,20 +161,12 @@ def test_faults_of_values_and_of_cells_are_told_as_what_they_are(run, refused, t
     (tmp_path / "a.csv").write_text("delta (deg)\n10\nnan\n30\n", "utf-8")
     err = run("sweep npgr026 --delta @a.csv")[2]
     assert err.startswith("optipath: a.csv: parameter 'delta' cannot be 'nan'")
-    (tmp_path / "a.csv").write_text("delta\n10\n20\n30\n", "utf-8")
-    unit = "column 'delta' has no unit; write its name as 'delta (deg)' if that is its unit"
-    assert refused("sweep npgr026 --delta @a.csv") == f"a.csv: {unit}"
 
 
-@pytest.fixture
-def own(tmp_path):
+def own(text):
     """Write a path of one's own; the name of its file."""
-
-    def write(text):
-        (tmp_path / "own.toml").write_text(text, "utf-8")
-        return "own.toml"
-
-    return write
+    Path("own.toml").write_text(text, "utf-8")
+    return "own.toml"
 
 
 def rows_of(table):
@@ -194,7 +178,7 @@ def rows_of(table):
     ]
 
 
-def test_cases_that_are_asked_for_are_rows_with_what_was_published_below(run, found, own):
+def test_cases_are_rows_with_what_was_published_and_objects_of_json(run, found):
     out = run("run npgr026 --case all")[1]
     heads = [word for case in range(1, 10) for word in (str(case), f"{case}, published")]
     assert [row[0] for row in rows_of(out)] == heads
@@ -213,21 +197,6 @@ def test_cases_that_are_asked_for_are_rows_with_what_was_published_below(run, fo
     assert [row[0] for row in rows_of(run(line)[1])] == ["1", "7"]
     cases = found(line)["cases"]
     assert {case: each["parameters"]["delta"] for case, each in cases.items()} == {"1": 20, "7": 20}
-
-
-def test_wrong_cases_and_all_that_is_wrong_with_ranges_are_told(refused, own):
-    first, *faults = refused("run npgr026 --case 10 --case 1 --case 11", lines=3).splitlines()
-    assert first == "2 faults:"
-    assert "case '10' is unknown" in faults[0]
-    assert "case '11' is unknown" in faults[1]
-    file = own((op.Source() >> op.Detector()).to_toml())
-    assert refused(f"run {file} --case all") == f"preset '{file}' has no cases; leave --case out"
-    faults = refused("run npgr026 --delta 0:95:3 --phi 95 --rho 0:9:0 --n1 nan:1:2", lines=5)
-    for part in ("'delta' is 95 deg at 2", "'phi' is 95 deg,", "'0:9:0' counts", "'nan'"):
-        assert part in faults
-
-
-def test_cases_as_json_are_the_objects_of_each(found):
     every = found("run npgr026 --case all")
     assert list(every) == ["preset", "cases"]
     assert list(every["cases"]) == [str(case) for case in range(1, 10)]
@@ -237,7 +206,16 @@ def test_cases_as_json_are_the_objects_of_each(found):
     assert light["exact"] == pytest.approx(33.9959, abs=1e-4)
 
 
-def test_commands_about_one_case_and_one_value_say_so(refused):
+def test_wrong_cases_and_ranges_and_commands_about_one_of_each_are_told(refused):
+    first, *faults = refused("run npgr026 --case 10 --case 1 --case 11", lines=3).splitlines()
+    assert first == "2 faults:"
+    assert "case '10' is unknown" in faults[0]
+    assert "case '11' is unknown" in faults[1]
+    file = own((op.Source() >> op.Detector()).to_toml())
+    assert refused(f"run {file} --case all") == f"preset '{file}' has no cases; leave --case out"
+    faults = refused("run npgr026 --delta 0:95:3 --phi 95 --rho 0:9:0 --n1 nan:1:2", lines=5)
+    for part in ("'delta' is 95 deg at 2", "'phi' is 95 deg,", "'0:9:0' counts", "'nan'"):
+        assert part in faults
     for command in ("explain", "bench", "chart", "show"):
         for cases in ("--case all", "--case 1 --case 3"):
             told = f"{command} takes one case; there are: 1, 2, 3, 4, 5, 6, 7, 8, 9"
@@ -247,7 +225,7 @@ def test_commands_about_one_case_and_one_value_say_so(refused):
         assert told.startswith(f"--angle is given several values, '0:90:3', of which {command} tak")
 
 
-def test_what_was_published_and_notes_are_of_the_values_of_a_case_which_stay_open(run, own):
+def test_what_was_published_and_notes_are_of_the_values_of_a_case_which_stay_open(run):
     out = run("show npgr026 --case 7")[1]
     assert "bound" not in out
     delta = next(line for line in out.splitlines() if "delta" in line)
@@ -266,7 +244,7 @@ def test_what_was_published_and_notes_are_of_the_values_of_a_case_which_stay_ope
     assert ["published", "0.25", "0.125", "0", "0"] in rows_of(out)
 
 
-def test_a_fault_of_some_cases_names_them_and_one_of_all_does_not(run, refused, own):
+def test_a_fault_of_some_cases_names_them_and_one_of_all_does_not(run, refused):
     path = op.Source() >> op.Interface(1.5, 3 * op.Parameter("theta")) >> op.Detector()
     for case, degrees in {"flat": 10, "steep": 40, "back": 40, "other": 50}.items():
         path.cases[case] = op.Case({"theta": f"{degrees} deg"})
@@ -300,7 +278,7 @@ def test_each_way_of_writing_several_values_gives_malus_law(found, tmp_path):
     np.testing.assert_allclose(stokes, alone, rtol=1e-14, atol=1e-17)
 
 
-def test_several_ranges_are_an_outer_product_in_the_order_of_the_options(found):
+def test_several_ranges_are_an_outer_product_and_arrays_take_none_besides(found, run, refused):
     batch = found("run npgr026 --rho 0:20:2 --delta 10:50:3")
     assert list(batch["axes"]) == ["rho", "delta"]
     stokes = np.array(batch["detectors"]["E"]["stokes"])
@@ -313,6 +291,11 @@ def test_several_ranges_are_an_outer_product_in_the_order_of_the_options(found):
     assert "published" not in batch["detectors"]["E"]
     alone = op.load_preset("npgr026", case="8").trace(delta="10 deg").stokes
     np.testing.assert_allclose(batch["detectors"]["E"]["stokes"][0], alone, rtol=1e-14)
+    text = op.load_preset("malus").to_toml()
+    file = own(text.replace('default = "30 deg"', 'default = ["0 deg", "30 deg"]'))
+    fault = "parameter 'angle' has several values in the file; give one by --angle, or a range"
+    assert refused(f"run {file} --intensity 1:2:2") == fault
+    assert run(f"run {file} --intensity 1:2:2 --angle 0")[0] == 0
 
 
 def test_the_table_has_the_values_of_the_axes(run):
@@ -330,11 +313,3 @@ def test_the_table_has_the_values_of_the_axes(run):
     assert "801 more" in out
     assert "0 .. 90 deg, 1,001 values" in out
     assert len(out.splitlines()) < 220
-
-
-def test_a_path_with_several_values_of_its_own_takes_no_axis_besides(run, refused, own):
-    text = op.load_preset("malus").to_toml()
-    file = own(text.replace('default = "30 deg"', 'default = ["0 deg", "30 deg"]'))
-    fault = "parameter 'angle' has several values in the file; give one by --angle, or a range"
-    assert refused(f"run {file} --intensity 1:2:2") == fault
-    assert run(f"run {file} --intensity 1:2:2 --angle 0")[0] == 0

@@ -69,7 +69,9 @@ def test_nothing_is_cut_whatever_columns_says(line, monkeypatch, run):
         assert missing == set(), columns
 
 
-def test_in_a_narrow_terminal_labels_stand_above_values_and_lines_go_on_indented(run, monkeypatch):
+def test_narrow_terminals_have_lines_that_go_on_and_missing_values_are_told(
+    run, monkeypatch, tmp_path
+):
     def shown(columns, line):
         monkeypatch.setenv("COLUMNS", columns)
         return run(line)[1]
@@ -83,9 +85,6 @@ def test_in_a_narrow_terminal_labels_stand_above_values_and_lines_go_on_indented
     whole, wrapped = (shown(columns, "explain npgr026") for columns in ("300", "60"))
     assert wrapped.split() == whole.split()
     assert re.search("\nfewer than 58 paths .*\n    ", wrapped)
-
-
-def test_a_value_that_is_missing_is_asked_for_by_its_option(run, tmp_path):
     path = op.Source() >> op.Polarizer(op.Parameter("angle_1")) >> op.Detector()
     (tmp_path / "open.toml").write_text(path.to_toml(), "utf-8")
     for command in ("run", "polarization"):

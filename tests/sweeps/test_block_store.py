@@ -53,15 +53,9 @@ def record_with(store, **changed):
 @rows(
     "put, told",
     [
-        (
-            lambda store: keep_blocks(Powers(2, title="other"), store),
-            "it has 'other', where this",
-        ),
+        (lambda store: keep_blocks(Powers(2, title="other"), store), "it has 'other', where this"),
         (lambda store: record_with(store, blocks=3), "it has blocks 3, where this one has 2; take"),
-        (
-            lambda store: record_with(store, format=1),
-            "format 1, and this .* knows 2",
-        ),
+        (lambda store: record_with(store, format=1), "format 1, and this .* knows 2"),
         (lambda store: record_with(store, format=3), "has format 3, and .* use the version"),
         (lambda store: record_with(store, identity=3), r"the record '.*\.zattrs' is damaged; take"),
         (lambda store: (store / "thesis").mkdir(parents=True), "is there, and is no store of blo"),
@@ -198,7 +192,7 @@ def test_a_damaged_file_of_the_group_or_record_is_told_and_attributes_may_be_add
     refused(store, r"done' cannot be read: .*; take another name, or delete")
 
 
-def test_a_store_goes_into_an_empty_folder_and_in_no_place_that_is_none(tmp_path):
+def test_a_store_goes_into_an_empty_folder_and_stays_where_a_block_is_done(tmp_path, store):
     refused(tmp_path / "nowhere" / "a.zarr", "there is no folder '.*nowhere' for a store; make it")
     assert not [*tmp_path.iterdir()]
     for name in (3, "", None):
@@ -209,24 +203,27 @@ def test_a_store_goes_into_an_empty_folder_and_in_no_place_that_is_none(tmp_path
     assert keep_blocks(Powers(2), tmp_path / "link") == tmp_path / "empty"
     assert marked(tmp_path / "empty") == {0, 1}
 
+    def fails_at(number):
+        with pytest.raises(op.ValueFault):
+            keep_blocks(Powers(3, fails_at=number), store, "synchronous")
 
-def test_who_is_interrupted_in_making_a_store_leaves_none_or_half_a_one(store, monkeypatch):
-    interrupted, killed = Mock(side_effect=KeyboardInterrupt), Mock(side_effect=ZeroDivisionError)
-    with monkeypatch.context() as patch:
-        patch.setattr("zarr.consolidate_metadata", interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            keep_blocks(Powers(2), store)
-        assert not [*store.parent.iterdir()]
-        patch.setattr("zarr.consolidate_metadata", killed)
-        patch.setattr(shutil, "rmtree", Mock())
-        with pytest.raises(ZeroDivisionError):
-            keep_blocks(Powers(2), store)
-    assert [file.name.split(".")[1] for file in store.parent.iterdir()] == ["powers"]
-    keep_blocks(Powers(2), store)  # Half a store is in nobody's way.
-    assert marked(store) == {0, 1}
+    for stood in (True, False):
+        if stood:
+            store.mkdir()
+        fails_at(0)
+        assert store.exists() == stood
+        keep_blocks(Powers(2, title="mended"), store, "synchronous")
+        assert marked(store) == {0, 1}
+        clear(store)
+    fails_at(1)
+    assert marked(store) == {0}
+    for mark in (store / "blocks" / "done").glob("0*"):
+        mark.unlink()
+    fails_at(0)
+    assert store.exists()
 
 
-def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monkeypatch):
+def test_who_is_interrupted_in_making_a_store_leaves_none_and_others_share_it(store, monkeypatch):
     make = block_store.make_group
 
     def together_with(title):
@@ -238,12 +235,24 @@ def test_who_makes_a_store_at_the_same_time_shares_it_or_is_refused(store, monke
         monkeypatch.setattr(block_store, "make_group", slower)
         keep_blocks(Powers(2), store)
 
+    interrupted, killed = Mock(side_effect=KeyboardInterrupt), Mock(side_effect=ZeroDivisionError)
+    with monkeypatch.context() as patch:
+        patch.setattr("zarr.consolidate_metadata", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            keep_blocks(Powers(2), store)
+        assert not [*store.parent.iterdir()]
+        patch.setattr("zarr.consolidate_metadata", killed)
+        patch.setattr(shutil, "rmtree", Mock())
+        with pytest.raises(ZeroDivisionError):
+            keep_blocks(Powers(2), store)
+    (draft,) = store.parent.iterdir()
+    assert draft.name.split(".")[1] == "powers"  # Half a store is in nobody's way.
     together_with("powers")
     assert marked(store) == {0, 1}
     clear(store)
     with pytest.raises(JobError, match="another job"):
         together_with("other powers")
-    assert [file.name for file in store.parent.iterdir()] == [store.name]
+    assert {*store.parent.iterdir()} == {draft, store}
 
 
 @rows("scheduler", ["synchronous", "threads"])
@@ -277,24 +286,3 @@ def test_dark_blocks_and_blocks_of_nan_are_kept_too(store, monkeypatch):
     assert found.shape == powers(2).shape
     assert np.isnan(found[:4]).all()
     assert np.signbit(found[4:]).all()
-
-
-def test_a_new_store_without_blocks_goes_where_its_job_fails_and_any_other_stays(store):
-    def fails_at(number):
-        with pytest.raises(op.ValueFault):
-            keep_blocks(Powers(3, fails_at=number), store, "synchronous")
-
-    for stood in (True, False):
-        if stood:
-            store.mkdir()
-        fails_at(0)
-        assert store.exists() == stood
-        keep_blocks(Powers(2, title="mended"), store, "synchronous")
-        assert marked(store) == {0, 1}
-        clear(store)
-    fails_at(1)
-    assert marked(store) == {0}
-    for mark in (store / "blocks" / "done").glob("0*"):
-        mark.unlink()
-    fails_at(0)
-    assert store.exists()

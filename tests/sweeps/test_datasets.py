@@ -14,14 +14,13 @@ from optipath.errors import OptipathError
 from optipath.light.light import Light
 from optipath.sweeps.whole.quick_dataset import quick_dataset
 from optipath.sweeps.whole.stacked_views import stacked
-from tables import rows
 
 xr, pd = pytest.importorskip("xarray"), pytest.importorskip("pandas")
 NPGR, MALUS = op.load_preset("npgr026"), op.load_preset("malus")
 DELTAS = [0.1, 0.2]
 
 
-def test_axes_have_the_unit_in_which_they_were_given_and_help_and_variables_have_their_own():
+def test_axes_and_what_is_fixed_have_the_unit_in_which_they_were_given_and_help():
     given = {"theta": ["10 deg", "20 deg"], "length": [0.001, 0.002], "n": np.array([1.4, 1.5])}
     found = op.load_preset("glass-slab").sweep(**given)
     units = {name: found[name].units for name in found.dims}
@@ -36,9 +35,6 @@ def test_axes_have_the_unit_in_which_they_were_given_and_help_and_variables_have
         **dict.fromkeys(["AoP", "Psi", "Delta"], "rad"),
     }
     assert all(each.long_name for each in found.data_vars.values())
-
-
-def test_what_is_fixed_is_a_coordinate_as_it_was_given_or_is_by_default():
     found = NPGR.sweep(delta=DELTAS, phi="30 deg", rho=0.5)
     assert (found.phi.shape, found.phi, found.n2, found["filter"]) == ((), 30.0, 1.5, "none")
     assert (found.phi.units, found.rho.units) == ("deg", "rad")
@@ -73,7 +69,7 @@ def test_the_path_its_explanation_the_frame_the_options_and_the_version_are_ther
     assert 'description = "another one"' in path.sweep(angle=[0.1]).attrs["path"]
 
 
-def test_a_path_without_a_form_in_toml_is_swept_and_says_why():
+def test_paths_without_a_form_are_swept_and_names_of_variables_are_no_parameters():
     class Grey(op.Element):
         @staticmethod
         def mueller_rows(xp):
@@ -83,17 +79,6 @@ def test_a_path_without_a_form_in_toml_is_swept_and_says_why():
     found = path.sweep(t=[0.25, 0.5])
     assert found.S0.values.tolist() == [0.25, 0.5]
     assert found.attrs["path"].startswith("the path cannot be written here, since it has no form")
-
-
-def swept_by(name, *ways):
-    path = op.PathGraph()
-    path.add("lamp", op.Source()) >> path.add("splitter", op.BeamSplitter(op.Parameter(name)))
-    for way in ("reflected", *ways):
-        path[f"splitter.{way}"] >> path.add(way, op.Detector())
-    return path.sweep(**{name: [0.2, 0.4]})
-
-
-def test_names_of_variables_and_dimensions_are_not_those_of_parameters():
     for name in ("psi", "delta"):
         assert {"Psi", "Delta", "psi", "delta"} & {*swept_by(name).data_vars} == {"Psi", "Delta"}
     assert {"psi", "delta"} <= {*swept_by("share").data_vars}
@@ -103,6 +88,14 @@ def test_names_of_variables_and_dimensions_are_not_those_of_parameters():
     assert swept_by("detector").S0.dims == ("detector",)
     with pytest.raises(op.ParameterError, match="calls a dimension of its own"):
         swept_by("detector", "transmitted")
+
+
+def swept_by(name, *ways):
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("splitter", op.BeamSplitter(op.Parameter(name)))
+    for way in ("reflected", *ways):
+        path[f"splitter.{way}"] >> path.add(way, op.Detector())
+    return path.sweep(**{name: [0.2, 0.4]})
 
 
 AXES = {"delta": np.linspace(0.1, 1.0, 5), "phi": np.linspace(0.2, 1.1, 4)}
@@ -135,7 +128,7 @@ def test_nothing_is_computed_before_somebody_asks_and_then_that_part_alone_and_o
     assert len(asked) > 3
 
 
-def test_every_index_and_label_takes_its_part_and_arithmetic_and_tables_are_of_the_values():
+def test_every_index_takes_its_part_and_several_detectors_are_the_first_axis():
     for key in (
         *(np.s_[2], np.s_[-1, -1], np.s_[::-1, 1:], np.s_[[3, 0, 0]]),
         *(np.s_[[4, 1], [True, False, False, True]], np.s_[1:1], np.s_[..., 2]),
@@ -150,9 +143,6 @@ def test_every_index_and_label_takes_its_part_and_arithmetic_and_tables_are_of_t
     np.testing.assert_allclose(found.mean().DoP, LIGHT.dop.mean(), rtol=1e-15)
     assert_array_equal(found.where(found.DoP > 0.9).DoP.count(), (LIGHT.dop > 0.9).sum())
     assert_array_equal(a_sweep().to_dataframe()["DoP"], LIGHT.dop.ravel())
-
-
-def test_several_detectors_are_the_first_axis():
     path = op.load_preset("npgr026")
     path.add("after", op.Detector())
     path.connect("X1.transmitted", "after.in")
@@ -209,7 +199,7 @@ PARTS = (
 )
 
 
-def test_a_quick_dataset_is_what_xarray_makes_without_a_copy_of_long_axes(monkeypatch):
+def test_a_quick_dataset_is_that_of_xarray_and_rows_at_equal_distances_are_a_view(monkeypatch):
     quick, usual = quick_dataset(*PARTS), xr.Dataset(*PARTS)
     assert quick.identical(usual)
     one, other = (
@@ -222,9 +212,6 @@ def test_a_quick_dataset_is_what_xarray_makes_without_a_copy_of_long_axes(monkey
     # An xarray without the short way goes the long one.
     monkeypatch.setattr("optipath.sweeps.whole.quick_dataset._DIRECT", "_none")
     assert quick_dataset(*PARTS).identical(usual)
-
-
-def test_rows_at_equal_distances_are_a_view_and_others_are_copied():
     values, table = np.random.default_rng(1).normal(size=(6, 4, 3)), np.arange(12.0).reshape(4, 3)
     for places in ([0], [0, 1], [1, 3, 5], [4, 2]):
         found = stacked([values[place] for place in places])
@@ -255,7 +242,7 @@ def drawn(ax):
     return ax.get_lines()[0].get_xydata().T
 
 
-def test_a_curve_goes_over_the_only_dimension_or_that_which_is_named(tmp_path):
+def test_curves_go_over_one_dimension_maps_over_two_and_spheres_are_coloured(tmp_path, monkeypatch):
     ax = SWEEP.sel(intensity=2.0).optipath.curve("s0")
     x, y = drawn(ax)
     np.testing.assert_allclose(x, np.linspace(0.0, 90.0, 7))
@@ -280,9 +267,6 @@ def test_a_curve_goes_over_the_only_dimension_or_that_which_is_named(tmp_path):
     with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as read:
         _, y = drawn(read.isel(intensity=0).optipath.curve())
     assert y[0] == pytest.approx(0.5)
-
-
-def test_a_map_goes_over_two_dimensions_and_the_sphere_is_coloured_by_the_coordinate(monkeypatch):
     ax = SWEEP.optipath.map("S0")
     assert ax.get_xlabel().startswith("angle")
     values = ax.collections[0].get_array()
@@ -303,9 +287,8 @@ LINEAR = MALUS.reading("linear").sweep(angle="0 deg:90 deg:3")
 WORDS = op.load_preset("npgr026").sweep(filter=["none", "30 deg"])
 
 
-@rows(
-    "draw, told",
-    [
+def test_what_is_wrong_is_told():
+    for draw, told in (
         (SWEEP.optipath.curve, r"has 'angle' and 'intensity'; choose a value"),
         (lambda: SWEEP.optipath.curve("S0", "angel"), "coordinate 'angel' is unknown"),
         (SWEEP.isel(angle=0, intensity=0).optipath.curve, "no dimension with several values"),
@@ -316,8 +299,6 @@ WORDS = op.load_preset("npgr026").sweep(filter=["none", "30 deg"])
         (SHARES.optipath.curve, "the detectors reflected and transmitted; say which"),
         (lambda: SHARES.optipath.curve(detector="three"), "detector 'three' is unknown"),
         (LINEAR.optipath.poincare, "components that are not read"),
-    ],
-)
-def test_what_is_wrong_is_told(draw, told):
-    with pytest.raises(OptipathError, match=told):
-        draw()
+    ):
+        with pytest.raises(OptipathError, match=told):
+            draw()

@@ -27,7 +27,7 @@ from optipath.sweeps.blocks.executors import AtOnce
 from optipath.sweeps.blocks.keep_blocks import _handed_out, _keep_block, keep_blocks
 from optipath.sweeps.blocks.workers import Workers
 from optipath.sweeps.kept.sweep_block import SweepBlock
-from tables import rows, slow
+from tables import slow
 
 pytest.importorskip("zarr")
 pytest.importorskip("distributed")
@@ -46,10 +46,6 @@ def store(tmp_path):
 def when(count, act):
     """Progress that has something done at a number of blocks."""
     return lambda done, _: act() if done == count else None
-
-
-def interrupt():
-    raise KeyboardInterrupt
 
 
 def holds_powers(store, blocks):
@@ -95,7 +91,12 @@ def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_pat
     assert len(computed(log)) < 50
 
 
-def test_who_interrupts_keeps_what_is_done_and_has_it_counted(tmp_path):
+def test_progress_is_told_to_the_end_and_who_interrupts_keeps_what_is_done(store, tmp_path):
+    told = []
+    for job in (Powers(4, fails_at=2), Powers(4), Powers(4)):
+        with suppress(op.ValueFault):
+            keep_blocks(job, store, "synchronous", lambda *how: told.append(how))
+    assert told == [(0, 4), (1, 4), (2, 4), (2, 4), (3, 4), (4, 4), (4, 4)]
     for scheduler in ("synchronous", "threads"):
         log, store, told = tmp_path / f"{scheduler} log", tmp_path / f"{scheduler}.zarr", []
 
@@ -114,14 +115,6 @@ def test_who_interrupts_keeps_what_is_done_and_has_it_counted(tmp_path):
         assert sorted(computed(log)[already:]) == sorted({*range(40)} - before)
 
 
-def test_progress_is_told_from_what_was_done_to_the_end(store):
-    told = []
-    for job in (Powers(4, fails_at=2), Powers(4), Powers(4)):
-        with suppress(op.ValueFault):
-            keep_blocks(job, store, "synchronous", lambda *how: told.append(how))
-    assert told == [(0, 4), (1, 4), (2, 4), (2, 4), (3, 4), (4, 4), (4, 4)]
-
-
 def test_not_too_much_is_handed_out_and_two_runs_come_to_the_same_bits(tmp_path, store):
     executor, job = Mock(wraps=AtOnce()), Powers(20)
     found = _handed_out(job, BlockStore.of(job, store), [*range(20)], Workers(executor, lambda: 6))
@@ -133,21 +126,18 @@ def test_not_too_much_is_handed_out_and_two_runs_come_to_the_same_bits(tmp_path,
     assert holds_powers(store, 30)
 
 
-@rows(
-    "scheduler, told",
-    [
-        ("thread", "scheduler 'thread' is unknown; did you mean 'threads'"),
-        ("10.0.0.1:8786", "the address of a cluster begins with 'tcp://'"),
-        (4, "not 4; of a cluster, give cluster.get_client"),
-        ("tcpp://127.0.0.1:1", "no cluster answers at 'tcpp://127.0.0.1:1'"),
-        ("tcp://127.0.0.1:1", r"no cluster answers at 'tcp://127.0.0.1:1'.*runs"),
-        ("tls://127.0.0.1:9", r"tls://.* give a client that has the certificates"),
-    ],
-)
-def test_what_is_no_scheduler_or_does_not_answer_is_told(store, monkeypatch, scheduler, told):
+def test_what_is_no_scheduler_or_does_not_answer_is_told(store, monkeypatch):
     monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
-    with pytest.raises(JobError, match=told):
-        keep_blocks(Powers(2), store, scheduler)
+    for scheduler, told in {
+        "thread": "scheduler 'thread' is unknown; did you mean 'threads'",
+        "10.0.0.1:8786": "the address of a cluster begins with 'tcp://'",
+        4: "not 4; of a cluster, give cluster.get_client",
+        "tcpp://127.0.0.1:1": "no cluster answers at 'tcpp://127.0.0.1:1'",
+        "tcp://127.0.0.1:1": r"no cluster answers at 'tcp://127.0.0.1:1'.*runs",
+        "tls://127.0.0.1:9": r"tls://.* give a client that has the certificates",
+    }.items():
+        with pytest.raises(JobError, match=told):
+            keep_blocks(Powers(2), store, scheduler)
     assert not store.exists()
 
 
@@ -193,18 +183,15 @@ def test_a_cluster_computes_every_block_once_and_tells_an_error(tmp_path, store,
     assert holds_powers(store, 3)
 
 
-def test_the_client_that_is_active_is_taken(store, client, monkeypatch):
-    monkeypatch.setattr(distributed, "default_client", lambda: client)
-    keep_blocks(WhoComputes(3), store)
-    with xr.open_zarr(store) as found:
-        pids = {*found.power.values.ravel().astype(int)}
-    assert pids <= {*client.run(os.getpid).values()}
-
-
-def test_a_worker_that_dies_loses_nothing(store, log, client):
+def test_the_active_client_is_taken_and_who_dies_loses_nothing(store, log, client, monkeypatch):
     keep_blocks(Powers(20, str(log), slow=0.02), store, client, killing_one(client)[0])
     assert holds_powers(store, 20)
     assert 20 <= len(computed(log)) <= 22
+    client.wait_for_workers(2)
+    monkeypatch.setattr(distributed, "default_client", lambda: client)
+    with xr.open_zarr(keep_blocks(WhoComputes(3), store.with_name("who.zarr"))) as found:
+        pids = {*found.power.values.ravel().astype(int)}
+    assert pids <= {*client.run(os.getpid).values()}
 
 
 def test_a_block_that_kills_its_workers_is_told_and_the_others_stay(store, log, client):
@@ -235,20 +222,16 @@ def test_a_job_that_no_worker_can_load_is_told_and_a_long_one_sent(store, client
     assert holds_powers(store, 2)
 
 
-def test_a_cluster_that_is_lost_is_told_and_finished_blocks_stay(store):
-    scheduler = {"dashboard_address": "127.0.0.1:0"}
+def test_a_lost_cluster_a_closed_client_and_a_cluster_itself_are_told(store, client):
+    options = {"n_workers": 1, "processes": False, **QUIET}
+    options["scheduler_kwargs"] = {"dashboard_address": "127.0.0.1:0"}
     with (
-        distributed.LocalCluster(
-            n_workers=1, processes=False, **QUIET, scheduler_kwargs=scheduler
-        ) as cluster,
-        distributed.Client(cluster, set_as_default=False) as client,
+        distributed.LocalCluster(**options) as cluster,
+        distributed.Client(cluster, set_as_default=False) as lost,
         pytest.raises(JobError, match=r"the cluster was lost.*; start again when it is back"),
     ):
-        keep_blocks(Powers(40, slow=0.02), store, client, when(5, cluster.close))
+        keep_blocks(Powers(40, slow=0.02), store, lost, when(5, cluster.close))
     assert 5 <= len(marked(store)) < 40
-
-
-def test_a_closed_client_and_a_cluster_itself_are_told(store, client):
     closed = distributed.Client(client.scheduler.address, set_as_default=False)
     closed.close()
     for scheduler, told in ((closed, "cluster is closed; give one"), (client.cluster, r"get_clie")):
@@ -317,17 +300,9 @@ def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path, store, log, schedul
 
 
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4, "filter": "horizontal"}
-AXES = {
-    "delta": np.linspace(0.01, 1.5, 40),
-    "rho": np.linspace(0.0, 3.1, 50),
-    "phi": np.linspace(0.01, 1.5, 50),
-}
+AXES = {"delta": np.linspace(0.01, 1.5, 40), "rho": np.linspace(0.0, 3.1, 50)}
+AXES["phi"] = np.linspace(0.01, 1.5, 50)
 CHUNKS = {"delta": 4, "rho": -1, "phi": -1}
-
-
-@pytest.fixture(scope="module")
-def alone():
-    return swept().compute()
 
 
 def swept(**options):
@@ -339,8 +314,8 @@ def assert_same_bits(found, expected):
         assert found[name].to_numpy().tobytes() == each.to_numpy().tobytes()
 
 
-def test_a_cluster_keeps_the_bits_of_one_process_though_a_worker_dies(tmp_path, client, alone):
-    given = {"chunks": CHUNKS, "scheduler": client}
+def test_a_cluster_keeps_the_bits_of_one_process_though_a_worker_dies(tmp_path, client):
+    given, alone = {"chunks": CHUNKS, "scheduler": client}, swept()
     assert_same_bits(swept(store=tmp_path / "sweep.zarr", **given), alone)
     kill, victim = killing_one(client)
     found = swept(store=tmp_path / "other.zarr", **given, progress=kill)
@@ -351,14 +326,13 @@ def test_a_cluster_keeps_the_bits_of_one_process_though_a_worker_dies(tmp_path, 
     assert_same_bits(found, alone[["S0", "Delta"]])
 
 
-def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, alone, monkeypatch):
+def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, monkeypatch):
     given, computed = {"store": tmp_path / "sweep.zarr", "chunks": CHUNKS}, []
     with pytest.raises(KeyboardInterrupt):
-        swept(**given, scheduler=client, progress=when(4, interrupt))
-    there = marked(given["store"])
-    compute = SweepBlock.compute
+        swept(**given, scheduler=client, progress=when(4, Mock(side_effect=KeyboardInterrupt)))
+    there, compute = marked(given["store"]), SweepBlock.compute
     monkeypatch.setattr(SweepBlock, "compute", lambda *a: computed.append(a[1]) or compute(*a))
     found = swept(**given, scheduler="synchronous")
     assert len(there) >= 4
     assert not there & {*computed}
-    assert_same_bits(found, alone)
+    assert_same_bits(found, swept())

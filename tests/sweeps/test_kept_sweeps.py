@@ -75,6 +75,14 @@ def test_what_is_kept_is_the_sweep_in_memory_and_opened_when_it_is_there(store, 
     with xr.open_dataset(store, engine=ENGINES[store.suffix]) as opened:
         for given in (opened, opened.S0):
             assert PATH.sweep(coords=given).S0.dims == ("delta", "angle")
+    path = op.PathGraph()
+    path.add("lamp", op.Source(2.0)) >> path.add("half", op.BeamSplitter(op.Parameter("share")))
+    for port in ("reflected", "transmitted"):
+        path[f"half.{port}"] >> path.add(port, op.Detector())
+    found = path.sweep(share=[0.1, 0.2, 0.3], store=store.with_stem("several"), chunks=2)
+    assert found.detector.values.tolist() == ["reflected", "transmitted"]
+    assert found.S0.dims == ("detector", "share")
+    assert np.array_equal(found.S0, path.sweep(share=[0.1, 0.2, 0.3]).S0)
 
 
 def test_what_was_interrupted_goes_on_where_it_stopped(store, computed):
@@ -121,9 +129,17 @@ def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path, monkeypatch
     assert {each.name for each in file.parent.iterdir()} == {"sweep.nc", ".sweep.nc.blocks"}
 
 
-def test_a_file_is_there_whole_or_not_at_all_and_its_blocks_until_then(tmp_path, monkeypatch):
+def test_a_file_is_there_whole_or_not_at_all_and_two_runs_come_to_one(tmp_path, monkeypatch):
+    def faster(job, number):
+        with monkeypatch.context() as patch:
+            patch.setattr(SweepBlock, "compute", COMPUTE)
+            assert_same_bits(kept(tmp_path / "sweep.nc"), swept())
+        return COMPUTE(job, number)
+
     kept(tmp_path / "sweep.nc.zarr")
-    kept(tmp_path / "sweep.nc")
+    with monkeypatch.context() as patch:
+        patch.setattr(SweepBlock, "compute", faster)
+        assert_same_bits(kept(tmp_path / "sweep.nc", scheduler="synchronous"), swept())
     assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
     assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())  # The user's own store stays.
     (tmp_path / "full").mkdir()
@@ -132,20 +148,6 @@ def test_a_file_is_there_whole_or_not_at_all_and_its_blocks_until_then(tmp_path,
     with pytest.raises(OSError, match="No space"):
         kept(tmp_path / "full" / "sweep.nc")
     assert [each.name for each in (tmp_path / "full").iterdir()] == [".sweep.nc.blocks"]
-
-
-def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
-    file = tmp_path / "sweep.nc"
-
-    def faster(job, number):
-        with monkeypatch.context() as patch:
-            patch.setattr(SweepBlock, "compute", COMPUTE)
-            assert_same_bits(kept(file), swept())
-        return COMPUTE(job, number)
-
-    monkeypatch.setattr(SweepBlock, "compute", faster)
-    assert_same_bits(kept(file, scheduler="synchronous"), swept())
-    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
 
 
 PROGRAM = """
@@ -202,17 +204,6 @@ def test_a_store_that_was_moved_or_written_elsewhere_is_still_the_sweep(tmp_path
     shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
     assert_same_bits(kept(tmp_path / "b.zarr"), swept())
     assert len(computed) == 6
-
-
-def test_several_detectors_are_kept(store):
-    path = op.PathGraph()
-    path.add("lamp", op.Source(2.0)) >> path.add("half", op.BeamSplitter(op.Parameter("share")))
-    for port in ("reflected", "transmitted"):
-        path[f"half.{port}"] >> path.add(port, op.Detector())
-    found = path.sweep(share=[0.1, 0.2, 0.3], store=store, chunks=2)
-    assert found.detector.values.tolist() == ["reflected", "transmitted"]
-    assert found.S0.dims == ("detector", "share")
-    assert np.array_equal(found.S0, path.sweep(share=[0.1, 0.2, 0.3]).S0)
 
 
 def job_of(chunks=4, preset="npgr026", **given):

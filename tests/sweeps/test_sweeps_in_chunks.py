@@ -25,7 +25,7 @@ MALUS = op.load_preset("malus")
 SIZES = {"delta": 3000, "rho": 1000, "phi": 500}
 
 
-def test_blocks_have_the_sizes_given_or_about_a_million_points_and_are_whole_inside():
+def test_blocks_have_the_sizes_given_or_a_million_points_and_what_is_no_size_is_refused():
     for chunks, sizes in (
         ("auto", {"delta": 2, "rho": 1000, "phi": 500}),
         (700, {"delta": 700, "rho": 700, "phi": 500}),
@@ -37,9 +37,6 @@ def test_blocks_have_the_sizes_given_or_about_a_million_points_and_are_whole_ins
         assert chunk_sizes(chunks, SIZES) == sizes
     assert chunk_sizes("auto", {"delta": BLOCK + 2}) == {"delta": BLOCK // 2 + 1}
     assert chunk_sizes("auto", {"delta": 10, "rho": BLOCK}, 4)["rho"] == BLOCK // 4
-
-
-def test_what_is_no_size_is_refused_with_what_would_be():
     for chunks in (0, -2, 1.5, True, "big", None, [10]):
         with pytest.raises(op.ParameterError, match=r"give 'auto', a number .* or {'delta': 10}"):
             chunk_sizes(chunks, SIZES)
@@ -81,7 +78,7 @@ def assert_same_bits(found, expected):
         assert one == other
 
 
-def test_a_sweep_in_chunks_is_that_in_memory_however_it_is_cut():
+def test_a_sweep_in_chunks_is_that_in_memory_and_detectors_are_in_one_block():
     together = {"delta": AXES["delta"], "phi": AXES["delta"] / 2, "zip": ("delta", "phi")}
     for axes, several in (
         ({}, ["auto", 1, 4, {"rho": 2}, {"delta": 3, "phi": -1}]),
@@ -93,6 +90,15 @@ def test_a_sweep_in_chunks_is_that_in_memory_however_it_is_cut():
         for chunks in several:
             assert_same_bits(computed(**axes, chunks=chunks), whole)
     assert_same_bits(swept(chunks=4).compute(scheduler="threads", num_workers=4), swept())
+    path = op.PathGraph()
+    sheet = path.add("sheet", op.Polarizer(op.Parameter("angle")))
+    path.add("lamp", op.Source(2.0)) >> path.add("half", op.BeamSplitter(0.3))
+    path["half.reflected"] >> path.add("up", op.Detector())
+    path["half.transmitted"] >> sheet >> path.add("on", op.Detector())
+    angles = np.linspace(0.0, 1.0, 9)
+    found = path.sweep(angle=angles, chunks=2)
+    assert found.S0.chunks == ((2,), (2, 2, 2, 2, 1))
+    assert_same_bits(found.compute(scheduler="synchronous"), path.sweep(angle=angles))
 
 
 def test_nothing_is_computed_before_somebody_asks_and_each_block_then_once_for_all(monkeypatch):
@@ -116,18 +122,6 @@ def test_nothing_is_computed_before_somebody_asks_and_each_block_then_once_for_a
     assert np.array_equal(found, swept().DoP.isel(delta=3))
 
 
-def test_several_detectors_are_in_one_block():
-    path = op.PathGraph()
-    sheet = path.add("sheet", op.Polarizer(op.Parameter("angle")))
-    path.add("lamp", op.Source(2.0)) >> path.add("half", op.BeamSplitter(0.3))
-    path["half.reflected"] >> path.add("up", op.Detector())
-    path["half.transmitted"] >> sheet >> path.add("on", op.Detector())
-    angles = np.linspace(0.0, 1.0, 9)
-    found = path.sweep(angle=angles, chunks=2)
-    assert found.S0.chunks == ((2,), (2, 2, 2, 2, 1))
-    assert_same_bits(found.compute(scheduler="synchronous"), path.sweep(angle=angles))
-
-
 def test_the_memory_of_light_is_that_of_its_numbers_and_a_chunk_does_not_keep_it():
     with dask.config.set(scheduler="synchronous"):
         found = swept(chunks=-1).S0.persist().data.compute()
@@ -143,7 +137,7 @@ def test_the_memory_of_light_is_that_of_its_numbers_and_a_chunk_does_not_keep_it
     assert sys.getsizeof(pickle.loads(pickle.dumps(block))) == sys.getsizeof(block)
 
 
-def test_a_path_without_a_form_in_toml_is_refused_with_its_reason():
+def test_options_of_the_composer_travel_and_paths_without_a_form_in_toml_do_not():
     class Bare(op.Element):
         angle: op.Angle = 0.0
 
@@ -154,6 +148,9 @@ def test_a_path_without_a_form_in_toml_is_refused_with_its_reason():
     path = op.Source() >> Bare(op.Parameter("angle")) >> op.Detector()
     with pytest.raises(op.PathError, match="kind"):
         path.sweep(angle=[0.0, 1.0], chunks=1)
+    plan = sent(MALUS, op.Composer(dtype="float32", engine="numpy", method="textbook")).plan
+    assert (plan.dtype, plan.chosen, plan.method) == ("float32", "numpy", "textbook")
+    assert PlanRecipe.of(MALUS).plan is PlanRecipe.of(op.load_preset("malus")).plan
 
 
 def sent(path, *composer):
@@ -171,12 +168,6 @@ def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
     for name, light in here.items():
         assert light.stokes.tobytes() == there[name].stokes.tobytes()
         assert light.noise.tobytes() == there[name].noise.tobytes()
-
-
-def test_options_of_the_composer_travel_and_a_plan_is_made_once_a_process():
-    plan = sent(MALUS, op.Composer(dtype="float32", engine="numpy", method="textbook")).plan
-    assert (plan.dtype, plan.chosen, plan.method) == ("float32", "numpy", "textbook")
-    assert PlanRecipe.of(MALUS).plan is PlanRecipe.of(op.load_preset("malus")).plan
 
 
 SCRIPT = """

@@ -17,7 +17,7 @@ from optipath.plan.answers import Answers
 from optipath.sweeps.whole import free_memory as memory_of
 from optipath.values.axis_texts import IdleValues
 from random_paths import Draw
-from tables import rows, slow
+from tables import slow
 
 xr = pytest.importorskip("xarray")
 DERIVED = {"DoP": "dop", "DoLP": "dolp", "AoP": "aop", "ellipticity": "ellipticity"}
@@ -65,7 +65,7 @@ def test_a_sweep_of_a_random_path_is_the_loop_over_single_runs(seed):
     assert_equals_the_loop(path, axes, **fixed)
 
 
-def test_a_sweep_of_detectors_a_spectrum_or_the_dark_is_the_loop_over_single_runs():
+def test_any_sweep_is_the_loop_over_single_runs_and_axes_may_vary_together():
     axes = {"theta": np.linspace(0.0, 1.5, 4), "angle": np.linspace(-1.0, 1.0, 3)}
     assert_equals_the_loop(with_two_detectors(), axes)
     axes = {"wavelength": np.array([450e-9, 516e-9, 640e-9]), "phi": np.array([0.2, 0.9])}
@@ -75,21 +75,6 @@ def test_a_sweep_of_detectors_a_spectrum_or_the_dark_is_the_loop_over_single_run
     path = op.Source() >> op.Polarizer(0.0) >> op.Polarizer(op.Parameter("angle")) >> op.Detector()
     assert np.isnan(path.sweep(angle=angles).DoP.values).tolist() == [False, False, True]
     assert_equals_the_loop(path, {"angle": angles})
-
-
-def test_components_are_views_of_one_array_that_cannot_be_written_to_and_a_deep_copy_can():
-    for path, names in ((MALUS, ["angle"]), (with_two_detectors(), ["angle", "theta"])):
-        found = path.sweep(**dict.fromkeys(names, np.linspace(0.1, 1.0, 300)))
-        assert np.may_share_memory(found.S0.values, found.S1.values)
-        assert not found.S0.values.flags.writeable
-        copied = found.copy(deep=True)
-        for name in copied.data_vars:
-            copied[name].values[0] = 0.0
-            assert not copied[name].values[0].any()
-        assert (found.S0.values > 0.0).all()
-
-
-def test_axes_that_vary_together_are_one_dimension_words_are_values_and_none_is_a_single_run():
     deltas, phis = np.linspace(0.1, 1.0, 5), np.linspace(0.3, 1.2, 5)
     found = NPGR.sweep(delta=deltas, phi=phis, rho=[0.1, 0.2], zip=("delta", "phi"))
     (together,) = set(found.S0.dims) - {"rho"}
@@ -105,6 +90,18 @@ def test_axes_that_vary_together_are_one_dimension_words_are_values_and_none_is_
     assert (found.S0.shape, found.S0, found.DoP) == ((), MALUS.trace(angle=0.3).S0, 1.0)
 
 
+def test_components_are_views_of_one_array_that_cannot_be_written_to_and_a_deep_copy_can():
+    for path, names in ((MALUS, ["angle"]), (with_two_detectors(), ["angle", "theta"])):
+        found = path.sweep(**dict.fromkeys(names, np.linspace(0.1, 1.0, 300)))
+        assert np.may_share_memory(found.S0.values, found.S1.values)
+        assert not found.S0.values.flags.writeable
+        copied = found.copy(deep=True)
+        for name in copied.data_vars:
+            copied[name].values[0] = 0.0
+            assert not copied[name].values[0].any()
+        assert (found.S0.values > 0.0).all()
+
+
 def test_an_axis_on_which_an_element_or_nothing_depends_costs_no_evaluation(monkeypatch):
     path, ran, lights = op.load_preset("npgr026"), {}, Answers.lights
     monkeypatch.setattr(Answers, "lights", lambda self, p: ran.update(p) or lights(self, p))
@@ -114,14 +111,6 @@ def test_an_axis_on_which_an_element_or_nothing_depends_costs_no_evaluation(monk
     ran.clear()
     NPGR.sweep(delta=DELTA, wavelength=IDLE)  # It is run at one value.
     assert np.broadcast_shapes(*map(np.shape, ran.values())) == (5, 1)
-
-
-def test_an_idle_axis_alone_has_one_light_and_varies_together_with_another():
-    assert_same_along(NPGR.sweep(wavelength=IDLE), NPGR.sweep())
-    assert_same_along(NPGR.sweep(wavelength=IDLE, chunks=3).compute(), NPGR.sweep())
-    found = NPGR.sweep(delta=DELTA[:4], wavelength=IDLE, zip=("delta", "wavelength"))
-    assert dict(found.sizes) == {"delta_wavelength": 4}
-    assert found.S0.to_numpy().tolist() == NPGR.sweep(delta=DELTA[:4]).S0.to_numpy().tolist()
 
 
 @pytest.mark.parametrize(
@@ -145,7 +134,7 @@ def test_every_engine_and_precision_gives_variables_of_that_precision(engine, dt
     assert (found.attrs["engine"], found.attrs["dtype"]) == (engine, dtype)
 
 
-def test_tolerances_are_those_of_the_plan_and_what_a_detector_does_not_read_is_nan():
+def test_tolerances_what_is_not_read_and_faint_light_are_as_the_plan_has_them():
     composer, path = op.Composer(tolerance=0.01), NPGR.reading("intensity")
     deltas = np.linspace(0.0, 0.2, 5)
     found = path.sweep(delta=deltas, composer=composer)
@@ -155,9 +144,6 @@ def test_tolerances_are_those_of_the_plan_and_what_a_detector_does_not_read_is_n
     nan = [np.isnan(found[name].values).all() for name in ("S1", "DoP")]
     assert (nan, np.isnan(found.S0.values).any()) == ([True, True], False)
     assert found.unread == "NaN: S1, S2 and S3 at E, which reads S0"
-
-
-def test_faint_light_alone_has_its_polarisation_and_the_logarithm_of_its_intensity():
     path = op.Source(1.0, [1, 0.5, 0, 0])
     for _ in range(3):
         path = path >> op.Attenuator(op.Parameter("t"))
@@ -172,26 +158,17 @@ MANY = dict.fromkeys(("delta", "phi", "rho", "intensity"), np.linspace(0.1, 1.0,
 MANY["n1"] = 1.0 + MANY["delta"]
 
 
-@rows(
-    "ask, told",
-    [
+def test_what_no_sweep_can_be_of_is_refused_and_options_are_those_of_a_composer():
+    for ask, told in (
         (lambda: NPGR.sweep(delta=[0.1, 2.5]), "delta"),
         (lambda: MALUS.sweep(angle=[0.1], composer=op.Composer(keep="all")), "leave keep out"),
         (lambda: MALUS.sweep(angle=[0.1], composer="numba"), "takes a Composer, not 'numba'"),
         (lambda: NPGR.sweep(**MANY), r"not 1e\+30 paths.*; give fewer values"),
         (lambda: NPGR.sweep(delta=DELTA, wavelength=WAVELENGTHS), "'wavelength' is unknown"),
-        (
-            lambda: MALUS.propagate(angle=(1, 0.1), engine="numpy"),
-            "Composer.engine='numpy'.$",
-        ),
-    ],
-)
-def test_what_no_sweep_can_be_of_is_refused(ask, told):
-    with pytest.raises(op.ParameterError, match=told):
-        ask()
-
-
-def test_options_of_a_composer_are_given_in_one():
+        (lambda: MALUS.propagate(angle=(1, 0.1), engine="numpy"), "Composer.engine='numpy'.$"),
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            ask()
     with pytest.raises(op.ParameterError, match="angel") as told:
         MALUS.sweep(angle=[0.1], engine="numpy", dtype="float32", angel=1)
     assert told.value.faults[1] == (
@@ -246,7 +223,7 @@ def assert_same_along(found, alone):
         assert all(one.to_numpy().tobytes() == each.to_numpy().tobytes() for one in along)
 
 
-def test_all_is_the_same_along_an_idle_axis_to_the_last_bit():
+def test_all_is_the_same_along_an_idle_axis_to_the_last_bit_also_alone_or_zipped():
     given = {"delta": DELTA, "filter": np.array([0.3, 1.5])}
     alone = NPGR.sweep(**given)
     for chunks, place in product((None, 2, {"wavelength": 1}), (0, -1)):
@@ -263,6 +240,11 @@ def test_all_is_the_same_along_an_idle_axis_to_the_last_bit():
     found = MALUS.sweep(wavelength=IDLE, angle=angle)
     assert_same_along(found, MALUS.sweep(angle=angle))
     assert np.isnan(found.DoP[:, 1]).all()
+    assert_same_along(NPGR.sweep(wavelength=IDLE), NPGR.sweep())
+    assert_same_along(NPGR.sweep(wavelength=IDLE, chunks=3).compute(), NPGR.sweep())
+    found = NPGR.sweep(delta=DELTA[:4], wavelength=IDLE, zip=("delta", "wavelength"))
+    assert dict(found.sizes) == {"delta_wavelength": 4}
+    assert found.S0.to_numpy().tolist() == NPGR.sweep(delta=DELTA[:4]).S0.to_numpy().tolist()
 
 
 def test_the_command_line_writes_it_in_every_form(tmp_path, monkeypatch, capsys):

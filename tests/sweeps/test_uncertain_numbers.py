@@ -115,7 +115,7 @@ def test_all_figures_of_a_metal_follow_from_derivatives_in_50_digits(method):
     assert_allclose(found.covariance, changes[:4] @ changes[:4].T, rtol=1e-8)
 
 
-def test_correlated_values_follow_the_matrix_of_covariances():
+def test_correlated_values_follow_their_matrix_and_a_batch_is_each_of_its_paths():
     slopes, matrix = slopes_of_metal(), np.diag([s**2 for s in SIGMAS.values()])
     matrix[0, 1] = matrix[1, 0] = 0.6 * SIGMAS["n"] * SIGMAS["k"]
     found = by_slopes(METAL, **WITH_SIGMAS, correlation={("k", "n"): 0.6})
@@ -124,9 +124,6 @@ def test_correlated_values_follow_the_matrix_of_covariances():
     expected = np.sqrt(np.diag(covariance))
     assert_allclose([found.uncertainty_of(n) for n in NAMES], expected, rtol=1e-8)
     assert_allclose(sum(found.contributions.values()), 1.0)
-
-
-def test_a_batch_is_each_of_its_paths_alone():
     angles, sigmas = np.array([[0.3], [0.8]]), np.array([0.001, 0.02, 0.0])
     batch = by_slopes(MALUS, angle=(angles, sigmas), power=(2.0, 0.1))
     assert batch.light.shape == (2, 3)
@@ -202,18 +199,15 @@ def test_slopes_go_to_the_ends_of_ranges(angle, index):
         assert_allclose(found, 1e-3 * abs(slope), rtol=1e-7, atol=1e-10)
 
 
-@rows("waves", [1, 20, 1000, 12345.25])
-def test_retarders_of_many_waves_do_not_repeat_themselves(waves):
+def test_many_waves_wavelengths_and_thick_media_have_steps_of_their_own_size():
     # I = (1 + cos p) / 2, the phase p = 2 pi W l / l0 plus an eighth of a wave.
-    length, phase = 2e-3, 2 * np.pi * waves
-    plate = op.Medium(op.Parameter("l"), retardance=phase / length, angle="45 deg")
-    path = LAMP >> plate >> op.Retarder("45 deg", "45 deg") >> op.Polarizer(0.0) >> op.Detector()
-    slope = np.sin(phase + np.pi / 4) / 2 * phase / length
-    found = by_slopes(path, l=(length, 1e-12)).uncertainty[0]
-    assert_allclose(found, abs(slope) * 1e-12, rtol=1e-7)
-
-
-def test_wavelengths_and_thick_media_have_steps_of_their_own_size():
+    for waves in (1, 20, 1000, 12345.25):
+        length, phase = 2e-3, 2 * np.pi * waves
+        plate = op.Medium(op.Parameter("l"), retardance=phase / length, angle="45 deg")
+        path = LAMP >> plate >> op.Retarder("45 deg", "45 deg") >> op.Polarizer(0.0)
+        found = by_slopes(path >> op.Detector(), l=(length, 1e-12)).uncertainty[0]
+        slope = np.sin(phase + np.pi / 4) / 2 * phase / length
+        assert_allclose(found, abs(slope) * 1e-12, rtol=1e-7)
     path = op.load_preset("quartz-quarter-wave")
     waves = path.compose().inputs.open["wavelength"].default
     near = [path.trace(wavelength=waves + by).stokes for by in (-1e-13, 1e-13)]
@@ -289,7 +283,7 @@ def test_samples_of_a_value_do_not_change_with_others_and_are_cut_off_by_themsel
     assert_allclose(samples.std(), 0.2 / np.sqrt(12.0), rtol=0.03)
 
 
-def test_ranges_that_hardly_any_sample_is_in_are_refused():
+def test_ranges_that_hardly_any_sample_is_in_and_blocks_too_large_are_refused(monkeypatch):
     narrow, halves = value("a", low=-1e-5, high=1e-5), [value(name, low=0.0) for name in "ab"]
     path = op.Source() >> op.Attenuator(op.Parameter("t")) >> op.Detector()
     for ask, told in (
@@ -299,9 +293,6 @@ def test_ranges_that_hardly_any_sample_is_in_are_refused():
     ):
         with pytest.raises(op.ParameterError, match=f"hardly any sample {told}"):
             ask()
-
-
-def test_memory_is_that_of_the_block_and_one_that_it_cannot_hold_is_refused_before(monkeypatch):
     tracemalloc.start()
     try:
         drawn([value("a", low=0.0)], [0], count=10_000_000, block=slice(5_000_000, 5_000_010))
