@@ -14,7 +14,6 @@ from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
 from tables import rows
 
 mp = pytest.importorskip("mpmath")
-
 BK7 = (1.0, 1.03961212, 0.231792344, 1.01046945, 0.00600069867, 0.0200179144, 103.560653)
 GOLD = (1.0, 9.03, 0.760, 0.053, 0.024, 0.415, 0.241, 0.010, 0.830, 0.345, 0.071, 2.969, 0.870)
 SILICON = (122.0, 3.45, 2.54, 1.2)
@@ -165,6 +164,10 @@ def test_slopes_of_an_index_are_right_where_a_part_of_the_permittivity_is_0(jax,
             assert float(slope) == pytest.approx(float(each), rel=1e-14, abs=1e-16)
 
 
+def three_poles(w, c, power=1):
+    return mp.sqrt(1 + c[0] + sum(c[i] * w**2 / (w**2 - c[i + 1] ** power) for i in (1, 3, 5)))
+
+
 def poles_and_powers(w, c):
     first = c[1] * w ** c[2] / (w**2 - c[3] ** c[4])
     second = c[5] * w ** c[6] / (w**2 - c[7] ** c[8])
@@ -185,13 +188,11 @@ def retro(w, c):
 # silicon (and one more power), AgBr, urea.
 DATABASE = {
     1: (
-        lambda w, c: mp.sqrt(
-            1 + c[0] + sum(c[i] * w**2 / (w**2 - c[i + 1] ** 2) for i in (1, 3, 5))
-        ),
+        lambda w, c: three_poles(w, c, 2),
         [0, 0.6961663, 0.0684043, 0.4079426, 0.1162414, 0.8974794, 9.896161],
     ),
     2: (
-        lambda w, c: mp.sqrt(1 + c[0] + sum(c[i] * w**2 / (w**2 - c[i + 1]) for i in (1, 3, 5))),
+        three_poles,
         [0, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653],
     ),
     3: (
