@@ -1,7 +1,11 @@
+"""A batch: its axes and pieces, and how often the numbers of each step are computed."""
+
 from typing import ClassVar
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import optipath as op
 from optipath.engines.formulas.path_formula import lights_formula
@@ -9,11 +13,14 @@ from optipath.engines.formulas.stages import stages
 from optipath.engines.formulas.symbol import Symbol
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.running.batch import Layout, sliced
+from optipath.plan.running.pieces import pieces
 from optipath.values.input_key import InputKey
 from optipath.values.operands import MANY
+from paths import chain
 from tables import rows, slow
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12, "filter": 0.3}
+PATH = op.load_preset("npgr026", **METAL)
 SHAPES = [
     [(100, 1), (1, 90)],
     [(70, 1, 1), (1, 3, 1), (80,)],
@@ -22,8 +29,6 @@ SHAPES = [
     [(1, 1), (40, 50)],
     [(3, 1, 20, 1), (4, 1, 25), ()],
 ]
-
-
 # Numba compiles each anew.
 WAYS = [("numpy", dtype, shapes) for dtype in ("float64", "float32") for shapes in SHAPES]
 WAYS += [("numba", "float64", SHAPES[0])]
@@ -37,7 +42,7 @@ def test_a_grid_is_what_its_cells_are_one_by_one(rng, engine, dtype, shapes):
     axes = {name: rng.uniform(0.1, 1.5, shape) for name, shape in zip(names, shapes, strict=True)}
     batch = np.broadcast_shapes(*shapes)
     cells = {name: np.broadcast_to(value, batch).copy() for name, value in axes.items()}
-    plan = op.Composer(engine=engine, dtype=dtype).compose(op.load_preset("npgr026", **METAL))
+    plan = op.Composer(engine=engine, dtype=dtype).compose(PATH)
     # An array of one number is that number, and rounded with it to the precision of the plan.
     slack = 0.0 if dtype == "float64" else 2e-6
     found, wanted = plan.run(**axes).normalized, plan.run(**cells).normalized
@@ -48,27 +53,20 @@ def test_a_grid_is_what_its_cells_are_one_by_one(rng, engine, dtype, shapes):
 
 
 def test_interfaces_of_a_grid_are_evaluated_once_for_each_of_their_own_angles(rng):
-    plan = op.load_preset("npgr026", **METAL).compose()
     axes = {"delta": rng.uniform(0, 1, (1000, 1)), "phi": rng.uniform(0, 1, (1, 1000))}
-    counts = plan.evaluations(**axes)
+    counts = PATH.compose().evaluations(**axes)
     assert counts["X1.reflected"] + counts["X2.reflected"] == 2000
-    full = op.Composer(model="full").compose(op.load_preset("npgr026", **METAL))
+    full = op.Composer(model="full").compose(PATH)
     assert full.evaluations(**axes)["X1.reflected"] == 1_000_000
 
 
 def test_the_last_stage_of_a_grid_has_nothing_of_the_interfaces_left_to_do():
     plan = op.load_preset("npgr026", **METAL, rho=0.2).compose()
-    forms = {InputKey("delta"): MANY, InputKey("phi"): MANY, InputKey("intensity"): MANY}
-    axes = {"delta value": frozenset({0}), "phi value": frozenset({1})}
-    axes["intensity value"] = frozenset({1})
-    whole = lights_formula(
-        plan.program,
-        StokesCarrier,
-        "float64",
-        forms,
-        plan.inputs.limits,
-        axes=axes,
-    )
+    places = {"delta": 0, "phi": 1, "intensity": 1}
+    forms = {InputKey(name): MANY for name in places}
+    axes = {f"{name} value": frozenset({place}) for name, place in places.items()}
+    given = plan.program, StokesCarrier, "float64", forms, plan.inputs.limits
+    whole = lights_formula(*given, axes=axes)
     *_, last = parts = stages(whole, frozenset({0, 1}), 1)
     assert [part.axes for part in parts] == [{0}, {1}, {0, 1}]
     done = [step.operation for step in last.steps]
@@ -87,23 +85,13 @@ class Counting(op.Element):
 
     @staticmethod
     def mueller_rows(xp, angle):
-        del xp
         Counting.asked += len(np.ravel(angle))
-        return (
-            (np.cos(angle) + 0.0, 0.0 * angle, 0.0, 0.0),
-            (0, 1, 0, 0),
-            (0, 0, 1, 0),
-            (0, 0, 0, 1),
-        )
+        first = (np.cos(angle) + 0.0, 0.0 * angle, 0.0, 0.0)
+        return first, (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)
 
 
 def test_elements_that_cannot_be_compiled_are_evaluated_along_their_own_axes_too(rng):
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source())
-    for name in "ab":
-        node = node >> path.add(name, Counting(op.Parameter(name)))
-    node >> path.add("eye", op.Detector())
-    plan = path.compose()
+    plan = chain([Counting(op.Parameter("a")), Counting(op.Parameter("b"))]).compose()
     axes = {"a": rng.uniform(0, 1, (300, 1)), "b": rng.uniform(0, 1, 200)}
     expected = np.cos(axes["a"]) * np.cos(axes["b"])
     assert plan.engine_for(60_000) == "numpy, step by step"
@@ -111,6 +99,30 @@ def test_elements_that_cannot_be_compiled_are_evaluated_along_their_own_axes_too
     Counting.asked = 0
     np.testing.assert_allclose(plan.run(**axes).intensity, expected, rtol=1e-14)
     assert Counting.asked == 500
+
+
+ELEMENTS = [
+    op.Retarder(op.Parameter("a"), 0.1),
+    op.Interface(1.5, op.Parameter("b")),
+    op.Attenuator(op.Parameter("t", 0.5)),
+    op.Depolarizer(np.linspace(0.0, 1.0, 5).reshape(5, 1, 1)),
+    op.Medium(op.Parameter("l"), 2.0, rotation=op.Parameter("w")),
+]
+COUNTS = {"e0.out": 40, "e1.reflected": 50, "e2.out": 1, "e3.out": 5, "e4.out": 40 * 50}
+
+
+@rows("b", [np.full(50, 0.4), op.CosSin(np.full(50, 0.6), 0.8)])
+def test_a_step_is_evaluated_along_the_axes_of_its_own_values(b):
+    values = {"a": np.full((40, 1), 0.3), "b": b, "l": np.full((40, 1), 0.1), "w": np.ones(50)}
+    path = chain(ELEMENTS, [1.0, 0.3, 0.2, 0.1])
+    counts = path.compose().evaluations(**values)
+    assert {name: counts[name] for name in COUNTS} == COUNTS
+    full = op.Composer(model="full").compose(path).evaluations(**values)
+    assert {full[name] for name in COUNTS} == {5 * 40 * 50}
+    # Links that turn nothing are not evaluated.
+    counts = chain([op.Polarizer(op.Parameter("a"))]).compose().evaluations(a=np.ones(7))
+    assert "eye.in" not in counts
+    assert counts["e0.out"] == 7
 
 
 def test_axes_that_all_arrays_have_together_are_one():
@@ -130,23 +142,28 @@ def test_a_part_of_an_array_is_that_of_the_array_laid_out(rng, where):
 
 
 @rows("engine", ["numpy", "numba"])
-def test_a_value_out_of_range_on_one_axis_of_a_grid_is_refused(rng, engine):
-    plan = op.Composer(engine=engine).compose(op.load_preset("npgr026", **METAL))
+def test_of_a_grid_a_value_out_of_range_is_refused_and_faint_light_keeps_its_exponent(rng, engine):
+    plan = op.Composer(engine=engine).compose(PATH)
     delta, phi = rng.uniform(0, 1, (100, 1)), rng.uniform(0, 1, 100)
     delta[70] = 2.0
     with pytest.raises(op.ParameterError, match="'delta' is 2 rad, which is 114"):
         plan.run(delta=delta, phi=phi)
-
-
-@rows("engine", ["numpy", "numba"])
-def test_faint_light_in_a_corner_of_a_grid_keeps_its_exponent(engine):
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source(stokes=[1.0, 0.6, 0.0, 0.8]))
-    for name in "ab":
-        node = node >> path.add(name, op.Attenuator(op.Parameter(f"t{name}")))
-    node >> path.add("eye", op.Detector())
+    dimmed = [op.Attenuator(op.Parameter(f"t{name}")) for name in "ab"]
+    plan = op.Composer(engine=engine).compose(chain(dimmed, [1.0, 0.6, 0.0, 0.8]))
     shares = np.geomspace(1e-200, 1.0, 100)
-    light = op.Composer(engine=engine).compose(path).run(ta=shares[:, np.newaxis], tb=shares)
+    light = plan.run(ta=shares[:, np.newaxis], tb=shares)
     assert light.intensity[0, 0] == 0.0
     np.testing.assert_allclose(light.log10_intensity[0, 0], -400.0)
     np.testing.assert_allclose(light.normalized[0, 0], [1.0, 0.6, 0.0, 0.8])
+
+
+@given(batch=st.lists(st.integers(0, 6), max_size=4).map(tuple), size=st.integers(1, 50))
+def test_pieces_follow_each_other_and_cover_the_batch_by_one_if_it_is_small_enough(batch, size):
+    numbers = np.arange(np.prod(batch, dtype=int)).reshape(batch)
+    found = list(pieces(batch, size))
+    for piece in found:
+        part = numbers[piece.where].ravel()
+        np.testing.assert_array_equal(part, np.arange(piece.start, piece.stop))
+        assert part.size <= size
+    assert sum(piece.stop - piece.start for piece in found) == numbers.size
+    assert len(found) == 1 or not 0 < numbers.size <= size
