@@ -121,14 +121,12 @@ OPEN = op.Material.sellmeier([op.Parameter("b")], [0.1], name="x")
 cauchy, lorentz = op.Material.cauchy, op.Material.tauc_lorentz
 REFUSED = [
     (lambda: gold().refractive_index, "n of gold depends on the wavelength; give .at('550 nm')"),
-    (lambda: gold().at("3 um"), "188 nm .. 1937 nm, for which gold is known, or ask for extrapola"),
-    (lambda: gold().at("3 um"), "extrapolate='nearest' or 'lin"),
+    (lambda: gold().at("3 um"), "1937 nm, for which gold is known, or ask for | 'nearest' or 'lin"),
     (lambda: gold().at(516), "516 metres, which is no wavelength of light; for nanometres"),
     (lambda: gold(wavelength="3 um"), "within 188 nm .. 1937 nm, for which gold is known"),
     (lambda: bk7(span="1 um"), "span of BK7 is '1 um'; give the least and the largest"),
     (lambda: bk7(span=("1 um", "2 nm")), "give the least and the largest wavelength"),
-    (lambda: POLE.at("450 nm"), "n of x at 450 nm has no value (its formula has n^2 below 0 there"),
-    (lambda: POLE.at("450 nm"), "below 0 there, or a resonance)"),
+    (lambda: POLE.at("450 nm"), "n of x at 450 nm has no value | below 0 there, or a resonance)"),
     (lambda: POLE.at("500 nm"), "has no value"),
     (lambda: op.Material.tabulated(WAVELENGTHS, N, [0, 0, -1, 0]), "k of a table of n and k is -1"),
     (lambda: op.Material.tabulated([188, 500], [1, 2]), "is 188 metres, which is no wavelength"),
@@ -142,16 +140,14 @@ REFUSED = [
     (lambda: lorentz([]), "has no oscillators; give one or more"),
     (lambda: cauchy([[1.5, 1.6]]), "give one number, or a Parameter for several"),
     (lambda: drude(-9, 0.1), "plasma of a Drude-Lorentz model is -9"),
-    (lambda: drude(9, 0.1, 1, [(1, 2, 0)]), "oscillators[0] damping of a Drude-Lorentz model is 0"),
-    (lambda: drude(9, 0.1, 1, [(1, 2, 0)]), "model is 0; give a real coefficient above 0"),
+    (
+        lambda: drude(9, 0.1, 1, [(1, 2, 0)]),
+        "[0] damping of | is 0; give a real coefficient above 0",
+    ),
     (lambda: drude(9, 0.1, 1.0, [(1, 2)]), "[(strength, energy, damping), "),
     (lambda: lorentz((1, 2, 3, 4)), "give a row of 4 numbers for each"),
     (lambda: lorentz([(1, 2, 4, 1)]), "a broadening below twice the energy"),
-    (
-        lambda: OPEN.at("1 um"),
-        "n of x follows from parameter 'b' besides, which has no value; give",
-    ),
-    (lambda: OPEN.at("1 um"), "has no value; give the parameter a"),
+    (lambda: OPEN.at("1 um"), "n of x follows from parameter 'b' besides | give the parameter a"),
     (lambda: op.Crystal.named("quarz"), "did you mean 'quartz'"),
     (lambda: op.Crystal(op.Material(1.5), 1.6), "extraordinary of the crystal is 1.6; give"),
     (lambda: op.Crystal.named("quartz").birefringence.at("3 um"), "known"),
@@ -162,7 +158,8 @@ REFUSED = [
 def test_what_cannot_be_is_told_in_words_all_at_once(ask, words):
     with pytest.raises((op.ValueFault, op.ParameterError)) as fault:
         ask()
-    assert words in str(fault.value)
+    for part in words.split(" | "):
+        assert part in str(fault.value)
     with pytest.raises(op.ValueFault) as fault:
         drude(-9, -0.1, -1, background="a", span="here")
     assert len(fault.value.faults) == 5

@@ -205,8 +205,7 @@ def test_a_warning_is_of_the_line_of_who_wrote_it_and_told_once_of_each_line():
         warnings.simplefilter("default")
         for angle in np.linspace(10.0, 90.0, 500):
             TURN.trace(t=angle)
-    assert len(told) == 1
-    assert sum("parameter 't' is" in str(key) for key in __warningregistry__) == 1
+    assert len(told) == sum("parameter 't' is" in str(key) for key in __warningregistry__) == 1
 
 
 @rows(
@@ -237,17 +236,12 @@ ASKS = {
 
 
 @rows("ask", ["trace", "trace_all", "mueller", "paths", "bind", *ASKS])
-@rows("angle", [45, 45.0, np.linspace(0.0, 180.0, 4)])
-def test_what_is_given_to_a_run_is_warned_of_once(ask, angle):
-    (sentence,) = warned(lambda: ASKS.get(ask, getattr(TURN, ask, None))(t=angle))
-    assert sentence.startswith("parameter 't' ")
-
-
-def test_each_run_that_is_given_degrees_is_warned_of_however_often_and_however_many():
-    plan = TURN.compose()
-    for angle in (45, 60.0, [0.1, 45.0], np.arange(180.0)):
+def test_what_is_given_to_a_run_is_warned_of_once_however_often_and_however_many(ask):
+    use = ASKS.get(ask, getattr(TURN, ask, None))
+    for angle in (45, 60.0, [0.1, 45.0], np.linspace(0.0, 180.0, 4)):
         for _ in range(2):
-            assert len(warned(lambda: plan.run(t=angle))) == 1  # noqa: B023
+            (sentence,) = warned(lambda: use(t=angle))  # noqa: B023
+            assert sentence.startswith("parameter 't' ")
     for first in (0.1, np.linspace(0.0, 1.0, 5)):
         path = chain([op.Rotator(T)])
         for _ in range(10):
@@ -255,16 +249,14 @@ def test_each_run_that_is_given_degrees_is_warned_of_however_often_and_however_m
         assert len(warned(lambda: path.trace(t=first * 100.0 + 50.0))) == 1  # noqa: B023
     large = np.zeros(10**6)
     large[300_000:700_000] = 90.0
-    assert len(warned(lambda: path.trace(t=large))) == 1
+    assert ask != "trace" or len(warned(lambda: path.trace(t=large))) == 1
 
 
 IN_RADIANS = A * (np.pi / 180)
 WITHIN = [
-    *((IN_RADIANS, given) for given in ([10.0, 45.0, 720.0], np.arange(0.0, 720.0, 0.7))),
+    *((IN_RADIANS, [10.0, 45.0, 720.0]), (A / 100, 270.0), (10 * A, 4.5), (10 * A, "30 deg")),
     (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
-    *((10 * A, given) for given in (4.5, "30 deg", np.radians(90.0))),
     (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
-    *((A / 100, 270.0), (A * (2.0 * np.pi * 0.009 / 550e-9), 1e-3)),
 ]
 
 
@@ -276,17 +268,13 @@ def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn_and_not_withi
     for angle, value in WITHIN:
         path = chain([op.Rotator(angle)])
         assert warned(lambda: path.trace(a=value)) == [], (angle, value)  # noqa: B023
-
-
-def test_a_unit_for_what_the_path_turns_into_radians_is_warned_of_and_plain_degrees_are_not():
     path = chain([op.Rotator(IN_RADIANS)])
     for value in ("45 deg", ["45 deg", "0.1 rad"]):
         sentence = warned(lambda: path.trace(a=value))[0]  # noqa: B023
         assert sentence.startswith("parameter 'a' has a unit, and the path multiplies it by pi")
     assert warned(lambda: path.bind(a=1.0)) == []
-    for default in (45, 0.5):
-        path = chain([op.Rotator(op.Parameter("a", default) * (np.pi / 180))])
-        assert warned(path.trace) == []
+    path = chain([op.Rotator(op.Parameter("a", 45) * (np.pi / 180))])
+    assert warned(path.trace) == []
 
 
 NPGR026 = op.load_preset("npgr026")
@@ -297,12 +285,11 @@ TWICE, ACROSS = (chain([op.Interface(1.5, a)]) for a in (2 * A - "20 deg", "90 d
 @rows(
     "action",
     [
-        *(lambda: NPGR026.trace(delta=48), lambda: NPGR026.trace(delta=[0.1, 48.0])),
-        *(lambda: op.load_preset("npgr026", delta=48), lambda: NPGR026.bind(delta=48)),
+        *(lambda: NPGR026.trace(delta=[0.1, 48.0]), lambda: op.load_preset("npgr026", delta=48)),
         *(lambda: op.Interface(1.5, 48), lambda: op.Interface(1.5, op.Parameter("t", 48))),
         *(lambda: FACE.trace(t=48), lambda: FACE.bind(t=48), lambda: op.refraction_angle(1.5, 48)),
         *(lambda: op.Parameter("t", 48, "deg", 0.0, 1.5), lambda: TWICE.trace(a=[0.3, 48.0])),
-        *(lambda: TWICE.bind(a=48), lambda: ACROSS.trace(a=48), lambda: ACROSS.bind(a=[0.3, 48.0])),
+        *(lambda: TWICE.bind(a=48), lambda: ACROSS.trace(a=48)),
     ],
 )
 def test_degrees_that_are_refused_are_offered_with_their_unit(action):
@@ -315,13 +302,12 @@ def test_degrees_that_are_refused_are_offered_with_their_unit(action):
 
 
 def test_what_are_no_plain_degrees_or_become_radians_in_the_path_is_offered_no_unit(capsys):
-    paths = [chain([op.Interface(1.5, angle)]) for angle in (IN_RADIANS, "90 deg" - IN_RADIANS)]
-    refused = [(give, {"a": 100}) for path in paths for give in (path.trace, path.bind)]
+    path = chain([op.Interface(1.5, "90 deg" - IN_RADIANS)])
+    refused = [(give, {"a": 100}) for give in (path.trace, path.bind)]
     given = ("100 deg", np.radians(100.0), 1.6, 200.0)
     refused += [(NPGR026.trace, {"delta": delta}) for delta in given]
     path = chain([op.Rotator(op.Parameter("d", maximum=80) * (np.pi / 180))])
-    refused += [(give, {"d": 85}) for give in (path.trace, path.bind)]
-    for give, values in refused:
+    for give, values in [*refused, (path.trace, {"d": 85}), (path.bind, {"d": 85})]:
         with pytest.raises(op.ParameterError) as error:
             give(**values)
         assert "did you mean" not in str(error.value)

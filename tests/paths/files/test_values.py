@@ -96,22 +96,19 @@ def test_amplitudes_links_and_cases_take_numbers_without_a_part_multiples_and_ax
         read(tomllib.loads(text.replace("vertical", "upright")))
 
 
-@rows("place", ["field", "default", "case"])
-def test_a_pair_of_numbers_for_an_index_is_asked_about(place, tmp_path):
-    index = 1.5 if place == "field" else P("gold", 1.5)
-    text = chain([op.Interface(index, 0.3)]).to_toml() + "[cases.a]\nvalues = {}\n"
-    old = {"field": "index = 1.5", "default": "default = 1.5", "case": "values = {}"}[place]
-    new = "values = { gold = PAIR }" if place == "case" else old.replace("1.5", "PAIR")
-    given = text.replace(old, new)
+def test_a_pair_of_numbers_for_an_index_is_asked_about(tmp_path):
     told = r"\{ n = 0\.17, k = 3\.15 \} for the one, \{ n = \[0\.17, 3\.15\] \} for the other"
+    for index, old in ((1.5, "index = 1.5"), (P("gold", 1.5), "default = 1.5")):
+        given = chain([op.Interface(index, 0.3)]).to_toml().replace(old, old.replace("1.5", "PAIR"))
+        with pytest.raises(op.PathError, match=told):
+            loaded(given.replace("PAIR", "[0.17, 3.15]"), tmp_path)
+        one = loaded(given.replace("PAIR", "{ n = 0.17, k = 3.15 }"), tmp_path).trace()
+        assert one == chain([op.Interface(op.Material(0.17, 3.15), 0.3)]).trace()
+    given += "[cases.a]\nvalues = { gold = [0.17, 3.15] }\n"
     with pytest.raises(op.PathError, match=told):
-        loaded(given.replace("PAIR", "[0.17, 3.15]"), tmp_path)
-    one, two = (
-        loaded(given.replace("PAIR", index), tmp_path, case="a").trace()
-        for index in ("{ n = 0.17, k = 3.15 }", "{ n = [0.17, 3.15] }")
-    )
-    assert one == chain([op.Interface(op.Material(0.17, 3.15), 0.3)]).trace()
-    assert two.shape == (2,)
+        loaded(given.replace("PAIR", "1.5"), tmp_path)
+    text = given.replace("PAIR", "1.5").replace("[0.17, 3.15]", "{ n = [0.17, 3.15] }")
+    assert loaded(text, tmp_path, case="a").trace().shape == (2,)
 
 
 AFFINE = """
@@ -204,16 +201,14 @@ MULTIPLES = [
 ]
 FIELDS = [
     ("re = -0.5, im = 0.25", "im = 0.25", "an amplitude written as a table needs 're'"),
-    ("re = -0.5, im = 0.25", "n = 1, k = 2", "key 'n' is unknown"),
-    ("re = -0.5, im = 0.25", "n = 1, k = 2", "needs 're'"),
+    ("re = -0.5, im = 0.25", "n = 1, k = 2", "key 'n' is unknown | needs 're'"),
     ("re = -0.5, im = 0.25", 're = "$a"', "parameter '$a' is not declared"),
     ("re = -0.5, im = 0.25", "re = 3", "e0.r_s is (3+0j); give"),
     ('"100 mm"', '"100 deg"', "'100 deg' is no length; use one of nm, um"),
     ('"100 mm"', "100", "100 has no unit, but a length is asked for; write '100 mm'"),
     ('"0.5 1/cm"', "0.5", "an inverse length is asked for; write '0.5 1/cm'"),
     ('"1 deg/mm"', '"1 deg"', "'1 deg' is no angle per length; use one of deg/um"),
-    ('"0 1/cm"', '"1 1/cm"', "'e1' would amplify some light"),
-    ('"0 1/cm"', '"1 1/cm"', "give an absorption of 1.41"),
+    ('"0 1/cm"', '"1 1/cm"', "'e1' would amplify some light | give an absorption of 1.41"),
     ("= 0.009", '= { crystal = "quarz" }', "did you mean 'quartz'"),
     ("= 0.009", "= { crystal = 3 }", "'crystal' must be a text, not 3"),
     ("= 0.009", '= { crystal = "quartz", orders = 3 }', "'orders'"),
@@ -238,7 +233,8 @@ def test_what_is_wrong_with_a_table_a_field_or_a_wavelength_is_told_with_a_cure(
     assert text != OF_FIELDS
     with pytest.raises(op.OptipathError) as error:
         loaded(text, tmp_path).trace()
-    assert told in str(error.value)
+    for part in told.split(" | "):
+        assert part in str(error.value)
 
 
 BY_HAND = """

@@ -1,13 +1,16 @@
-"""Curves through samples."""
+"""Curves through samples, and columns of numbers by wavelength that are read from files."""
 
 import pickle
+import re
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import optipath as op
 from optipath.errors import ValueFault
+from optipath.values.curves.csv_columns import read_columns
 from optipath.values.curves.tabulated import Tabulated
 from tables import rows
 
@@ -116,3 +119,156 @@ def test_samples_that_are_wrong_are_refused_in_words_all_at_once(wavelengths, n,
     with pytest.raises(ValueFault) as fault:
         Tabulated("gold", ("n",), [np.nan], [[np.inf]], interpolation="cubic", extrapolate="no")
     assert len(fault.value.faults) == 4
+
+
+NK = ["n", "k"]
+NM, UM = "wavelength (nm),n,k\n", "wavelength (um),n,k\n"
+WL = "wl (um),n\n0.5,1\n"
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read(text, names=NK, **options):
+        file = tmp_path / "gold.csv"
+        file.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_columns(file, names, **options)
+
+    return read
+
+
+@rows(
+    "text",
+    [
+        NM + "500,0.97,1.87\n521,0.62,2.08\n",
+        "# Johnson and Christy\n\nwavelength_nm; n; k\n500; 0.97; 1.87\n# more\n521; 0.62; 2.08",
+        "k\tn\twl [um]\tnote\n1.87\t0.97\t0.5\ta\n2.08\t0.62\t0.521\tb\n",
+        "Wavelength (\u00b5m),N,K\r\n0.5,0.97,1.87\r\n0.521,0.62,2.08\r\n",
+        "\ufeff\u03bb (nm), n (-), k ()\n500,0.97,1.87\n521,0.62,2.08\n",
+        "wavelength,n,k\n500 nm,0.97,1.87\n0.521 um,0.62,2.08\n",
+        NM + "500 nm,0.97,1.87\n521,0.62,2.08\n",
+        '"wavelength (nm)",n,"k"\n"500","0.97",1.87\n521,0.62,"2.08"\n',
+        "wavelength (angstrom),n,k\n5000,0.97,1.87\n5210,0.62,2.08\n",
+        "\u03bb (\u00c5),n,k\n5000,0.97,1.87\n5210,0.62,2.08\n",
+        "wl (um),n\n0.5,0.97\n0.521,0.62\n\nwl (um),k\n0.5,1.87\n0.521,2.08\n",
+    ],
+)
+def test_columns_are_found_by_their_names_and_units(read, text):
+    found = read(text)
+    assert found.title == "gold"
+    assert found.wavelengths.tolist() == [5e-7, 5.21e-7]
+    assert found.columns["n"].tolist() == [0.97, 0.62]
+    assert found.columns["k"].tolist() == [1.87, 2.08]
+
+
+def test_units_and_tables_are_read_as_files_have_them(read):
+    for head in (
+        "energy (eV),n\n2.4",
+        "wavenumber (1/cm),n\n19357.305",
+        "frequency (THz),n\n580.317",
+    ):
+        assert read(f"{head},1.5\n", ["n"]).wavelengths[0] == pytest.approx(516.6e-9, rel=1e-5)
+    # As refractiveindex.info writes files.
+    text = "wl,n\n0.5,1.5\n0.6,1.4\nwl,k\n0.5,2\n0.6,3\n"
+    assert read(text, unit="um").columns["k"].tolist() == [2.0, 3.0]
+    assert [*read(text, ["n"], unit="um").columns] == ["n"]
+    assert read("wavelength,n\n500,1\n", ["n"], unit="nm").wavelengths.tolist() == [5e-7]
+    found = read("energy (eV),n\n1,1\n2,2\n", ["n"])
+    assert np.all(np.diff(found.wavelengths) < 0.0)
+
+
+@pytest.mark.parametrize("unit", ["", "um"])
+def test_tables_of_different_wavelengths_are_read_as_the_refusal_has_it(tmp_path, unit):
+    axis = "wl" if unit else "wl (um)"
+    path = tmp_path / "gold.csv"
+    path.write_text(f"{axis},n\n0.4,1.5\n0.6,1.4\n{axis},k\n0.45,1\n0.7,2\n", "utf-8")
+    with pytest.raises(ValueFault, match="begins a second table, whose") as fault:
+        op.Material.from_csv(path, unit=unit)
+    code = re.search(r"op\.Material\(.*", str(fault.value))[0]
+    found = eval(code, {"op": op, "path": path}).at("500 nm")  # noqa: S307 - it is our own
+    assert (found.n, found.k) == pytest.approx((1.45, 1.2), rel=1e-14)
+
+
+@rows(
+    "text, least",
+    [
+        ("wavelength,n\n400 um,1\n500 um,1\n", 400e-6),
+        ("wavelength (nm),n\n0.4 nm,1\n0.5 nm,1\n", 0.4e-9),
+        ("wavelength (mm),n\n0.4,1\n0.5,1\n", 400e-6),
+        ("wavelength (um),n\n0.2,1\n500,1\n", 0.2e-6),
+        ("wavelength (nm),n\n400000,1\n500000,1\n", 400e-6),
+        ("energy (eV),n\n400,1\n500,1\n", 4.135667696923859e-15 * 299792458.0 / 400.0),
+        ("frequency (THz),n\n0.4,1\n0.5,1\n", 299792458.0 / 0.4e12),
+    ],
+)
+def test_the_far_infrared_and_x_rays_can_be_said(read, text, least):
+    assert read(text, ["n"]).wavelengths[0] == pytest.approx(least, rel=1e-14)
+
+
+WRONG = [
+    ("", "gold.csv: it is empty; write a line for each wavelength"),
+    *(("# nothing\n", "it is empty"), (NM, "line 1 is the only one")),
+    ("wavelength (nm),n\n500,1\n", "line 1 names no column 'k'; there are: n; or ask for k=0.0"),
+    ("wavelength (nm),nn,k\n500,1,1\n", "line 1 names no column 'n'; there are: nn, k"),
+    ("x,n,k\n500,1,1\n", "line 1 names no column of wavelengths, but x, n and k; begin with"),
+    ("500,1,1\n510,1,1\n", "line 1 has numbers, and no names of columns; begin with a line"),
+    ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
+    ("wl,n,k\n0.4,1,1\n0.6,1,1\n", "write 'wl (um)', or give unit='um'"),
+    ("wl,n,k\n0.4,1,1\n400,1,1\n", "write 'wl (nm)', or give unit='nm'"),
+    ("energy,n,k\n2.4,1,1\n", "write 'energy (eV)', or give unit='eV'"),
+    ("wavelength (mn),n,k\n516,1,1\n", "the unit 'mn' of 'wavelength' is unknown"),
+    ("energy (nm),n,k\n516,1,1\n", "'nm' is no unit of 'energy', but of 'wavelength'; write 'wav"),
+    ("wavelength (1/cm),n,k\n516,1,1\n", "write 'wavenumber (1/cm)'"),
+    ("wl (eV),n,k\n516,1,1\n", "write 'energy (eV)'"),
+    ("lambda (THz),n,k\n516,1,1\n", "write 'frequency (THz)'"),
+    ("wavelength,n,k\n400 nm,1,1\n500,1,1\n", "line 3: '500' has no unit"),
+    (UM + "400 nm,1,1\n", "line 2: '400 nm' is in another unit than 'um' of line 1; leave one"),
+    (NM + "500,-1,1\n", "line 2: n is -1; write none below 0"),
+    *((NM + f"500,1,{k}\n", "line 2: quotation marks are not cl") for k in ('"1\n600,1,1', '"1"5')),
+    (NM + f"500,1,{'1' * 200_000}\n", "line 2: it cannot be read (field larger than field limit"),
+    (UM + "400,1,1\n500,1,1\n", "are 400 um .. 500 um, which are most likely nm; give the unit nm"),
+    (NM + "0.4,1,1\n0.5,1,1\n", "are 0.4 nm .. 0.5 nm, which are most likely um; give the unit um"),
+    (WL + "0.6,1\nwl (um),k\n0.5,1\n", "line 4 begins a second table, whose wavelengths are not"),
+    ("wl (um),n,k\n0.5,1,1\nwl (um),k\n0.5,1\n", "line 3 begins a second table of k; keep"),
+    (WL + "wl (um),k\n0.5,x\n", "line 4: k is 'x', which is no number"),
+    (WL + "wl (um),n2\n0.5,1\n", "line 1 names no column 'k'"),
+    ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
+    ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl (nm)' and 'energy (eV)'; keep one"),
+    ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 has 2 columns 'n'; keep one"),
+    (NM + "500,nan,1\n", "line 2: n is nan; write a number"),
+    (NM + "500,,1\n", "line 2: n is empty; write one"),
+    ("wavelength (nm);n;k\n500;1,5;1\n", "line 2: n is '1,5', which is no number"),
+    (NM + "500,1_5,1\n", "line 2: n is '1_5', which is no number"),
+    *((NM + f"{w},1,1\n", f"line 2: '{w} nm' is not a quantity") for w in ("5_00", "red")),
+    (NM + "500,1,\uff11\n", "which is no number; write one, such as 1.5"),
+    *(
+        (NM + f"500,1{k}\n", f"line 2 has {n} values, and line 1 has")
+        for k, n in (("", 2), (",5,1", 4))
+    ),
+    (NM + "-5,1,1\n", "line 2: the wavelength is -5; give numbers above 0"),
+    (NM + "500,1,1\n\n600,1,1\n550,1,1\n", "line 5: the wavelengths of the lines before rise, and"),
+    (NM + "500,1,1\n600,1,1\n500,1,1\n", "line 4 has the wavelength of line 2; write each once"),
+    (NM.encode() + b"\xff\xfe,1,1\n", "it cannot be read: it is no text in UTF-8"),
+]
+
+
+@rows("text, words", WRONG)
+def test_what_is_wrong_with_a_file_is_told_with_the_line(read, text, words):
+    with pytest.raises(ValueFault) as fault:
+        read(text, cures={"k": "ask for k=0.0"})
+    assert words in str(fault.value)
+    assert len(fault.value.faults) == 1
+
+
+def test_all_faults_are_told_at_once_and_files_that_are_missing(read, tmp_path):
+    with pytest.raises(ValueFault) as fault:
+        read(NM + "500,nan,x\n600,1\n700,1,1\n0,1,1\n")
+    assert [sentence[5:6] for sentence in fault.value.faults] == ["2", "2", "3", "5"]
+    with pytest.raises(ValueFault) as fault:
+        read(NM + "1,nan,1\n" * 1000)
+    assert (len(fault.value.faults), fault.value.faults[-1]) == (13, "and 988 more")
+    with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
+        read("400,1\n500,2\n", ["power"])
+    with pytest.raises(ValueFault, match=r"silver\.csv: there is no such file; look at its name"):
+        read_columns(tmp_path / "silver.csv", NK)
+    with pytest.raises(ValueFault, match="it cannot be read"):
+        read_columns(tmp_path, NK)
