@@ -123,6 +123,13 @@ def lit(**state):
     return (op.Source(**state) >> op.Detector()).trace()
 
 
+def each(call, options):
+    """A call with each of its options, by name."""
+    return [lambda value, name=name: call(**{name: value}) for name in options.split()]
+
+
+RUNS = "trace", "mueller", "paths"
+OF_PLANS = "certificate", "evaluations"
 SCALARS = {
     "a field": lambda v: op.Interface(1.5, v).mueller(),
     "an index": lambda v: op.Interface(v, 0.1).mueller(),
@@ -133,16 +140,13 @@ SCALARS = {
     "an extinction": lambda v: op.Medium.from_extinction(1e-6, v, 500e-9).mueller(),
     "the azimuth of a link": linked,
     "an intensity": lambda v: lit(intensity=v),
-    "trace": lambda v: path().trace(theta=v),
+    **{name: lambda v, name=name: getattr(path(), name)(theta=v) for name in RUNS},
+    **{name: lambda v, name=name: getattr(path().compose(), name)(theta=v) for name in OF_PLANS},
     "trace of an index": lambda v: path().trace(m=v),
     "trace of an angle": lambda v: path().trace(angle=v),
     "trace on every link": lambda v: path().trace(keep="all", theta=v),
     "a stream": lambda v: list(path().compose().stream(10, theta=v)),
-    "a matrix": lambda v: path().mueller(theta=v),
-    "a certificate": lambda v: path().compose().certificate(theta=v),
-    "light paths": lambda v: path().paths(theta=v),
     "polarization": lambda v: op.polarization(path(), theta=v),
-    "evaluations": lambda v: path().compose().evaluations(theta=v),
     "bind": lambda v: path().bind(theta=v).trace(),
     "a preset": lambda v: op.load_preset("malus", angle=v).trace(),
     "a default": lambda v: op.Parameter("a", v),
@@ -153,7 +157,6 @@ SCALARS = {
     "fresnel_transmission": lambda v: op.fresnel_transmission(1.5, v, v),
     "refraction_angle": lambda v: op.refraction_angle(1.5, v),
     "intensity_bounds": lambda v: op.intensity_bounds(v, [0.1]),
-    "a diattenuation": lambda v: op.intensity_bounds(0.1, [v]),
     "vertices_from_angles": lambda v: op.vertices_from_angles([v]),
     "a material of a chain": lambda v: op.path_from_vertices(CORNER, [v]),
     "a turn of a frame": lambda v: op.Frame().turned(v),
@@ -241,11 +244,6 @@ def test_an_array_that_is_made_of_something_else_is_looked_at_once():
     assert not same((Raises(),), (0.5,))
 
 
-def each(call, options):
-    """A call with each of its options, by name."""
-    return [lambda value, name=name: call(**{name: value}) for name in options.split()]
-
-
 @rows(
     "use",
     [
@@ -255,18 +253,14 @@ def each(call, options):
         *each(lambda **given: op.Parameter("a", **given), "unit words"),
         *each(lambda **given: op.PathGraph().add("a", op.Source(), **given), "frames"),
         *each(lambda **given: op.Light([1, 0, 0, 0], **given), "frame exponent"),
+        *each(lambda **given: op.load_preset("npgr026", **given), "case"),
+        *(*each(path().trace, "keep"), *each(path().paths, "limit")),
         *(op.Composer().compose, op.load_preset, op.Parameter, op.polarization, op.Case),
         *(path().element, path().mueller, path().reading, path().compose().engine_for),
         *(op.Light([1, 0, 0, 0]).in_frame, op.Mueller(np.eye(4)).is_physical),
-        lambda v: op.load_preset("npgr026", case=v),
-        lambda v: op.PathGraph().add(v, op.Source()),
-        lambda v: op.PathGraph().add("a", v),
-        lambda v: op.PathGraph().connect(v, v),
-        lambda v: path().trace(keep=v),
-        lambda v: path().paths(limit=v),
-        lambda v: list(path().compose().stream(v)),
-        lambda v: op.polarization(path(), v),
-        lambda v: op.Case({}, {"eye": [v]}),
+        *(lambda v: op.PathGraph().add(v, op.Source()), lambda v: op.PathGraph().add("a", v)),
+        *(lambda v: op.PathGraph().connect(v, v), lambda v: list(path().compose().stream(v))),
+        *(lambda v: op.polarization(path(), v), lambda v: op.Case({}, {"eye": [v]})),
         lambda v: op.fresnel_reflection(1.5, 0.6, 0.8, v),
         lambda v: op.SpecularVertex(1.5, CORNER, v).mueller("in", "reflected"),
     ],
@@ -363,8 +357,7 @@ SIX = {
     name: np.linspace(0.1, 1.4, 100).reshape(-1, *[1] * axis)
     for axis, name in enumerate(["delta", "rho", "phi", "n1", "k1", "n2"])
 }
-VERTICES = np.array([[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]])
-POINTS = np.tile(VERTICES, (10**5, 1, 1, 1))
+POINTS = np.tile(CORNER, (10**5, 1, 1, 1))
 
 
 def plan(**options):
