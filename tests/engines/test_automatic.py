@@ -77,8 +77,9 @@ def test_what_has_no_formula_or_too_long_a_one_is_not_compiled_and_no_other_engi
     choice = auto()
     assert choice.of(10**8, Paths(None)) == choice.of(10**8, Paths()) == NUMPY_STEPS
     assert auto().of(10**8, Paths(4001)) == "numpy"
-    numba, numpy = (EngineChoice(name, floats=True) for name in ("numba", "numpy"))
-    assert (numba.of(10, Paths(4001)), numba.of(2, Paths())) == ("numpy", "numba")
+    for length, engine in ((4001, "numpy"), (300, "numba")):
+        assert EngineChoice("numba", floats=True).of(2, Paths(length)) == engine
+    numpy = EngineChoice("numpy", floats=True)
     counts = (10, 10, 10, 10, 10, 1023, 1024, 10**8)
     found = [numpy.of(count, Paths(kept=True)) for count in counts]
     assert found == 6 * [NUMPY_STEPS] + 2 * ["numpy"]
@@ -155,11 +156,9 @@ def test_an_engine_whose_package_is_not_there_names_what_brings_it(monkeypatch):
 
 
 def test_numba_is_ready_for_what_it_has_compiled_and_others_always(tmp_path, monkeypatch):
-    # A formula that no plan has.
-    recorder = Recorder(np.dtype("float64"))
-    formula, again = (
-        Formula(recorder.dtype, (2.0 * recorder.input("x") + 0.1234,)) for _ in range(2)
-    )
+    recorders = [Recorder(np.dtype("float64")) for _ in range(2)]
+    # Formulas that no plan has.
+    formula, again = (Formula(r.dtype, (2.0 * r.input("x") + 0.1234,)) for r in recorders)
     assert FLOAT_ENGINE.is_ready(formula)
     assert REGISTRY["numpy"].is_ready(formula)
     pytest.importorskip("numba")

@@ -197,10 +197,8 @@ def test_cosines_and_sines_that_cannot_be_are_refused():
 @engines
 def test_threads_change_nothing(rng, engine):
     given = angles(rng, 200_000)
-    alone, shared = (
-        op.Composer(engine=engine, threads=count).compose(PATH).run(**given).stokes
-        for count in (1, 3)
-    )
+    composers = (op.Composer(engine=engine, threads=count) for count in (1, 3))
+    alone, shared = (composer.compose(PATH).run(**given).stokes for composer in composers)
     np.testing.assert_array_equal(alone, shared)
 
 
@@ -209,13 +207,10 @@ def test_a_plan_may_be_run_from_several_threads_and_pickled(rng):
     given = [angles(rng, 3000) for _ in range(8)]
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(lambda values: plan.run(**values).stokes, given))
-    for values, stokes in zip(given, found, strict=True):
-        np.testing.assert_array_equal(stokes, plan.run(**values).stokes)
-    plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
-    light = plan.run(**angles(rng, 1500))
+    np.testing.assert_array_equal(found, [plan.run(**values).stokes for values in given])
     again = pickle.loads(pickle.dumps(plan))
     assert again == plan
-    assert again.run(delta=0.5).stokes.shape == light.stokes.shape[1:]
+    np.testing.assert_array_equal(again.run(**given[0]).stokes, found[0])
 
 
 def test_the_first_runs_of_one_path_and_the_later_ones_are_equal_and_touch_no_array():
@@ -233,17 +228,6 @@ def test_the_first_runs_of_one_path_and_the_later_ones_are_equal_and_touch_no_ar
     finally:
         sys.setprofile(None)
     assert called == []
-
-
-def test_a_batch_streams_part_by_part(rng):
-    plan = op.Composer(engine="numpy").compose(PATH)
-    delta, phi = rng.uniform(0.1, 1.5, (70, 1)), rng.uniform(0.1, 1.5, 90)
-    whole = plan.run(delta=delta, phi=phi).stokes
-    out = np.full((70, 90, 4), np.nan)
-    for part in plan.stream(1500, delta=delta, phi=phi):
-        assert part.light.stokes.size <= 4 * 1500
-        out[part.where] = part.light.stokes
-    np.testing.assert_allclose(out, whole, rtol=0, atol=1e-12)
 
 
 def test_parts_engines_and_threads_that_cannot_be_are_refused():
@@ -340,13 +324,13 @@ def test_streams_cut_what_elements_hold(engine):
 
 @engines
 @rows("dtype", ["float64", "float32"])
-@rows("bad", [0.0, 0.1 - 1e-12, 1.0 + 1e-12])
-def test_no_rounding_brings_a_value_into_its_range(engine, dtype, bad):
+def test_no_rounding_brings_a_value_into_its_range(engine, dtype):
     path = chain([op.Attenuator(op.Parameter("t", minimum=0.1, maximum=1.0))])
     plan = op.Composer(engine=engine, dtype=dtype).compose(path)
-    for given in (bad, np.full(2000, bad)):
-        with pytest.raises(op.ParameterError, match="outside its range"):
-            plan.run(t=given)
+    for bad in (0.0, 0.1 - 1e-12, 1.0 + 1e-12):
+        for given in (bad, np.full(2000, bad)):
+            with pytest.raises(op.ParameterError, match="outside its range"):
+                plan.run(t=given)
 
 
 @engines

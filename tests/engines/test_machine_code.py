@@ -3,7 +3,7 @@
 import gc
 import platform
 import re
-import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -98,14 +98,9 @@ def test_memory_holds_as_many_functions_as_it_may(code, monkeypatch, tmp_path):
 def test_threads_that_ask_together_compile_once(code, monkeypatch, tmp_path):
     monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path))
     cache, asked = CodeCache(), []
-    several = [
-        threading.Thread(target=cache.function, args=("a", lambda t: asked.append(t) or code))
-        for _ in range(8)
-    ]
-    for thread in several:
-        thread.start()
-    for thread in several:
-        thread.join()
+    with ThreadPoolExecutor(8) as pool:
+        held = pool.map(lambda _: cache.function("a", lambda t: asked.append(t) or code), range(8))
+        assert len(set(held)) == 1
     assert asked == ["a"]
 
 
@@ -168,8 +163,6 @@ def test_whole_numbers_of_one_axis_of_a_grid_are_whole_numbers_along_the_other()
     layers = op.LayerStack([1.0, material, 1.5], op.Parameter("t"), lengths=[1e-6], wavelength=5e-7)
     path = op.Source() >> layers >> op.Detector()
     given = {"n": np.array([[1.3], [2.2], [4.5]]), "k": 0.01, "t": np.linspace(0.1, 1.2, 40)}
-    by_numpy, by_numba = (
-        op.Composer(engine=engine).compose(path).run(**given).stokes
-        for engine in ("numpy", "numba")
-    )
+    plans = [op.Composer(engine=engine).compose(path) for engine in ("numpy", "numba")]
+    by_numpy, by_numba = (plan.run(**given).stokes for plan in plans)
     assert np.allclose(by_numba, by_numpy, rtol=1e-13, atol=1e-15)

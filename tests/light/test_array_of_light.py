@@ -212,25 +212,6 @@ def test_an_element_acts_on_light_and_on_matrices_as_its_matrix_does():
         op.BeamSplitter() @ light
 
 
-@rows(
-    "done",
-    [
-        *[sum, lambda light: 2 * light, lambda light: light / 3, lambda light: light[0]],
-        *[lambda light: light[..., 1], lambda light: light.reshape(1, 3)],
-        lambda light: op.Polarizer(0.3) @ light,
-    ],
-)
-def test_jax_does_what_numpy_does(done):
-    jax = pytest.importorskip("jax")
-
-    def traced(stokes):
-        return done(op.Light(stokes)).stokes
-
-    found, expected = jax.jit(traced)(np.array(THREE)), traced(np.array(THREE))
-    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6)
-    assert np.isfinite(jax.jacobian(traced)(jax.numpy.array(THREE))).all()
-
-
 @rows("shape", [-1, (12,), (4, 3), (2, -1, 2)])
 @rows("order", ["C", "F"])
 def test_numpy_gives_light_another_shape(shape, order):

@@ -268,26 +268,24 @@ def test_matrices_and_splitters_act_on_elements_and_light_by_their_ports():
         np.testing.assert_allclose(found.stokes, expected, rtol=1e-15, atol=1e-15)
 
 
-@rows(
-    "product, expected",
-    [
-        (lambda: MATRIX @ [1, 0, 0, 0], r"has no frames; .* optipath.Light\(numbers\) for light"),
-        (lambda: np.eye(4) @ MATRIX, "has no frames"),
-        (lambda: [1, 0] @ ELEMENT, "has no frames"),
-        (lambda: ELEMENT @ [1, 0, 0, 0], "has no frames"),
-        (lambda: op.Polarizer @ STATE, r"^Polarizer is a class; write Polarizer\(\.\.\.\)$"),
-        (lambda: MATRIX @ op.Polarizer, "is a class"),
-        (lambda: ELEMENT @ op.Polarizer, "is a class"),
-        (lambda: PATH @ STATE, r"PathGraph begins with light of its own; write path.mueller\(\) @"),
-        (lambda: PATH.compose() @ STATE, "Plan begins with light of its own"),
-        (lambda: MATRIX @ PATH, "begins with light of its own"),
-        (lambda: PATH @ ELEMENT, "begins with light of its own"),
-        (lambda: ELEMENT.named("a") @ STATE, "write the element without a name"),
-        (lambda: op.Source() @ STATE, "source lets no light through, which begins there; ask"),
-        (lambda: op.Detector() @ STATE, "detector lets no light through, which ends there; ask"),
-        (lambda: op.BeamSplitter() @ STATE, r'say the ports, such as element.mueller\("in", "refl'),
+NOT_IN_PRODUCTS = {
+    r"has no frames; .* optipath.Light\(numbers\) for light": [lambda: MATRIX @ [1, 0, 0, 0]],
+    "has no frames": [
+        *[lambda: np.eye(4) @ MATRIX, lambda: [1, 0] @ ELEMENT, lambda: ELEMENT @ [1, 0, 0, 0]],
     ],
-)
-def test_what_cannot_stand_in_a_product_is_told_what_can(product, expected):
-    with pytest.raises(op.OptipathError, match=expected):
+    r"^Polarizer is a class; write Polarizer\(\.\.\.\)$": [lambda: op.Polarizer @ STATE],
+    "is a class": [lambda: MATRIX @ op.Polarizer, lambda: ELEMENT @ op.Polarizer],
+    r"PathGraph begins with .* own; write path.mueller\(\) @": [lambda: PATH @ STATE],
+    "Plan begins with light of its own": [lambda: PATH.compose() @ STATE],
+    "PathGraph begins with light of its own": [lambda: MATRIX @ PATH, lambda: PATH @ ELEMENT],
+    "write the element without a name": [lambda: ELEMENT.named("a") @ STATE],
+    "source lets no light through, which begins there; ask": [lambda: op.Source() @ STATE],
+    "detector lets no light through, which ends there; ask": [lambda: op.Detector() @ STATE],
+    r'say the ports, such as element.mueller\("in", "refl': [lambda: op.BeamSplitter() @ STATE],
+}
+
+
+@rows("told, product", [(told, each) for told, two in NOT_IN_PRODUCTS.items() for each in two])
+def test_what_cannot_stand_in_a_product_is_told_what_can(product, told):
+    with pytest.raises(op.OptipathError, match=told):
         product()

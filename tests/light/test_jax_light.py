@@ -12,6 +12,7 @@ jnp = jax.numpy
 
 STOKES = np.array([[2.0, 0.6, -0.3, 0.8], [1.0, 1 / 3, 0.2, 0.1]])
 MATRIX = np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
+POLARIZER, TURNED = op.Polarizer(0.3), op.Frame().turned(0.3)
 MUELLER = [
     *["diattenuation", "diattenuation_vector", "polarizance", "polarizance_vector", "psi"],
     *["delta", "depolarization_index", "retardance", "coherency", "cloude_eigenvalues"],
@@ -75,13 +76,18 @@ def test_light_that_jax_traces_has_no_exponent_and_no_tolerance():
 @rows(
     "done",
     [
-        lambda light, _: light.log10_intensity,
-        lambda light, _: light.in_frame(op.Frame().turned(0.3)).stokes,
-        lambda light, _: (light + op.Light([1.0, 0, 0, 0], op.Frame().turned(0.3))).stokes,
-        lambda light, _: (op.Light([1.0, 0, 0, 0], op.Frame().turned(0.3)) + light).stokes,
-        lambda light, metal: (metal @ light).stokes,
-        lambda light, metal: (op.Polarizer(0.3).mueller() @ metal @ light).stokes,
-        lambda light, _: (op.Polarizer(0.3).mueller() @ light).dop,
+        *[lambda light, _: light.log10_intensity, lambda light, _: sum(light).stokes],
+        *[lambda light, _: (2 * light).stokes, lambda light, _: (light / 3).stokes],
+        *[lambda light, _: light[0].stokes, lambda light, _: light[..., 1].stokes],
+        *[
+            lambda light, _: light.reshape(1, 2).stokes,
+            lambda light, _: light.in_frame(TURNED).stokes,
+        ],
+        lambda light, _: (light + op.Light([1.0, 0, 0, 0], TURNED)).stokes,
+        lambda light, _: (op.Light([1.0, 0, 0, 0], TURNED) + light).stokes,
+        *[lambda light, metal: (metal @ light).stokes, lambda light, _: (POLARIZER @ light).stokes],
+        lambda light, metal: (POLARIZER.mueller() @ metal @ light).stokes,
+        lambda light, _: (POLARIZER.mueller() @ light).dop,
     ],
 )
 def test_what_is_done_to_light_that_jax_traces_is_what_numpy_does(done):
@@ -89,8 +95,8 @@ def test_what_is_done_to_light_that_jax_traces_is_what_numpy_does(done):
         return done(op.Light(stokes), op.Mueller(metal))
 
     expected = traced(STOKES, MATRIX)
-    np.testing.assert_allclose(jax.jit(traced)(STOKES, MATRIX), expected, rtol=1e-5, atol=1e-6)
-    slopes = jax.jacobian(traced)(jax.numpy.array(STOKES), jax.numpy.array(MATRIX))
+    np.testing.assert_allclose(jax.jit(traced)(STOKES, MATRIX), expected, rtol=1e-6, atol=1e-6)
+    slopes = jax.jacobian(traced)(jnp.array(STOKES), jnp.array(MATRIX))
     assert np.isfinite(slopes).all()
 
 

@@ -48,15 +48,6 @@ def test_a_wavelength_may_have_another_name_and_light_of_none_or_two_has_none():
     assert LIGHT.integrate().wavelength is None
 
 
-def test_wavelengths_of_light_do_not_change():
-    given = GRID.copy()
-    light = DIMMED.trace(wavelength=given)
-    given[:] = 5e-7
-    assert np.array_equal(light.wavelength, GRID)
-    with pytest.raises(ValueError, match="read-only"):
-        LIGHT.wavelength[0] = 1.0
-
-
 @rows(
     "made",
     [
@@ -71,19 +62,23 @@ def test_light_that_is_made_of_light_has_its_wavelengths(made):
     assert np.array_equal(made.wavelength, WAVELENGTHS)
 
 
-def test_an_index_takes_its_wavelengths():
+def test_an_index_takes_its_wavelengths_and_they_do_not_change():
     assert LIGHT[1].wavelength == 5e-7
     assert np.array_equal(LIGHT[::-1].wavelength, WAVELENGTHS[::-1])
     assert np.array_equal(LIGHT[LIGHT.S1 == 0].wavelength, WAVELENGTHS[1:])
     assert [float(each.wavelength) for each in LIGHT] == [4e-7, 5e-7, 6e-7]
+    given = GRID.copy()
+    light = DIMMED.trace(wavelength=given)
+    given[:] = 5e-7
+    assert np.array_equal(light.wavelength, GRID)
+    with pytest.raises(ValueError, match="read-only"):
+        LIGHT.wavelength[0] = 1.0
 
 
 def test_lights_of_different_wavelengths_are_not_added():
     further = op.Light(LIGHT.stokes, wavelength=WAVELENGTHS + 1e-8)
     both = [
-        lambda: LIGHT + further,
-        lambda: LIGHT + LIGHT[::-1],
-        lambda: LIGHT + LIGHT[0],
+        *[lambda: LIGHT + further, lambda: LIGHT + LIGHT[::-1], lambda: LIGHT + LIGHT[0]],
         lambda: sum(LIGHT),
         lambda: DIMMED.trace(wavelength="500 nm") + DIMMED.trace(wavelength="501 nm"),
         lambda: DIMMED.trace(wavelength="2 eV") + DIMMED.bind(wavelength="2.1 eV").trace(),

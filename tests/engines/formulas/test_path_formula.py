@@ -65,10 +65,9 @@ def given(rng, shape):
     """Ordinary values; along two axes where there are two."""
     spans = {"n": (1.1, 1.4), "m": (1.1, 1.4), "a": (0.2, 0.6), "b": (-1.0, 1.0)}
     spans |= dict.fromkeys("kcldwtvqe", (0.1, 0.9))
-    shapes = dict.fromkeys(spans, shape)
-    if len(shape) == 2:
-        shapes |= {"a": (shape[0], 1), "b": (1, shape[1]), "n": (1, shape[1])}
-    values = {name: rng.uniform(*spans[name], shapes[name]) for name in shapes}
+    shapes = {"a": (*shape[:-1], 1), "b": (1, *shape[1:]), "n": (1, *shape[1:])}
+    shapes = shapes if len(shape) == 2 else {}
+    values = {name: rng.uniform(*span, shapes.get(name, shape)) for name, span in spans.items()}
     return {name: value if shape else float(value) for name, value in values.items()}
 
 

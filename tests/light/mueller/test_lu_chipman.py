@@ -278,9 +278,8 @@ def test_a_jones_matrix_near_a_polariser_keeps_its_turn(seed, gap):
     matrix = bordered(turn(axis, angle)) @ bordered(lower, D * along, D * along)
     found = op.Mueller(matrix).lu_chipman()
     np.testing.assert_array_equal(found.depolarization, 0.0)
-    np.testing.assert_allclose(
-        found.retarder.matrix[1:, 1:], turn(axis, angle), rtol=0, atol=1e-14 / a
-    )
+    turned = found.retarder.matrix[1:, 1:]
+    np.testing.assert_allclose(turned, turn(axis, angle), rtol=0, atol=1e-14 / a)
     np.testing.assert_allclose(product(found), matrix, rtol=0, atol=1e-14)
 
 
