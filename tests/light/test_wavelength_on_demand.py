@@ -79,7 +79,7 @@ def test_lights_of_different_wavelengths_are_not_added():
     further = op.Light(LIGHT.stokes, wavelength=WAVELENGTHS + 1e-8)
     both = [
         *[lambda: LIGHT + further, lambda: LIGHT + LIGHT[::-1], lambda: LIGHT + LIGHT[0]],
-        lambda: sum(LIGHT),
+        *[lambda: sum(LIGHT), lambda: np.add(LIGHT, further)],
         lambda: DIMMED.trace(wavelength="500 nm") + DIMMED.trace(wavelength="501 nm"),
         lambda: DIMMED.trace(wavelength="2 eV") + DIMMED.bind(wavelength="2.1 eV").trace(),
     ]
