@@ -208,7 +208,6 @@ ONE = "cauchy = { coefficients = [1] }"
     [
         (SAMPLES.replace(', unit = "nm"', ""), '.index.wavelengths: 400 has no unit | "nm"'),
         (SAMPLES.replace('"nm"', '"nmm"'), "did you mean 'nm'?"),
-        (SAMPLES.replace("500", "300"), "neither rise nor fall | sort them"),
         (SAMPLES.replace("500", "400"), "400 nm twice"),
         (SAMPLES.replace("500, ", ""), "2 wavelengths and 3 of n | 2 wavelengths and 3 of k"),
         (SAMPLES.replace("n = [1.5", "n = [-1.5"), ".n: n is -1.5 | 0 or more"),
@@ -231,9 +230,7 @@ ONE = "cauchy = { coefficients = [1] }"
         ("cauchy = { }", "'coefficients' is missing"),
         ('cauchy = { coefficients = ["x"] }', ".cauchy.coefficients: [0]: 'x' is no"),
         (f"{ONE}, span = 3", ".span: must be two wavelengths"),
-        (f"{ONE}, span = [400, 700]", ".span: [0]: 400 has no unit | write '400 nm'"),
-        (f"{ONE}, span = [400, 700]", ".span: [1]: 700 has no unit"),
-        ("cauchy = { coefficients = [] }", "must be a row of one coefficient or more"),
+        (f"{ONE}, span = [400, 700]", ".span: [0]: 400 has no unit | write '400 nm' | .span: [1]"),
         ("tauc_lorentz = { oscillators = [] }", "has no oscillators | or n as a number"),
         ("sum = [1, 2]", "'sum' gives one number; write it for n"),
         ("n = { sum = [1] }", "'sum' must be a list of two tables or more"),
@@ -334,7 +331,6 @@ MEANT = "wavelengths: the wavelengths are 400 um .. 500 um, which are most likel
     [
         ('{ iluminant = "A" }', "did you mean 'illuminant'"),
         ("{ colour = 3 }", "a table of a spectrum needs one of the keys 'wavelengths', 'edges'"),
-        ('{ illuminant = "D50" }', "there are: A, D65, E"),
         ('{ line = "633 nm", led = "5 nm" }', "write { sum"),
         ("{ line = 633 }", '"633 nm"'),
         ('{ line = "633 nm", pwer = 3 }', "did you mean 'power'"),
@@ -349,7 +345,6 @@ MEANT = "wavelengths: the wavelengths are 400 um .. 500 um, which are most likel
         ('{ sum = ["A"] }', 'write { illuminant = "A" }'),
         (LINES, '{ sum = [{ line = "633 nm" }, ...] }'),
         ("{ black_body = [300, 400, 500, 600] }", "{ black_body = 300 }, ...] }"),
-        ("{ sum = [{ black_body = -3 }] }", "temperature of a black body"),
     ],
 )
 def test_faults_of_tables_of_spectra_are_told(table, sentence, tmp_path):

@@ -173,19 +173,6 @@ def test_a_wavelength_that_is_bound_known_or_a_default_gives_numbers_and_without
         mirror().trace(wavelength=5e-7, **{metal()[0].name: 1.0})
 
 
-def test_slopes_along_the_wavelength_are_those_of_differences(jax_once):
-    plan = op.Composer(engine="jax").compose(mirror())
-    slope = jax_once.grad(lambda w: plan.run(wavelength=w).stokes[0])
-    step = 1e-11
-    apart = by_numbers(5e-7 + step)[0] - by_numbers(5e-7 - step)[0]
-    assert float(slope(5e-7)) == pytest.approx(apart / (2 * step), rel=1e-6)
-
-
-def test_jax_gives_nan_beyond_the_range(jax):
-    plan = op.Composer(engine="jax").compose(mirror())
-    assert np.isnan(jax.jit(lambda w: plan.run(wavelength=w).stokes)(9e-7)).all()
-
-
 def test_equal_curves_and_their_copies_are_equal_values_and_others_are_not():
     n, _ = metal(slope=op.Parameter("slope"))
     assert copy.deepcopy(n) == n
