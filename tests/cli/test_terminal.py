@@ -69,9 +69,7 @@ def test_nothing_is_cut_whatever_columns_says(line, monkeypatch, run):
         assert missing == set(), columns
 
 
-def test_narrow_terminals_have_lines_that_go_on_and_missing_values_are_told(
-    run, monkeypatch, tmp_path
-):
+def test_lines_go_on_in_narrow_terminals_and_missing_values_are_told(run, monkeypatch, tmp_path):
     def shown(columns, line):
         monkeypatch.setenv("COLUMNS", columns)
         return run(line)[1]

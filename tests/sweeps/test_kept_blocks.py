@@ -236,7 +236,7 @@ def test_a_lost_cluster_a_closed_client_and_a_cluster_itself_are_told(store, cli
     closed.close()
     for scheduler, told in ((closed, "cluster is closed; give one"), (client.cluster, r"get_clie")):
         with pytest.raises(JobError, match=told):
-            keep_blocks(Powers(3), store, scheduler)
+            keep_blocks(Powers(40), store, scheduler)
 
 
 def test_processes_are_of_this_machine_and_gone_afterwards(store, log):
