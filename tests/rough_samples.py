@@ -1,4 +1,4 @@
-"""Rough samples that are small, and quick to draw and to walk over."""
+"""Rough samples that are small, and quick to draw and to walk over; and what flat faces reflect."""
 
 import numpy as np
 

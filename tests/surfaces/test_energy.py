@@ -98,6 +98,8 @@ def test_an_error_that_stays_larger_is_told_and_so_is_progress():
     assert told == [(16384, 40_000), (32768, 40_000), (40_000, 40_000)]
 
 
+PEAK = HeightField(np.eye(3)[1] * np.eye(3), 1e-3)
+MISSED = {"sample": op.Sample([(1.5, PEAK)]), "incidence": "89.9999 deg", "photons": 100}
 COUNT = "must be a whole number of 1 or more, not 0"
 
 
@@ -114,6 +116,7 @@ COUNT = "must be a whole number of 1 or more, not 0"
         ({"stokes": (0.0, 0.0, 0.0, 0.0)}, "stokes has no intensity"),
         ({"sample": "glass"}, "sample is 'glass'; give an op.Sample"),
         ({"azimuth": "north"}, "azimuth"),
+        (MISSED, "photons meet nothing of the sample"),
         ({"incidence": "95 deg", "photons": -1, "seed": "x", "tolerance": 2}, "4 faults"),
     ],
 )

@@ -122,8 +122,7 @@ def test_light_at_flat_and_rough_interfaces_is_that_of_kernels():
         expect_kernels(op.Sample(layers, cells=160, surfaces=1), 1.0, 40)
 
 
-PHOTONS = 100_000
-SAME = np.eye(2)
+PHOTONS, SAME = 100_000, np.eye(2)
 HEIGHTS = np.random.default_rng(5).normal(size=(12, 9))
 
 
@@ -178,12 +177,10 @@ def ring(sample, incidence, at):
 # Intensities alone, without polarisation. What is met is found where the height above the surface
 # changes sign, to the last digits by halving; a photon is reflected by the mean of Fresnel's
 # shares. The surface is periodic, with the period 1 along x and y.
-MOST = 20
 WAVES = [(1, 0, 0.3), (0, 1, 1.1), (1, 1, 2.0), (1, -1, 4.0), (2, 1, 0.5), (-1, 2, 3.3)]
 """Whole numbers of waves along x and along y, and phases."""
 VECTORS, PHASES = 2 * np.pi * np.array(WAVES)[:, :2], np.array(WAVES)[:, 2]
-AMPLITUDE = 0.05
-HIGHEST = AMPLITUDE * len(WAVES)
+MOST, AMPLITUDE, HIGHEST = 20, 0.05, 0.05 * len(WAVES)
 
 
 def heights(places):
