@@ -89,7 +89,6 @@ def test_axes_have_names(tmp_path):
 NO_NUMBERS = [
     (lambda: op.Polarizer("30"), "angle: '30' has no unit, but an angle is asked for; add one"),
     (lambda: op.Polarizer("30 nm"), "Polarizer angle: '30 nm' is no angle; use one of deg"),
-    (lambda: op.Polarizer("30 dgr"), "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
     (lambda: op.Polarizer("horizontl"), "'horizontl' is unknown; did you mean 'horizontal'"),
     (lambda: op.Rotator(["30 deg", "4 nm", "5 nm"]), "2 faults:\n.*'4 nm'.*\n.*'5 nm' is no a"),
     (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
@@ -147,14 +146,13 @@ def test_a_range_has_the_very_values_that_are_given_one_by_one():
     assert several_texts(DELTA, "5 deg:5 deg:1") == ["5 deg"]
 
 
-@given(st.integers(-(10**9), 10**9), st.integers(0, 10**6), st.integers(2, 200))
-def test_whole_steps_are_whole_numbers(start, step, count):
-    texts = texts_of_range(f"{start}:{start + step * (count - 1)}:{count}")
-    assert [float(text) for text in texts] == [start + step * at for at in range(count)]
+WHOLE, FLOATS = st.integers(-(10**9), 10**9), st.floats(allow_nan=False, allow_infinity=False)
 
 
-@given(st.floats(allow_nan=False, allow_infinity=False), st.floats(-1e9, 1e9), st.integers(2, 50))
-def test_a_range_never_turns_and_stays_between_its_ends(start, stop, count):
+@given(WHOLE, st.integers(0, 10**6), FLOATS, st.floats(-1e9, 1e9), st.integers(2, 200))
+def test_whole_steps_are_whole_and_a_range_never_turns(first, step, start, stop, count):
+    texts = texts_of_range(f"{first}:{first + step * (count - 1)}:{count}")
+    assert [float(text) for text in texts] == [first + step * at for at in range(count)]
     values = [float(text) for text in texts_of_range(f"{start!r}:{stop!r}:{count}")]
     assert (len(values), values[0], values[-1]) == (count, start, stop)
     assert values == sorted(values, reverse=start > stop)

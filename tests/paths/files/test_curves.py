@@ -11,21 +11,16 @@ from wired import read as loaded
 from wired import read_back
 
 TEXT = """format = 1
+links = [
+    {{ from = "lamp", to = "metal" }}, {{ from = "metal.reflected", to = "plate" }},
+    {{ from = "plate", to = "eye" }},
+]
 {parameters}
 [elements]
 lamp = {{ kind = "source" }}
 metal = {{ kind = "interface", index = {index}, incidence = "60 deg" }}
 plate = {{ kind = "retarder", retardance = {retardance}, angle = "20 deg" }}
 eye = {{ kind = "detector" }}
-[[links]]
-from = "lamp"
-to = "metal"
-[[links]]
-from = "metal.reflected"
-to = "plate"
-[[links]]
-from = "plate"
-to = "eye"
 """
 NODES = 'wavelengths = [400, 500, 600], unit = "nm"'
 SAMPLES = f"{NODES}, n = [1.5, 1.0, 0.3], k = [1.9, 1.8, 2.9]"
@@ -151,19 +146,6 @@ def test_tables_stand_for_numbers_and_are_read_back_as_they_were(read, tmp_path,
         bound = path.bind(**{name: "2.5 eV"})
         assert read_back(bound, tmp_path) == bound
         assert read_back(bound, tmp_path).trace() == path.trace(**{name: "2.5 eV"})
-
-
-@rows(
-    "element",
-    [
-        op.Retarder(op.tabulated(["500 nm", "600 nm"], ["95 deg", "100 deg"])),
-        # A length that is called wavelength keeps its lack of a range.
-        op.Waveplate("1 mm", 0.009, op.Parameter("wavelength", "500 nm")),
-    ],
-)
-def test_samples_in_degrees_and_a_length_called_wavelength_are_read_back_equal(element, tmp_path):
-    path = op.Source() >> element >> op.Detector()
-    assert read_back(path, tmp_path) == path
 
 
 def test_numbers_by_wavelength_may_be_multiples_with_a_unit_but_no_states(

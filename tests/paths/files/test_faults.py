@@ -25,46 +25,40 @@ INDEX = '{ n = "$n", k = 7.0 }'
 GOOD = f"""
 format = 1
 description = "a lamp, a filter, a mirror, an eye"
-
 [parameters.theta]
 {DECLARED}
-
 [parameters.n]
 default = 1.2
 range = [0, inf]
-
 [elements.lamp]
 kind = "source"
-
 {FILTER}
 [elements.mirror]
 kind = "interface"
 index = {INDEX}
 incidence = "$theta"
-
 [elements.eye]
 kind = "detector"
-
 [[links]]
 from = "lamp.out"
 to = "filter.in"
-
 [[links]]
 from = "filter.out"
 to = "mirror.in"
-
 {LAST}
 [cases.steep]
 values = {{ theta = "80 deg", n = 1.5 }}
 published = {{ eye = [1, 0, 0, 0] }}
-
 [choices.place]
 element = "filter"
 behind = {{ light = "lamp.out", eye = "mirror.reflected" }}
 """
-SECOND_LINK = '[[links]]\nfrom = "{}"\nto = "{}"\n\n[cases.steep]'
+SECOND_LINK = '[[links]]\nfrom = "{}"\nto = "{}"\n[cases.steep]'
 OF_EYE = 'kind = "detector"'
 FRAME = OF_EYE + "\nframes = {{ in = {{ x = {}, y = [0, 1, 0], z = [0, 0, {}] }} }}"
+BEHIND = 'behind = { light = "lamp.out", eye = "mirror.reflected" }'
+AS = "choices.place: 'behind' must name a port for each word, such as behind ="
+NO_PLACES = "{}", "{ eye = 3 }", '{ "" = "lamp.out" }'
 INCIDENCE = 'incidence = "$theta"'
 
 
@@ -151,6 +145,9 @@ ROOT_CAUSES = [
     ("format = 1\n", "", "'format' is missing"),
     ("format = 1", "format = true", "'format' must be a whole number"),
     ("description =", "desciption =", "key 'desciption' is unknown; did you mean 'description'"),
+    ("[cases.steep]", "[cases.all]", "'all' stands for every case; give this one another name"),
+    ("[cases.steep]", '[cases.""]', 'cases."" has no name; give it one'),
+    *((BEHIND, f"behind = {to}", f'{AS} {{ light = "L.out" }}, not {to}') for to in NO_PLACES),
     ('element = "filter"', 'element = "filtr"', "choices.place: node 'filtr' does not exist"),
     ('element = "filter"', 'element = "mirror"', "not go straight through 'mirror'"),
     ('element = "filter"', 'element = "eye"', "'eye' has no way out"),
@@ -317,31 +314,12 @@ def test_a_cure_can_be_written_into_the_file(text, cure, tmp_path):
         op.Interface(1.5, 0.3, outside="follows")  # In Python it is written in Python.
 
 
-@rows("behind", ["{}", "{ eye = 3 }", '{ "" = "L.out" }'])
-def test_how_places_are_written_is_told_as_a_file_has_it(behind, tmp_path):
-    text = through('kind = "polarizer"') + f'[choices.place]\nelement = "X"\nbehind = {behind}\n'
-    assert fault_of(text, tmp_path) == (
-        "path.toml: choices.place: 'behind' must name a port for each word, such as behind = "
-        f'{{ light = "L.out" }}, not {behind}'
-    )
-    loaded("format = 1\n" + text.replace(behind, '{ light = "L.out" }'), tmp_path)
-
-
-@rows(
-    "name, told",
-    [
-        ("all", "cases.all: 'all' stands for every case; give this one another name"),
-        ('""', 'cases."" has no name; give it one'),
-    ],
-)
-def test_a_case_that_nobody_could_ask_for_is_refused_and_not_written(name, told, tmp_path):
-    text = through('kind = "polarizer"') + f"[cases.{name}]\nvalues = {{}}\n"
-    assert fault_of(text, tmp_path) == f"path.toml: {told}"
-    path = loaded("format = 1\n" + text.replace(name, "steep"), tmp_path)
-    path.cases[name.strip('"')] = path.cases["steep"]
-    with pytest.raises(op.PathError, match=told.partition(";")[0]):
-        path.to_toml()
+@rows("name, told", [("all", "'all' stands for every case"), ("", "has no name; give it one")])
+def test_a_case_that_nobody_could_ask_for_is_not_written(name, told):
     path = read(tomllib.loads(GOOD))
-    path.cases["odd"] = op.Case({"thta": 0.1})
+    path.cases[name] = path.cases["steep"]
+    with pytest.raises(op.PathError, match=told):
+        path.to_toml()
+    path.cases = {"odd": op.Case({"thta": 0.1})}
     with pytest.raises(op.PathError, match=r"case 'odd'.*did you mean 'theta'"):
         path.to_toml()

@@ -46,6 +46,9 @@ ELEMENTS = [
     op.Waveplate(P("d", "1 mm"), 0.0091, np.array([5e-7, 6e-7]), 0.1, azimuth=0.2),
     op.Medium(0.1, P("a", [1.0, 2.0], unit="1/m"), rotation=P("b")),
     op.CircularDiattenuator(0.9, P("l", 0.1)),
+    op.Retarder(op.tabulated(["500 nm", "600 nm"], ["95 deg", "100 deg"])),
+    # A length that is called wavelength keeps its lack of a range.
+    op.Waveplate("1 mm", 0.009, P("wavelength", "500 nm")),
     *(op.CircularDiattenuator([0.9, 0.8], [0.1, 0.2]), OddlyNamed(0.5, 0.25, 0.75)),
 ]
 WRITTEN = [

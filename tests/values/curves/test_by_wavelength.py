@@ -17,7 +17,7 @@ from optipath.values.spectral_units import wavelength_of
 from tables import rows
 
 P = op.Parameter
-DISPERSIVE = op.Material.cauchy([1.5, 0.004], name="glass")
+GLASS = op.Material.cauchy([1.5, 0.004], name="glass")
 
 
 def test_wavelengths_and_their_limits_are_lengths_energies_wave_numbers_and_frequencies():
@@ -60,7 +60,7 @@ def test_the_ends_of_a_range_are_told_in_units_of_their_size_and_all_units_are_n
         wavelength.resolve(400)
     units = "nm, um, mm, cm, dm, m, angstrom, or eV, 1/cm, THz$"
     for text in ("516", "516 deg"):
-        for read in (wavelength.resolve, DISPERSIVE.at, op.Spectrum.line):
+        for read in (wavelength.resolve, GLASS.at, op.Spectrum.line):
             with pytest.raises(op.OptipathError, match=units):
                 read(text)
 
@@ -173,7 +173,7 @@ def test_a_wavelength_that_is_bound_known_or_a_default_gives_numbers_and_without
         mirror().trace(wavelength=5e-7, **{metal()[0].name: 1.0})
 
 
-def test_equal_curves_and_their_copies_are_equal_values_and_others_are_not():
+def test_equal_curves_copies_and_sums_are_equal_values_and_sums_those_of_the_numbers():
     n, _ = metal(slope=op.Parameter("slope"))
     assert copy.deepcopy(n) == n
     assert pickle.loads(pickle.dumps(n)).name == n.name
@@ -181,6 +181,13 @@ def test_equal_curves_and_their_copies_are_equal_values_and_others_are_not():
     probe = op.Wavelength("probe")
     for other in (metal()[1], metal(slope=1e6)[0], metal(wavelength=probe)[0]):
         assert metal()[0] != other
+    one, other = line(1.5, 1.4), line(1.3, 1.35)
+    grid = np.linspace(4e-7, 7e-7, 7)
+    expected = 2 * on_line(1.5, 1.4, grid) - 3 * on_line(1.3, 1.35, grid) + 0.5
+    np.testing.assert_allclose((2 * one - 3 * other + 0.5).at(grid), expected, rtol=1e-15)
+    np.testing.assert_allclose((one + other).at(grid), (other + one).at(grid), rtol=1e-15)
+    assert one - other == one - other
+    assert one - other != other - one
 
 
 @rows(
@@ -214,6 +221,7 @@ def told(path, **given):
 
 TWO = ["500 nm", "600 nm"]
 LATE = op.tabulated(["800 nm", "900 nm"], [1.0, 2.0])
+LINE = line(1.0, 2.0)
 ROTATION = op.tabulated(TWO, [25, 20], "deg/mm")
 
 
@@ -270,21 +278,13 @@ DRUDE = {"strengths": [1.0], "poles": [0.1]}
         (op.ValueFault, lambda: op.Rotator(ROTATION), "is in deg/mm, but Rotator angle takes"),
         (
             op.ValueFault,
-            lambda: op.Interface((DISPERSIVE.n, DISPERSIVE.n), 0.3),
-            "such as n of glass, n of glass; give op",
+            lambda: op.Interface((GLASS.n, GLASS.n), 0.3),
+            "n of glass, n of glass; gi",
         ),
-        (
-            op.ParameterError,
-            lambda: line(1.0, 2.0) - line(1.0, 2.0, op.Wavelength("x")),
-            "follow from two wavelengths",
-        ),
-        (op.ParameterError, lambda: line(1.0, 2.0) + ROTATION, "add up what is of one kind"),
-        (op.ParameterError, lambda: line(1.0, 2.0) + LATE, "at no common wavelength"),
-        (
-            op.ParameterError,
-            lambda: DISPERSIVE.n**2,
-            r"n of glass cannot be raised .* 2 \* n of gla",
-        ),
+        (op.ParameterError, lambda: LINE - line(1, 2, op.Wavelength("x")), "from two wavelengths"),
+        (op.ParameterError, lambda: LINE + ROTATION, "add up what is of one kind"),
+        (op.ParameterError, lambda: LINE + LATE, "at no common wavelength"),
+        (op.ParameterError, lambda: GLASS.n**2, r"n of glass cannot be raised .* 2 \* n of glass"),
     ],
 )
 def test_what_makes_no_value_by_wavelength_is_named(kind, call, sentence):
@@ -305,17 +305,7 @@ def test_coefficients_and_wavelengths_that_do_not_broadcast_are_named():
     with pytest.raises(op.ShapeError, match="arrays do not broadcast together"):
         op.Material.cauchy([several, 0.004]).at([5e-7, 6e-7])
     with pytest.raises(op.ParameterError, match="wavelength has 40 axes, and a batch has 30 at m"):
-        path_of(DISPERSIVE).trace(wavelength=np.full((1,) * 40, 5e-7))
-
-
-def test_sums_and_differences_are_those_of_the_numbers():
-    one, other = line(1.5, 1.4), line(1.3, 1.35)
-    grid = np.linspace(4e-7, 7e-7, 7)
-    expected = 2 * on_line(1.5, 1.4, grid) - 3 * on_line(1.3, 1.35, grid) + 0.5
-    np.testing.assert_allclose((2 * one - 3 * other + 0.5).at(grid), expected, rtol=1e-15)
-    np.testing.assert_allclose((one + other).at(grid), (other + one).at(grid), rtol=1e-15)
-    assert one - other == one - other
-    assert one - other != other - one
+        path_of(GLASS).trace(wavelength=np.full((1,) * 40, 5e-7))
 
 
 def test_a_verdet_constant_by_drudes_formula_turns_light():

@@ -36,9 +36,7 @@ def test_samples_are_exact_and_a_wavelength_comes_to_the_same_bits_alone(interpo
     assert np.array_equal(curve.evaluated(PLACES), [N, K])
     alone = [curve.evaluated(wavelength)[1] for wavelength in FINE[::3]]
     assert np.array_equal(curve.evaluated(FINE[::3])[1], alone)
-
-
-def test_between_samples_it_is_a_straight_line():
+    # Between samples it is a straight line.
     expected = [np.interp(FINE, PLACES, column) for column in (N, K)]
     np.testing.assert_allclose(table().evaluated(FINE), expected, rtol=3e-15)
     assert np.all(table(n=np.full(5, 1.1)).evaluated(FINE)[0] == 1.1)
@@ -85,9 +83,7 @@ def test_beyond_its_samples_it_is_the_nearest_one_or_the_line_goes_on():
     oracle = pytest.importorskip("scipy.interpolate").PchipInterpolator(PLACES, K)
     _, k = table("monotone", "linear").evaluated(2e-6)
     assert float(k) == pytest.approx(8.0 + 0.8e-6 * oracle(1.2e-6, 1), rel=1e-12)
-
-
-def test_equal_samples_are_equal_curves_whether_they_rise_or_fall():
+    # Equal samples are equal curves, whether they rise or fall.
     assert Tabulated("gold", ("n", "k"), PLACES[::-1], [N[::-1], K[::-1]]) == table()
     energies = Tabulated("x", ("n",), ["2 eV", "3 eV"], [[1.0, 2.0]])
     assert energies.evaluated(energies.wavelengths)[0].tolist() == [2.0, 1.0]

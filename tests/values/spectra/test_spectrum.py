@@ -61,7 +61,7 @@ def test_histograms_and_lines_have_their_power_spread_over_bins_or_counted_once(
 
 
 @rows("temperature", [300.0, 2856.0, 5772.0])
-def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
+def test_black_body_radiates_by_stefan_and_boltzmann_wien_and_planck(temperature):
     lamp = op.Spectrum.black_body(temperature)
     # What is beyond 1 mm is (15 / pi^4) x^3 / 3 of all, x = h c / (L k T).
     x = SI["h"] * SI["c"] / (1e-3 * SI["k"] * temperature)
@@ -70,9 +70,7 @@ def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
     expected = whole * (1.0 - beyond)
     assert lamp.power(1e-9, 1e-3) == pytest.approx(expected, rel=1e-6 * beyond + 1e-13)
     assert (0.3 * lamp).power() == pytest.approx(0.3 * whole, rel=1e-14)
-
-
-def test_black_body_peaks_by_wiens_law_and_agrees_with_planck_in_many_digits():
+    # By Wien's law, and by Planck's in many digits.
     lamp, peak = op.Spectrum.black_body(5000.0), 2.897771955e-3 / 5000.0
     around = lamp.at(peak * np.array([0.9999, 1.0, 1.0001]))
     assert around[1] > max(around[0], around[2])
@@ -86,18 +84,6 @@ def test_black_body_peaks_by_wiens_law_and_agrees_with_planck_in_many_digits():
             assert found == pytest.approx(float(expected), rel=1e-13)
 
 
-def test_whole_powers_of_sums_and_of_diodes_are_those_of_their_terms():
-    diode = led("530 nm", "30 nm", power=2.0)
-    assert diode.power() == 2.0
-    assert diode.power("200 nm", "900 nm") == pytest.approx(2.0, rel=1e-13)
-    peak, low, high = diode.at(["530 nm", "515 nm", "545 nm"])
-    assert [low / peak, high / peak] == pytest.approx([0.5, 0.5], rel=1e-12)
-    lamp = sampled(["400 nm", "500 nm"], [1.0, 3.0], outside=0.0)
-    body = op.Spectrum.black_body(300.0)
-    whole = lamp + body + line("633 nm", 5.0)
-    assert whole.power() == pytest.approx(205.0 + body.power(), rel=1e-14)
-
-
 @rows(
     "peak, width, low, high",
     [
@@ -108,8 +94,19 @@ def test_whole_powers_of_sums_and_of_diodes_are_those_of_their_terms():
         ("500 nm", "30 nm", 485.0, 515.0),
     ],
 )
-def test_a_width_of_a_diode_is_that_between_its_edges_in_the_unit_given(peak, width, low, high):
+def test_a_width_of_a_diode_is_that_between_its_edges_and_whole_powers_are_those_of_terms(
+    peak, width, low, high
+):
     assert led(peak, width).kind.width * 1e9 == pytest.approx(high - low, rel=1e-12)
+    diode = led("530 nm", "30 nm", power=2.0)
+    assert diode.power() == 2.0
+    assert diode.power("200 nm", "900 nm") == pytest.approx(2.0, rel=1e-13)
+    at_peak, below, above = diode.at(["530 nm", "515 nm", "545 nm"])
+    assert [below / at_peak, above / at_peak] == pytest.approx([0.5, 0.5], rel=1e-12)
+    lamp = sampled(["400 nm", "500 nm"], [1.0, 3.0], outside=0.0)
+    body = op.Spectrum.black_body(300.0)
+    whole = lamp + body + line("633 nm", 5.0)
+    assert whole.power() == pytest.approx(205.0 + body.power(), rel=1e-14)
 
 
 @rows("name", ["A", "D65", "E"])
@@ -120,14 +117,7 @@ def test_illuminants_agree_with_colour_science(name, colour):
     found = op.Spectrum.illuminant(name).at(places * 1e-9)
     # The table of A has six digits, our A is its formula.
     np.testing.assert_allclose(found, expected, rtol=0 if name != "A" else 5e-6, atol=1e-12)
-
-
-def test_illuminants_are_100_at_560_nm():
-    for name in ("A", "D65", "E"):
-        assert op.Spectrum.illuminant(name).at("560 nm") == pytest.approx(100.0, rel=1e-14)
-
-
-def test_d65_in_the_infrared_is_daylight_by_its_components(colour):
+    # In the infrared, D65 is daylight by its components.
     series = colour.sd_CIE_illuminant_D_series(np.array([0.31272, 0.32903]))
     places = np.arange(780, 831, 5)
     expected = np.array([series[float(place)] for place in places])
@@ -159,6 +149,8 @@ def test_spectra_beyond_their_range_are_an_error_or_0_where_that_is_said():
         with pytest.raises(op.ValueFault, match=r"400 nm .. 500 nm.*give outside=0.0"):
             make(*known).at("550 nm")
         np.testing.assert_array_equal(make(*known, outside=0.0).at([3e-7, 6e-7]), 0.0)
+    for name in ("A", "D65", "E"):
+        assert op.Spectrum.illuminant(name).at("560 nm") == pytest.approx(100.0, rel=1e-14)
     # 830 * 1e-9 is the number above 830e-9, and the end of a range is within it by its rounding.
     daylight = op.Spectrum.illuminant("D65")
     assert daylight.at(830 * 1e-9) == 60.3125
@@ -351,7 +343,7 @@ def test_what_a_sampled_spectrum_is_beyond_its_samples(outside, values, expected
         op.Spectrum(THREE, values).at(FAR)
 
 
-def test_what_goes_on_beyond_samples_is_counted_and_computed_with_there():
+def test_what_goes_on_beyond_samples_is_computed_with_and_products_have_the_samples_of_both():
     first = op.Spectrum(THREE, [0.5, 1.0, 0.2], outside="linear")
     # It is 0 from 625 nm on.
     assert first.power("600 nm", "900 nm") == pytest.approx(0.5 * 25 * 0.2, rel=1e-9)
@@ -362,9 +354,7 @@ def test_what_goes_on_beyond_samples_is_counted_and_computed_with_there():
     np.testing.assert_allclose((first + second).at(far), first.at(far) + second.at(far))
     np.testing.assert_allclose((2 * first).at(far), 2 * first.at(far))
     np.testing.assert_allclose((first * op.Spectrum.constant(3)).at(far), 3 * first.at(far))
-
-
-def test_a_product_has_the_samples_of_both():
+    # A product has the samples of both.
     lamp = op.Spectrum(["400 nm", "500 nm", "700 nm"], [1.0, 2.0, 0.0])
     glass = op.Spectrum(["450 nm", "600 nm", "800 nm"], [0.2, 0.8, 0.4])
     seen = lamp * glass
