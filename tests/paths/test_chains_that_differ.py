@@ -73,8 +73,7 @@ def test_each_chain_of_a_batch_is_what_it_is_alone_and_with_points_given_later(e
 def test_texts_letters_lengths_and_files_say_the_same(tmp_path):
     for bad in ("refuse", "mask"):
         path = path_of(random_batch(8, 3, several=3, each=2), bad=bad)
-        again = read_back(path, tmp_path)
-        np.testing.assert_array_equal(again.trace().stokes, path.trace().stokes)
+        np.testing.assert_array_equal(read_back(path, tmp_path).trace().stokes, path.trace().stokes)
     batch = random_batch(4, 3, several=6, each=2)
     expected = path_of(batch).trace().stokes
     letters = {"events": batch.letters, "lengths": batch.lengths}
@@ -84,8 +83,7 @@ def test_texts_letters_lengths_and_files_say_the_same(tmp_path):
     plain = op.path_from_vertices(points, [1.5, 1.0], events="TT")
     for given in ({"events": ["TT", "TT"]}, {"events": "TT", "lengths": [2, 2]}):
         assert op.path_from_vertices(points, [1.5, 1.0], **given) == plain
-    points = random_chains(1, 4, (40,))
-    lengths = 1 + np.arange(40) % 4
+    points, lengths = random_chains(1, 4, (40,)), 1 + np.arange(40) % 4
     padded = points.copy()
     for chain, length in enumerate(lengths):
         padded[chain, length + 2 :] = [np.nan, 0.0, np.inf]
@@ -178,8 +176,7 @@ def spoilt(batch):
 def test_chains_that_cannot_be_have_no_light_and_all_others_are_as_they_were(engine):
     batch = random_batch(11, 2)
     points, ids, bad = spoilt(batch)
-    expected = path_of(batch).trace()
-    masked = np.isin(np.arange(len(points)), bad)
+    expected, masked = path_of(batch).trace(), np.isin(np.arange(len(points)), bad)
     for given, later in ((op.Parameter("points"), {"points": points}), (points, {})):
         if engine == "numpy" or later:
             plan = op.Composer(engine=engine).compose(path_of(batch, given, ids=ids, bad="mask"))
@@ -277,8 +274,7 @@ def test_a_chain_that_cannot_be_gives_no_light_whatever_is_read(events, reading,
     points = NO_LEG if events[0] == "R" else TURNED
     path = op.path_from_vertices(points, [1.2, 1.2], events=events, bad="mask")
     path = path if reading == "full" else path.reading(reading)
-    light = op.Composer(method=method, composing=composing).compose(path).run()
-    assert np.isnan(light.intensity)
+    assert np.isnan(op.Composer(method=method, composing=composing).compose(path).run().intensity)
 
 
 @rows("composing", ["stokes", "jones"])
@@ -353,10 +349,7 @@ def chosen(second):
         (many(events=[["", "R"]] * 3), ["letter 1 of chain 0 is missing"]),
         (many(events="RRR", lengths=[1, 2, 1]), ["has 3 letters for 2 vertices at most"]),
         (many(bad="maks"), ["bad 'maks' is unknown; did you mean 'mask'?"]),
-        (
-            many(ids=[[0, 1]] * 2, lengths=[1] * 4, events=["R"] * 5),
-            ["(3,), ids (2,), lengths (4,"],
-        ),
+        (many(ids=[[0, 1]] * 2, lengths=[1] * 4, events=["R"] * 5), ["lengths (4,), events (5,)"]),
         (many(lengths=[0], events=[1], bad="no", outside=-1.0), ["s is 0", "[1]", "'no'", "is -1"]),
         *((chosen(n), ["materials[1] is given when the path runs"]) for n in (N, op.Material(N))),
         (chosen(np.array([1.0, 2.0])), ["materials[1] is an array, and ids choose from numbers"]),
@@ -398,10 +391,7 @@ def test_what_is_wrong_is_told_in_words(given, messages):
         # Events are not counted against materials that are none.
         (of(CORNER, 1.5, events="T"), "materials must be a sequence"),
         *(
-            (
-                bent([*INTO_GLASS, [0, 2, -3], [0, 3, -3]], [n, 1.2, 3.0], events=text),
-                r"^vertex1\.i",
-            )
+            (bent([*INTO_GLASS, [0, 2, -3], [0, 3, -3]], [n, 1.2, 3.0], events=text), "^vertex1")
             for n, text in ((1.5 + 1j, "TTR"), (1.5 + 1j, "TRR"), (-1.0, "TRT"), ("glass", "TTR"))
         ),
     ],
@@ -414,11 +404,7 @@ def test_one_thing_that_is_wrong_with_a_refraction_is_told_once(given, message):
 
 
 def test_points_that_may_be_those_of_a_refraction_are_asked_about_for_whole_chains():
-    message = (
-        r"turned by 16.8745 deg at vertex 1, which is a reflection at an incidence of 81.5628 deg, "
-        r"or a refraction from n = 1 into n = 1.5 at 45 deg; say which, events='R' where it is "
-        r"reflected, events='T' where it goes through"
-    )
+    message = "by 16.8745 deg at vertex 1, .* of 81.5628 deg, .* n = 1 into n = 1.5 at 45 deg; say"
     with pytest.raises(op.PathError, match=message):
         op.path_from_vertices(INTO_GLASS, [1.5])
     for event, least, most in (("R", 0.0, 0.5), ("T", 0.9, 1.0)):
@@ -508,8 +494,7 @@ def test_normals_next_to_the_tolerance_are_told_apart_exactly(seed):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_points_given_later_and_what_no_surface_refracts_are_refused_by_every_engine(engine):
-    path = op.path_from_vertices(op.Parameter("points"), [1.5])
-    plan = op.Composer(engine=engine).compose(path)
+    plan = op.Composer(engine=engine).compose(op.path_from_vertices(op.Parameter("points"), [1.5]))
     for count in (1, 3, 3000):
         points = random_chains(13, 1, (count,))
         together, nan = points.copy(), points.copy()

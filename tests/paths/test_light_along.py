@@ -12,6 +12,12 @@ from random_paths import Draw
 from tables import rows
 
 PRESETS = op.preset_names()
+# Ways out and loops stand in the order of travel, too.
+ORDER = {
+    "npgr026": ("X2.transmitted", "X1.reflected -> E.in"),
+    "ellipsometer-pcsa": ("S.transmitted", "A.out -> photometer.in"),
+    "glass-slab": ("front.transmitted -> down.in", "up.out -> front.back"),
+}
 
 
 def numbers(powers):
@@ -39,8 +45,7 @@ def test_what_sources_give_is_taken_leaves_or_ends_in_every_case(name):
 @rows("seed", range(20))
 def test_light_of_paths_by_chance_is_neither_made_nor_lost(seed):
     draw = Draw(seed)
-    path = draw.path(loops=seed % 2 == 0)
-    assert_conserved(path, **draw.values)
+    assert_conserved(draw.path(loops=seed % 2 == 0), **draw.values)
 
 
 def test_powers_are_told_of_sources_loops_and_what_amplifies_but_not_of_rounding():
@@ -81,9 +86,8 @@ def test_powers_are_told_of_sources_loops_and_what_amplifies_but_not_of_rounding
 
 def test_taps_take_nothing_however_far_their_light_goes():
     found = assert_conserved(op.load_preset("ellipsometer-pcsa"))
-    assert [link.end for link in found.links if link.tap] == ["state"]
-    assert [*found.ended] == ["photometer"]
-    assert [*found.left] == ["S.transmitted"]
+    ends = [link.end for link in found.links if link.tap], [*found.ended], [*found.left]
+    assert ends == (["state"], ["photometer"], ["S.transmitted"])
     # It stands behind the link beside it.
     taps = [each for each in lights_along(op.load_preset("ellipsometer-pcsa")) if each.tap]
     assert [each.name for each in taps] == ["S.reflected -> state.in"]
@@ -94,8 +98,7 @@ def test_taps_take_nothing_however_far_their_light_goes():
     path.connect("split.transmitted", path.add("probe", op.Detector()).name)
     found = assert_conserved(path)
     assert numbers(found.taken) == pytest.approx({"polarizer": 0.5})
-    assert [*found.ended] == ["detector"]
-    assert not found.left
+    assert ([*found.ended], [*found.left]) == (["detector"], [])
     links = {"polarizer.out -> analyser.in", "analyser.out -> split.in", "split.reflected"}
     read = {link.name for link in found.links if link.tap}
     assert read == links | {"split.transmitted -> probe.in"}
@@ -116,18 +119,6 @@ def test_many_values_keep_their_shape_and_are_written_as_json():
     assert None in [link["power"] for link in json.loads(written)["links"]]
     path = op.Source(op.Parameter("keep", 2.0)) >> op.Detector()
     assert [each.light.intensity for each in lights_along(path, keep=3.0)] == [3.0]
-
-
-ORDER = {
-    "npgr026": ("X2.transmitted", "X1.reflected -> E.in"),
-    "sky-and-window": ("tilt.out -> pane.in", "pane.reflected -> polarizer.in"),
-    "glass-slab": ("front.transmitted -> down.in", "up.out -> front.back"),
-    "ellipsometer-pcsa": ("S.transmitted", "A.out -> photometer.in"),
-    "faraday-isolator": (
-        "mirror.reflected -> analyzer-back.in",
-        "polarizer-back.out -> returned.in",
-    ),
-}
 
 
 @rows("preset", PRESETS)

@@ -1,4 +1,4 @@
-"""Graphs of elements: how they are built and shown, what they refuse, what light they give."""
+"""Graphs of elements, node by node or in one line by ``>>``: what they refuse, and their light."""
 
 import subprocess
 import sys
@@ -14,10 +14,13 @@ from chains import random_rotation
 from optipath.paths.drawing import draw
 from paths import chain
 from tables import rows
-from wired import wired
+from wired import read, read_back, wired
 
 FRAMES, TURN = "a Frame for each port", op.Rotator(0.2)
 XARRAY = r'sweeps need xarray, which is not installed; pip install "optipath\[sweep\]"'
+FRONT, NAMED = wired({"front": op.Interface(1.5, 0.0)}, ""), op.Polarizer().named("a")
+LAMPS = wired({"sun": op.Source(), "moon": op.Source()}, "")
+ELEMENTS = r"made of elements, .* not of "
 
 
 def reflections(azimuth):
@@ -29,8 +32,7 @@ def reflections(azimuth):
 def reflected(frame, incidence):
     """The frame behind a mirror that light in this frame, x = s, meets at an incidence."""
     turn = np.pi - 2 * incidence
-    z = np.cos(turn) * frame.z - np.sin(turn) * frame.y
-    return op.Frame.from_direction(z, frame.x)
+    return op.Frame.from_direction(np.cos(turn) * frame.z - np.sin(turn) * frame.y, frame.x)
 
 
 def in_world(elements, frames, rotation=None):
@@ -53,21 +55,18 @@ def placed(azimuth, rotation):
     frames = {"lamp": {"out": start}, "first": {"in": start, "reflected": behind}}
     frames |= {"second": {"in": turned, "reflected": end}, "eye": {"in": end}}
     path = reflections(0.0)
-    elements = {name: path.element(name) for name in path}
-    return in_world(elements, frames, rotation)
+    return in_world({name: path.element(name) for name in path}, frames, rotation)
 
 
 @given(azimuth=st.floats(-4, 4), seed=st.integers(0, 10**6))
 def test_rotating_every_world_frame_changes_no_result(azimuth, seed):
     path = placed(azimuth, random_rotation(np.random.default_rng(seed)))
-    light = path.trace()
-    expected = reflections(azimuth).trace().stokes
+    light, expected = path.trace(), reflections(azimuth).trace().stokes
     np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-14)
     np.testing.assert_allclose(light.frame.z, path.graph.nodes["eye"]["frames"]["in"].z)
 
 
-START = op.Frame()
-TILTED = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+START, TILTED = op.Frame(), op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
 MIRROR = {"in": START, "reflected": reflected(START, 0.7)}
 
 
@@ -97,11 +96,10 @@ def test_malus_law_holds_for_a_turn_of_the_frame_and_of_the_axis(turn):
 def test_branches_and_sources_add_up_incoherently():
     ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "meet": op.Combiner()}
     filters = {"across": op.Polarizer(np.pi / 2), "along": op.Polarizer()}
-    path = wired(
-        {**ends, **filters, "eye": op.Detector()},
-        "lamp -> split, split.reflected -> across, split.transmitted -> along, across -> meet, "
-        "along -> meet, meet -> eye",
-    )
+    links = "lamp -> split, split.reflected -> across, split.transmitted -> along, meet -> eye"
+    path = wired({**ends, **filters, "eye": op.Detector()}, links)
+    for name in filters:
+        path.connect(name, "meet")
     np.testing.assert_allclose(path.trace().stokes, [0.5, 0.25, 0, 0], rtol=1e-15, atol=1e-16)
     lamps = {"one": op.Source(1.0), "two": op.Source(2.0, stokes=[1.0, 0, 0, 1.0])}
     path = wired({"eye": op.Detector(), **lamps}, "one -> eye, two -> eye")
@@ -109,8 +107,7 @@ def test_branches_and_sources_add_up_incoherently():
     with pytest.raises(op.ParameterError, match="2 sources"):
         path.mueller()
     np.testing.assert_allclose(path.mueller("two", "eye").matrix, np.eye(4))
-    path = op.PathGraph()
-    path.add("eye", op.Detector())
+    path = wired({"eye": op.Detector()}, "")
     for name, azimuth in (("a", 0.0), ("b", np.pi / 2)):
         path.add(f"lamp-{name}", op.Source()) >> path.add(name, op.Polarizer())
         path.connect(f"{name}.out", "eye.in", azimuth=azimuth)
@@ -125,11 +122,9 @@ def test_a_graph_is_networkx_whatever_the_order_it_is_built_in():
     with pytest.raises(nx.NetworkXError, match=r"[Ff]rozen"):
         path.graph.add_node("more")
     assert op.Composer().compose(nx.MultiDiGraph(path.graph)) == path.compose()
-    one = reflections(0.2)
-    elements = {name: one.element(name) for name in ("eye", "second", "lamp", "first")}
+    elements = {name: path.element(name) for name in ("eye", "second", "lamp", "first")}
     other = wired(elements, "second -> eye, lamp -> first, first -> second")
-    assert one == other
-    assert one.compose() == other.compose()
+    assert (path, path.compose()) == (other, other.compose())
 
 
 def split():
@@ -137,50 +132,58 @@ def split():
 
 
 @rows(
-    "leaves, enters, messages",
-    [
-        ("split.transmited", "eye.in", ["'split.transmited'", "did you mean 'split.transmitted'"]),
-        ("splt.reflected", "eye.in", ["'splt'", "did you mean 'split'"]),
-        ("split.in", "eye.in", ["'split.in' lets light in"]),
-        ("split.reflected", "split.transmitted", ["'split.transmitted' lets light out"]),
-        ("split", "eye.in", ["'split' has no one natural way out", "'split.transmitted'"]),
-        ("eye", "split", ["'eye' has no way out, since light ends there"]),
-        ("split.reflected.x", "eye.in", ["'split.reflected.x' is no out-port"]),
-        ("split.x", "eye.y", ["split.x", "eye.y", "2 faults"]),
-        (3, "eye.in", ["3 is no out-port"]),
-    ],
-)
-def test_links_to_ports_that_do_not_exist_are_refused(leaves, enters, messages):
-    path = split()
-    with pytest.raises(op.PathError) as error:
-        path.connect(leaves, enters)
-    for message in messages:
-        assert message in str(error.value)
-    assert path.graph.number_of_edges() == 0
-
-
-@rows(
     "make, message",
     [
+        *(
+            (lambda path, start=start, end=end: path.connect(start, end), told)
+            for start, end, told in (
+                ("split.transmited", "eye.in", "'split.transmited'.* mean 'split.transmitted'"),
+                ("splt.reflected", "eye.in", "'splt'.* did you mean 'split'"),
+                ("split.in", "eye.in", "'split.in' lets light in"),
+                ("split.reflected", "split.transmitted", "'split.transmitted' lets light out"),
+                ("split", "eye.in", "'split' has no one natural way out.*'split.transmitted'"),
+                ("eye", "split", "'eye' has no way out, since light ends there"),
+                ("split.reflected.x", "eye.in", "'split.reflected.x' is no out-port"),
+                ("split.x", "eye.y", "(?s)2 faults.*split.x.*eye.y"),
+                (3, "eye.in", "3 is no out-port"),
+            )
+        ),
         (lambda path: path["split"] >> split()["eye"], "different paths"),
         (lambda path: path["split"] >> path["eye"], r"'split\.reflected', 'split\.transmitted'"),
         (lambda path: path["eye"] >> path["split"], "'eye' has no way out, since light ends there"),
         *((lambda path, n=n: path.add(n, TURN), "node name") for n in ("", "a.b", 3)),
         (lambda path: path.add("eye", op.Detector()), "'eye' is there already"),
-        *((lambda path, f=f: path.add("a", TURN, f), FRAMES) for f in (3, {"out": [1, 0, 0]})),
+        *((lambda path, f=f: path.add("a", TURN, f), FRAMES) for f in (START, {"out": [1, 0, 0]})),
         (lambda path: path.add("a", "polarizer"), "must be an element"),
         (lambda path: path["a"], "node 'a' does not exist"),
         (lambda path: path.element(None), "node None does not exist"),
         (lambda _: op.PathGraph(description=3), "description of a path must be a text, not 3"),
-        (lambda _: op.Composer().compose(None), "MultiDiGraph is composed, not None"),
-        (lambda _: op.Polarizer().mueller(method="stabel"), "did you mean 'stable'"),
+        *((lambda _, n=n: NAMED >> TURN.named(n), "text without a dot") for n in ("a.b", "", 3)),
+        (lambda _: NAMED >> NAMED, "node 'a' stands on both sides of >>"),
+        (lambda _: with_case(op.Source()) >> with_case(op.Dump()), "case 'a' stands on both sides"),
+        (lambda _: LAMPS >> op.Detector(), r"2 natural ways out .*: 'sun.out', 'moon.out'"),
+        (lambda _: FRONT["front.transmited"], r"did you mean 'front\.transmitted'"),
+        (lambda _: FRONT["frnt.transmitted"], "did you mean 'front'"),
+        (lambda _: FRONT["front."], r"port 'front\.' does not exist"),
+        (lambda _: FRONT[3], "node 3 does not exist"),
+        (lambda _: op.Source() >> chained()["detector"], r"element\) >> path\['detector'\]"),
+        (lambda _: op.Source() >> op.Detector() >> op.Detector(), "no way out that is open"),
+        (lambda _: chained() >> op.Detector(), r"one by its name: 'interface\.transmitted'"),
+        (lambda _: op.Source() >> op.Detector, r"Detector is a class; write Detector\(...\)"),
+        (lambda _: op.Source >> op.Detector(), r"Source is a class; write Source\(...\)"),
+        (lambda _: op.Source() >> "eye", ELEMENTS + "'eye'"),
+        (lambda _: 3 >> op.Detector(), ELEMENTS + "3"),
+        (lambda _: chained()["source"] >> 3, ELEMENTS + "3"),
+        (lambda _: np.arange(2) >> op.Detector(), "made of elements"),
         (lambda path: path.add(TURN), r"path\.add\('rotator', Rotator\(angle=0\.2\)\)$"),
         (lambda path: path.add(TURN.named("b")), r"path\.add\('b', Rotator\(angle=0\.2\)\)$"),
     ],
 )
-def test_nodes_and_paths_that_cannot_be_are_refused(make, message):
-    with pytest.raises(op.OptipathError, match=message):
-        make(split())
+def test_nodes_links_and_paths_that_cannot_be_are_refused(make, message):
+    path = split()
+    with pytest.raises(op.PathError, match=message):
+        make(path)
+    assert path == split()
 
 
 def test_a_chain_of_10000_elements_runs_with_as_many_steps_and_a_plan_is_kept_by_its_composer():
@@ -191,8 +194,13 @@ def test_a_chain_of_10000_elements_runs_with_as_many_steps_and_a_plan_is_kept_by
     assert long - short == 200
     path = op.load_preset("malus")
     assert path.plan_by(op.Composer(dtype="float32")) is path.plan_by(op.Composer(dtype="float32"))
-    with pytest.raises(op.ComposerError, match=r"a plan is made by a Composer, not \[1\]; write"):
-        path.plan_by([1])
+    for act, told in (
+        (lambda: path.plan_by([1]), r"a plan is made by a Composer, not \[1\]; write"),
+        (lambda: op.Composer().compose(None), "MultiDiGraph is composed, not None"),
+        (lambda: op.Polarizer().mueller(method="stabel"), "did you mean 'stable'"),
+    ):
+        with pytest.raises(op.ComposerError, match=told):
+            act()
 
 
 def test_the_light_on_every_link_is_kept_when_asked_and_a_parameter_may_be_called_keep():
@@ -244,3 +252,147 @@ def test_a_trace_imports_nothing_of_the_extra_of_sweeps_and_a_sweep_xarray_alone
     # A new interpreter, since what is imported here stays.
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert ran.stdout.split("\n")[:2] == ["[]", "['xarray']"]
+
+
+class WavePlate(op.Element):
+    """An element of one's own, without a kind."""
+
+    def couplings(self):
+        return (op.Coupling("in", "out", ()),)
+
+
+class Periscope(op.Element, kind="test.periscope"):
+    """Ports of its own names, one of each."""
+
+    inputs = ("below",)
+    outputs = ("above",)
+
+    def couplings(self):
+        return (op.Coupling("below", "above", ()),)
+
+
+def with_case(element):
+    return wired({element.kind: element}, "", cases={"a": op.Case({})})
+
+
+def chained():
+    return op.Source(100.0) >> op.Polarizer(0.5) >> op.Interface(1.5, 0.9) >> op.Detector()
+
+
+def test_a_chain_is_the_path_that_is_built_node_by_node_named_and_shown_as_it_is_written():
+    elements = op.Source(100.0), op.Polarizer(0.5), op.Interface(1.5, 0.9), op.Detector()
+    links = "source.out -> polarizer.in, polarizer -> interface, interface.reflected -> detector"
+    built = wired({element.kind: element for element in elements}, links)
+    assert type(chained()) is op.PathGraph
+    assert chained() == built
+    path = op.Source() >> op.Polarizer() >> op.Polarizer(0.2) >> op.Polarizer(0.4) >> op.Detector()
+    assert [*path] == ["source", "polarizer", "polarizer-2", "polarizer-3", "detector"]
+    assert path.trace().intensity == pytest.approx(0.5 * np.cos(0.2) ** 4)
+    own = op.Source().named("lamp") >> WavePlate() >> Periscope() >> op.Detector()
+    assert [*own] == ["lamp", "wave-plate", "test-periscope", "detector"]
+    assert own.trace_all()["detector"].intensity == 1.0
+    assert repr(op.Source() >> op.Polarizer()) == "<PathGraph: source >> polarizer>"
+    assert repr(op.load_preset("malus")) == "<PathGraph: lamp >> polarizer >> analyzer >> eye>"
+    for preset in ("glass-slab", "ellipsometer-pcsa", "sky-and-window"):
+        assert " nodes and " in repr(op.load_preset(preset))
+
+
+def test_a_chain_changes_neither_side_nor_a_path_that_it_cannot_go_on():
+    start, end = op.Source() >> op.Polarizer(), op.Polarizer(0.3) >> op.Detector()
+    whole = start >> end
+    assert [len(path.graph) for path in (start, end, whole)] == [2, 2, 4]
+    assert start >> end == whole
+    start.add("more", op.Dump())
+    assert "more" not in whole.graph
+    a, b, c, d = op.Source(), op.Polarizer(), op.Polarizer(0.3), op.Detector()
+    for other in (a >> (b >> c >> d), a >> (b >> (c >> d)), op.PathGraph() >> a >> b >> c >> d):
+        assert other == whole
+    dim = op.Attenuator(0.5) >> op.Attenuator(0.5)
+    assert (op.Source() >> dim >> dim >> op.Detector()).trace().intensity == 0.0625
+    with pytest.raises(op.PathError, match="use a copy"):
+        dim["attenuator-2"] >> dim
+    path = chained()
+    for behind in (op.Source(), op.Polarizer().named("a.b"), op.Detector().named("source")):
+        with pytest.raises(op.PathError):
+            path["interface"] >> behind
+    assert path == chained()
+    with pytest.raises(op.PathError) as error:
+        op.Detector() >> op.Source()
+    first, second = error.value.faults
+    assert "'detector' has no way out, since light ends there; let it stand last" in first
+    assert "'source' has no way in, since light begins there; let it stand first" in second
+
+
+def test_a_path_goes_on_at_its_only_open_natural_way_as_links_of_files_do(tmp_path):
+    ends = {"lamp": op.Source(), "split": op.BeamSplitter(0.25), "rest": op.Dump()}
+    path = wired(ends, "lamp -> split")
+    with pytest.raises(op.PathError, match=r"one by its name: 'split.reflected', 'split.trans"):
+        path >> op.Detector()
+    path.connect("split.transmitted", "rest")
+    with pytest.raises(op.PathError, match=r"one by its name: 'split.reflected'"):
+        path >> op.Detector()
+    path.add("filter", op.Polarizer())
+    path.connect("split.reflected", "filter")
+    assert (path >> op.Detector()).trace().intensity == 0.125
+    # A tap leaves the way of its port open.
+    path = op.Source() >> op.Polarizer()
+    path.add("state", op.Detector())
+    path.connect("polarizer", "state", tap=True)
+    whole = path >> op.Attenuator(0.5) >> op.Detector()
+    lights = {name: light.intensity for name, light in whole.trace_all().items()}
+    assert lights == {"state": 0.5, "detector": 0.25}
+    ends = {"a": op.Source(), "b": op.Interface(1.5, 0.0), "c": op.Detector(), "d": op.Dump()}
+    path = wired(ends, "a -> b, b.transmitted -> c, b -> d.in")
+    links = [f"{a}.{out} -> {b}.{into}" for a, b, (out, into) in path.graph.edges(keys=True)]
+    assert links == ["a.out -> b.in", "b.transmitted -> c.in", "b.reflected -> d.in"]
+    with pytest.raises(op.PathError, match=r"link 'a\.out -> b\.in' is there already"):
+        path.connect("a", "b")
+    text = chained().to_toml()
+    for port in (".out", ".reflected", ".in"):
+        text = text.replace(f'{port}"', '"')
+    assert read(text, tmp_path) == chained()
+
+
+def test_paths_in_one_line_keep_links_loops_and_what_is_told_of_them(tmp_path):
+    glass = op.Medium(op.Parameter("d", 0.0), absorption=op.Parameter("e", 0.0))
+    back = op.Interface(1.0, 0.3, outside=1.5, incidence_in=1.0)
+    ends = {"front": op.Interface(1.5, 0.3), "down": glass, "back": back, "eye": op.Detector()}
+    links = "front.transmitted -> down, down -> back, back -> front.back, back.transmitted -> eye"
+    told = {"description": "a slab", "cases": {"thin": op.Case({"d": 0.1})}, "loops": "sum"}
+    slab = wired({**ends, "dump": op.Dump()}, links, declared=("d", "e"), **told)
+    slab.connect("front", "dump")
+    path = op.Source() >> op.Attenuator(0.5) >> slab
+    assert (path.description, path.loops, list(path.parameters)) == ("a slab", "sum", ["d", "e"])
+    assert path.cases == slab.cases
+    lights = path.trace_all()
+    assert lights["eye"].intensity + lights["dump"].intensity == pytest.approx(0.5, rel=1e-14)
+    assert read_back(path, tmp_path) == path
+    cases = {"a": op.Case({}, published={"detector": (1.0, 0.0, 0.0, 0.0)})}
+    other = op.Polarizer() >> op.Detector()
+    other.cases = cases
+    ends = {"detector": op.Detector(), "split": op.BeamSplitter(), "plate": WavePlate()}
+    split = wired(ends, "split.reflected -> detector, split.transmitted -> plate")
+    assert (split >> other).cases["a"].published == {"detector-2": (1.0, 0.0, 0.0, 0.0)}
+
+
+def test_a_chain_behind_a_node_is_added_to_its_path_and_leaves_by_a_port():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source())
+    end = lamp >> op.Polarizer() >> op.Polarizer(0.3).named("analyser") >> op.Detector()
+    assert repr(end) == "Node 'detector'"
+    assert [*path] == ["lamp", "polarizer", "analyser", "detector"]
+    assert path.trace().intensity == pytest.approx(0.5 * np.cos(0.3) ** 2)
+    whole = op.PathGraph()
+    assert repr(whole.add("l", op.Source()) >> (op.Polarizer() >> op.Detector())) == repr(end)
+    assert whole.trace().intensity == 0.5
+    slab = op.PathGraph(loops="sum")
+    front = slab.add("front", op.Interface(1.5, 0.0))
+    slab.add("lamp", op.Source()) >> front >> slab.add("R", op.Detector())
+    back = op.Interface(1.0, 0.0, outside=1.5).named("back")
+    slab["front.transmitted"] >> back >> slab["front.back"]
+    slab["back.transmitted"] >> op.Detector().named("T")
+    lights = slab.trace_all()
+    # Once and for all rounds: R = 2 r / (1 + r) with r = 0.04.
+    assert lights["R"].intensity == pytest.approx(0.08 / 1.04, rel=1e-14)
+    assert lights["T"].intensity == pytest.approx(0.96 / 1.04, rel=1e-14)
+    assert (repr(slab["front.back"]), repr(slab["R"])) == ("Node 'front.back'", "Node 'R'")

@@ -21,8 +21,8 @@ pytestmark = pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
 
 ANGLES = np.radians([50.0, 56.0, 60.0, 65.0])
 TINTED = {"lengths": [0.2], "wavelength": 5e-7}
-INDICES = st.floats(1.0, 4.0)
-INCIDENCES = st.floats(0.0, 1.55)
+INDICES, TURNS, SHARES = st.floats(1.0, 4.0), st.floats(-3.0, 3.0), st.floats(0.0, 1.0)
+INCIDENCES, PORTS = st.floats(0.0, 1.55), ["reflected", "transmitted"]
 
 
 def stack(media, incidence, port="reflected", **others):
@@ -52,8 +52,7 @@ def fresnel(n1, n2, y):
 
 
 def mean(n1, n2, y):
-    s, p = fresnel(n1, n2, y)
-    return (s + p) / 2
+    return sum(fresnel(n1, n2, y)) / 2
 
 
 def test_layers_on_others_differ_from_the_scalar_model_as_their_loops_do():
@@ -80,11 +79,10 @@ def test_two_boundaries_reflect_the_geometric_series_of_their_means(n, below, in
     top, bottom = mean(1.0, n, y), mean(n, below, y)
     series = top + (1.0 - top) ** 2 * bottom / (1.0 - top * bottom)
     for path in (stack([1.0, n, below], incidence), layer_by_hand(n, below, incidence)):
-        found = op.polarization(path)
-        assert found.scalar == pytest.approx(series, rel=1e-12, abs=1e-15)
+        assert op.polarization(path).scalar == pytest.approx(series, rel=1e-12, abs=1e-15)
 
 
-@rows("port", ["reflected", "transmitted"])
+@rows("port", PORTS)
 @rows(
     "media, lengths",
     [
@@ -137,8 +135,7 @@ def test_sums_over_all_rounds_are_those_of_means_and_nothing_gets_lost():
     bottom = op.Interface(2.4, op.FOLLOWS, outside=op.FOLLOWS)
     ends = {"lamp": op.Source(), "top": op.LayerStack([1.0, 1.5, 1.8], 0.9), "bottom": bottom}
     links = "lamp -> top, top.transmitted -> bottom, bottom.reflected -> top.back, top -> eye"
-    path = wired({**ends, "eye": op.Detector()}, links, loops="sum")
-    found = op.polarization(path)
+    found = op.polarization(wired({**ends, "eye": op.Detector()}, links, loops="sum"))
     whole = op.polarization(stack([1.0, 1.5, 1.8, 2.4], 0.9))
     assert found.scalar == pytest.approx(whole.scalar, rel=1e-14)
     assert found.difference == pytest.approx(whole.difference, rel=1e-12)
@@ -150,11 +147,7 @@ def test_sums_over_all_rounds_are_those_of_means_and_nothing_gets_lost():
 
 
 @settings(max_examples=10)
-@given(
-    media=st.lists(INDICES, min_size=2, max_size=5),
-    k=st.floats(0.0, 1e-3),
-    port=st.sampled_from(["reflected", "transmitted"]),
-)
+@given(st.lists(INDICES, min_size=2, max_size=5), st.floats(0.0, 1e-3), st.sampled_from(PORTS))
 def test_at_normal_incidence_unpolarised_light_is_what_the_scalar_model_says(media, k, port):
     lengths = [1e-3] * (len(media) - 1)
     tinted = [1.0, *(n + k * 1j for n in media[:-1]), media[-1]]
@@ -165,12 +158,7 @@ def test_at_normal_incidence_unpolarised_light_is_what_the_scalar_model_says(med
 
 
 @settings(max_examples=20)
-@given(
-    media=st.lists(INDICES, min_size=2, max_size=4),
-    incidence=INCIDENCES,
-    angles=st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0)),
-    dop=st.floats(0.0, 1.0),
-)
+@given(st.lists(INDICES, min_size=2, max_size=4), INCIDENCES, st.tuples(TURNS, TURNS), SHARES)
 def test_what_is_exact_keeps_within_bounds_of_a_stack_among_others(media, incidence, angles, dop):
     layers = op.LayerStack([1.0, *media], incidence)
     elements = [op.Polarizer(angles[0]), layers, op.Retarder(1.0, 0.4), op.Interface(1.5, 1.0)]

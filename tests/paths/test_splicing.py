@@ -1,5 +1,10 @@
-"""Elements put into the links of a path, taken out of it, and exchanged; nothing else is turned."""
+"""Elements put into links, taken out, exchanged, or moved by a word; nothing else is turned."""
 
+import copy
+import functools
+import json
+import operator
+import pickle
 import re
 from dataclasses import replace
 
@@ -7,33 +12,40 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.cli.command import main
 from tables import rows
-from wired import read_back, wired
+from wired import read, read_back, wired
 
-A = op.Parameter("a")
-AT = {"a": 0.37}
+A, AT = op.Parameter("a"), {"a": 0.37}
 FRAME = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
 SEVERAL = np.array([0.1, 0.2])
+PLACES = {"light": "P >> X2 >> X1", "between": "X2 >> P >> X1", "eye": "X2 >> X1 >> P"}
+ROWS = {place: f"L >> {row} >> E" for place, row in PLACES.items()}
 
-
-def two_reflections(case=8):
-    """The two reflections with all values known, the filter at the light."""
-    return op.load_preset("npgr026", case=case)
+assert_close = functools.partial(np.testing.assert_allclose, rtol=1e-13, atol=1e-13)
+npgr026 = functools.partial(op.load_preset, "npgr026")
+# The two reflections with all values known, the filter at the light.
+two_reflections = functools.partial(npgr026, case=8)
 
 
 def stokes(path):
     return path.trace(**{name: AT[name] for name in AT if name in path.parameters}).stokes
 
 
+def refused(told, act, *given, **where):
+    with pytest.raises(op.PathError, match=told):
+        act(*given, **where)
+
+
 def test_elements_are_inserted_before_the_eye_between_turns_and_at_one_of_several_links():
-    path = op.load_preset("npgr026")
+    path = npgr026()
     before = path.trace()
     assert repr(path.insert("P2", op.Polarizer(0.3), behind="X1.reflected")) == "Node 'P2'"
     assert repr(path) == "<PathGraph: L >> P >> X2 >> X1 >> P2 >> E>"
     # Malus; the light is along x but for 2e-10 of it, near Brewster's angle.
     assert path.trace().intensity == pytest.approx(before.intensity * np.cos(0.3) ** 2, rel=1e-8)
     for where in ({"before": "E"}, {"before": "E.in"}, {"behind": "X1", "before": "E.in"}):
-        other = op.load_preset("npgr026")
+        other = npgr026()
         other.insert("P2", op.Polarizer(0.3), **where)
         assert other == path
     path = two_reflections()
@@ -89,8 +101,7 @@ def test_world_frames_stay_where_an_element_is_inserted_or_replaced():
     np.testing.assert_array_equal(path.trace().frame.z, FRAME.z)
     before = path.to_toml()
     for element in (op.Mirror(), op.Polarizer(azimuth=0.1)):
-        with pytest.raises(op.PathError, match="world frame"):
-            path.insert("more", element, behind="source")
+        refused("world frame", path.insert, "more", element, behind="source")
     assert path.to_toml() == before
     path = placed(op.Source(), op.Polarizer(), op.Detector())
     path.replace("polarizer", op.Attenuator(0.25))
@@ -111,6 +122,10 @@ def swap(element):
 
 def drop(name):
     return lambda path: path.remove(name)
+
+
+def offer(name, **behind):
+    return lambda path: path.offer("spot", name, behind)
 
 
 @rows(
@@ -144,14 +159,25 @@ def drop(name):
                 (swap(op.Source()), r"no 'X1\.in' and 'X1\.reflected', .* it has 'X1\.out'"),
                 (swap(1.5), "must be an element such as"),
                 (lambda path: path.disconnect("X2", "E"), r"X2\.reflected -> E\.in'; did you mean"),
+                (offer("Q", light="L.out"), "'Q' does not exist"),
+                (offer("X1", light="L.out"), "not go straight through 'X1'"),
+                (offer("P", light="L.ou"), "did you mean 'L.out'"),
+                (offer("P", out="X1.transmitted"), "feeds no one link"),
+                (offer("P", own="P.out"), "feeds no one link"),
+                (offer("P"), "a port for each word"),
+                (lambda path: path.offer("spot", "P", ["L.out"]), "a port for each word"),
+                (offer("E", light="L.out"), "'E' has no way out"),
+                (
+                    lambda path: path.offer("a b", "P", {"b": "L.out"}),
+                    "letters, digits and underscores",
+                ),
             )
         ),
     ],
 )
 def test_a_change_that_cannot_be_is_told_and_leaves_the_path_as_it_was(change, told, preset):
     path = op.load_preset(preset)
-    with pytest.raises(op.PathError, match=told):
-        change(path)
+    refused(told, change, path)
     assert path == op.load_preset(preset)
 
 
@@ -160,18 +186,17 @@ def test_what_is_removed_leaves_no_gap_or_turn_unless_something_is_in_the_way():
     path.remove("between")
     assert path == op.Source() >> op.Polarizer() >> op.Detector()
     for turned in ({"angle": 0.3}, {"azimuth": 0.3}):
-        path, by_its_angle = two_reflections(), two_reflections()
+        path = two_reflections()
         path.insert("P2", op.Polarizer(**turned), behind="X1")
-        by_its_angle.insert("P2", op.Polarizer(0.3), behind="X1")
-        np.testing.assert_allclose(stokes(path), stokes(by_its_angle), rtol=1e-14, atol=1e-15)
+        by_angle = stokes(inserted(0.3, "X1", two_reflections()))
+        np.testing.assert_allclose(stokes(path), by_angle, rtol=1e-14, atol=1e-15)
         path.remove("P2")
         assert path == two_reflections()
     space = op.load_preset("npgr026-3d", case=7)
     space.insert("grey", op.Attenuator(0.5), behind="P")
     space.remove("grey")
     assert space == op.load_preset("npgr026-3d", case=7)
-    lamp = op.Source(stokes=[1.0, 1.0, 0.0, 0.0])
-    path = wired({"lamp": lamp, "grey": op.Rotator(0)}, "")
+    path = wired({"lamp": op.Source(stokes=[1.0, 1.0, 0.0, 0.0]), "grey": op.Rotator(0)}, "")
     path.add("filter", op.Polarizer()) >> path.add("eye", op.Detector())
     path.connect("lamp", "grey", azimuth=0.25)
     path.connect("grey", "filter", azimuth=0.5)
@@ -187,8 +212,7 @@ def test_what_is_removed_leaves_no_gap_or_turn_unless_something_is_in_the_way():
     path = two_reflections()
     path.add("state", op.Detector())
     path.connect("P", "state", tap=True)
-    with pytest.raises(op.PathError, match=r"'P\.out -> state\.in'"):
-        path.remove("P")
+    refused(r"'P\.out -> state\.in'", path.remove, "P")
     path = two_reflections()
     path.add("P2", op.Polarizer()) >> path.add("state", op.Detector())
     path.connect("X2", "P2", tap=True)
@@ -197,14 +221,12 @@ def test_what_is_removed_leaves_no_gap_or_turn_unless_something_is_in_the_way():
     ends = {"lamp": op.Source(), "grey": op.Attenuator(0.5), "eye": op.Detector()}
     path = wired(ends, "lamp -> grey, grey -> eye")
     path.connect("lamp", "eye", tap=True)
-    with pytest.raises(op.PathError, match=r"two links 'lamp\.out -> eye\.in'"):
-        path.remove("grey")
+    refused(r"two links 'lamp\.out -> eye\.in'", path.remove, "grey")
 
 
 def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
     path = two_reflections()
-    mirror = op.Mirror(azimuth=path.element("X1").azimuth)
-    assert repr(path.replace("X1", mirror)) == "Node 'X1'"
+    assert repr(path.replace("X1", op.Mirror(azimuth=path.element("X1").azimuth))) == "Node 'X1'"
     assert repr(path) == repr(two_reflections())
     # An ideal mirror keeps all the light.
     lights = path.trace(keep="all")
@@ -223,19 +245,17 @@ def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
     path.connect("lamp", "front")  # Behind the one to front.back.
     front = path.element("front")
     path.replace("front", replace(front, azimuth=0.3))
-    with pytest.raises(op.PathError, match=r"path\.disconnect\('lamp\.out', 'front\.in'\)"):
-        path.replace("front", front)
+    refused(r"path\.disconnect\('lamp\.out', 'front\.in'\)", path.replace, "front", front)
 
 
 def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
-    path, other = op.load_preset("npgr026"), op.load_preset("npgr026")
+    path, other = npgr026(), npgr026()
     other.insert("P2", op.Polarizer(0.3), behind="X1")
     path.add("P2", op.Polarizer(0.3))
     path.connect("X1.reflected", "P2.in")
     path.connect("P2.out", "E.in")
     call = r"by path.disconnect\(\"X1.reflected\", \"E.in\"\)"
-    with pytest.raises(op.PathError, match=f"take all but one out, {call}, and put one"):
-        path.trace()
+    refused(f"take all but one out, {call}, and put one", path.trace)
     with pytest.raises(op.PathError, match=f"take all but one out first, {call}$"):
         path.insert("P3", op.Polarizer(0.3), behind="X1.reflected")
     path.disconnect("X1.reflected", "E.in")
@@ -249,13 +269,10 @@ def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
     other.disconnect("X1.reflected", "E.in")
     assert path == other
     for ends, told in ((["X1"], "'X1.reflected' feeds no"), (["X1", "E"], r"no link .* -> E\.in'")):
-        with pytest.raises(op.PathError, match=rf"{told}.*; there are: L\.out"):
-            path.disconnect(*ends)
-    with pytest.raises(op.PathError, match="reaches no detector"):
-        path.trace()
+        refused(rf"{told}.*; there are: L\.out", path.disconnect, *ends)
+    refused("reaches no detector", path.trace)
     path = op.load_preset("ellipsometer-pcsa")
-    with pytest.raises(op.PathError, match=r"such as path\.disconnect\('S\.reflected', 'A\.in'\)$"):
-        path.disconnect("S")
+    refused(r"such as path\.disconnect\('S\.reflected', 'A\.in'\)$", path.disconnect, "S")
     path.disconnect("S.reflected", "A.in")
     assert not path.graph.has_edge("S", "A")
 
@@ -263,9 +280,7 @@ def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
 @rows(
     "change",
     [
-        lambda path: path.insert("P2", op.Attenuator(0.5), behind="X1"),
-        lambda path: path.remove("P"),
-        lambda path: path.replace("P", op.Attenuator(0.5)),
+        *(put(behind="X1"), drop("P"), lambda path: path.replace("P", op.Attenuator(0.5))),
         lambda path: path.connect("X1.transmitted", path.add("rest", op.Dump()).name),
     ],
 )
@@ -280,23 +295,22 @@ def test_a_path_that_is_changed_is_composed_anew_and_shown_by_the_graph_handed_o
     assert path.trace().intensity == pytest.approx(before + 2.0)
 
 
-def by_angle(turn, behind, path=None):
-    """A polariser behind a port that is turned by its angle, which turns nothing else."""
-    path = path or two_reflections(7)
-    path.insert("new", op.Polarizer(0.2 + turn), behind=behind)
-    return stokes(path)
+def inserted(angle, behind, path=None, azimuth=0.0):
+    """A path with a polariser behind a port; turned by its angle, it turns nothing else."""
+    path = path or npgr026(case=7)
+    path.insert("new", op.Polarizer(angle, azimuth=azimuth), behind=behind)
+    return path
 
 
 @rows("azimuth, turn", [(0.5, 0.5), (0.0, 0.0), (A, 0.37), (2 * A + 0.1, 0.84), (SEVERAL, SEVERAL)])
 @rows("first", [0.3, A])
 @rows("behind", ["P", "X1"])
 def test_what_replaces_an_inserted_element_turns_nothing_behind_it(behind, first, azimuth, turn):
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=first), behind=behind)
+    path = inserted(0.2, behind, azimuth=first)
     path.replace("new", op.Polarizer(0.2, azimuth=azimuth))
-    np.testing.assert_allclose(stokes(path), by_angle(turn, behind), rtol=1e-13, atol=1e-13)
+    assert_close(stokes(path), stokes(inserted(0.2 + turn, behind)))
     path.remove("new")
-    np.testing.assert_allclose(stokes(path), stokes(two_reflections(7)), rtol=1e-13, atol=1e-13)
+    assert_close(stokes(path), stokes(npgr026(case=7)))
 
 
 @rows(
@@ -312,13 +326,10 @@ def test_an_element_is_inserted_before_one_that_has_an_azimuth_as_well(own, turn
         gold = op.Interface(0.17 + 3.15j, 0.8, azimuth=behind)
         return op.Source(stokes=[5, 3, 1, 2]) >> op.Polarizer() >> gold >> op.Detector()
 
-    found = path()
-    found.insert("new", op.Polarizer(0.2, azimuth=own), behind="polarizer")
-    expected = by_angle(turn, "polarizer", path())
-    np.testing.assert_allclose(stokes(found), expected, rtol=1e-13, atol=1e-13)
+    found = inserted(0.2, "polarizer", path(), azimuth=own)
+    assert_close(stokes(found), stokes(inserted(0.2 + turn, "polarizer", path())))
     found.remove("new")
-    expected = np.broadcast_to(stokes(path()), stokes(found).shape)
-    np.testing.assert_allclose(stokes(found), expected, rtol=1e-13, atol=1e-13)
+    assert_close(stokes(found), np.broadcast_to(stokes(path()), stokes(found).shape))
 
 
 def test_an_azimuth_goes_over_to_all_links_that_it_turns_and_is_kept_in_files(tmp_path):
@@ -335,19 +346,16 @@ def test_an_azimuth_goes_over_to_all_links_that_it_turns_and_is_kept_in_files(tm
     path = wired(ends, "sum -> eye, one -> sum, two -> sum")
     path.insert("new", op.Retarder(0.0, azimuth=0.25), behind="one")
     assert path.trace().stokes == pytest.approx([2, 2 * np.cos(0.8), 0, 0])
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=2 * A + 0.1), behind="P")
-    again = read_back(path, tmp_path)
+    again = read_back(inserted(0.2, "P", azimuth=2 * A + 0.1), tmp_path)
     again.replace("new", op.Polarizer(0.2, azimuth=-A))
-    np.testing.assert_allclose(stokes(again), by_angle(-0.37, "P"), rtol=1e-13, atol=1e-13)
-    path = two_reflections(7)
-    path.insert("new", op.Polarizer(0.2, azimuth=0.3), behind="P")
+    assert_close(stokes(again), stokes(inserted(0.2 - 0.37, "P")))
+    path = inserted(0.2, "P", azimuth=0.3)
     path.disconnect("P.out", "new.in")
     path.connect("P.out", "new.in", azimuth=0.0)
     path.replace("new", op.Polarizer(0.2))
-    np.testing.assert_allclose(stokes(path), by_angle(0.0, "P"), rtol=1e-14)
+    np.testing.assert_allclose(stokes(path), stokes(inserted(0.2, "P")), rtol=1e-14)
     path.remove("new")
-    assert path == two_reflections(7)
+    assert path == npgr026(case=7)
     path = op.Source() >> op.Polarizer(azimuth=0.3).named("first") >> op.Polarizer()
     path.add("second", op.Polarizer(0.1)) >> path.add("state", op.Detector())
     path.connect("first", "second", tap=True)
@@ -360,15 +368,9 @@ def test_an_azimuth_goes_over_to_all_links_that_it_turns_and_is_kept_in_files(tm
 
 @rows("removed", [False, True])
 def test_turns_that_make_no_one_azimuth_are_refused_with_a_cure_that_does(removed):
-    path, other = two_reflections(7), op.Polarizer(0.2, azimuth=A)
-
-    def change(path):
-        if removed:
-            path.remove("old")
-        else:
-            path.insert("new", other, behind="X2")
-
+    path, change = npgr026(case=7), put(op.Polarizer(0.2, azimuth=A), behind="X2")
     if removed:
+        change = drop("old")
         path = op.Source(stokes=[5, 3, 1, 2]) >> op.Retarder(0.0, azimuth=A).named("old")
         last = op.Mirror(-0.9, 0.7, azimuth=op.Parameter("rho", 0.2))
         path = path >> last.named("X1") >> op.Detector()
@@ -376,11 +378,11 @@ def test_turns_that_make_no_one_azimuth_are_refused_with_a_cure_that_does(remove
     with pytest.raises(op.PathError, match=r"'X1' would be turned by .* no one azimuth") as told:
         change(path)
     assert path.to_toml() == before
-    expected = stokes(path) if removed else by_angle(0.37, "X2")
+    expected = stokes(path) if removed else stokes(inserted(0.57, "X2"))
     behind, before = re.search(r"behind='(.*)', before='(.*)'\)", str(told.value)).groups()
     path.insert("between", op.Attenuator(1.0), behind=behind, before=before)
     change(path)
-    np.testing.assert_allclose(stokes(path), expected, rtol=1e-13, atol=1e-13)
+    assert_close(stokes(path), expected)
 
 
 def pane(index, azimuth=0.4, polarizer=0.1):
@@ -415,9 +417,175 @@ def test_a_replacement_that_is_turned_otherwise_is_refused():
         path.insert("new", op.Polarizer(azimuth=np.array([0.1, 0.2])), behind="source")
     path = op.Source() >> op.Polarizer(azimuth=A) >> op.Polarizer(0.6) >> op.Detector()
     other = op.Polarizer(azimuth=op.Parameter("b", 0.2))
-    with pytest.raises(op.PathError, match=r"by a and by -b, .* path\.remove\('polarizer'\)"):
-        path.replace("polarizer", other)
+    refused(r"by a and by -b, .* path\.remove\('polarizer'\)", path.replace, "polarizer", other)
     path.remove("polarizer")
     path.insert("between", op.Attenuator(1.0), behind="source")
     path.insert("polarizer", other, behind="source")
     assert path.trace(a=0.37).intensity == pytest.approx(0.5 * np.cos(0.6 + 0.37 - 0.2) ** 2)
+
+
+def built(place, angle):
+    """Case 8 of the two reflections, with the filter at a place, element by element."""
+    second = op.Interface(0.608 + 2.12j, np.radians(20.0))
+    first = op.Interface(1.12 + 2.16j, np.radians(48.0), azimuth=np.radians(-34.0))
+    row = [op.Source(100.0), second, first, op.Detector()]
+    row.insert([*ROWS].index(place) + 1, op.Polarizer(angle))
+    return functools.reduce(operator.rshift, row)
+
+
+@rows("place", [*ROWS])
+@rows("angle", [0.0, 0.7])
+def test_the_filter_stands_at_the_light_between_the_surfaces_or_before_the_eye(place, angle):
+    path = npgr026(case=8, place=place, filter=angle)
+    expected = built(place, angle).trace().stokes
+    np.testing.assert_allclose(path.trace().stokes, expected, rtol=1e-14, atol=1e-14)
+    assert repr(path) == f"<PathGraph: {ROWS[place]}>"
+
+
+def test_before_the_eye_the_unfiltered_light_is_filtered_by_malus_law():
+    lit, angles = npgr026(case=7).trace(), np.linspace(0.0, np.pi, 7)
+    eye = npgr026(case=7).bind(place="eye", filter=angles).trace()
+    s0, s1, s2, _ = lit.stokes
+    expected = 0.5 * (s0 + s1 * np.cos(2 * angles) + s2 * np.sin(2 * angles))
+    np.testing.assert_allclose(eye.intensity, expected, rtol=1e-14)
+    # The filter is open wherever it stands.
+    path = npgr026(case=7, place="eye")
+    assert path.trace().intensity == lit.intensity
+    assert path.trace(filter="horizontal").dop == pytest.approx(1.0)
+
+
+def turned(plate=None, link=None, **own):
+    """A filter behind gold, turned by 0.35, with a plate that does nothing before it or none."""
+    path = op.Source(100) >> op.Interface(0.17 + 3.15j, "45 deg").named("gold")
+    path.add("filter", op.Polarizer(0.2, **own)) >> path.add("eye", op.Detector())
+    path.connect("gold", "filter", azimuth=link)
+    path.offer("place", "filter", {"lamp": "source", "gold": "gold"})
+    if plate is not None:
+        path.insert("plate", op.Retarder(0.0, azimuth=plate), behind="gold")
+    return path
+
+
+@rows("how", [{"azimuth": 0.35}, {"link": 0.35}])
+@rows("plate", [None, 0.1, op.Parameter("a", 0.1)])
+def test_a_filter_that_is_moved_stays_turned_in_the_light(plate, how):
+    path, gold = turned(plate, **how), op.Interface(0.17 + 3.15j, "45 deg")
+    # The eye stays as it was turned, too.
+    eye = op.Retarder(0.0, azimuth=0.35) >> op.Detector()
+    expected = (op.Source(100) >> op.Polarizer(0.55) >> gold >> eye).trace().stokes
+    moved = path.bind(place="lamp")
+    found = [moved.trace().stokes, moved.bind(place="gold").trace().stokes]
+    assert_close(found, [expected, path.trace().stokes])
+    if plate is not None:
+        path.remove("plate")
+        assert_close(path.bind(place="lamp").trace().stokes, expected)
+
+
+def test_a_filter_is_moved_past_a_turned_plate_or_by_hand():
+    path = turned(op.Parameter("a"))
+    path.disconnect("plate")
+    path.replace("filter", op.Polarizer(0.2, azimuth=op.Parameter("b")))
+    path.connect("plate", "filter")
+    with pytest.raises(op.ParameterError, match=r"by b and by a, .* path\.remove\('filter'\), and"):
+        path.bind(place="lamp")
+    path.remove("filter")
+    path.insert("filter", op.Polarizer(azimuth=op.Parameter("b")), behind="source")
+    assert path.trace(a=0.1, b=0.2).intensity > 0.0
+
+    def path(place):
+        path = op.Source(stokes=[2, 1, 1, 0]) >> op.Polarizer(0.3, azimuth=0.2).named("filter")
+        path = path >> op.Retarder(0.8, azimuth=op.Parameter("a", 0.4)).named("plate")
+        path = path >> op.Polarizer().named("last") >> op.Detector()
+        path.offer("place", "filter", {"before": "source", "behind": "plate"})
+        return path.bind(place=place)
+
+    # The plate stands at 0.6, and so does what is behind it.
+    filtered, plate = op.Polarizer(0.5), op.Retarder(0.8, 0.6)
+    lamp, last = op.Source(stokes=[2, 1, 1, 0]), op.Polarizer(0.6)
+    for place, row in (("before", (filtered, plate)), ("behind", (plate, filtered))):
+        expected = (lamp >> row[0] >> row[1] >> last >> op.Detector()).trace().intensity
+        assert path(place).trace().intensity == pytest.approx(expected, rel=1e-13)
+
+
+def test_choices_are_copied_compared_joined_and_chosen_again(tmp_path):
+    path = npgr026()
+    assert path == npgr026(place="light")
+    assert " ".join(path.parameters) == "delta rho phi n1 k1 n2 k2 filter intensity"
+    assert path.choices["place"].place(path.graph) == "light"
+    assert npgr026(place="eye").bind(place="between").bind(place="light") == path
+    for place in ("light", "eye"):
+        path = npgr026(place=place)
+        copies = copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))
+        for again in (read_back(path, tmp_path), *copies):
+            assert again == path
+            assert again.choices == path.choices
+            assert again.bind(place="between") == path.bind(place="between")
+            assert repr(again.bind(place="eye")) == f"<PathGraph: {ROWS['eye']}>"
+        assert path.reading("intensity").choices == path.choices
+    path = op.Source() >> op.Polarizer() >> op.Mirror() >> op.Detector()
+    other = copy.copy(path)
+    other.offer("place", "polarizer", {"light": "source", "eye": "mirror"})
+    assert path != other
+    assert "place" not in path.choices
+    assert other.bind(place="eye").choices == other.choices
+    tail = op.Polarizer() >> op.Mirror() >> op.Polarizer().named("last") >> op.Detector()
+    tail.offer("place", "last", {"before": "polarizer.out", "behind": "mirror.reflected"})
+    path = op.Source() >> op.Polarizer() >> tail
+    moved = "source >> polarizer >> polarizer-2 >> last >> mirror >> detector"
+    assert repr(path.bind(place="before")) == f"<PathGraph: {moved}>"
+    twice = op.Source() >> op.Polarizer().named("a") >> op.Mirror()
+    twice.offer("place", "a", {"light": "source"})
+    with pytest.raises(op.PathError, match="choice 'place' stands on both sides"):
+        twice >> tail
+
+
+@rows(
+    "choose, told",
+    [
+        (lambda: npgr026(place="eyes", delta="steep"), r"(?s)'eyes' .* you mean 'eye'\?.*delta"),
+        (lambda: npgr026(plce="eye"), "did you mean 'place'"),
+        (lambda: npgr026().trace(place="eye"), r"path\.bind\(place=\.\.\.\)"),
+        (lambda: npgr026().compose().run(delta=[0.1, 0.2], place="eye"), r"path\.bind\(place="),
+    ],
+)
+def test_a_place_is_chosen_by_its_word_before_a_path_runs(choose, told):
+    with pytest.raises(op.ParameterError, match=told):
+        choose()
+
+
+@rows(
+    "old, new, told",
+    [
+        ('"X1.reflected" }', '"X1.refl" }', "choices.place: place 'eye': port 'X1.refl' does not"),
+        ('element = "P"', 'elemnt = "P"', "choices.place: key 'elemnt' is unknown"),
+        ('element = "P"', "", "choices.place: 'element' is missing"),
+        ("[choices.place]", "[choices.rho]", "'rho' is a parameter and a choice"),
+    ],
+)
+def test_choices_are_written_with_their_node_and_their_faults_have_a_place(
+    old, new, told, tmp_path
+):
+    text = npgr026().to_toml()
+    with pytest.raises(op.PathError, match=told):
+        read(text.replace(old, new, 1), tmp_path)
+    path = npgr026()
+    path.cases.clear()
+    path.remove("P")
+    assert ("choices" in path.to_toml(), {*path.choices}) == (False, set())
+    path = npgr026()
+    path.disconnect("X1", "E")
+    with pytest.raises(op.PathError, match=r"choice 'place': place 'eye': 'X1\.reflected' feeds"):
+        path.to_toml()
+
+
+def test_the_command_line_takes_the_place_and_tells_of_places(capsys):
+    assert main(["run", "npgr026", "--case", "8", "--place", "eye", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["choices"] == {"place": "eye"}
+    expected = built("eye", 0.0).trace().stokes
+    assert found["detectors"]["E"]["stokes"] == pytest.approx(expected, abs=1e-12)
+    assert main(["run", "npgr026", "--case", "8", "--json"]) == 0
+    assert "choices" not in json.loads(capsys.readouterr().out)
+    assert main(["run", "npgr026", "--place", "eyes"]) == 2
+    assert "place 'eyes' is unknown; did you mean 'eye'?" in capsys.readouterr().err
+    assert main(["show", "npgr026"]) == 0
+    assert "light, between, eye" in " ".join(capsys.readouterr().out.split())
