@@ -14,6 +14,7 @@ from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.precision import precision, precision_name
 from optipath.values.units import UNITS, format_quantity, parse_quantity
 from tables import rows
+from wired import wired
 
 PRECISIONS = [np.float32, np.float64]
 RIGHT = np.pi / 2.0
@@ -127,10 +128,8 @@ def test_fully_polarised_states_of_less_precision_are_taken_and_more_is_refused(
 
     opened = lamp(op.Parameter("state"))
     for light, stokes in (
-        (lamp(states).trace(), expected),
-        (lamp(states[0]).trace(), expected[0]),
-        (opened.trace(state=states), expected),
-        (opened.bind(state=states).trace(), expected),
+        *((lamp(states).trace(), expected), (lamp(states[0]).trace(), expected[0])),
+        *((opened.trace(state=states), expected), (opened.bind(state=states).trace(), expected)),
         (lamp(op.Parameter("s", states)).trace(), expected),
     ):
         np.testing.assert_array_equal(light.stokes, stokes)
@@ -202,6 +201,7 @@ def test_any_other_dtype_is_refused_and_the_three_are_named(given):
 
 
 TWO = ["400 nm", "500 nm"]
+OF_TABLE = op.tabulated(TWO, [1.5, 0.0])
 CORNER = [[0, 0, 0], [0, 0, 1], [0, 1, 1]]
 
 
@@ -223,10 +223,7 @@ CORNER = [[0, 0, 0], [0, 0, 1], [0, 1, 1]]
         (lambda: path(0.3, N).trace(n=np.array([1.5, 0.0])), "'n' .* is 0"),
         (lambda: path(0.3, op.Material(N)).trace(n=0), "'n' .* is 0"),
         (lambda: path(0.3, op.Material(N, K)).bind(n=0, k=0), "'n' .* is 0"),
-        (
-            lambda: path(0.3, op.tabulated(TWO, [1.5, 0.0])).trace(wavelength="500 nm"),
-            "500 nm is 0",
-        ),
+        (lambda: path(0.3, OF_TABLE).trace(wavelength="500 nm"), "the table at 500 nm is 0"),
     ],
 )
 def test_an_index_of_0_is_refused_with_its_place_and_one_with_absorption_is_taken(make, told):
@@ -238,11 +235,8 @@ def test_an_index_of_0_is_refused_with_its_place_and_one_with_absorption_is_take
 
 
 def two_faces(front, back):
-    path = op.PathGraph()
-    path.add("lamp", op.Source()) >> path.add("front", front)
-    path["front.transmitted"] >> path.add("back", back)
-    path["back.transmitted"] >> path.add("eye", op.Detector())
-    return path
+    faces = {"lamp": op.Source(), "front": front, "back": back, "eye": op.Detector()}
+    return wired(faces, "lamp -> front, front.transmitted -> back, back.transmitted -> eye")
 
 
 def fault_of(path, **given):

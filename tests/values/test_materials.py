@@ -147,10 +147,7 @@ REFUSED = [
     (lambda: lorentz([]), "has no oscillators; give one or more"),
     (lambda: cauchy([[1.5, 1.6]]), "give one number, or a Parameter for several"),
     (lambda: drude(-9, 0.1), "plasma of a Drude-Lorentz model is -9"),
-    (
-        lambda: drude(9, 0.1, 1, [(1, 2, 0)]),
-        "[0] damping of | is 0; give a real coefficient above 0",
-    ),
+    (lambda: drude(9, 0.1, 1, [(1, 2, 0)]), "[0] damping of | is 0; give a real coefficient ab"),
     (lambda: drude(9, 0.1, 1.0, [(1, 2)]), "[(strength, energy, damping), "),
     (lambda: lorentz((1, 2, 3, 4)), "give a row of 4 numbers for each"),
     (lambda: lorentz([(1, 2, 4, 1)]), "a broadening below twice the energy"),

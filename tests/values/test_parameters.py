@@ -35,8 +35,7 @@ def test_texts_words_and_none_stand_for_values():
     [
         ({"name": "not a name"}, "letters, digits"),
         ({"offset": "D65", "offset_dimension": ["length"]}, "must be a text, not"),
-        ({"unit": "dge"}, "did you mean 'deg'"),
-        ({"unit": None}, "'None' is unknown"),
+        *(({"unit": "dge"}, "did you mean 'deg'"), ({"unit": None}, "'None' is unknown")),
         *(
             ({"default": 2.0, "maximum": 1.0}, "outside its range"),
             ({"default": "up"}, "word 'up'"),
@@ -84,17 +83,16 @@ TEN_DEG = math.radians(10.0)
     [
         *((2 * D + 0.1, 2.0, 0.1), (D / 2, 0.5, 0.0), (D - 0.1, 1.0, -0.1), (0.1 - D, -1.0, 0.1)),
         *((-(2 * D + 0.1), -2.0, -0.1), (2 * (D + 1) * 3 - 1, 6.0, 5.0), (+D, 1.0, 0.0)),
+        *((np.float64(2) * D, 2.0, 0.0), (D * np.float32(2), 2.0, 0.0)),
+        *((np.int64(2) - D, -1.0, 2.0), (np.array(2.0) * D, 2.0, 0.0), (np.negative(D), -1.0, 0.0)),
         *(
-            (np.float64(2) * D, 2.0, 0.0),
-            (D * np.float32(2), 2.0, 0.0),
+            (np.add(1.0, -D), -1.0, 1.0),
+            (Fraction(1, 4) * D, 0.25, 0.0),
             (D / np.float64(4), 0.25, 0),
         ),
-        *((np.int64(2) - D, -1.0, 2.0), (np.array(2.0) * D, 2.0, 0.0), (np.negative(D), -1.0, 0.0)),
-        *((np.add(1.0, -D), -1.0, 1.0), (Fraction(1, 4) * D, 0.25, 0.0)),
         *((sum([2 * D, 1.0]), 2.0, 1.0), (D + "10 deg", 1.0, TEN_DEG), ("10 deg" - D, -1, TEN_DEG)),
         (2 * (D - "10 deg"), 2.0, -2 * TEN_DEG),
-        (op.Parameter("d", scale=2, offset="10 deg"), 2.0, TEN_DEG),
-        (D + "2 mm", 1.0, 0.002),
+        *((op.Parameter("d", scale=2, offset="10 deg"), 2.0, TEN_DEG), (D + "2 mm", 1.0, 0.002)),
     ],
 )
 def test_a_multiple_with_an_offset_of_a_parameter_is_one(parameter, scale, offset):

@@ -57,8 +57,7 @@ WRITTEN = [
     (op.Medium(P("l", 0.2, unit="dm")), 'default = "2 dm"'),
     # Multiples with an offset, and crystals by their names.
     (op.Polarizer(2 * D + "10 deg"), '{ parameter = "d", scale = 2.0, offset = "10 deg" }'),
-    (op.Polarizer(D + 0.5), '{ parameter = "d", offset = '),
-    (op.Polarizer(-D), '"-$d"'),
+    *((op.Polarizer(D + 0.5), '{ parameter = "d", offset = '), (op.Polarizer(-D), '"-$d"')),
     (op.Mirror(-N / 2, 0.3), '{ parameter = "n", scale = -0.5 }'),
     (op.Medium(D + "2 mm"), 'offset = "2 mm" }'),
     (op.LayerStack([1.5, 2 * N], 0.3), '[1.5, { parameter = "n", scale = 2.0 }]'),
@@ -137,9 +136,7 @@ def affine_text(value='"$d"', share='"$share"', azimuth='"0 deg"'):
 @rows(
     "value, degrees",
     [
-        ('"$d"', 20.0),
-        ('"-$d"', -20.0),
-        ('{ parameter = "d" }', 20.0),
+        *(('"$d"', 20.0), ('"-$d"', -20.0), ('{ parameter = "d" }', 20.0)),
         ('{ parameter = "d", scale = 2, offset = "10 deg" }', 50.0),
         ('{ parameter = "d", scale = -0.5 }', -10.0),
         ('{ parameter = "d", offset = "-0.1 rad" }', 20.0 - np.degrees(0.1)),
@@ -189,8 +186,7 @@ MULTIPLES = [
     ('{ parameter = "d", scael = 2 }', "key 'scael' is unknown; did you mean 'scale'"),
     ('{ parameter = "dd" }', "parameter 'dd' is not declared; there are: d, share"),
     ('{ parameter = "$d" }', "parameter '$d' is not declared; did you mean 'd'"),
-    ("{ parameter = 3 }", "parameter 3 is not declared"),
-    ("{ scale = 2 }", "needs 'parameter'"),
+    *(("{ parameter = 3 }", "parameter 3 is not declared"), ("{ scale = 2 }", "needs 'parameter'")),
     ('{ parameter = "d", scale = 0 }', "a scale other than 0"),
     ('{ parameter = "d", scale = nan }', "finite real numbers"),
     ('{ parameter = "d", scale = [1, 2] }', "'scale' must be one number, not [1, 2]"),

@@ -17,11 +17,9 @@ CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
 class Made:
     """Numbers with more than numbers: names of axes, a row of a table, a unit."""
 
-    def __init__(self, values, *, to_numpy=False, **more):
+    def __init__(self, values, **more):
         self.values = np.asarray(values)
         vars(self).update(more)
-        if to_numpy:
-            self.to_numpy = self.__array__
 
     def __array__(self, dtype=None, copy=None):
         return self.values
@@ -70,10 +68,8 @@ class NoFloat:
 
 
 MORE_THAN_NUMBERS = [
-    (masked, ".compressed()"),
-    (lambda values: [np.ma.masked, values], ".compressed()"),
-    (labelled, ".values"),
-    (lambda values: [labelled(values), labelled(values)], ".values"),
+    *((masked, ".compressed()"), (lambda values: [np.ma.masked, values], ".compressed()")),
+    *((labelled, ".values"), (lambda values: [labelled(values), labelled(values)], ".values")),
     (lambda values: Made(values, index=range(2), to_numpy=True), ".to_numpy()"),
     (lambda values: Made(values, unit="deg"), "in radians or metres"),
     (lambda values: Made(values, units="degree"), "in radians or metres"),  # As astropy and pint.
