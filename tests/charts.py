@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 REGIONS = ("generic", "grazing", "near the normal", "extreme magnitudes")
 EPS = {"float64": 2.2e-16, "float32": 1.2e-7, "longdouble": 1.1e-19, "float128": 2.2e-16}
 MARKS = ("o", "s", "D", "^", "v", "p", "h")
+KINDS = ("componentwise", "normwise")
 
 
 @st.composite
@@ -20,38 +21,18 @@ def charts(draw):
     engines = draw(st.lists(st.sampled_from(["numpy", "numba", "jax"]), min_size=1, unique=True))
     found = []
     for method, dtype, engine in product(dict.fromkeys(methods), dtypes, engines):
-        worst = {kind: draw(st.lists(sizes, min_size=4, max_size=4)) for kind in KINDS}
+        worst = {kind: zip(REGIONS, draw(st.tuples(*[sizes] * 4)), strict=True) for kind in KINDS}
         errors = {
-            kind: {
-                region: {"worst": size, "median": min(size, 1.0)}
-                for region, size in zip(REGIONS, worst[kind], strict=True)
-            }
-            for kind in KINDS
+            kind: {region: {"worst": size, "median": min(size, 1.0)} for region, size in several}
+            for kind, several in worst.items()
         }
-        found.append(
-            {
-                "method": method,
-                "dtype": dtype,
-                "engine": engine,
-                "composing": draw(st.sampled_from(["stokes", "jones"])),
-                "eps": EPS[dtype],
-                "errors": errors,
-                "ns": {"least": draw(times)},
-            }
-        )
+        way = {"method": method, "dtype": dtype, "engine": engine, "eps": EPS[dtype]}
+        way["composing"] = draw(st.sampled_from(["stokes", "jones"]))
+        found.append({**way, "errors": errors, "ns": {"least": draw(times)}})
     limits = draw(st.dictionaries(st.sampled_from(["memory", "sqrt and division"]), times))
     title = draw(st.sampled_from(["npgr026", "long title " * 20, r"$\frac{$"]))
-    return {
-        "format": 1,
-        "title": title,
-        "contenders": found,
-        "limits_ns": limits,
-        "fails_above": 1000.0,
-        "regions": {"measured": 3, "of": 4},
-    }
-
-
-KINDS = ("componentwise", "normwise")
+    told = {"format": 1, "title": title, "fails_above": 1000.0, "regions": {"measured": 3, "of": 4}}
+    return {**told, "contenders": found, "limits_ns": limits}
 
 
 def texts_over_marks(figure, texts):
