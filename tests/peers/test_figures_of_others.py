@@ -4,19 +4,29 @@ The scripts in `computing/` have made the files in `figures/`, but for Hecht's, 
 """
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import measured_tables
 import optipath as op
+from measured_tables import FLIPPED
 from optipath.light.conventions import CONVENTIONS
 from tables import rows
 
 FIGURES = Path(__file__).parent / "figures"
 P_ALONG_X = ("ellipsometry", "pyelli", "pypolar")
 PLUS_45 = op.Light([1.0, 0.0, 1.0, 0.0])
-FILES = {name: json.loads((FIGURES / f"{name}.json").read_text("utf-8")) for name in CONVENTIONS}
+
+
+def read(name):
+    return json.loads((FIGURES / f"{name}.json").read_text("utf-8"))
+
+
+FILES = {name: read(name) for name in CONVENTIONS}
+STACKS, TABLES = read("stacks/tmm"), read("tables/mitsuba")
 
 
 def figures(kind):
@@ -40,24 +50,6 @@ def interface(_, setup, leaves="reflected"):
 def over_m00(name, setup):
     matrix = interface(name, setup).matrix
     return op.Mueller(matrix / matrix[0, 0])
-
-
-def transmission(name, setup):
-    return interface(name, setup, "transmitted")
-
-
-def polarizer(name, setup):
-    return op.Polarizer(azimuth(name, setup["angle"])).mueller()
-
-
-def retarder(name, setup):
-    """Its angle is that of the fast axis."""
-    return op.Retarder(np.radians(setup["retardance"]), azimuth(name, setup["angle"])).mueller()
-
-
-def circular(_, setup):
-    # S3 > 0 of ours is counter-clockwise to who looks at the source (test_conventions.py).
-    return op.Light([1.0, 0.0, 0.0, -1.0 if setup["clockwise"] else 1.0])
 
 
 def ellipse(name, setup):
@@ -90,23 +82,33 @@ def test_every_convention_has_figures_that_say_how_they_were_made():
         assert script == "hand" or (Path(__file__).parents[2] / script).is_file()
 
 
-@pytest.mark.parametrize(
-    ("kind", "made"),
-    [
-        ("reflection", interface),
-        ("normalized_reflection", over_m00),
-        ("transmission", transmission),
-        ("polarizer", polarizer),
-        ("retarder", retarder),
-        ("circular", circular),
-        ("elliptical", ellipse),
-    ],
-)
-def test_matrices_and_states_are_those_of_the_software(kind, made):
+def polarizer(name, setup):
+    return op.Polarizer(azimuth(name, setup["angle"])).mueller()
+
+
+def retarder(name, setup):
+    """Its angle is that of the fast axis."""
+    return op.Retarder(np.radians(setup["retardance"]), azimuth(name, setup["angle"])).mueller()
+
+
+MADE = {
+    "reflection": interface,
+    "normalized_reflection": over_m00,
+    "transmission": partial(interface, leaves="transmitted"),
+    "polarizer": polarizer,
+    "retarder": retarder,
+    # S3 > 0 of ours is counter-clockwise to who looks at the source (test_conventions.py).
+    "circular": lambda _, setup: op.Light([1.0, 0.0, 0.0, -1.0 if setup["clockwise"] else 1.0]),
+    "elliptical": ellipse,
+}
+
+
+@pytest.mark.parametrize("kind", MADE)
+def test_matrices_and_states_are_those_of_the_software(kind):
     @figures(kind)
     def each(name, setup, precision):
         theirs = setup["stokes" if "stokes" in setup else "mueller"]
-        agree_both_ways(name, made(name, setup), theirs, precision)
+        agree_both_ways(name, MADE[kind](name, setup), theirs, precision)
 
     each()
 
@@ -146,3 +148,57 @@ def test_a_reflection_is_made_of_the_amplitudes_of_the_software(name, setup, pre
     _, _, s2, s3 = (ours @ PLUS_45).to(name)
     # Delta of tmm.ellips is the phase of -r_p / r_s.
     agree(complex(s2, s3), -r_p * r_s.conjugate(), precision)
+
+
+PORTS = ("reflected", "transmitted")
+
+
+@pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")  # Of films, on purpose.
+@rows("setup", STACKS["shares"])
+def test_a_stack_shares_light_out_as_that_of_tmm(setup):
+    layers = [complex(*index) for index in setup["indices"]]
+    media = [setup.get("front", 1.0), *layers, complex(*setup.get("substrate", [1.0, 0.0]))]
+    lengths = [length * 1e-9 for length in setup["lengths"]]
+    incidence = np.radians(setup["incidence"])
+    stack = op.LayerStack(media, incidence, lengths=lengths, wavelength=500e-9)
+    reflected, transmitted = (stack.mueller("in", port).matrix[0, :2] for port in PORTS)
+    for share, sign in zip(setup["shares"], (1.0, -1.0), strict=True):
+        absorbed = stack.absorbed([1.0, sign, 0.0, 0.0])
+        ours = [reflected @ [1.0, sign], *absorbed, transmitted @ [1.0, sign]]
+        np.testing.assert_allclose(ours, share, rtol=0.0, atol=STACKS["precision"])
+
+
+@rows("setup", STACKS["powers"])
+def test_a_face_lit_from_an_absorbing_medium_has_the_powers_of_tmm(setup):
+    behind, front = complex(*setup["behind"]), complex(*setup["front"])
+    incidence = np.radians(setup["incidence"])
+    face = op.Interface(behind, incidence, outside=front, incidence_in=1.0)
+    lines = [face.mueller("in", port).matrix[0, :2] for port in PORTS]
+    ours = [[line @ [1.0, sign] for line in lines] for sign in (1.0, -1.0)]
+    np.testing.assert_allclose(ours, setup["powers"], rtol=0.0, atol=STACKS["precision"])
+
+
+def within(frame):
+    return op.Mueller(np.eye(4), frame, frame)
+
+
+def test_mitsuba_reads_from_a_table_what_was_written_and_nearly_the_brdf(tmp_path):
+    table, file = TABLES["table"], tmp_path / "metal.pbsdf"
+    metal = op.Material.tabulated(table["wavelengths"], table["n"], table["k"])
+    brdf = partial(op.surfaces.single_scattering, metal, table["alpha"])
+    given = {"wavelengths": table["tabulated"], "shape": tuple(table["shape"])}
+    op.surfaces.write_measured_polarized(file, brdf, **given)
+    arrays = measured_tables.read(file)
+    brightest = max(each["mueller"][0][0] for each in TABLES["evaluated"])
+    for each in TABLES["evaluated"]:
+        light, eye, wavelength = np.array(each["light"]), np.array(each["eye"]), each["wavelength"]
+        ways, bases = (-light, eye), (np.array(each["basis_in"]), np.array(each["basis_out"]))
+        into, out = map(within, map(op.Frame.from_direction, ways, bases))
+        found = measured_tables.look_up(arrays, light, eye, wavelength)
+        own = [op.Frame.from_direction(z, np.cross(light, eye)) for z in ways]
+        turned = out @ op.Mueller(FLIPPED @ found @ FLIPPED, *own) @ into
+        ours = FLIPPED @ turned.matrix @ FLIPPED * light[2]
+        np.testing.assert_allclose(ours, each["mueller"], rtol=0.0, atol=TABLES["precision"])
+        # The table is coarse.
+        exact = (out @ brdf(*ways, wavelength=wavelength * 1e-9) @ into).to("mitsuba") * light[2]
+        assert np.abs(exact - each["mueller"]).max() < 0.05 * brightest

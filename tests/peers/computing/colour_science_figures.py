@@ -44,20 +44,14 @@ def displayed():
     white = np.array([1.09846607, 1.0, 0.35582280])  # Illuminant A.
     for xyz in ([0.2, 0.18, 0.15], [0.6, 0.55, 0.1], [0.02, 0.03, 0.01], [0.9, 0.95, 1.0]):
         space = colour.RGB_COLOURSPACES["sRGB"]
-        linear = space.matrix_XYZ_to_RGB @ np.array(xyz)
-        adapted = colour.chromatic_adaptation(
-            np.array(xyz), white, colour.xy_to_XYZ(space.whitepoint), transform="Bradford"
-        )
-        yield {
-            "name": str(xyz),
-            "xyz": xyz,
-            "white": white.tolist(),
-            "srgb": colour.models.eotf_inverse_sRGB(linear).tolist(),
-            "adapted": adapted.tolist(),
-        }
+        srgb = colour.models.eotf_inverse_sRGB(space.matrix_XYZ_to_RGB @ np.array(xyz))
+        target = colour.xy_to_XYZ(space.whitepoint)
+        adapted = colour.chromatic_adaptation(np.array(xyz), white, target, transform="Bradford")
+        found = {"white": white.tolist(), "srgb": srgb.tolist(), "adapted": adapted.tolist()}
+        yield {"name": str(xyz), "xyz": xyz, **found}
 
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     found = {"xyz": list(asked()), "displayed": list(displayed())}
-    setups.write("colour/colour_science", "colour-science", __file__, 1e-6, **found)
+    setups.write_file("colour/colour_science", "colour-science", __file__, precision=1e-6, **found)

@@ -8,64 +8,48 @@ mitsuba.set_variant("scalar_spectral_polarized")
 optics = mitsuba.mueller
 
 
-def reflection(setup):
-    n, k, outside, angle = setups.incidence(setup)
-    return optics.specular_reflection(np.cos(angle), mitsuba.Complex2f(n / outside, k / outside))
+def reflection(n, k, incidence, outside=1.0):
+    index = mitsuba.Complex2f(n / outside, k / outside)
+    return optics.specular_reflection(np.cos(incidence), index)
 
 
-def transmission(setup):
-    n, _, outside, angle = setups.incidence(setup)
-    return optics.specular_transmission(np.cos(angle), n / outside)
+def transmission(n, k, incidence, outside=1.0):
+    del k  # It is 0.
+    return optics.specular_transmission(np.cos(incidence), n / outside)
 
 
-def polarizer(setup):
-    return optics.rotated_element(np.radians(setup["angle"]), optics.linear_polarizer(1.0))
+def polarizer(angle):
+    return optics.rotated_element(angle, optics.linear_polarizer(1.0))
 
 
-def retarder(setup):
-    plate = optics.linear_retarder(np.radians(setup["retardance"]))
-    return optics.rotated_element(np.radians(setup["angle"]), plate)
+def retarder(retardance, angle):
+    return optics.rotated_element(angle, optics.linear_retarder(retardance))
 
 
-def circular(setup):
+def circular(clockwise):
     # "Right" is clockwise to the sensor, which looks at the source.
-    clockwise = setup["clockwise"]
     filter_ = optics.right_circular_polarizer if clockwise else optics.left_circular_polarizer
     return 2.0 * np.array(filter_())[:, 0]
 
 
-def ellipse(setup):
+def elliptical(azimuth, ellipticity, clockwise):
     """Light of a polariser behind a quarter-wave plate whose fast axis is the major axis.
 
     The component across falls behind by a quarter, so that the field turns from the major axis
     to where the polariser stands.
     """
-    azimuth, away = np.radians(setup["azimuth"]), np.radians(setup["ellipticity"])
-    filter_ = optics.rotated_element(
-        azimuth + (-away if setup["clockwise"] else away), optics.linear_polarizer(1.0)
-    )
-    plate = optics.rotated_element(azimuth, optics.linear_retarder(np.pi / 2))
-    return 2.0 * np.array(plate @ filter_)[:, 0]
+    filter_ = polarizer(azimuth + (-ellipticity if clockwise else ellipticity))
+    return 2.0 * np.array(retarder(np.pi / 2, azimuth) @ filter_)[:, 0]
 
 
-def rotated_basis(setup):
+def turned_frame(angle):
     """Numbers of one light in a frame that is turned about its direction of travel."""
-    angle = np.radians(setup["angle"])
     target = mitsuba.Vector3f(np.cos(angle), np.sin(angle), 0.0)
     x, z = mitsuba.Vector3f(1.0, 0.0, 0.0), mitsuba.Vector3f(0.0, 0.0, 1.0)
     return optics.rotate_stokes_basis(z, x, target)
 
 
-setups.write(
-    "mitsuba",
-    "mitsuba",
-    __file__,
-    1e-6,
-    reflection=reflection,
-    transmission=transmission,
-    polarizer=polarizer,
-    retarder=retarder,
-    turned_frame=rotated_basis,
-    circular=circular,
-    elliptical=ellipse,
-)
+answers = {"reflection": reflection, "transmission": transmission, "polarizer": polarizer}
+answers |= {"retarder": retarder, "turned_frame": turned_frame}
+answers |= {"circular": circular, "elliptical": elliptical}
+setups.write("mitsuba", "mitsuba", __file__, 1e-6, answers)

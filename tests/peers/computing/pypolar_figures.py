@@ -5,48 +5,30 @@ import setups
 from pypolar import ellipsometry, jones, mueller
 
 
-def reflection(setup):
-    n, k, outside, angle = setups.incidence(setup)
-    return mueller.op_fresnel_reflection(complex(n, -k), angle, n_i=outside)
+def reflection(n, k, incidence, outside=1.0):
+    return mueller.op_fresnel_reflection(complex(n, -k), incidence, n_i=outside)
 
 
-def ratio(setup):
-    n, k, outside, angle = setups.incidence(setup)
+def psi_delta(n, k, incidence, outside=1.0):
     if outside != 1.0:  # Its rho knows no medium in front but air.
         return None
-    rho = ellipsometry.rho_from_m(complex(n, -k), angle)
+    rho = ellipsometry.rho_from_m(complex(n, -k), incidence)
     return [np.arctan(np.abs(rho)), np.angle(rho)]
 
 
-def polarizer(setup):
-    return mueller.op_linear_polarizer(np.radians(setup["angle"]))
+# The view is that of who looks at the source, by the page of conventions.
+CIRCULAR = {True: mueller.stokes_right_circular, False: mueller.stokes_left_circular}
 
 
-def retarder(setup):
-    return mueller.op_retarder(np.radians(setup["angle"]), np.radians(setup["retardance"]))
+def elliptical(azimuth, ellipticity, clockwise):
+    signed = ellipticity if clockwise else -ellipticity
+    return jones.jones_to_stokes(jones.field_elliptical(azimuth, signed))
 
 
-def circular(setup):
-    # The view is that of who looks at the source, by the page of conventions.
-    clockwise = setup["clockwise"]
-    return (mueller.stokes_right_circular if clockwise else mueller.stokes_left_circular)()
-
-
-def ellipse(setup):
-    sign = 1.0 if setup["clockwise"] else -1.0
-    angles = np.radians(setup["azimuth"]), sign * np.radians(setup["ellipticity"])
-    return jones.jones_to_stokes(jones.field_elliptical(*angles))
-
-
-setups.write(
-    "pypolar",
-    "pypolar",
-    __file__,
-    1e-12,
-    reflection=reflection,
-    psi_delta=ratio,
-    polarizer=polarizer,
-    retarder=retarder,
-    circular=circular,
-    elliptical=ellipse,
-)
+answers = {"reflection": reflection, "psi_delta": psi_delta, "elliptical": elliptical}
+answers |= {
+    "polarizer": lambda angle: mueller.op_linear_polarizer(theta=angle),
+    "retarder": lambda retardance, angle: mueller.op_retarder(angle, retardance),
+    "circular": lambda clockwise: CIRCULAR[clockwise](),
+}
+setups.write("pypolar", "pypolar", __file__, 1e-12, answers)
