@@ -10,17 +10,17 @@ import sys
 import time
 
 import click
-from tests.fuzz import calls, command_lines, experiments, options, presets, samples, values
+from tests.fuzz import files, makers
 from tests.fuzz.attack import fault_of
 
 _MAKERS = {
-    "presets": presets.make,
-    "values": values.make,
-    "calls": calls.make,
-    "command-lines": command_lines.make,
-    "options": options.make,
-    "samples": samples.make,
-    "experiments": experiments.make,
+    "presets": files.a_preset,
+    "values": makers.values,
+    "calls": makers.a_call,
+    "command-lines": makers.a_command_line,
+    "options": makers.options,
+    "samples": files.a_sample,
+    "experiments": files.an_experiment,
 }
 
 

@@ -40,19 +40,17 @@ def fault_of(attack):
     try:
         with warnings.catch_warnings(), _limited(3.0 * attack.seconds):
             warnings.simplefilter("error")
-            warnings.simplefilter("ignore", op.LoopWarning)
-            warnings.simplefilter("ignore", op.AngleWarning)
-            warnings.simplefilter("ignore", op.ColourWarning)
+            for kind in (op.LoopWarning, op.AngleWarning, op.ColourWarning):
+                warnings.simplefilter("ignore", kind)
             attack.act()
     except op.OptipathError as error:
-        fault = _fault_of_sentences(error.faults)
-        if fault:
+        if fault := _fault_of_sentences(error.faults):
             return fault
     except Overtime:
         return f"not done after {3.0 * attack.seconds:g} s of processor time"
-    except BaseException as error:
-        if isinstance(error, KeyboardInterrupt):
-            raise
+    except KeyboardInterrupt:
+        raise
+    except BaseException:  # noqa: BLE001 - whatever the library raises besides
         return traceback.format_exc()
     taken = time.process_time() - started
     if taken > attack.seconds:
