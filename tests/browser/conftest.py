@@ -56,11 +56,6 @@ class Visit:
         self.page.wait_for_selector("#pictures[aria-busy=false]")
         return self.page
 
-    def stokes(self):
-        """The printed Stokes vector, once the page has asked for what is set."""
-        texts = self.page.locator("#stokes td.value").all_inner_texts()
-        return [text.replace("\N{MINUS SIGN}", "-") for text in texts]
-
     def shows(self, light):
         """Wait until the page shows the numbers of a light."""
         from playwright.sync_api import expect  # noqa: PLC0415 - an extra

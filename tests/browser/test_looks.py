@@ -1,5 +1,7 @@
-"""The page for every window, eye and hand."""
+"""The page for every window, eye and hand, and what it gives to take along."""
 
+import contextlib
+import io
 import re
 from itertools import pairwise
 
@@ -25,9 +27,7 @@ def test_nothing_is_cut_or_faint_in_a_window(visited_with, size, scheme):
     visited = visited_with(viewport={"width": width, "height": height}, color_scheme=scheme)
     page = visited.open("preset=npgr026&case=8&y=S0,S1,S2,S3,DoP,AoP")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    assert page.evaluate(CONTRASTS) == []
-    assert page.evaluate(CUT) == []
-    assert page.evaluate(OVER) == []
+    assert [page.evaluate(faults) for faults in (CONTRASTS, CUT, OVER)] == [[], [], []]
     ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
     brightness = sum(map(int, re.findall(r"\d+", ground)[:3]))
     assert (brightness > 600) is (scheme == "light")
@@ -89,13 +89,16 @@ def test_keys_alone_reach_and_change_everything(visited):
     assert page.evaluate("getComputedStyle(document.activeElement).outlineStyle") != "none"
 
 
-def test_taps_are_dashed_in_space(visited):
-    page = visited.open("preset=ellipsometer-pcsa")
+def test_taps_are_dashed_in_space_and_nothing_moves_where_motion_is_not_wanted(visited_with):
+    page = visited_with(reduced_motion="reduce").open("preset=ellipsometer-pcsa")
     dashes = "all => all.map((each) => getComputedStyle(each).strokeDasharray)"
     rays = page.locator("[data-picture=scene] .ray")
     taps = page.locator("[data-picture=scene] .ray.tap").evaluate_all(dashes)
     assert taps == ["8px, 4px"]
     assert rays.evaluate_all(dashes).count("none") == rays.count() - 2  # Light leaves, too.
+    moving = """[...document.querySelectorAll('*')].map((each) => getComputedStyle(each))
+      .filter((each) => each.transitionDuration !== '0s' || each.animationName !== 'none').length"""
+    assert page.evaluate(moving) == 0
 
 
 @pytest.mark.parametrize("picture", ["sphere", "scene"])
@@ -131,13 +134,6 @@ def test_dark_and_light_are_switched_and_remembered(visited):
     assert page.evaluate(ground) == dark
 
 
-def test_nothing_moves_where_motion_is_not_wanted(visited_with):
-    page = visited_with(reduced_motion="reduce").open()
-    moving = """[...document.querySelectorAll('*')].map((each) => getComputedStyle(each))
-      .filter((each) => each.transitionDuration !== '0s' || each.animationName !== 'none').length"""
-    assert page.evaluate(moving) == 0
-
-
 @pytest.mark.parametrize("name", op.preset_names())
 def test_a_preset_is_shown_whole(stayed, name):
     page = stayed.page
@@ -150,6 +146,69 @@ def test_a_preset_is_shown_whole(stayed, name):
     for picture in ("ellipse", "sphere", "scene", "energy"):
         assert page.locator(f"[data-picture={picture}] svg > *").count() > 1, picture
     assert "NaN" not in page.locator("main").inner_html()
-    assert page.evaluate(CUT) == []
-    assert page.evaluate(OVER) == []
-    assert stayed.complaints == []
+    assert [page.evaluate(CUT), page.evaluate(OVER), stayed.complaints] == [[], [], []]
+
+
+# What the page gives to take along.
+
+
+def text_of(page, form, part):
+    page.locator("#export-forms").get_by_role("button", name=form).click()
+    expect(page.locator("#export-text")).to_contain_text(part)
+    return page.locator("#export-text").inner_text()
+
+
+def test_python_toml_and_csv_have_the_numbers_of_the_page(visited, saved, tmp_path):
+    page = visited.open("preset=npgr026&case=8&value.delta=30+deg")
+    lines = text_of(page, "Python", "load_preset")
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        exec(compile(lines, "lines", "exec"), {})  # noqa: S102 - the lines are for running
+    printed = page.locator("#stokes td.value").all_inner_texts()
+    assert said.getvalue().split() == ["E", *(t.replace("\N{MINUS SIGN}", "-") for t in printed)]
+    text_of(page, "TOML", "parameters")
+    name, content = saved(page, page.locator("#export-save").click)
+    (tmp_path / "mine.toml").write_bytes(content)
+    assert name.endswith(".toml")
+    there = op.load_preset("npgr026", case="8").trace(delta="30 deg")
+    light = op.load_preset(tmp_path / "mine.toml").trace()
+    assert light.stokes == pytest.approx(there.stokes, rel=1e-12)
+    rows = text_of(visited.open("preset=malus&y=S0&to=90"), "CSV", "angle").strip().splitlines()
+    assert len(rows) > 100
+    assert rows[0].startswith("angle")
+    assert "S0" in rows[0]
+
+
+@pytest.mark.parametrize("picture", ["ellipse", "sphere", "scene", "curve", "energy"])
+def test_pictures_are_saved_with_their_looks_and_texts(stayed, saved, picture):
+    state = "preset=npgr026&case=8"
+    if not stayed.page.url.endswith(state):
+        stayed.open(state)
+    figure = stayed.page.locator(f"[data-picture={picture}]")
+    name, content = saved(stayed.page, figure.get_by_role("button", name="SVG").click)
+    text = content.decode()
+    assert name == f"npgr026-case-8-{picture}.svg"
+    assert "<text" in text
+    assert "<title>" in text
+    assert "var(" not in text
+    assert "class=" not in text
+    name, content = saved(stayed.page, figure.get_by_role("button", name="PNG").click)
+    assert name.endswith(".png")
+    assert content.startswith(b"\x89PNG")
+    assert len(content) > 5000
+
+
+def test_the_lines_are_copied_and_held_while_a_value_cannot_be(visited_with):
+    visited = visited_with(permissions=["clipboard-read", "clipboard-write"])
+    page = visited.open("preset=malus")
+    text, button = page.locator("#export-text"), page.locator("#export-copy")
+    lines = text_of(page, "Python", "load_preset('malus'")
+    button.click()
+    expect(page.locator("#export-said")).to_have_text("copied")
+    assert page.evaluate("navigator.clipboard.readText()").strip() == lines.strip()
+    page.locator("#parameter-intensity").fill("-1")
+    expect(text).not_to_contain_text("load_preset")
+    expect(button).to_be_disabled()
+    page.locator("#parameter-intensity").fill("2")
+    expect(text).to_contain_text("intensity=2.0")
+    expect(button).to_be_enabled()

@@ -20,7 +20,7 @@ def it(stayed):
     return stayed.imported
 
 
-def test_a_state_comes_back_from_its_address(it):
+def test_a_state_comes_back_from_its_address_and_a_wavelength_that_is_only_offered_is_left_out(it):
     made = """(() => {
       let state = it.newState("a b");
       state = it.withEntry(state, "values", "n.1", "1.5 + 2i & more");
@@ -32,9 +32,6 @@ def test_a_state_comes_back_from_its_address(it):
     state, again = it("state.js", made)
     assert state == again
     assert it("state.js", "it.fromHash('#case=8')") is None
-
-
-def test_a_wavelength_that_is_offered_is_left_out_and_one_of_the_path_is_kept(it):
     made = """[true, false].map((offered) => it.withoutIdle(
       it.withEntry(it.newState("a"), "values", "wavelength", "500 nm"),
       { parameters: [{ name: "wavelength", default: "", offered }] },
@@ -65,23 +62,14 @@ def test_a_history_has_one_step_a_drag_and_two_hundred_and_forgets_what_was_undo
     assert it("state.js", steps) == [500, 201, 300]
 
 
-@rows("unit", UNITS)
-def test_units_are_as_large_as_those_of_the_library(it, unit):
-    known = UNITS[unit]
-    assert it("units.js", f"it.sizeOf({unit!r})") == pytest.approx(known.size * 10.0**known.power)
-
-
+TAKEN = {"number": -1500.0, "written": "-1.5e3", "unit": "deg/mm"}
 POWER = "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
 
 
 @rows(
     "module, expression, expected",
     [
-        (
-            "units.js",
-            "it.taken(' -1.5e3 deg/mm ')",
-            {"number": -1500.0, "written": "-1.5e3", "unit": "deg/mm"},
-        ),
+        ("units.js", "it.taken(' -1.5e3 deg/mm ')", TAKEN),
         ("units.js", "it.taken('gold')", None),
         ("units.js", "it.plainText(it.typeset('-24.91 deg'))", "-24.91 deg"),
         ("units.js", "it.plainText(it.typeset('1e-9 - 2i'))", "1e-9 - 2i"),
@@ -100,6 +88,14 @@ def test_texts_steps_views_and_ticks(it, module, expression, expected):
     assert it(module, expression) == expected
 
 
+def test_units_are_as_large_as_those_of_the_library_and_axes_of_equal_numbers_have_a_length(it):
+    for unit, known in UNITS.items():
+        size = pytest.approx(known.size * 10.0**known.power)
+        assert it("units.js", f"it.sizeOf({unit!r})") == size, unit
+    low, high = it("ticks.js", "it.rangeOf([5, 5, null])")
+    assert low < 5 < high
+
+
 def test_a_projection_keeps_lengths_and_looks_along_its_eye(it):
     zero = pytest.approx(0.0, abs=1e-12)
     assert it("projection.js", "it.projected([90, 0])([0, 2, 0])") == [zero, zero, 2.0]
@@ -107,11 +103,6 @@ def test_a_projection_keeps_lengths_and_looks_along_its_eye(it):
     assert (x, y) == (0.0, -1.0), near
     seen = it("projection.js", "it.projected([33, 21])([1, -2, 3])")
     assert math.hypot(*seen) == pytest.approx(math.sqrt(14.0))
-
-
-def test_an_axis_of_equal_numbers_has_a_length(it):
-    low, high = it("ticks.js", "it.rangeOf([5, 5, null])")
-    assert low < 5 < high
 
 
 def test_labels_are_not_over_one_another_and_heights_are_spread_in_their_order(it):
@@ -127,11 +118,9 @@ def test_labels_are_not_over_one_another_and_heights_are_spread_in_their_order(i
 
 def test_a_curve_between_whose_points_there_may_be_more_is_told(it):
     sampled = "{{ x: [0, 1], lines: [{{ values: Array.from({{ length: 2001 }}, {}) }}] }}"
-    slow = sampled.format("(_, i) => Math.sin(i / 8)")
-    fast = sampled.format("(_, i) => Math.sin(i * i / 1000)")
-    rounding = sampled.format("(_, i) => i + 1e-9 * (-1) ** i")
-    found = it("curve_faults.js", f"[{slow}, {fast}, {rounding}].map(it.isTooFast)")
-    assert found == [False, True, False]
+    slow, fast, rounding = "Math.sin(i / 8)", "Math.sin(i * i / 1000)", "i + 1e-9 * (-1) ** i"
+    drawn = ", ".join(sampled.format(f"(_, i) => {each}") for each in (slow, fast, rounding))
+    assert it("curve_faults.js", f"[{drawn}].map(it.isTooFast)") == [False, True, False]
     assert "itself" in it("curve_faults.js", "it.flat({ x: [30, 30, 30] })")[0]
 
 

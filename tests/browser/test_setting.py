@@ -30,7 +30,7 @@ def value_of(page, parameter):
     return float(page.locator(f"#parameter-{parameter}").input_value())
 
 
-def test_a_slider_changes_the_numbers_to_those_of_trace(visited):
+def test_a_slider_and_a_field_change_the_numbers_to_those_of_trace(visited):
     page = visited.open(CASE_8)
     visited.shows_npgr026()
     slider = page.get_by_label("delta, slider")
@@ -38,9 +38,7 @@ def test_a_slider_changes_the_numbers_to_those_of_trace(visited):
         slider.press("ArrowRight")
     visited.shows_npgr026(delta="48.3 deg")
     expect(page.locator("#parameter-delta")).to_have_value("48.3")
-
-
-def test_numbers_in_another_unit_and_with_signs_that_the_page_prints_are_read(visited):
+    # Numbers in another unit and with signs that the page prints are read.
     page = visited.open(CASE_8)
     page.get_by_label("Unit of delta").select_option("rad")
     expect(page.locator("#parameter-delta")).to_have_value(f"{np.radians(48.0):.10g}")
@@ -55,7 +53,7 @@ def test_numbers_in_another_unit_and_with_signs_that_the_page_prints_are_read(vi
     visited.shows_npgr026(rho="-24.91 deg")
 
 
-def test_words_and_places_and_cases_are_chosen(visited):
+def test_words_places_cases_and_materials_are_chosen(visited):
     page = visited.open(CASE_8)
     words = page.get_by_role("group", name="Words for filter")
     words.get_by_role("button", name="vertical").click()
@@ -67,9 +65,7 @@ def test_words_and_places_and_cases_are_chosen(visited):
     expect(page.get_by_label("place")).to_have_value("light")
     columns = ["", "computed", "published", "difference"]
     expect(page.locator("#stokes th[scope=col]")).to_have_text(columns)
-
-
-def test_a_material_asks_for_a_wavelength_and_gets_it_and_without_one_it_does_no_harm(visited):
+    # A material asks for a wavelength and gets it, and without one it does no harm.
     page = visited.open(CASE_8)
     assert page.locator("#parameter-wavelength").is_hidden()
     page.locator("#parameter-n1").fill("gold")
@@ -84,7 +80,7 @@ def test_a_material_asks_for_a_wavelength_and_gets_it_and_without_one_it_does_no
     expect(page.locator("#parameter-wavelength")).to_be_hidden()
 
 
-def test_a_wrong_value_is_a_sentence_at_its_field_and_pictures_stay(visited):
+def test_what_is_wrong_is_a_sentence_at_its_field_and_pictures_stay(visited):
     page = visited.open(CASE_8)
     field = page.locator("#parameter-delta")
     field.fill("95")
@@ -101,10 +97,7 @@ def test_a_wrong_value_is_a_sentence_at_its_field_and_pictures_stay(visited):
     expect(sentence).to_contain_text("'ninety'")
     expect(field).to_have_value("ninety")
     visited.shows(op.load_preset("npgr026").trace())
-
-
-def test_an_unknown_preset_or_place_is_said_and_another_can_be_chosen(visited):
-    page = visited.page
+    # An unknown preset or place is said, and another can be chosen.
     page.goto(f"{visited.address}#preset=npgr027")
     expect(page.locator("#fault")).to_contain_text("did you mean 'npgr026'")
     page.locator("#preset").select_option("malus")
