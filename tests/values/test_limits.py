@@ -246,7 +246,7 @@ def fault_of(path, **given):
     return fault
 
 
-def test_one_bad_path_of_many_is_told_with_its_place():
+def test_one_bad_path_of_many_is_told_with_its_place_and_no_number_of_one_is_offered_to_many():
     path = two_faces(op.Interface(N, 0.3), op.Interface(1.0, 0.1, outside=P("o"), parallel=False))
     n = np.linspace(1.4, 1.8, 100_000)
     o = n.copy()
@@ -257,9 +257,6 @@ def test_one_bad_path_of_many_is_told_with_its_place():
     assert fault_of(path, n=n[:100, None], o=grid).endswith("(at (7, 30), of 30000 paths)")
     assert fault_of(path.bind(n=n, o=o)).endswith("(at 4711, of 100000 paths)")
     assert not fault_of(path, n=1.5, o=1.2).endswith("paths)")
-
-
-def test_no_number_of_one_path_is_offered_to_many():
     path = two_faces(op.Interface(N, 0.3), op.Interface(1.0, P("t"), outside=P("o")))
     given = {"n": 1.5, "o": 1.5, "t": np.arcsin(np.sin(0.3) / 1.5)}
     n = np.array([1.5, 1.6])

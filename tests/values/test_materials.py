@@ -42,7 +42,11 @@ def test_indices_are_those_of_samples_and_of_published_formulas():
     assert round(found.n, 5) == 1.45846
 
 
-def test_a_wavelength_may_be_an_energy_an_array_or_known_from_the_beginning():
+def faced(index):
+    return op.Source() >> op.Interface(index, 0.3) >> op.Detector()
+
+
+def test_a_wavelength_may_be_an_energy_an_array_known_from_the_beginning_or_a_parameter():
     metres = gold().at(1.2398419843320026e-6 / 2.4).n
     assert gold().at("2.4 eV").n == pytest.approx(metres, rel=1e-14)
     assert gold().at(["516 nm", 521e-9]).n.tolist() == [gold().at("516 nm").n, 0.62]
@@ -56,6 +60,12 @@ def test_a_wavelength_may_be_an_energy_an_array_or_known_from_the_beginning():
     assert bk7(span=("310 nm", "2.5 um")).span == (310e-9, 2.5e-6)
     assert op.Material.tabulated(WAVELENGTHS, N).at("1 um").k == 0.0
     assert op.Material.tabulated(WAVELENGTHS, 1.5, 0.2).at("1 um") == op.Material(1.5, 0.2)
+    material = op.Material.sellmeier([op.Parameter("b", 1.25)], [0.0])
+    assert material.at("500 nm") == op.Material(1.5, 0.0)
+    found = faced(material).trace(b=[1.25, 3.0], wavelength="500 nm").stokes
+    assert np.array_equal(found, [faced(n).trace().stokes for n in (1.5, 2.0)])
+    path = faced(bk7(wavelength=op.Parameter("laser")))
+    assert path.trace(laser="500 nm") == faced(bk7().at("500 nm")).trace()
 
 
 def test_equal_materials_are_equal_and_shown_as_can_be_read_on_one_line():
@@ -96,19 +106,6 @@ def test_a_metal_is_that_of_its_electrons():
     # n^2 = 1 - (wp / w)^2 where nothing is lost: 0.75 at twice the plasma frequency.
     free = op.Material.drude_lorentz(2.0, 0.0, oscillators=[]).at("4 eV")
     np.testing.assert_allclose([free.n, free.k], [0.75**0.5, 0.0], rtol=1e-12, atol=1e-12)
-
-
-def faced(index):
-    return op.Source() >> op.Interface(index, 0.3) >> op.Detector()
-
-
-def test_coefficients_and_wavelengths_may_be_parameters():
-    material = op.Material.sellmeier([op.Parameter("b", 1.25)], [0.0])
-    assert material.at("500 nm") == op.Material(1.5, 0.0)
-    found = faced(material).trace(b=[1.25, 3.0], wavelength="500 nm").stokes
-    assert np.array_equal(found, [faced(n).trace().stokes for n in (1.5, 2.0)])
-    path = faced(bk7(wavelength=op.Parameter("laser")))
-    assert path.trace(laser="500 nm") == faced(bk7().at("500 nm")).trace()
 
 
 def test_a_file_is_a_material(tmp_path):

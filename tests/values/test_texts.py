@@ -129,19 +129,6 @@ DELTA = op.Parameter("delta", unit="deg")
 NUMBER = op.Parameter("n")
 
 
-def test_a_range_has_the_very_values_that_are_given_one_by_one():
-    texts = several_texts(DELTA, "0:90:91")
-    found = [parse_quantity(text, "angle", "deg") for text in texts]
-    assert found == [parse_quantity(f"{whole} deg", "angle") for whole in range(91)]
-    found = [float(text) for text in several_texts(NUMBER, "0:1:101")]
-    assert found == [float(f"{part // 100}.{part % 100:02}") for part in range(101)]
-    texts = several_texts(op.Wavelength(), "400 nm:700 nm:61")
-    found = [parse_quantity(text, "length") for text in texts]
-    assert found == [parse_quantity(f"{400 + 5 * step} nm", "length") for step in range(61)]
-    assert several_texts(DELTA, "90.0 deg:-1e1 deg:3") == ["90.0 deg", "40.0 deg", "-1e1 deg"]
-    assert several_texts(DELTA, "5 deg:5 deg:1") == ["5 deg"]
-
-
 WHOLE, FLOATS = st.integers(-(10**9), 10**9), st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -154,7 +141,17 @@ def test_whole_steps_are_whole_and_a_range_never_turns(first, step, start, stop,
     assert values == sorted(values, reverse=start > stop)
 
 
-def test_a_list_has_its_texts_one_by_one_and_a_single_value_is_none():
+def test_a_list_has_its_texts_one_by_one_a_range_those_between_and_a_single_value_is_none():
+    texts = several_texts(DELTA, "0:90:91")
+    found = [parse_quantity(text, "angle", "deg") for text in texts]
+    assert found == [parse_quantity(f"{whole} deg", "angle") for whole in range(91)]
+    found = [float(text) for text in several_texts(NUMBER, "0:1:101")]
+    assert found == [float(f"{part // 100}.{part % 100:02}") for part in range(101)]
+    texts = several_texts(op.Wavelength(), "400 nm:700 nm:61")
+    found = [parse_quantity(text, "length") for text in texts]
+    assert found == [parse_quantity(f"{400 + 5 * step} nm", "length") for step in range(61)]
+    assert several_texts(DELTA, "90.0 deg:-1e1 deg:3") == ["90.0 deg", "40.0 deg", "-1e1 deg"]
+    assert several_texts(DELTA, "5 deg:5 deg:1") == ["5 deg"]
     assert several_texts(DELTA, "10 deg,0.5 rad, horizontal") == ["10 deg", "0.5 rad", "horizontal"]
     assert several_texts(DELTA, "10,20,30") == ["10", "20", "30"]
     for text in ("30 deg", "horizontal", "0.5", "-1e-3 rad", "30 degs"):
@@ -266,15 +263,6 @@ def layered(index):
     return op.Source() >> op.Interface(index, 0.3) >> op.Detector()
 
 
-def test_arrays_that_do_not_broadcast_are_told_with_their_shapes():
-    text = fault(NPGR026.bind(delta=np.zeros(3)).trace, rho=np.zeros(4))
-    assert "delta (3,), rho (4,); make their axes equal or 1, as x[:, None] does" in text
-    # What is said does it.
-    assert NPGR026.trace(delta=np.zeros(3)[:, None], rho=np.zeros(4)).shape == (3, 4)
-    many = chain([op.Rotator(np.zeros(count)) for count in range(2, 12)])
-    assert "make their axes equal or 1" in fault(many.trace)
-
-
 def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs_and_others_are_not():
     optimize = pytest.importorskip("scipy.optimize")
     of_material = layered(op.Material(1.5, op.Parameter("k")))
@@ -299,7 +287,7 @@ def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs_and_others_ar
     assert least == pytest.approx(0.04, abs=0.01)
 
 
-def test_a_number_that_is_wrong_in_several_places_is_told_once():
+def test_a_number_that_is_wrong_in_several_places_and_arrays_of_other_shapes_are_told_once():
     n = op.Parameter("n")
     faces = {"front": op.Interface(n, 0.3)}
     faces["back"] = op.Interface(1.0, 0.3, outside=n, incidence_in=1.0)
@@ -309,3 +297,9 @@ def test_a_number_that_is_wrong_in_several_places_is_told_once():
         with pytest.raises(op.ParameterError, match=r"^parameter 'n' \(at front.index\)") as error:
             give(n=-0.2)
         assert len(error.value.faults) == 1
+    text = fault(NPGR026.bind(delta=np.zeros(3)).trace, rho=np.zeros(4))
+    assert "delta (3,), rho (4,); make their axes equal or 1, as x[:, None] does" in text
+    # What is said does it.
+    assert NPGR026.trace(delta=np.zeros(3)[:, None], rho=np.zeros(4)).shape == (3, 4)
+    many = chain([op.Rotator(np.zeros(count)) for count in range(2, 12)])
+    assert "make their axes equal or 1" in fault(many.trace)

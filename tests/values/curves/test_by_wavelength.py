@@ -62,7 +62,13 @@ def test_the_ends_of_a_range_are_told_in_units_of_their_size_and_all_units_are_n
                 read(text)
 
 
-def test_a_grid_has_the_numbers_that_its_texts_stand_for():
+UNEVEN = np.array([380.0, 395.0, 500.0, 512.5, 700.0]) * 1e-9
+NO_GRIDS = [(5e-7, "one wavelength alone"), ([], "none at all"), ([5e-7], "one wavelength alone")]
+NO_GRIDS += [([5e-7, 5e-7], "repeated"), ([5e-7, 6e-7, 5.5e-7], "neither rise nor fall")]
+NO_GRIDS += [(np.ones((2, 2)), "one axis")]
+
+
+def test_a_grid_has_the_numbers_of_its_texts_the_widths_of_trapezoids_and_bins_up_to_halfway():
     found = op.wavelengths("380 nm", "700 nm", "40 nm")
     expected = [op.Wavelength().resolve(f"{place} nm").value for place in range(380, 701, 40)]
     assert found.tolist() == [float(place) for place in expected]
@@ -75,15 +81,6 @@ def test_a_grid_has_the_numbers_that_its_texts_stand_for():
     ):
         with pytest.raises(op.ValueFault, match=sentence):
             op.wavelengths(*given)
-
-
-UNEVEN = np.array([380.0, 395.0, 500.0, 512.5, 700.0]) * 1e-9
-NO_GRIDS = [(5e-7, "one wavelength alone"), ([], "none at all"), ([5e-7], "one wavelength alone")]
-NO_GRIDS += [([5e-7, 5e-7], "repeated"), ([5e-7, 6e-7, 5.5e-7], "neither rise nor fall")]
-NO_GRIDS += [(np.ones((2, 2)), "one axis")]
-
-
-def test_widths_are_the_weights_of_the_trapezoidal_rule_and_bins_reach_halfway_to_neighbours():
     for grid in (UNEVEN, UNEVEN[::-1]):
         density = np.random.default_rng(7).uniform(0.0, 3.0, grid.size)
         steps = np.abs(np.diff(grid * 1e9))

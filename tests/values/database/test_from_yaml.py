@@ -112,7 +112,7 @@ def test_a_faulty_file_is_refused_in_words(written, text, told):
     assert "mine.yml" in found
 
 
-def test_all_faults_of_a_file_are_told_at_once(written):
+def test_all_faults_of_a_file_are_told_at_once_and_numbers_where_they_are(written, tmp_path):
     told = refusal(written(TABLE + "        0.5 1 1\n        0 1 1\n        0.4 2 2\n"))
     assert told.startswith("3 faults:")
     assert "500 nm twice, in the rows 2 and 4" in told
@@ -124,9 +124,6 @@ def test_all_faults_of_a_file_are_told_at_once(written):
     with pytest.raises(op.MaterialError) as caught:
         op.Material.from_yaml(written(text))
     assert len(caught.value.faults) == 3
-
-
-def test_numbers_that_nothing_has_are_refused_where_they_are(written, tmp_path):
     file = written(TABLE.replace("1.4 0.4", "1.4 -0.4"))
     assert op.Material.from_yaml(file, wavelength="450 nm").k > 0.0
     with pytest.raises(op.ValueFault, match=r"k is -0\.4"):

@@ -24,7 +24,7 @@ sampled, histogram, line, led = (
 )
 
 
-def test_samples_are_joined_by_straight_lines_and_may_fall():
+def test_samples_are_joined_by_lines_and_powers_spread_over_bins_or_counted_once():
     lamp = op.Spectrum(["400 nm", "500 nm", "700 nm"], [1.0, 3.0, 0.0], name="lamp")
     assert lamp == sampled(["400 nm", "500 nm", "700 nm"], [1.0, 3.0, 0.0], name="lamp")
     np.testing.assert_allclose(lamp.at([450e-9, 500e-9, 600e-9]), [2.0, 3.0, 1.5], rtol=1e-14)
@@ -37,9 +37,6 @@ def test_samples_are_joined_by_straight_lines_and_may_fall():
         lamp.powers  # noqa: B018
     with pytest.raises(op.ValueFault, match=r"has no values; .* spectrum.resample"):
         lamp.rebin([4e-7, 5e-7]).values  # noqa: B018
-
-
-def test_histograms_and_lines_have_their_power_spread_over_bins_or_counted_once():
     lamp = histogram(["400 nm", "500 nm", "700 nm"], [10.0, 40.0])
     found = lamp.at(["400 nm", "499 nm", "500 nm", "700 nm"])
     np.testing.assert_allclose(found, [0.1, 0.1, 0.2, 0.2], rtol=1e-12)
