@@ -74,7 +74,7 @@ def test_a_float_is_judged_as_an_array_of_it_is(number, low, high):
     assert sentences[0] == sentences[1]
 
 
-D, Q = op.Parameter("d"), op.Parameter("q")
+D, N, Q = (op.Parameter(name) for name in "dnq")
 TEN_DEG = math.radians(10.0)
 
 
@@ -220,7 +220,7 @@ WAYS = {
 
 @rows("way", WAYS)
 def test_a_pair_is_asked_about_however_it_is_given_and_a_list_of_media_is_that_of_indices(way):
-    for pair in (["1.5", "1.6"], (1.5, "1.6")):
+    for pair in ([1.5, 1.6], ["1.5", "1.6"], (1.5, "1.6")):
         with pytest.raises(op.OptipathError, match=r"may be n and k.*write Material\(1.5, 1.6\)"):
             WAYS[way](pair)
     indices = np.array([1.5, 1.6 + 0.1j, 2.0])
@@ -231,15 +231,14 @@ def test_a_pair_is_asked_about_however_it_is_given_and_a_list_of_media_is_that_o
 def test_a_pair_that_cannot_be_one_number_is_two_and_others_are_asked_about_once():
     # An amplitude of 0.9+0.8j would be of more light than comes.
     assert np.shape(op.Mirror((0.9, 0.8), 0.5).r_s) == (2,)
-    faces = {"A": op.Interface(op.Parameter("n"), 0.3)}
+    faces = {"A": op.Interface(N, 0.3), "lamp": op.Source(), "eye": op.Detector()}
     faces["B"] = op.Interface(1.2, op.FOLLOWS, outside=op.FOLLOWS)
-    ends = {"lamp": op.Source(), "eye": op.Detector()}
-    path = wired(ends | faces, "lamp -> A, A.transmitted -> B, B.transmitted -> eye")
+    path = wired(faces, "lamp -> A, A.transmitted -> B, B.transmitted -> eye")
     for give, word in (
         (lambda: op.Interface([1.5, -1], 0.3), "is -1.0 at 1; give an index"),
         (lambda: WAYS["trace"]([1.5, -1]), "is -1.0 at 1; give an index"),
-        (lambda: chain([op.Mirror(op.Parameter("r"))]).trace(r=(0.9, 0.1)), "r"),
-        (lambda: path.trace(n=[1.5, 0]), "n"),
+        (lambda: chain([op.Mirror(op.Parameter("r"))]).trace(r=(0.9, 0.1)), "may be one complex"),
+        (lambda: path.trace(n=[1.5, 0]), "may be n and k"),
     ):
         with pytest.raises(op.OptipathError, match=word) as told:
             give()

@@ -105,7 +105,7 @@ ROOT_CAUSES = [
     (FILTER, f"{FILTER}[elements.extra]\nkind = 'dump'\n", "'extra' is reached"),
     ("index =", "indx =", "key 'indx' is unknown; did you mean 'index'?"),
     *((f"index = {INDEX}\n", "", "'index' is missing"), (INDEX, '"gold"', "'gold'")),
-    *((INDEX, "[]", "an empty list is no value"), (INDEX, f"{10**400}", "number")),
+    *((INDEX, "[]", "an empty list is no value"), (INDEX, f"{10**400}", "too large a number")),
     (INDEX, "{ n = [1, 2], k = [3, 4, 5] }", "no element takes it | do not broadcast together"),
     (INDEX, '{ n = "$nn", k = 7.0 }', "elements.mirror.index.n: parameter '$nn' is not"),
     (INDEX, '{ n = "$n", kk = 7.0 }', "key 'kk' is unknown"),
