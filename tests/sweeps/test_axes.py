@@ -63,18 +63,19 @@ def test_numbers_lists_ranges_and_arrays_are_axes_in_radians_as_they_are_and_one
     assert (axis.name, axis.dimension, axis.unit) == ("delta", "delta", "rad")
     assert axis.given.tolist() == axis.shown.tolist() == [0.1, 0.2, 0.7]
     assert axis.help == NPGR.inputs.open["delta"].help
-    several = [[0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)]
-    several += [import_module("jax.numpy").arange(2.0)] if "jax" in ENGINES else []
-    for numbers in several:
+    for numbers in ([0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)):
         axis = axis_of({"k1": numbers})
-        assert isinstance(axis.given, np.ndarray)
         assert (axis.given.tolist(), axis.given.dtype, axis.unit) == ([0.0, 1.0], np.float64, "")
+    if "jax" in ENGINES:
+        axis = axis_of({"delta": import_module("jax.numpy").array([0.25, 0.5])})
+        assert isinstance(axis.given, np.ndarray)
+        assert axis.given.tolist() == [0.25, 0.5]
     found = grid({"delta": "48 deg", "rho": 0.1, "n1": np.array(1.3), "filter": "none"})
     assert (found.axes, found.points) == ((), 1)
     assert found.fixed == {"delta": 48 * DEG, "rho": 0.1, "n1": 1.3, "filter": "none"}
 
 
-def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
+def test_an_axis_stays_as_it_is_and_needs_no_unit_where_it_has_no_dimension():
     numbers = np.array([0.1, 0.2])
     for value in (numbers, labelled(numbers, "rad")):
         axis = axis_of({"delta": value})
@@ -83,6 +84,12 @@ def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
         numbers[1] = 0.4
         assert axis.given.tolist() == [0.1, 0.2]
         numbers[1] = 0.2
+    for unit in ("", "1", "dimensionless", None):
+        assert axis_of({"n1": labelled([1.3, 1.5], unit)}).unit == ""
+    assert axis_of({"n": np.array([1.5, 0.2 + 3j])}, INDEX).given.tolist() == [1.5, 0.2 + 3j]
+    found = grid({"n1": op.Material(1.4), "n2": [op.Material(1.5), 1.6, 1.7]})
+    assert found.fixed == {"n1": 1.4}
+    assert found.axes[0].given.tolist() == [1.5, 1.6, 1.7]
 
 
 def test_texts_are_shown_in_the_unit_of_the_first_and_several_kinds_of_wavelengths_as_lengths():
@@ -118,15 +125,6 @@ def test_words_are_shown_as_texts_which_give_them_back_and_are_numbers_without_n
         axis = axis_of({"filter": [*angles]}, plan)
         assert axis.shown.tolist() == [*angles]
         assert (axis.given.tolist(), axis.given.dtype) == ([*angles.values()], np.float64)
-
-
-def test_numbers_without_a_dimension_need_no_unit_may_be_complex_and_of_a_material():
-    for unit in ("", "1", "dimensionless", None):
-        assert axis_of({"n1": labelled([1.3, 1.5], unit)}).unit == ""
-    assert axis_of({"n": np.array([1.5, 0.2 + 3j])}, INDEX).given.tolist() == [1.5, 0.2 + 3j]
-    found = grid({"n1": op.Material(1.4), "n2": [op.Material(1.5), 1.6, 1.7]})
-    assert found.fixed == {"n1": 1.4}
-    assert found.axes[0].given.tolist() == [1.5, 1.6, 1.7]
 
 
 @given(st.lists(st.sampled_from(["nm", "um", "m", "eV", "1/cm", "THz", "cm^-1"]), min_size=1))
@@ -324,6 +322,7 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name_and_the_lines_of_cells(tm
         "n1\nhigh\n": "parameter 'n1' knows no word 'high'",
         "n1,n1\n1,2\n": "line 1 names 'n1' twice",
         "delta (deg),rho (deg)\n10,5,20,5\n": "points where commas are decimal: '10.5,20.5'",
+        "delta (deg);rho (deg)\n10,5;5\n": "line 2: '10,5' has a comma; write '10.5'",
         "delta (deg);rho (deg)\n11;1.000,5\n": "line 2: '1.000,5' has a comma; write a point",
     }.items():
         (fault,) = told_in(text)

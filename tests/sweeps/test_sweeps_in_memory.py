@@ -247,7 +247,7 @@ def test_all_is_the_same_along_an_idle_axis_to_the_last_bit_also_alone_or_zipped
     assert found.S0.to_numpy().tolist() == NPGR.sweep(delta=DELTA[:4]).S0.to_numpy().tolist()
 
 
-def test_the_command_line_writes_it_in_every_form(tmp_path, monkeypatch, capsys):
+def test_the_command_line_writes_it_in_every_form_and_in_tables(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     given = ["sweep", "npgr026", "--delta", "10:80:3", *GIVEN]
     alone, four = NPGR.sweep(delta="10 deg:80 deg:3"), [400.0, 500.0, 600.0, 700.0]
@@ -270,8 +270,6 @@ def test_the_command_line_writes_it_in_every_form(tmp_path, monkeypatch, capsys)
     stokes = np.array(found["detectors"]["E"]["stokes"])
     assert stokes[..., 0].ravel().tolist() == laid_out
 
-
-def test_tables_have_it_too_and_errors_that_are_allowed_are_the_same_along_it(capsys, monkeypatch):
     def lines_of(*line):
         assert main([*line, *GIVEN]) == 0
         return [line.split() for line in capsys.readouterr().out.splitlines()]
