@@ -202,6 +202,7 @@ WRONG = {
         "rough.toml --incidence sixty": "give an angle such as '45 deg'",
         "rough.toml --incidence 0:80:1001": "--incidence gives 1,001 values, of which each has",
         "reproduce wang-2017-tabel-1": "did you mean 'wang-2017-table-1'?",
+        "reproduce none.toml": "'none.toml' cannot be read: No such file or directory",
         "reproduce Own": "see the names with `optipath surface reproduce --list`",
         "reproduce own.toml --photons 0": "photons must be a whole number of 1 or more, not 0",
         "--json reproduce": "write optipath surface reproduce first",
