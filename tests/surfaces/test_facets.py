@@ -303,3 +303,46 @@ def test_what_is_wrong_is_told_and_all_of_it_at_once(wrong, sentence):
     assert sentence in str(told.value)
     with pytest.raises(op.SurfaceError, match="5 faults"):
         single_scattering(-1.0, 0.0, direction(0.5), down(0.5), masking="no")
+
+
+def test_it_is_cooks_and_torrances_for_unpolarised_light():
+    theta_in, theta_out, alpha = 0.9, 0.6, 0.4
+    half, tilt = 0.5 * (theta_in + theta_out), 0.5 * (theta_in - theta_out)
+    inside = math.asin(math.sin(half) / 1.5)
+    s = (math.sin(half - inside) / math.sin(half + inside)) ** 2
+    p = (math.tan(half - inside) / math.tan(half + inside)) ** 2
+    seen = 1.0
+    for theta in (theta_in, theta_out):
+        a = 1.0 / (alpha * math.tan(theta))
+        masked = (math.erf(a) - 1.0) / 2.0 + math.exp(-a * a) / (2.0 * a * math.sqrt(math.pi))
+        seen /= 1.0 + masked
+    areas = 4.0 * math.cos(theta_in) * math.cos(theta_out)
+    facets = math.exp(-((math.tan(tilt) / alpha) ** 2)) / (math.pi * alpha**2 * math.cos(tilt) ** 4)
+    expected = 0.5 * (s + p) * facets * seen / areas
+    brdf = single_scattering(1.5, alpha, down(theta_in), direction(theta_out), masking="separate")
+    assert brdf.matrix[0, 0] == pytest.approx(expected, rel=1e-13)
+
+
+@rows("alpha", [0.1, 0.4, 1.0])
+def test_the_albedo_at_normal_incidence_is_that_of_smiths_model(alpha):
+    # Light along the normal leaves a facet of slope r at twice its angle.
+    def integrand(r):
+        tan = 2 * r / (1 - r * r)
+        a = 1 / (alpha * tan)
+        masked = (mp.erf(a) - 1) / 2 + mp.exp(-a * a) / (2 * a * mp.sqrt(mp.pi))
+        return 2 * r / alpha**2 * mp.exp(-((r / alpha) ** 2)) / (1 + masked)
+
+    expected = float(mp.quad(integrand, [1e-30, 0.1, 0.2, 0.4, 0.7, 1 - 1e-12]))
+    theta, weights = np.polynomial.legendre.leggauss(400)
+    theta, weights = np.pi / 4 * (theta + 1.0), np.pi / 4 * weights
+    brdf = single_scattering(1j, alpha, down(0.0), direction(theta)).matrix[:, 0, 0]
+    found = 2.0 * np.pi * np.sum(brdf * np.cos(theta) * np.sin(theta) * weights)
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_surface_of_two_roughnesses_may_be_turned_by_a_right_angle():
+    straight, turned = (
+        single_scattering(1.5, alpha, down(0.7, 0.1 + by), direction(0.9, 0.5 + by), alpha_y=other)
+        for alpha, other, by in ((0.2, 0.6, 0.0), (0.6, 0.2, np.pi / 2))
+    )
+    np.testing.assert_allclose(turned.matrix, straight.matrix, rtol=1e-13, atol=1e-16)

@@ -361,3 +361,13 @@ def test_heights_of_many_surfaces_are_normal(rng):
         several.append(waves.heights(points + x, points + y))
     erf = np.vectorize(math.erf)
     assert distance(np.ravel(several), lambda z: (1.0 + erf(z / np.sqrt(2.0))) / 2.0) < LIMIT
+
+
+def test_the_mesh_loses_the_slopes_that_the_warning_speaks_of():
+    with pytest.warns(op.MeshWarning):
+        coarse = HeightField.beckmann(1.0, size=80.0, cells=120, seed=1)
+    # A chord of cos(f x) over dx has sin(f dx / 2) / (f dx / 2) of its slope; over a normal
+    # spectrum of variance 1/2 for f, the mean of its square is (1 - exp(-dx^2 / 4)) 2 / dx^2.
+    step = coarse.spacing[0]
+    kept = (1.0 - np.exp(-(step**2) / 4.0)) * 2.0 / step**2
+    assert coarse.mean_square_slopes == pytest.approx((kept, kept), rel=2e-3)

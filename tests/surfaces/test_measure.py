@@ -373,3 +373,13 @@ def test_what_is_found_with_other_seeds_differs_by_its_errors():
     hemispheres = [*measured(2)]
     assert all(np.count_nonzero(each.parts.photons) == 2 for each in hemispheres)
     assert 0.5 < ratio(hemispheres, element(0, 0)) < 2.0
+
+
+@rows("azimuth", ["20 deg", "100 deg"])
+def test_a_sample_with_a_direction_is_seen_from_its_own_axes(azimuth):
+    sample, angle = op.Sample([(1j, (0.02, 0.02 + 1e-9))]), np.radians(float(azimuth.split()[0]))
+    found = op.measure(sample, "45 deg", 2000, sensor=16, azimuth=azimuth)
+    assert not found.symmetric
+    row, column = np.unravel_index(found.dataset["count"].values[0].argmax(), (16, 16))
+    there = np.array([found.sensor.coordinates[column], found.sensor.coordinates[row]])
+    assert np.abs(there - 0.5 * np.array([np.cos(angle), np.sin(angle)])).max() < 0.125

@@ -287,3 +287,16 @@ def test_light_along_the_normal_is_in_the_frame_of_light_beside_it():
     along, across = np.cos(0.7), np.sin(0.7)
     expected = [1.0, along**2 - across**2, 2.0 * along * across, 0.0]
     np.testing.assert_allclose(found.stokes[once], [expected] * once.sum(), rtol=0, atol=1e-14)
+
+
+def test_turning_an_anisotropic_sample_and_the_light_changes_nothing():
+    def walk(alpha, azimuth, seed=0):
+        sample = op.Sample([(0.5 + 2.1j, alpha)], cells=(400, 400), surfaces=4)
+        return surfaces.energy(sample, "60 deg", photons=4 * 16384, azimuth=azimuth, seed=seed)
+
+    one, other = walk((0.3, 0.1), 0.5), walk((0.1, 0.3), 0.5 + math.pi / 2, seed=1)
+    for name in ("R_s", "R_m", "R"):
+        error = math.hypot(getattr(one, f"{name}_se"), getattr(other, f"{name}_se"))
+        assert abs(getattr(one, name) - getattr(other, name)) < SIGMAS * error
+    crossed = walk((0.1, 0.3), 0.5)
+    assert abs(crossed.R_m - one.R_m) > SIGMAS * crossed.R_m_se

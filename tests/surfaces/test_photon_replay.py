@@ -10,7 +10,7 @@ from optipath.surfaces import HeightField
 from optipath.surfaces.replay.event_path import event_path
 from optipath.surfaces.replay.event_table import event_table
 from optipath.surfaces.replay.photon_event import PhotonEvent
-from rough_samples import drawn_sample, polarised, rough
+from rough_samples import drawn_sample, fresnel, polarised, rough
 from tables import rows, slow
 
 pytest.importorskip("numba")
@@ -294,3 +294,22 @@ def test_a_photon_is_printed_with_a_line_for_each_event():
     # A base of several wavelengths has no single index.
     line = event_table([event(np.array([0.5 + 2.1j, 0.4 + 2.4j]), reflected=True)]).splitlines()[1]
     assert line.split()[3:8] == ["1", "|", "n", "+", "ik"]
+
+
+def test_a_photon_in_a_flat_film_is_that_of_a_sum_by_hand():
+    """Into the film, off the mirror below it, and out again: 1 / (1 - share) for each way through.
+
+    Without a turn, since all planes of incidence are one.
+    """
+    sample = op.Sample([(1.5, 0.0), (1j, 0.0)])
+    photons = (sample.photon(number, ANGLE) for number in range(100))
+    photon = next(each for each in photons if len(each.events) == 3)
+    s, p = fresnel(1.0, 1.5, ANGLE)
+    through = 1.0 - 0.5 * (s + p)
+    intensities = ((1.0 - s) / through) ** 2, ((1.0 - p) / through) ** 2
+    assert photon.end == "up"
+    assert photon.stokes[0] == pytest.approx(0.5 * sum(intensities), rel=1e-13)
+    assert photon.stokes[1] == pytest.approx(0.5 * (intensities[0] - intensities[1]), rel=1e-11)
+    assert photon.stokes[2:] == pytest.approx(0.0, abs=1e-13)
+    assert photon.scalar == pytest.approx(1.0, rel=1e-13)
+    assert photon.weight == pytest.approx(through**-2, rel=1e-13)

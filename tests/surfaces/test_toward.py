@@ -213,3 +213,25 @@ def test_each_wavelength_has_its_own_light_and_one_of_several_is_asked_for():
         expected = op.Interface(index, "60 deg").mueller("in", "reflected").matrix
         found = several.toward("60 deg", wavelength=given).matrix
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+
+
+def test_four_intensities_tell_the_linear_polarisation(rough):
+    plan = ellipsometer(rough.toward("45 deg"))
+    told = {"polarizer": "0 deg", "compensator": "45 deg"}
+    turns = ["0 deg", "45 deg", "90 deg", "135 deg"]
+    i0, i45, i90, i135 = plan.run_all(analyzer=turns, **told)["photometer"].intensity
+    # From p towards s: S1 and S2 have the other sign in the frame with x along s.
+    s0, s1, s2, _ = plan.run(**told).stokes
+    assert [i0 + i90, i90 - i0, i45 - i135] == pytest.approx([s0, s1, s2], abs=1e-16)
+
+
+def test_light_scattered_once_in_the_plane_is_that_of_facets():
+    pytest.importorskip("numba")
+    sample = op.Sample([(GOLD, 0.25)], cells=200)
+    once = op.measure(sample, "60 deg", 200_000, sensor=91, events=1)
+    for angle in once.sensor.theta[45, [65, 73, 81]]:
+        theta = 0.5 * (np.radians(60.0) + angle)
+        facet = op.Interface(GOLD, theta).mueller("in", "reflected").matrix
+        found, error = once.estimate_toward(lambda matrix: matrix / matrix[0, 0], angle)
+        # Pixels are 2 deg wide, over which light and matrix are not the same.
+        assert np.all(np.abs(found - facet / facet[0, 0]) < 5.0 * error + 1.5e-3)
