@@ -226,9 +226,7 @@ def test_a_map_has_its_values_in_order_with_the_colours_of_its_quantity():
     assert ax.get_title() == "+ by default: angle 30°, intensity 1"
     with pytest.raises(ParameterError, match="both axes are 'angle'; give two parameters"):
         quantity_map(MALUS, "angle", "angle")
-
-
-def test_colours_are_in_order_apart_from_zero_or_round():
+    # Colours are in order, apart from zero, or round.
     for names, expected in {
         "S0 dolp": ("viridis", 0.0, 1.0),
         "S1 ellipticity": ("RdBu_r", -1.0, 1.0),

@@ -143,7 +143,7 @@ def ticks_of(ax):
     return [plain(text.get_text()).split("\n") for text in ax.get_xticklabels()]
 
 
-def test_bars_are_as_high_as_the_stokes_parameters_and_named():
+def test_bars_are_as_high_as_the_stokes_parameters_with_published_numbers_and_differences_below():
     ax = stokes(ROW, published=np.add(ROW.stokes, [0.0, 0.0, 0.0, 0.01]))
     assert faults_of(ax.figure) == []
     assert keys_of(ax) == [*(f"light[{place}]" for place in range(6)), "published"]
@@ -153,9 +153,6 @@ def test_bars_are_as_high_as_the_stokes_parameters_and_named():
     assert "eye" in words_of(stokes(ROW[0], labels="eye"))
     lights = {"a": ROW[0], "b" * 60: ROW[1], "$x_2$": ROW[2]}
     assert [key.replace("\n", "") for key in keys_of(stokes(lights))] == [*lights]
-
-
-def test_published_numbers_and_differences_stand_below_the_bars():
     ax = stokes(op.Light([1.0, 0.5, 0.0, -0.25]), published=[1.0, 0.49, 0.0, NAN])
     assert ticks_of(ax) == [
         ["S0", "1", "(1)", "Δ 0"],

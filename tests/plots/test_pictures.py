@@ -118,9 +118,8 @@ PATH, PUBLISHED = case_of("npgr026", "8")
 TWO = {"first": PATH, "second": 0.5 * PATH}, {"published": {"first": PUBLISHED["published"]}}
 
 
-@rows("scale", [1.0, 0.5])
-@rows(
-    "name, size, several",
+@pytest.mark.parametrize(
+    ("name", "size", "several"),
     [
         ("curve", (6.4, 4.2), [("npgr026", "rho", NAMED), ("dichroic-sheet", "retardance", NAMED)]),
         ("curve", (6.4, 4.2), [("lyot-depolarizer", "wavelength", NAMED)]),
@@ -148,6 +147,7 @@ TWO = {"first": PATH, "second": 0.5 * PATH}, {"published": {"first": PUBLISHED["
         ("geometry", (8.0, 6.0), ["npgr026", "two-panes", "lyot-filter", "faraday-isolator"]),
     ],
 )
+@rows("scale", [1.0, 0.5])
 def test_no_text_is_over_another_or_cut_at_either_size(name, size, several, scale):
     for each in several:
         first, *more = each if isinstance(each, tuple) else (each,)
@@ -213,7 +213,7 @@ def test_ribbons_are_as_wide_as_the_intensity_and_rows_say_what_becomes_of_it():
             assert not any(ribbon.get_path().contains_point(point) for ribbon in ribbons)
 
 
-def test_rounding_gains_darkness_and_several_sources_are_told():
+def test_rounding_gains_darkness_several_sources_and_taps_are_told():
     assert told_of(energy(op.load_preset("senarmont")))["eye"] == "gets 0 (0 %)"
     gain = op.MuellerElement(2.0 * np.eye(4), physical=False)
     ax = energy(op.Source() >> gain.named("laser") >> op.Detector())
@@ -228,9 +228,7 @@ def test_rounding_gains_darkness_and_several_sources_are_told():
         energy(MALUS, angle=[0.1, 0.2])
     with pytest.raises(op.OptipathError, match="energy is that of a path"):
         energy(op.Polarizer())
-
-
-def test_taps_are_dotted_and_only_read():
+    # Taps are dotted and only read.
     found = told_of(energy(op.load_preset("ellipsometer-pcsa"), n=1.5, k=0.0, theta=0.0))
     # The polariser lets half through, and glass of 1.5 reflects 4 % of that.
     assert (found["S.transmitted"], found["state"]) == ("leaves 0.48 (48 %)", "reads 0.02 (2 %)")
@@ -362,7 +360,7 @@ def test_every_contender_has_a_mark_in_each_panel_clear_of_texts(name):
     assert [len(marked(ax)) for ax in panel] == [count] * len(panel)
 
 
-def test_methods_precisions_engines_and_limits_are_named_in_readable_texts():
+def test_methods_precisions_engines_limits_and_what_fails_are_told_in_readable_texts():
     panel = op.plots.chart(recorded())
     assert min(text.get_fontsize() for text in texts_of(panel[0].figure)) >= 14
     looks = {}
@@ -374,9 +372,7 @@ def test_methods_precisions_engines_and_limits_are_named_in_readable_texts():
     words = " ".join(words_of(op.plots.chart(DOCS / "chart-interface.json")))
     assert "all but: near the critical angle;" in words
     assert "n near 1, grazing" in words
-
-
-def test_the_unit_of_what_fails_is_explained_and_neither_is_told_where_nothing_fails():
+    # The unit of what fails is explained, and neither is told where nothing fails.
     chart = recorded()
     words = " ".join(words_of(op.plots.chart(chart)))
     assert "fails (over 1000 ulp*) in so many regions" in words
