@@ -233,15 +233,12 @@ def test_adm_of_a_smooth_stack_is_the_exact_one(angle, known):
     assert abs(int(pixel.split(" ")[0]) - angle) <= 1
 
 
-def test_pixels_are_left_out_beside_an_azimuth_and_where_they_are_dark():
+def test_pixels_are_left_out_and_mirrored_light_has_the_polarisation_of_fresnel():
     *_, mask, pixel = found(ROUGH, "adm", "60 deg", 50_000, azimuth=10.0, noise=5.0)
     assert "azimuth within 10 deg" in mask
     assert int(pixel.split(" ")[2]) <= 10
     value, error, *_ = found(ROUGH, "adm", "60 deg", 20_000, brighter_than=1e6)
     assert np.isnan([value, error]).all()
-
-
-def test_mirrored_light_has_the_polarisation_of_fresnel():
     sample, given = op.Sample([(0.2 + 3.4j, 0)]), (1.0, 0.0, 1.0, 0.0)
     light = np.array(amplitudes(0.2 + 3.4j, np.radians(60.0)))
     intensity, s1 = np.sum(abs(light) ** 2), abs(light[0]) ** 2 - abs(light[1]) ** 2
