@@ -2,6 +2,7 @@
 
 import pickle
 from copy import deepcopy
+from functools import partial
 
 import mpmath
 import numpy as np
@@ -18,14 +19,8 @@ N = [1.28, 0.97, 0.62, 0.92]
 K = [1.188, 1.87, 2.08, 13.78]
 BK7 = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.560653)
 drude = op.Material.drude_lorentz
-
-
-def gold(**options):
-    return op.Material.tabulated(WAVELENGTHS, N, K, name="gold", **options)
-
-
-def bk7(**options):
-    return op.Material.sellmeier(*BK7, name="BK7", **options)
+gold = partial(op.Material.tabulated, WAVELENGTHS, N, K, name="gold")
+bk7 = partial(op.Material.sellmeier, *BK7, name="BK7")
 
 
 def test_indices_are_those_of_samples_and_of_published_formulas():

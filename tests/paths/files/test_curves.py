@@ -311,6 +311,7 @@ MEANT = "wavelengths: the wavelengths are 400 um .. 500 um, which are most likel
         ('"D65"', "'D65' is no spectrum by itself; write { illuminant = \"D65\" }"),
         ('"633 nm"', 'write { line = "633 nm" }'),
         ('{ sum = ["A"] }', 'write { illuminant = "A" }'),
+        ("{ sum = [{ black_body = -3 }] }", "temperature of a black body"),
         (LINES, '{ sum = [{ line = "633 nm" }, ...] }'),
         ("{ black_body = [300, 400, 500, 600] }", "{ black_body = 300 }, ...] }"),
     ],

@@ -236,6 +236,7 @@ UNEQUAL = '{kind="mirror", r_s={re=[1,2],im=[1,2,3]}, r_p=0.9}'
 @rows(
     "name, place, value, message",
     [
+        ("npgr026-3d", "elements.X1.outside", "[1, [2]]", "has rows of unequal lengths"),
         ("npgr026-3d", "elements.X2.place", "[1, 2]", "place must be a whole number"),
         ("npgr026-3d", "parameters.filter.words", '{w = ["1 deg", ["2 deg"]]}', "word 'w' of para"),
         ("malus", "elements.analyzer", UNEQUAL, "the shapes of 're' and 'im' do not fit"),

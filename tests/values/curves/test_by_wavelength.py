@@ -151,6 +151,8 @@ def test_a_wavelength_that_is_bound_known_or_a_default_gives_numbers_and_without
     assert bound.trace().stokes == pytest.approx(by_numbers(5e-7))
     with pytest.raises(op.ParameterError, match="bound to 500 nm"):
         bound.trace(wavelength=6e-7)
+    found = mirror().bind(tilt=0.3).trace(wavelength=5e-7).stokes
+    assert found == pytest.approx(by_numbers(5e-7, tilt=0.3))
     path = mirror(wavelength=op.Wavelength(default="500 nm"))
     assert path.trace().stokes == pytest.approx(by_numbers(5e-7))
     assert path.trace(wavelength="600 nm").stokes == pytest.approx(by_numbers(6e-7))
