@@ -264,7 +264,7 @@ def curves(ax):
     return {line.get_label(): line.get_xydata() for line in ax.get_lines()}
 
 
-def test_curves_of_reflection_are_those_of_the_amplitudes():
+def test_curves_of_reflection_are_those_of_the_amplitudes_with_angles_marked_where_there_are_any():
     glass = curves(reflection(1.5))
     for name in ("$R_s$", "$R_p$", "$R$ unpolarised"):
         np.testing.assert_allclose(glass[name][[0, -1]], [[0.0, 0.04], [90.0, 1.0]], atol=1e-6)
@@ -273,9 +273,6 @@ def test_curves_of_reflection_are_those_of_the_amplitudes():
     r_s, r_p, _, _ = op.fresnel_amplitudes(0.6 + 2.1j, np.cos(x), np.sin(x), 1.33)
     np.testing.assert_allclose(found["$R_s$"][:, 1], np.abs(r_s) ** 2, atol=1e-12)
     np.testing.assert_allclose(found["$R_p$"][:, 1], np.abs(r_p) ** 2, atol=1e-12)
-
-
-def test_brewsters_critical_and_pseudo_brewster_angles_are_marked_where_there_are_any():
     brewster = "Brewster's angle"
     assert marked(1.5) == {brewster: pytest.approx(56.3099, abs=1e-4)}
     assert "Brewster's angle 56.31°" in curves(reflection(1.5))

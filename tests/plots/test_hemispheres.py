@@ -105,7 +105,7 @@ def test_pixels_are_hatched_where_they_are_masked_or_not_known_well_enough(glass
     np.testing.assert_array_equal(~drawn.mask, error <= 0.02)
 
 
-def test_the_source_and_one_of_several_wavelengths_are_told_and_seen(glass):
+def test_the_source_the_wavelength_and_axes_that_are_given_are_drawn_and_settings_stay(glass):
     ax = hemisphere(glass, "S3", source=[1, 0, 0, -1])
     assert ax.get_title() == "S3, reflected, incidence 60°\nsource (1, 0, 0, -1)"
     stokes, area = glass.stokes([1, 0, 0, -1]).values[0, :, :, 0, 3], glass.sensor.solid_angle
@@ -120,9 +120,6 @@ def test_the_source_and_one_of_several_wavelengths_are_told_and_seen(glass):
     )
     title = hemisphere(gold, "ADM", mask={"noise": None}).get_title()
     assert title == "ADM, reflected, incidence 60°, 2 wavelengths"
-
-
-def test_axes_that_are_given_are_drawn_into_and_settings_stay(glass):
     ax, before = Figure().add_subplot(), dict(mpl.rcParams)
     assert hemisphere(glass, "S0", ax) is ax
     assert dict(mpl.rcParams) == before
@@ -201,7 +198,7 @@ def test_several_curves_look_otherwise_and_have_their_names(glass):
     assert faults_of(ax.figure) == []
 
 
-def test_bands_reach_two_standard_errors_up_and_down():
+def test_bands_reach_two_errors_up_and_down_angles_go_round_and_a_smooth_sample_has_its_line():
     silver = measured("silver")
     ax = in_plane(silver, "S0")
     middle, area = slice(7, 9), silver.sensor.solid_angle[7:9].sum(axis=0)
@@ -211,6 +208,13 @@ def test_bands_reach_two_standard_errors_up_and_down():
     np.testing.assert_allclose(curve_of(ax).get_ydata(), mean)
     (band,) = (each.get_paths()[0].vertices for each in ax.collections)
     np.testing.assert_allclose(band[:, 1].max(), (mean + 2.0 * error).max())
+    # An angle that comes round is no line across, and a smooth sample has its line.
+    ax = in_plane(measured("silver"), "AoP", source=(1.0, -0.9, 0.1, 0.0), known_to=90.0)
+    steps = np.abs(np.diff(curve_of(ax).get_ydata()))
+    assert not np.any(steps[~np.isnan(steps)] > 90.0)
+    ax = in_plane(measured("clear"), side="transmitted")
+    (line, *_) = (line for line in ax.get_lines() if len(line.get_xdata()) == 2)
+    np.testing.assert_allclose(line.get_xdata(), REFRACTED)
 
 
 @rows("pixels", [32, 33])
@@ -237,15 +241,6 @@ def test_curves_are_in_frames_of_the_plane_of_incidence(pixels):
     drawn = np.stack([line.get_ydata() for line in drawn], axis=-1)
     atol = 0.01 * expected.max()
     np.testing.assert_allclose(drawn[there], expected[there], rtol=0, atol=atol)
-
-
-def test_an_angle_that_comes_round_is_no_line_across_and_a_smooth_sample_has_its_line():
-    ax = in_plane(measured("silver"), "AoP", source=(1.0, -0.9, 0.1, 0.0), known_to=90.0)
-    steps = np.abs(np.diff(curve_of(ax).get_ydata()))
-    assert not np.any(steps[~np.isnan(steps)] > 90.0)
-    ax = in_plane(measured("clear"), side="transmitted")
-    (line, *_) = (line for line in ax.get_lines() if len(line.get_xdata()) == 2)
-    np.testing.assert_allclose(line.get_xdata(), REFRACTED)
 
 
 def names_of(ax):

@@ -309,17 +309,14 @@ def test_what_cannot_be_drawn_is_told(draw, told):
         draw()
 
 
-@rows(
-    "draw, told",
-    [
+def test_what_jax_traces_is_refused():
+    jax = pytest.importorskip("jax")
+    for draw, told in (
         (lambda given: ellipse(op.Light(given[0])), "a picture of light takes numbers"),
         (lambda given: mueller(op.Mueller(given)), "a picture of a Mueller matrix takes numbers"),
-    ],
-)
-def test_what_jax_traces_is_refused(draw, told):
-    jax = pytest.importorskip("jax")
-    with pytest.raises(op.ParameterError, match=told):
-        jax.jit(draw)(np.eye(4))
+    ):
+        with pytest.raises(op.ParameterError, match=told):
+            jax.jit(draw)(np.eye(4))
 
 
 # The sphere.
@@ -354,7 +351,7 @@ def test_states_are_named_at_their_places_and_points_are_the_stokes_parameters()
         np.testing.assert_allclose(points_of(poincare(light)), [[0.5, 0.0, 0.0]])
 
 
-def test_points_behind_are_hollow_joined_but_for_gaps_and_those_that_are_none_counted():
+def test_trails_have_hollow_points_behind_gaps_a_labelled_colour_bar_and_a_second_one_beside():
     ax = poincare(op.Light([[1.0, 1.0, 0.0, 0.0], [1.0, -1.0, 0.0, 0.0]]))
     # Matplotlib has them in the order of their depth.
     white = (ax.collections[-1].get_facecolors() == 1.0).all(axis=1)
@@ -370,9 +367,6 @@ def test_points_behind_are_hollow_joined_but_for_gaps_and_those_that_are_none_co
     assert len(points_of(ax)) == 1
     for numbers, told in ((NONE, "dark"), (UNREAD, "S1, S2 and S3 are not read")):
         assert poincare(op.Light(numbers)).get_title().split("\n")[0] == told
-
-
-def test_the_colour_bar_is_labelled_of_one_number_too_and_a_second_trail_is_on_the_same_sphere():
     ax = poincare(TRAIL, by=np.degrees(ANGLES), label="retardance (deg)")
     (bar,) = (each for each in ax.figure.axes if each is not ax)
     assert bar.get_ylabel() == "retardance (deg)"

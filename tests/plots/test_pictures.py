@@ -201,6 +201,14 @@ def test_ribbons_are_as_wide_as_the_intensity_and_rows_say_what_becomes_of_it():
     names, told = ax.texts[:-1:2], [text for text in ax.texts[1:-1:2] if text.get_text()]
     assert max(text.get_window_extent().x1 for text in names) <= min(box.x0 for box in boxes)
     assert min(text.get_window_extent().x0 for text in told) >= max(box.x1 for box in boxes)
+    # Faint and bright light is drawn as any other.
+    plain = widths(energy(op.load_preset("npgr026")))
+    for power in (1e-300, 1e300):
+        ax = energy(op.load_preset("npgr026"), intensity=power)
+        assert widths(ax) == pytest.approx(plain, rel=1e-9)
+        assert max(plain.values()) == pytest.approx(1.0)
+        assert f"gives {power:.3g}" in told_of(ax).values()
+        assert faults_of(ax.figure) == []
     # Spikes of what is taken lie over no ribbon.
     ax = energy(op.load_preset("absorbing-pile"))
     ribbons, spikes = ribbons_of(ax), ribbons_of(ax, named=False)
@@ -244,15 +252,6 @@ def test_rounding_gains_darkness_several_sources_and_taps_are_told():
     dotted = [line.get_gid() for line in ax.lines if line.get_linestyle() == ":"]
     assert sorted(dotted) == ["polarizer", "splitter", "splitter"]
     assert [*widths(ax)] == ["source -> polarizer", "polarizer -> detector"]
-    assert faults_of(ax.figure) == []
-
-
-@rows("power", [1e-300, 1e300])
-def test_faint_and_bright_light_is_drawn_as_any_other(power):
-    plain, ax = (energy(op.load_preset("npgr026"), intensity=each) for each in (1.0, power))
-    assert widths(ax) == pytest.approx(widths(plain), rel=1e-9)
-    assert max(widths(ax).values()) == pytest.approx(1.0)
-    assert f"gives {power:.3g}" in told_of(ax).values()
     assert faults_of(ax.figure) == []
 
 

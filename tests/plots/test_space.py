@@ -108,14 +108,11 @@ def test_names_and_values_stand_below_their_symbols(path, told):
     assert {*told} <= texts_in(bench(path))
 
 
-def test_long_straight_benches_take_rows():
+def test_long_straight_benches_take_rows_and_dials_show_the_light_between_as_malus_has_it():
     ax = bench(op.load_preset("lyot-filter"))
     below = [text.get_position() for text in ax.texts if text.get_transform() == ax.transData]
     assert len(below) == 11
     assert len({y for _, y in below}) > 1
-
-
-def test_dials_show_the_light_between_as_malus_has_it():
     first, second = dials_of(bench(MALUS, angle="30 deg"))
     assert np.allclose(abs(first).max(axis=0), [1.0, 0.0], atol=1e-9)
     along = second[np.argmax(second[:, 0])]
@@ -186,6 +183,13 @@ def test_a_picture_in_space_has_all_names_a_key_and_what_was_chosen():
     texts = texts_in(geometry(op.load_preset("ellipsometer-rough")))
     (note,) = [text for text in texts if "lengths are chosen" in text]
     assert "schematic" in note
+    # What is left out has its name at its plate.
+    for preset in ("npgr026", "npgr026-3d", "copper-gold-spectrum"):
+        ax = geometry(op.load_preset(preset))
+        boxes = {text.get_text(): text.get_window_extent() for text in ax.texts}
+        plate, absent = boxes["P"], boxes["filter = none"]
+        apart = np.maximum(absent.min - plate.max, plate.min - absent.max)
+        assert apart.max() < 3.0 * plate.height
 
 
 @rows(
@@ -216,15 +220,6 @@ def test_links_are_as_long_to_the_right_as_up_and_straight_paths_level():
     for draw in (bench, geometry):
         ax = Figure().add_subplot()
         assert draw(MALUS, ax) is ax
-
-
-@rows("preset", ["npgr026", "npgr026-3d", "copper-gold-spectrum"])
-def test_what_is_left_out_has_its_name_at_its_plate(preset):
-    ax = geometry(op.load_preset(preset))
-    boxes = {text.get_text(): text.get_window_extent() for text in ax.texts}
-    plate, absent = boxes["P"], boxes["filter = none"]
-    apart = np.maximum(absent.min - plate.max, plate.min - absent.max)
-    assert apart.max() < 3.0 * plate.height
 
 
 @rows("draw", [geometry, bench, scene_of])
@@ -376,18 +371,13 @@ def test_nodes_and_frames_of_a_chain_of_points_are_those_of_its_light():
     assert np.allclose(by_name(scene.nodes)["glass"].normal, [0, 0, 1])
 
 
-@rows("theta", [0.0, 30.0, 56.3, 89.0, 90.0])
-def test_a_slab_refracts_by_snell_and_lets_light_out_parallel(theta):
-    scene = scene_of(op.load_preset("glass-slab"), theta=np.radians(theta))
-    ways = ways_of(scene)
-    normal = by_name(scene.nodes)["front"].normal
-    into, out = ways["front.transmitted -> down.in"], ways["back.transmitted -> transmitted.in"]
-    assert np.allclose(out, ways["lamp.out -> front.in"], atol=1e-12)
-    sine = np.linalg.norm(np.cross(into, normal))
-    assert abs(1.5 * sine - np.sin(np.radians(theta))) < 1e-12
-
-
-def test_light_that_comes_back_or_from_a_second_source_is_drawn_beside():
+def test_a_slab_refracts_by_snell_and_light_that_comes_back_or_from_a_second_source_is_beside():
+    for theta in np.radians([0.0, 30.0, 56.3, 89.0, 90.0]):
+        scene = scene_of(op.load_preset("glass-slab"), theta=theta)
+        ways, normal = ways_of(scene), by_name(scene.nodes)["front"].normal
+        into, out = ways["front.transmitted -> down.in"], ways["back.transmitted -> transmitted.in"]
+        assert np.allclose(out, ways["lamp.out -> front.in"], atol=1e-12)
+        assert abs(1.5 * np.linalg.norm(np.cross(into, normal)) - np.sin(theta)) < 1e-12
     scene = scene_of(op.load_preset("glass-slab"))
     front, ray = by_name(scene.nodes)["front"], by_name(scene.rays)["up.out -> front.back"]
     assert abs((ray.head - front.at) @ front.normal) < 1e-12
@@ -460,7 +450,7 @@ def test_a_polarizing_beam_splitter_reflects_to_the_side_and_lights_that_meet_co
     assert first @ second < 0.9
 
 
-def test_angles_have_names_values_and_arcs_as_wide_as_they_are():
+def test_angles_have_names_values_and_arcs_and_light_ellipses_as_large_as_they_are():
     scene = scene_of(op.load_preset("npgr026", case="8"), delta="40 deg")
     assert [angle.text for angle in scene.angles] == [
         "filter = 0 deg",
@@ -474,9 +464,6 @@ def test_angles_have_names_values_and_arcs_as_wide_as_they_are():
         first, last = (angles[name].arc[end] - nodes[node].at for end in (0, -1))
         cosine = first @ last / np.linalg.norm(first) / np.linalg.norm(last)
         assert abs(np.degrees(np.arccos(cosine)) - expected) < 1e-9
-
-
-def test_ellipses_are_as_large_as_light_is_polarised_and_what_is_left_out_has_no_arc_and_no_sign():
     scene = scene_of(op.load_preset("npgr026", case="8"))
     rays = by_name(scene.rays)
     linear = rays["P.out -> X2.in"]
