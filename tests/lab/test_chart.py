@@ -170,7 +170,7 @@ def test_interfaces_in_world_frames_keep_their_incidence():
     assert slow_operations(program)["sqrt"] >= 2
 
 
-def test_components_that_are_not_read_have_no_error_and_light_beyond_a_precision_is_lost():
+def test_what_is_not_read_has_no_error_and_what_cannot_be_measured_is_lost_left_out_or_refused():
     path = chain([op.Interface(1.5, 0.9)], STATE, reads="intensity")
     (trial,) = trials(path, (), "float64", 1)
     assert max(kind.max() for kind in path_errors(op.Composer(), trial, "float64")) <= 10
@@ -183,9 +183,6 @@ def test_components_that_are_not_read_have_no_error_and_light_beyond_a_precision
     dtypes = {c["dtype"] for c in path_chart(path, "bright", LITTLE)["contenders"]}
     assert "float64" in dtypes
     assert "float32" not in dtypes
-
-
-def test_what_cannot_be_measured_or_was_already_is_left_out_and_batches_are_refused():
     found = path_chart(chain([op.MuellerElement(np.eye(4))]), "foil", LITTLE)
     assert {c["composing"] for c in found["contenders"]} == {"stokes"}
     found = path_chart(chain([op.Attenuator(0.5)], STATE), "grey", LITTLE)
