@@ -31,16 +31,15 @@ def made(name):
 
 @click.command()
 @click.option("--minutes", type=float, default=1.0, show_default=True, help="How long.")
-@click.option("--attacks", type=int, help="How many at the most.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Other attacks by another.")
 @click.option("--only", type=click.Choice([*_MAKERS]), help="One kind alone.")
 @click.option("--again", metavar="NAME", help="One attack alone, by its name.")
 @click.option("--most", type=int, default=5, show_default=True, help="Faults after which to stop.")
-def main(minutes, attacks, seed, only, again, most):
+def main(minutes, seed, only, again, most):
     """Attack the library with random files, values, command lines and options."""
     end, number, faults = time.monotonic() + 60.0 * minutes, 0, 0
     kinds = [only] if only else [*_MAKERS]
-    while again or (time.monotonic() < end and faults < most and number != attacks):
+    while again or (time.monotonic() < end and faults < most):
         name = again or f"{kinds[number % len(kinds)]}-{seed}-{number}"
         attack = made(name)
         fault, number = fault_of(attack), number + 1

@@ -47,26 +47,21 @@ def asked(plugin, eye, light, wavelength):
     interaction.wi = mitsuba.Vector3f(eye)
     to_light = mitsuba.Vector3f(light)
     value = np.array(plugin.eval(mitsuba.BSDFContext(), interaction, to_light))[..., 0]
-    bases = [mitsuba.mueller.stokes_basis(each) for each in (-to_light, interaction.wi)]
-    return {
-        "eye": eye.tolist(),
-        "light": light.tolist(),
-        "wavelength": wavelength,
-        "basis_in": np.array(bases[0]).ravel().tolist(),
-        "basis_out": np.array(bases[1]).ravel().tolist(),
-        "mueller": value.tolist(),
+    into, out = (mitsuba.mueller.stokes_basis(each) for each in (-to_light, interaction.wi))
+    bases = {
+        "basis_in": np.array(into).ravel().tolist(),
+        "basis_out": np.array(out).ravel().tolist(),
     }
+    ways = {"eye": eye.tolist(), "light": light.tolist()}
+    return {**ways, "wavelength": wavelength, **bases, "mueller": value.tolist()}
 
 
 def apart(each, brdf):
     """M00 of the BRDF times the cosine, and how far what is read is from it."""
-    light, eye = np.array(each["light"]), np.array(each["eye"])
-    frames = [
-        op.Frame.from_direction(z, np.array(each[basis]))
-        for z, basis in ((-light, "basis_in"), (eye, "basis_out"))
-    ]
-    into, out_of = (op.Mueller(np.eye(4), frame, frame) for frame in frames)
-    ours = (out_of @ brdf(-light, eye) @ into).to("mitsuba") * light[2]
+    ways = -np.array(each["light"]), np.array(each["eye"])
+    bases = np.array(each["basis_in"]), np.array(each["basis_out"])
+    into, out_of = (op.Mueller(np.eye(4), f, f) for f in map(op.Frame.from_direction, ways, bases))
+    ours = (out_of @ brdf(*ways) @ into).to("mitsuba") * each["light"][2]
     return ours[0, 0], np.abs(ours - each["mueller"]).max()
 
 
