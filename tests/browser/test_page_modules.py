@@ -116,15 +116,12 @@ def test_labels_are_not_over_one_another_and_heights_are_spread_in_their_order(i
     assert max(found) <= 60
 
 
-def test_a_curve_between_whose_points_there_may_be_more_is_told(it):
+def test_curves_that_may_miss_something_are_told_and_power_that_goes_round_leads_back_once(it):
     sampled = "{{ x: [0, 1], lines: [{{ values: Array.from({{ length: 2001 }}, {}) }}] }}"
     slow, fast, rounding = "Math.sin(i / 8)", "Math.sin(i * i / 1000)", "i + 1e-9 * (-1) ** i"
     drawn = ", ".join(sampled.format(f"(_, i) => {each}") for each in (slow, fast, rounding))
     assert it("curve_faults.js", f"[{drawn}].map(it.isTooFast)") == [False, True, False]
     assert "itself" in it("curve_faults.js", "it.flat({ x: [30, 30, 30] })")[0]
-
-
-def test_power_that_goes_round_leads_back_once(it):
     energy = """{ links: [
       { start: "lamp", end: "front", name: "a", power: 1, text: "1" },
       { start: "front", end: "back", name: "b", power: 0.9, text: "0.9" },

@@ -153,7 +153,7 @@ def test_the_address_carries_the_state(visited, visited_with):
     visited.shows_npgr026()
 
 
-def test_a_curve_is_chosen_and_its_value_pointed_at(visited):
+def test_a_curve_is_chosen_its_value_pointed_at_and_its_fault_leaves_all_else_as_it_is(visited):
     page = visited.open("preset=malus")
     label = page.locator("#curve-canvas svg").get_attribute("aria-label")
     assert "against angle (deg)" in label.lower()
@@ -174,9 +174,6 @@ def test_a_curve_is_chosen_and_its_value_pointed_at(visited):
     degrees = value_of(page, "delta")
     assert np.degrees(0.6) < degrees < np.degrees(0.8)
     visited.shows_npgr026(delta=np.radians(degrees))
-
-
-def test_a_fault_of_the_curve_is_told_beside_it_and_leaves_all_else_as_it_is(visited):
     page = visited.open("preset=malus")
     page.locator("#curve-range").get_by_label("from").fill("a lot")
     page.keyboard.press("Enter")
