@@ -159,7 +159,7 @@ def cluster_client():
 @pytest.fixture
 def client(cluster_client):
     """The cluster with both its workers, whoever died in the test before."""
-    cluster_client.wait_for_workers(2)
+    cluster_client.wait_for_workers(2, timeout=120)
     return cluster_client
 
 
@@ -187,7 +187,7 @@ def test_the_active_client_is_taken_and_who_dies_loses_nothing(store, log, clien
     keep_blocks(Powers(20, str(log), slow=0.02), store, client, killing_one(client)[0])
     assert holds_powers(store, 20)
     assert 20 <= len(computed(log)) <= 22
-    client.wait_for_workers(2)
+    client.wait_for_workers(2, timeout=120)
     monkeypatch.setattr(distributed, "default_client", lambda: client)
     with xr.open_zarr(keep_blocks(WhoComputes(3), store.with_name("who.zarr"))) as found:
         pids = {*found.power.values.ravel().astype(int)}
@@ -199,7 +199,7 @@ def test_a_block_that_kills_its_workers_is_told_and_the_others_stay(store, log, 
         keep_blocks(Powers(12, str(log), kills_at=8), store, client)
     kept = marked(store)
     assert kept
-    client.wait_for_workers(2)
+    client.wait_for_workers(2, timeout=120)
     already = len(computed(log))
     keep_blocks(Powers(12, str(log)), store, client)
     assert holds_powers(store, 12)
