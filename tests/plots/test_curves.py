@@ -84,7 +84,7 @@ def texts(ax):
     return [text.get_text() for text in ax.texts]
 
 
-def test_values_are_those_of_a_sweep_in_their_unit():
+def test_values_are_those_of_a_sweep_in_their_unit_open_where_refused_and_the_default_is_marked():
     ax = curve(MALUS, "angle")
     x, y = lines(ax)["S0"].T
     assert (x[0], x[-1]) == pytest.approx((0.0, 180.0))
@@ -101,6 +101,19 @@ def test_values_are_those_of_a_sweep_in_their_unit():
     (mark,) = [line for line in ax.get_lines() if line.get_gid() == "default"]
     assert mark.get_xdata()[0] == pytest.approx(2.2543, abs=1e-3)  # hc / 550 nm
     assert [each.name for each in drawn_quantities(("s0", "dolp"))] == ["S0", "DoLP"]
+    # The value by default is marked where it is seen.
+    ax = curve(MALUS, "angle")
+    (mark,) = [line for line in ax.get_lines() if line.get_gid() == "default"]
+    assert mark.get_xdata()[0] == pytest.approx(30.0)
+    assert "30°" in [text.get_text() for text in texts_of(ax.figure)]
+    for ax in (curve(MALUS, "angle", values="40 deg:80 deg:9"), curve(RHOMB, "filter")):
+        assert "default" not in [line.get_gid() for line in ax.get_lines()]
+    # No dye is stronger than the mean absorption, which is 0.1 / um.
+    path = op.load_preset("dichroic-sheet")
+    x, y = lines(curve(path, "dichroism"))["S0"].T
+    np.testing.assert_array_equal(np.isfinite(y), np.abs(x) <= 0.1)
+    with pytest.raises(OptipathError, match="dichroi"):
+        curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
 def test_quantities_of_two_units_have_two_axes_looks_of_their_own_and_a_legend_above_all():
@@ -149,21 +162,6 @@ def test_angles_that_come_round_or_flip_or_are_not_known_are_no_line_across():
     ax = curve(POWER >> op.Detector(), "power", ("S0", "AoP"))
     assert np.isnan(lines(ax)["AoP"][:, 1]).all()
     assert "AoP: the light has none" in texts(ax)
-
-
-def test_the_value_by_default_is_marked_where_it_is_seen_and_what_the_path_refuses_left_open():
-    ax = curve(MALUS, "angle")
-    (mark,) = [line for line in ax.get_lines() if line.get_gid() == "default"]
-    assert mark.get_xdata()[0] == pytest.approx(30.0)
-    assert "30°" in [text.get_text() for text in texts_of(ax.figure)]
-    for ax in (curve(MALUS, "angle", values="40 deg:80 deg:9"), curve(RHOMB, "filter")):
-        assert "default" not in [line.get_gid() for line in ax.get_lines()]
-    # No dye is stronger than the mean absorption, which is 0.1 / um.
-    path = op.load_preset("dichroic-sheet")
-    x, y = lines(curve(path, "dichroism"))["S0"].T
-    np.testing.assert_array_equal(np.isfinite(y), np.abs(x) <= 0.1)
-    with pytest.raises(OptipathError, match="dichroi"):
-        curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
 def test_narrow_lines_are_as_high_as_they_are_and_what_changes_too_fast_is_told_but_not_rounding():

@@ -247,7 +247,7 @@ def names_of(ax):
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
-def test_wavelengths_that_differ_are_told_and_the_only_one_may_be_left_out():
+def test_wavelengths_that_differ_are_told_and_what_is_no_hemisphere_or_not_measured_is_refused():
     gold, silver = measured("gold"), measured("silver")
     ax = in_plane({"silver": silver, "gold": gold}, wavelength="600 nm")
     assert ax.get_title() == "S0, reflected, in the plane of incidence, 600 nm"
@@ -266,6 +266,21 @@ def test_wavelengths_that_differ_are_told_and_the_only_one_may_be_left_out():
     with pytest.raises(op.SurfaceError, match="give a wavelength of 450 nm, or leave it out"):
         in_plane(blue, wavelength="600 nm")
     assert in_plane(blue).get_title() == "S0, reflected, incidence 60°, 450 nm"
+    for wrong in (None, "sample"):
+        with pytest.raises(op.SurfaceError, match="is no Hemisphere; give what op"):
+            hemisphere(wrong)
+    with pytest.raises(op.SurfaceError, match="550 nm has not been measured; give a wavelength"):
+        hemisphere(measured("gold"), wavelength="550 nm")
+    with pytest.raises(op.SurfaceError, match="give one Hemisphere at least"):
+        in_plane({})
+    with pytest.raises(op.SurfaceError, match=r"^b: 3 is no Hemisphere"):
+        in_plane({"a": measured("silver"), "b": 3})
+    with pytest.raises(op.SurfaceError, match="measure with events=1"):
+        beside_facets(measured("silver"))
+    sample, options = op.load_sample("perfect-reflector-rough"), {"sensor": 16, "photons": 600}
+    found = op.measure(sample, "60 deg", polarized="polarized", **options)
+    with pytest.raises(op.SurfaceError, match="has not been measured; measure with polarized"):
+        differences(found)
 
 
 @rows(
@@ -314,21 +329,3 @@ def test_faults_name_their_curves(names, given, sentence):
     several = {name: measured(name) for name in names.split(", ")}
     with pytest.raises(op.SurfaceError, match=sentence):
         in_plane(several if len(several) > 1 else several[names], **given)
-
-
-def test_what_is_no_hemisphere_or_has_not_been_measured_is_refused():
-    for wrong in (None, "sample"):
-        with pytest.raises(op.SurfaceError, match="is no Hemisphere; give what op"):
-            hemisphere(wrong)
-    with pytest.raises(op.SurfaceError, match="550 nm has not been measured; give a wavelength"):
-        hemisphere(measured("gold"), wavelength="550 nm")
-    with pytest.raises(op.SurfaceError, match="give one Hemisphere at least"):
-        in_plane({})
-    with pytest.raises(op.SurfaceError, match=r"^b: 3 is no Hemisphere"):
-        in_plane({"a": measured("silver"), "b": 3})
-    with pytest.raises(op.SurfaceError, match="measure with events=1"):
-        beside_facets(measured("silver"))
-    sample, options = op.load_sample("perfect-reflector-rough"), {"sensor": 16, "photons": 600}
-    found = op.measure(sample, "60 deg", polarized="polarized", **options)
-    with pytest.raises(op.SurfaceError, match="has not been measured; measure with polarized"):
-        differences(found)

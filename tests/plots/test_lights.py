@@ -228,7 +228,13 @@ def digits_of(ax):
     return {(int(row), int(column)): text for (row, column), text in cells}
 
 
-def test_cells_are_over_m00_with_columns_in_and_rows_out_and_what_is_not_known_is_told():
+def lightness(colour):
+    shares = np.array(to_rgb(colour))
+    linear = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
+    return linear @ [0.2126, 0.7152, 0.0722]
+
+
+def test_cells_are_over_m00_in_colours_apart_from_white_at_zero_with_digits_that_are_read():
     ax = mueller(op.Polarizer("0 deg").mueller())
     assert ax.get_title() == "M / M00, with M00 = 0.5"
     cells = digits_of(ax)
@@ -252,16 +258,7 @@ def test_cells_are_over_m00_with_columns_in_and_rows_out_and_what_is_not_known_i
     assert "none: M00 is 0, or noise" in words_of(ax)
     for value, told in ((2e-5, "2e-5"), (-3e-17, "0")):
         assert digits_of(mueller(changed((2, 2), value)))[2, 2] == told
-
-
-def lightness(colour):
-    shares = np.array(to_rgb(colour))
-    linear = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
-    return linear @ [0.2126, 0.7152, 0.0722]
-
-
-def test_colours_go_apart_from_white_at_zero_and_digits_are_read_on_all():
-    """A contrast of 3 at least, as WCAG 2.1 (1.4.11) asks of what is drawn."""
+    # A contrast of 3 at least, as WCAG 2.1 (1.4.11) asks of what is drawn.
     (image,) = mueller(GOLD).get_images()
     assert image.get_clim() == (-1.0, 1.0)
     np.testing.assert_allclose(image.cmap(image.norm(0.0))[:3], 1.0, atol=0.04)

@@ -284,13 +284,10 @@ def test_a_picture_is_saved_in_every_form_with_texts_as_such(form, begins, holds
         assert files[0].read_bytes() == files[1].read_bytes()
 
 
-ENDINGS = "cannot be drawn; use one of: .png, .svg, .pdf"
-
-
 @rows(
     "drawn, name, told",
     [
-        *((Figure(), name, ENDINGS) for name in ("map.jpg", "map", "map.svg.gz")),
+        *((Figure(), f"map{end}", "one of: .png, .svg, .pdf") for end in (".jpg", "", ".svg.gz")),
         (Figure(), "none/x.png", r"none/x.png' cannot be written: No such file"),
         (Figure(), "a.png/b.png", r"a.png/b.png' cannot be written: "),
         (Figure(), "folder.png", r"folder.png' cannot be written: "),
@@ -399,7 +396,20 @@ def near(**more):
     return {**told, **numbers, "places": places, **more}
 
 
-def test_what_was_left_out_is_said_and_what_is_no_chart_refused():
+def test_errors_near_critical_places_are_a_panel_a_place_and_what_was_left_out_is_said():
+    panel = op.plots.chart(near())
+    for ax, name in zip(panel, ("brewster", "normal", "grazing"), strict=True):
+        assert ax.get_xlabel() == f"distance from {name} (rad)"
+        curves = [line for line in ax.get_lines() if len(line.get_xdata()) == 3]
+        assert len(curves) == 4
+        # A lost number is drawn where no digit is right, and none of them is beyond.
+        assert max(max(line.get_ydata()) for line in curves) == 1.0
+    assert_clear(panel)
+    one = near(title="long title " * 20, regions={"measured": 3, "of": 9})
+    panel = op.plots.chart(one | {"places": one["places"][:1]})
+    assert_clear(panel)
+    assert "interrupted: 3 of 9 distances" in " ".join(words_of(panel))
+    # What was left out is said, and what is no chart refused.
     effort = {"samples": 3, "rounds": 3, "left_out": "of Numba only stable"}
     chart = {**recorded(), "effort": effort, "regions": {"measured": 5, "of": 21}}
     words = " ".join(words_of(op.plots.chart(chart)))
@@ -415,18 +425,3 @@ def test_what_was_left_out_is_said_and_what_is_no_chart_refused():
     ):
         with pytest.raises(op.OptipathError, match=told):
             draw()
-
-
-def test_errors_near_critical_places_are_a_panel_a_place():
-    panel = op.plots.chart(near())
-    for ax, name in zip(panel, ("brewster", "normal", "grazing"), strict=True):
-        assert ax.get_xlabel() == f"distance from {name} (rad)"
-        curves = [line for line in ax.get_lines() if len(line.get_xdata()) == 3]
-        assert len(curves) == 4
-        # A lost number is drawn where no digit is right, and none of them is beyond.
-        assert max(max(line.get_ydata()) for line in curves) == 1.0
-    assert_clear(panel)
-    one = near(title="long title " * 20, regions={"measured": 3, "of": 9})
-    panel = op.plots.chart(one | {"places": one["places"][:1]})
-    assert_clear(panel)
-    assert "interrupted: 3 of 9 distances" in " ".join(words_of(panel))

@@ -60,48 +60,47 @@ def test_no_name_is_over_another_or_a_symbol_or_cut(preset, size):
     assert not [text for text, box in boxes for each in shapes if each.intersects_bbox(box)]
 
 
-@rows("preset", ["glass-slab", "coated-metal", "double-pass-waveplate"])
-def test_light_begins_and_ends_at_what_is_drawn(preset):
-    ax = bench(op.load_preset(preset))
-    beams = [line for line in beams_in(ax) if line.get_color() != FAINT]
-    assert len(beams) >= 4
-    drawn = [each for each in ax.patches if each.get_zorder() >= 4.0]
-    shapes = [each.get_path().transformed(each.get_patch_transform()) for each in drawn]
-    for end in np.concatenate([line.get_xydata() for line in beams]):
-        around = Bbox([end - 0.02, end + 0.02])
-        assert any(shape.intersects_bbox(around) for shape in shapes), end
+def test_light_begins_and_ends_at_what_is_drawn_and_no_name_lies_over_a_ray():
+    for preset in ("glass-slab", "coated-metal", "double-pass-waveplate"):
+        ax = bench(op.load_preset(preset))
+        beams = [line for line in beams_in(ax) if line.get_color() != FAINT]
+        assert len(beams) >= 4
+        drawn = [each for each in ax.patches if each.get_zorder() >= 4.0]
+        shapes = [each.get_path().transformed(each.get_patch_transform()) for each in drawn]
+        for end in np.concatenate([line.get_xydata() for line in beams]):
+            around = Bbox([end - 0.02, end + 0.02])
+            assert any(shape.intersects_bbox(around) for shape in shapes), end
+    for preset in ("ellipsometer-rough", "ellipsometer-pcsa"):
+        ax = bench(op.load_preset(preset))
+        assert "--" in {line.get_linestyle() for line in beams_in(ax)}
+        rays = [Path(ax.transData.transform(line.get_xydata())) for line in beams_in(ax)]
+        boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+        assert not [box for box in boxes for ray in rays if ray.intersects_bbox(box, filled=False)]
 
 
 BY_ANGLES = op.VerticesByAngles((0.5, op.Parameter("b", 0.25)), (np.pi,), backwards=True)
-REFRACTED = np.degrees(np.arcsin(np.sin(np.radians(40.0)) / 1.5))
-ASSIGNMENT = ["X2\nphi = 56 deg", "X1\ndelta = 53 deg\nazimuth -rho = 0 deg"]
+REFRACTED, OF_PRISM = np.degrees(np.arcsin([np.sin(np.radians(40.0)) / 1.5, 0.75]))
+ASSIGNMENT = "X2\nphi = 56 deg", "X1\ndelta = 53 deg\nazimuth -rho = 0 deg"
+SENARMONT = (
+    "polarizer\n0 deg",
+    "sample\n45 deg\nretardance = 60 deg",
+    "analyzer\nanalyzer = 120 deg",
+)
+OF_CHAIN = "vertex1\nb = 14.324 deg", "vertex2\nincidence = 28.648 deg\nazimuth 180 deg"
 
 
 @rows(
     "path, told",
     [
-        (
-            op.load_preset("senarmont"),
-            [
-                "polarizer\n0 deg",
-                "sample\n45 deg\nretardance = 60 deg",
-                "analyzer\nanalyzer = 120 deg",
-            ],
-        ),
+        (op.load_preset("senarmont"), SENARMONT),
         (op.load_preset("npgr026", case="1"), ASSIGNMENT),
         # Surfaces at points of the world have the angles of their chain.
         *((op.load_preset(name, rho=0.0), ASSIGNMENT) for name in ("npgr026", "npgr026-3d")),
-        (
-            op.path_from_vertices(BY_ANGLES, materials=(1.5, 1.5)),
-            ["vertex1\nb = 14.324 deg", "vertex2\nincidence = 28.648 deg\nazimuth 180 deg"],
-        ),
+        (op.path_from_vertices(BY_ANGLES, materials=(1.5, 1.5)), OF_CHAIN),
         # The angle of a face is that at which light meets it.
         (op.load_preset("coated-metal"), [f"metal\nincidence = {REFRACTED:.5g} deg"]),
         (op.load_preset("glass-slab"), [f"back\nincidence = {REFRACTED:.5g} deg"]),
-        (
-            op.load_preset("prism-refraction"),
-            [f"front\nincidence = {np.degrees(np.arcsin(0.75)):.5g} deg"],
-        ),
+        (op.load_preset("prism-refraction"), [f"front\nincidence = {OF_PRISM:.5g} deg"]),
     ],
 )
 def test_names_and_values_stand_below_their_symbols(path, told):
@@ -156,17 +155,6 @@ def test_where_symbols_lie_over_one_another_that_is_said_with_the_cure(preset, f
         assert faults_of(ax.figure) == []
 
 
-@rows("preset", ["ellipsometer-rough", "ellipsometer-pcsa"])
-def test_no_name_lies_over_a_ray(preset):
-    ax = bench(op.load_preset(preset))
-    assert "--" in {line.get_linestyle() for line in beams_in(ax)}
-    rays = [Path(ax.transData.transform(line.get_xydata())) for line in beams_in(ax)]
-    for text in ax.texts:
-        if text.get_text():
-            box = text.get_window_extent()
-            assert not any(ray.intersects_bbox(box, filled=False) for ray in rays), text
-
-
 # In space.
 
 
@@ -208,7 +196,7 @@ def test_extreme_values_are_drawn_without_a_fault(values, presets):
         assert faults_of(geometry(op.load_preset(preset), **values).figure) == [], preset
 
 
-def test_links_are_as_long_to_the_right_as_up_and_straight_paths_level():
+def test_links_are_as_long_to_the_right_as_up_straight_paths_level_and_odd_views_refused():
     ax = geometry(MALUS)
     ax.figure.draw_without_rendering()
     (x0, y0), (x1, y1) = ax.transData.transform([(0.0, 0.0), (1.0, 1.0)])
@@ -220,6 +208,11 @@ def test_links_are_as_long_to_the_right_as_up_and_straight_paths_level():
     for draw in (bench, geometry):
         ax = Figure().add_subplot()
         assert draw(MALUS, ax) is ax
+    with pytest.raises(op.PathError, match=r"leaves that at 'X1'; op.plots.geometry"):
+        bench(op.load_preset("npgr026", case="8"))
+    for view in (3, "front", (1, 2, 3), (np.nan, 0.0)):
+        with pytest.raises(op.OptipathError, match="give elevation and azimuth"):
+            geometry(MALUS, view=view)
 
 
 @rows("draw", [geometry, bench, scene_of])
@@ -234,14 +227,6 @@ def test_several_paths_no_path_and_light_that_goes_no_way_are_refused_with_the_c
     path = op.path_from_vertices(points, [1.5], events="T", bad="mask")
     with pytest.raises(op.PathError, match=r"ways that light can go, but on '.*not a number"):
         draw(path)
-
-
-def test_light_out_of_the_plane_is_refused_by_a_bench_and_a_view_that_is_none_in_space():
-    with pytest.raises(op.PathError, match=r"leaves that at 'X1'; op.plots.geometry"):
-        bench(op.load_preset("npgr026", case="8"))
-    for view in (3, "front", (1, 2, 3), (np.nan, 0.0)):
-        with pytest.raises(op.OptipathError, match="give elevation and azimuth"):
-            geometry(MALUS, view=view)
 
 
 # Scenes.
