@@ -104,7 +104,7 @@ def test_progress_is_told_and_what_is_measured_so_far_is_a_whole_chart_after_eve
     assert json.loads(chart_text(found)) == kept[-1]
 
 
-def test_a_chart_of_an_interface_has_all_methods_and_a_quick_one_says_what_it_leaves_out():
+def test_interfaces_have_all_methods_and_their_incidence_and_a_quick_chart_says_what_it_lacks():
     found = interface_chart(LITTLE)
     assert {c["method"] for c in found["contenders"]} == set(REFLECTION.methods)
     assert worst(by_words(found, "compensated", "float64", "stokes")) <= 1.5
@@ -117,6 +117,25 @@ def test_a_chart_of_an_interface_has_all_methods_and_a_quick_one_says_what_it_le
     assert sum(runner.engine == "numba" for runner in measured) <= 1
     assert "--quick" in expected(FULL)
     assert Errors._fields == KINDS, "in files, too"
+    # Interfaces in world frames keep their incidence.
+    meets = op.plane_of_incidence((1, 0, -1), (0, 0, 1))
+    frames = {"in": meets.arriving, "reflected": meets.reflected}
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), frames={"out": meets.arriving})
+    path.add("glass", op.Interface(1.5, float(meets.incidence)), frames=frames)
+    path["lamp"] >> path["glass"] >> path.add("eye", op.Detector())
+    graph = in_region(path, REGIONS[0], 4, "float64")
+    assert graph.nodes["glass"]["element"].incidence == float(meets.incidence)
+    assert op.Composer().compose(graph).run().stokes.shape == (4, 4)
+    # A path is made many for timing, and roots of its kernels are counted.
+    graph, values = many_paths(op.load_preset("npgr026"), 6)
+    assert op.Composer().compose(graph).run(**values).stokes.shape == (6, 4)
+    lossless = REFLECTION.by_method("stable").without[1]
+    assert kernel_operations(lossless, 4)["sqrt"] == 1
+    assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
+    # Of a program whose steps do not each have a kernel of their own, too.
+    program = op.load_preset("coated-metal").compose().program
+    assert slow_operations(program)["sqrt"] >= 2
 
 
 @pytest.mark.filterwarnings("ignore:Glyph")
@@ -147,27 +166,6 @@ def test_presets_can_be_charted(name, effort):
     ways = {contender["composing"] for contender in found["contenders"]}
     composing = "jones" if "jones" in ways else "stokes"
     assert worst(by_words(found, "stable", "float64", composing), "normwise") <= 100
-
-
-def test_interfaces_in_world_frames_keep_their_incidence():
-    meets = op.plane_of_incidence((1, 0, -1), (0, 0, 1))
-    frames = {"in": meets.arriving, "reflected": meets.reflected}
-    path = op.PathGraph()
-    path.add("lamp", op.Source(), frames={"out": meets.arriving})
-    path.add("glass", op.Interface(1.5, float(meets.incidence)), frames=frames)
-    path["lamp"] >> path["glass"] >> path.add("eye", op.Detector())
-    graph = in_region(path, REGIONS[0], 4, "float64")
-    assert graph.nodes["glass"]["element"].incidence == float(meets.incidence)
-    assert op.Composer().compose(graph).run().stokes.shape == (4, 4)
-    # A path is made many for timing, and roots of its kernels are counted.
-    graph, values = many_paths(op.load_preset("npgr026"), 6)
-    assert op.Composer().compose(graph).run(**values).stokes.shape == (6, 4)
-    lossless = REFLECTION.by_method("stable").without[1]
-    assert kernel_operations(lossless, 4)["sqrt"] == 1
-    assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
-    # Of a program whose steps do not each have a kernel of their own, too.
-    program = op.load_preset("coated-metal").compose().program
-    assert slow_operations(program)["sqrt"] >= 2
 
 
 def test_what_is_not_read_has_no_error_and_what_cannot_be_measured_is_lost_left_out_or_refused():

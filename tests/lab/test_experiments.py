@@ -113,7 +113,6 @@ def test_all_faults_of_a_file_are_told_at_once(tmp_path):
 
 
 ALL = OWN[OWN.index("[[") :]
-WITHIN = "'within' is given, but nothing is 'published'; give both, or leave it out"
 AZIMUTH = "measurements[0]: 'azimuth' is {}; write a number from 0 to 180, in degrees"
 
 
@@ -147,7 +146,7 @@ AZIMUTH = "measurements[0]: 'azimuth' is {}; write a number from 0 to 180, in de
         (TABLE, f"wavelengths = 3\n{TABLE}", "'wavelengths' must be a list"),
         (TABLE, f"wavelengths = ['1 nm']\n{TABLE}", "no medium depends on it; leave it out"),
         (TABLE, f"sensor = 64\n{TABLE}", "'sensor' is given, but not for 'R', which no pixels"),
-        ("published = [0.1, [0.05, 0.1]]", "within = 0.1", WITHIN),
+        ("published = [0.1, [0.05, 0.1]]", "within = 0.1", "nothing is 'published'; give both, or"),
         *(("text =", f"azimuth = {a}\ntext =", AZIMUTH.format(a)) for a in (180.1, -1, "nan")),
     ],
 )

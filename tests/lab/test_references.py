@@ -89,7 +89,7 @@ def test_brewsters_angle_total_reflection_and_slopes_of_angles_are_as_in_the_boo
     assert of_eye(MALUS, angle=0.3).conditions[0] == pytest.approx(slope, rel=1e-12)
 
 
-def test_a_batch_has_one_reference_for_each_and_otherwise_there_are_single_values():
+def test_a_batch_has_one_reference_for_each_and_turns_and_angles_are_exact():
     angles = np.array([0.1, 0.2, 0.3])
     lights = list(exact_batch(MALUS.graph, angle=angles))
     for angle, light in zip(angles.tolist(), lights, strict=True):
@@ -98,6 +98,16 @@ def test_a_batch_has_one_reference_for_each_and_otherwise_there_are_single_value
         exact_lights("npgr026")
     with pytest.raises(op.ParameterError, match="single values"):
         exact_lights(MALUS, angle=[0.1, 0.2])
+    # Turns are exact, and angles are taken as they are.
+    quartz = op.Medium(np.pi / 0.7, rotation=0.35)
+    assert of_eye(chain([quartz], (1, 1, 0, 0))).stokes == (1, -1, 0, 0)
+    assert of_eye(op.load_preset("malus", case="crossed")).stokes == (0, 0, 0, 0)
+    exact = float(of_eye(chain([op.Polarizer("1e17 rad")], (1, 1, 0, 0))).stokes[0])
+    assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
+    for index, expected in ((1e300, [1, 0.3, 0.2, 0.1]), (1.0, [0, 0, 0, 0])):
+        path = chain([op.Interface(index, np.pi / 2)], SKEW)
+        assert [float(part) for part in of_eye(path).stokes] == expected
+        np.testing.assert_array_equal(path.trace().stokes, expected)
 
 
 FILMS = [
@@ -166,18 +176,6 @@ def between_frames():
 )
 def test_every_element_and_world_frames_have_a_reference_that_agrees_with_the_library(path, exact):
     assert_as_the_reference(path, exact)
-
-
-def test_turns_are_exact_and_angles_are_taken_as_they_are():
-    quartz = op.Medium(np.pi / 0.7, rotation=0.35)
-    assert of_eye(chain([quartz], (1, 1, 0, 0))).stokes == (1, -1, 0, 0)
-    assert of_eye(op.load_preset("malus", case="crossed")).stokes == (0, 0, 0, 0)
-    exact = float(of_eye(chain([op.Polarizer("1e17 rad")], (1, 1, 0, 0))).stokes[0])
-    assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
-    for index, expected in ((1e300, [1, 0.3, 0.2, 0.1]), (1.0, [0, 0, 0, 0])):
-        path = chain([op.Interface(index, np.pi / 2)], SKEW)
-        assert [float(part) for part in of_eye(path).stokes] == expected
-        np.testing.assert_array_equal(path.trace().stokes, expected)
 
 
 class Unregistered(op.Element):

@@ -178,10 +178,6 @@ def test_a_face_lit_from_an_absorbing_medium_has_the_powers_of_tmm(setup):
     np.testing.assert_allclose(ours, setup["powers"], rtol=0.0, atol=STACKS["precision"])
 
 
-def within(frame):
-    return op.Mueller(np.eye(4), frame, frame)
-
-
 def test_mitsuba_reads_from_a_table_what_was_written_and_nearly_the_brdf(tmp_path):
     table, file = TABLES["table"], tmp_path / "metal.pbsdf"
     metal = op.Material.tabulated(table["wavelengths"], table["n"], table["k"])
@@ -193,7 +189,8 @@ def test_mitsuba_reads_from_a_table_what_was_written_and_nearly_the_brdf(tmp_pat
     for each in TABLES["evaluated"]:
         light, eye, wavelength = np.array(each["light"]), np.array(each["eye"]), each["wavelength"]
         ways, bases = (-light, eye), (np.array(each["basis_in"]), np.array(each["basis_out"]))
-        into, out = map(within, map(op.Frame.from_direction, ways, bases))
+        frames = map(op.Frame.from_direction, ways, bases)
+        into, out = (op.Mueller(np.eye(4), frame, frame) for frame in frames)
         found = measured_tables.look_up(arrays, light, eye, wavelength)
         own = [op.Frame.from_direction(z, np.cross(light, eye)) for z in ways]
         turned = out @ op.Mueller(FLIPPED @ found @ FLIPPED, *own) @ into
