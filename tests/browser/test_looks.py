@@ -77,7 +77,7 @@ def test_every_control_and_picture_has_a_name_and_says_in_words_what_it_shows(vi
     assert page.locator("#said").get_attribute("aria-live") == "polite"
 
 
-def test_keys_alone_reach_and_change_everything(visited):
+def test_keys_alone_reach_everything_and_dark_and_light_are_switched_and_remembered(visited):
     page = visited.open(CASE_8)
     reached = set()
     for _ in range(80):
@@ -87,6 +87,15 @@ def test_keys_alone_reach_and_change_everything(visited):
     assert fields | {"preset", "case", "reset", "theme", "export-copy"} <= reached
     assert any("arrow keys turn it" in each for each in reached)
     assert page.evaluate("getComputedStyle(document.activeElement).outlineStyle") != "none"
+    page = visited.open()
+    ground = "getComputedStyle(document.body).backgroundColor"
+    light = page.evaluate(ground)
+    page.get_by_role("button", name="Dark").click()
+    dark = page.evaluate(ground)
+    assert dark != light
+    expect(page.get_by_role("button", name="Dark")).to_have_attribute("aria-pressed", "true")
+    page.reload()
+    assert page.evaluate(ground) == dark
 
 
 def test_taps_are_dashed_in_space_and_nothing_moves_where_motion_is_not_wanted(visited_with):
@@ -120,18 +129,6 @@ def test_pictures_in_space_are_turned_by_keys_and_by_dragging(visited, picture):
     assert page.inner_html(svg) != first
     page.wait_for_url(lambda url: "view." in url)
     assert f"view.{picture}" in page.url
-
-
-def test_dark_and_light_are_switched_and_remembered(visited):
-    page = visited.open()
-    ground = "getComputedStyle(document.body).backgroundColor"
-    light = page.evaluate(ground)
-    page.get_by_role("button", name="Dark").click()
-    dark = page.evaluate(ground)
-    assert dark != light
-    expect(page.get_by_role("button", name="Dark")).to_have_attribute("aria-pressed", "true")
-    page.reload()
-    assert page.evaluate(ground) == dark
 
 
 @pytest.mark.parametrize("name", op.preset_names())

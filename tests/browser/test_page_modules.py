@@ -96,16 +96,13 @@ def test_units_are_as_large_as_those_of_the_library_and_axes_of_equal_numbers_ha
     assert low < 5 < high
 
 
-def test_a_projection_keeps_lengths_and_looks_along_its_eye(it):
+def test_a_projection_keeps_lengths_and_labels_are_not_over_one_another_but_in_their_order(it):
     zero = pytest.approx(0.0, abs=1e-12)
     assert it("projection.js", "it.projected([90, 0])([0, 2, 0])") == [zero, zero, 2.0]
     x, y, near = it("projection.js", "it.projected([0, 0])([0, 0, 1])")
     assert (x, y) == (0.0, -1.0), near
     seen = it("projection.js", "it.projected([33, 21])([1, -2, 3])")
     assert math.hypot(*seen) == pytest.approx(math.sqrt(14.0))
-
-
-def test_labels_are_not_over_one_another_and_heights_are_spread_in_their_order(it):
     labels = 'Array.from({ length: 6 }, () => ({ at: [100, 100], words: "delta = 48" }))'
     boxes = it("labels.js", f"it.placed({labels}, [400, 400]).map((each) => each.box)")
     for a, b in combinations(boxes, 2):

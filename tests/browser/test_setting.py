@@ -112,7 +112,7 @@ def test_what_is_wrong_is_a_sentence_at_its_field_and_pictures_stay(visited):
         expect(page.locator(sentence)).to_be_hidden()
 
 
-def test_steps_are_undone_and_redone(visited):
+def test_steps_are_undone_and_redone_and_the_address_carries_the_state(visited, visited_with):
     page = visited.open(CASE_8)
     expect(page.locator("#undo")).to_be_disabled()
     slider = page.get_by_label("delta, slider")
@@ -128,9 +128,6 @@ def test_steps_are_undone_and_redone(visited):
     visited.shows_npgr026(delta="48.2 deg")
     page.get_by_role("button", name="Reset", exact=True).click()
     visited.shows_npgr026()
-
-
-def test_the_address_carries_the_state(visited, visited_with):
     page = visited.open(CASE_8)
     page.locator("#parameter-rho").fill("20")
     page.get_by_role("button", name="DoLP", exact=True).click()

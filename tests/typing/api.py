@@ -102,20 +102,18 @@ engines: tuple[str, str] = plan.engine, plan.engine_for(1_000)
 text: str = plan.explain() + path.to_toml()
 doubled: op.Parameter = 2 * op.Parameter("theta") - "10 deg"
 turned: op.Element = op.Rotator(0.1 - op.Parameter("theta") / 2)
-uncertain: op.Propagation = op.load_preset("malus").propagate(
-    angle=(["30 deg", "40 deg"], "0.1 deg"),
-    intensity=(1.0, 0.1),
-    correlation={("angle", "intensity"): 0.1},
+malus: op.PathGraph = op.load_preset("malus")
+together = {("angle", "intensity"): 0.1}
+uncertain: op.Propagation = malus.propagate(
+    angle=(["30 deg", "40 deg"], "0.1 deg"), intensity=(1.0, 0.1), correlation=together
 )
 spread: np.ndarray = uncertain.covariance + uncertain.uncertainty_of("dop")[..., None, None]
 shares: dict[str, Any] = uncertain.contributions | uncertain.contributions_to("S0")
-in_samples: bool = (
-    op.load_preset("malus")
-    .propagate(angle=(0.3, 0.01), method="monte-carlo", samples=100, seed=3, composer=op.Composer())
-    .is_doubtful("intensity")
-)
+in_samples: bool = malus.propagate(
+    angle=(0.3, 0.01), method="monte-carlo", samples=100, seed=3, composer=op.Composer()
+).is_doubtful("intensity")
 varied: op.Light = op.load_preset("npgr026", case=8).trace(delta=[0.1, 0.2])
-started: op.PathGraph = op.load_preset("malus").with_defaults(angle=0.3)
+started: op.PathGraph = malus.with_defaults(angle=0.3)
 in_singles: op.Composer = op.Composer(dtype=np.float32)
 preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
