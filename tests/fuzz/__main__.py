@@ -24,11 +24,6 @@ _MAKERS = {
 }
 
 
-def made(name):
-    """Make the attack of a name such as ``values-0-17``."""
-    return _MAKERS[name.rsplit("-", 2)[0]](random.Random(name))  # noqa: S311 - no secrets
-
-
 @click.command()
 @click.option("--minutes", type=float, default=1.0, show_default=True, help="How long.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Other attacks by another.")
@@ -41,7 +36,7 @@ def main(minutes, seed, only, again, most):
     kinds = [only] if only else [*_MAKERS]
     while again or (time.monotonic() < end and faults < most):
         name = again or f"{kinds[number % len(kinds)]}-{seed}-{number}"
-        attack = made(name)
+        attack = _MAKERS[name.rsplit("-", 2)[0]](random.Random(name))  # noqa: S311 - no secrets
         fault, number = fault_of(attack), number + 1
         if fault:
             faults += 1

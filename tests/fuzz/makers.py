@@ -88,14 +88,13 @@ def a_call(rng):
     """Make one call."""
     name = rng.choice(sorted(_made()))
     function = _made()[name]
-    text, named = given(rng, taken(rng, function, 0.4), _an_argument)
+    names = taken(rng, function, 0.4)
+    text, named = given(
+        rng, names, lambda rng: rng.choice(_PLAUSIBLE) if rng.random() < 0.5 else a_value(rng)
+    )
     alone = [p.name for p in inspect.signature(function).parameters.values() if p.kind == 0]
     places = [named.pop(place) for place in alone if place in named]
     return Attack(f"{name}({text})", lambda: _called(function, places, named))
-
-
-def _an_argument(rng):
-    return rng.choice(_PLAUSIBLE) if rng.random() < 0.5 else a_value(rng)
 
 
 def _called(function, places, named):
