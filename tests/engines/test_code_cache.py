@@ -30,7 +30,7 @@ def placed(monkeypatch, *parts):
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    return placed(monkeypatch, tmp_path, "between", "cache")
+    return placed(monkeypatch, tmp_path, "open", "between", "cache")
 
 
 @pytest.fixture
@@ -123,7 +123,7 @@ def test_a_folder_that_others_may_write_to_or_replace_is_refused(
     # A way through links is as safe as what they lead through.
     placed(monkeypatch, tmp_path, "link", "cache")
     assert CodeCache().load(TEXT) == CODE
-    kept.parent.parent.chmod(0o777)
+    (tmp_path / "open").chmod(0o777)
     assert "others may replace" in refused(caplog)
     placed(monkeypatch, tmp_path, "link")
     assert "is a link" in refused(caplog)
