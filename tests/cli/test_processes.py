@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import signal
 import socket
 import subprocess
@@ -128,7 +129,7 @@ def test_closed_streams_are_told_of_and_broken_pipes_not():
         reader, writer = os.pipe()
         os.close(reader)
         broken = streams == "| true"
-        line = f"exec {' '.join(START)} {command} {'' if broken else streams}"
+        line = f"exec {shlex.join(START)} {command} {'' if broken else streams}"
         found = done(["/bin/sh", "-c", line], stdout=writer if broken else subprocess.PIPE)
         os.close(writer)
         assert found[::2] == (status, told), (command, streams)
