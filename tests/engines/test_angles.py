@@ -171,3 +171,12 @@ def test_a_rotator_turns_by_the_exact_double_of_its_angle_and_loses_nothing():
         # Next to a multiple of a right angle, what an angle cannot tell from 0 is 0.
         off = np.abs(stokes[:, 1:3] - exact)
         assert np.all(off <= np.where(np.abs(exact) < 2e-8, 2e-8, 1e-14))
+
+
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
+def test_angles_of_many_turns_are_right_in_compiled_batches():
+    path = chain([op.Polarizer(op.Parameter("angle"))], [1.0, 0.5, 0.0, 0.5])
+    plan = op.Composer(engine="numba").compose(path)
+    turns = np.full(2000, 0.3) + 2 * np.pi * 1e7 * (np.arange(2000) % 3)
+    expected = [plan.run(angle=float(angle)).stokes for angle in turns[:3]]
+    np.testing.assert_allclose(plan.run(angle=turns).stokes[:3], expected, rtol=1e-13, atol=1e-16)

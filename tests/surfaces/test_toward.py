@@ -235,3 +235,17 @@ def test_light_scattered_once_in_the_plane_is_that_of_facets():
         found, error = once.estimate_toward(lambda matrix: matrix / matrix[0, 0], angle)
         # Pixels are 2 deg wide, over which light and matrix are not the same.
         assert np.all(np.abs(found - facet / facet[0, 0]) < 5.0 * error + 1.5e-3)
+
+
+@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
+@rows("alpha", [0.02, 0.3])
+@rows("layers", [[GOLD], [1.5], [1.5, 2.4], [1.5, GOLD], [1j]])
+def test_every_pixel_is_an_element_that_can_be(alpha, layers):
+    pytest.importorskip("numba")
+    sample = op.Sample([(index, alpha) for index in layers], cells=200, surfaces=1)
+    found = op.measure(sample, "60 deg", 3000, sensor=8)
+    for place, side in enumerate(found.seen.sides):
+        lit = (found.mueller[0][place, :, :, 0, 0, 0] > 0.0) & ~np.isnan(found.sensor.theta)
+        directions = found.sensor.directions[lit] * (1, 1, 1 - 2 * place)
+        assert len(directions)
+        assert found.toward(directions, side).physical is True

@@ -194,3 +194,12 @@ def test_powers_are_never_more_than_all_next_to_where_light_gets_no_further(
         Fs, Fp, over = powers.made_for(FLOAT)(*media, n0, c, s)
         assert 0.0 <= Fp <= (1.0 + 1e-15) * Fs
         assert Fs <= (1.0 + 1e-15) * over
+
+
+@rows("index", [1e-200, 1e-100 + 1e-100j])
+def test_an_index_that_vanishes_reflects_everything(index):
+    A, B, C, S = op.fresnel_reflection(index, [1.0, 0.8], [0.0, 0.6])
+    np.testing.assert_array_equal(A, [1.0, 1.0])
+    np.testing.assert_allclose(B, 0.0, rtol=0, atol=1e-199)
+    assert C[0] == -1.0
+    np.testing.assert_allclose(C * C + S * S, 1.0, rtol=0, atol=1e-15)
