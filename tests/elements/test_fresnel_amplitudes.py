@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 import optipath as op
 from tables import rows
 
-PARTS = ("r_s", "r_p", "t_s", "t_p")
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(-14.0, 1.0).map(lambda x: 10.0**x))
 ANGLES = st.floats(0.0, math.pi / 2).map(lambda t: (math.cos(t), math.sin(t)))

@@ -27,7 +27,7 @@ F, EYE, SINES = op.FOLLOWS, op.Detector(), r"n sin\(incidence\)"
 GLASS, FRONT, FLAT = (op.Interface(1.5, angle) for angle in (THETA, 0.3, 0.0))
 WRONG, FOLLOWING = (op.Interface(1.0, angle, outside) for angle, outside in ((THETA, 1.5), (F, F)))
 RIGHT, STACK = replace(WRONG, incidence_in=1.0), op.LayerStack([F, 1.2, 1.0], F)
-N, M, TURN = op.Parameter("n"), op.Parameter("m"), op.Parameter("a")
+N, M = op.Parameter("n"), op.Parameter("m")
 OPEN = op.Interface(N, op.Parameter("theta")), op.Interface(1.0, op.Parameter("phi"), outside=M)
 STEEP = op.Interface(1.5, "40 deg")
 OF_N, OF_M = op.Interface(N, 0.3), op.Interface(2 * M, 0.3)

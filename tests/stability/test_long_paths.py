@@ -12,7 +12,7 @@ from wired import wired
 
 # Total reflection, glass and a metal.
 REFLECTED = [(1 / 1.5, 0.9), (1.5, 0.7), (0.2 + 3.4j, 1.1)]
-UNPOLARISED, POLARISED = (1.0, 0.0, 0.0, 0.0), (1.0, 0.48, 0.6, 0.64)
+POLARISED = (1.0, 0.48, 0.6, 0.64)
 FAINT = op.Attenuator(1e-200)
 
 
