@@ -195,7 +195,7 @@ def test_the_active_client_is_taken_and_who_dies_loses_nothing(store, log, clien
 
 
 def test_a_block_that_kills_its_workers_is_told_and_the_others_stay(store, log, client):
-    with pytest.raises(JobError, match=r"block . was lost again and again.* start again"):
+    with pytest.raises(JobError, match=r"block \d+ was lost again and again.* start again"):
         keep_blocks(Powers(12, str(log), kills_at=8), store, client)
     kept = marked(store)
     assert kept
