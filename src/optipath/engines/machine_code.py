@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+from copy import copy
 from functools import cache
 from importlib import import_module
 from typing import Any
@@ -57,10 +58,27 @@ def _library(text: str) -> tuple[Any, str, list[str]]:
         target = registry.cpu_target
         context = target.target_context.subtarget(_internal_codegen=_codegen()("optipath"))
         made = compiler.compile_extra(
-            target.typing_context, context, path, arguments, types.int64, flags, {}
+            _typing(target.typing_context), context, path, arguments, types.int64, flags, {}
         )
         made.library.finalize()
     return made.library, made.fndesc.llvm_func_name, kinds
+
+
+def _typing(context: Any) -> Any:
+    """Return a typing context that looks up an operation on the same types once.
+
+    Numba tries its rules for arrays at every product of two numbers, half of what it does.
+    """
+    found, known = copy(context), {}
+
+    def resolved(function: Any, given: Any, named: Any) -> Any:
+        key = function, given, *named.items()
+        if key not in known:
+            known[key] = context.resolve_function_type(function, given, named)
+        return known[key]
+
+    found.resolve_function_type = resolved
+    return found
 
 
 @cache
