@@ -7,6 +7,7 @@ import os
 import shutil
 import tempfile
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +19,12 @@ OF_JAX = [
 
 # User code that is type-checked, and run by a test: not by every worker that looks for examples.
 collect_ignore = ["tests/typing/api.py", *([] if find_spec("jax") else OF_JAX)]
+
+
+def pytest_ignore_collect(collection_path: Path) -> bool | None:
+    """Leave out what has no example: to load half of the library and find none takes seconds."""
+    of_library = "src" in collection_path.parts and collection_path.suffix == ".py"
+    return True if of_library and b">>> " not in collection_path.read_bytes() else None
 
 
 def pytest_configure(config: pytest.Config) -> None:
