@@ -34,7 +34,7 @@ def test_a_pile_of_plates_is_stokes_formula(faces):
 
 @rows("leaves", ["reflected", "transmitted"])
 def test_a_stack_on_metal_and_light_from_behind_are_right_to_the_last_digits(rng, leaves):
-    for layers in (0, 1, 3) * 5:
+    for layers in (0, 1, 3) * 2:
         indices = [1.0, *rng.uniform(0.7, 2.5, layers), complex(*rng.uniform(0.2, 3, 2))]
         assert_is_exact(path_of(op.LayerStack(indices, float(rng.uniform(0, 1.5))), "in", leaves))
         indices = rng.uniform(1.0, 2.5, 4).tolist()
@@ -114,7 +114,7 @@ def test_all_components_keep_their_digits_though_next_to_nothing_gets_through():
     assert np.isfinite(op.LayerStack([1.0] * 1000, 0.1).mueller().matrix).all()
     nodes = {"lamp": op.Source(1.0, [1.0, 0.6, 0.64, 0.48]), "r": op.Detector(), "t": op.Detector()}
     links = "lamp.out -> stack.in, stack.reflected -> r, stack.transmitted -> t"
-    for number in range(60):
+    for number in range(24):
         angle = np.pi / 2 - 10.0 ** rng.uniform(-12, 0) if number % 2 else rng.uniform(0, 1e-3)
         scale = 10.0 ** rng.uniform(-8, 8) if number % 3 == 0 else 1.0
         media = scale * rng.uniform(1.0, 2.5, rng.integers(3, 5))

@@ -4,7 +4,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
-from tables import rows
+from tables import rows, slow, slow_except
 from wired import read
 
 STATE = [1.0, 0.5, 0.6, 0.4]
@@ -43,7 +43,7 @@ def test_a_sugar_solution_turns_light_clockwise_to_who_looks_at_the_source(z):
     assert clockwise(light, frame) == pytest.approx(13.3, abs=1e-12)
 
 
-@rows("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
 def test_a_dextrorotation_is_a_rotation_of_the_other_sign(engine):
     turns = np.linspace(-40.0, 40.0, 3000)
     medium = op.Medium(0.1, 2.0, dextrorotation=op.Parameter("d"))
@@ -107,7 +107,9 @@ def test_absorption_comes_from_the_extinction_coefficient():
     assert [fault.split()[0] for fault in error.value.faults] == ["k", "wavelength"]
 
 
-@rows("engine, dtype", [("numpy", "float32"), ("numpy", "float64"), ("numba", "float64")])
+@pytest.mark.parametrize(
+    ("engine", "dtype"), [("numpy", "float32"), ("numpy", "float64"), slow(("numba", "float64"))]
+)
 @rows("acts", ["rotation", "retardance"])
 def test_all_values_may_be_parameters_which_have_the_usual_units(engine, dtype, acts):
     names = ("length", "absorption", acts, "angle")

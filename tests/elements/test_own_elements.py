@@ -16,7 +16,7 @@ from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import FULL
 from optipath.kernels.numbers.primitives import Primitives
 from paths import chain
-from tables import rows
+from tables import rows, slow_except
 
 STATE = [1.0, 0.5, 0.4, 0.3]
 ENGINES = ["auto", *chains.ENGINES]
@@ -112,7 +112,7 @@ def asked(element_class, value, engine="auto"):
     yield lambda: composer.compose(given).run(x=value).stokes
 
 
-@rows("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(["auto", "numpy"], ENGINES))
 @rows("value", GIVEN)
 def test_complex_numbers_inside_rows_work_for_one_path_as_for_arrays(value, engine):
     expected = chain([op.Retarder(value)], STATE).trace().stokes

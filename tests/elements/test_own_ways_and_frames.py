@@ -8,7 +8,7 @@ import pytest
 import optipath as op
 from chains import ENGINES
 from paths import chain
-from tables import rows
+from tables import rows, slow_except
 from wired import wired
 
 
@@ -89,7 +89,7 @@ class Parts(op.Element):
         )
 
 
-@rows("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(["numpy", "jax"], ENGINES))
 def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
     path = op.Source() >> Parts(op.Parameter("f", 0.9)) >> op.Detector()
     plan = op.Composer(engine=engine).compose(path)

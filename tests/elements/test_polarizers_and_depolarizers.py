@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import optipath as op
 from chains import ENGINES
 from paths import chain
-from tables import rows
+from tables import rows, slow
 from wired import read_back
 
 STATE = [1.0, 0.5, 0.6, 0.4]
@@ -100,8 +100,11 @@ PAIRS = {
 }
 
 
+@pytest.mark.parametrize(
+    ("engine", "composing"),
+    [*(("numpy", way) for way in ("stokes", "jones")), *(slow((e, "stokes")) for e in ENGINES[1:])],
+)
 @rows("name", PAIRS)
-@rows("engine, composing", [*((engine, "stokes") for engine in ENGINES), ("numpy", "jones")])
 def test_every_engine_gives_circular_light_its_two_transmittances(engine, composing, name):
     element, matrix = PAIRS[name]
     t, leakage = np.random.default_rng(2).uniform(0, 1, (2, 400))

@@ -15,7 +15,7 @@ from dispersive import line, on_line
 from optipath.elements.known_elements import STANDARD
 from optipath.lab.accuracy.path_reference import exact_stokes
 from optipath.values.spectra.grid_bins import grid_widths
-from tables import rows
+from tables import rows, slow, slow_except
 from wired import wired
 
 GRID = op.wavelengths("380 nm", "700 nm", "40 nm")
@@ -43,13 +43,8 @@ def seen(spectrum, response=None, stokes=None):
     )
 
 
-@rows(
-    "spectrum, engine",
-    [
-        *((spectrum, "numpy") for spectrum in [*SMOOTH, LASER]),
-        *((SMOOTH[0] + 3.0 * LASER, engine) for engine in ENGINES),
-    ],
-)
+@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@rows("spectrum", [*SMOOTH, LASER, SMOOTH[0] + 3.0 * LASER])
 def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
     path, plain = (seen(one, two, STATE) for one, two in ((spectrum, LED), (None, None)))
     expected = (spectrum.at(GRID) * LED.at(GRID))[:, None] * plain.trace().stokes
@@ -65,7 +60,7 @@ def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
         np.testing.assert_array_equal(together, alone)
 
 
-@rows("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
 @rows("grid", [GRID, GRID[::-1], np.array([400.0, 630.0, 640.0, 641.0, 700.0]) * 1e-9])
 def test_a_line_keeps_its_power_on_any_grid(grid, engine):
     plan = op.Composer(engine=engine).compose(seen(LASER))
@@ -144,7 +139,7 @@ def test_the_reference_in_many_digits_has_spectra_and_responses():
 @rows("spectrum", SMOOTH)
 def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum, jax):
     plan = op.Composer(engine="jax").compose(seen(spectrum, LED))
-    slope_at = jax.jit(jax.grad(lambda w: plan.run(wavelength=w).intensity))
+    slope_at = jax.jit(jax.jacfwd(lambda w: plan.run(wavelength=w).intensity))
     for place in (4.23e-7, 5.517e-7):
         step = 1e-12
         less, here, more = (spectrum.at(w) * LED.at(w) for w in (place - step, place, place + step))
@@ -248,12 +243,13 @@ def test_every_element_that_takes_a_number_is_looked_at():
     assert {type(element) for element in ELEMENTS} | WITHOUT == {*STANDARD}
 
 
+@pytest.mark.parametrize("most", [1, slow(9)])
 @rows("element, name, value, domain", [*places()])
-def test_light_is_that_of_the_numbers_at_each_wavelength(element, name, value, domain):
+def test_light_is_that_of_the_numbers_at_each_wavelength(element, name, value, domain, most):
     # Some numbers may not grow, others may not shrink.
     last = next(v for v in (0.98 * value, 1.02 * value) if np.all(domain.allows(np.asarray(v))))
     dispersive = with_value(element, name, line(value, last))
-    for way in element.couplings() or (None,):
+    for way in element.couplings()[:most] or (None,):
         numbers = on_line(value, last, PLACES)
         expected = [
             path_of(with_value(element, name, float(number)), way).trace().stokes

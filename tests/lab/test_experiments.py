@@ -226,6 +226,9 @@ def test_adm_of_a_smooth_stack_is_the_exact_one(angle, known):
     assert 100.0 * error < 0.05
     assert "64 x 64 pixels" in mask
     assert abs(int(pixel.split(" ")[0]) - angle) <= 1
+
+
+def test_what_is_left_out_of_adm_is_told_and_a_mirror_has_its_dolp_and_aop():
     *_, mask, pixel = found(ROUGH, "adm", "60 deg", 50_000, azimuth=10.0, noise=5.0)
     assert "azimuth within 10 deg" in mask
     assert int(pixel.split(" ")[2]) <= 10

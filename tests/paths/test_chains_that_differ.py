@@ -136,6 +136,7 @@ def slopes_of_intensity(points, text, media, step=1e-4):
     return ((45 * near[0] - 9 * near[1] + near[2]) / (60 * step)).reshape(points.shape)
 
 
+@pytest.mark.slow
 def test_slopes_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
     batch = random_batch(5, 2, several=6, each=1)
     points = batch.points.copy()
@@ -150,11 +151,19 @@ def test_slopes_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
         own, media, text = batch.alone(chain)
         expected = slopes_of_intensity(own, text, media)
         np.testing.assert_allclose(slopes[chain, : length + 2], expected, rtol=1e-8, atol=1e-10)
-    points = [DOWN[:3], [*DOWN[:2], DOWN[0]], [*DOWN[:2], [np.nan] * 3]]
+
+
+def test_slopes_in_an_index_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
+    given = np.array([DOWN[:3], [*DOWN[:2], DOWN[0]], [*DOWN[:2], [np.nan] * 3]])
+    points = op.Parameter("points")
     vertex = op.Vertex(op.Parameter("n"), points, place=1, events=[[1.0], [0.0], [2.0]])
     plan = (op.Source() >> vertex >> op.Detector()).compose()
     with quickly("jax"):
-        _, slopes = jax.jvp(lambda n: plan.run(n=n).intensity, (1.5,), (1.0,))
+        slopes, along = jax.grad(lambda n, p: plan.run(n=n, points=p).intensity.sum(), (0, 1))(
+            np.full(3, 1.5), given
+        )
+    assert np.all(np.isfinite(along))
+    np.testing.assert_array_equal(along[2, 2], 0.0)
     through, back = 4 * (1 - 1.5**2) / 2.5**4, 4 * 0.5 / 2.5**3
     np.testing.assert_allclose(slopes, [through, back, 0.0], rtol=1e-12)
 
@@ -172,7 +181,7 @@ def spoilt(batch):
     return points, ids, [1, 2, through, bent]
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
 def test_chains_that_cannot_be_have_no_light_and_all_others_are_as_they_were(engine):
     batch = random_batch(11, 2)
     points, ids, bad = spoilt(batch)
@@ -186,6 +195,10 @@ def test_chains_that_cannot_be_have_no_light_and_all_others_are_as_they_were(eng
             found, wanted = light.stokes[~masked], expected.stokes[~masked]
             np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-14)
             np.testing.assert_array_equal(light.frame.x[~masked], expected.frame.x[~masked])
+
+
+@rows("engine", ENGINES)
+def test_where_no_chain_can_be_there_is_no_light_by_any_engine(engine):
     points = np.array([TURNED] * 300)[:, :3]
     path = op.path_from_vertices(points, [1.0], events="T", bad="mask").reading("intensity")
     assert np.all(np.isnan(op.Composer(engine=engine).compose(path).run().intensity))
@@ -492,7 +505,7 @@ def test_normals_next_to_the_tolerance_are_told_apart_exactly(seed):
         op.path_from_vertices(points, MATERIALS[:3], bisectors + off * size * across)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
 def test_points_given_later_and_what_no_surface_refracts_are_refused_by_every_engine(engine):
     plan = op.Composer(engine=engine).compose(op.path_from_vertices(op.Parameter("points"), [1.5]))
     for count in (1, 3, 3000):

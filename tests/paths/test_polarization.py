@@ -100,7 +100,10 @@ def test_layers_that_absorb_agree_with_50_digits(media, lengths, port):
         exact = [exact_stack(media, lengths, 5e-7, a, scalar=name == "scalar") for a in angles]
         expected = [float(sum(getattr(each, port)[:2]) / 2) for each in exact]
         np.testing.assert_allclose(getattr(found, name), expected, rtol=1e-12)
-    # A stack and the same boundaries in a loop agree to the last digits.
+
+
+@rows("port", PORTS)
+def test_a_stack_and_the_same_boundaries_in_a_loop_agree_to_the_last_digits(port):
     for n, below in ((1.5, 2.4), (2.4, 1.5), (1.3, 1.0)):
         one = op.polarization(stack([1.0, n, below], ANGLES, port))
         other = op.polarization(layer_by_hand(n, below, ANGLES, port))

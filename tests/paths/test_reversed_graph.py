@@ -42,7 +42,7 @@ def turns_of(path):
     return {(a, b): turn for a, b, turn in path.graph.edges(data="azimuth")}
 
 
-@pytest.mark.parametrize("count", [60, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [25, pytest.param(1000, marks=pytest.mark.slow)])
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 def test_random_graphs_obey_the_theorem_of_reciprocity_and_stay_what_they_were(count):
     refused = 0

@@ -29,8 +29,8 @@ FLIP = np.diag([1.0, 1.0, -1.0, 1.0])
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
 INTO_GLASS = [[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, -np.sqrt(3.5)]]  # 45 degrees, 1.5
 EVENTS = ["T", "RT", "TTR", "TRRT", "RTTRT", "TTTTTT", "TRTRRTT", "RTRTRTRT", "RRRRRRRR"]
-KINDS = [*((engine, "float64") for engine in ENGINES), ("numpy", "float32")]
-SEVERAL = [("numpy", EVENTS), ("numba", ["TR"]), *(slow((name, ["TRT"])) for name in ENGINES[1:])]
+KINDS = [("numpy", "float64"), ("numpy", "float32"), *(slow((e, "float64")) for e in ENGINES[1:])]
+SEVERAL = [("numpy", EVENTS), slow(("numba", ["TR"])), *(slow((e, ["TRT"])) for e in ENGINES[1:])]
 
 
 @pytest.fixture(autouse=True)
@@ -90,19 +90,19 @@ def test_light_goes_back_through_surfaces_as_it_came_in_a_world_of_any_size():
 @pytest.mark.parametrize(("engine", "several"), SEVERAL)
 def test_random_histories_are_those_of_a_reference_without_frames(engine, several):
     for events in several:
-        points, normals, materials = random_histories(len(events), events, 2000)
+        points, normals, materials = random_histories(len(events), events, 500)
         path = op.path_from_vertices(points, materials, normals, events=events)
         light = op.Composer(engine=engine).compose(path).run()
         expected = stokes_in(coherency(points, events, materials), light.frame)
         off = np.abs(light.stokes - expected) / np.maximum(expected[:, :1], 0.01)
         assert np.max(off) <= 1e-13, events
     # A batch is the same as one history after the other, by an engine that compiles as well.
-    for at in (0, 77, 1999):
+    for at in (0, 77, 499):
         one = op.path_from_vertices(points[at], [m[at] for m in materials], events=events).trace()
         np.testing.assert_allclose(light.stokes[at], one.stokes, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("count", [6, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [3, pytest.param(100, marks=pytest.mark.slow)])
 def test_a_history_is_that_of_50_digits(count):
     for seed in range(count):
         points, materials, events = random_history(seed)
@@ -121,7 +121,7 @@ def test_a_history_is_that_of_50_digits(count):
         np.testing.assert_allclose(light.stokes, exact, rtol=0, atol=1e-14)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(st.integers(0, 10**6), st.text("RT", min_size=1, max_size=8))
 def test_no_history_makes_light_brighter_or_more_polarised_or_knows_its_world(seed, events):
     points, _, materials = random_histories(seed, events, 20)
@@ -161,7 +161,7 @@ def test_media_and_frames_follow_along_the_chain():
     np.testing.assert_allclose(light.stokes, matrix[:, 0], rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("engine", slow_except([one for one in ENGINES if one != "numba"], ENGINES))
+@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
 def test_between_equal_media_light_goes_straight_on_and_nothing_changes(engine):
     points, _, materials = random_histories(7, "R", 50)
     straight = np.concatenate([points, 2.0 * points[:, 2:] - points[:, 1:2]], axis=1)
@@ -286,18 +286,18 @@ def test_light_straight_through_and_along_the_normal_keeps_what_it_came_with(eng
 def test_slopes_along_vertices_are_those_of_differences_and_frames_have_none(jax):
     points = random_chains(11, 1)
     plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:1]).compose()
+    # Where vertices have no plane, too.
+    both = jax.numpy.asarray([points, [[0.0, 0, 0], [0, 0, 1], [0, 0, 2]]])
     with quickly("jax"):
-        slopes = jax.grad(lambda p: plan.run(points=p).stokes[0])(jax.numpy.asarray(points))
+        slopes, straight = jax.grad(
+            lambda p: (plan.run(points=p).stokes * np.array([[1, 0, 0, 0], [1, 1, 1, 1]])).sum()
+        )(both)
+    assert np.all(np.isfinite(straight))
     for at in [(0, 1), (1, 0), (2, 2)]:
         step = np.zeros_like(points)
         step[at] = 1e-6
         ends = [float(plan.run(points=points + sign * step).intensity) for sign in (1, -1)]
         assert float(slopes[at]) == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-8)
-    # Where vertices have no plane, too.
-    straight = jax.numpy.asarray([[0.0, 0, 0], [0, 0, 1], [0, 0, 2]])
-    with quickly("jax"):
-        slopes = jax.grad(lambda p: plan.run(points=p).stokes.sum())(straight)
-    assert np.all(np.isfinite(slopes))
     path = op.path_from_vertices(op.Parameter("points"), [1.5])
     with pytest.raises(op.FrameError, match="JAX traces"), quickly("jax"):
         jax.grad(lambda p: path.trace(points=p).frame.x[0])(jax.numpy.asarray(CORNER))

@@ -358,6 +358,7 @@ def about_the_first(angles):
     return np.remainder(angles - angles[0] + np.pi / 2.0, np.pi)
 
 
+@pytest.mark.slow
 def test_what_is_found_with_other_seeds_differs_by_its_errors():
     hemispheres, source = [*measured(4)], [1.0, -0.4, 0.5, 0.3]
     elements = [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2), (3, 3), (1, 2), (3, 2)]

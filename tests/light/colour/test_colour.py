@@ -152,7 +152,7 @@ def test_a_slope_by_jax_is_the_sum_of_slopes(jax):
         stokes = jax.numpy.zeros((81, 4)).at[:, 0].set(share * values)
         return op.Light(stokes, wavelength=VISIBLE).to_xyz(white=D65)[1]
 
-    slope = jax.grad(luminance)(0.7)
+    slope = jax.jit(jax.jacfwd(luminance))(0.7)
     np.testing.assert_allclose(slope, light_of(values).to_xyz(white=D65)[1], rtol=1e-12)
 
 
@@ -223,7 +223,7 @@ def test_slopes_of_colours_are_finite_where_they_are_dark_or_out_of_gamut(jax):
         return op.Light(stokes, wavelength=VISIBLE).to_srgb(D65, out_of_gamut=way).values.sum()
 
     for way in ("clip", "scale", "keep"):
-        slopes = jax.jit(jax.vmap(jax.grad(lambda share, way=way: red(share, way))))
+        slopes = jax.jit(jax.vmap(jax.jacfwd(lambda share, way=way: red(share, way))))
         assert np.isfinite(slopes(np.array([0.0, 50.0]))).all()
     with pytest.raises(op.ValueFault, match="JAX traces are in gamut is not known"):
         jax.grad(lambda share: red(share, "refuse"))(0.5)

@@ -14,7 +14,7 @@ from dispersive import line, on_line
 from fake_curves import Metal, metal
 from optipath.values.spectra.grid_bins import grid_edges, grid_fault, grid_widths
 from optipath.values.spectral_units import wavelength_of
-from tables import rows
+from tables import rows, slow
 
 P = op.Parameter
 GLASS = op.Material.cauchy([1.5, 0.004], name="glass")
@@ -125,7 +125,7 @@ def test_light_is_that_of_the_numbers_at_each_wavelength_of_several_runs():
         assert [part[place] for part in together] == [part.item() for part in alone]
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("engine", ["numpy", slow("numba")])
 def test_a_wavelength_is_an_axis_like_any_other(engine):
     pytest.importorskip(engine)
     wavelengths, tilts = np.linspace(400e-9, 700e-9, 4), np.linspace(0.1, 1.0, 3)
