@@ -58,7 +58,7 @@ polarization npgr026 --case 7
 presets
 run malus
 run malus --angle 0:90:4 --json
-run malus --angle 0:90:100000 --digits 3
+run malus --angle 0:90:10000 --digits 3
 run npgr026 --case all
 run npgr026 --method compensated
 run npgr026 --method textbook --model full --reads linear

@@ -4,6 +4,7 @@ import ast
 import copy
 import inspect
 import pickle
+import re
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -167,7 +168,10 @@ def test_no_message_writes_a_value_by_repr():
     code = {"numba_engine.py", "block_writer.py", "float_engine.py", "recorder.py", "units.py"}
     code |= {"chunk_identity.py", "python_lines.py", "sweep_identity.py"}
     for file in Path(op.__file__).parent.rglob("*.py"):
-        parts = list(ast.walk(ast.parse(file.read_text("utf-8"))))
+        text = file.read_text("utf-8")
+        if not re.search(r"!r|=\s*}", text):  # It has no conversion by repr.
+            continue
+        parts = list(ast.walk(ast.parse(text)))
         own = [f for f in parts if isinstance(f, ast.FunctionDef) and f.name == "__repr__"]
         apart = {part for function in own for part in ast.walk(function)}
         for part in parts:

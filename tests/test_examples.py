@@ -4,6 +4,7 @@ import json
 import runpy
 import subprocess
 import sys
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 
 import optipath as op
 from pictures import faults_of
-from tables import rows
+from tables import slow
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 pytest.importorskip("jax")
@@ -25,7 +26,9 @@ def example():
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - as JAX has it
 
 
-@rows("index", [(0.608, 2.12), (0.17, 3.15), (1.5, 0.2), (2.4, 0.1)])
+@pytest.mark.parametrize(
+    "index", [[0.608, 2.12], *map(slow, ([0.17, 3.15], [1.5, 0.2], [2.4, 0.1]))], ids=str
+)
 def test_the_index_comes_back_from_light_without_noise(example, index):
     measured = example["ellipsometer"]().trace(n=index[0], k=index[1]).stokes
     found, _ = example["index_from"](measured)
@@ -76,32 +79,6 @@ def test_the_documents_have_every_case_of_the_convergence_of_surfaces():
     assert {example["Case"](*row["case"]) for row in stored} == set(example["CASES"])
 
 
-def test_no_text_in_the_pictures_of_hemispheres_is_over_another_or_cut():
-    pytest.importorskip("numba")
-    pytest.importorskip("xarray")
-    example = runpy.run_path(EXAMPLES / "hemisphere_maps.py")
-    for name, drawn in example["pictures"](photons=2048, pixels=24):
-        figure = drawn if hasattr(drawn, "axes") else drawn.flat[0].figure
-        assert faults_of(figure) == [], name
-        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
-
-
-def test_no_text_in_the_pictures_in_space_is_over_another_or_cut():
-    pytest.importorskip("matplotlib")
-    example = runpy.run_path(EXAMPLES / "pictures_in_space.py")
-    for name, drawn in example["pictures"]():
-        assert not faults_of(getattr(drawn, "figure", drawn)), name
-        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
-
-
-def test_no_text_in_the_pictures_of_light_is_over_another_or_cut():
-    pytest.importorskip("matplotlib")
-    example = runpy.run_path(EXAMPLES / "pictures_of_light.py")
-    for name, drawn in example["pictures"]():
-        assert faults_of(drawn.figure) == [], name
-        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
-
-
 def test_the_virtual_ellipsometer_tells_the_polarisation_that_smooth_facets_make():
     pytest.importorskip("matplotlib")
     pytest.importorskip("xarray")
@@ -114,9 +91,22 @@ def test_the_virtual_ellipsometer_tells_the_polarisation_that_smooth_facets_make
     assert found[0, 1, 0] == pytest.approx(np.hypot(expected[1], expected[2]) / expected[0])
 
 
-def test_no_text_in_the_pictures_of_curves_is_over_another_or_cut():
+@pytest.mark.parametrize("count", [1, pytest.param(None, marks=pytest.mark.report)])
+@pytest.mark.parametrize(
+    ("script", "given"),
+    [
+        ("hemisphere_maps", {"photons": 2048, "pixels": 24}),
+        ("pictures_in_space", {}),
+        ("pictures_of_light", {}),
+        ("pictures_of_curves", {}),
+    ],
+)
+def test_no_text_in_the_pictures_of_an_example_is_over_another_or_cut(script, given, count):
     pytest.importorskip("matplotlib")
-    example = runpy.run_path(EXAMPLES / "pictures_of_curves.py")
-    for name, figure in example["pictures"]():
-        assert faults_of(figure) == [], name
+    for extra in ("numba", "xarray") if given else ():
+        pytest.importorskip(extra)
+    example = runpy.run_path(EXAMPLES / f"{script}.py")
+    for name, drawn in islice(example["pictures"](**given), count):
+        one = drawn.flat[0] if hasattr(drawn, "flat") else drawn
+        assert faults_of(getattr(one, "figure", one)) == [], name
         assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()

@@ -1,4 +1,5 @@
 import ast
+import functools
 import re
 import runpy
 import subprocess
@@ -6,12 +7,12 @@ import sys
 import tomllib
 from importlib.metadata import version
 from pathlib import Path
+from typing import NamedTuple
 
 import networkx as nx
 import pytest
 
 import optipath as op
-from tables import rows
 
 SOURCE = Path(op.__file__).parent
 PROJECT = Path(__file__).parents[1] / "pyproject.toml"
@@ -47,10 +48,33 @@ def modules():
         yield file.relative_to(SOURCE).with_suffix("").parts[0], file
 
 
+class Parts(NamedTuple):
+    """What is looked at of a file, which is parsed once for all tests of a process."""
+
+    imports: list
+    names_from: list
+    calls: list
+    classes: list
+
+    @classmethod
+    @functools.cache
+    def of(cls, file):
+        nodes = [*ast.walk(ast.parse(file.read_text("utf-8")))]
+        return cls(
+            [node for node in nodes if isinstance(node, ast.Import)],
+            [node for node in nodes if isinstance(node, ast.ImportFrom)],
+            [node for node in nodes if isinstance(node, ast.Call) and node.args],
+            [node.name for node in nodes if isinstance(node, ast.ClassDef)],
+        )
+
+    @property
+    def own(self):
+        """The imports from the library."""
+        return [node for node in self.names_from if (node.module or "").startswith("optipath.")]
+
+
 def imports_of(file):
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath."):
-            yield node.module.split(".")[1]
+    return [node.module.split(".")[1] for node in Parts.of(file).own]
 
 
 def test_every_room_has_its_place():
@@ -68,12 +92,7 @@ def test_imports_point_one_way():
 def test_no_two_modules_or_classes_have_one_name():
     names = [file.stem for _, file in modules() if file.stem != "__init__"]
     assert sorted(names) == sorted(set(names))
-    found = [
-        node.name
-        for _, file in modules()
-        for node in ast.walk(ast.parse(file.read_text("utf-8")))
-        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
-    ]
+    found = [name for _, file in modules() for name in Parts.of(file).classes if name[0] != "_"]
     assert sorted(found) == sorted(set(found))
 
 
@@ -95,12 +114,11 @@ def packages_of_extras():
 
 
 def test_every_extra_brings_what_the_library_imports():
-    trees = [ast.parse(file.read_text("utf-8")) for _, file in modules()]
-    parts = [node for tree in trees for node in ast.walk(tree)]
-    names = {alias.name for node in parts if isinstance(node, ast.Import) for alias in node.names}
-    names |= {node.module or "" for node in parts if isinstance(node, ast.ImportFrom)}
+    parts = [Parts.of(file) for _, file in modules()]
+    names = {alias.name for part in parts for node in part.imports for alias in node.names}
+    names |= {node.module or "" for part in parts for node in part.names_from}
     # A package of data alone is looked for, and not imported.
-    calls = [node for node in parts if isinstance(node, ast.Call) and node.args]
+    calls = [call for part in parts for call in part.calls]
     found = {ast.unparse(c.args[0]).strip("'") for c in calls if ast.unparse(c.func) == "find_spec"}
     imported = {name.partition(".")[0] for name in names} | found
     extras = dict(packages_of_extras())
@@ -138,9 +156,9 @@ def test_the_library_is_imported_when_it_is_used():
     assert brought_by("import optipath; optipath.Source", ["numpy"]) == "['numpy']"
 
 
-@rows("arguments", [["--version"], ["presets"], ["presets", "--json"]])
-def test_what_needs_no_numbers_is_told_without_numpy(arguments):
-    code = f"from optipath.cli import main; main({arguments})"
+def test_what_needs_no_numbers_is_told_without_numpy():
+    lines = [["--version"], ["presets"], ["presets", "--json"]]
+    code = f"from optipath.cli import main; print([main(line) for line in {lines}])"
     assert brought_by(code, ["numpy", "networkx"]) == "[]"
 
 
@@ -160,12 +178,8 @@ def test_rooms_and_the_version_are_attributes_before_anything_is_used():
 
 
 def test_names_have_the_homes_that_type_checkers_see():
-    tree = ast.parse((SOURCE / "__init__.py").read_text("utf-8"))
-    told = {
-        node.module: [alias.name for alias in node.names]
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath.")
-    }
+    own = Parts.of(SOURCE / "__init__.py").own
+    told = {node.module: [alias.name for alias in node.names] for node in own}
     homes = {f"optipath.{home}": list(names) for home, names in op._HOMES.items()}
     at_once = ("optipath.errors", "optipath.lazy_names")
     assert told == homes | {module: told[module] for module in at_once}
@@ -180,11 +194,10 @@ def module_of(*parts):
 
 def modules_imported_by(file):
     """The modules that a file takes names from, for its annotations too."""
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath."):
-            parts = node.module.split(".")[1:]
-            for alias in node.names:
-                yield module_of(*parts, alias.name) or module_of(*parts)
+    for node in Parts.of(file).own:
+        parts = node.module.split(".")[1:]
+        for alias in node.names:
+            yield module_of(*parts, alias.name) or module_of(*parts)
 
 
 def test_no_modules_import_each_other_in_a_circle():

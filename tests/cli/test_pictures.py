@@ -17,6 +17,7 @@ from optipath.cli.plot_request import request_of
 from optipath.lab.accuracy import chart, critical_chart
 from optipath.values.axis_texts import AxisValues
 from pictures import faults_of, texts_of
+from tables import slow
 
 pytest.importorskip("matplotlib")
 
@@ -45,12 +46,12 @@ def leaves_a_plane(preset, case):
     return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
 
 
-SOME = [("npgr026", ["8"]), ("sky-and-window", [None])]
 EVERY = [(name, (None, *op.load_preset(name).cases)) for name in op.preset_names()]
 
 
 @pytest.mark.parametrize(
-    ("preset", "cases"), [*SOME, *(pytest.param(*one, marks=pytest.mark.report) for one in EVERY)]
+    ("preset", "cases"),
+    [("npgr026", ["8"]), *(pytest.param(*one, marks=pytest.mark.report) for one in EVERY)],
 )
 def test_every_picture_of_a_preset_is_whole_and_readable(preset, cases):
     for case, (kind, given) in product(cases, pictures_of(preset)):
@@ -68,19 +69,20 @@ def test_every_picture_of_a_preset_is_whole_and_readable(preset, cases):
 
 
 DRAWN = [
-    "--kind curve --delta 0:90:5 --x phi --y dop",
+    "--kind stokes --filter none --place eye",
     "--kind curve --delta 0:90:10",
+    "--kind curve --delta 0:90:5 --x phi --y dop",
     "--kind ellipse --case 8",
     "--kind curve --x delta --y s0,dolp --rho 10",
     "--kind poincare --delta 20:40:5",
-    "--kind stokes --filter none --place eye",
     "--kind mueller --detector E",
     "--kind geometry --n1 1.5",
 ]
 
 
-def test_a_picture_is_drawn_into_a_file(told):
-    for line in DRAWN:
+@pytest.mark.parametrize("lines", [DRAWN[:2], pytest.param(DRAWN[2:], marks=pytest.mark.report)])
+def test_a_picture_is_drawn_into_a_file(lines, told):
+    for line in lines:
         assert told(f"plot npgr026 {line} --out a.svg") == "wrote a.svg\n"
 
 
@@ -122,22 +124,26 @@ def test_axes_keep_their_unit_sources_their_matrix_and_cases_what_was_published(
     assert float(asked.parameters["delta"].default) == float(case.parameters["delta"].default)
 
 
-def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, told, refused):
+@pytest.mark.parametrize(
+    ("fits", "alone"),
+    [("stokes", "curve"), *map(slow, (("ellipse", "poincare"), ("mueller", "curve")))],
+)
+def test_all_detectors_are_drawn_where_they_fit_beside_one_another(
+    fits, alone, tmp_path, told, refused
+):
     path, theta = op.PathGraph(), op.Parameter("theta", 0.9)
     path.add("lamp", op.Source()) >> path.add("glass", op.Interface(1.5, theta))
     for port in ("reflected", "transmitted"):
         path[f"glass.{port}"] >> path.add(f"eye-{port}", op.Detector())
     (tmp_path / "two.toml").write_text(path.to_toml(), "utf-8")
-    for kind in ("ellipse", "stokes", "mueller"):
-        told(f"plot two.toml --kind {kind} --out a.svg")
-        texts = (tmp_path / "a.svg").read_text("utf-8")
-        assert "eye-reflected" in texts
-        assert "eye-transmitted" in texts
+    told(f"plot two.toml --kind {fits} --out a.svg")
+    texts = (tmp_path / "a.svg").read_text("utf-8")
+    assert "eye-reflected" in texts
+    assert "eye-transmitted" in texts
     several = "the detectors eye-reflected and eye-transmitted, of which this picture has one"
-    for kind in ("curve", "poincare"):
-        asked = f"plot two.toml --kind {kind} --x theta --out a.svg"
-        assert several in refused(asked)
-        told(f"{asked} --detector eye-reflected")
+    asked = f"plot two.toml --kind {alone} --x theta --out a.svg"
+    assert several in refused(asked)
+    told(f"{asked} --detector eye-reflected")
     # More than there are colours are refused with the option that names one.
     path, last = op.PathGraph(), "lamp.out"
     path.add("lamp", op.Source())
@@ -151,11 +157,16 @@ def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, tol
     told(f"{asked} --detector eye0")
 
 
-def test_several_values_in_a_file_are_refused_and_any_letters_drawn(tmp_path, told, refused):
+@pytest.mark.parametrize(
+    ("kinds", "others"), [(["energy"], ["stokes"]), slow((["ellipse", "mueller"], [*KINDS]))]
+)
+def test_several_values_in_a_file_are_refused_and_any_letters_drawn(
+    kinds, others, tmp_path, told, refused
+):
     path = op.Source(op.Parameter("power", np.array([1.0, 2.0]))) >> op.Detector()
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
     several = "parameter 'power' has several values in the file, and a picture is of one"
-    for kind in ("ellipse", "mueller", "energy"):
+    for kind in kinds:
         asked = f"plot x.toml --kind {kind} --out a.svg"
         assert several in refused(asked)
         told(f"{asked} --power 2")
@@ -164,7 +175,7 @@ def test_several_values_in_a_file_are_refused_and_any_letters_drawn(tmp_path, to
     sheet = path.add("\u504f", op.Polarizer(op.Parameter("a", 0.3)))
     lamp >> sheet >> path.add("\u5149", op.Detector())
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
-    for kind in KINDS:
+    for kind in others:
         x = "--x a" if kind == "curve" else ""
         with warnings.catch_warnings():
             warnings.simplefilter("error")

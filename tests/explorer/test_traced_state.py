@@ -16,7 +16,7 @@ from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.light_as_json import end_as_json
 from optipath.explorer.page_answers import PageAnswers
 from optipath.light.printed_numbers import Numbers
-from tables import rows
+from tables import rows, slow
 
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"]}
 ALL = {"want": ["scene", "energy", "explanation"]}
@@ -79,13 +79,14 @@ def test_texts_are_read_as_at_the_command_line_and_bare_numbers_in_the_unit(answ
 
 
 @rows("preset", op.preset_names())
-def test_every_preset_has_the_numbers_of_trace(answers, preset):
+@pytest.mark.parametrize("draws", [1, slow(3)])
+def test_every_preset_has_the_numbers_of_trace(answers, preset, draws):
     """At values within its sliders, of which a few are drawn."""
     opened, path = answers.open({"preset": preset}), op.load_preset(preset)
     draw = np.random.default_rng(21)
     sliders = {each["name"]: each for each in opened["parameters"] if each["slider"]}
     sliders = {name: each for name, each in sliders.items() if name in path.parameters}
-    for _ in range(3):
+    for _ in range(draws):
         numbers = {name: draw.uniform(*each["slider"][:2]) for name, each in sliders.items()}
         texts = {name: f"{number:.4f}" for name, number in numbers.items()}
         found = trace(answers, preset, values=texts)

@@ -146,6 +146,11 @@ def test_every_element_of_a_mueller_matrix_has_its_map():
         np.testing.assert_array_equal(drawn.compressed(), value[:, :, *place][known])
     told = "hatched: no light, or not known to 0.05"
     assert any(told in text for text in words_of(panel[0, 0]))
+
+
+@pytest.mark.slow
+def test_elements_of_a_mueller_matrix_are_drawn_where_they_are_known_to_a_tenth():
+    silver = measured("silver")
     usual, given = (mueller_hemisphere(silver, known_to=each)[1, 0] for each in (None, 0.1))
     np.testing.assert_array_equal(pixels_of(usual).mask, pixels_of(given).mask)
 

@@ -1,5 +1,6 @@
 """Pictures of any kind: their axes, texts and files; and those of energy and of charts."""
 
+import functools
 import subprocess
 import sys
 import warnings
@@ -118,34 +119,42 @@ PATH, PUBLISHED = case_of("npgr026", "8")
 TWO = {"first": PATH, "second": 0.5 * PATH}, {"published": {"first": PUBLISHED["published"]}}
 
 
+DRAWN = [
+    (1, "curve", (6.4, 4.2), [("npgr026", "rho", NAMED), ("dichroic-sheet", "retardance", NAMED)]),
+    (0, "curve", (6.4, 4.2), [("lyot-depolarizer", "wavelength", NAMED)]),
+    (
+        1,
+        "quantity_map",
+        (6.4, 4.8),
+        [("copper-gold-spectrum", "wavelength", "delta", "AoP", WAVES)],
+    ),
+    (1, "reflection", (6.4, 4.4), [(1.00000001, {"outside": 1.00000002})]),
+    (0, "reflection", (6.4, 4.4), [("gold", {"outside": "water", "wavelength": "516 nm"})]),
+    (2, "ellipse", (5.0, 5.8), [FAINTER, *LIGHTS.values(), *OTHERS, UNREAD, FAINT]),
+    (1, "ellipse", (5.0, 7.3), [LIGHTS]),
+    (1, "stokes", (5.6, 4.4), [(PATH, PUBLISHED), case_of("achromatic-rhomb", "green"), TWO]),
+    (0, "stokes", (5.6, 4.4), [case_of("npgr026", "7"), {"b" * 60: ROW[1], "$x_2$": ROW[2]}]),
+    (
+        1,
+        "stokes",
+        (5.6, 4.4),
+        [(FAINT, {"published": [1e-300, 0, 5e-301, NAN]}), UNREAD, FAINTER],
+    ),
+    (1, "mueller", (5.2, 4.6), MATRICES),
+    (1, "poincare", (5.4, 5.6), [STATES, TRAIL[0], TRAIL, TRAIL[:9]]),
+    (1, "poincare", (6.4, 5.6), [(TRAIL, {"by": np.degrees(ANGLES), "label": "retardance (deg)"})]),
+    (1, "poincare_path", (5.4, 6.8), ["senarmont", "npgr026", "faraday-isolator", "two-panes"]),
+    (1, "energy", (6.4, 4.8), ["glass-slab", "pile-of-plates", "faraday-isolator"]),
+    (1, "geometry", (8.0, 6.0), ["two-panes", "npgr026", "lyot-filter", "faraday-isolator"]),
+]
+"""Of each kind, how many of several are drawn each time."""
+FIRST = [(*kind, several[:few]) for few, *kind, several in DRAWN if few]
+OTHER = [(*kind, several[few:]) for few, *kind, several in DRAWN if several[few:]]
+
+
 @pytest.mark.parametrize(
     ("name", "size", "several"),
-    [
-        ("curve", (6.4, 4.2), [("npgr026", "rho", NAMED), ("dichroic-sheet", "retardance", NAMED)]),
-        ("curve", (6.4, 4.2), [("lyot-depolarizer", "wavelength", NAMED)]),
-        (
-            "quantity_map",
-            (6.4, 4.8),
-            [("copper-gold-spectrum", "wavelength", "delta", "AoP", WAVES)],
-        ),
-        ("reflection", (6.4, 4.4), [(1.00000001, {"outside": 1.00000002})]),
-        ("reflection", (6.4, 4.4), [("gold", {"outside": "water", "wavelength": "516 nm"})]),
-        ("ellipse", (5.0, 5.8), [*LIGHTS.values(), *OTHERS, UNREAD, FAINT, FAINTER]),
-        ("ellipse", (5.0, 7.3), [LIGHTS]),
-        ("stokes", (5.6, 4.4), [(PATH, PUBLISHED), case_of("achromatic-rhomb", "green"), TWO]),
-        ("stokes", (5.6, 4.4), [case_of("npgr026", "7"), {"b" * 60: ROW[1], "$x_2$": ROW[2]}]),
-        ("stokes", (5.6, 4.4), [UNREAD, FAINTER, (FAINT, {"published": [1e-300, 0, 5e-301, NAN]})]),
-        ("mueller", (5.2, 4.6), MATRICES),
-        ("poincare", (5.4, 5.6), [TRAIL[0], TRAIL, TRAIL[:9], STATES]),
-        (
-            "poincare",
-            (6.4, 5.6),
-            [(TRAIL, {"by": np.degrees(ANGLES), "label": "retardance (deg)"})],
-        ),
-        ("poincare_path", (5.4, 6.8), ["npgr026", "faraday-isolator", "senarmont", "two-panes"]),
-        ("energy", (6.4, 4.8), ["pile-of-plates", "glass-slab", "faraday-isolator"]),
-        ("geometry", (8.0, 6.0), ["npgr026", "two-panes", "lyot-filter", "faraday-isolator"]),
-    ],
+    [*FIRST, *(pytest.param(*row, marks=pytest.mark.report) for row in OTHER)],
 )
 @rows("scale", [1.0, 0.5])
 def test_no_text_is_over_another_or_cut_at_either_size(name, size, several, scale):
@@ -324,6 +333,11 @@ def test_pictures_need_no_window_and_a_name_and_matplotlib(monkeypatch):
 DOCS = Path(__file__).parents[2] / "docs"
 
 
+@functools.cache
+def panel_of(name):
+    return op.plots.chart(DOCS / name)
+
+
 def words_of(panel):
     return [text.get_text() for text in texts_of(panel[0].figure)]
 
@@ -338,6 +352,7 @@ def assert_clear(panel):
     assert texts_over_marks(figure, texts_of(figure)) == []
 
 
+@pytest.mark.slow  # Of those that were measured it is told each time.
 @settings(max_examples=6, deadline=None, phases=[Phase.reuse, Phase.generate])
 @given(charts())
 def test_no_text_of_any_chart_is_over_another_or_over_a_mark_or_cut(chart):
@@ -350,14 +365,14 @@ def marked(ax):
 
 @rows("name", ["chart.json", "chart-interface.json"])
 def test_every_contender_has_a_mark_in_each_panel_clear_of_texts(name):
-    panel = op.plots.chart(DOCS / name)
+    panel = panel_of(name)
     assert_clear(panel)
     count = len(recorded(name)["contenders"])
     assert [len(marked(ax)) for ax in panel] == [count] * len(panel)
 
 
 def test_methods_precisions_engines_limits_and_what_fails_are_told_in_readable_texts():
-    panel = op.plots.chart(recorded())
+    panel = panel_of("chart.json")
     assert min(text.get_fontsize() for text in texts_of(panel[0].figure)) >= 14
     looks = {}
     for line in marked(panel[0]):
@@ -365,14 +380,14 @@ def test_methods_precisions_engines_limits_and_what_fails_are_told_in_readable_t
     assert [*looks.values()] == [{"o", "s", "D"}] * 4
     words = words_of(panel)
     assert (words.count("frontier"), words.count("memory: 2.37 ns")) == (2, 2)
-    words = " ".join(words_of(op.plots.chart(DOCS / "chart-interface.json")))
+    told = " ".join(words)
+    words = " ".join(words_of(panel_of("chart-interface.json")))
     assert "all but: near the critical angle;" in words
     assert "n near 1, grazing" in words
     # The unit of what fails is explained, and neither is told where nothing fails.
+    assert "fails (over 1000 ulp*) in so many regions" in told
+    assert "units in the last place, divided by 1 + the condition number" in told
     chart = recorded()
-    words = " ".join(words_of(op.plots.chart(chart)))
-    assert "fails (over 1000 ulp*) in so many regions" in words
-    assert "units in the last place, divided by 1 + the condition number" in words
     chart["fails_above"] = 1e29
     for entry in chart["contenders"]:
         for kind in KINDS:

@@ -19,6 +19,7 @@ from optipath.sweeps.chunked.chunk_sizes import BLOCK, chunk_sizes
 from optipath.sweeps.chunked.own_class import OwnClass
 from optipath.sweeps.chunked.plan_recipe import PlanRecipe
 from random_paths import Draw
+from tables import slow
 
 pytest.importorskip("dask")
 MALUS = op.load_preset("malus")
@@ -78,17 +79,27 @@ def assert_same_bits(found, expected):
         assert one == other
 
 
-def test_a_sweep_in_chunks_is_that_in_memory_and_detectors_are_in_one_block():
-    together = {"delta": AXES["delta"], "phi": AXES["delta"] / 2, "zip": ("delta", "phi")}
-    for axes, several in (
-        ({}, ["auto", 1, 4, {"rho": 2}, {"delta": 3, "phi": -1}]),
-        (together, [3]),
-        ({"composer": SINGLE}, [4]),
-        ({"filter": ["none", "horizontal", "vertical"]}, [2]),
-    ):
-        whole = swept(**axes)
-        for chunks in several:
-            assert_same_bits(computed(**axes, chunks=chunks), whole)
+TOGETHER = {"delta": AXES["delta"], "phi": AXES["delta"] / 2, "zip": ("delta", "phi")}
+
+
+@pytest.mark.parametrize(
+    ("axes", "several"),
+    [
+        ({}, ["auto", {"delta": 3, "phi": -1}]),
+        (TOGETHER, [3]),
+        slow(({}, [1, 4, {"rho": 2}])),
+        slow(({"composer": SINGLE}, [4])),
+        ({"filter": ["none", "horizontal", "vertical"]}, [{"delta": 4}]),
+        slow(({"filter": ["none", "horizontal", "vertical"]}, [2])),
+    ],
+)
+def test_a_sweep_in_chunks_is_that_in_memory(axes, several):
+    whole = swept(**axes)
+    for chunks in several:
+        assert_same_bits(computed(**axes, chunks=chunks), whole)
+
+
+def test_chunks_may_be_computed_by_threads_and_detectors_are_in_one_block():
     assert_same_bits(swept(chunks=4).compute(scheduler="threads", num_workers=4), swept())
     path = op.PathGraph()
     sheet = path.add("sheet", op.Polarizer(op.Parameter("angle")))

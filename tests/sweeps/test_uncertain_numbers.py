@@ -18,7 +18,7 @@ from optipath.sweeps.uncertainty.drawn_samples import DrawnSamples
 from optipath.sweeps.uncertainty.light_figures import difference, figures_of, gradients_of
 from optipath.sweeps.uncertainty.uncertain_value import UncertainValue
 from optipath.values.arrays import memory
-from tables import rows
+from tables import rows, slow_except
 
 METHODS = ["differences", *(["gradients"] if "jax" in ENGINES else [])]
 each_method = pytest.mark.parametrize("method", METHODS)
@@ -157,7 +157,7 @@ def test_uncertainties_are_proportional_to_sigma(angle, sigma, factor):
     assert_allclose(more.uncertainties, factor * one.uncertainties, rtol=1e-12)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(st.floats(0.1, 1.4), st.floats(-3.0, 3.0), st.tuples(*[st.floats(1e-6, 1e-2)] * 3))
 def test_covariances_are_positive_and_that_of_intensity_knows_no_frame(theta, turn, sigmas):
     values = zip((0.6, 2.1, theta), sigmas, strict=True)
@@ -187,7 +187,13 @@ def slope_in_50_digits(values, place, inwards):
         return float((reflected(upper) - reflected(-lower)) / (upper + lower))
 
 
-@rows("angle", [1e-9, 1e-6, 1e-3, 0.5, 0.98, np.pi / 2 - 1e-3, np.pi / 2 - 1e-6, np.pi / 2])
+@pytest.mark.parametrize(
+    "angle",
+    slow_except(
+        (1e-9, 0.98, np.pi / 2),
+        (1e-9, 1e-6, 1e-3, 0.5, 0.98, np.pi / 2 - 1e-3, np.pi / 2 - 1e-6, np.pi / 2),
+    ),
+)
 @rows("index", [(1.5, 0.0), (0.6, 2.1), (1.2, 1e-6)])
 def test_slopes_go_to_the_ends_of_ranges(angle, index):
     path = op.Source() >> op.Interface(INDEX, op.Parameter("angle")) >> op.Detector()
@@ -360,7 +366,7 @@ def test_one_seed_has_one_result_whatever_the_engine_the_order_and_the_size_of_b
     path = op.load_preset("copper-gold-spectrum")
     asked = {"delta": (0.8, 0.1), "wavelength": ([516e-9, 520e-9], 1e-9), "samples": 100}
     whole = sampled(path, **asked)
-    for size in (2, 14, 64):
+    for size in (14, 64):
         monkeypatch.setattr(monte_carlo, "PATHS", size)
         assert_same_bits(whole, sampled(path, **asked))
 
