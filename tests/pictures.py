@@ -21,9 +21,10 @@ def texts_of(figure):
     return [text for text in drawn if text.get_visible() and text.get_text()]
 
 
-def faults_of(figure):
-    """The pairs of texts that overlap, and the texts that leave the figure."""
-    boxes = [(text.get_text(), text.get_window_extent()) for text in texts_of(figure)]
+def faults_of(figure, texts=None):
+    """The pairs of texts that overlap, and the texts that leave the figure; drawn if not given."""
+    texts = texts_of(figure) if texts is None else texts
+    boxes = [(text.get_text(), text.get_window_extent()) for text in texts]
     pairs = combinations(boxes, 2)
     faults = [(one, other) for (one, a), (other, b) in pairs if a.padded(-1).overlaps(b.padded(-1))]
     whole = figure.bbox.padded(1)

@@ -217,6 +217,11 @@ def test_how_long_it_takes_is_told_and_errors_near_a_place_are_drawn_again(run, 
     assert run("chart --from a.json --out b.svg")[0] == 0
     a, b = (Path(name).read_text("utf-8") for name in ("a.svg", "b.svg"))
     assert a.count("<path") == b.count("<path")
+
+
+@pytest.mark.slow
+def test_a_chart_has_what_is_given_in_its_title(run, monkeypatch):
+    monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
     monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:1])
     given = "--case 8 --delta 30 --filter none --near normal --data a.json"
     assert run(f"chart npgr026 {given}")[0] == 0

@@ -13,7 +13,7 @@ from optipath.plots.states.named_points import name_points
 from optipath.plots.states.parameter_trail import parameter_trail
 from optipath.plots.states.poincare_sphere import is_near
 from pictures import faults_of, texts_of
-from tables import rows
+from tables import rows, slow
 
 NAN = np.nan
 UNREAD = [1.0, NAN, NAN, NAN]
@@ -460,7 +460,7 @@ def test_a_name_stands_beside_the_line_through_its_point(turn):
     assert not any(box.contains(x, y) for x, y in ax.transData.transform(line))
 
 
-@rows("preset", ["ellipsometer-pcsa", "dichroic-sheet"])
+@pytest.mark.parametrize("preset", ["ellipsometer-pcsa", slow("dichroic-sheet")])
 def test_numbers_and_letters_of_a_sphere_are_seen_over_lines_and_not_in_their_way(preset):
     ax = poincare_path(op.load_preset(preset))
     ax.figure.draw_without_rendering()

@@ -339,7 +339,7 @@ def panel_of(name):
 
 
 def words_of(panel):
-    return [text.get_text() for text in texts_of(panel[0].figure)]
+    return " ".join(text.get_text() for text in texts_of(panel[0].figure))
 
 
 def recorded(name="chart.json"):
@@ -347,9 +347,12 @@ def recorded(name="chart.json"):
 
 
 def assert_clear(panel):
+    """That a chart is readable; its words."""
     figure = panel[0].figure
-    assert faults_of(figure) == []
-    assert texts_over_marks(figure, texts_of(figure)) == []
+    texts = texts_of(figure)
+    assert faults_of(figure, texts) == []
+    assert texts_over_marks(figure, texts) == []
+    return " ".join(text.get_text() for text in texts)
 
 
 @pytest.mark.slow  # Of those that were measured it is told each time.
@@ -373,15 +376,16 @@ def test_every_contender_has_a_mark_in_each_panel_clear_of_texts(name):
 
 def test_methods_precisions_engines_limits_and_what_fails_are_told_in_readable_texts():
     panel = panel_of("chart.json")
-    assert min(text.get_fontsize() for text in texts_of(panel[0].figure)) >= 14
+    texts = texts_of(panel[0].figure)
+    assert min(text.get_fontsize() for text in texts) >= 14
     looks = {}
     for line in marked(panel[0]):
         looks.setdefault(line.get_color(), set()).add(line.get_marker())
     assert [*looks.values()] == [{"o", "s", "D"}] * 4
-    words = words_of(panel)
+    words = [text.get_text() for text in texts]
     assert (words.count("frontier"), words.count("memory: 2.37 ns")) == (2, 2)
     told = " ".join(words)
-    words = " ".join(words_of(panel_of("chart-interface.json")))
+    words = words_of(panel_of("chart-interface.json"))
     assert "all but: near the critical angle;" in words
     assert "n near 1, grazing" in words
     # The unit of what fails is explained, and neither is told where nothing fails.
@@ -393,10 +397,8 @@ def test_methods_precisions_engines_limits_and_what_fails_are_told_in_readable_t
         for kind in KINDS:
             for error in entry["errors"][kind].values():
                 error.update(worst=9.0, median=1.0)
-    panel = op.plots.chart(chart)
-    words = " ".join(words_of(panel))
+    words = assert_clear(op.plots.chart(chart))
     assert not any(each in words for each in ("ulp", "fails (", "last place"))
-    assert_clear(panel)
 
 
 def near(**more):
@@ -421,13 +423,12 @@ def test_errors_near_critical_places_are_a_panel_a_place_and_what_was_left_out_i
         assert max(max(line.get_ydata()) for line in curves) == 1.0
     assert_clear(panel)
     one = near(title="long title " * 20, regions={"measured": 3, "of": 9})
-    panel = op.plots.chart(one | {"places": one["places"][:1]})
-    assert_clear(panel)
-    assert "interrupted: 3 of 9 distances" in " ".join(words_of(panel))
+    words = assert_clear(op.plots.chart(one | {"places": one["places"][:1]}))
+    assert "interrupted: 3 of 9 distances" in words
     # What was left out is said, and what is no chart refused.
     effort = {"samples": 3, "rounds": 3, "left_out": "of Numba only stable"}
     chart = {**recorded(), "effort": effort, "regions": {"measured": 5, "of": 21}}
-    words = " ".join(words_of(op.plots.chart(chart)))
+    words = words_of(op.plots.chart(chart))
     for told in ("3 samples a region", effort["left_out"], "interrupted: 5 of 21 regions"):
         assert told in words
     spoilt = near()

@@ -50,7 +50,7 @@ def dials_of(ax, colour=ELLIPSE):
 
 
 @pytest.mark.parametrize(
-    "presets", [PLANE[-4:-1], pytest.param(PLANE, marks=pytest.mark.report)], ids=["few", "all"]
+    "presets", [PLANE[-4:-2], pytest.param(PLANE, marks=pytest.mark.report)], ids=["few", "all"]
 )
 @rows("size", [(9.0, 5.4), (4.5, 2.7)])
 def test_no_name_is_over_another_or_a_symbol_or_cut(presets, size):
@@ -290,7 +290,7 @@ def in_degrees(delta, phi, rho):
     return {"delta": f"{delta!r} deg", "phi": f"{phi!r} deg", "rho": f"{rho!r} deg"}
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(DEGREES, st.floats(0.1, 90.0), st.floats(-180.0, 180.0))
 @example(0.0, 9.0, 0.0)
 @example(0.0, 20.0, 34.0)
@@ -312,7 +312,7 @@ def test_the_assignment_by_angles_is_that_by_points_up_to_a_rigid_motion(delta, 
         assert np.allclose(frames[port] @ motion.T, others[port], atol=1e-9), port
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(DEGREES, DEGREES, st.floats(-180.0, 180.0))
 def test_light_is_reflected_at_the_given_angles_and_turned_by_minus_rho(delta, phi, rho):
     scene = scene_of(op.load_preset("npgr026"), **in_degrees(delta, phi, rho))

@@ -17,7 +17,7 @@ from optipath.plan.answers import Answers
 from optipath.sweeps.whole import free_memory as memory_of
 from optipath.values.axis_texts import IdleValues
 from random_paths import Draw
-from tables import slow
+from tables import slow, slow_except
 
 xr = pytest.importorskip("xarray")
 DERIVED = {"DoP": "dop", "DoLP": "dolp", "AoP": "aop", "ellipticity": "ellipticity"}
@@ -224,15 +224,20 @@ def assert_same_along(found, alone):
         assert all(one.to_numpy().tobytes() == each.to_numpy().tobytes() for one in along)
 
 
-def test_all_is_the_same_along_an_idle_axis_to_the_last_bit_also_alone_or_zipped():
+@pytest.mark.parametrize(
+    ("chunks", "place"),
+    slow_except([(None, 0), (2, -1)], [*product((None, 2, {"wavelength": 1}), (0, -1))]),
+)
+def test_all_is_the_same_along_an_idle_axis(chunks, place):
     given = {"delta": DELTA, "filter": np.array([0.3, 1.5])}
-    alone = NPGR.sweep(**given)
-    for chunks, place in product((None, 2, {"wavelength": 1}), (0, -1)):
-        axes = {"wavelength": IDLE, **given} if place == 0 else {**given, "wavelength": IDLE}
-        found = NPGR.sweep(**axes, chunks=chunks)
-        assert list(found.sizes)[place] == "wavelength"
-        assert found.wavelength.attrs == {"long_name": "nothing depends on it", "units": "nm"}
-        assert_same_along(found, alone)
+    axes = {"wavelength": IDLE, **given} if place == 0 else {**given, "wavelength": IDLE}
+    found = NPGR.sweep(**axes, chunks=chunks)
+    assert list(found.sizes)[place] == "wavelength"
+    assert found.wavelength.attrs == {"long_name": "nothing depends on it", "units": "nm"}
+    assert_same_along(found, NPGR.sweep(**given))
+
+
+def test_all_is_the_same_along_an_idle_axis_to_the_last_bit_also_alone_or_zipped():
     found, alone = NPGR.sweep(wavelength=IDLE, delta=DELTA), NPGR.sweep(delta=DELTA)
     assert found.DoP[1:3, ::2].to_numpy().tolist() == [alone.DoP[::2].to_numpy().tolist()] * 2
     assert float(found.AoP[3, 4]) == float(alone.AoP[4])

@@ -51,7 +51,7 @@ def assert_same_bits(one, other, order=1):
     assert_array_equal(one.shares, other.shares[:, ::order])
 
 
-@each_method
+@pytest.mark.parametrize("method", slow_except(["differences"], METHODS))
 def test_malus_and_glass_at_normal_incidence_are_those_of_closed_forms(method):
     # I = P cos^2 a: dI = -P sin 2a da + cos^2 a dP.
     found = MALUS.propagate(angle=(0.7, 0.003), method=method)
