@@ -9,7 +9,7 @@ from mpmath import mp
 import optipath as op
 from chains import ENGINES
 from optipath.lab.accuracy.path_reference import exact_lights
-from tables import rows, slow_except
+from tables import rows, slow, slow_except
 from wired import read_back, wired
 
 INDEX = st.floats(0.3, 4.0)
@@ -123,13 +123,13 @@ def test_what_normal_incidence_reflects_and_lets_through_is_in_closed_form():
     assert sum(expected) != pytest.approx(1.0, rel=1e-3)
 
 
-def test_a_plate_that_light_goes_to_and_fro_in_agrees_with_50_digits():
-    for depth in (1e-9, 0.7, 30.0):
-        path = slab(op.Interface(GLASS, 0.9), depth=depth)
-        exact = exact_lights(path)
-        for port, light in path.trace_all().items():
-            expected = np.array([float(part) for part in exact[port].stokes])
-            np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-14 * expected[0])
+@pytest.mark.parametrize("depth", [0.7, slow(1e-9), slow(30.0)])
+def test_a_plate_that_light_goes_to_and_fro_in_agrees_with_50_digits(depth):
+    path = slab(op.Interface(GLASS, 0.9), depth=depth)
+    exact = exact_lights(path)
+    for port, light in path.trace_all().items():
+        expected = np.array([float(part) for part in exact[port].stokes])
+        np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-14 * expected[0])
 
 
 def test_the_medium_and_the_angle_are_taken_over():

@@ -33,7 +33,7 @@ from optipath.lab.bench.report import bench
 from optipath.lab.bench.timing import Timing
 from paths import chain
 from pictures import faults_of, texts_of
-from tables import rows, slow
+from tables import rows, slow, slow_except
 
 LITTLE = Effort(samples=1, rounds=1, engines=("numpy",))
 MORE = Effort(samples=2, rounds=1, engines=("numpy",))
@@ -350,7 +350,7 @@ def test_peers_stand_in_a_panel_of_their_own_with_their_names(tmp_path):
 # Benches.
 
 
-@pytest.mark.parametrize("long", [False, True])
+@pytest.mark.parametrize("long", slow_except([False], [False, True]))
 def test_no_formula_is_compiled_twice_and_of_several_sources_the_first_gives_the_matrix(
     monkeypatch, long
 ):

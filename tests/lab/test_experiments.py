@@ -248,11 +248,14 @@ def test_all_light_is_kept_by_the_cells_and_pixels_of_the_experiment_and_mirrore
     for measure in ("R+T", "scalar-R+T"):
         value, error, *_ = found(ROUGH, measure, "60 deg")
         assert abs(value - 1.0) < 5 * error + 1e-12
+
+
+@pytest.mark.slow
+def test_a_coarse_mesh_has_too_little_light_that_is_refracted_twice():
     sample = op.Sample([(1.5, 1.0)])
     coarse, fine = (
         found(sample, "scalar-T_m", "1 rad", 65_536, cells=cells).value for cells in (40, 640)
     )
-    # A coarse mesh has too little light that is refracted twice.
     assert coarse <= 0.053 < fine
 
 

@@ -303,8 +303,7 @@ def inserted(angle, behind, path=None, azimuth=0.0):
 
 
 @rows("azimuth, turn", [(0.5, 0.5), (0.0, 0.0), (A, 0.37), (2 * A + 0.1, 0.84), (SEVERAL, SEVERAL)])
-@rows("first", [0.3, A])
-@rows("behind", ["P", "X1"])
+@rows("first, behind", [(0.3, "P"), (A, "X1")])
 def test_what_replaces_an_inserted_element_turns_nothing_behind_it(behind, first, azimuth, turn):
     path = inserted(0.2, behind, azimuth=first)
     path.replace("new", op.Polarizer(0.2, azimuth=azimuth))

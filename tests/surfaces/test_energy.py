@@ -21,7 +21,7 @@ GLASS = op.Sample([(1.5, 0.5)])
 HEIGHTS = np.random.default_rng(1).normal(size=(8, 8))
 
 
-@pytest.mark.parametrize("photons", [50_000, slow(100_000)])
+@pytest.mark.parametrize("photons", [20_000, slow(100_000)])
 def test_the_same_seed_gives_the_same_bits_by_any_number_of_threads_and_another_others(photons):
     first, *others = [
         surfaces.energy(GLASS, "50 deg", photons=photons, seed=7, threads=threads)

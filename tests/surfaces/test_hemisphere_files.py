@@ -8,7 +8,7 @@ import pytest
 
 import optipath as op
 from optipath.surfaces import HeightField
-from tables import rows
+from tables import rows, slow_except
 
 pytest.importorskip("numba")
 pytest.importorskip("zarr")
@@ -97,7 +97,7 @@ def test_others_open_it_as_the_dataset_with_names_and_units(form, metal, tmp_pat
         assert np.array_equal(whole.sel(number="scalar"), metal.parts.sums.sum(0)[..., -1] / 8192)
 
 
-@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("form", slow_except([".zarr"], FORMS))
 def test_a_hemisphere_takes_the_place_of_another_unless_writing_fails(
     form, glass, metal, tmp_path, monkeypatch
 ):

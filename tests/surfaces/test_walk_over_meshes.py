@@ -319,8 +319,7 @@ def in_cells(vector):
     return vector / [*SPACING, 1.0]
 
 
-@rows("periodic", [True, False])
-@rows("index", [1.5, 1j])
+@rows("periodic, index", [(True, 1.5), (False, 1j)])
 def test_photons_stay_on_their_side_of_the_surface_from_event_to_event(periodic, index):
     met = 0
     for seed in range(80):
