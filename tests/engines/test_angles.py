@@ -10,7 +10,7 @@ import optipath as op
 from optipath.engines.automatic import is_installed
 from optipath.lab.accuracy.path_reference import exact_lights
 from paths import chain
-from tables import rows
+from tables import rows, slow
 
 OFF = 10.0 ** -np.arange(1.0, 16.0, 1.5)
 GRAZING = [*map(float, np.pi / 2 - OFF), float(np.nextafter(np.pi / 2, 0.0)), *OFF, np.pi / 4]
@@ -49,7 +49,7 @@ def filled(value, count=1100):
     return np.full(count, value)
 
 
-@rows("engine, dtype", WAYS)
+@pytest.mark.parametrize(("engine", "dtype"), [slow(w) if w == WAYS[4] else w for w in WAYS])
 def test_a_batch_next_to_right_angles_is_like_a_single_run(engine, dtype):
     plan, single = plan_of(engine, dtype), plan_of("auto", dtype)
     assert plan.engine_for(1100).startswith(engine)
@@ -137,7 +137,8 @@ def of_any_size(dtype):
 @in_radians
 @rows("element", ELEMENTS)
 @rows("dtype", ROUNDINGS)
-def test_engines_batches_and_runs_agree_on_angles_of_any_size(element, dtype):
+@pytest.mark.parametrize("by_jax", [["rotator"], slow(["retardance", "azimuth"])])
+def test_engines_batches_and_runs_agree_on_angles_of_any_size(element, dtype, by_jax):
     path, given = chain([ELEMENTS[element]], STATE), of_any_size(dtype)
     plan = op.Composer(engine="numpy", dtype=dtype).compose(path)
     found = {
@@ -146,7 +147,7 @@ def test_engines_batches_and_runs_agree_on_angles_of_any_size(element, dtype):
         "first": np.array([plan.run(a=float(a)).stokes for a in given[:3]]),
         "later": np.array([plan.run(a=float(a)).stokes for a in given]),
     }
-    compiled = ["jax"] if element in ("rotator", "retardance", "azimuth") else []
+    compiled = ["jax"] if element in by_jax else []
     compiled += ["numba"] if (element, dtype) == ("rotator", "float64") else []
     for engine in filter(is_installed, compiled):
         plan = op.Composer(engine=engine, dtype=dtype).compose(path)

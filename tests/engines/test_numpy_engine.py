@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
@@ -57,6 +57,7 @@ def matrix_of(element):
     return op.Mueller(element.mueller(leaves=leaves).matrix) @ turn
 
 
+@settings(max_examples=settings().max_examples // 3)
 @given(elements=CHAINS, state=states())
 def test_a_chain_is_the_product_of_its_matrices_and_gives_no_more_than_it_gets(elements, state):
     start = op.Mueller(np.eye(4))
@@ -70,6 +71,7 @@ def test_a_chain_is_the_product_of_its_matrices_and_gives_no_more_than_it_gets(e
     assert polarised <= light.intensity + 1e-13 * state[0]
 
 
+@settings(max_examples=settings().max_examples // 3)
 @given(elements=PAIRS, azimuth=ANGLES)
 def test_light_that_runs_backwards_sees_the_reciprocal_matrix(elements, azimuth):
     forth, back = (

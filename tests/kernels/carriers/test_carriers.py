@@ -23,7 +23,7 @@ from optipath.kernels.carriers.structures import BLOCK, ROTATION, SCALE
 from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from random_matrices import jones, of_jones, unit_vectors
-from tables import rows
+from tables import rows, slow, slow_except
 from wired import wired
 
 OF_STOKES = StokesCarrier, ScaledCarrier, JonesCarrier, MatrixCarrier
@@ -115,7 +115,7 @@ def test_paths_that_part_and_meet_are_carried_by_jones_columns_unless_they_depol
 
 
 @rows("carrier", OF_STOKES)
-@rows("dtype", ["float32", "longdouble"])
+@pytest.mark.parametrize("dtype", ["float32", slow("longdouble")])
 def test_no_number_changes_its_precision_on_the_way(dtype, carrier):
     paths = [op.load_preset(name) for name in op.preset_names()]
     paths += [branches(), op.load_preset("npgr026", filter=["none", "horizontal"])]
@@ -240,7 +240,7 @@ def behind(dop, diattenuations, axes):
     return s0
 
 
-@rows("length", range(2, 11))
+@pytest.mark.parametrize("length", slow_except([2, 5, 10], range(2, 11)))
 def test_no_chain_leaves_its_bounds_and_some_reach_them(rng, length):
     count = 112_000  # A million for all lengths together.
     dop = rng.choice([0.0, 1.0, -1.0], count, p=[0.3, 0.1, 0.6])

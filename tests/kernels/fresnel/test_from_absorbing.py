@@ -22,7 +22,7 @@ from optipath.kernels.catalogue import (
     TRANSMISSION_FROM_BEHIND,
 )
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
-from tables import rows
+from tables import rows, slow, slow_except
 
 FAMILIES = REFLECTION_FROM_ABSORBING, TRANSMISSION_FROM_ABSORBING, TRANSMISSION_FROM_BEHIND
 INDICES = st.floats(0.5, 4.0)
@@ -79,7 +79,7 @@ def computed(family, media, angle, n0, method="stable"):
     return kernel(*media, *before, math.cos(angle), math.sin(angle))
 
 
-@rows("method", ["stable", "compensated"])
+@pytest.mark.parametrize("method", ["stable", slow("compensated")])
 @rows("family", range(3))
 @given(
     media=MEDIA,
@@ -200,8 +200,12 @@ def test_the_index_of_the_phase_is_that_of_kettelers_equations_in_arrays_and_flo
         np.testing.assert_allclose(np.transpose(kernel.made_for(NUMPY)(*given_)), one_by_one, 1e-13)
 
 
-@pytest.mark.parametrize("n0", [None, 1.3])
-@pytest.mark.parametrize("k1", [0.0, 1e-9, 0.05])
+@pytest.mark.parametrize(
+    ("k1", "n0"),
+    slow_except(
+        [(0.0, 1.3), (0.05, None)], [(k, n) for k in (0.0, 1e-9, 0.05) for n in (None, 1.3)]
+    ),
+)
 def test_slopes_are_those_of_50_digits(jax, k1, n0):
     sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
     xp, at = sloped(np.dtype(np.float64)), (1.5, k1, 1.2, 0.1, 0.4)

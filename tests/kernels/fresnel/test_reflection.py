@@ -12,7 +12,7 @@ from optipath.kernels.catalogue import (
     TRANSMISSION,
 )
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
-from tables import rows
+from tables import rows, slow_except
 
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 8.0))
@@ -57,7 +57,7 @@ def test_a_metal_and_normal_incidence_on_glass_are_exact_by_every_method_in_its_
                 assert {number.dtype for number in found} == {np.dtype(dtype)}
 
 
-@rows("method", METHODS)
+@pytest.mark.parametrize("method", slow_except(["stable", "textbook"], METHODS))
 @given(n=INDICES, k=EXTINCTIONS, angle=ANGLES)
 def test_reflection_never_gives_more_than_it_gets_and_the_rest_is_let_through(method, n, k, angle):
     given_ = (complex(n, k), np.cos(angle), np.sin(angle), method)

@@ -31,8 +31,7 @@ SHAPES = [
 ]
 # Numba compiles each anew.
 WAYS = [("numpy", dtype, shapes) for dtype in ("float64", "float32") for shapes in SHAPES]
-WAYS += [("numba", "float64", SHAPES[0])]
-WAYS += [slow(("numba", "float64", shapes)) for shapes in (SHAPES[2], SHAPES[5])]
+WAYS += [slow(("numba", "float64", shapes)) for shapes in (SHAPES[0], SHAPES[2], SHAPES[5])]
 WAYS += [slow(("numba", "float32", SHAPES[0]))]
 
 

@@ -41,7 +41,7 @@ def test_the_later_runs_of_every_preset_are_the_first(name):
     assert_later_runs_are_the_first(op.load_preset(name))
 
 
-@rows("seed", range(40))
+@rows("seed", range(20))
 def test_the_later_runs_of_random_paths_with_several_detectors_are_the_first(seed):
     draw = Draw(seed, arrays=False)
     assert_later_runs_are_the_first(draw.path(loops=seed % 3 == 0), **draw.values)
