@@ -39,3 +39,10 @@ def jax_once(jax, request):
     slow = request.node.get_closest_marker("slow") is not None
     with nullcontext() if slow else jax.disable_jit():
         yield jax
+
+
+@pytest.fixture(params=["forwards", pytest.param("backwards", marks=pytest.mark.slow)])
+def jacobian(jax, request):
+    """Slopes of a function, compiled: forwards, or, slow, backwards as ``jax.grad`` has them."""
+    way = jax.jacfwd if request.param == "forwards" else jax.jacrev
+    return lambda function, **options: jax.jit(way(function, **options))

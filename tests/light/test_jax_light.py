@@ -89,12 +89,12 @@ DONE = [
 ]
 
 
-def test_what_is_done_to_light_that_jax_traces_is_what_numpy_does():
+def test_what_is_done_to_light_that_jax_traces_is_what_numpy_does(jacobian):
     def traced(stokes, metal):
         return [done(op.Light(stokes), op.Mueller(metal)) for done in DONE]
 
     expected, found = traced(STOKES, MATRIX), jax.jit(traced)(STOKES, MATRIX)
-    slopes = jax.jit(jax.jacfwd(traced))(jnp.array(STOKES), jnp.array(MATRIX))
+    slopes = jacobian(traced)(jnp.array(STOKES), jnp.array(MATRIX))
     for number, wanted in enumerate(expected):
         told = f"number {number} of what is done"
         np.testing.assert_allclose(found[number], wanted, rtol=1e-6, atol=1e-6, err_msg=told)
@@ -128,13 +128,13 @@ def test_what_takes_numbers_alone_says_so_of_what_jax_traces(ask):
 
 
 @pytest.mark.usefixtures("jax")
-def test_a_default_that_jax_traces_has_a_slope():
+def test_a_default_that_jax_traces_has_a_slope(jacobian):
     def intensity(angle):
         first = op.Polarizer(op.Parameter("angle", default=angle))
         return (op.Source() >> first >> op.Polarizer(0.0) >> op.Detector()).trace().S0
 
     # Half of cos^2 has the slope -sin cos.
-    slope = jax.jit(jax.jacfwd(intensity))(0.3)
+    slope = jacobian(intensity)(0.3)
     np.testing.assert_allclose(slope, -np.sin(0.3) * np.cos(0.3), rtol=1e-12)
 
 

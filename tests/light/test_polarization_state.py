@@ -98,7 +98,7 @@ def test_each_figure_has_the_shape_of_the_batch(name, batch):
     assert getattr(op.Light(np.ones((*batch, 4)) * [2, 1, 1, 1]), name).shape == batch
 
 
-def test_jax_gives_what_numpy_gives_and_finite_slopes():
+def test_jax_gives_what_numpy_gives_and_finite_slopes(jacobian):
     jax = pytest.importorskip("jax")
 
     def figures(s):
@@ -107,7 +107,7 @@ def test_jax_gives_what_numpy_gives_and_finite_slopes():
     def smooth(s):
         return {name: figure for name, figure in figures(s).items() if name != "handedness"}
 
-    both = jax.jit(jax.jacfwd(lambda s: (smooth(s), figures(s)), has_aux=True))
+    both = jacobian(lambda s: (smooth(s), figures(s)), has_aux=True)
     for state, (components, *_) in HANDBOOK.items():
         stokes = np.array(components, np.float32)
         sloping, found = both(jax.numpy.array(stokes))

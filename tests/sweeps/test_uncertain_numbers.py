@@ -366,7 +366,7 @@ def test_one_seed_has_one_result_whatever_the_engine_the_order_and_the_size_of_b
     path = op.load_preset("copper-gold-spectrum")
     asked = {"delta": (0.8, 0.1), "wavelength": ([516e-9, 520e-9], 1e-9), "samples": 100}
     whole = sampled(path, **asked)
-    for size in (14, 64):
+    for size in (2, 14, 64):
         monkeypatch.setattr(monte_carlo, "PATHS", size)
         assert_same_bits(whole, sampled(path, **asked))
 

@@ -161,16 +161,16 @@ def test_what_cannot_be_is_told_in_words_all_at_once(ask, words):
     assert len(fault.value.faults) == 5
 
 
-def test_slopes_along_the_wavelength_are_those_of_formulas(jax):
+def test_slopes_along_the_wavelength_are_those_of_formulas(jacobian):
     # Of n^2 = 1 + b w^2 / (w^2 - c): dn/dw = -b c w / (n (w^2 - c)^2), w in um.
     material = op.Material.sellmeier([1.2], [0.01])
     n = float(material.at(5e-7).n)
     expected = -1.2 * 0.01 * 0.5 / (n * (0.25 - 0.01) ** 2) * 1e6
-    found = jax.jit(jax.jacfwd(lambda w: material.at(w).n))(5e-7)
+    found = jacobian(lambda w: material.at(w).n)(5e-7)
     assert float(found) == pytest.approx(expected, rel=1e-13)
     path = faced(bk7())
-    by_run = jax.jit(jax.jacfwd(lambda w: path.trace(wavelength=w).stokes[0]))(5e-7)
-    bound = jax.jit(jax.jacfwd(lambda w: path.bind(wavelength=w).trace().stokes[0]))(5e-7)
+    by_run = jacobian(lambda w: path.trace(wavelength=w).stokes[0])(5e-7)
+    bound = jacobian(lambda w: path.bind(wavelength=w).trace().stokes[0])(5e-7)
     assert float(bound) == pytest.approx(float(by_run), rel=1e-12)
 
 

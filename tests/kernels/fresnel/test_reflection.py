@@ -203,3 +203,13 @@ def test_an_index_that_vanishes_reflects_everything(index):
     np.testing.assert_allclose(B, 0.0, rtol=0, atol=1e-199)
     assert C[0] == -1.0
     np.testing.assert_allclose(C * C + S * S, 1.0, rtol=0, atol=1e-15)
+
+
+@given(n=INDICES, k=st.floats(0.1, 8.0), angle=ANGLES)
+def test_what_the_textbook_lets_into_a_metal_has_the_phase_between_its_amplitudes(n, k, angle):
+    c, s, m = np.cos(angle), np.sin(angle), complex(n, k)
+    A, B, C, S = op.fresnel_transmission(m, c, s, "textbook")
+    g = np.sqrt(m * m - s * s)
+    phase = np.angle((m * m * c + g) / (m * (c + g)))  # Of t_s / t_p.
+    expected = np.sqrt(max(A * A - B * B, 0.0)) * np.exp(1j * phase)
+    assert abs(complex(C, S) - expected) <= 1e-12

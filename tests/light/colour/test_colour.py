@@ -145,14 +145,14 @@ def test_light_that_has_no_colour_is_refused():
         light.to_xyz()
 
 
-def test_a_slope_by_jax_is_the_sum_of_slopes(jax):
+def test_a_slope_by_jax_is_the_sum_of_slopes(jax, jacobian):
     values = smooth(GRID)
 
     def luminance(share):
         stokes = jax.numpy.zeros((81, 4)).at[:, 0].set(share * values)
         return op.Light(stokes, wavelength=VISIBLE).to_xyz(white=D65)[1]
 
-    slope = jax.jit(jax.jacfwd(luminance))(0.7)
+    slope = jacobian(luminance)(0.7)
     np.testing.assert_allclose(slope, light_of(values).to_xyz(white=D65)[1], rtol=1e-12)
 
 
@@ -217,13 +217,13 @@ def test_what_is_done_with_colours_out_of_gamut_leaves_those_within():
         np.testing.assert_allclose(found, first, rtol=1e-14)
 
 
-def test_slopes_of_colours_are_finite_where_they_are_dark_or_out_of_gamut(jax):
+def test_slopes_of_colours_are_finite_where_they_are_dark_or_out_of_gamut(jax, jacobian):
     def red(share, way):
         stokes = jax.numpy.zeros((81, 4)).at[:, 0].set(share * peak(500.0, 20.0))
         return op.Light(stokes, wavelength=VISIBLE).to_srgb(D65, out_of_gamut=way).values.sum()
 
     for way in ("clip", "scale", "keep"):
-        slopes = jax.jit(jax.vmap(jax.jacfwd(lambda share, way=way: red(share, way))))
+        slopes = jax.vmap(jacobian(lambda share, way=way: red(share, way)))
         assert np.isfinite(slopes(np.array([0.0, 50.0]))).all()
     with pytest.raises(op.ValueFault, match="JAX traces are in gamut is not known"):
         jax.grad(lambda share: red(share, "refuse"))(0.5)

@@ -121,13 +121,13 @@ def test_each_figure_has_the_shape_of_the_batch_and_keeps_its_precision(name):
         assert getattr(op.Mueller(matrix), name).dtype == np.float32
 
 
-def test_jax_gives_what_numpy_gives_and_finite_slopes():
+def test_jax_gives_what_numpy_gives_and_finite_slopes(jacobian):
     jax = pytest.importorskip("jax")
 
     def figures(m):
         return {name: getattr(op.Mueller(m), name) for name in SCALARS}
 
-    both = jax.jit(jax.jacfwd(lambda m: (figures(m),) * 2, has_aux=True))
+    both = jacobian(lambda m: (figures(m),) * 2, has_aux=True)
     for matrix in (np.diag([1.0, 0, 0, 0]), np.eye(4), np.ones((4, 4))):
         sloping, found = both(jax.numpy.array(matrix))
         for name, expected in figures(matrix).items():

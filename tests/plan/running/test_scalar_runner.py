@@ -74,6 +74,14 @@ def test_the_later_runs_of_extreme_values_are_the_first(of, value):
     assert_later_runs_are_the_first(PATHS[of], v=value)
 
 
+def test_an_angle_that_looks_like_degrees_is_warned_of_by_later_runs_too():
+    plan = chain([op.Retarder(VALUE, 0.3)], LIT).compose()
+    for value in (0.1, 0.2, 0.3, 0.4, 0.5):
+        plan.run(v=value)
+    with pytest.warns(op.AngleWarning, match="parameter 'v' is a plain number"):
+        plan.run(v=45.0)
+
+
 def splitters(count):
     """Beam splitters one behind another, a dimmed detector at each and one behind them all."""
     nodes, links, leaves = {"lamp": op.Source(stokes=STATE), "end": op.Detector()}, "", "lamp"
