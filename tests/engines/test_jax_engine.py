@@ -79,13 +79,13 @@ def test_a_path_can_be_built_of_what_is_not_known_yet_and_lights_looked_at_meanw
 def test_slopes_of_faces_loops_and_degrees_are_those_of_closed_forms():
     path = op.load_preset("npgr026", delta=0.0, phi=0.0, n2=1.5)
     # R = ((n - 1) / (n + 1))^2, so dR/dn = 4 (n - 1) / (n + 1)^3.
-    slope = jax.grad(lambda n: path.trace(n1=n).stokes[0])(1.5)
+    slope = jax.jit(jax.grad(lambda n: path.trace(n1=n).stokes[0]))(1.5)
     np.testing.assert_allclose(slope, 100 * 0.04 * 4 * 0.5 / 2.5**3, rtol=1e-12)
     source = op.Source(op.Parameter("i")) >> op.Detector()
     assert jax.grad(lambda i: source.trace(i=i).dop)(1.0) == 0.0
     path = slab(op.Parameter("n"), 0.0)
     # A slab lets 2 n / (n^2 + 1) through, so dT/dn = 2 (1 - n^2) / (n^2 + 1)^2.
-    slope = jax.grad(lambda n: path.trace_all(n=n)["T"].intensity)(1.5)
+    slope = jax.jit(jax.grad(lambda n: path.trace_all(n=n)["T"].intensity))(1.5)
     assert float(slope) == pytest.approx(2 * (1 - 1.5**2) / (1.5**2 + 1) ** 2, rel=1e-12)
 
 

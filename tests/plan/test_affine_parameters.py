@@ -194,10 +194,10 @@ def test_slopes_are_those_of_the_multiple():
     )
 
     def slope(plan, at):
-        return float(jax.grad(lambda d: plan.run(d=d).intensity)(at))
+        return float(jax.jit(jax.grad(lambda d: plan.run(d=d).intensity))(at))
 
     assert slope(affine, 0.2) == pytest.approx(2 * slope(plain, 0.5), rel=1e-5)
-    found = jax.vmap(lambda d: affine.run(d=d).intensity)(jax.numpy.array([0.2, 0.8]))
+    found = jax.jit(jax.vmap(lambda d: affine.run(d=d).intensity))(jax.numpy.array([0.2, 0.8]))
     np.testing.assert_array_equal(np.isfinite(found), [True, False])
 
 
