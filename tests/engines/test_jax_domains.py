@@ -142,6 +142,7 @@ def test_of_a_batch_only_what_is_outside_a_domain_or_range_is_nan(transform):
     assert np.isnan(traced(0.7)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["malus", slow("npgr026"), slow("glass-slab")])
 def test_presets_keep_their_ranges_where_jax_traces(name):
     path = op.load_preset(name)

@@ -188,7 +188,8 @@ def stacks(rng):
     return found
 
 
-@pytest.mark.parametrize("derivative", [jax.jacfwd, slow(jax.jacrev)])
+@pytest.mark.slow
+@pytest.mark.parametrize("derivative", [jax.jacfwd, jax.jacrev])
 @jax.disable_jit()
 def test_a_slab_at_grazing_incidence_has_the_slopes_of_the_closed_form(derivative):
     # T = T_s / (2 - T_s), and T_p likewise: half of 4 c / g and of 4 n^2 c / g, g^2 = n^2 - 1.

@@ -296,7 +296,7 @@ def test_another_shape_is_refused_in_a_sentence(given, told):
     assert told in str(refused.value)
 
 
-COUNTS = pytest.mark.parametrize("count", [300, slow(10_000)])
+COUNTS = pytest.mark.parametrize("count", [100, slow(10_000)])
 STATE = MALUS | {"case": None, "places": {}, "values": {"angle": "30 deg"}, "detector": "eye"}
 STATE |= {"curve": CURVE | {"x": "angle", "count": 5}, "want": ["energy", "scene", "explanation"]}
 ODD = [

@@ -79,7 +79,7 @@ def test_texts_are_read_as_at_the_command_line_and_bare_numbers_in_the_unit(answ
 
 
 @pytest.mark.parametrize(
-    ("presets", "draws"), [(op.preset_names()[::3], 1), slow((op.preset_names(), 3))]
+    ("presets", "draws"), [(op.preset_names()[::6], 1), slow((op.preset_names(), 3))]
 )
 def test_every_preset_has_the_numbers_of_trace(answers, presets, draws):
     for preset in presets:

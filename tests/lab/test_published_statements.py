@@ -57,9 +57,9 @@ FAR = "80 deg", 400_000
 @pytest.mark.parametrize(
     ("smaller", "larger"),
     [
-        *(((2,), (1,)), slow(((8,), (7,))), slow(((9,), (7,))), slow(((15,), (16,)))),
+        *(((2,), (1,)), *map(slow, [((8,), (7,)), ((9,), (7,)), ((15,), (16,))])),
         # Of aluminium, 11, instead of gold, 7, under a varnish, too; and instead of copper, 10.
-        *(((11,), (7,)), slow(((12, *FAR), (11, *FAR))), slow(((11,), (7, "60 deg", 40_000, 10)))),
+        *map(slow, [((11,), (7,)), ((12, *FAR), (11, *FAR)), ((11,), (7, "60 deg", 40_000, 10))]),
     ],
 )
 def test_the_rougher_a_sample_is_the_smaller_is_what_polarisation_changes(smaller, larger):

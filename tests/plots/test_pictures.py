@@ -22,7 +22,7 @@ from optipath.plots import energy
 from optipath.plots.own_axes import own_axes, own_panel
 from optipath.plots.states.poincare_sphere import sphere_axes
 from pictures import faults_of, texts_of
-from tables import rows
+from tables import rows, slow
 
 NAN = np.nan
 MALUS, LIGHT = op.load_preset("malus"), op.Light([1.0, 0.6, 0.0, 0.8])
@@ -272,7 +272,7 @@ def test_rounding_gains_darkness_several_sources_and_taps_are_told():
     [
         ("png", b"\x89PNG", b""),
         ("svg", b"<?xml", b">angle of polarisation (\xc2\xb0)</text>"),
-        ("pdf", b"%PDF", b"/FontFile2"),  # TrueType, no outlines
+        slow(("pdf", b"%PDF", b"/FontFile2")),  # TrueType, no outlines
     ],
 )
 def test_a_picture_is_saved_in_every_form_with_texts_as_such(form, begins, holds, tmp_path):

@@ -72,6 +72,7 @@ def test_a_layered_sample_needs_polarisation_but_for_a_wide_tolerance(sample):
     assert (found.model, found.undecided) == ("scalar", ())
 
 
+@pytest.mark.slow
 def test_a_metal_is_told_by_single_scattering_where_it_is_hardly_rough():
     found = decide(op.Sample([(0.2 + 3j, 0.1)]), "30 deg", 0.15, photons=30_000, sensor=8)
     assert (found.model, found.undecided) == ("single-scattering", ())

@@ -254,6 +254,7 @@ def test_slopes_by_index_and_roughness_are_those_of_fifty_digits(jax):
     np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_slopes_are_finite_at_the_limits_and_what_is_not_allowed_is_no_number(jax, jacobian):
     k_in = np.array([down(0.0), down(0.6), down(1.5707)])
     k_out = np.array([direction(0.0), -down(0.6), direction(1.5707)])

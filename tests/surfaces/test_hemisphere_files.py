@@ -69,6 +69,7 @@ def test_what_is_loaded_is_what_was_measured_to_the_last_bit(form, glass, metal,
             assert all(np.array_equal(*pair, equal_nan=True) for pair in pairs)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
 def test_what_follows_from_it_is_the_same_with_its_errors(metal, tmp_path):
     again = kept(metal, tmp_path / "a.nc")

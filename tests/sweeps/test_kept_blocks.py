@@ -115,6 +115,7 @@ def test_progress_is_told_to_the_end_and_who_interrupts_keeps_what_is_done(store
         assert sorted(computed(log)[already:]) == sorted({*range(40)} - before)
 
 
+@pytest.mark.slow
 def test_not_too_much_is_handed_out_and_two_runs_come_to_the_same_bits(tmp_path, store):
     executor, job = Mock(wraps=AtOnce()), Powers(20)
     found = _handed_out(job, BlockStore.of(job, store), [*range(20)], Workers(executor, lambda: 6))
@@ -327,6 +328,7 @@ def test_a_cluster_keeps_the_bits_of_one_process_though_a_worker_dies(tmp_path, 
     assert_same_bits(found, alone[["S0", "Delta"]])
 
 
+@pytest.mark.slow
 def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, monkeypatch):
     given, computed = {"store": tmp_path / "sweep.zarr", "chunks": CHUNKS}, []
     with pytest.raises(KeyboardInterrupt):

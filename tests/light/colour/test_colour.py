@@ -217,6 +217,7 @@ def test_what_is_done_with_colours_out_of_gamut_leaves_those_within():
         np.testing.assert_allclose(found, first, rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_slopes_of_colours_are_finite_where_they_are_dark_or_out_of_gamut(jax, jacobian):
     def red(share, way):
         stokes = jax.numpy.zeros((81, 4)).at[:, 0].set(share * peak(500.0, 20.0))
