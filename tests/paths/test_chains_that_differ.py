@@ -153,6 +153,7 @@ def test_slopes_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
         np.testing.assert_allclose(slopes[chain, : length + 2], expected, rtol=1e-8, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_slopes_in_an_index_are_those_of_each_chain_and_of_nothing_behind_its_end(jax):
     given = np.array([DOWN[:3], [*DOWN[:2], DOWN[0]], [*DOWN[:2], [np.nan] * 3]])
     points = op.Parameter("points")

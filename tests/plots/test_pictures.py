@@ -366,7 +366,7 @@ def marked(ax):
     return [line for line in ax.get_lines() if line.get_marker() in "osD"]
 
 
-@rows("name", ["chart.json", "chart-interface.json"])
+@pytest.mark.parametrize("name", ["chart-interface.json", slow("chart.json")])
 def test_every_contender_has_a_mark_in_each_panel_clear_of_texts(name):
     panel = panel_of(name)
     assert_clear(panel)

@@ -202,9 +202,7 @@ def test_the_index_of_the_phase_is_that_of_kettelers_equations_in_arrays_and_flo
 
 @pytest.mark.parametrize(
     ("k1", "n0"),
-    slow_except(
-        [(0.0, 1.3), (0.05, None)], [(k, n) for k in (0.0, 1e-9, 0.05) for n in (None, 1.3)]
-    ),
+    slow_except([(0.05, None)], [(k, n) for k in (0.0, 1e-9, 0.05) for n in (None, 1.3)]),
 )
 def test_slopes_are_those_of_50_digits(jax, k1, n0):
     sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
