@@ -264,3 +264,10 @@ def test_elements_at_angles_that_are_exact_give_what_every_step_gives(seed):
     path = chain(elements, states[rng.integers(0, 4)])
     every = op.Composer(model="full").compose(path).run()
     np.testing.assert_allclose(path.trace().stokes, every.stokes, rtol=0, atol=1e-15)
+
+
+@rows("model, component", [("linear", 3), ("scalar", 2)])
+def test_a_model_too_small_is_refused_with_the_last_component_that_is_needed(model, component):
+    plates = [op.Retarder(0.3, 0.4), op.Retarder(0.7, 1.1), op.Polarizer(0.2)]
+    with pytest.raises(op.ComposerError, match=f"not exact for this path: S{component} is alive"):
+        op.Composer(model=model).compose(chain(plates, (1.0, 0.5, 0.5, 0.0)))

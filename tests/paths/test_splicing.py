@@ -13,6 +13,7 @@ import pytest
 
 import optipath as op
 from optipath.cli.command import main
+from optipath.paths.link_turns import are_alike
 from tables import rows
 from wired import read, read_back, wired
 
@@ -26,6 +27,13 @@ assert_close = functools.partial(np.testing.assert_allclose, rtol=1e-13, atol=1e
 npgr026 = functools.partial(op.load_preset, "npgr026")
 # The two reflections with all values known, the filter at the light.
 two_reflections = functools.partial(npgr026, case=8)
+
+
+def test_turns_are_alike_if_they_are_one_multiple_of_one_parameter_with_one_offset():
+    b = op.Parameter("b")
+    assert are_alike(2 * A + 0.3, 2 * A + 0.3 - 0.9 + 0.9)
+    for other in (A + 0.3, 2 * b + 0.3, 2 * A + 0.4, 0.3):
+        assert not are_alike(2 * A + 0.3, other)
 
 
 def stokes(path):
