@@ -1,12 +1,15 @@
 """Chains of vertices in space, and the same paths built of interfaces in world frames."""
 
 import numpy as np
+import pytest
 
 import optipath as op
 from optipath.engines.automatic import is_installed
+from tables import slow_except
 
 ENGINES = [engine for engine in ("numpy", "numba", "jax") if is_installed(engine)]
 COMPILED = [engine for engine in ENGINES if engine != "jax"]
+by_engine = pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
 MATERIALS = (1.5, 1.12 + 2.16j, 0.608 + 2.12j, 0.66, 0.2 + 3.4j)
 
 

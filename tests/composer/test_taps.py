@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from chains import ENGINES
+from chains import by_engine
 from optipath.paths.drawing import draw
-from tables import slow_except
 from wired import read_back, wired
 
 
@@ -132,7 +131,7 @@ def test_a_tap_is_told_in_explanations_drawings_and_files_and_makes_paths_unequa
             op.load_preset("npgr026").connect("X2.reflected", "E.in", tap=odd)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_batches_know_the_tap_by_which_an_ellipsometer_reads_the_state(engine):
     path, angles = op.load_preset("ellipsometer-pcsa"), np.linspace(0.1, 1.4, 40)
     assert path.compose().taps == ("S.reflected -> state.in",)

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
-from chains import ENGINES
+from chains import by_engine
 from incoherent_stacks import exact_stack, mueller_of
-from tables import rows, slow_except
+from tables import rows
 from wired import wired
 
 pytestmark = pytest.mark.filterwarnings(
@@ -224,7 +224,7 @@ def exact_stokes(m, theta, d, wavelength):
     return np.array([*sums, *across])
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_engines_agree(engine):
     theta, d = np.linspace(0.0, 1.5, 7), np.logspace(-6, 0, 7)
     plan = op.Composer(engine=engine).compose(path_of())

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from mpmath import mp
 
 import optipath as op
-from chains import ENGINES
+from chains import by_engine
 from optipath.lab.accuracy.path_reference import exact_lights
-from tables import rows, slow, slow_except
+from tables import rows, slow
 from wired import read_back, wired
 
 INDEX = st.floats(0.3, 4.0)
@@ -211,7 +211,7 @@ def test_real_indices_for_parameters_give_the_same_numbers():
         np.testing.assert_allclose(expected, found, rtol=0, atol=2e-16)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_engines_agree(engine):
     path = slab(op.Interface(P("m"), P("t")))
     given = {"m": np.linspace(1.3, 1.6, 7) + 1j * np.linspace(0, 0.1, 7), "t": np.linspace(0, 1, 7)}

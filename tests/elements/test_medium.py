@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from chains import ENGINES
+from chains import by_engine
 from paths import chain
-from tables import rows, slow, slow_except
+from tables import rows, slow
 from wired import read
 
 STATE = [1.0, 0.5, 0.6, 0.4]
@@ -43,7 +43,7 @@ def test_a_sugar_solution_turns_light_clockwise_to_who_looks_at_the_source(z):
     assert clockwise(light, frame) == pytest.approx(13.3, abs=1e-12)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_a_dextrorotation_is_a_rotation_of_the_other_sign(engine):
     turns = np.linspace(-40.0, 40.0, 3000)
     medium = op.Medium(0.1, 2.0, dextrorotation=op.Parameter("d"))

@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
-from chains import ENGINES
+from chains import by_engine
 from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.kernels.numbers.twice import twice
 from paths import chain
-from tables import rows, slow_except
+from tables import rows
 from wired import read, wired
 
 STATE = [1.0, 0.5, 0.6, 0.4]
@@ -166,7 +166,7 @@ def test_nothing_is_lost_and_the_ratios_are_those_given(t, r):
     assert through[2, 2] >= 0.0 >= off[2, 2]
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 @rows("enters", ["in", "back"])
 def test_engines_agree_with_50_digits_from_either_side(engine, enters):
     rng = np.random.default_rng(5)

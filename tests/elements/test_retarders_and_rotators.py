@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from chains import ENGINES
+from chains import ENGINES, by_engine
 from paths import chain
-from tables import rows, slow, slow_except
+from tables import rows, slow
 from wired import read, read_back
 
 STATE = [1.0, 0.5, 0.6, 0.4]
@@ -36,7 +36,7 @@ def plates(seed, count, turns):
     return thickness, birefringence, wavelength
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 @rows("turns", [5.0, 5e3, 1e8])
 def test_cosine_and_sine_of_a_thick_plate_have_all_digits(engine, turns):
     given = plates(1, 1500, turns)
@@ -254,7 +254,7 @@ def turned(angle):
     return np.stack([s0 + 0 * c, s1 * c - s2 * s, s1 * s + s2 * c, s3 + 0 * c], axis=-1)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_light_turns_from_x_towards_y_by_verdet_constant_times_field_and_length(engine):
     light = chain([op.FaradayRotator(0.3)], STATE).trace()
     np.testing.assert_allclose(light.stokes, turned(0.3), rtol=0, atol=4e-16)

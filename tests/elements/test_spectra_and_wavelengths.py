@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import optipath as op
-from chains import ENGINES
+from chains import ENGINES, by_engine
 from dispersive import GRID as PLACES
 from dispersive import line, on_line
 from optipath.elements.known_elements import STANDARD
 from optipath.lab.accuracy.path_reference import exact_stokes
 from optipath.values.spectra.grid_bins import grid_widths
-from tables import rows, slow, slow_except
+from tables import rows, slow
 from wired import wired
 
 GRID = op.wavelengths("380 nm", "700 nm", "40 nm")
@@ -43,7 +43,7 @@ def seen(spectrum, response=None, stokes=None):
     )
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 @rows("spectrum", [*SMOOTH, LASER, SMOOTH[0] + 3.0 * LASER])
 def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
     path, plain = (seen(one, two, STATE) for one, two in ((spectrum, LED), (None, None)))
@@ -60,7 +60,7 @@ def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
         np.testing.assert_array_equal(together, alone)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 @rows("grid", [GRID, GRID[::-1], np.array([400.0, 630.0, 640.0, 641.0, 700.0]) * 1e-9])
 def test_a_line_keeps_its_power_on_any_grid(grid, engine):
     plan = op.Composer(engine=engine).compose(seen(LASER))

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from chains import ENGINES
+from chains import by_engine
 from paths import chain
-from tables import rows, slow_except
+from tables import rows
 from wired import read, read_back
 
 
@@ -45,7 +45,7 @@ def test_angles_broadcast_are_bound_and_go_to_files(tmp_path):
     assert 'turns = ["-$rho"]' in path.to_toml()
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_a_chain_by_angles_is_the_chain_of_its_points(engine):
     rng = np.random.default_rng(1)
     phi, delta, rho = rng.uniform(0.05, 1.5, (3, 2000))

@@ -5,15 +5,14 @@ import pytest
 
 import optipath as op
 from batches_of_chains import quickly, random_batch
-from chains import ENGINES, MATERIALS, random_chains
+from chains import ENGINES, MATERIALS, by_engine, random_chains
 from histories import coherency, stokes_in
 from optipath.lab.accuracy.path_reference import exact_batch
-from tables import rows, slow, slow_except
+from tables import rows, slow
 from wired import read_back
 
 # What is compiled for eight events takes some seconds; two have all that there is.
 MOST = {engine: 8 if engine == "numpy" else 2 for engine in ENGINES}
-COMPILED_MORE_THAN_ONCE = slow_except(["numpy"], ENGINES)
 DOWN = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
 CORNER = [[0.0, 0, 3], [0, 0, 0], [0, 4, 0]]
 BENT = [[0.0, 0, 1], [0, 0, 0], [0, 2, -1], [0, 4, -2]]
@@ -53,7 +52,7 @@ def test_histories_that_differ_equal_a_reference_without_frames(engine, most):
     np.testing.assert_allclose(light.intensity, expected[..., 0], rtol=1e-11)
 
 
-@pytest.mark.parametrize("engine", COMPILED_MORE_THAN_ONCE)
+@by_engine
 def test_each_chain_of_a_batch_is_what_it_is_alone_and_with_points_given_later(engine):
     batch = random_batch(2, MOST[engine], several=8, each=2)
     with quickly(engine):
@@ -182,7 +181,7 @@ def spoilt(batch):
     return points, ids, [1, 2, through, bent]
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_chains_that_cannot_be_have_no_light_and_all_others_are_as_they_were(engine):
     batch = random_batch(11, 2)
     points, ids, bad = spoilt(batch)
@@ -205,7 +204,7 @@ def test_where_no_chain_can_be_there_is_no_light_by_any_engine(engine):
     assert np.all(np.isnan(op.Composer(engine=engine).compose(path).run().intensity))
 
 
-@pytest.mark.parametrize("engine", COMPILED_MORE_THAN_ONCE)
+@by_engine
 def test_masked_chains_known_when_composed_have_no_light_and_no_matrix_by_any_engine(engine):
     points = np.array([DOWN, [DOWN[0], DOWN[0], *DOWN[2:]]])
     path = op.path_from_vertices(points, [GLASS, 1.0], events=["R", "TT"], bad="mask")
@@ -506,7 +505,7 @@ def test_normals_next_to_the_tolerance_are_told_apart_exactly(seed):
         op.path_from_vertices(points, MATERIALS[:3], bisectors + off * size * across)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_points_given_later_and_what_no_surface_refracts_are_refused_by_every_engine(engine):
     plan = op.Composer(engine=engine).compose(op.path_from_vertices(op.Parameter("points"), [1.5]))
     for count in (1, 3, 3000):

@@ -7,7 +7,7 @@ import pytest
 
 import optipath as op
 from reciprocal_paths import ReciprocalPath, matrices_there_and_back
-from tables import rows
+from tables import rows, slow
 from wired import read_back, wired
 
 WEDGES = r"n sin\(incidence\)|parallel=False|light goes to and fro between"
@@ -42,7 +42,7 @@ def turns_of(path):
     return {(a, b): turn for a, b, turn in path.graph.edges(data="azimuth")}
 
 
-@pytest.mark.parametrize("count", [25, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [25, slow(1000)])
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 def test_random_graphs_obey_the_theorem_of_reciprocity_and_stay_what_they_were(count):
     refused = 0

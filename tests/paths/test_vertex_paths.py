@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 
 import optipath as op
 from batches_of_chains import quickly
-from chains import ENGINES, MATERIALS, interfaces_in_space, random_chains, random_rotation
+from chains import (
+    ENGINES,
+    MATERIALS,
+    by_engine,
+    interfaces_in_space,
+    random_chains,
+    random_rotation,
+)
 from histories import (
     coherency,
     exact_coherency,
@@ -22,7 +29,7 @@ from histories import (
 from optipath.lab.accuracy.path_reference import exact_lights
 from optipath.paths.drawing import draw
 from optipath.values.made import checked_later
-from tables import rows, slow, slow_except
+from tables import rows, slow
 from wired import read_back
 
 FLIP = np.diag([1.0, 1.0, -1.0, 1.0])
@@ -102,7 +109,7 @@ def test_random_histories_are_those_of_a_reference_without_frames(engine, severa
         np.testing.assert_allclose(light.stokes[at], one.stokes, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("count", [3, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [3, slow(100)])
 def test_a_history_is_that_of_50_digits(count):
     for seed in range(count):
         points, materials, events = random_history(seed)
@@ -161,7 +168,7 @@ def test_media_and_frames_follow_along_the_chain():
     np.testing.assert_allclose(light.stokes, matrix[:, 0], rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_between_equal_media_light_goes_straight_on_and_nothing_changes(engine):
     points, _, materials = random_histories(7, "R", 50)
     straight = np.concatenate([points, 2.0 * points[:, 2:] - points[:, 1:2]], axis=1)

@@ -11,7 +11,7 @@ import pytest
 import optipath as op
 from optipath.paths.format.limits import DEEPEST, LONGEST_WORD, refuse_unwieldy
 from optipath.paths.presets.toml_files import file_of, names_in, presets_folder, text_of
-from tables import rows
+from tables import rows, slow
 
 ENOUGH = 30_000
 
@@ -125,7 +125,7 @@ STRANGE = [
     *("{in={x=[1,[2]],y=[0,1,0],z=[0,0,1]}}", "{in={x=[nan,0,0],y=[0,1,0],z=[0,0,1]}}"),
 ]
 # All of them take a minute; a part that differs from place to place will do otherwise.
-SHARES = [20, pytest.param(1, marks=pytest.mark.slow)]
+SHARES = [20, slow(1)]
 IN_X1 = "index index.n vertices vertices.incidences vertices.incidences.0 place outside"
 PLACES = [
     ("npgr026", "choices", "place place.element place.behind place.help place.behind.eye"),

@@ -9,7 +9,7 @@ import pytest
 import amplifying
 import nearly_closed
 import optipath as op
-from chains import COMPILED, ENGINES
+from chains import COMPILED, by_engine
 from nearly_closed import PLATES, ring
 from optipath.lab.accuracy.path_reference import exact_stokes
 from slabs import slab, stack
@@ -136,7 +136,7 @@ WORST = [
 ]
 
 
-@pytest.mark.parametrize("engine", slow_except(["numpy"], ENGINES))
+@by_engine
 def test_light_that_enters_a_closed_gap_next_to_the_critical_angle_all_comes_back(engine):
     path = stack(2.0, 1.5, 1.0, theta=op.Parameter("theta"))
     lights = op.Composer(engine=engine).compose(path).run_all(theta=BELOW)
