@@ -154,18 +154,6 @@ class ComposerError(OptipathError):
 def did_you_mean(word: object, known: Iterable[str]) -> str:
     """Return the cure for a misspelt word, ready to be put behind the fault.
 
-    Parameters
-    ----------
-    word : object
-        What was written.
-    known : iterable of str
-        What could have been meant.
-
-    Returns
-    -------
-    str
-        ``"; did you mean 'x'?"``, or what there is; nothing where no look is left.
-
     Examples
     --------
     >>> did_you_mean("transmited", ["reflected", "transmitted"])
@@ -196,18 +184,6 @@ def there_are(names: Sequence[str]) -> str:
 
 def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
     """Return the sentence for a word that is none of those there are; none for one that is.
-
-    Parameters
-    ----------
-    what, word : str, object
-        The kind of thing, and what was written for it.
-    known : collection of str
-        The words that there are.
-
-    Returns
-    -------
-    list of str
-        The sentence with its cure, or nothing.
 
     Examples
     --------

@@ -30,18 +30,6 @@ _NAMES = {"yaml": "PyYAML", "jax": "JAX"}
 def need(what: str, *packages: str) -> None:
     """Raise where packages that a feature needs are not installed; none is imported.
 
-    Parameters
-    ----------
-    what : str
-        The feature, in the plural.
-    *packages : str
-        Their modules, all of which are in `EXTRAS`.
-
-    Raises
-    ------
-    MissingExtraError
-        With all that is missing.
-
     Examples
     --------
     >>> need("paths")
@@ -52,18 +40,7 @@ def need(what: str, *packages: str) -> None:
 
 @contextmanager
 def needing(what: str) -> Iterator[None]:
-    """Let a package of an extra that is not found be told as `need` tells it.
-
-    Parameters
-    ----------
-    what : str
-        The feature, in the plural.
-
-    Raises
-    ------
-    MissingExtraError
-        With the package that was imported and is not installed.
-    """
+    """Let a package of an extra that is not found be told as `need` tells it."""
     try:
         yield
     except ModuleNotFoundError as error:
@@ -75,17 +52,6 @@ def needing(what: str) -> Iterator[None]:
 
 def missing_extra(what: str, *packages: str) -> MissingExtraError:
     """Return the error that packages are not installed, and which extras bring them.
-
-    Parameters
-    ----------
-    what : str
-        The feature, in the plural.
-    *packages : str
-        Their modules, all of which are in `EXTRAS`.
-
-    Returns
-    -------
-    MissingExtraError
 
     Examples
     --------

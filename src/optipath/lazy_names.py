@@ -20,23 +20,7 @@ def lazy_names(
     at_once: bool = False,
     needs: Callable[[], None] | None = None,
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """Return the ``__getattr__`` and the ``__dir__`` of a package that imports names by need.
-
-    Parameters
-    ----------
-    package : str
-        Its ``__name__``; its ``__all__`` is there when the first name is asked for.
-    homes : mapping of str to sequence of str
-        The modules, named from the package, and the names that are from each.
-    at_once : bool, optional
-        Whether all are imported when the first of them is used.
-    needs : callable, optional
-        Called before any is imported; raises where what they need is missing.
-
-    Returns
-    -------
-    get, names : callable
-    """
+    """Return the ``__getattr__`` and the ``__dir__`` of a package that imports names by need."""
     home_of = {name: home for home, names in homes.items() for name in names}
     space = vars(sys.modules[package])
 

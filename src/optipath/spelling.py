@@ -32,18 +32,6 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     one or two letters are too short to tell, and numbers are no misspellings of each other, nor
     are such letters with a number.
 
-    Parameters
-    ----------
-    word : str
-        What was written.
-    known : iterable of str
-        What could have been meant.
-
-    Returns
-    -------
-    str or None
-        None, too, where no look is left.
-
     Examples
     --------
     >>> closest("--detla", ["--delta", "--rho"])

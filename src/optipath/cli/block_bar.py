@@ -18,18 +18,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
-    """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes.
-
-    Parameters
-    ----------
-    store : str
-        Where the sweep is written.
-
-    Yields
-    ------
-    callable
-        Takes how many blocks are done, and of how many.
-    """
+    """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes."""
     counts: list[tuple[int, int]] = []
     # A file is written once all are there.
     kept = place_of_blocks(store) if ending_of(store) == ".nc" else store

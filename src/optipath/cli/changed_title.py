@@ -14,17 +14,6 @@ if TYPE_CHECKING:
 def title_of(chosen: Chosen, **others: str | None) -> str:
     """Return the preset and the case, and each value that is given besides, with its name.
 
-    Parameters
-    ----------
-    chosen : Chosen
-        What a command line is about.
-    **others : str or None
-        What is told behind the values; what is None is left out.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> import optipath as op

@@ -61,21 +61,7 @@ def places_near(near: tuple[str, ...]) -> tuple[str, ...]:
 def option_faults(
     *, near: tuple[str, ...], engines: tuple[str, ...] = (), quick: bool, peers: Path | None
 ) -> list[str]:
-    """Return what does not go with ``--near``, a sentence each.
-
-    Parameters
-    ----------
-    near, engines : tuple of str
-        What is given for ``--near`` and ``--engine``.
-    quick : bool
-        Whether ``--quick`` is given.
-    peers : Path, optional
-        What is given for ``--peers``.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return what does not go with ``--near``, a sentence each."""
     if not near:
         return []
     given = {"--engine": bool(engines), "--quick": quick, "--peers": peers is not None}

@@ -33,21 +33,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Chosen:
-    """What a command line is about.
-
-    Attributes
-    ----------
-    preset : str
-        The name of a preset, or a file.
-    opened : PathGraph
-        The path that it describes, which is read once.
-    case : str, optional
-        A named set of its values.
-    values : mapping of str to Any
-        Values that take precedence over the case.
-    axes : mapping of str to AxisValues, optional
-        What is given several values, in the order of the options.
-    """
+    """What a command line is about."""
 
     preset: str
     opened: PathGraph
@@ -66,19 +52,7 @@ class Chosen:
         return {name: self.values[name] for name in self.opened.choices if name in self.values}
 
     def path(self, reads: str | None = None, beside: Collection[str] = ()) -> PathGraph:
-        """Return the path, bound to single values, and with other readings if they are given.
-
-        Parameters
-        ----------
-        reads : str, optional
-            What all detectors read.
-        beside : collection of str, optional
-            What stays open besides the axes, whatever the case says of it.
-
-        Returns
-        -------
-        PathGraph
-        """
+        """Return the path, bound to single values, and with other readings if they are given."""
         varied = {*self.axes, *beside}
         bound = bound_preset(self.opened, self.preset, self.case, self.values, varied)
         return bound if reads is None else bound.reading(reads)
@@ -91,31 +65,7 @@ def chosen_by(
     texts: Mapping[str, Sequence[str]],
     of_options: Sequence[str] = (),
 ) -> list[Chosen]:
-    """Return what the options give, for each case that is asked for.
-
-    Parameters
-    ----------
-    preset : str
-        The name of a preset, or a file.
-    path : PathGraph
-        What it describes.
-    cases : sequence of str
-        Named sets of its values; none for its defaults.
-    texts : mapping of str to sequence of str
-        What stands behind the option of each parameter, as often as it is given.
-    of_options : sequence of str, optional
-        What is wrong with other options, a sentence each, to be told with all else.
-
-    Returns
-    -------
-    list of Chosen
-        One at least.
-
-    Raises
-    ------
-    ParameterError
-        With all that is wrong at once.
-    """
+    """Return what the options give, for each case that is asked for."""
     faults = [*of_options]
     given = {name: _once(name, several, faults) for name, several in texts.items() if several}
     uses = Values(path.graph).uses if given else ()
@@ -141,24 +91,7 @@ def chosen_by(
 
 
 def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[str, T]:
-    """Return what an action makes of each case, by its name.
-
-    Parameters
-    ----------
-    several : sequence of Chosen
-        The cases.
-    action : callable
-        What is done with each.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    ParameterError
-        With the faults of all of them, each once, with the cases that have it where not all do.
-    """
+    """Return what an action makes of each case, by its name."""
     found: dict[str, T] = {}
     having: dict[str, list[str]] = {}
     for chosen in several:
@@ -179,41 +112,12 @@ def _of_cases(fault: str, cases: Sequence[str], several: Sequence[Chosen]) -> st
 
 
 def asks_for_several(cases: Sequence[str]) -> bool:
-    """Tell whether several cases are asked for, by their names or by ``all``.
-
-    Parameters
-    ----------
-    cases : sequence of str
-        What is asked for.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether several cases are asked for, by their names or by ``all``."""
     return len({*cases}) > 1 or ALL in cases
 
 
 def cases_of(preset: str, path: PathGraph, cases: Sequence[str]) -> Sequence[str]:
-    """Return the names of cases, ``all`` replaced by those that there are.
-
-    Parameters
-    ----------
-    preset : str
-        The name of a preset, or a file.
-    path : PathGraph
-        What it describes.
-    cases : sequence of str
-        What is asked for.
-
-    Returns
-    -------
-    sequence of str
-
-    Raises
-    ------
-    ParameterError
-        If all are asked for and there are none.
-    """
+    """Return the names of cases, ``all`` replaced by those that there are."""
     if ALL not in cases:
         return cases
     if not path.cases:
@@ -222,26 +126,7 @@ def cases_of(preset: str, path: PathGraph, cases: Sequence[str]) -> Sequence[str
 
 
 def one_case(command: str, path: PathGraph, cases: Sequence[str]) -> str | None:
-    """Return the case that is asked for, of a command that can do with one.
-
-    Parameters
-    ----------
-    command : str
-        Its name.
-    path : PathGraph
-        What has the cases.
-    cases : sequence of str
-        What is asked for.
-
-    Returns
-    -------
-    str or None
-
-    Raises
-    ------
-    ParameterError
-        If several are asked for.
-    """
+    """Return the case that is asked for, of a command that can do with one."""
     if asks_for_several(cases):
         raise ParameterError(f"{command} takes one case{there_are([*path.cases])}")
     return cases[0] if cases else None

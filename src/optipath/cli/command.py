@@ -68,18 +68,7 @@ class _Commands(WholeHelp):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return a subcommand; refuse one that there is not.
-
-        Parameters
-        ----------
-        ctx, args
-            As `click.Group` takes them.
-
-        Returns
-        -------
-        tuple
-            The name, the command, and the arguments behind it.
-        """
+        """Return a subcommand; refuse one that there is not."""
         name = args[0]
         if not (ctx.resilient_parsing or name in _COMMANDS or name.startswith("-")):
             raise click.UsageError(f"command '{name}' is unknown{did_you_mean(name, _COMMANDS)}")
@@ -117,19 +106,7 @@ def cli(context: click.Context) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; return the exit status.
-
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        What stands behind ``optipath``; that of the process by default.
-
-    Returns
-    -------
-    int
-        0, also where who read the output has seen enough; 2 for bad input, with one line on
-        standard error, or one for each of several faults; 130 where Ctrl-C ended it.
-    """
+    """Run the command; return the exit status."""
     for stream in (sys.stdout, sys.stderr):
         # A terminal that lacks a letter shows a question mark in its place.
         if isinstance(stream, io.TextIOWrapper):

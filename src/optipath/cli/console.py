@@ -45,19 +45,6 @@ def say_wrapped(text: str) -> None:
 def wrapped(text: str, width: int, *, whole_words: bool = False) -> str:
     """Return lines of which those that are longer go on in the next, which is indented.
 
-    Parameters
-    ----------
-    text : str
-        Any lines.
-    width : int
-        How many characters a line has at most.
-    whole_words : bool, optional
-        Whether a word that is longer is left to the terminal to break.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> print(wrapped("| out --> polariser.in", 20))
@@ -77,54 +64,18 @@ def say_json(found: dict[str, Any]) -> None:
 
 
 def cell(text: str, style: str = "") -> Text:
-    """Return a text for tables and paragraphs, without markup and control characters.
-
-    Parameters
-    ----------
-    text : str
-        What anybody may have written.
-    style : str, optional
-        As rich writes it, such as ``"bold"``.
-
-    Returns
-    -------
-    rich.text.Text
-        What rich prints as it is.
-    """
+    """Return a text for tables and paragraphs, without markup and control characters."""
     return Text(printable(text), style=style)
 
 
 def title(name: str, description: str) -> Text:
-    """Return the line above what a command prints.
-
-    Parameters
-    ----------
-    name, description : str
-        What it is of; the latter may be empty.
-
-    Returns
-    -------
-    rich.text.Text
-    """
+    """Return the line above what a command prints."""
     found = Text.assemble(cell(name, "bold"))
     return found.append_text(cell(f": {description}")) if description else found
 
 
 def headed(*headers: str, **keywords: Any) -> Table:
-    """Return a table whose columns have these headers.
-
-    Parameters
-    ----------
-    *headers : str
-        What anybody may have written.
-    **keywords : Any
-        As rich's `Table` takes them.
-
-    Returns
-    -------
-    rich.table.Table
-        Without rows.
-    """
+    """Return a table whose columns have these headers."""
     made = Table(header_style="bold", **keywords)
     for header in headers:
         made.add_column(cell(header))
@@ -140,13 +91,7 @@ class PlainConsole(Console):
         super().__init__(width=width, height=25, highlight=False, **keywords)
 
     def print(self, *objects: Any, **keywords: Any) -> None:
-        """Print; what is too long for a line goes on in the next.
-
-        Parameters
-        ----------
-        *objects, **keywords : Any
-            As rich's `Console` takes them.
-        """
+        """Print; what is too long for a line goes on in the next."""
         for shown in objects:
             if not isinstance(shown, Table):
                 super().print(shown, **{"crop": False, **keywords})

@@ -40,30 +40,7 @@ DRAWING = (MAP, SIDE, OUT)
 def draw_map(
     sample: str, quantity: str, side: str, out: Path | None, *, as_json: bool, **options: Any
 ) -> None:
-    """Walk photons from one direction, and draw what goes into each direction.
-
-    Parameters
-    ----------
-    sample : str
-        Its name or file.
-    quantity : str
-        What is drawn.
-    side : {"reflected", "transmitted"}
-        Above the sample, or below.
-    out : Path or None
-        The file, which is needed.
-    as_json : bool
-        Whether JSON is asked for, which there is not.
-    **options : Any
-        All else that `given_walks` takes.
-
-    Raises
-    ------
-    click.UsageError
-        If options do not go with a map.
-    OptipathError
-        If the sample, a value or the ending of the file will not do.
-    """
+    """Walk photons from one direction, and draw what goes into each direction."""
     if out is None:
         raise click.UsageError("--map draws into a file; name it, --out map.png")
     for name, given in (("--json", as_json), ("--tolerance", options["tolerance"])):

@@ -20,19 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class EnergyOutcome:
-    """What photons have told that fell on a sample from one direction.
-
-    Attributes
-    ----------
-    given : GivenWalk
-        What was asked for.
-    energy : Energy
-        What they have told.
-    seconds : float
-        How long they have walked.
-    interrupted : bool
-        Whether Ctrl-C came before they were done.
-    """
+    """What photons have told that fell on a sample from one direction."""
 
     given: GivenWalk
     energy: Energy
@@ -41,24 +29,7 @@ class EnergyOutcome:
 
 
 def walked(given: GivenWalk, progress: Callable[[int, int], None]) -> EnergyOutcome:
-    """Return what photons tell; where Ctrl-C comes, what those tell that have been walked.
-
-    Parameters
-    ----------
-    given : GivenWalk
-        What is asked for.
-    progress : callable
-        Told how many there are, and of how many.
-
-    Returns
-    -------
-    EnergyOutcome
-
-    Raises
-    ------
-    KeyboardInterrupt
-        If none has been walked.
-    """
+    """Return what photons tell; where Ctrl-C comes, what those tell that have been walked."""
     begin, interrupted = perf_counter(), False
     try:
         walk_wanted(given.run, given.wanted, given.tolerance, progress)
@@ -70,18 +41,7 @@ def walked(given: GivenWalk, progress: Callable[[int, int], None]) -> EnergyOutc
 
 
 def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:
-    """Return an outcome as JSON can hold it, with all digits.
-
-    Parameters
-    ----------
-    outcome : EnergyOutcome
-        The outcome.
-
-    Returns
-    -------
-    dict of str to Any
-        What was given, and all that `Energy` has under its names.
-    """
+    """Return an outcome as JSON can hold it, with all digits."""
     given, beam = outcome.given, outcome.given.run.beam
     units = {"incidence": given.incidence.unit, "azimuth": "deg"}
     found: dict[str, Any] = {

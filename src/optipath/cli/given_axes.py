@@ -29,25 +29,6 @@ RANGES = (
 def axis_given(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
     """Return the values that the text of an option stands for.
 
-    Parameters
-    ----------
-    parameter : Parameter
-        For which it is given; numbers without a unit are in its own.
-    text : str
-        A range, a list, or a file, whose heading says the unit.
-    uses : sequence of Use
-        The numbers of the path.
-
-    Returns
-    -------
-    AxisValues or None
-        None for a single value.
-
-    Raises
-    ------
-    ParameterError
-        With all that is wrong.
-
     Examples
     --------
     >>> from optipath.values.parameters import Parameter
@@ -65,20 +46,7 @@ def axis_given(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValu
 
 
 def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
-    """Return what is wrong with the values of axes, a sentence each.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What they are given for, not bound yet.
-    axes : mapping of str to AxisValues
-        By name.
-
-    Returns
-    -------
-    list of str
-        Nothing of a parameter that comes with a material.
-    """
+    """Return what is wrong with the values of axes, a sentence each."""
     faults: list[str] = []
     for name, values in axes.items():
         if name in path.parameters:
@@ -90,40 +58,13 @@ def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
 
 
 def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
-    """Return the grid of what is given several values.
-
-    Parameters
-    ----------
-    path : PathGraph
-        Bound to what has one value.
-    axes : mapping of str to AxisValues
-        By name, in order.
-
-    Returns
-    -------
-    SweepGrid
-    """
+    """Return the grid of what is given several values."""
     known = path.parameters if axes else {}
     return SweepGrid(tuple([sweep_axis(known, name, values) for name, values in axes.items()]))
 
 
 def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:
-    """Raise where a command is given several values for a parameter, of which it takes one.
-
-    Parameters
-    ----------
-    command : str
-        Its name.
-    texts : mapping of str to sequence of str
-        What stands behind the option of each parameter.
-    axes : iterable of str
-        The parameters that are given several values.
-
-    Raises
-    ------
-    ParameterError
-        Naming each, and the commands that take them.
-    """
+    """Raise where a command is given several values for a parameter, of which it takes one."""
     faults = [
         f"--{name.replace('_', '-')} is given several values, {shown(texts[name][-1])}, of which "
         f"{command} takes one; give one, or write 'optipath run' or 'optipath sweep'"
@@ -134,20 +75,7 @@ def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable
 
 
 def refuse_arrays(path: PathGraph, axes: Collection[str]) -> None:
-    """Raise where a path has arrays of its own, of which each value would go with one of an axis.
-
-    Parameters
-    ----------
-    path : PathGraph
-        Bound to what has one value.
-    axes : iterable of str
-        The parameters that are given several values.
-
-    Raises
-    ------
-    ParameterError
-        Naming each, and how one value is given.
-    """
+    """Raise where a path has arrays of its own, whose values would each go with one of an axis."""
     faults = [
         f"parameter '{name}' has several values in the file; give one by "
         f"--{name.replace('_', '-')}, or a range"

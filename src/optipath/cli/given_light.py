@@ -19,20 +19,6 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     """Say where nothing depends on a wavelength that is among some values.
 
     A single one is taken out of them; of several, all is the same along them.
-
-    Parameters
-    ----------
-    preset : str
-        The name of a preset, or a file.
-    path : PathGraph
-        What they are given for.
-    values : dict of str to Any
-        By name.
-
-    Raises
-    ------
-    ParameterError
-        If it is no wavelength of light.
     """
     name = WAVELENGTH.name
     if name not in values or name in path.parameters:

@@ -27,21 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GivenWalk:
-    """Photons that fall on a sample from one direction, to be walked.
-
-    Attributes
-    ----------
-    incidence : AxisValues
-        The angle, as it was given.
-    wavelengths : AxisValues or None
-        As they were given.
-    run : EnergyRun
-        The photons, none of them walked yet.
-    wanted : int
-        How many there are to be; with a tolerance, how many at most.
-    tolerance : float or None
-        The standard error that will do.
-    """
+    """Photons that fall on a sample from one direction, to be walked."""
 
     incidence: AxisValues
     wavelengths: AxisValues | None
@@ -67,26 +53,7 @@ def given_walks(
     sample_seed: int | None,
     **options: Any,
 ) -> list[GivenWalk]:
-    """Return the walks that options ask for, one for each angle of incidence.
-
-    Parameters
-    ----------
-    sample : Sample
-        What light falls on.
-    incidences, wavelength, azimuth, stokes, surfaces, cells, sample_seed
-        What stands behind the options.
-    **options : Any
-        All else that `given_run` takes.
-
-    Returns
-    -------
-    list of GivenWalk
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-    """
+    """Return the walks that options ask for, one for each angle of incidence."""
     faults = Faults()
     angles = faults.attempt("", incidences_of, incidences) or incidences_of(["0"])
     lights = faults.attempt("", wavelengths_of, wavelength)

@@ -19,17 +19,7 @@ _SWEEPS = 8
 
 @dataclass(frozen=True)
 class GraphLayers:
-    """Layers of nodes, from the first that light passes to the last.
-
-    Attributes
-    ----------
-    rows : list of list of Item
-        What stands in each layer, from left to right.
-    ways : dict of Link to list of Item
-        What each link onwards goes through, from its start to its end.
-    back : list of Link
-        The links that lead to the same layer or an earlier one: light goes round.
-    """
+    """Layers of nodes, from the first that light passes to the last."""
 
     rows: list[list[Item]]
     ways: dict[Link, list[Item]]
@@ -46,17 +36,6 @@ def graph_layers(order: Sequence[str], links: Sequence[Link]) -> GraphLayers:
 
     A node stands behind all that send light to it, and the items of a layer in such an order
     that links cross seldom (barycentres: Sugiyama, Tagawa and Toda, IEEE Trans. SMC 11, 109, 1981).
-
-    Parameters
-    ----------
-    order : sequence of str
-        The nodes, in the order of travel.
-    links : sequence of Link
-        Their links.
-
-    Returns
-    -------
-    GraphLayers
 
     Examples
     --------

@@ -15,13 +15,7 @@ _SWEEPS = 12
 
 
 class Extent(NamedTuple):
-    """How far something reaches from its middle.
-
-    Attributes
-    ----------
-    left, right : float
-        To either side.
-    """
+    """How far something reaches from its middle."""
 
     left: float
     right: float
@@ -34,22 +28,6 @@ def layer_places(
     ends: Mapping[Link, tuple[float, float]],
 ) -> dict[Item, float]:
     """Return the middle of each item: near those that it is linked with, and over none beside.
-
-    Parameters
-    ----------
-    layers : GraphLayers
-        The items, in their order.
-    extents : mapping of Item to Extent
-        How wide each is.
-    gap : float
-        What stays free between two.
-    ends : mapping of Link to tuple of float
-        Where each link leaves its start and enters its end, from the middles of the nodes.
-
-    Returns
-    -------
-    dict of Item to float
-        The left edge of what reaches farthest to the left is 0.
 
     Examples
     --------

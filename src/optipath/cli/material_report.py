@@ -32,20 +32,8 @@ if TYPE_CHECKING:
 class MaterialReport:
     """What is told of a material.
 
-    Attributes
-    ----------
-    name : str
-        The material, and who found its numbers.
-    place : str
-        What names its page.
-    source : str
-        Where the numbers are from.
-    span : tuple of float
-        The wavelengths at which it is known, in metres; nothing for one that is constant.
-    incidence : float
-        Where the effective index is told, in radians.
-    wavelengths, n, k, reflectance, effective_n, effective_k : ndarray, shape (n,)
-        What it is at each wavelength; the reflectance at normal incidence.
+    Shape: wavelengths, n, k, reflectance, effective_n, effective_k (n,). Units: span in metres;
+    incidence in radians.
     """
 
     name: str
@@ -75,13 +63,7 @@ class MaterialReport:
         return found | {"units": {"range": "nm", "wavelength": "nm", "incidence": "deg"}}
 
     def print(self, digits: int) -> None:
-        """Print it as a table.
-
-        Parameters
-        ----------
-        digits : int
-            How many digits numbers have.
-        """
+        """Print it as a table."""
         console = PlainConsole()
         console.print(title(self.name, span_text(self.span) if self.span else "at any wavelength"))
         angle = format_quantity(self.incidence, "deg")
@@ -101,25 +83,7 @@ def told_at(
 ) -> MaterialReport:
     """Return what a material is at wavelengths.
 
-    Parameters
-    ----------
-    name, page : str
-        As `Material.named` takes them.
-    wavelengths : sequence of str
-        With units.
-    incidence : str
-        An angle, in degrees where it has no unit.
-    own : mapping of str to float
-        n or k in place of the page's, or None.
-
-    Returns
-    -------
-    MaterialReport
-
-    Raises
-    ------
-    OptipathError
-        With all that is wrong with what is given.
+    Units: incidence in degrees.
     """
     if not name:
         raise MaterialError("--at needs the name of a material: optipath materials gold --at ...")

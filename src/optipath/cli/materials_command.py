@@ -29,17 +29,7 @@ class _Name(click.Argument):
     """Words, which a shell completes to short names."""
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Return the short names that begin so.
-
-        Parameters
-        ----------
-        ctx, incomplete
-            As `click.Argument` takes them.
-
-        Returns
-        -------
-        list of CompletionItem
-        """
+        """Return the short names that begin so."""
         from click.shell_completion import CompletionItem  # noqa: PLC0415 - for shells alone
 
         del ctx

@@ -22,18 +22,7 @@ class StrictCommand(click.Command):
     allow_extra_args = True
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the options; refuse what is left.
-
-        Parameters
-        ----------
-        ctx, args
-            As `click.Command` takes them.
-
-        Returns
-        -------
-        list of str
-            Nothing.
-        """
+        """Take the options; refuse what is left."""
         words = list(args)
         with unknown_options_told(ctx, words):
             left = super().parse_args(ctx, args)

@@ -30,23 +30,7 @@ _BESIDE, _APART = 6.0, 14.0  # Between a link and its label, and between a label
 
 @dataclass(frozen=True)
 class NodeBox:
-    """What is drawn of a node.
-
-    Attributes
-    ----------
-    name, kind, values : list of str
-        Its texts, line by line.
-    role : {"source", "end", "inner"}
-        Whether light begins or ends there.
-    outlets : list of str
-        What is told of each out-port whose light leaves the path.
-    leaving, entering : dict of Link to float
-        Where its links leave and enter it, from the middle.
-    width, height : float
-        Of the box.
-    extent : Extent
-        How far it reaches with all that stands beside it.
-    """
+    """What is drawn of a node."""
 
     name: list[str]
     kind: list[str]
@@ -60,15 +44,7 @@ class NodeBox:
     extent: Extent
 
     def draw(self, parent: Tag, x: float, y: float) -> None:
-        """Add the texts to a drawing.
-
-        Parameters
-        ----------
-        parent : Element
-            Of the drawing.
-        x, y : float
-            The upper left corner of the box.
-        """
+        """Add the texts to a drawing."""
         below = y + _PADDING
         for lines, size, step, kind in (
             (self.name, NAME, _NAME_STEP, "name"),
@@ -80,13 +56,7 @@ class NodeBox:
                 below += step
 
     def outlet_places(self, y: float) -> list[tuple[str, float, float]]:
-        """Return each outlet with its height, and how long its arrow is.
-
-        Parameters
-        ----------
-        y : float
-            The top of the box.
-        """
+        """Return each outlet with its height, and how long its arrow is."""
         return [
             (told, y + _OUTLET * (number + 1), _ARROW) for number, told in enumerate(self.outlets)
         ]
@@ -95,23 +65,7 @@ class NodeBox:
 def node_box(
     name: str, element: Element, outlets: Sequence[str], leaving: Labels, entering: Labels
 ) -> NodeBox:
-    """Return the box of a node.
-
-    Parameters
-    ----------
-    name : str
-        The node.
-    element : Element
-        What it is.
-    outlets : sequence of str
-        The out-ports whose light leaves the path.
-    leaving, entering : sequence of tuple
-        Its links with what is written at them, from left to right.
-
-    Returns
-    -------
-    NodeBox
-    """
+    """Return the box of a node."""
     texts = lines_of(name, _CELLS - 4), lines_of(element.kind, _CELLS)
     values = [line for each in element_values(element) for line in lines_of(each, _CELLS)]
     told = [f"{drawable(port)}: leaves the path" for port in outlets]

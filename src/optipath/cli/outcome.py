@@ -37,23 +37,7 @@ TOLD = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run was given, and what it has found.
-
-    Attributes
-    ----------
-    chosen : Chosen
-        The preset, and what is given for it.
-    path : PathGraph
-        What was run.
-    plan : Plan
-        By which it was run.
-    lights : dict of str to Light
-        The light at every end.
-    engine : str
-        What has run it.
-    grid : SweepGrid, optional
-        What takes several values, and for which combinations of them there is light.
-    """
+    """What a run was given, and what it has found."""
 
     chosen: Chosen
     path: PathGraph
@@ -122,23 +106,7 @@ class Outcome:
 
 
 def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> Outcome:
-    """Run a plan for all that was chosen.
-
-    Parameters
-    ----------
-    chosen : Chosen
-        The preset, and what is given for it.
-    path : PathGraph
-        Bound to single values.
-    plan : Plan
-        What is made of it.
-    grid : SweepGrid
-        What takes several values.
-
-    Returns
-    -------
-    Outcome
-    """
+    """Run a plan for all that was chosen."""
     if grid.axes:
         refuse_more_than_free(plan, grid)
     found = plan.run_all(**grid.given())

@@ -16,18 +16,7 @@ if TYPE_CHECKING:
 
 
 def import_own(name: str) -> None:
-    """Import a module by its name, from this folder or Python's path, or a file of Python.
-
-    Parameters
-    ----------
-    name : str
-        Such as ``my_elements``, or ``shared/my_elements.py``.
-
-    Raises
-    ------
-    PathError
-        If there is none, or it cannot be imported.
-    """
+    """Import a module by its name, from this folder or Python's path, or a file of Python."""
     of_file = name.endswith(".py")
     if not of_file and (
         Path(name).is_file() or not all(part.isidentifier() for part in name.split("."))

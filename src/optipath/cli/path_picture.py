@@ -48,19 +48,6 @@ def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     Nodes stand below all that send light to them; a tap is dashed, light that goes round is led
     back at the right. Each text has the width that is reckoned with, whatever the typeface.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    name : str
-        What it is called.
-    case : str, optional
-        The case whose values it has.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> import optipath as op

@@ -15,15 +15,6 @@ Row = tuple[str, str, str, str]
 def headings(case: str | None) -> Row:
     """Return what stands above the columns: of a path with the values of a case no defaults.
 
-    Parameters
-    ----------
-    case : str or None
-        Its name.
-
-    Returns
-    -------
-    Row
-
     Examples
     --------
     >>> headings(None)[1], headings("8")[1]
@@ -34,15 +25,6 @@ def headings(case: str | None) -> Row:
 
 def parameter_rows(path: PathGraph) -> list[Row]:
     """Return the rows of a path.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-
-    Returns
-    -------
-    list of Row
 
     Examples
     --------

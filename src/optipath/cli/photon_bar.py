@@ -13,18 +13,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def photon_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Show a bar on a terminal.
-
-    Parameters
-    ----------
-    what : str
-        What is walked.
-
-    Yields
-    ------
-    callable
-        Takes how many photons there are, and of how many.
-    """
+    """Show a bar on a terminal."""
     with progress_bar(1.0, remaining=True) as show:
         show(f"{what}: surfaces are made")
 

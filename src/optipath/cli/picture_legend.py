@@ -23,15 +23,7 @@ _STEP, _APART = 16.0, 4.0
 
 @dataclass(frozen=True)
 class PictureLegend:
-    """Tables of texts, one under the other.
-
-    Attributes
-    ----------
-    tables : list of list of tuple of list of str
-        Of each its rows, and of each the lines of every cell; the first is its heading.
-    columns : list of list of int
-        How many letters each column is wide.
-    """
+    """Tables of texts, one under the other."""
 
     tables: list[list[tuple[list[str], ...]]]
     columns: list[list[int]]
@@ -43,19 +35,7 @@ class PictureLegend:
         return text_width(" ", SMALL) * max(cells, default=0)
 
     def draw(self, parent: Element, x: float, y: float) -> float:
-        """Add the tables to a drawing; return where they end.
-
-        Parameters
-        ----------
-        parent : Element
-            Of the drawing.
-        x, y : float
-            The upper left corner.
-
-        Returns
-        -------
-        float
-        """
+        """Add the tables to a drawing; return where they end."""
         letter = text_width(" ", SMALL)
         for rows, columns in zip(self.tables, self.columns, strict=True):
             for number, row in enumerate(rows):
@@ -70,20 +50,7 @@ class PictureLegend:
 
 
 def legend_of(path: PathGraph, case: str | None = None) -> PictureLegend:
-    """Return the legend of a path.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    case : str, optional
-        The case whose values it has.
-
-    Returns
-    -------
-    PictureLegend
-        Without tables where there is nothing to tell.
-    """
+    """Return the legend of a path."""
     found = PictureLegend([], [])
     if rows := parameter_rows(path):
         _add(found, [headings(case), *rows], _WIDEST)

@@ -13,15 +13,7 @@ _POINTS, _LINE, _FILLED = 12.0, 0.26, 0.95
 
 
 def draw_title(figure: Figure, title: str) -> None:
-    """Write a title above a picture, which becomes so much higher.
-
-    Parameters
-    ----------
-    figure : Figure
-        What is drawn already; it keeps the room that it was given.
-    title : str
-        Names with their values, with commas between.
-    """
+    """Write a title above a picture, which becomes so much higher."""
     lines = _lines(title, _FILLED * figure.get_figwidth())
     figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
     figure.suptitle("\n".join(lines), fontsize=_POINTS, parse_math=False)

@@ -15,17 +15,7 @@ if TYPE_CHECKING:
 
 
 class PlotKind(NamedTuple):
-    """A kind of picture.
-
-    Attributes
-    ----------
-    draw : callable
-        What draws it; Axes, or an array of them.
-    takes : tuple of str
-        The options that it takes, of ``"x"``, ``"y"`` and ``"detector"``.
-    counts : range
-        How many parameters may vary.
-    """
+    """A kind of picture."""
 
     draw: Callable[[PlotRequest], Any]
     takes: tuple[str, ...] = ()
@@ -33,22 +23,7 @@ class PlotKind(NamedTuple):
 
 
 def drawn(asked: PlotRequest) -> Any:
-    """Return the picture that is asked for, with its title.
-
-    Parameters
-    ----------
-    asked : PlotRequest
-        What is to be drawn.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    OptipathError
-        If it cannot be drawn.
-    """
+    """Return the picture that is asked for, with its title."""
     import numpy as np  # noqa: PLC0415 - the command line starts without
 
     from optipath.plots.missing_letters import missing_letters_as_boxes  # noqa: PLC0415 - an extra

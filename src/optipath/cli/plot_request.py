@@ -23,25 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlotRequest:
-    """What is to be drawn.
-
-    Attributes
-    ----------
-    kind : str
-        One of the kinds that there are.
-    title : str
-        What stands above: the preset, the case and what was changed.
-    path : PathGraph
-        The path; the values of the case are its defaults.
-    axes : dict of str to AxisValues or None
-        What varies, in order; None over its usual range.
-    quantities : tuple of str
-        What goes up along a curve.
-    ends : tuple of str
-        Where the light is looked at.
-    published : mapping of str to tuple of float
-        What was published for an end, where these are the values it belongs to.
-    """
+    """What is to be drawn."""
 
     kind: str
     title: str
@@ -53,13 +35,7 @@ class PlotRequest:
 
     @property
     def end(self) -> str:
-        """The only end at which the light is looked at.
-
-        Raises
-        ------
-        ParameterError
-            If there are several.
-        """
+        """The only end at which the light is looked at."""
         if len(self.ends) > 1:
             raise ParameterError(
                 f"the path has the detectors {listed(self.ends)}, of which this picture has one; "
@@ -78,34 +54,7 @@ def request_of(
     detector: str | None,
     reads: str | None,
 ) -> PlotRequest:
-    """Return what a command line asks for.
-
-    Parameters
-    ----------
-    chosen : Chosen
-        The preset, and what is given for it.
-    kind : str
-        What is drawn.
-    counts : range
-        How many parameters may vary.
-    x : sequence of str
-        What varies.
-    y : str or None
-        What goes up, with commas between.
-    detector : str or None
-        Where the light is looked at.
-    reads : str or None
-        What all detectors read.
-
-    Returns
-    -------
-    PlotRequest
-
-    Raises
-    ------
-    OptipathError
-        With what does not fit.
-    """
+    """Return what a command line asks for."""
     names = [name.strip().lstrip("-").replace("-", "_") for name in x]
     axes = {name: chosen.axes.get(name) for name in [*names, *chosen.axes]}
     quantities = tuple(["S0"] if y is None else [name.strip() for name in y.split(",")])

@@ -56,25 +56,7 @@ COMPOSING = (METHOD, MODEL, TOLERANCE, READS, JSON)
 
 
 class PresetGroup(WholeHelp):
-    """A group whose subcommands are the presets, and files of the user's own.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    action : callable
-        ``action(chosen, **options)``; its docstring is the help of the group.
-    options : sequence of click.Option, optional
-        What can be given besides the parameters and the case.
-    several : callable, optional
-        ``several([chosen, ...], **options)``, for several cases; a command without it takes one.
-    ranges : bool, optional
-        Whether an option of a parameter may give several values, such as ``0:90:91``.
-    faults : callable, optional
-        ``faults(**options)``: what is wrong with the options, a sentence each.
-    **keywords : Any
-        As `click.Group` takes them.
-    """
+    """A group whose subcommands are the presets, and files of the user's own."""
 
     def __init__(
         self,
@@ -102,20 +84,7 @@ class PresetGroup(WholeHelp):
         return preset_names()
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
-        """Return the command of a preset, with its parameters as options.
-
-        Parameters
-        ----------
-        ctx : click.Context
-            Of the group.
-        cmd_name : str
-            The preset.
-
-        Returns
-        -------
-        click.Command
-            What calls the action.
-        """
+        """Return the command of a preset, with its parameters as options."""
         del ctx
         path = load_preset(cmd_name)
         parameters = path.parameters
@@ -156,18 +125,7 @@ class PresetGroup(WholeHelp):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command of a preset, by a name that help may print.
-
-        Parameters
-        ----------
-        ctx, args
-            As `click.Group` takes them.
-
-        Returns
-        -------
-        tuple
-            The name, the command, and the arguments behind it.
-        """
+        """Return the command of a preset, by a name that help may print."""
         try:
             name, command, rest = super().resolve_command(ctx, args)
         except OptipathError:
@@ -178,19 +136,7 @@ class PresetGroup(WholeHelp):
 
 
 def case_option(path: PathGraph, *, several: bool) -> click.Option:
-    """Return the option of the cases of a path.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What has them.
-    several : bool
-        Whether more than one can be given.
-
-    Returns
-    -------
-    click.Option
-    """
+    """Return the option of the cases of a path."""
     cases = printable(", ".join(path.cases))
     more = f"; may be given several times, or {ALL}" if several and cases else ""
     told = f"Named set of values: {cases or 'none in this preset'}{more}."

@@ -30,28 +30,7 @@ def print_choices(
     threads: int | None,
     **options: Any,
 ) -> None:
-    """Decide for each angle of incidence, and print the decisions with their evidence.
-
-    Parameters
-    ----------
-    sample : str
-        Its name, or its file.
-    side : {"reflected", "transmitted"}
-        Where light is looked at.
-    as_json : bool
-        Whether all is one JSON object.
-    tolerance : float or None
-        The relative error of a pixel's light that will do; 0.02 by default.
-    threads : int or None
-        How many walk at a time.
-    **options : Any
-        All else that ``optipath surface`` takes.
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once, or if a source is given that is polarised.
-    """
+    """Decide for each angle of incidence, and print the decisions with their evidence."""
     loaded = load_sample(sample)
     walks = given_walks(loaded, **options, tolerance=None, threads=threads)
     if walks[0].run.beam.states[0] != UNPOLARISED:

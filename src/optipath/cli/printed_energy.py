@@ -28,15 +28,6 @@ _KNOWN = 12
 def measured(mean: float, error: float) -> str:
     """Return a number with the standard error of its last two digits.
 
-    Parameters
-    ----------
-    mean, error : float
-        Both; without an error, the number is known.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> measured(0.1602437, 0.000123), measured(0.5, 0.00996), measured(1.0, 0.0)
@@ -50,13 +41,7 @@ def measured(mean: float, error: float) -> str:
 
 
 def print_energy(outcome: EnergyOutcome) -> None:
-    """Print what has become of the light, a few tables for each wavelength.
-
-    Parameters
-    ----------
-    outcome : EnergyOutcome
-        What photons have told.
-    """
+    """Print what has become of the light, a few tables for each wavelength."""
     console = PlainConsole()
     energy, wavelengths = outcome.energy, outcome.given.wavelengths
     models = energy, energy.scalar, energy.difference

@@ -30,17 +30,6 @@ _STOKES = ("S0", "S1", "S2", "S3")
 def value_text(value: Any, digits: int) -> str:
     """Return a value of an axis as it is printed.
 
-    Parameters
-    ----------
-    value : float or str
-        A number, or a word.
-    digits : int
-        How many digits numbers have.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> value_text(400.0, 6), value_text("horizontal", 6)
@@ -50,19 +39,7 @@ def value_text(value: Any, digits: int) -> str:
 
 
 def span_text(axis: SweepAxis, digits: int) -> str:
-    """Return which values an axis has, in a few words.
-
-    Parameters
-    ----------
-    axis : SweepAxis
-        With the values as they were given.
-    digits : int
-        How many digits numbers have.
-
-    Returns
-    -------
-    str
-    """
+    """Return which values an axis has, in a few words."""
     if len(axis) <= _FEW:
         texts = [value_text(value, digits) for value in axis.shown.tolist()]
         return f"{', '.join(texts)} {axis.unit}".rstrip()
@@ -71,21 +48,7 @@ def span_text(axis: SweepAxis, digits: int) -> str:
 
 
 def point_texts(grid: SweepGrid, index: Sequence[int], digits: int) -> Iterator[str]:
-    """Yield the value of each axis at a point of a grid, with its name and unit.
-
-    Parameters
-    ----------
-    grid : SweepGrid
-        The axes; without any, there is nothing to say.
-    index : sequence of int
-        The place along each dimension.
-    digits : int
-        How many digits numbers have.
-
-    Yields
-    ------
-    str
-    """
+    """Yield the value of each axis at a point of a grid, with its name and unit."""
     for axis, text in zip(grid.axes, _values_at(grid, index, digits), strict=True):
         yield f"{axis.name} {text} {axis.unit}".rstrip()
 
@@ -97,25 +60,7 @@ def point_table(
     numbers: Numbers,
     told: Mapping[str, tuple[str, str]] | None = None,
 ) -> Table:
-    """Return a table with a row for each point of a grid.
-
-    Parameters
-    ----------
-    title : str
-        What stands above it.
-    light : Light
-        Of the shape of the grid.
-    grid : SweepGrid
-        The values of its parameters.
-    numbers : Numbers
-        How these are written.
-    told : mapping of str to tuple of str, optional
-        What is told of light besides its Stokes vector, as in `TOLD`.
-
-    Returns
-    -------
-    rich.table.Table
-    """
+    """Return a table with a row for each point of a grid."""
     told = told or {}
     columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
     columns += [heading(word, unit) for word, unit in told.values()]
@@ -133,23 +78,7 @@ def point_table(
 
 
 def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> Table:
-    """Return S0 for a grid of two axes: a row for each value of the first, a column of the other.
-
-    Parameters
-    ----------
-    title : str
-        What stands above it.
-    light : Light
-        Of the shape of the grid.
-    grid : SweepGrid
-        With two axes.
-    numbers : Numbers
-        How these are written.
-
-    Returns
-    -------
-    rich.table.Table
-    """
+    """Return S0 for a grid of two axes: a row for each value of the first."""
     down, across = grid.axes
     heads = [value_text(value, numbers.digits) for value in across.shown.tolist()]
     corner = f"{heading(down.name, down.unit)} \\ {heading(across.name, across.unit)}"

@@ -30,15 +30,7 @@ _SMALL = 1e-9
 
 
 def print_outcome(outcome: Outcome, digits: int) -> None:
-    """Print what a run was given and has found.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        The run.
-    digits : int
-        How many digits numbers have.
-    """
+    """Print what a run was given and has found."""
     console, numbers = PlainConsole(), Numbers(digits)
     print_given(console, outcome, numbers)
     for name in outcome.lights:
@@ -49,17 +41,7 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
 
 
 def print_given(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> None:
-    """Print what a run was given.
-
-    Parameters
-    ----------
-    console : PlainConsole
-        Where.
-    outcome : Outcome
-        The run.
-    numbers : Numbers
-        How these are written.
-    """
+    """Print what a run was given."""
     console.print(title(outcome.chosen.title, outcome.path.description))
     table = Table(box=None, show_header=False)
     given = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
@@ -77,15 +59,7 @@ def print_given(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> No
 
 
 def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
-    """Print a table of cases, with what was published under what is computed.
-
-    Parameters
-    ----------
-    outcomes : mapping of str to Outcome
-        The run of each case.
-    digits : int
-        How many digits numbers have.
-    """
+    """Print a table of cases, with what was published under what is computed."""
     console, numbers = PlainConsole(), Numbers(digits)
     first = next(iter(outcomes.values()))
     counted = f"{len(outcomes)} case{'s' * (len(outcomes) != 1)}"

@@ -26,17 +26,7 @@ _AGREES = {None: "", True: "yes", False: "no"}
 def print_reproduced(
     experiment: Experiment, found: Sequence[Reproduced], *, first: bool = True
 ) -> None:
-    """Print what is published of a sample, and what has been measured.
-
-    Parameters
-    ----------
-    experiment : Experiment
-        What is published.
-    found : sequence of Reproduced
-        What has been measured.
-    first : bool, optional
-        Whether nothing has been printed before.
-    """
+    """Print what is published of a sample, and what has been measured."""
     console = PlainConsole()
     if not first:
         console.print()
@@ -82,19 +72,7 @@ def _row(one: Reproduced) -> Iterator[str]:
 
 
 def reproduced_as_json(experiment: Experiment, found: Sequence[Reproduced]) -> dict[str, Any]:
-    """Return what has been measured as JSON can hold it, with all digits.
-
-    Parameters
-    ----------
-    experiment : Experiment
-        What is published.
-    found : sequence of Reproduced
-        What has been measured.
-
-    Returns
-    -------
-    dict of str to Any
-    """
+    """Return what has been measured as JSON can hold it, with all digits."""
     return {
         "experiment": experiment.name,
         "description": experiment.description,

@@ -24,15 +24,7 @@ _WIDEST = 1000
 
 
 def print_sweep(outcome: Outcome, digits: int) -> None:
-    """Print the light of a sweep, as far as it fits; the rest is for a file.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        The run.
-    digits : int
-        How many digits numbers have.
-    """
+    """Print the light of a sweep, as far as it fits; the rest is for a file."""
     console, numbers = PlainConsole(), Numbers(digits)
     print_given(console, outcome, numbers)
     grid = outcome.grid

@@ -21,19 +21,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def progress_bar(total: float, *, remaining: bool = False) -> Iterator[Callable[..., None]]:
-    """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``.
-
-    Parameters
-    ----------
-    total : float
-        What is completed at the end.
-    remaining : bool, optional
-        Whether the time is told that what is left will take, too.
-
-    Yields
-    ------
-    callable
-    """
+    """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
     told = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
     left = (TextColumn("left:"), TimeRemainingColumn()) if remaining else ()
     console = PlainConsole(stderr=True)

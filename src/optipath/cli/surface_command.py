@@ -61,17 +61,7 @@ class _SurfaceCommand(StrictCommand):
     def make_context(
         self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any
     ) -> click.Context:
-        """Return the context of ``reproduce`` where that stands first, else the own one.
-
-        Parameters
-        ----------
-        info_name, args, parent, **extra
-            As `click.Command` takes them.
-
-        Returns
-        -------
-        click.Context
-        """
+        """Return the context of ``reproduce`` where that stands first, else the own one."""
         if args[:1] != ["reproduce"]:
             return super().make_context(info_name, args, parent, **extra)
         # Neither a list of samples nor a wrong name needs it.

@@ -57,19 +57,6 @@ def azimuth_of(text: str) -> float:
 def numbers_of(option: str, text: str, kind: Any, counts: tuple[int, ...]) -> tuple[Any, ...]:
     """Return numbers with commas between them.
 
-    Parameters
-    ----------
-    option, text : str
-        The option, and what stands behind it.
-    kind : type
-        Of the numbers.
-    counts : tuple of int
-        How many there may be.
-
-    Returns
-    -------
-    tuple
-
     Examples
     --------
     >>> numbers_of("--cells", "640, 320", int, (1, 2))

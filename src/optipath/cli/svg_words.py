@@ -21,39 +21,12 @@ _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def text_width(text: str, size: float) -> float:
-    """Return how wide a text is drawn.
-
-    Parameters
-    ----------
-    text : str
-        Of one line.
-    size : float
-        Of its letters.
-
-    Returns
-    -------
-    float
-        In the units of the size.
-    """
+    """Return how wide a text is drawn."""
     return cell_len(text) * _CELL * size
 
 
 def add_text(parent: Element, text: str, x: float, y: float, size: float, kind: str) -> None:
-    """Add a text of one line, stretched or squeezed to the width that is reckoned with.
-
-    Parameters
-    ----------
-    parent : Element
-        Of the drawing.
-    text : str
-        Without control characters.
-    x, y : float
-        Where it begins, and its baseline.
-    size : float
-        Of its letters.
-    kind : str
-        The classes of its style.
-    """
+    """Add a text of one line, stretched or squeezed to the width that is reckoned with."""
     if not text:
         return
     SubElement(
@@ -84,17 +57,6 @@ def drawable(text: str) -> str:
 
 def lines_of(text: str, cells: int) -> list[str]:
     """Return a text in lines of at most so many cells; words that are longer are broken.
-
-    Parameters
-    ----------
-    text : str
-        Whatever somebody has written.
-    cells : int
-        The width of a line; wide letters take two.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------

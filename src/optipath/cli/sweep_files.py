@@ -20,40 +20,12 @@ if TYPE_CHECKING:
 
 
 def write_json(file: Path, outcome: Outcome) -> None:
-    """Write all that a run has found as one JSON object.
-
-    Parameters
-    ----------
-    file : Path
-        Where it is to be, whole or not at all.
-    outcome : Outcome
-        The run.
-
-    Raises
-    ------
-    click.ClickException
-        If it cannot be written.
-    """
+    """Write all that a run has found as one JSON object."""
     write(file, json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
 
 
 def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
-    """Write a line for each point of a grid, a part of them after the other.
-
-    Parameters
-    ----------
-    file : Path
-        Where it is to be, whole or not at all.
-    plan : Plan
-        By which the light is computed.
-    grid : SweepGrid
-        The values of its parameters, which are as many columns.
-
-    Raises
-    ------
-    click.ClickException
-        If it cannot be written.
-    """
+    """Write a line for each point of a grid, a part of them after the other."""
     columns = table_heads(plan, grid)
     with told_of(file), written_whole(file) as stream, progress_bar(grid.points) as tell:
         stream.write(",".join(columns).encode() + b"\n")

@@ -112,19 +112,7 @@ def option_faults(
     scheduler: str | None,
     **_others: Any,
 ) -> list[str]:
-    """Return what is wrong with the options of a sweep, a sentence each.
-
-    Parameters
-    ----------
-    as_json, out, zip, coords, chunks, scheduler
-        What stands behind the options.
-    **_others : Any
-        The other options.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return what is wrong with the options of a sweep, a sentence each."""
     faults = [] if out is None else out_faults(out)
     if as_json and out is not None:
         faults.append("--json prints what --out writes into a file; give one of them")

@@ -24,31 +24,14 @@ class NewFile(click.Path):
         super().__init__(dir_okay=False, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path; refuse an empty one, which would be the folder one stands in.
-
-        Parameters
-        ----------
-        value, param, ctx
-            As `click.Path` takes them.
-
-        Returns
-        -------
-        Path
-            What may be written.
-        """
+        """Return the path; refuse an empty one, which would be the folder one stands in."""
         if not str(value) or "\0" in str(value):
             self.fail(f"{shown(str(value))} is no name of a file.", param, ctx)
         return super().convert(value, param, ctx)
 
 
 def read_text(file: Path) -> str:
-    """Return the text of a file.
-
-    Raises
-    ------
-    click.ClickException
-        If it cannot be read, or is no text.
-    """
+    """Return the text of a file."""
     try:
         return bytes_of(file).decode("utf-8")
     except OSError as error:
@@ -58,13 +41,7 @@ def read_text(file: Path) -> str:
 
 
 def check_place(file: Path) -> None:
-    """Refuse a file that cannot be written, before the work for it is done.
-
-    Raises
-    ------
-    click.ClickException
-        If there is no such folder, or no permission.
-    """
+    """Refuse a file that cannot be written, before the work for it is done."""
     folder = file.absolute().parent
     if not folder.is_dir():
         raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
@@ -73,20 +50,7 @@ def check_place(file: Path) -> None:
 
 
 def write(file: Path, content: bytes) -> None:
-    """Write a file, whole or not at all.
-
-    Parameters
-    ----------
-    file : Path
-        Where.
-    content : bytes
-        What.
-
-    Raises
-    ------
-    click.ClickException
-        If it cannot be written.
-    """
+    """Write a file, whole or not at all."""
     with told_of(file):
         write_file(file, content)
 

@@ -17,20 +17,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def unknown_options_told(context: click.Context, words: Sequence[str]) -> Iterator[None]:
-    """Let what is said of an unknown option name what was meant, and where it stands.
-
-    Parameters
-    ----------
-    context : click.Context
-        Of the command whose options are read inside.
-    words : sequence of str
-        What stands behind its name.
-
-    Raises
-    ------
-    click.UsageError
-        In place of click's own.
-    """
+    """Let what is said of an unknown option name what was meant, and where it stands."""
     try:
         yield
     except click.NoSuchOption as error:
@@ -41,20 +28,7 @@ def unknown_options_told(context: click.Context, words: Sequence[str]) -> Iterat
 
 
 def refuse_outer_options(context: click.Context, words: Sequence[str]) -> None:
-    """Raise where an option of a command stands behind that of its subcommand.
-
-    Parameters
-    ----------
-    context : click.Context
-        Of a subcommand, itself a group.
-    words : sequence of str
-        What stands behind its name.
-
-    Raises
-    ------
-    click.UsageError
-        With the line that was meant.
-    """
+    """Raise where an option of a command stands behind that of its subcommand."""
     for word in words:
         name = word.partition("=")[0]
         if name not in _flags(context.command, context) and (

@@ -14,29 +14,12 @@ class WholeHelp(click.Group):
     """A group of commands whose help cuts no sentence short."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the options of the group; say of others what was meant.
-
-        Parameters
-        ----------
-        ctx, args
-            As `click.Group` takes them.
-
-        Returns
-        -------
-        list of str
-            What is left for the subcommand.
-        """
+        """Take the options of the group; say of others what was meant."""
         with unknown_options_told(ctx, [*args]):
             return super().parse_args(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write a line for each subcommand, which goes on in the next where it is long.
-
-        Parameters
-        ----------
-        ctx, formatter
-            As `click.Group` takes them.
-        """
+        """Write a line for each subcommand, which goes on in the next where it is long."""
         commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
         rows = [(n, c.get_short_help_str(_LONGEST)) for n, c in commands.items() if c is not None]
         if rows:

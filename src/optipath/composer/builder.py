@@ -37,39 +37,13 @@ class Builder:
         dumps: Mapping[str, Reading],
         links: Mapping[str, Reading],
     ) -> Program:
-        """Return what has been collected.
-
-        Parameters
-        ----------
-        sources : mapping of str to (int, frame)
-            The emitting step of each, and its frame.
-        detectors, dumps, links : mapping of str to Reading
-            As `Program` has them.
-
-        Returns
-        -------
-        Program
-            The steps so far, their evaluations and operands.
-        """
+        """Return what has been collected."""
         collected = tuple(self.operands), tuple(self.evaluations), tuple(self.steps)
         ends = sources, detectors, dumps
         return Program(*collected, *ends, loops=tuple(self.loops), links=links)
 
     def instead_of(self, old: Program, moved: Callable[[int], int]) -> Program:
-        """Return what has been collected, with the ends of another program.
-
-        Parameters
-        ----------
-        old : Program
-            The program that this one is made of.
-        moved : callable
-            Gives the new light of an old one.
-
-        Returns
-        -------
-        Program
-            The steps so far.
-        """
+        """Return what has been collected, with the ends of another program."""
 
         def ends(readings: Mapping[str, Reading]) -> dict[str, Reading]:
             return {name: replace(r, light=moved(r.light)) for name, r in readings.items()}
@@ -87,44 +61,12 @@ class Builder:
         presence: Operand | None = None,
         **about: Any,
     ) -> int:
-        """Add a step that does something to light.
-
-        Parameters
-        ----------
-        label : str
-            The place where it happens.
-        inputs : tuple of int
-            The light that it is done to; none where light is emitted.
-        operation : Operation
-            What is done, with operands and results of such operations as arguments.
-        presence : Operand, optional
-            Where it is done at all.
-        **about
-            What else a `Step` tells about itself.
-
-        Returns
-        -------
-        int
-            The light that it makes.
-        """
+        """Add a step that does something to light."""
         self.steps.append(Step(label, inputs, self._evaluation(operation, presence), **about))
         return len(self.steps) - 1
 
     def sum(self, label: str, lights: Sequence[int]) -> int:
-        """Add the sum of several lights; one alone is itself.
-
-        Parameters
-        ----------
-        label : str
-            The place where they meet.
-        lights : sequence of int
-            What is added up.
-
-        Returns
-        -------
-        int
-            The light that it makes.
-        """
+        """Add the sum of several lights; one alone is itself."""
         if len(lights) == 1:
             return lights[0]
         self.steps.append(Step(label, tuple(lights)))
@@ -145,33 +87,12 @@ class Builder:
         self.loops.append(Loop(tuple(order), len(self.steps), layered))
 
     def junctions_of(self, old: Program, loop: Loop | None) -> dict[int, int]:
-        """Add the junctions of another program's loop; return the new light of each.
-
-        Parameters
-        ----------
-        old : Program
-            That program.
-        loop : Loop or None
-            None has none.
-
-        Returns
-        -------
-        dict of int to int
-            By the old light.
-        """
+        """Add the junctions of another program's loop; return the new light of each."""
         junctions = () if loop is None else sorted(loop.junctions)
         return {junction: self.junction(old.steps[junction].label) for junction in junctions}
 
     def close_like(self, old: Program, loop: Loop | None, moved: Callable[[int], int]) -> None:
-        """Close a loop as another program has it, when its steps are there.
-
-        Parameters
-        ----------
-        old, loop
-            As `junctions_of` takes them.
-        moved : callable
-            Gives the new light of an old one.
-        """
+        """Close a loop as another program has it, when its steps are there."""
         if loop is not None:
             sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.junctions}
             self.close({moved(junction): lights for junction, lights in sums.items()})

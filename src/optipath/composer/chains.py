@@ -18,22 +18,7 @@ _WORDS = 60
 
 
 class Item(NamedTuple):
-    """A step that does something to one light.
-
-    Attributes
-    ----------
-    label : str
-        The places where it happens.
-    operation : Operation
-        What is done, with operands and results of operations as arguments.
-    presence : Operand or None
-        Where it is done at all; None for everywhere.
-    light : int
-        That which the step makes, or else the last of several as one.
-    once : bool
-        Whether light passes here once; what goes round keeps the digits that it is given,
-        since its sum may need all of them.
-    """
+    """A step that does something to one light."""
 
     label: str
     operation: Operation
@@ -43,20 +28,7 @@ class Item(NamedTuple):
 
 
 def along_chains(program: Program, change: Callable[[list[Item]], list[Item]]) -> Program:
-    """Return a program in which each chain of steps is replaced by another one.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    change : callable
-        Gives what is to be done in place of some items.
-
-    Returns
-    -------
-    Program
-        The same light for less work.
-    """
+    """Return a program in which each chain of steps is replaced by another one."""
     return _Chains(program, change).program()
 
 

@@ -15,20 +15,7 @@ if TYPE_CHECKING:
 
 
 def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
-    """Return a program with the cheapest kernel for what is known of its arguments.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-
-    Returns
-    -------
-    program : Program
-        The same light.
-    notes : list of str
-        Where a kernel is cheaper.
-    """
+    """Return a program with the cheapest kernel for what is known of its arguments."""
     cheaper: dict[int | None, Operation] = {}
     for place, evaluation in enumerate(program.evaluations):
         given = program.operations[place].arguments

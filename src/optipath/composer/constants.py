@@ -36,15 +36,7 @@ _LEAST = 1e-60
 
 
 class Constant(NamedTuple):
-    """The numbers of a step, as its structure has them.
-
-    Attributes
-    ----------
-    structure : Structure
-        The shape of its Mueller matrix.
-    numbers : tuple of float
-        What the structure makes a matrix of.
-    """
+    """The numbers of a step, as its structure has them."""
 
     structure: Structure
     numbers: tuple[float, ...]
@@ -100,18 +92,7 @@ class Constant(NamedTuple):
 
 
 def multiplied(first: Constant, second: Constant) -> Constant | None:
-    """Return two constants in the order of travel as one matrix; None if it is too faint.
-
-    Parameters
-    ----------
-    first, second : Constant
-        That which light meets first, and the other.
-
-    Returns
-    -------
-    Constant or None
-        With all sixteen entries.
-    """
+    """Return two constants in the order of travel as one matrix; None if it is too faint."""
     one, other = first.as_full().numbers, second.as_full().numbers
     rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
     product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)

@@ -31,20 +31,6 @@ def with_followed(
 
     The medium in front is that of the boundary whose light enters at ``in``. The incidence is
     that of a parallel boundary which has refracted the light before, measured where that is.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links; it stays as it is.
-    unsure : collection of str, optional
-        Nodes whose links may not all be there, of which no faults are told.
-
-    Returns
-    -------
-    networkx.MultiDiGraph
-        The graph itself where nothing is taken over.
-    list of str
-        A sentence for each value that no boundary gives.
     """
     elements = dict(graph.nodes(data="element"))
     names = [

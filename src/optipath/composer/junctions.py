@@ -19,20 +19,6 @@ def in_order_of_elimination(
     A junction that is eliminated makes its neighbours neighbours of each other; taking the one
     with the fewest each time, as Markowitz does (Management Science 3, 1957), keeps them few.
     In a stack of parallel interfaces it adds layer after layer.
-
-    Parameters
-    ----------
-    steps : sequence of Step
-        All steps so far, those of the loop being the last.
-    start : int
-        The first step of the loop.
-    junctions : tuple of int
-        Where lights meet in it.
-
-    Returns
-    -------
-    dict of int to int
-        How many neighbours each has left when its turn comes.
     """
     near = neighbours(steps, start, junctions)
     waiting = [(len(others), junction) for junction, others in near.items()]
@@ -53,18 +39,7 @@ def in_order_of_elimination(
 def neighbours(
     steps: Sequence[Step], start: int, junctions: tuple[int, ...]
 ) -> dict[int, set[int]]:
-    """Return which junctions of a loop light passes next to each other.
-
-    Parameters
-    ----------
-    steps, start, junctions
-        As `in_order_of_elimination` takes them.
-
-    Returns
-    -------
-    dict of int to set of int
-        By junction.
-    """
+    """Return which junctions of a loop light passes next to each other."""
     behind = {junction: junction for junction in junctions}
     for light in range(start, len(steps)):
         if light not in behind:

@@ -13,18 +13,7 @@ if TYPE_CHECKING:
 
 
 def range_faults(uses: Iterable[Use]) -> Iterator[str]:
-    """Yield a sentence for each parameter at no value of which all curves are known.
-
-    Parameters
-    ----------
-    uses : iterable of Use
-        Where wavelengths stand, each with the range of a curve.
-
-    Yields
-    ------
-    str
-        Naming the two curves whose ranges are furthest apart.
-    """
+    """Yield a sentence for each parameter at no value of which all curves are known."""
     asked: dict[str, list[tuple[tuple[float, float], WavelengthRange]]] = {}
     for use in uses:
         if use.is_open and isinstance(use.domain, WavelengthRange):

@@ -18,24 +18,7 @@ if TYPE_CHECKING:
 
 
 class Live:
-    """What of each light of a program is alive.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    doubtful : set of int, optional
-        Steps that may be left out: light may pass them as it is.
-    entries : list of Entries, optional
-        What is known of the matrix of each step, where that has been found before.
-
-    Attributes
-    ----------
-    reached : list of set of int
-        For each light, the components that may differ from 0.
-    needed : list of set of int
-        For each light, the components on which something depends that is read.
-    """
+    """What of each light of a program is alive."""
 
     def __init__(
         self,
@@ -128,20 +111,7 @@ def _until_settled(lights: Iterable[int], look: Callable[[int], Iterable[int]]) 
 
 
 def left_out(program: Program) -> tuple[Program, list[str]]:
-    """Return a program without the steps that do nothing to what is alive.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-
-    Returns
-    -------
-    program : Program
-        The same light, and what of it is alive.
-    notes : list of str
-        Which steps were left out.
-    """
+    """Return a program without the steps that do nothing to what is alive."""
     live = Live(program)
     # One may be idle since another takes away what would reach it: without both, it reaches on.
     idle = live.idle()

@@ -40,20 +40,7 @@ _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
 
 def lower(wiring: Wiring, method: str) -> Program:
-    """Return the program of a path: ports in the order of travel, each a step or none.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path, which has no fault.
-    method : str
-        How Fresnel's equations are computed.
-
-    Returns
-    -------
-    Program
-        Without ports from which no light reaches a detector or a dump.
-    """
+    """Return the program of a path: ports in the order of travel, each a step or none."""
     lowering = _Lowering(wiring, method)
     for stretch in wiring.stretches:
         lowering.add(stretch)
@@ -61,13 +48,7 @@ def lower(wiring: Wiring, method: str) -> Program:
 
 
 def refuse_depolarizers(program: Program) -> None:
-    """Refuse elements that Jones columns cannot pass, and say of each whether it may depolarise.
-
-    Raises
-    ------
-    ComposerError
-        Naming each of them.
-    """
+    """Refuse elements that Jones columns cannot pass, and say of each whether it may depolarise."""
     kernels = [evaluation.kernel for evaluation in program.evaluations]
     why = {
         i: "is computed as a whole Mueller matrix, and has no Jones matrix here"
@@ -86,13 +67,7 @@ def refuse_depolarizers(program: Program) -> None:
 
 
 def refuse_loops(program: Program) -> None:
-    """Refuse light that goes round, which Jones columns cannot be solved for.
-
-    Raises
-    ------
-    ComposerError
-        Naming a place in each loop.
-    """
+    """Refuse light that goes round, which Jones columns cannot be solved for."""
     if program.loops:
         places = listed([f"'{program.steps[loop.start].label}'" for loop in program.loops[:_FEW]])
         raise ComposerError(

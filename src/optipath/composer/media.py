@@ -38,11 +38,6 @@ class Media:
     """The media and the angles at both ends of every way from boundary to boundary.
 
     What is the same by its structure, such as one parameter, needs no look at its values.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
     """
 
     def __init__(self, wiring: Wiring) -> None:
@@ -234,18 +229,7 @@ def _are_one(first: Any, second: Any) -> bool:
 
 
 def are_same(first: Any, second: Any) -> bool:
-    """Tell whether two values are one by their structure; what is taken over is.
-
-    Parameters
-    ----------
-    first, second : Any
-        Numbers, arrays, materials or parameters.
-
-    Returns
-    -------
-    bool
-        False where only their numbers can tell.
-    """
+    """Tell whether two values are one by their structure; what is taken over is."""
     if first is second or first is FOLLOWS or second is FOLLOWS:
         return True
     if type(first) is type(second) is float:

@@ -26,19 +26,7 @@ _MOST_ROUTES = 64
 
 
 class Meeting(NamedTuple):
-    """Light leaves a boundary and enters another, or the same again.
-
-    Attributes
-    ----------
-    leaves, enters : Port
-        The out-port and the in-port.
-    straight : bool
-        Whether nothing between turns the direction of light.
-    turns : tuple
-        The azimuths on the way that are not known to be 0.
-    sides : frozenset of Port
-        The sides of the two boundaries that face each other, each by its in-port.
-    """
+    """Light leaves a boundary and enters another, or the same again."""
 
     leaves: Port
     enters: Port
@@ -48,13 +36,7 @@ class Meeting(NamedTuple):
 
 
 class Meetings:
-    """The meetings of a path.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    """
+    """The meetings of a path."""
 
     def __init__(self, wiring: Wiring) -> None:
         self.wiring = wiring

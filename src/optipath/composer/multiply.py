@@ -21,22 +21,7 @@ _MOST = 16
 
 
 def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, list[str]]:
-    """Return a program whose neighbouring constants are one, in float64.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    matrices : bool
-        Whether the product may be a whole matrix.
-
-    Returns
-    -------
-    program : Program
-        The same light.
-    notes : list of str
-        What was multiplied, and what changes nothing.
-    """
+    """Return a program whose neighbouring constants are one, in float64."""
     known: dict[int | None, Constant] = {
         place: Constant(evaluation.kernel.structure, numbers)
         for place, numbers in enumerate(known_numbers(program)[1])

@@ -23,14 +23,6 @@ class OnePlane(Agreement):
     """The turns on the way between two parallel boundaries come to none, or light is normal.
 
     The operands are the incidence at the first, and the turns, which add up.
-
-    Attributes
-    ----------
-    leaves, enters : str
-        The ports between which light passes, as ``"node.port"``.
-    follows : bool
-        Whether they are parallel because the second takes its incidence over, and not because
-        light goes to and fro between them.
     """
 
     leaves: str
@@ -65,16 +57,7 @@ class OnePlane(Agreement):
 def turn_text(operands: Any, turns: Any) -> str:
     """Write what turns add up to, and whose values they are.
 
-    Parameters
-    ----------
-    operands : sequence of Operand
-        Where they stand.
-    turns : sequence of float
-        In radians.
-
-    Returns
-    -------
-    str
+    Units: turns in radians.
     """
     each = [text_of(o, math.degrees(t), " deg") for o, t in zip(operands, turns, strict=True)]
     if len(each) == 1:
@@ -85,15 +68,6 @@ def turn_text(operands: Any, turns: Any) -> str:
 
 def way_text(leaves: str, enters: str) -> str:
     """Write where light leaves one boundary and enters another.
-
-    Parameters
-    ----------
-    leaves, enters : str
-        The ports, as ``"node.port"``.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -38,15 +38,7 @@ TAKEN_OVER = "taken over"
 
 
 class Values:
-    """Every number of a path, gathered once: node by node, then link by link.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    doubtful : collection of str, optional
-        Parameters of which something else is wrong: their values say nothing, and are left out.
-    """
+    """Every number of a path, gathered once: node by node, then link by link."""
 
     def __init__(self, graph: nx.MultiDiGraph, doubtful: Collection[str] = ()) -> None:
         self.graph = graph

@@ -26,75 +26,27 @@ _ANY = Frame()
 
 
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
-    """Return the world frame of a port; None for a port placed relatively.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    name, port : str
-        The port of a node.
-
-    Returns
-    -------
-    Frame or None
-        As it was given, or follows from what was.
-    """
+    """Return the world frame of a port; None for a port placed relatively."""
     frames = wiring.graph.nodes[name]["frames"]
     return wiring.elements[name].frame_of(port, frames) if frames else None
 
 
 def goes_straight(element: Element, enters: str, leaves: str) -> bool:
-    """Tell whether light goes straight on from port to port: whether one frame serves both.
-
-    Parameters
-    ----------
-    element : Element
-        The element.
-    enters, leaves : str
-        Two of its ports.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether light goes straight on from port to port: whether one frame serves both."""
     return element.frame_of(leaves, {enters: _ANY}) is _ANY
 
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
     """Return the turn of a relatively placed link: its own, or else its element's.
 
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    link : Link
-        Which link.
-
-    Returns
-    -------
-    float, ndarray or Parameter
-        In radians.
+    Units: the result in radians.
     """
     own = wiring.graph.edges[link]["azimuth"]
     return azimuth_at(wiring.elements[link[1]], link[2][1]) if own is None else own
 
 
 def alignment(wiring: Wiring, link: Link) -> Operation | None:
-    """Return the turn from the frame that light leaves in to the one it enters.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    link : Link
-        Of whose own two port frames alone it comes; it is never accumulated.
-
-    Returns
-    -------
-    Operation or None
-        None where light is not turned.
-    """
+    """Return the turn from the frame that light leaves in to the one it enters."""
     start, end, (leaves, enters) = link
     if start in wiring.self_placed and end in wiring.self_placed:
         return wiring.elements[end].turn_from(wiring.elements[start])

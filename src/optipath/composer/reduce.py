@@ -21,15 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pass:
-    """One way in which a program gives the same light for less work.
-
-    Attributes
-    ----------
-    name : str
-        What it does.
-    change : callable
-        Gives a program in place of one, and notes on what has changed, for ``explain()``.
-    """
+    """One way in which a program gives the same light for less work."""
 
     name: str
     change: Callable[[Program], tuple[Program, list[str]]]
@@ -40,20 +32,7 @@ class Pass:
 
 
 def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...], int]:
-    """Return what programs go through, in order, and how often as long as one of them helps.
-
-    Parameters
-    ----------
-    model, composing, dtype : str
-        As `Composer` takes them.
-
-    Returns
-    -------
-    passes : tuple of Pass
-        None for the model ``"full"``, which takes every step as it stands.
-    rounds : int
-        How often at most.
-    """
+    """Return what programs go through, in order, and how often as long as one of them helps."""
     stokes, doubles = composing == "stokes", dtype != "longdouble"
     every = (
         (True, Pass("cheaper kernels", cheaper_kernels)),
@@ -66,20 +45,7 @@ def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...]
 
 
 def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:
-    """Return the smallest program that is exact for a path.
-
-    Parameters
-    ----------
-    whole : Program
-        The path as it stands.
-    model, composing, dtype : str
-        As `Composer` takes them.
-
-    Returns
-    -------
-    Reduction
-        By any model but ``"full"``, the smallest one.
-    """
+    """Return the smallest program that is exact for a path."""
     passes, rounds = passes_for(model, composing, dtype)
     program, notes = whole, list[str]()
     for _ in range(rounds):
@@ -102,25 +68,7 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
 
 
 def by_name(exact: Reduction, model: str) -> Reduction:
-    """Return the smallest exact program carried by a model that may be larger.
-
-    Parameters
-    ----------
-    exact : Reduction
-        The smallest exact program.
-    model : str
-        The model that is asked for.
-
-    Returns
-    -------
-    Reduction
-        Every light carried by as many components.
-
-    Raises
-    ------
-    ComposerError
-        If the model is too small to be exact.
-    """
+    """Return the smallest exact program carried by a model that may be larger."""
     most = MODELS.index(model)
     for light, alive in enumerate(exact.live):
         if alive[-1] > most:
@@ -135,27 +83,7 @@ def by_name(exact: Reduction, model: str) -> Reduction:
 
 
 def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
-    """Return which model is taken where a certificate allows it.
-
-    Parameters
-    ----------
-    exact : Reduction
-        The smallest exact program.
-    model : str
-        The model that is asked for; ``"auto"`` means the scalar one.
-    most : float
-        The largest error, as a share of the intensity.
-
-    Returns
-    -------
-    Tolerance or None
-        None where no model is cheaper than the exact one.
-
-    Raises
-    ------
-    ComposerError
-        If a model is asked for by name that is not exact, and there can be no certificate.
-    """
+    """Return which model is taken where a certificate allows it."""
     size = MODELS.index(exact.model)
     wanted = "scalar" if model == "auto" else model
     if MODELS.index(wanted) >= size:

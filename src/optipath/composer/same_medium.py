@@ -24,17 +24,6 @@ class SameMedium(Agreement):
 
     The operands are n on both sides, and k on both where either may absorb; or k of the first
     alone, where light must come to the second from a medium that does not absorb.
-
-    Attributes
-    ----------
-    leaves, enters : str
-        The ports, as ``"node.port"``.
-    field : str
-        What the second index is called by its element.
-    measures : bool
-        Whether the incidence at the second is measured in its medium.
-    follows : bool
-        Whether the second has taken its medium over from other light.
     """
 
     leaves: str

@@ -19,13 +19,6 @@ class SameTurn(Agreement):
     These are boundaries, or a boundary and a mirror. All ports of a face share x. A turn counts
     about the direction in which its light travels, so that a way back undoes a way there by
     turning as much again. The operands are the turns on both ways.
-
-    Attributes
-    ----------
-    count : int
-        How many of the operands are of the first way.
-    first, second : tuple of str
-        Where each way begins and ends, as ``"node.port"``.
     """
 
     count: int

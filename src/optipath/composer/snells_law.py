@@ -32,18 +32,6 @@ class SnellsLaw(Agreement):
 
     The operands are angle, n and k of both, and the turns between the two planes of incidence:
     boundaries whose planes differ are not parallel.
-
-    Attributes
-    ----------
-    leaves, enters : str
-        The ports between which light passes, as ``"node.port"``.
-    ends : tuple of bool
-        Whether the light between ends at each where its incidence is a right angle: at the
-        first, since it lets none through, and at the second, which none reaches then.
-    may_be_told : bool
-        Whether the second could say ``parallel=False``.
-    follows : bool
-        Whether the second has taken its incidence over from other light.
     """
 
     leaves: str

@@ -37,20 +37,7 @@ def sharing_faults(wiring: Wiring) -> Iterator[str]:
 
 
 def taken_out(wiring: Wiring, links: Sequence[Link]) -> str:
-    """Write down the calls that take links of one port out, as far as others lead there too.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    links : sequence of tuple
-        Those that share the light of an out-port.
-
-    Returns
-    -------
-    str
-        Of all the links, where none stands for another.
-    """
+    """Write down the calls that take links of one port out, as far as others lead there too."""
     ends = {link: (link[1], link[2][1]) for link in links}
     # What a way by another link comes to is cut short by the link straight there.
     short = [
@@ -68,19 +55,7 @@ def taken_out(wiring: Wiring, links: Sequence[Link]) -> str:
 
 
 def without_tap(wiring: Wiring, tap: Link) -> str:
-    """Write down the calls that take a tap out, and what is fed by nothing else.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    tap : tuple
-        One of its taps.
-
-    Returns
-    -------
-    str
-    """
+    """Write down the calls that take a tap out, and what is fed by nothing else."""
     start, end, (leaves, enters) = tap
     cut = f"path.disconnect('{start}.{leaves}', '{end}.{enters}')"
     behind = wiring.graph.subgraph(fed_by(wiring, tap))
@@ -93,19 +68,7 @@ def without_tap(wiring: Wiring, tap: Link) -> str:
 
 
 def fed_by(wiring: Wiring, tap: Link) -> set[str]:
-    """Return the nodes that the light of a tap comes to, at whatever port of them.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    tap : tuple
-        One of its taps.
-
-    Returns
-    -------
-    set of str
-    """
+    """Return the nodes that the light of a tap comes to, at whatever port of them."""
     return {tap[1], *nx.descendants(wiring.graph, tap[1])}
 
 

@@ -18,15 +18,7 @@ Ways: TypeAlias = dict[Port, list[Port]]
 
 
 class Stretch(NamedTuple):
-    """Ports that light passes one after the other: one port, or all those of a loop.
-
-    Attributes
-    ----------
-    ports : tuple of Port
-        In the order of travel, the junctions of a loop first.
-    junctions : tuple of Port
-        Those of a loop where lights meet, one of which every way round passes.
-    """
+    """Ports that light passes one after the other: one port, or all those of a loop."""
 
     ports: tuple[Port, ...]
     junctions: tuple[Port, ...] = ()
@@ -83,20 +75,7 @@ def backwards(ways: Ways) -> Ways:
 
 
 def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
-    """Return the ports that light reaches.
-
-    Parameters
-    ----------
-    ways : Ways
-        Where light goes on from each port.
-    starts : iterable of Port
-        Where it begins.
-
-    Returns
-    -------
-    set of Port
-        The starts included.
-    """
+    """Return the ports that light reaches."""
     found = set(starts)
     waiting = list(found)
     while waiting:
@@ -108,20 +87,7 @@ def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
 
 
 def among(ways: Ways, kept: set[Port]) -> Ways:
-    """Return the ways between some ports alone.
-
-    Parameters
-    ----------
-    ways : Ways
-        All ways.
-    kept : set of Port
-        The ports.
-
-    Returns
-    -------
-    Ways
-        In the order in which all have them.
-    """
+    """Return the ways between some ports alone."""
     return {
         port: [later for later in onwards if later in kept]
         for port, onwards in ways.items()

@@ -18,22 +18,7 @@ _MOST = 16
 
 
 def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
-    """Return a program whose neighbouring turns are one.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    sums : bool
-        Whether angles that are known may be added, which is done in float64.
-
-    Returns
-    -------
-    program : Program
-        The same light.
-    notes : list of str
-        Which turns are one.
-    """
+    """Return a program whose neighbouring turns are one."""
     notes: list[str] = []
 
     def joined(items: list[Item]) -> list[Item]:

@@ -25,21 +25,7 @@ if TYPE_CHECKING:
 
 
 def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:
-    """Raise unless a graph of elements can be composed.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links.
-    values : Values, optional
-        Its values, where they have been gathered.
-
-    Raises
-    ------
-    PathError
-        With all faults found: values, frames, ends, links and loops; else those of defaults, which
-        are in nobody's way where other values are given.
-    """
+    """Raise unless a graph of elements can be composed."""
     whole, unfollowed = with_followed(graph)
     wiring = Wiring(whole)
     if values is None or whole is not graph:
@@ -50,20 +36,7 @@ def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:
 
 
 def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list[str]) -> None:
-    """Raise unless values, wiring and media can be composed.
-
-    Parameters
-    ----------
-    values, wiring, media
-        What is known of a path.
-    unfollowed : list of str
-        What could not be taken over from a boundary before.
-
-    Raises
-    ------
-    PathError
-        With all faults found.
-    """
+    """Raise unless values, wiring and media can be composed."""
     faults = unfollowed + _faults(values, wiring, media, set(), whole=True)
     if faults:
         raise PathError(*faults)
@@ -74,25 +47,7 @@ def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list
 def partial_faults(
     graph: nx.MultiDiGraph, suspects: set[str], doubtful: Collection[str], *, whole: bool
 ) -> list[str]:
-    """Return the faults of a graph of elements of which some may be missing.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links that there are.
-    suspects : set of str
-        The nodes whose links may not all be there; what hangs together with them is not
-        called unreached.
-    doubtful : collection of str
-        The parameters of which something else is wrong.
-    whole : bool
-        Whether all nodes are there, so that a missing source or detector says something.
-
-    Returns
-    -------
-    list of str
-        A sentence for each.
-    """
+    """Return the faults of a graph of elements of which some may be missing."""
     unsure: set[str] = set()
     for together in nx.weakly_connected_components(graph):
         if together & suspects:

@@ -21,18 +21,6 @@ def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
 
     Directly, or through elements that let it go straight on, whose links may turn it. Of
     light that several links bring, or may have brought, nothing is known.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    name, port : str
-        The port of a node; the own frame of a vertex is that of its port.
-
-    Returns
-    -------
-    VertexFrame or None
-        None where no element on the way has frames by its own values.
     """
     if not wiring.self_placed:
         return None

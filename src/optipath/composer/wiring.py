@@ -39,15 +39,6 @@ class Wiring:
 
     Working on ports rather than nodes tells light that passes an element twice, by
     different ways, from light that goes round in a loop.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    loops : {"refuse", "sum"}, optional
-        Whether light may go round; by default what the graph says, and else not.
-    keep : {"ends", "all"}, optional
-        Which light is wanted: that which reaches an end, or all.
     """
 
     def __init__(

@@ -26,31 +26,7 @@ def absorbed_alone(
 ) -> npt.NDArray[np.float64]:
     """Return the share of light that stays in each layer of a stack.
 
-    Parameters
-    ----------
-    stack : LayerStack
-        The stack, all of whose values are known.
-    operation : Operation
-        What comes to the shares of s and of p in each layer, one after the other.
-    light : Light or array_like, shape (..., 4), or None
-        The light that arrives; None for unpolarised light.
-    enters : str
-        Where it arrives.
-    method : str
-        How Fresnel's equations are computed.
-
-    Returns
-    -------
-    ndarray, shape (..., layers)
-
-    Raises
-    ------
-    PathError
-        With all faults of the stack at once, or if there is no such port.
-    LightError
-        If what is given is no light.
-    ShapeError
-        If it does not broadcast with the values of the stack.
+    Shapes: light (..., 4); returns (..., layers).
     """
     if enters not in stack.inputs:
         raise PathError(

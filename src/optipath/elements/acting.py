@@ -40,13 +40,7 @@ class ActsOnLight:
         return mueller_alone(self, before=frame) @ arriving
 
     def __rmatmul__(self, other: object) -> Mueller:
-        """Return the Mueller matrix of the element and of what stands behind it.
-
-        Raises
-        ------
-        LightError
-            If that is no `Mueller`.
-        """
+        """Return the Mueller matrix of the element and of what stands behind it."""
         if not isinstance(other, Mueller):
             raise LightError(why_refused(other))
         return other @ mueller_alone(self)

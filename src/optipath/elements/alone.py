@@ -46,34 +46,7 @@ def mueller_alone(
     placed: tuple[Frame | None, Frame | None] = (None, None),
     before: Frame | None = None,
 ) -> Mueller:
-    """Return the Mueller matrix of an element.
-
-    Parameters
-    ----------
-    element : Element
-        The element, all of whose values are known.
-    enters, leaves : str, optional
-        The ports; an empty out-port is the natural one.
-    method : str, optional
-        How Fresnel's equations are computed.
-    placed : tuple of Frame or None, optional
-        The world frames of the two ports, where they are given.
-    before : Frame, optional
-        The frame that light arrives in, against which an azimuth turns the element; the unit
-        frame by default.
-
-    Returns
-    -------
-    Mueller
-        Between the two frames, or those that the element has by its values, or else as in a path:
-        from the frame before, turned by the azimuth, to the same where light goes straight
-        through, and to a unit frame where it goes another way.
-
-    Raises
-    ------
-    PathError
-        With all faults at once, among them what no light can do, of an element of one's own.
-    """
+    """Return the Mueller matrix of an element."""
     REFLECTION.by_method(method)
     owner, (frame_in, frame_out) = element.kind or type(element).__name__, placed
     for port in (enters, leaves):
@@ -102,26 +75,7 @@ def mueller_alone(
 
 
 def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FRAMES) -> Any:
-    """Return the shape of the batch of an element, all of whose values are known and allowed.
-
-    Parameters
-    ----------
-    element : Element
-        The element.
-    enters : str
-        Where light enters.
-    frames : mapping of str to Frame, optional
-        The world frames of ports.
-
-    Returns
-    -------
-    tuple of int
-
-    Raises
-    ------
-    PathError
-        With all faults at once.
-    """
+    """Return the shape of the batch of an element, all of whose values are known and allowed."""
     owner = element.kind or type(element).__name__
     followed = element.followed() if isinstance(element, MediaOfBoundary) else ()
     if followed:
@@ -188,21 +142,7 @@ def _frame_at(element: Any, port: str, frames: dict[str, Frame]) -> Frame | None
 
 
 def turned_alone(element: Any, enters: str, before: Frame | None = None) -> Frame:
-    """Return the frame that light arrives in, turned by the azimuth of an element.
-
-    Parameters
-    ----------
-    element : Element
-        The element.
-    enters : str
-        Where light enters.
-    before : Frame, optional
-        The frame that light arrives in; the unit frame by default.
-
-    Returns
-    -------
-    Frame
-    """
+    """Return the frame that light arrives in, turned by the azimuth of an element."""
     frame, azimuth = before or Frame(), Operand(azimuth_at(element, enters)).numbers()
     with units_are_written():  # The angle was looked at when the element was made.
         return frame.turned(azimuth) if np.any(azimuth) else frame

@@ -35,11 +35,6 @@ class ArrivingWave(Agreement):
 
     The operands are n and k of the medium, those of the one in which the incidence is measured,
     and the incidence.
-
-    Attributes
-    ----------
-    enters : str
-        The port, as ``"node.port"``.
     """
 
     enters: str
@@ -98,22 +93,7 @@ def _rounded_down(degrees: float) -> str:
 
 
 def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:
-    """Return what must hold of light that enters a port, where its medium may absorb.
-
-    Parameters
-    ----------
-    owner : str
-        What sentences call the boundary.
-    element : Element
-        The boundary, or any other.
-    port : str
-        Where light enters.
-
-    Returns
-    -------
-    list of ArrivingWave
-        Empty where nothing needs to be looked at.
-    """
+    """Return what must hold of light that enters a port, where its medium may absorb."""
     if not getattr(element, "lit_from_absorbing", False) or port not in element.inputs:
         return []
     incidence, measured = element.measured

@@ -11,17 +11,7 @@ def azimuth_at(element: Any, port: str) -> Any:
     Light that comes from behind is in the plane of the element already, or its link says how
     it stands to it.
 
-    Parameters
-    ----------
-    element : Element
-        The element, with an ``azimuth`` or without.
-    port : str
-        Where light enters.
-
-    Returns
-    -------
-    float, ndarray or Parameter
-        In radians.
+    Units: the result in radians.
 
     Examples
     --------

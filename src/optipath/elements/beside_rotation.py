@@ -15,13 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Beside(Domain):
-    """A quantity that may be nothing but 0 beside another.
-
-    Attributes
-    ----------
-    why : str
-        Beside what, and the cure.
-    """
+    """A quantity that may be nothing but 0 beside another."""
 
     why: str = ""
 

@@ -34,13 +34,6 @@ class ChainVertex(MediaOfBoundary, Element):
     Its frames come from the points: z along the legs, x = k_out cross k_in across the plane
     of incidence, as `Interface` has it; a link between neighbours of one chain turns the
     light by them. What stands relatively beside it, stands in the frame of its port.
-
-    Attributes
-    ----------
-    refracts : bool
-        Whether light goes on through the surface, so that it may hardly be turned there.
-    bad : str
-        Whether chains that cannot be are refused, or masked; each class has it as its last field.
     """
 
     straight: ClassVar[bool] = False

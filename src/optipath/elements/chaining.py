@@ -14,13 +14,7 @@ _BEGINNINGS: list[Callable[[Any], Any]] = []
 
 
 def chains_begin_with(beginning: Callable[[Any], Any]) -> None:
-    """Enter what makes the path of one element, which a chain goes on from.
-
-    Parameters
-    ----------
-    beginning : callable
-        Of an `Element` or a `NamedElement`; the last one that was entered is taken.
-    """
+    """Enter what makes the path of one element, which a chain goes on from."""
     _BEGINNINGS[:] = [beginning]
 
 
@@ -34,24 +28,12 @@ class Chainable:
         return begun(self) >> behind
 
     def __rrshift__(self, before: object) -> Any:
-        """Refuse what is not chainable.
-
-        Raises
-        ------
-        PathError
-            Naming it.
-        """
+        """Refuse what is not chainable."""
         return begun(before)
 
 
 def begun(first: object) -> Any:
-    """Return the path of one element, such as a chain begins with.
-
-    Raises
-    ------
-    PathError
-        If it is no element, or no paths are there.
-    """
+    """Return the path of one element, such as a chain begins with."""
     if isinstance(first, type) and issubclass(first, Chainable):
         raise PathError(f"{first.__name__} is a class; write {first.__name__}(...) in a chain")
     if not isinstance(first, Chainable):
@@ -69,15 +51,7 @@ def begun(first: object) -> Any:
 
 @dataclass(frozen=True)
 class NamedElement(Chainable):
-    """An element and what it is called in a chain.
-
-    Parameters
-    ----------
-    name : str
-        That of its node.
-    element : Element
-        The element.
-    """
+    """An element and what it is called in a chain."""
 
     name: str
     element: Any

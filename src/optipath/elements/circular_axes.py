@@ -15,15 +15,6 @@ def along_circular_axes(*operations: Operation) -> tuple[Operation, ...]:
 
     So no digits of light get lost that one of the two hardly lets through.
 
-    Parameters
-    ----------
-    *operations : Operation
-        As they are where the axes are x and y.
-
-    Returns
-    -------
-    tuple of Operation
-
     Examples
     --------
     >>> from optipath.kernels.catalogue import POLARIZER

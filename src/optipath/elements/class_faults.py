@@ -45,22 +45,7 @@ _PORTS = (
 
 
 def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> list[str]:
-    """Return what is wrong with a class of elements, a sentence each.
-
-    Parameters
-    ----------
-    element_class : type
-        A dataclass.
-    base : type
-        That of all elements.
-    kind : Any
-        What files are to call it.
-
-    Returns
-    -------
-    list of str
-        Empty where nothing is.
-    """
+    """Return what is wrong with a class of elements, a sentence each."""
     return [*_faults(element_class, base, kind)]
 
 

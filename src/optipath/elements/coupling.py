@@ -96,15 +96,7 @@ class Operation:
 
 @dataclass(frozen=True, slots=True)
 class ResultOf:
-    """One of the numbers that an operation comes to.
-
-    Attributes
-    ----------
-    operation : Operation
-        The operation.
-    place : int
-        Which of its numbers, from 0.
-    """
+    """One of the numbers that an operation comes to."""
 
     operation: Operation
     place: int
@@ -154,17 +146,7 @@ class Coupling:
 def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
     """Return operations whose axes stand at an angle to the frame, right-handed from x.
 
-    Parameters
-    ----------
-    angle : float, array, Parameter or Operand
-        In radians.
-    *operations : Operation
-        As they are where the axes are those of the frame.
-
-    Returns
-    -------
-    tuple of Operation
-        Between a turn and the turn back; those alone where the angle is 0.
+    Units: angle in radians.
 
     Examples
     --------
@@ -183,18 +165,6 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
 
     An index of refraction is two numbers (n, k), and so is any complex number; a Stokes
     vector is four, a matrix sixteen, anything else one.
-
-    Parameters
-    ----------
-    value : float, complex, array, Material or Parameter
-        What a field of an element holds.
-    domain : Domain
-        That of the field.
-
-    Returns
-    -------
-    tuple
-        Of floats, arrays, parameters and operands.
 
     Examples
     --------

@@ -20,30 +20,7 @@ _TURN = 2.0 * math.pi
 def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float, Any, Any]:
     """Return thickness, birefringence and wavelength of a plate.
 
-    Parameters
-    ----------
-    retardance : float or str
-        By how much the slow component falls behind beyond whole waves, in radians.
-    at : float or str
-        The wavelength at which it does, in metres.
-    crystal : str, Crystal, CurveValue or float
-        What it is made of, or the birefringence of that.
-    order : int
-        How many whole waves there are besides.
-
-    Returns
-    -------
-    thickness : float
-        In metres.
-    birefringence : CurveValue or float
-        Such that it is positive at that wavelength.
-    wavelength : Parameter
-        That of the run.
-
-    Raises
-    ------
-    ValueFault, ParameterError
-        If any is no such value, or the crystal does not retard at that wavelength.
+    Units: retardance in radians; at, thickness in metres.
 
     Examples
     --------

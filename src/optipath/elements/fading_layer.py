@@ -37,11 +37,6 @@ class FadingLayer(Agreement):
     The operands are n and k of the medium in front of the layer, of the layer, and of the medium
     behind, the length, the wavelength, the index of the medium in which the incidence is measured,
     and the incidence.
-
-    Attributes
-    ----------
-    layer : str
-        The layer, as ``"node.indices[1]"``.
     """
 
     layer: str

@@ -24,11 +24,6 @@ def domains_of(element_class: type[Any]) -> dict[str, Domain]:
     """Return the domain that each field is annotated with, in order.
 
     Without one it is a real number, or True or False where that is what it says.
-
-    Raises
-    ------
-    PathError
-        If the annotations cannot be read.
     """
     try:
         hints = get_type_hints(element_class, include_extras=True)
@@ -52,20 +47,7 @@ def _annotated(hint: Any) -> Iterator[Domain]:
 
 
 def same_value(first: Any, second: Any, domain: Domain) -> bool:
-    """Tell whether two values of a field are equal, however an index is written.
-
-    Parameters
-    ----------
-    first, second : Any
-        Numbers, arrays, materials or parameters.
-    domain : Domain
-        That of the field.
-
-    Returns
-    -------
-    bool
-        Also true of a complex number and the `Material` with the same two parts, in a list, too.
-    """
+    """Tell whether two values of a field are equal, however an index is written."""
     listed = {INDICES: INDEX, LENGTHS: LENGTH_OF_LAYER}.get(domain)
     if listed is not None and isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(

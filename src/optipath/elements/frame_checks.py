@@ -15,16 +15,6 @@ if TYPE_CHECKING:
 def same_frame(first: Frame, second: Frame) -> bool:
     """Tell whether two frames are one, to rounding.
 
-    Parameters
-    ----------
-    first, second : Frame
-        Those of two ports.
-
-    Returns
-    -------
-    bool
-        Whether they are for all of a batch.
-
     Examples
     --------
     >>> from optipath.light.frames import Frame
@@ -39,16 +29,6 @@ def same_frame(first: Frame, second: Frame) -> bool:
 def share_x(first: Frame, second: Frame) -> bool:
     """Tell whether two frames have x along one line, as s is before and after a reflection.
 
-    Parameters
-    ----------
-    first, second : Frame
-        Those of two ports.
-
-    Returns
-    -------
-    bool
-        Whether they have for all of a batch.
-
     Examples
     --------
     >>> from optipath.light.frames import Frame
@@ -62,15 +42,7 @@ def share_x(first: Frame, second: Frame) -> bool:
 def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float64]:
     """Return the angle of incidence at which light is turned from one direction to another.
 
-    Parameters
-    ----------
-    arriving, reflected : Frame
-        Before and behind.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        In radians, 0 to pi/2.
+    Shape: returns (...). Units: the result in radians.
 
     Examples
     --------
@@ -87,15 +59,7 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
 def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
     """Return the angle between the directions of two frames.
 
-    Parameters
-    ----------
-    first, second : Frame
-        Those of two ports.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        In radians, 0 to pi.
+    Shape: returns (...). Units: the result in radians.
 
     Examples
     --------

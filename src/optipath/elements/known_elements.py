@@ -64,11 +64,6 @@ STANDARD = (
 def element_class(kind: str) -> type[Any]:
     """Return the class of a kind.
 
-    Raises
-    ------
-    PathError
-        If the kind is unknown.
-
     Examples
     --------
     >>> element_class("rotator").__name__

@@ -63,15 +63,6 @@ def largest(value: Any) -> float:
 def overflow(per_metre: Any, length: Any) -> bool:
     """Tell whether two values are known, and their product is too large for a float.
 
-    Parameters
-    ----------
-    per_metre, length : Any
-        The values.
-
-    Returns
-    -------
-    bool
-
     Examples
     --------
     >>> overflow(1e200, 1e200), overflow(1e200, 1e-3)
@@ -84,16 +75,7 @@ def overflow(per_metre: Any, length: Any) -> bool:
 def over_a_length(domain: Domain, length: float) -> Domain:
     """Return the domain of what floats hold times a length.
 
-    Parameters
-    ----------
-    domain : Domain
-        That of what is given per metre.
-    length : float
-        In metres.
-
-    Returns
-    -------
-    Domain
+    Units: length in metres.
     """
     most = np.finfo(np.float64).max / length
     name = f"{domain.name}, over a length of {length:g} m,"

@@ -21,13 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MatrixDomain(Domain):
-    """Mueller matrices of passive elements, beyond the rounding of their precision; or any.
-
-    Attributes
-    ----------
-    physical : bool
-        Whether they must be.
-    """
+    """Mueller matrices of passive elements, beyond the rounding of their precision; or any."""
 
     physical: bool = True
 

@@ -10,17 +10,7 @@ from optipath.values.made import not_known_sound
 
 
 class MediaOfBoundary:
-    """What a boundary has and other elements have not: media, ``outside`` in front.
-
-    Attributes
-    ----------
-    may_follow : tuple of str
-        The fields that may be `FOLLOWS`: taken over from the boundary before.
-    lit_from_absorbing : bool
-        Whether light may come to it from a medium that absorbs.
-    media_fields : tuple of str
-        What sentences call the media in front and behind.
-    """
+    """What a boundary has and other elements have not: media, ``outside`` in front."""
 
     may_follow: ClassVar[tuple[str, ...]] = ("outside",)
     lit_from_absorbing: ClassVar[bool] = False

@@ -20,11 +20,6 @@ class PassiveDichroism(Agreement):
     """What absorbs one state of light more than the mean absorbs another less, but not below 0.
 
     The operands are the absorption, the linear dichroism and the circular one, per metre.
-
-    Attributes
-    ----------
-    owner : str
-        What sentences call the medium.
     """
 
     owner: str
@@ -53,11 +48,6 @@ class WithinReach(Agreement):
 
     The operands are the linear and the circular dichroism, the retardance, the rotation and the
     depolarization, per metre, and the length.
-
-    Attributes
-    ----------
-    owner : str
-        What sentences call the medium.
     """
 
     owner: str

@@ -25,14 +25,7 @@ def is_own(element_class: type[Any]) -> bool:
 
 
 def couplings_of(element: Any) -> tuple[Coupling, ...]:
-    """Return the ways through an element.
-
-    Raises
-    ------
-    PathError
-        If the class does not say them, its code raises anything, or they do not fit its ports;
-        naming the class.
-    """
+    """Return the ways through an element."""
     what = f"couplings() of element class {type(element).__name__}"
     found: tuple[Coupling, ...] = called(what, lambda: tuple(element.couplings()))
     if is_own(type(element)) and (faults := list(_faults(what, element, found))):

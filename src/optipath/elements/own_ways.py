@@ -32,24 +32,7 @@ _TAKEN = "say physical: ClassVar[bool] = False in the class, to take it as it is
 
 
 def own_ways(owner: str, element: Any, couplings: Iterable[Coupling], method: str) -> list[OwnWays]:
-    """Return the ways through an element that are to be looked at: those of a user's own class.
-
-    Parameters
-    ----------
-    owner : str
-        The node.
-    element : Element
-        What stands there.
-    couplings : iterable of Coupling
-        Its ways.
-    method : str
-        How Fresnel's equations are computed.
-
-    Returns
-    -------
-    list of OwnWays
-        For each in-port those that light takes from there.
-    """
+    """Return the ways through an element that are to be looked at: those of a user's own class."""
     if not is_own(type(element)):
         return []
     ports: dict[str | None, list[Coupling]] = {}
@@ -60,19 +43,7 @@ def own_ways(owner: str, element: Any, couplings: Iterable[Coupling], method: st
 
 @dataclass(frozen=True, eq=False)
 class OwnWays:
-    """The ways from one port through an element of a user's own, which no proof stands behind.
-
-    Attributes
-    ----------
-    owner : str
-        The node.
-    element : Element
-        What stands there.
-    couplings : tuple of Coupling
-        The ways.
-    method : str
-        How Fresnel's equations are computed.
-    """
+    """The ways from one port through an element of a user's own, which no proof stands behind."""
 
     owner: str
     element: Any
@@ -99,18 +70,7 @@ class OwnWays:
         )
 
     def faults(self, read: Callable[[Operand], Any]) -> list[tuple[int, str]]:
-        """Return what is wrong with what they do to light: for which path, and in words.
-
-        Parameters
-        ----------
-        read : callable
-            Gives the number of an operand.
-
-        Returns
-        -------
-        list of (int, str)
-            Mostly empty; else the first such path of each way, and a sentence.
-        """
+        """Return what is wrong with what they do to light: for which path, and in words."""
         rounding = self._rounding(read)
         tolerance = tolerance_of(rounding)
         matrices: list[Array] = []

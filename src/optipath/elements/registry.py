@@ -11,20 +11,7 @@ KINDS: dict[str, type[Any]] = {}
 
 
 def register(kind: str, element_class: type[Any]) -> None:
-    """Enter a class under its kind; defining the same class again replaces it.
-
-    Parameters
-    ----------
-    kind : str
-        The name in preset files.
-    element_class : type
-        Its class.
-
-    Raises
-    ------
-    PathError
-        If another class has the kind already.
-    """
+    """Enter a class under its kind; defining the same class again replaces it."""
     known = KINDS.get(kind)
     if known is not None and _identity(known) != _identity(element_class):
         raise PathError(

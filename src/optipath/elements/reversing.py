@@ -24,15 +24,7 @@ _SAYS = ("mueller_rows", "couplings")
 
 
 class Reversible:
-    """What has a way back, if its class says so.
-
-    Attributes
-    ----------
-    mirrored : tuple of str or None
-        The fields that change their sign for light that goes back, as the angle of an axis does in
-        the mirrored frame (x, -y, -z); ``()`` where none does. None where the class does not say
-        it, as no class does for those that do something else to light.
-    """
+    """What has a way back, if its class says so."""
 
     mirrored: ClassVar[tuple[str, ...] | None] = None
     _ports_back: ClassVar[dict[str, str]] = {}
@@ -126,13 +118,7 @@ class Reversible:
         return self.kind or type(self).__name__
 
     def _mirrored_fields(self) -> tuple[str, ...]:
-        """Return the fields that change their sign.
-
-        Raises
-        ------
-        PathError
-            If there is no way back, or the class does not say it.
-        """
+        """Return the fields that change their sign."""
         if not self.inputs or not self.outputs:
             where = "ends" if self.inputs else "begins"
             raise PathError(
@@ -181,22 +167,6 @@ def _opposite(value: Any) -> Any:
 
 def with_values(element: E, **values: Any) -> E:
     """Return an element with other values, of which no degrees are asked about again.
-
-    Parameters
-    ----------
-    element : Element
-        The element.
-    **values : float, array or Parameter
-        By the names of its fields.
-
-    Returns
-    -------
-    Element
-
-    Raises
-    ------
-    PathError
-        With every value that is not allowed.
 
     Examples
     --------

@@ -29,15 +29,7 @@ _ROUNDINGS = 256.0
 
 @dataclass(frozen=True)
 class RowsFactory:
-    """Makes the function of a kernel; a class, so that plans can be pickled.
-
-    Parameters
-    ----------
-    name : str
-        Of the class of the element.
-    rows_of : callable
-        ``rows_of(xp, *values)``, the rows of its Mueller matrix.
-    """
+    """Makes the function of a kernel; a class, so that plans can be pickled."""
 
     name: str
     rows_of: Callable[..., Any]
@@ -151,40 +143,13 @@ def _real(what: str, entries: tuple[Any, ...], rounding: float) -> tuple[Any, ..
 
 
 def rows_kernel(name: str, class_name: str, rows_of: Any) -> Kernel:
-    """Return the kernel of an element that gives the rows of its Mueller matrix.
-
-    Parameters
-    ----------
-    name : str
-        Of the kernel, or empty.
-    class_name : str
-        Of the class of the element.
-    rows_of : callable or staticmethod
-        ``rows_of(xp, *values)``, the rows.
-
-    Returns
-    -------
-    Kernel
-        Which raises a `PathError` where they raise anything, or give no four rows of four entries.
-    """
+    """Return the kernel of an element that gives the rows of its Mueller matrix."""
     function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
     return Kernel(name or class_name, FULL, RowsFactory(class_name, function))
 
 
 def coupling_by_rows(element: Any, kernel: Kernel) -> Coupling:
-    """Return the way from ``in`` to ``out`` of an element that gives its rows.
-
-    Parameters
-    ----------
-    element : Element
-        Its fields but for ``azimuth`` are what the kernel is given.
-    kernel : Kernel
-        That of its class.
-
-    Returns
-    -------
-    Coupling
-    """
+    """Return the way from ``in`` to ``out`` of an element that gives its rows."""
     fields = [(getattr(element, name), d) for name, d in element.domains().items() if name != TURN]
     numbers = tuple(number for value, domain in fields for number in numbers_of(value, domain))
     return Coupling("in", "out", (Operation(kernel, numbers),))

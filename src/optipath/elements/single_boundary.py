@@ -25,52 +25,12 @@ _APART, _GRAZING = 1e-6, 2.0**-60
 
 
 def given_index(name: str, value: Any, *, lit: bool = False) -> Any:
-    """Return an index of refraction n + ik; NaN where JAX traces what is none.
-
-    Parameters
-    ----------
-    name : str
-        What sentences call it.
-    value : array_like, complex, or Material
-        What is given.
-    lit : bool, optional
-        Whether light comes from there, so that n is above 0.
-
-    Returns
-    -------
-    ndarray
-        Or what JAX traces.
-
-    Raises
-    ------
-    ValueFault
-        If it is not allowed.
-    """
+    """Return an index of refraction n + ik; NaN where JAX traces what is none."""
     return number_within(LIT_INDEX if lit else INDEX, name, value)
 
 
 def number_within(domain: Domain, name: str, value: Any) -> Any:
-    """Return a value that a domain allows; NaN where it does not and JAX traces the value.
-
-    Parameters
-    ----------
-    domain : Domain
-        What it may be.
-    name : str
-        What sentences call it.
-    value : Any
-        What is given.
-
-    Returns
-    -------
-    ndarray
-        Or what JAX traces.
-
-    Raises
-    ------
-    ValueFault
-        If it is not allowed.
-    """
+    """Return a value that a domain allows; NaN where it does not and JAX traces the value."""
     numbers = domain.check(name, value)
     if not is_traced(numbers):
         return numbers
@@ -78,23 +38,7 @@ def number_within(domain: Domain, name: str, value: Any) -> Any:
 
 
 def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
-    """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle.
-
-    Parameters
-    ----------
-    cos, sin : array_like
-        What is given.
-
-    Returns
-    -------
-    tuple of two ndarray
-        Or of what JAX traces.
-
-    Raises
-    ------
-    ValueFault, ShapeError
-        If one is not allowed, they do not broadcast, or belong to no angle.
-    """
+    """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle."""
     cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
     check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
     traced = is_traced(cos) or is_traced(sin)
@@ -110,13 +54,7 @@ def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
 
 
 def given_incidence(value: Any) -> tuple[Any, Any]:
-    """Return the cosine and the sine of an incidence that is given as an angle, or a `CosSin`.
-
-    Raises
-    ------
-    ValueFault, ShapeError
-        If it is not allowed.
-    """
+    """Return the cosine and the sine of an incidence that is given as an angle, or a `CosSin`."""
     if isinstance(value, CosSin):
         return given_cosine_and_sine(value.cos, value.sin)
     angle = number_within(INCIDENCE, "incidence", value)
@@ -130,21 +68,6 @@ def arriving_cosine(cos: Any, k1: Any) -> Any:
 
     At a right angle light arrives out of media that do not absorb alone: the wave along the face
     grows without limit next to it, and has none that they would share.
-
-    Parameters
-    ----------
-    cos, k1 : ndarray
-        Or what JAX traces; then it is NaN where no light arrives.
-
-    Returns
-    -------
-    ndarray
-        Or JAX's.
-
-    Raises
-    ------
-    ValueFault
-        If no light arrives.
     """
     none = (k1 > 0.0) & (cos <= _GRAZING)
     if is_traced(none):

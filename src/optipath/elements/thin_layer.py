@@ -25,11 +25,6 @@ class ThinLayer(Agreement):
     """A layer is longer than about ten wavelengths in it, or else it is warned of.
 
     The operands are n of the layer, its length, and the wavelength in vacuum.
-
-    Attributes
-    ----------
-    layer : str
-        The layer, as sentences call it.
     """
 
     layer: str

@@ -36,15 +36,6 @@ class WorldAngle(Agreement):
     """The angle between the directions of two frames of a boundary, and that of its light.
 
     The operands are that of the frames, and what `angles_of` takes.
-
-    Attributes
-    ----------
-    owner : str
-        What sentences call the boundary.
-    enters, leaves : str
-        Its ports.
-    rounding : float
-        How far the frames may be off.
     """
 
     owner: str
@@ -106,22 +97,7 @@ class WorldAngle(Agreement):
 
 
 def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[WorldAngle]:
-    """Yield what must hold between the frames of a boundary and its values.
-
-    Parameters
-    ----------
-    owner : str
-        What sentences call the boundary.
-    element : BoundaryElement
-        The boundary.
-    frames : mapping of str to Frame
-        The world frames that its ports have been given.
-
-    Yields
-    ------
-    WorldAngle
-        For each two ports that light may pass between.
-    """
+    """Yield what must hold between the frames of a boundary and its values."""
     given = operands_of(element)
     if any(operand.value is FOLLOWS for operand in given):
         return  # What it takes over is looked at.
@@ -160,19 +136,7 @@ def angles_of(
 ) -> tuple[Any, Any]:
     """Return the angles of light in front of a boundary and behind it.
 
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    incidence, n1, k1, n, k : array_like
-        The incidence, and both parts of the indices in front and behind.
-    *before : array_like
-        Both parts of the index where the incidence is measured, if that is not in front.
-
-    Returns
-    -------
-    front, behind : array_like
-        In radians.
+    Units: front, behind in radians.
 
     Examples
     --------

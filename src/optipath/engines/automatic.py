@@ -61,17 +61,6 @@ class Work(Protocol):
 class EngineChoice:
     """Chooses an engine for each batch of one kind, and keeps count of what others have cost.
 
-    Parameters
-    ----------
-    engine : str
-        What is asked for; what JAX is not given is run step by step.
-    floats : bool
-        Whether all that is given are floats of double precision.
-    dtype : str, optional
-        The precision of the plan.
-    runs : int, optional
-        How many there have been.
-
     Examples
     --------
     >>> EngineChoice("numpy", floats=True).of(10, ...)
@@ -91,22 +80,7 @@ class EngineChoice:
         self._looked = False
 
     def of(self, count: int, work: Work, ahead: int = 0) -> str:
-        """Return what runs so many paths.
-
-        Parameters
-        ----------
-        count : int
-            How many paths are run now.
-        work : Work
-            What is done to them.
-        ahead : int, optional
-            How many there are in all, where they are a part of a stream.
-
-        Returns
-        -------
-        str
-            One of the engines, `FLOATS`, or `NUMPY_STEPS`.
-        """
+        """Return what runs so many paths."""
         if self.settled:
             return self.settled
         self._runs += 1
@@ -156,20 +130,6 @@ def default_engine(
 ) -> str:
     """Return what runs so many paths once that has been done several times.
 
-    Parameters
-    ----------
-    engine, floats, dtype
-        As `EngineChoice` takes them.
-    count : int
-        How many paths.
-    operations : int or None
-        How many operations each takes; None where there is no formula.
-
-    Returns
-    -------
-    str
-        One of the engines, `FLOATS`, or `NUMPY_STEPS`.
-
     Examples
     --------
     >>> default_engine("auto", 10, 300, floats=True)
@@ -182,38 +142,12 @@ def default_engine(
 
 
 def cost(operations: int, count: int) -> float:
-    """Return how many seconds so many paths take without Numba.
-
-    Parameters
-    ----------
-    operations : int
-        How many each path takes.
-    count : int
-        How many paths.
-
-    Returns
-    -------
-    float
-        By floats or by NumPy, whichever takes less.
-    """
+    """Return how many seconds so many paths take without Numba."""
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
 
 
 def most_operations(engine: str, dtype: str) -> float:
-    """Return how many operations are compiled: as many as the engine can take.
-
-    Parameters
-    ----------
-    engine : str
-        What is asked for.
-    dtype : str
-        The precision of the plan.
-
-    Returns
-    -------
-    float
-        -1 where nothing is compiled.
-    """
+    """Return how many operations are compiled: as many as the engine can take."""
     limits = REGISTRY[COMPILER if engine == "auto" else engine]
     if engine == "numpy" or dtype not in limits.precisions:
         return -1
@@ -221,22 +155,7 @@ def most_operations(engine: str, dtype: str) -> float:
 
 
 def batches(engine: str, operations: int | None, dtype: str) -> str:
-    """Return in words what runs batches of which size.
-
-    Parameters
-    ----------
-    engine : str
-        What is asked for, other than ``"jax"``.
-    operations : int or None
-        How many each path takes; None where there is no formula.
-    dtype : str
-        The precision of the plan.
-
-    Returns
-    -------
-    str
-        Without a full stop.
-    """
+    """Return in words what runs batches of which size."""
     most = most_operations(engine, dtype)
     if 0 <= most < (operations or 0):
         compiler = (COMPILER if engine == "auto" else engine).capitalize()

@@ -18,14 +18,7 @@ CURE = "set OPTIPATH_CACHE to a folder of your own"
 class Entry(NamedTuple):
     """A file of the cache.
 
-    Attributes
-    ----------
-    file : Path
-        Where it is.
-    length : int
-        How many bytes it has.
-    used : float
-        When it was last used, in seconds.
+    Units: used in seconds.
     """
 
     file: Path
@@ -34,13 +27,7 @@ class Entry(NamedTuple):
 
 
 def cache_place() -> Path:
-    """Return where entries are: ``OPTIPATH_CACHE``, or a folder of the user's cache.
-
-    Raises
-    ------
-    CacheError
-        If the user has no home.
-    """
+    """Return where entries are: ``OPTIPATH_CACHE``, or a folder of the user's cache."""
     try:
         if own := os.environ.get("OPTIPATH_CACHE"):
             return Path(own).absolute()
@@ -54,24 +41,7 @@ def cache_place() -> Path:
 
 
 def own_folder(*, make: bool = False) -> Path:
-    """Return the folder, made if need be, if nobody else may change what is in it.
-
-    Parameters
-    ----------
-    make : bool, optional
-        Whether it is made where it is not there.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    CacheError
-        If somebody may.
-    OSError
-        If it is not there, or is no folder.
-    """
+    """Return the folder, made if need be, if nobody else may change what is in it."""
     folder = cache_place()
     if make:
         for place in reversed((folder, *folder.parents)):
@@ -83,19 +53,7 @@ def own_folder(*, make: bool = False) -> Path:
 
 
 def entries_in(folder: Path, suffix: str) -> list[Entry]:
-    """Return the files whose names end so, that which has not been used for longest first.
-
-    Parameters
-    ----------
-    folder : Path
-        Where they are.
-    suffix : str
-        How their names end.
-
-    Returns
-    -------
-    list of Entry
-    """
+    """Return the files whose names end so, that which has not been used for longest first."""
     found = []
     for file in folder.iterdir():
         if file.suffix == suffix:
@@ -144,13 +102,7 @@ def _way(place: Path) -> Iterator[Path]:
 
 
 def read_own(file: Path) -> bytes:
-    """Return what is in a file of one's own.
-
-    Raises
-    ------
-    CacheError
-        If others own it, or may write to it.
-    """
+    """Return what is in a file of one's own."""
     # What is no file, such as a pipe, is not waited for.
     flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
     with os.fdopen(os.open(file, flags | getattr(os, "O_BINARY", 0)), "rb") as stream:
@@ -166,24 +118,7 @@ def read_own(file: Path) -> bytes:
 
 
 def whole_number_of_environment(name: str, default: int) -> int:
-    """Return a number of the environment.
-
-    Parameters
-    ----------
-    name : str
-        What it is called there.
-    default : int
-        What it is where it is not set.
-
-    Returns
-    -------
-    int
-
-    Raises
-    ------
-    CacheError
-        If it is no whole number.
-    """
+    """Return a number of the environment."""
     text = os.environ.get(name) or str(default)
     if not text.isascii() or not text.isdigit() or len(text) > 18:
         raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {default}")

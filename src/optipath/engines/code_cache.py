@@ -95,17 +95,6 @@ class CodeCache:
 
         That something is compiled is told to the log, once, so that nobody wonders what he waits
         for.
-
-        Parameters
-        ----------
-        text : str
-            What is compiled.
-        compiled : callable
-            Compiles it.
-
-        Returns
-        -------
-        MachineCode
         """
         with self._lock:
             if text not in self._functions:
@@ -179,15 +168,7 @@ class CodeCache:
         return None
 
     def keep(self, text: str, code: bytes) -> None:
-        """Keep what has been compiled for a text.
-
-        Parameters
-        ----------
-        text : str
-            What was compiled.
-        code : bytes
-            What came of it.
-        """
+        """Keep what has been compiled for a text."""
         try:
             if len(code) + _CHECKSUM > self.limit:
                 return
@@ -198,25 +179,13 @@ class CodeCache:
             self._tell_of(error)
 
     def entries(self) -> list[Entry]:
-        """Return what is on disk, that which has not been used for longest first.
-
-        Raises
-        ------
-        CacheError
-            If the folder is not to be used, or cannot be read.
-        """
+        """Return what is on disk, that which has not been used for longest first."""
         with self._told_as_fault():
             return entries_in(self._folder(), CODE_SUFFIX)
         return []
 
     def clear(self) -> int:
-        """Remove what is on disk, drafts too; return how many entries there were.
-
-        Raises
-        ------
-        CacheError
-            If the folder is not to be used, or nothing can be removed from it.
-        """
+        """Remove what is on disk, drafts too; return how many entries there were."""
         entries = self.entries()
         with self._told_as_fault():
             for entry in (*entries, *entries_in(self._folder(), _DRAFT)):

@@ -22,17 +22,6 @@ class Engine(ABC, Generic[FormulaT, PathT]):
     An engine takes a `Formula` and gives a function of numbers. JAX alone takes what stands
     behind it, the steps of the program with their kernels: of a record it would know neither
     where a kernel ends, which XLA compiles by itself, nor what a slope is at an edge.
-
-    Attributes
-    ----------
-    name : str
-        As `Composer` takes it, and what Python imports for it.
-    extra : str
-        What of optipath brings it; empty where it is always there.
-    precisions : tuple of str
-        The dtypes of the formulas that it takes.
-    longest : float
-        The most operations of a formula that it takes.
     """
 
     name: ClassVar[str]

@@ -16,17 +16,7 @@ if TYPE_CHECKING:
 
 
 class CarriedProgram(NamedTuple):
-    """What stands behind a formula.
-
-    Attributes
-    ----------
-    program : Program
-        The steps.
-    carrier : type
-        How light is carried.
-    dtype : dtype
-        The precision.
-    """
+    """What stands behind a formula."""
 
     program: Program
     carrier: type[Carrier]
@@ -39,13 +29,7 @@ class JaxEngine(Engine[CarriedProgram, "JaxPath"]):
     name = extra = "jax"
 
     def compiled(self, formula: CarriedProgram) -> JaxPath:
-        """Return the program for JAX.
-
-        Raises
-        ------
-        MissingExtraError
-            If JAX is not installed.
-        """
+        """Return the program for JAX."""
         if not self.is_installed:
             raise self.missing
         path: JaxPath = import_module("optipath.engines.jax_path").JaxPath(*formula)

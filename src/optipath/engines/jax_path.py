@@ -34,17 +34,7 @@ if TYPE_CHECKING:
 
 
 class JaxPath:
-    """A program for JAX.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    carrier : type
-        How light is carried.
-    dtype : dtype
-        The precision.
-    """
+    """A program for JAX."""
 
     def __init__(self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any]) -> None:
         self.program = program
@@ -62,19 +52,6 @@ class JaxPath:
         """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
 
         A component that is not read is NaN, and so is light that gains going round.
-
-        Parameters
-        ----------
-        resolved : mapping of str to Resolved
-            The value of each parameter.
-        batch : tuple of int
-            The shape of the batch.
-        given : mapping of str to Any
-            As it was given: an angle may be a `CosSin`.
-
-        Returns
-        -------
-        list of array, and bool
         """
         values, absent = self._split(resolved, given)
         with self._precision(values):
@@ -90,25 +67,7 @@ class JaxPath:
         source: str,
         reading: str,
     ) -> Any:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does.
-
-        Parameters
-        ----------
-        resolved : mapping of str to Resolved
-            The value of each parameter.
-        batch : tuple of int
-            The shape of the batch.
-        given : mapping of str to Any
-            As it was given: an angle may be a `CosSin`.
-        source : str
-            Where light is emitted.
-        reading : str
-            Where it is read.
-
-        Returns
-        -------
-        array, and bool
-        """
+        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
         values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_matrix if self._known_traced else self._matrix
@@ -255,13 +214,7 @@ class JaxPath:
         return values, frozenset(absent)
 
     def _precision(self, values: Mapping[str, Any]) -> Any:
-        """Return a context in which JAX computes in the precision of the plan.
-
-        Raises
-        ------
-        ComposerError
-            If it is asked for slopes in double precision and does not have it.
-        """
+        """Return a context in which JAX computes in the precision of the plan."""
         if self.dtype == np.float32 or jax.config.jax_enable_x64:
             return nullcontext()
         if self._known_traced or any(map(is_traced, values.values())):

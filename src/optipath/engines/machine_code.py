@@ -99,18 +99,7 @@ def _codegen() -> Any:
 
 
 class MachineCode:
-    """A function in the memory of this process; its memory is free again when it is dropped.
-
-    Parameters
-    ----------
-    code : bytes
-        What `compiled` gives. It is run: see that nobody else has made it.
-
-    Raises
-    ------
-    RuntimeError
-        If the code calls a function that there is not.
-    """
+    """A function in the memory of this process; its memory is free again when it is dropped."""
 
     def __init__(self, code: bytes) -> None:
         header, _, body = code.partition(b"\n")

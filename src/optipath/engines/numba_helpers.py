@@ -36,21 +36,7 @@ def _fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as num
 
 @intrinsic
 def chosen(typing: Any, condition: Any, yes: Any, no: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    """Return one of two numbers, without a branch for Numba to follow.
-
-    Parameters
-    ----------
-    typing
-        What Numba gives.
-    condition
-        A bool.
-    yes, no
-        Of one type.
-
-    Returns
-    -------
-    float, int or bool
-    """
+    """Return one of two numbers, without a branch for Numba to follow."""
 
     def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
         return builder.select(*given)
@@ -60,17 +46,7 @@ def chosen(typing: Any, condition: Any, yes: Any, no: Any) -> Any:  # noqa: ARG0
 
 @nb.njit(error_model="numpy")
 def product_rest(a: Any, b: Any) -> Any:
-    """Return what the rounding of a b has lost.
-
-    Parameters
-    ----------
-    a, b
-        Floats of one precision.
-
-    Returns
-    -------
-    float
-    """
+    """Return what the rounding of a b has lost."""
     return _fused(a, b, -(a * b))
 
 
@@ -85,19 +61,7 @@ def exponent(number: Any) -> Any:
 
 @nb.njit(error_model="numpy")
 def ldexp(number: Any, power: Any) -> Any:
-    """Return a number times two to a power, in double precision.
-
-    Parameters
-    ----------
-    number : float
-        Which.
-    power : int
-        The power.
-
-    Returns
-    -------
-    float
-    """
+    """Return a number times two to a power, in double precision."""
     power = min(max(power, -2040), 2040)
     half = power >> 1
     first, second = (half + 1023) << 52, (power - half + 1023) << 52
@@ -106,17 +70,5 @@ def ldexp(number: Any, power: Any) -> Any:
 
 @nb.njit(error_model="numpy")
 def ldexp_single(number: Any, power: Any) -> Any:
-    """Return a number times two to a power, in single precision.
-
-    Parameters
-    ----------
-    number : float
-        Which.
-    power : int
-        The power.
-
-    Returns
-    -------
-    float
-    """
+    """Return a number times two to a power, in single precision."""
     return np.float32(ldexp(number, power))

@@ -19,11 +19,6 @@ class StepByStep(Carrier):
 
     Each component of light enters all those behind an element: in one piece, XLA computes the
     light in front again for each of them, which is 10^9 times for a filter of four plates.
-
-    Parameters
-    ----------
-    carrier : Carrier
-        How light is carried.
     """
 
     def __init__(self, carrier: Carrier) -> None:

@@ -26,19 +26,7 @@ _MOST = 500
 
 @dataclass(frozen=True)
 class AskedCurve:
-    """A curve of some quantities over a parameter.
-
-    Attributes
-    ----------
-    x : str
-        The parameter.
-    first, last : str
-        The ends, as texts.
-    count : int
-        How many values there are.
-    y : tuple of str
-        The quantities.
-    """
+    """A curve of some quantities over a parameter."""
 
     x: str
     first: str
@@ -49,25 +37,7 @@ class AskedCurve:
 
 @dataclass(frozen=True)
 class AskedState:
-    """What the page shows, or wants to.
-
-    Attributes
-    ----------
-    preset : str
-        The name of a preset, or that of the file.
-    case : str or None
-        A named set of its values.
-    places, values : mapping of str to str
-        What differs from the case and the defaults, as texts.
-    detector : str or None
-        Whose light the curve is of.
-    curve : AskedCurve or None
-        The curve.
-    want : tuple of str
-        What is answered besides.
-    form : str
-        What it is to be exported as; ``""`` where it is traced.
-    """
+    """What the page shows, or wants to."""
 
     preset: str
     case: str | None = None
@@ -81,24 +51,6 @@ class AskedState:
 
 def asked_state(given: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
     """Return what a request asks for.
-
-    Parameters
-    ----------
-    given : Any
-        What its JSON says.
-    allowed : sequence of str
-        The names that it may have besides ``preset``.
-    needed : sequence of str, optional
-        Those of them that it must have.
-
-    Returns
-    -------
-    AskedState
-
-    Raises
-    ------
-    ParameterError
-        With all that is wrong with its shape.
 
     Examples
     --------

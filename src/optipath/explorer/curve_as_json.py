@@ -33,26 +33,7 @@ _SEVERAL = ":,@"
 
 
 def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[str, Any]:
-    """Return a curve for the page.
-
-    Parameters
-    ----------
-    state : ReadState
-        All other values.
-    asked : AskedCurve
-        The parameter, its ends, and the quantities.
-    detector : str
-        Whose light.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    FieldFaults
-        With what is wrong with the curve.
-    """
+    """Return a curve for the page."""
     explored = state.explored
     axes: tuple[SweepAxis, ...] = ()
     try:
@@ -74,24 +55,7 @@ def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[st
 
 
 def curve_grid(state: ReadState, asked: AskedCurve) -> SweepGrid:
-    """Return the grid of a curve, beside which everything has one value.
-
-    Parameters
-    ----------
-    state : ReadState
-        All other values.
-    asked : AskedCurve
-        The parameter, its ends, and the quantities.
-
-    Returns
-    -------
-    SweepGrid
-
-    Raises
-    ------
-    FieldFaults, OptipathError
-        With all that is wrong with the curve.
-    """
+    """Return the grid of a curve, beside which everything has one value."""
     explored, name = state.explored, asked.x
     opened = explored.plan.inputs.open
     faults = [s for y in asked.y for s in unknown("quantity", y, _NAMES)]

@@ -18,18 +18,6 @@ if TYPE_CHECKING:
 def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the power on links, and what elements, outlets and ends take of it.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    values : mapping of str to Any
-        As `PathGraph.trace` takes them.
-
-    Returns
-    -------
-    dict of str to Any
-        With a sentence that says the same.
-
     Examples
     --------
     >>> import optipath as op

@@ -33,15 +33,7 @@ _CURVES = 8
 
 
 class ExploredPath:
-    """A path whose changes are runs, and no new plans.
-
-    Parameters
-    ----------
-    preset : str
-        What the page calls it.
-    path : PathGraph
-        In which everything is chosen that is chosen before a path is composed.
-    """
+    """A path whose changes are runs, and no new plans."""
 
     def __init__(self, preset: str, path: PathGraph) -> None:
         self.preset = preset
@@ -56,19 +48,7 @@ class ExploredPath:
                 self.path.plan_by(KEEPING).run_all()
 
     def kept_curve(self, key: Hashable, compute: Callable[[], T]) -> T:
-        """Return what has been computed for a key; that of the parameter itself changes no curve.
-
-        Parameters
-        ----------
-        key : hashable
-            What it depends on.
-        compute : callable
-            What computes it where it is not kept.
-
-        Returns
-        -------
-        Any
-        """
+        """Return what was computed for a key; that of the parameter itself changes no curve."""
         try:
             known = key in self._curves
         except TypeError:  # An array among the values.

@@ -26,16 +26,6 @@ _KEPT = 48
 class ExploredPresets:
     """The paths that the page may open, read and composed once.
 
-    Parameters
-    ----------
-    opened : str, optional
-        The name of a preset, or a file of one's own; that is read at once, and never again.
-
-    Raises
-    ------
-    PresetError, PathError
-        If there is no such preset, or what is wrong with the file.
-
     Examples
     --------
     >>> presets = ExploredPresets("malus")
@@ -72,13 +62,7 @@ class ExploredPresets:
         return self.file if self.is_file(preset) else preset
 
     def base(self, preset: str) -> PathGraph:
-        """Return the path of a name, nothing chosen in it.
-
-        Raises
-        ------
-        ParameterError
-            If there is none.
-        """
+        """Return the path of a name, nothing chosen in it."""
         if faults := unknown("preset", preset, self._descriptions):
             raise ParameterError(*faults)
         if preset not in self._bases:
@@ -92,28 +76,7 @@ class ExploredPresets:
         materials: Mapping[str, Any] = MappingProxyType({}),
         told: tuple[str, ...] = (),
     ) -> ExploredPath:
-        """Return a path, composed once for everything that is chosen before.
-
-        Parameters
-        ----------
-        preset : str
-            Its name.
-        places : mapping of str to str
-            The word of each choice of places.
-        materials : mapping of str to Material, optional
-            What stands in the place of an index, by parameter.
-        told : tuple of str, optional
-            What tells these materials from others.
-
-        Returns
-        -------
-        ExploredPath
-
-        Raises
-        ------
-        OptipathError
-            With all that is wrong with the places and materials.
-        """
+        """Return a path, composed once for everything that is chosen before."""
         key = preset, *sorted(places.items()), told
         if key not in self._paths:
             path = self.base(preset)

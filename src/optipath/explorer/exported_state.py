@@ -23,25 +23,7 @@ _ODD = re.compile(r"[^A-Za-z0-9_-]+")
 
 
 def exported_as_json(presets: ExploredPresets, asked: AskedState) -> dict[str, Any]:
-    """Return a state as a file.
-
-    Parameters
-    ----------
-    presets : ExploredPresets
-        What may be opened.
-    asked : AskedState
-        With the form.
-
-    Returns
-    -------
-    dict of str to Any
-        Its name and its text.
-
-    Raises
-    ------
-    FieldFaults
-        With all that is wrong with the values.
-    """
+    """Return a state as a file."""
     state = read_state(presets, asked)
     traced(state)  # What cannot be traced is no file either.
     curve_detector(state)

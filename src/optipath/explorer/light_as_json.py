@@ -33,19 +33,7 @@ def quantities_as_json() -> list[dict[str, str]]:
 
 
 def end_as_json(light: Light, published: Sequence[float] | None) -> dict[str, Any]:
-    """Return the light at a detector.
-
-    Parameters
-    ----------
-    light : Light
-        A single one.
-    published : sequence of float or None
-        Its Stokes vector as it was published.
-
-    Returns
-    -------
-    dict of str to Any
-    """
+    """Return the light at a detector."""
     texts = PRINTED.stokes(light)
     told = [f"{number:g}" for number in published] if published else None
     return {
@@ -60,19 +48,7 @@ def end_as_json(light: Light, published: Sequence[float] | None) -> dict[str, An
 
 
 def link_as_json(name: str, start: str, end: str, light: Light) -> dict[str, Any]:
-    """Return the light on a link.
-
-    Parameters
-    ----------
-    name, start, end : str
-        The link, and the nodes at its ends; the latter is empty where light leaves the path.
-    light : Light
-        A single one.
-
-    Returns
-    -------
-    dict of str to Any
-    """
+    """Return the light on a link."""
     return {
         "link": name,
         "start": start,

@@ -30,11 +30,6 @@ _STATE = ("case", "places", "values", "detector", "curve", "want")
 class PageAnswers:
     """What answers the page; one request after the other, since plans are shared.
 
-    Parameters
-    ----------
-    presets : ExploredPresets
-        What may be opened.
-
     Examples
     --------
     >>> from optipath.explorer.explored_presets import ExploredPresets
@@ -56,17 +51,7 @@ class PageAnswers:
         }
 
     def open(self, given: Any) -> dict[str, Any]:
-        """Return what the page is told of a path.
-
-        Parameters
-        ----------
-        given : Any
-            What the request says.
-
-        Returns
-        -------
-        dict of str to Any
-        """
+        """Return what the page is told of a path."""
         with self._answering():
             asked = asked_state(given, ("places",))
             return _or_faults(
@@ -74,34 +59,14 @@ class PageAnswers:
             )
 
     def trace(self, given: Any) -> dict[str, Any]:
-        """Return what the page shows of a state.
-
-        Parameters
-        ----------
-        given : Any
-            What the request says.
-
-        Returns
-        -------
-        dict of str to Any
-        """
+        """Return what the page shows of a state."""
         with self._answering() as told:
             asked = asked_state(given, _STATE)
             found = _or_faults(lambda: traced_as_json(read_state(self._presets, asked)))
             return found if found["faults"] else found | {"notes": [*found["notes"], *told()]}
 
     def export(self, given: Any) -> dict[str, Any]:
-        """Return a state as a file, and what it is called.
-
-        Parameters
-        ----------
-        given : Any
-            What the request says.
-
-        Returns
-        -------
-        dict of str to Any
-        """
+        """Return a state as a file, and what it is called."""
         with self._answering():
             asked = asked_state(given, (*_STATE, "form"), ("form",))
             return _or_faults(lambda: exported_as_json(self._presets, asked))

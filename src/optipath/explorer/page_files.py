@@ -15,15 +15,7 @@ _TYPES = {
 
 
 class PageFile(NamedTuple):
-    """A file of the page.
-
-    Attributes
-    ----------
-    kind : str
-        Its type, as a browser is told it.
-    content : bytes
-        What is in it.
-    """
+    """A file of the page."""
 
     kind: str
     content: bytes
@@ -31,13 +23,7 @@ class PageFile(NamedTuple):
 
 @cache
 def page_files() -> dict[str, PageFile]:
-    """Return the files by the name under which they are asked for.
-
-    Returns
-    -------
-    dict of str to PageFile
-        ``""`` is the page itself; others are called as ``"page/main.js"``.
-    """
+    """Return the files by the name under which they are asked for."""
     folder = files("optipath.explorer").joinpath("page")
     found = {}
     for file in folder.iterdir():

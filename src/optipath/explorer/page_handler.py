@@ -178,15 +178,7 @@ class PageHandler(BaseHTTPRequestHandler):
             sys.stderr.write(printable(" ".join(told.split())) + "\n")
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
-        """Refuse what is no request at all, without repeating any of it.
-
-        Parameters
-        ----------
-        code : int
-            The status.
-        message, explain : str, optional
-            What the base class would say, which is left out.
-        """
+        """Refuse what is no request at all, without repeating any of it."""
         del message, explain
         self.request_version = "HTTP/1.1"  # So that a head is sent, whatever was asked.
         self._refuse(Refusal(code, "the request cannot be read; open the address that is printed"))

@@ -25,25 +25,7 @@ _MOST = 48
 
 
 class PageServer(ThreadingHTTPServer):
-    """The server of one page, at an address that nobody can guess.
-
-    Parameters
-    ----------
-    answers : PageAnswers
-        What answers the page.
-    port : int, optional
-        Where it listens; 0 for one that is free.
-
-    Attributes
-    ----------
-    token : str
-        The part of the address that only the page knows.
-
-    Raises
-    ------
-    ParameterError
-        If the port is taken, or not for everybody.
-    """
+    """The server of one page, at an address that nobody can guess."""
 
     daemon_threads = True
     block_on_close = False
@@ -76,13 +58,7 @@ class PageServer(ThreadingHTTPServer):
         return f"http://{HOST}:{self.server_port}/{self.token}/"
 
     def process_request(self, request: Any, client_address: Any) -> None:
-        """Answer a connection in a thread of its own; hang up where there are too many.
-
-        Parameters
-        ----------
-        request, client_address
-            As `socketserver` gives them.
-        """
+        """Answer a connection in a thread of its own; hang up where there are too many."""
         if not self._free.acquire(blocking=False):
             self.shutdown_request(request)
             return
@@ -94,13 +70,7 @@ class PageServer(ThreadingHTTPServer):
             self.shutdown_request(request)
 
     def shutdown_request(self, request: Any) -> None:
-        """Close a connection, and let another have its place.
-
-        Parameters
-        ----------
-        request : socket
-            The connection.
-        """
+        """Close a connection, and let another have its place."""
         with self._lock:
             was_open = request in self._open
             self._open.discard(request)
@@ -109,13 +79,7 @@ class PageServer(ThreadingHTTPServer):
             self._free.release()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Say nothing: whoever asked has hung up.
-
-        Parameters
-        ----------
-        request, client_address
-            As `socketserver` gives them.
-        """
+        """Say nothing: whoever asked has hung up."""
         del request, client_address
 
     def server_close(self) -> None:

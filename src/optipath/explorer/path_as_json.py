@@ -22,17 +22,7 @@ if TYPE_CHECKING:
 
 
 def path_as_json(explored: ExploredPath) -> dict[str, Any]:
-    """Return what the page is told of a path when it opens it.
-
-    Parameters
-    ----------
-    explored : ExploredPath
-        With its places chosen.
-
-    Returns
-    -------
-    dict of str to Any
-    """
+    """Return what the page is told of a path when it opens it."""
     explored.warm_up()
     path = explored.path
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]

@@ -25,19 +25,7 @@ for name in {ends}:
 
 
 def python_lines(state: ReadState, source: str) -> str:
-    """Return lines of Python for a state.
-
-    Parameters
-    ----------
-    state : ReadState
-        The path, and all values.
-    source : str
-        What `load_preset` takes for the preset.
-
-    Returns
-    -------
-    str
-    """
+    """Return lines of Python for a state."""
     given = {name: repr(word) for name, word in state.asked.places.items()}
     given |= {name: _value(state, name, value) for name, value in state.given.items()}
     own = {name: text for name, text in given.items() if name in _OF_LOADING}

@@ -31,28 +31,14 @@ _NAMED = re.compile(r"^(\w+)|'([^']+)'")
 
 
 class FieldFault(NamedTuple):
-    """What is wrong, and where.
-
-    Attributes
-    ----------
-    field : str or None
-        The parameter, choice, ``"case"``, ``"detector"`` or ``"curve"``; None where none is named.
-    sentence : str
-        What is wrong with it.
-    """
+    """What is wrong, and where."""
 
     field: str | None
     sentence: str
 
 
 class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call it
-    """All that is wrong with the values that the page has.
-
-    Parameters
-    ----------
-    faults : iterable of FieldFault
-        One at least.
-    """
+    """All that is wrong with the values that the page has."""
 
     def __init__(self, faults: Iterable[FieldFault]) -> None:
         # One line each, whatever stands in the names that they quote.
@@ -63,25 +49,7 @@ class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call 
 
 @dataclass(frozen=True)
 class ReadState:
-    """What the page shows, read.
-
-    Attributes
-    ----------
-    asked : AskedState
-        As texts.
-    base : ExploredPath
-        The path with its places chosen.
-    explored : ExploredPath
-        The same with materials in the place of its indices, where any are given.
-    places : mapping of str to str
-        The word of each choice of places that is given, or that the case has.
-    values : mapping of str to Any
-        What `PathGraph.trace` is given: of the case, and what differs from it.
-    given : mapping of str to Any
-        What differs from the case and the defaults, materials among it.
-    notes : tuple of str
-        What is not used.
-    """
+    """What the page shows, read."""
 
     asked: AskedState
     base: ExploredPath
@@ -113,24 +81,7 @@ class ReadState:
 
 
 def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
-    """Return what the texts of the page stand for.
-
-    Parameters
-    ----------
-    presets : ExploredPresets
-        What may be opened.
-    asked : AskedState
-        What is asked for.
-
-    Returns
-    -------
-    ReadState
-
-    Raises
-    ------
-    FieldFaults
-        With all that is wrong at once.
-    """
+    """Return what the texts of the page stand for."""
     faults: list[FieldFault] = []
     explored, places = _opened(presets, asked, faults)
     cases = explored.path.cases
@@ -152,24 +103,7 @@ def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
 
 
 def read_path(presets: ExploredPresets, asked: AskedState) -> ExploredPath:
-    """Return the path that is asked for, its places chosen, and no values looked at.
-
-    Parameters
-    ----------
-    presets : ExploredPresets
-        What may be opened.
-    asked : AskedState
-        What is asked for.
-
-    Returns
-    -------
-    ExploredPath
-
-    Raises
-    ------
-    FieldFaults
-        With all that is wrong with the name and the places.
-    """
+    """Return the path that is asked for, its places chosen, and no values looked at."""
     faults: list[FieldFault] = []
     explored, _ = _opened(presets, asked, faults)
     if faults:
@@ -232,26 +166,7 @@ def _value(
 
 
 def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:
-    """Return what a text stands for, a bare number being in the unit of the parameter.
-
-    Parameters
-    ----------
-    explored : ExploredPath
-        The path.
-    parameter : Parameter
-        One of its parameters.
-    text : str
-        What is given.
-
-    Returns
-    -------
-    float, complex, str or ndarray
-
-    Raises
-    ------
-    ParameterError, UnitError
-        If it stands for nothing that the parameter may be.
-    """
+    """Return what a text stands for, a bare number being in the unit of the parameter."""
     value = single_value(parameter, text, explored.uses, parameter.unit)
     if not isinstance(value, complex):
         parameter.resolve(value)

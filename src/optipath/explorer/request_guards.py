@@ -18,15 +18,7 @@ _CROSS = "cross-site"
 
 
 class Refusal(NamedTuple):
-    """Why a request is not answered.
-
-    Attributes
-    ----------
-    status : int
-        As HTTP counts them.
-    sentence : str
-        What the one who asked is told; it says nothing of this machine.
-    """
+    """Why a request is not answered."""
 
     status: int
     sentence: str
@@ -34,17 +26,6 @@ class Refusal(NamedTuple):
 
 def place_asked(path: str, token: str) -> str | None:
     """Return what is asked for below the token; None where the token is not the right one.
-
-    Parameters
-    ----------
-    path : str
-        As it stands in the request; nothing in it is decoded.
-    token : str
-        What this program has drawn.
-
-    Returns
-    -------
-    str or None
 
     Examples
     --------
@@ -58,19 +39,7 @@ def place_asked(path: str, token: str) -> str | None:
 
 
 def origin_refusal(headers: Message, port: int) -> Refusal | None:
-    """Return why a request is refused that another page has sent, or came by another name.
-
-    Parameters
-    ----------
-    headers : email.message.Message
-        Of the request.
-    port : int
-        That of this program.
-
-    Returns
-    -------
-    Refusal or None
-    """
+    """Return why a request is refused that another page has sent, or came by another name."""
     hosts = headers.get_all("Host", [])
     if len(hosts) != 1 or hosts[0].strip() not in {f"127.0.0.1:{port}", f"localhost:{port}"}:
         return Refusal(403, _FORBIDDEN)
@@ -88,17 +57,7 @@ def forbidden() -> Refusal:
 
 
 def body_refusal(headers: Message) -> Refusal | None:
-    """Return why what stands behind the head of a request is not read.
-
-    Parameters
-    ----------
-    headers : email.message.Message
-        Of the request.
-
-    Returns
-    -------
-    Refusal or None
-    """
+    """Return why what stands behind the head of a request is not read."""
     kinds = headers.get_all("Content-Type", [])
     if headers.get_all("Transfer-Encoding") or headers.get_all("Content-Encoding"):
         return Refusal(400, "the request is sent in parts or packed; send JSON with its length")

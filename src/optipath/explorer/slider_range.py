@@ -17,20 +17,7 @@ _STEPS = 180
 
 
 def slider_range(explored: ExploredPath, name: str) -> list[float] | None:
-    """Return the ends and the step of a slider, in the unit of the parameter.
-
-    Parameters
-    ----------
-    explored : ExploredPath
-        The path.
-    name : str
-        One of its parameters.
-
-    Returns
-    -------
-    list of float or None
-        None of what is no single real number, or is bound.
-    """
+    """Return the ends and the step of a slider, in the unit of the parameter."""
     try:
         ends = usual_range(explored.path, name)
     except OptipathError:

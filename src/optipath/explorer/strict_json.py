@@ -18,21 +18,6 @@ _TEXTS = re.compile(r'"(?:[^"\\]|\\.)*"?', re.DOTALL)
 def read_json(given: bytes) -> Any:
     """Return what a JSON text says.
 
-    Parameters
-    ----------
-    given : bytes
-        In UTF-8.
-
-    Returns
-    -------
-    Any
-        Dicts, lists, texts that UTF-8 can hold, finite numbers, booleans and None.
-
-    Raises
-    ------
-    ParameterError
-        With what is wrong: no UTF-8, no JSON, NaN, a name twice, too many brackets.
-
     Examples
     --------
     >>> read_json(b'{"preset": "malus"}')

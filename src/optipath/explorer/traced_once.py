@@ -16,15 +16,7 @@ if TYPE_CHECKING:
 
 
 class TracedOnce:
-    """A path in one state: whatever is asked of it is asked of the path, but the light is kept.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    values : mapping of str to Any
-        As `PathGraph.trace` takes them.
-    """
+    """A path in one state: whatever is asked of it is asked of the path, but the light is kept."""
 
     def __init__(self, path: PathGraph, values: Mapping[str, Any]) -> None:
         self._path = path

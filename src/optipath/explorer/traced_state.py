@@ -25,23 +25,7 @@ if TYPE_CHECKING:
 
 
 def traced_as_json(state: ReadState) -> dict[str, Any]:
-    """Return what the page shows of a state.
-
-    Parameters
-    ----------
-    state : ReadState
-        The path, and all values.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    FieldFaults
-        With what is wrong with values that cannot be together. What is wrong with the curve alone
-        stands beside all else.
-    """
+    """Return what the page shows of a state."""
     explored, asked = state.explored, state.asked
     lights = traced(state)
     found: dict[str, Any] = {
@@ -89,23 +73,7 @@ def _scene(path: PathGraph, state: ReadState, notes: list[str]) -> dict[str, Any
 
 
 def traced(state: ReadState) -> dict[str, Light]:
-    """Return the light at every end.
-
-    Parameters
-    ----------
-    state : ReadState
-        The path, and all values.
-
-    Returns
-    -------
-    dict of str to Light
-        A single one each.
-
-    Raises
-    ------
-    FieldFaults
-        With what is wrong, several values of a file of one's own among it.
-    """
+    """Return the light at every end."""
     try:
         lights = state.explored.plan.run_all(**state.values)
     except OptipathError as error:
@@ -126,22 +94,7 @@ def traced(state: ReadState) -> dict[str, Light]:
 
 
 def curve_detector(state: ReadState) -> str:
-    """Return whose light the curve is of: the detector that is asked for, or else the first.
-
-    Parameters
-    ----------
-    state : ReadState
-        What is asked for.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    FieldFaults
-        If there is no such detector.
-    """
+    """Return whose light the curve is of: the detector that is asked for, or else the first."""
     known, name = state.explored.detectors, state.asked.detector
     if name is not None and (faults := unknown("detector", name, known)):
         raise FieldFaults(FieldFault("detector", each) for each in faults)
@@ -149,18 +102,7 @@ def curve_detector(state: ReadState) -> str:
 
 
 def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
-    """Return the value of each parameter, as a text, a number or a word.
-
-    Parameters
-    ----------
-    state : ReadState
-        The path, and all values.
-
-    Returns
-    -------
-    dict of str to dict
-        Those that come with a material among them.
-    """
+    """Return the value of each parameter, as a text, a number or a word."""
     found: dict[str, dict[str, Any]] = {}
     for name, parameter in state.explored.parameters.items():
         value = state.values.get(name, parameter.default)

@@ -187,17 +187,7 @@ PHASE_INDEX = Kernel(
 
 @lru_cache(256)
 def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> KernelFamily:
-    """Return the kernels of what a stack of layers lets through, sends back, or absorbs.
-
-    Parameters
-    ----------
-    wanted, measured, absorbing
-        As `Stack` has them.
-
-    Returns
-    -------
-    KernelFamily
-    """
+    """Return the kernels of what a stack of layers lets through, sends back, or absorbs."""
     what = f"stack {_OF_STACK[wanted]}"
     lossy = ", absorbing" if absorbing else ""
     structure = None if wanted == "absorbed" else DEPOLARIZING_BLOCK

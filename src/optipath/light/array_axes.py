@@ -68,11 +68,6 @@ class ArrayAxes:
 
         Frames that are a batch go along; JAX may trace integers.
 
-        Raises
-        ------
-        IndexFault
-            If the index does not fit the batch.
-
         Examples
         --------
         >>> from optipath import Light
@@ -145,16 +140,7 @@ class ArrayAxes:
 def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
     """Return vectors whose axes but the last are changed, number by number.
 
-    Parameters
-    ----------
-    numbers : ndarray, shape (..., n)
-        The vectors.
-    change : callable
-        What makes an array of the part out of one of the batch.
-
-    Returns
-    -------
-    ndarray, shape (..., n)
+    Shapes: numbers (..., n); returns (..., n).
 
     Examples
     --------

@@ -140,15 +140,7 @@ class ArrayOfLight(ArrayAxes, PolarizationState):
 def handed_out(component: Any) -> Any:
     """Return a component of light as it is given to whoever asks for it.
 
-    Parameters
-    ----------
-    component : float or array_like, shape (...)
-        That of the light itself.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        A copy; the component itself, read-only, where it is large, or traced.
+    Shapes: component (...); returns (...).
 
     Examples
     --------

@@ -18,20 +18,7 @@ if TYPE_CHECKING:
 
 
 class Convention(NamedTuple):
-    """How somebody else writes light.
-
-    Attributes
-    ----------
-    signs : tuple of four float
-        What S0, S1, S2 and S3 of ours are multiplied by.
-    sentence : str
-        What differs.
-    source : str
-        Where they say so.
-    delta : str
-        Its ellipsometric Delta by ours: "same", "negative", "supplement" (180 degrees minus ours),
-        or nothing where it has none.
-    """
+    """How somebody else writes light."""
 
     signs: tuple[float, float, float, float]
     sentence: str
@@ -97,11 +84,6 @@ CONVENTIONS = {
 def signs_of(convention: Any) -> Array:
     """Return what a convention multiplies S0, S1, S2 and S3 by.
 
-    Raises
-    ------
-    ValueFault
-        If there is no convention of that name.
-
     Examples
     --------
     >>> print(signs_of("hecht"))
@@ -113,17 +95,7 @@ def signs_of(convention: Any) -> Array:
 def changed_stokes(convention: Any, stokes: Any) -> Array:
     """Return Stokes vectors of ours in a convention, or the other way about.
 
-    Parameters
-    ----------
-    convention : str
-        A name in `CONVENTIONS`.
-    stokes : ndarray, shape (..., 4)
-        In either convention: the maps are their own inverses.
-
-    Returns
-    -------
-    ndarray, shape (..., 4)
-        Of the same precision.
+    Shapes: stokes (..., 4); returns (..., 4).
 
     Examples
     --------
@@ -140,17 +112,7 @@ def changed_matrix(convention: Any, matrix: Any) -> Array:
 
     Both frames change, so that matrices still act on Stokes vectors and on each other.
 
-    Parameters
-    ----------
-    convention : str
-        A name in `CONVENTIONS`.
-    matrix : ndarray, shape (..., 4, 4)
-        In either convention.
-
-    Returns
-    -------
-    ndarray, shape (..., 4, 4)
-        Of the same precision.
+    Shapes: matrix (..., 4, 4); returns (..., 4, 4).
 
     Examples
     --------
@@ -164,22 +126,7 @@ def changed_matrix(convention: Any, matrix: Any) -> Array:
 def changed_delta(convention: Any, delta: Any) -> Array:
     """Return the ellipsometric Delta of a convention by ours, in (-pi, pi].
 
-    Parameters
-    ----------
-    convention : str
-        A name in `CONVENTIONS`.
-    delta : ndarray
-        By the convention "ellipsometry", in radians.
-
-    Returns
-    -------
-    ndarray
-        In radians.
-
-    Raises
-    ------
-    ValueFault
-        If there is no convention of that name, or it has no Delta.
+    Units: delta, the result in radians.
 
     Examples
     --------

@@ -61,24 +61,6 @@ class FramesOnDemand:
 def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
     """Return the frames that belong to a part of a batch.
 
-    Parameters
-    ----------
-    frame : Frame
-        One for all, or a batch that broadcasts to that of the light.
-    batch : tuple of int
-        The shape of the light.
-    change : callable
-        What makes an array of the part out of one of the batch.
-
-    Returns
-    -------
-    Frame
-
-    Raises
-    ------
-    FrameError
-        If JAX traces which of several frames it is.
-
     Examples
     --------
     >>> frames = Frame().turned([0.0, 0.5, 1.0])

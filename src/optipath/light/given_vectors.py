@@ -17,22 +17,7 @@ if TYPE_CHECKING:
 def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return vectors of three finite components.
 
-    Parameters
-    ----------
-    what : str
-        What a sentence calls them.
-    value : array_like, shape (..., 3)
-        The vectors.
-
-    Returns
-    -------
-    ndarray of float64
-        Of the same shape.
-
-    Raises
-    ------
-    FrameError
-        If they are none.
+    Shape: value (..., 3).
 
     Examples
     --------
@@ -58,22 +43,6 @@ def rounding_in(*given: npt.ArrayLike) -> float:
 
 def floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return finite numbers as doubles.
-
-    Parameters
-    ----------
-    what : str
-        What a sentence calls them.
-    value : array_like
-        The numbers.
-
-    Returns
-    -------
-    ndarray of float64
-
-    Raises
-    ------
-    FrameError
-        If they are none.
 
     Examples
     --------

@@ -25,18 +25,7 @@ def inheriting(
     part: Any = None,
     added: Any = 0.0,
 ) -> tuple[Any, ...]:
-    """Return what light keeps that is made of others, for its noise to be found by.
-
-    Parameters
-    ----------
-    lights, factor, power, mixed, part, added
-        As `inherited_noise` takes them.
-
-    Returns
-    -------
-    tuple
-        As `noise_in` takes it.
-    """
+    """Return what light keeps that is made of others, for its noise to be found by."""
     for light in lights:
         # What is inherited twice is found now, lest sums of many lights keep all of them.
         noise = vars(light).get("_noise")
@@ -57,29 +46,7 @@ def inherited_noise(
 ) -> Array:
     """Return the noise in a mantissa, of shape (...).
 
-    Parameters
-    ----------
-    lights : tuple of Light
-        What the light has been made of.
-    factor : float or ndarray
-        How much of each is left,
-    power : int or ndarray
-        times two to this power.
-    mixed : bool
-        Whether numbers as large as S0 have been added up, which leaves their roundings.
-    part : callable, optional
-        Which part of the batch is taken.
-    added : float or ndarray
-        The noise of what each has met, as a share of its S0.
-    stokes : ndarray, shape (..., 4)
-        The light.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times it.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        To be taken times the same power.
+    Shapes: stokes (..., 4); exponent (...); returns (...).
     """
     total = np.zeros(exponent.shape, stokes.dtype)
     for light in lights:
@@ -98,19 +65,7 @@ def inherited_noise(
 def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
     """Return the noise in a mantissa: the rounding of S0 at least.
 
-    Parameters
-    ----------
-    stokes : ndarray, shape (..., 4)
-        The mantissa.
-    noise : ndarray, tuple or None
-        What is known of it: the noise, or a function and what it is given before the mantissa
-        and the exponent, so that nothing is computed before somebody asks.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times it.
-
-    Returns
-    -------
-    ndarray, shape (...)
+    Shapes: stokes (..., 4); exponent (...); returns (...).
 
     Examples
     --------

@@ -24,22 +24,7 @@ if TYPE_CHECKING:
 def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
     """Return the wavelengths of light, and the axis of the batch along which they vary.
 
-    Parameters
-    ----------
-    light : Light
-        Spectral light.
-
-    Returns
-    -------
-    grid : ndarray, shape (n,)
-        In metres, rising or falling.
-    axis : int
-        Which of the axes of the batch has them.
-
-    Raises
-    ------
-    LightError
-        If there is no such axis, or several, or the wavelengths are no grid.
+    Shape: returns grid (n,). Units: grid in metres.
     """
     wavelength = light.wavelength
     if several := light.wavelengths_in_doubt:
@@ -90,19 +75,7 @@ def integrated(
 ) -> tuple[Any, Any, Any, Any]:
     """Return light added up over its wavelengths, as `Light.of` takes it.
 
-    Parameters
-    ----------
-    light : Light
-        Per nanometre.
-    response, edges
-        As `Light.integrate` takes them.
-
-    Returns
-    -------
-    stokes : ndarray, shape (..., 4)
-    frame : Frame
-    exponent : int or ndarray
-    noise : tuple or None
+    Shape: returns stokes (..., 4).
     """
     ends = None if edges is None else _edges(edges)
     one_bin = ends is not None and ends.size == 2
@@ -142,23 +115,7 @@ def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tupl
 
     The sum is taken by halves, so that it is the same whatever other axes there are.
 
-    Parameters
-    ----------
-    numbers : ndarray, shape (..., k)
-        Such as Stokes vectors.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times these.
-    weights : ndarray, shape (n, k)
-        For each along the axis; they broadcast over the last one.
-    axis : int
-        An axis of the batch, of n.
-
-    Returns
-    -------
-    total : ndarray
-        Without the axis.
-    exponent : int or ndarray
-        Of the power of two times the total.
+    Shapes: numbers (..., k); exponent (...); weights (n, k).
 
     Examples
     --------
@@ -197,23 +154,7 @@ def noise_of_sum(
 ) -> Array:
     """Return the noise in light that has been added up, of shape (...).
 
-    Parameters
-    ----------
-    light : Light
-        What has been added up,
-    weights : ndarray, shape (n,)
-        each times one of these,
-    axis : int
-        along this axis.
-    stokes : ndarray, shape (..., 4)
-        The mantissa of the sum.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times it.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        To be taken times the same power.
+    Shapes: weights (n,); stokes (..., 4); exponent (...); returns (...).
     """
     shape = [1] * light.ndim
     shape[axis] = len(weights)

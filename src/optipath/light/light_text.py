@@ -19,18 +19,7 @@ _SHOWN = 6
 def text_of(numbers: Any, frame: Frame, exponent: Array) -> str:
     """Return light as one writes it.
 
-    Parameters
-    ----------
-    numbers : ndarray, shape (..., 4)
-        Stokes vectors.
-    frame : Frame
-        Their frame.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times them.
-
-    Returns
-    -------
-    str
+    Shapes: numbers (..., 4); exponent (...).
 
     Examples
     --------

@@ -24,16 +24,7 @@ _CURE = (
 def check_physical(stokes: Array) -> None:
     """Refuse Stokes vectors that no light has; NaN is what nobody has read.
 
-    Parameters
-    ----------
-    stokes : ndarray, shape (..., 4)
-        The vectors, in the precision in which they are given.
-
-    Raises
-    ------
-    ValueFault
-        If one is not finite, of negative intensity, or polarised by more than 100 % beyond its
-        rounding.
+    Shape: stokes (..., 4).
 
     Examples
     --------
@@ -74,16 +65,7 @@ def problem_of(vector: Array) -> str:
 def nearest_light(stokes: Any) -> Any:
     """Return Stokes vectors that light can have: S0 is kept, and S1, S2, S3 are scaled together.
 
-    Parameters
-    ----------
-    stokes : ndarray, shape (..., 4)
-        Any vectors.
-
-    Returns
-    -------
-    ndarray, shape (..., 4)
-        The same where they are light; polarised by 100 % where they were by more; dark where S0
-        was negative. What is not read stays NaN.
+    Shapes: stokes (..., 4); returns (..., 4).
 
     Examples
     --------

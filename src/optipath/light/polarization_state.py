@@ -22,16 +22,6 @@ if TYPE_CHECKING:
 def ratio(part: Any, whole: Any) -> Any:
     """Return a part over the whole: 0 where that is 0, and NaN where it is infinite.
 
-    Parameters
-    ----------
-    part, whole : ndarray
-        They broadcast together.
-
-    Returns
-    -------
-    ndarray
-        The quotient; its slope is 0 where the whole is 0.
-
     Examples
     --------
     >>> ratio(np.array([1.0, 1.0, 1.0]), np.array([4.0, 0.0, np.inf]))
@@ -65,15 +55,7 @@ def _hypotenuse(a: Any, b: Any) -> Any:
 def direction(y: Any, x: Any) -> Any:
     """Return the angle from x to y in (-pi, pi], whatever signs zeros have; 0 where both are 0.
 
-    Parameters
-    ----------
-    y, x : ndarray
-        They broadcast together.
-
-    Returns
-    -------
-    ndarray
-        The angle in radians; its slope is 0 where both are 0.
+    Units: the result in radians.
 
     Examples
     --------

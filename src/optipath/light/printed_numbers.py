@@ -13,30 +13,12 @@ if TYPE_CHECKING:
 
 
 class Numbers(NamedTuple):
-    """How numbers are written.
-
-    Attributes
-    ----------
-    digits : int
-        How many of them, leading zeros aside.
-    """
+    """How numbers are written."""
 
     digits: int
 
     def text(self, number: float, noise: float = 0.0) -> str:
-        """Return a number as it is printed.
-
-        Parameters
-        ----------
-        number : float
-            NaN where a detector does not read it.
-        noise : float, optional
-            What is smaller is rounding, and is printed as 0.
-
-        Returns
-        -------
-        str
-        """
+        """Return a number as it is printed."""
         if math.isnan(number):
             return "not read"
         return f"{0.0 if abs(number) < noise else number + 0.0:.{self.digits}g}"
@@ -53,18 +35,6 @@ class Numbers(NamedTuple):
         return f"{in_unit(value, parameter.unit):.{self.digits}g} {parameter.unit}".strip()
 
     def stokes(self, light: Light, index: tuple[int, ...] = ()) -> list[str]:
-        """Return the four components of a light.
-
-        Parameters
-        ----------
-        light : Light
-            One, or a batch.
-        index : tuple of int, optional
-            Which of a batch.
-
-        Returns
-        -------
-        list of str
-        """
+        """Return the four components of a light."""
         noise = float(light.noise[index])
         return [self.text(component, noise) for component in light.stokes[index].tolist()]

@@ -10,16 +10,6 @@ from optipath.errors import shown
 def why_refused(factor: Any) -> str:
     """Say why something is no factor of a product, and what to write in its place.
 
-    Parameters
-    ----------
-    factor : Any
-        What is no `Light`, no `Mueller` and no element.
-
-    Returns
-    -------
-    str
-        A sentence.
-
     Examples
     --------
     >>> print(why_refused([1, 0, 0, 0]))  # doctest: +NORMALIZE_WHITESPACE

@@ -19,17 +19,7 @@ UNDERFLOW = 2.0**60
 def times_two_to(parts: Array, power: Any) -> Array:
     """Return vectors times two to a power.
 
-    Parameters
-    ----------
-    parts : ndarray, shape (..., n)
-        The vectors.
-    power : int or ndarray, shape (...)
-        The exponent of each.
-
-    Returns
-    -------
-    ndarray, shape (..., n)
-        The products.
+    Shapes: parts (..., n); power (...); returns (..., n).
 
     Examples
     --------
@@ -44,19 +34,7 @@ def normalise_exponent(parts: Array, exponent: Any) -> tuple[Array, Array]:
 
     Nothing is rounded; NaN is not looked at.
 
-    Parameters
-    ----------
-    parts : ndarray, shape (..., n)
-        The vectors.
-    exponent : int or ndarray, shape (...)
-        Of the power of two times them.
-
-    Returns
-    -------
-    parts : ndarray, shape (..., n)
-        The largest part of each within 0.5 .. 1, or 0.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times these.
+    Shapes: parts (..., n); exponent (...); returns parts (..., n), exponent (...).
 
     Examples
     --------
@@ -71,19 +49,7 @@ def normalise_exponent(parts: Array, exponent: Any) -> tuple[Array, Array]:
 def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
     """Return the same light without an exponent wherever floats can hold it.
 
-    Parameters
-    ----------
-    stokes : ndarray, shape (..., 4)
-        Stokes vectors.
-    exponent : int or ndarray, shape (...)
-        Of the power of two times them.
-
-    Returns
-    -------
-    stokes : ndarray, shape (..., 4)
-        The vectors.
-    exponent : ndarray of int, shape (...)
-        0 but for light that would underflow, or be infinite.
+    Shapes: stokes (..., 4); exponent (...); returns stokes (..., 4), exponent (...).
 
     Examples
     --------
@@ -99,21 +65,7 @@ def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
 def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
     """Return the same light in a precision, whatever range that has.
 
-    Parameters
-    ----------
-    dtype : dtype
-        The precision.
-    stokes : ndarray, shape (..., 4)
-        Stokes vectors.
-    exponent : int or ndarray, shape (...)
-        Of the power of two times them.
-
-    Returns
-    -------
-    stokes : ndarray, shape (..., 4)
-        The vectors.
-    exponent : ndarray of int, shape (...)
-        As it was where they have that precision; else as `folded` returns it.
+    Shapes: stokes (..., 4); exponent (...); returns stokes (..., 4), exponent (...).
 
     Examples
     --------

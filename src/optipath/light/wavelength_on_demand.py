@@ -102,24 +102,7 @@ class WavelengthOnDemand(Arithmetic):
 def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
     """Return wavelengths that somebody gives for light.
 
-    Parameters
-    ----------
-    batch : tuple of int
-        The shape of the light.
-    given : array_like
-        In metres, or texts with units.
-
-    Returns
-    -------
-    ndarray
-        In metres; it broadcasts to the batch.
-
-    Raises
-    ------
-    ParameterError
-        If they are no wavelengths.
-    ShapeError
-        If they do not broadcast to the batch.
+    Units: given, the result in metres.
 
     Examples
     --------

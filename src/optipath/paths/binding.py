@@ -26,26 +26,7 @@ if TYPE_CHECKING:
 def bind(
     graph: nx.MultiDiGraph, values: Mapping[str, Any], *, for_good: bool = True
 ) -> nx.MultiDiGraph:
-    """Return a copy of a graph of elements in which parameters have values.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links.
-    values : mapping
-        The value of each parameter, by name.
-    for_good : bool, optional
-        Whether they are bound to these, which are their defaults otherwise.
-
-    Returns
-    -------
-    networkx.MultiDiGraph
-
-    Raises
-    ------
-    ParameterError
-        With every unknown parameter and every value that is not allowed.
-    """
+    """Return a copy of a graph of elements in which parameters have values."""
     if any(map(is_by_wavelength, values.values())):
         values, placed = materials_placed(values, Values(graph).uses)
         if placed and not for_good:

@@ -28,27 +28,7 @@ if TYPE_CHECKING:
 def materials_placed(
     values: Mapping[str, Any], uses: Sequence[Use]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return what is bound once curves are in place, and materials give n and k.
-
-    Parameters
-    ----------
-    values : mapping of str to Any
-        What is given for parameters, by name.
-    uses : sequence of Use
-        The numbers of the path.
-
-    Returns
-    -------
-    plain : dict of str to Any
-        What is bound as any value is.
-    placed : dict of str to Any
-        What takes the place of a parameter, since it is known only when the path runs.
-
-    Raises
-    ------
-    ParameterError
-        With a sentence for each material that cannot give its k, or stands for no index.
-    """
+    """Return what is bound once curves are in place, and materials give n and k."""
     placed: dict[str, Any] = {}
     plain, faults = dict(values), []
     for name, material in values.items():
@@ -83,19 +63,7 @@ def materials_placed(
 
 
 def given_by_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set[str]:
-    """Return the parameters that are the k of materials among some values.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links that they are given for.
-    values : mapping of str to Any
-        By name.
-
-    Returns
-    -------
-    set of str
-    """
+    """Return the parameters that are the k of materials among some values."""
     names = [name for name, value in values.items() if isinstance(value, Material)]
     uses = Values(graph).uses if names else ()
     found = [k for name in names for k in extinctions_beside(uses, name).values()]
@@ -148,20 +116,7 @@ def _faults(
 
 
 def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Case]:
-    """Return the cases of a path in which parameters are there no more.
-
-    Parameters
-    ----------
-    cases : mapping of str to Case
-        Named sets of values.
-    known : container of str
-        The parameters and choices that are left.
-
-    Returns
-    -------
-    dict of str to Case
-        What was published for others stands in them no more.
-    """
+    """Return the cases of a path in which parameters are there no more."""
     found = {}
     for name, case in cases.items():
         left = {given: value for given, value in case.values.items() if given in known}

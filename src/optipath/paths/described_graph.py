@@ -31,17 +31,7 @@ if TYPE_CHECKING:
 
 
 class DescribedGraph(ElementGraph):
-    """A graph of elements with a description and cases, of which others are made.
-
-    Parameters
-    ----------
-    description : str, optional
-        One line about the path.
-    cases : mapping of str to Case, optional
-        Named sets of parameter values.
-    declared, loops
-        As `ElementGraph` takes them.
-    """
+    """A graph of elements with a description and cases, of which others are made."""
 
     def __init__(
         self,
@@ -82,11 +72,6 @@ class DescribedGraph(ElementGraph):
 
         From the only natural way out that is open, to the only natural way in. Neither side
         is changed.
-
-        Raises
-        ------
-        PathError
-            If there is none, or there are several, or a name stands on both sides.
         """
         others: Self = begun(behind)
         if not self._graph or not others._graph:

@@ -60,15 +60,6 @@ def draw(path: PathGraph) -> str:
 def element_values(element: Element) -> list[str]:
     """Return the values of an element that are not the usual ones, each with its name.
 
-    Parameters
-    ----------
-    element : Element
-        Any.
-
-    Returns
-    -------
-    list of str
-
     Examples
     --------
     >>> import optipath as op
@@ -87,17 +78,6 @@ def element_values(element: Element) -> list[str]:
 
 def value_text(value: Any, unit: str) -> str:
     """Return a value of an element as a drawing shows it: ``$name`` for a parameter.
-
-    Parameters
-    ----------
-    value : Any
-        What a field of an element holds.
-    unit : str
-        Of plain numbers.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -25,20 +25,7 @@ if TYPE_CHECKING:
 
 
 def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> None:
-    """Change a graph in place, or raise and leave it as it was.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    change : callable
-        What is done to it.
-
-    Raises
-    ------
-    PathError
-        If the change raises, or brings frames that do not fit.
-    """
+    """Change a graph in place, or raise and leave it as it was."""
     trial = graph.copy()
     change(trial)
     known = placement_faults(Wiring(graph))
@@ -48,15 +35,7 @@ def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> N
 
 
 def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
-    """Add a node, as `PathGraph.add` does.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    name, element, frames
-        As that takes them.
-    """
+    """Add a node, as `PathGraph.add` does."""
     if isinstance(name, (Element, NamedElement)):
         meant = name.named(name_by_kind(name)) if isinstance(name, Element) else name
         raise PathError(
@@ -82,15 +61,7 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
 
 
 def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap: Any) -> None:
-    """Add a link, as `PathGraph.connect` does.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    leaves, enters, azimuth, tap
-        As that takes them.
-    """
+    """Add a link, as `PathGraph.connect` does."""
     faults = [] if isinstance(tap, bool) else [f"tap must be True or False, not {shown(tap)}"]
     link = _link_of(graph, leaves, enters, faults)
     if graph.has_edge(*link):
@@ -100,38 +71,13 @@ def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap:
 
 
 def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:
-    """Take a link out, as `PathGraph.disconnect` does.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    leaves, enters
-        As that takes them.
-    """
+    """Take a link out, as `PathGraph.disconnect` does."""
     link = _only_link(graph, leaves) if enters is None else find_link(graph, leaves, enters)
     graph.remove_edge(*link)
 
 
 def find_link(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> Link:
-    """Return the link between two ports.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    leaves, enters
-        The ports, as `PathGraph.connect` takes them.
-
-    Returns
-    -------
-    tuple
-
-    Raises
-    ------
-    PathError
-        If there is none, with those that there are.
-    """
+    """Return the link between two ports."""
     link = _link_of(graph, leaves, enters, [])
     if not graph.has_edge(*link):
         near = {*graph.out_edges(link[0], keys=True), *graph.in_edges(link[1], keys=True)}
@@ -160,13 +106,7 @@ def _only_link(graph: nx.MultiDiGraph, leaves: Any) -> Link:
 
 
 def check_element(name: Any, element: Any) -> None:
-    """Raise unless what is given for a node is an element.
-
-    Parameters
-    ----------
-    name, element
-        The name of the node, and what it is to hold.
-    """
+    """Raise unless what is given for a node is an element."""
     if not isinstance(element, Element):
         raise PathError(
             f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"

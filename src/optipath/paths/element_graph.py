@@ -32,15 +32,6 @@ class Node(Chainable):
     """A named element in its path; ``a >> b`` links the natural way out of a to b.
 
     What stands in no path yet, an element or a chain of them, is added to the path of a first.
-
-    Parameters
-    ----------
-    path : ElementGraph
-        Where it stands.
-    name : str
-        What it is called there.
-    port : str, optional
-        Where a chain leaves it, or leads to; by default its natural port.
     """
 
     path: ElementGraph
@@ -65,15 +56,7 @@ class Node(Chainable):
 
 
 class ElementGraph(Chainable):
-    """Elements by name, linked from out-port to in-port.
-
-    Parameters
-    ----------
-    declared : sequence of str
-        The order in which parameters are listed; others follow as they are met.
-    loops : {"refuse", "sum"}
-        Whether light may go round in a cycle.
-    """
+    """Elements by name, linked from out-port to in-port."""
 
     def __init__(self, declared: Sequence[str], loops: str) -> None:
         if faults := unknown("loops", loops, LOOPS):

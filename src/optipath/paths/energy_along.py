@@ -28,20 +28,7 @@ _ROUNDING = 1e-12
 class PowerOnLink(NamedTuple):
     """The power on a link, or at an out-port where light leaves the path.
 
-    Attributes
-    ----------
-    name : str
-        ``"lamp.out -> eye.in"``, or ``"glass.transmitted"`` where light leaves the path.
-    start, leaves : str
-        The node that it comes from, and the out-port.
-    end, enters : str
-        The node that it goes to, and the in-port; empty where it leaves the path.
-    power : ndarray, shape (...)
-        The intensity S0, all rounds together; 0 where it is no more than rounding.
-    tap : bool
-        Whether light is only read here: at a tap, and on every way that light reaches by one alone.
-    in_loop : bool
-        Whether light passes it again and again.
+    Shape: power (...).
     """
 
     name: str
@@ -60,21 +47,7 @@ class EnergyAlong(NamedTuple):
     What the sources give is what elements take, what leaves, and what ends: light is neither made
     nor lost. An element that amplifies takes a negative power, and `notes` tells of it.
 
-    Attributes
-    ----------
-    links : tuple of PowerOnLink
-        In the order of travel; taps and outlets included.
-    given : mapping of str to ndarray, shape (...)
-        What each source gives.
-    taken : mapping of str to ndarray, shape (...)
-        What each element between takes: absorbs, blocks, or lets go by a way that the path does
-        not have.
-    left : mapping of str to ndarray, shape (...)
-        What leaves the path at each outlet, by its port.
-    ended : mapping of str to ndarray, shape (...)
-        What ends in each detector and dump; what light of a tap brings there is only read.
-    notes : tuple of str
-        What there is to know: light that goes round, elements that amplify.
+    Shapes: given (...); taken (...); left (...); ended (...).
 
     Examples
     --------
@@ -105,17 +78,6 @@ class EnergyAlong(NamedTuple):
 
 def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     """Return where the power of the light of a path comes from and goes.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    **parameters : float or array_like
-        As in `PathGraph.trace`; powers have the shape of the batch.
-
-    Returns
-    -------
-    EnergyAlong
 
     Examples
     --------

@@ -16,21 +16,7 @@ if TYPE_CHECKING:
 
 
 def exchanged(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
-    """Return a copy of a graph in which other values stand for parameters.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    values : mapping of str to Any
-        What stands for each parameter, by name: a parameter, which keeps the multiple and the
-        offset of the place, or anything else as it is.
-
-    Returns
-    -------
-    networkx.MultiDiGraph
-        Its values are not looked at.
-    """
+    """Return a copy of a graph in which other values stand for parameters."""
     copy = graph.copy()
     with checked_later():  # The check of the whole path names parameters and nodes.
         for node in copy.nodes.values():

@@ -38,28 +38,7 @@ def name_by_kind(element: Element) -> str:
 def join(
     first: nx.MultiDiGraph, second: nx.MultiDiGraph, leaves: Port | None = None
 ) -> dict[str, str]:
-    """Put a graph of elements behind another, in place: its nodes and links, and one link more.
-
-    Parameters
-    ----------
-    first : networkx.MultiDiGraph
-        What light passes first, with nodes, which is added to; unchanged where it raises.
-    second : networkx.MultiDiGraph
-        What light passes then, with nodes. Those that are called by their kind get the next
-        number where the first has it already.
-    leaves : Port, optional
-        Where light leaves the first; by default by the only natural way that is open.
-
-    Returns
-    -------
-    dict of str to str
-        What the nodes of the second are called in the first.
-
-    Raises
-    ------
-    PathError
-        With every reason why they cannot be joined.
-    """
+    """Put a graph of elements behind another, in place: its nodes and links, and one link more."""
     faults: list[str] = []
     link = []
     for given, graph, out in ((leaves, first, True), (None, second, False)):
@@ -87,24 +66,7 @@ def join(
 
 
 def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
-    """Put other elements behind a port, in place, and return what the last of them is called.
-
-    Parameters
-    ----------
-    graph, others : networkx.MultiDiGraph
-        As `join` takes the first and the second.
-    port : str
-        Where light leaves the first, as ``"node.port"`` or ``"node"``.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    PathError
-        If both are one, there is no such port, or they cannot be joined.
-    """
+    """Put other elements behind a port, in place, and return what the last of them is called."""
     if others is graph:
         raise PathError(f"what is put behind '{port}' is the path that it stands in; use a copy")
     names = join(graph, others, find_port(graph, port, out=True))
@@ -112,18 +74,7 @@ def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
 
 
 def as_chain(graph: nx.MultiDiGraph) -> list[str]:
-    """Return the nodes of a path that `>>` alone can make, in order; none for any other.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-
-    Returns
-    -------
-    list of str
-        Empty, too, where they are many.
-    """
+    """Return the nodes of a path that `>>` alone can make, in order; none for any other."""
     starts = [name for name in graph if not graph.in_degree(name)]
     if len(starts) != 1 or len(graph) > _LONGEST or graph.number_of_edges() != len(graph) - 1:
         return []

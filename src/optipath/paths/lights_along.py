@@ -19,21 +19,7 @@ KEEPING = Composer(keep="all")
 
 
 class LightOnLink(NamedTuple):
-    """The light on a link, or of an out-port that nothing takes the light of.
-
-    Attributes
-    ----------
-    name : str
-        ``"lamp.out -> eye.in"``, or ``"glass.transmitted"`` where light leaves the path.
-    start, leaves : str
-        The node that it comes from, and the out-port.
-    end, enters : str
-        The node that it goes to, and the in-port; empty where it leaves the path.
-    light : Light
-        In the frame in which it leaves its element.
-    tap : bool
-        Whether the link reads light and takes nothing.
-    """
+    """The light on a link, or of an out-port that nothing takes the light of."""
 
     name: str
     start: str
@@ -46,17 +32,6 @@ class LightOnLink(NamedTuple):
 
 def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     """Return the light on every link, and what leaves the path, in the order of travel.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    **parameters : float or array_like
-        As in `PathGraph.trace`.
-
-    Returns
-    -------
-    list of LightOnLink
 
     Examples
     --------

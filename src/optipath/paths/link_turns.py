@@ -25,22 +25,7 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> 
 
     An azimuth of the element there goes over to its links, since one place has to say it.
 
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    link : tuple
-        One of the links.
-    turn : float, ndarray or Parameter
-        By how much more, in radians.
-    cure : str, optional
-        What to do where both turns do not make one azimuth; by default to put an element
-        between them.
-
-    Raises
-    ------
-    PathError
-        If they do not: two parameters, or one and an array.
+    Units: turn in radians.
     """
     if is_zero(turn):
         return
@@ -64,17 +49,7 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> 
 def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
     """Return the turns of a node against the port that light comes from straight on.
 
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    name : str
-        A node.
-
-    Returns
-    -------
-    list of float, ndarray or Parameter
-        In radians; what is known to be 0 is left out.
+    Units: the result in radians.
     """
     wiring, found, leaves, seen = Wiring(graph), [], "", set()
     while len(links := graph.in_edges(name, keys=True)) == 1:
@@ -92,19 +67,7 @@ def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
 def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
     """Turn a node, and nothing behind it, until it stands as `turns_to` told elsewhere.
 
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    name : str
-        A node that light goes straight through, with a link to it and one from it.
-    turns : list of float, ndarray or Parameter
-        In radians.
-
-    Raises
-    ------
-    PathError
-        If the turns make no one azimuth.
+    Units: turns in radians.
     """
     (enters,), (passes,) = graph.in_edges(name, keys=True), graph.out_edges(name, keys=True)
     missing = [*turns]
@@ -123,14 +86,7 @@ def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
 def are_alike(first: Any, second: Any) -> bool:
     """Tell whether two turns are the same, but for what turns there and back have rounded off.
 
-    Parameters
-    ----------
-    first, second : float, ndarray or Parameter
-        In radians.
-
-    Returns
-    -------
-    bool
+    Units: first, second in radians.
 
     Examples
     --------
@@ -160,13 +116,7 @@ def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:
 
 
 def _sum(first: Any, second: Any) -> Any:
-    """Return the sum of two turns.
-
-    Raises
-    ------
-    OptipathError
-        If it has no form: of two parameters, of one and an array, of arrays that do not fit.
-    """
+    """Return the sum of two turns."""
     if is_zero(first):
         return second
     if same(first, -second):

@@ -19,22 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlaceChoice:
-    """Behind which port a node stands, by word.
-
-    Parameters
-    ----------
-    node : str
-        The node that is moved.
-    behind : mapping of str to str
-        The port for each word, as ``"node.port"``.
-    help : str, optional
-        What is chosen.
-
-    Raises
-    ------
-    PathError
-        If they are not of these types, or there are no words.
-    """
+    """Behind which port a node stands, by word."""
 
     node: str
     behind: Mapping[str, str] = field(default_factory=dict)
@@ -66,22 +51,7 @@ class PlaceChoice:
 
 
 def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
-    """Move the node of a choice, in place.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements, links and choices.
-    name : str
-        That of the choice.
-    word : str
-        That of the place.
-
-    Raises
-    ------
-    PathError
-        If there is no such word, or the node cannot be moved there.
-    """
+    """Move the node of a choice, in place."""
     choice: PlaceChoice = graph.graph["choices"][name]
     if faults := unknown(f"{name}", word, choice.behind):
         raise PathError(*faults)
@@ -99,22 +69,7 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
 
 
 def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool = True) -> list[str]:
-    """Return why the node of a choice cannot be put in its places, a sentence each.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    choice : PlaceChoice
-        The choice.
-    linked : bool, optional
-        Whether the links are looked at, too; those of a path that has faults tell nothing.
-
-    Returns
-    -------
-    list of str
-        Empty where it can.
-    """
+    """Return why the node of a choice cannot be put in its places, a sentence each."""
     node, of_node, of_places = choice.node, [], []
     try:
         element = element_at(graph, node)

@@ -21,22 +21,6 @@ _REFRACTED = "refracted"
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
     """Raise unless a port of a node is one of those given.
 
-    Parameters
-    ----------
-    element : Element
-        That of the node.
-    owner : str
-        The name of the node.
-    port : str
-        What is asked for.
-    ports : sequence of str
-        Those that will do.
-
-    Raises
-    ------
-    PathError
-        With a did-you-mean.
-
     Examples
     --------
     >>> from optipath.elements.beam_splitter import BeamSplitter
@@ -60,19 +44,7 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
 
 
 def natural_of(element: Element, *, out: bool) -> str:
-    """Return the port by which ``>>`` leaves an element, or enters it; empty for none.
-
-    Parameters
-    ----------
-    element : Element
-        The element.
-    out : bool
-        Whether the out-port is asked for.
-
-    Returns
-    -------
-    str
-    """
+    """Return the port by which ``>>`` leaves an element, or enters it; empty for none."""
     ports, said, unsaid = (
         (element.outputs, element.natural, "out") if out else (element.inputs, element.entry, "")
     )
@@ -83,24 +55,6 @@ def natural_of(element: Element, *, out: bool) -> str:
 
 def natural_port(element: Element, owner: str, *, out: bool) -> str:
     """Return the natural port of a node.
-
-    Parameters
-    ----------
-    element : Element
-        That of the node.
-    owner : str
-        The name of the node.
-    out : bool
-        Whether the out-port is asked for.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    PathError
-        If it has none, with those that it has.
 
     Examples
     --------
@@ -127,26 +81,7 @@ def natural_port(element: Element, owner: str, *, out: bool) -> str:
 
 
 def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
-    """Return the node and the port that a text names in a graph of elements.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links.
-    text : str
-        Such as ``"node.port"``, or ``"node"`` for its natural port.
-    out : bool
-        Whether it must be an out-port, and else an in-port.
-
-    Returns
-    -------
-    tuple of two str
-
-    Raises
-    ------
-    PathError
-        If it is no such text, there is no such node, or it has no such port.
-    """
+    """Return the node and the port that a text names in a graph of elements."""
     if not isinstance(text, str) or text.count(".") > 1:
         way = "out" if out else "in"
         raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
@@ -159,24 +94,7 @@ def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str
 
 
 def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
-    """Return the element of a node.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links.
-    name : str
-        That of the node.
-
-    Returns
-    -------
-    Element
-
-    Raises
-    ------
-    PathError
-        If there is no such node.
-    """
+    """Return the element of a node."""
     if not isinstance(name, str) or name not in graph:
         raise PathError(f"node {shown(name)} does not exist{did_you_mean(name, graph)}")
     return graph.nodes[name]["element"]  # type: ignore[no-any-return]

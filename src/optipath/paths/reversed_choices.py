@@ -24,18 +24,6 @@ def reversed_choices(
 
     They do where nothing is turned between the ports beside each place: a node stands in the
     frame of the light that comes to it, which is that of the other port on the way back.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path.
-    port_back : callable
-        Of a node and a port, returns its port on the way back.
-
-    Returns
-    -------
-    dict of str to PlaceChoice
-        By name; what else is chosen stays as it stands.
     """
     choices: dict[str, PlaceChoice] = wiring.graph.graph.get("choices", {})
     movable = {choice.node for choice in choices.values()}

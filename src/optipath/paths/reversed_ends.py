@@ -18,19 +18,6 @@ if TYPE_CHECKING:
 def reversed_end(element: Element, source: Element | None = None) -> Element:
     """Return what stands on the way back where light began or ended.
 
-    Parameters
-    ----------
-    element : Element
-        A source, a detector, a dump, or one like these.
-    source : Element, optional
-        The light that is to begin there, where light has ended.
-
-    Returns
-    -------
-    Element
-        A detector for a source, and a source of unpolarised light of intensity 1 for a detector;
-        a dark source for a dump, from which nothing comes back, and a dump for one that is dark.
-
     Examples
     --------
     >>> reversed_end(Source(100.0)), reversed_end(Dump()).intensity
@@ -44,22 +31,7 @@ def reversed_end(element: Element, source: Element | None = None) -> Element:
 def sources_by_name(
     given: Any, elements: Mapping[str, Element]
 ) -> tuple[dict[str, Element], list[str]]:
-    """Return the light that is to begin at each node, and what is wrong with it, a sentence each.
-
-    Parameters
-    ----------
-    given : Source, mapping of str to Source, or None
-        For the only detector, or for nodes by name.
-    elements : mapping of str to Element
-        Those of a path.
-
-    Returns
-    -------
-    sources : dict of str to Element
-        Where something is given.
-    faults : list of str
-        Empty where nothing is wrong.
-    """
+    """Return the light that begins at each node, and what is wrong with it, a sentence each."""
     ends = [name for name, element in elements.items() if not element.outputs]
     if given is None:
         return {}, []

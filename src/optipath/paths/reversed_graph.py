@@ -33,25 +33,7 @@ _SAME = 1e-9
 
 
 def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGraph:
-    """Return a graph of elements in which light goes the other way.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links; it stays as it is.
-    source : Source, or mapping of str to Source, optional
-        The light that begins where light has ended; unpolarised, of intensity 1, by default.
-
-    Returns
-    -------
-    networkx.MultiDiGraph
-        Whose links say all azimuths.
-
-    Raises
-    ------
-    PathError
-        With all that has no way back.
-    """
+    """Return a graph of elements in which light goes the other way."""
     filled, faults = with_followed(graph)
     if faults:
         raise PathError(*faults)
@@ -72,13 +54,7 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
 
 
 class _Turning:
-    """Turns round what stands at the nodes of a graph, and the links between them.
-
-    Parameters
-    ----------
-    wiring : Wiring
-        The path, in which nothing is taken over any more.
-    """
+    """Turns round what stands at the nodes of a graph, and the links between them."""
 
     def __init__(self, wiring: Wiring) -> None:
         self.wiring = wiring

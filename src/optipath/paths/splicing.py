@@ -23,15 +23,7 @@ if TYPE_CHECKING:
 
 
 def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before: Any) -> None:
-    """Put an element into a link, as `PathGraph.insert` does.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    name, element, behind, before
-        As that takes them.
-    """
+    """Put an element into a link, as `PathGraph.insert` does."""
     check_element(name, element)
     enters, passes = (natural_port(element, name, out=out) for out in (False, True))
     link = _link_for(graph, name, behind, before)
@@ -49,15 +41,7 @@ def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before:
 
 
 def remove(graph: nx.MultiDiGraph, name: Any) -> None:
-    """Take a node out, as `PathGraph.remove` does.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    name
-        As that takes them.
-    """
+    """Take a node out, as `PathGraph.remove` does."""
     element_at(graph, name)
     before, behind = graph.in_edges(name, keys=True), graph.out_edges(name, keys=True)
     if before and behind:
@@ -66,15 +50,7 @@ def remove(graph: nx.MultiDiGraph, name: Any) -> None:
 
 
 def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
-    """Put another element in the place of one, as `PathGraph.replace` does.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links, changed in place.
-    name, element
-        As that takes them.
-    """
+    """Put another element in the place of one, as `PathGraph.replace` does."""
     element_at(graph, name)
     check_element(name, element)
     entered = {enters for *_, (_, enters) in graph.in_edges(name, keys=True)}

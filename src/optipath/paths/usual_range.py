@@ -41,23 +41,7 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
     angle of incidence, and twice the largest value of what has no end. Both ends, and how far they
     are apart, are numbers that a float has, in the unit of the parameter too.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    name : str
-        One of its open parameters.
-
-    Returns
-    -------
-    tuple of float
-        The lower and the upper end, in radians, metres or pure numbers; finite and apart.
-
-    Raises
-    ------
-    ParameterError
-        If the path has no such open parameter, or its values are no single real numbers, or one
-        number alone.
+    Units: the result in radians.
 
     Examples
     --------

@@ -31,17 +31,6 @@ def without_polarization(program: Program, steps: Iterable[int]) -> Program:
     """Return a program in which some steps dim all light alike, by their mean.
 
     Of a stack of layers, each boundary does so.
-
-    Parameters
-    ----------
-    program : Program
-        The path as it stands.
-    steps : iterable of int
-        Some of those that `polarising` finds.
-
-    Returns
-    -------
-    Program
     """
     evaluations, changed = list(program.evaluations), list(program.steps)
     for light in steps:

@@ -32,20 +32,7 @@ if TYPE_CHECKING:
 
 
 class Answers:
-    """What answers all that a plan is asked.
-
-    Parameters
-    ----------
-    plan : Plan
-        What has been composed.
-
-    Attributes
-    ----------
-    light : Runner
-        What gives light.
-    wavelengths : tuple of Parameter
-        What gives the wavelengths of light; several are in doubt.
-    """
+    """What answers all that a plan is asked."""
 
     def __init__(self, plan: Any) -> None:
         self.plan = plan
@@ -91,41 +78,14 @@ class Answers:
         return dict((self.approximation or self.light).answer(self.question, parameters))
 
     def stream(self, size: int, parameters: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:
-        """Yield the index of each part of a batch, and the light at every end for it.
-
-        Parameters
-        ----------
-        size : int
-            How many paths a part has at most.
-        parameters : mapping of str to Any
-            What is given.
-
-        Yields
-        ------
-        where : tuple of (int or slice)
-            The index of the part.
-        lights : dict of str to (Stokes vectors, exponents)
-            As `lights` gives it.
-        """
+        """Yield the index of each part of a batch, and the light at every end for it."""
         self.large_angles.look(parameters)
         return (self.approximation or self.light).stream(self.question, size, parameters)
 
     def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Any:
         """Return the Mueller matrices from a source to a reading.
 
-        Parameters
-        ----------
-        source : str
-            The name of the source.
-        reading : Reading
-            An end of the path as it stands.
-        parameters : mapping of str to Any
-            What is given.
-
-        Returns
-        -------
-        ndarray, shape (..., 4, 4)
-            In the frames of the source and of the end.
+        Shape: returns (..., 4, 4).
         """
         self.large_angles.look(parameters)
         question = MatrixQuestion(self.plan.whole, source, reading)
@@ -140,19 +100,7 @@ class Answers:
     def in_frames(
         self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()
     ) -> dict[str, Light]:
-        """Return the light at every end in its frame.
-
-        Parameters
-        ----------
-        lights : mapping of str to (Stokes vectors, exponents)
-            As `lights` gives it.
-        parameters, where
-            As `framed` takes them.
-
-        Returns
-        -------
-        dict of str to Light
-        """
+        """Return the light at every end in its frame."""
         found = {}
         by = self.wavelengths
         later = LaterWavelength(by, self.plan.inputs, parameters, where) if by else None
@@ -166,18 +114,7 @@ class Answers:
     def as_light(self, parameters: Mapping[str, Any], stokes: Any, frame: Any) -> Light:
         """Return light of Stokes vectors by themselves, with the frame and wavelengths of a run.
 
-        Parameters
-        ----------
-        parameters : mapping of str to Any
-            What was given.
-        stokes : ndarray, shape (..., 4)
-            The light.
-        frame : Frame or VertexFrame
-            That of an end.
-
-        Returns
-        -------
-        Light
+        Shape: stokes (..., 4).
         """
         by = self.wavelengths
         later = LaterWavelength(by, self.plan.inputs, parameters) if by else None
@@ -186,22 +123,7 @@ class Answers:
     def framed(
         self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
     ) -> Any:
-        """Return a frame, or what makes it of the values that a run was given.
-
-        Parameters
-        ----------
-        frame : Frame or VertexFrame
-            That of an end.
-        parameters : mapping of str to Any
-            What was given.
-        where : tuple, optional
-            Which part of the batch the light is.
-
-        Returns
-        -------
-        Frame or LaterFrame
-            The latter is a frame when it is called.
-        """
+        """Return a frame, or what makes it of the values that a run was given."""
         if isinstance(frame, Frame):
             return frame
         return LaterFrame(frame, self.plan.inputs, parameters, where)

@@ -26,19 +26,6 @@ class Approximation(Answering):
     """Runs a model that is not exact, path by path, as far as a tolerance allows.
 
     Two questions in turn: how large the errors are, and what the light is.
-
-    Parameters
-    ----------
-    whole : Runner
-        Runs the path as it stands.
-    errors : Question
-        Asks it for the errors of the cheaper model.
-    exact : Runner
-        Runs the exact model.
-    cheap : Runner or None
-        Runs the cheaper model; None for the scalar one, which comes with the errors.
-    tolerance : float
-        How large an error may be, as a share of the intensity.
     """
 
     def __init__(

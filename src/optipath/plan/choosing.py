@@ -10,26 +10,6 @@ from optipath.errors import ParameterError, did_you_mean, shown
 def only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
     """Return the name that is given, or the only one.
 
-    Parameters
-    ----------
-    what : str
-        ``source`` or ``detector``.
-    names : tuple of str
-        Those that the path has.
-    cure : str
-        What is to be called where there are several.
-    name : str, optional
-        Which is meant.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    ParameterError
-        If there is none of that name, or if none is given of several.
-
     Examples
     --------
     >>> only("detector", ("eye",), "run_all()")
@@ -46,15 +26,6 @@ def only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) 
 
 def by_place(ends: tuple[Any, ...], unnamed: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return what is given by its place, but for names of sources and detectors.
-
-    Parameters
-    ----------
-    ends, unnamed : tuple
-        What is given where names of ends stand, and behind.
-
-    Returns
-    -------
-    tuple
 
     Examples
     --------

@@ -21,19 +21,7 @@ _FEW = 8
 
 @dataclass(frozen=True)
 class ExplainedStep:
-    """A step in words.
-
-    Attributes
-    ----------
-    light : int
-        The light that it makes.
-    label : str
-        Where it happens.
-    action : str
-        What is done.
-    live : tuple of str
-        The components of the light that are alive.
-    """
+    """A step in words."""
 
     light: int
     label: str
@@ -43,18 +31,7 @@ class ExplainedStep:
 
 @dataclass(frozen=True)
 class ExplainedLoop:
-    """A loop in words.
-
-    Attributes
-    ----------
-    places : tuple of str
-        Where lights meet, in the order in which they are solved for.
-    unknowns : int
-        How many numbers the system of equations has.
-    layered : bool
-        Whether it is a stack of parallel interfaces: nothing turns, and each layer meets none
-        but the next.
-    """
+    """A loop in words."""
 
     places: tuple[str, ...]
     unknowns: int
@@ -68,38 +45,7 @@ class ExplainedLoop:
 
 @dataclass(frozen=True)
 class Explanation:
-    """What a plan does, step by step.
-
-    Attributes
-    ----------
-    counts : mapping of str to int
-        How many sources, detectors, dumps and steps there are.
-    manner : mapping of str to str
-        The method, model, engine, precision, and how light is composed.
-    reason : str
-        Why this model.
-    steps : tuple of ExplainedStep
-        The steps in order.
-    reads : mapping of str to tuple of str
-        The components that each end reads.
-    light_at : mapping of str to int
-        The light that each end reads.
-    folded : tuple of str
-        What was merged, left out, or made cheaper.
-    loops : tuple of ExplainedLoop
-        Where light goes round.
-    operations : mapping of str to mapping of str to int, optional
-        How many operations a path takes, ``"plan"``, and how many the full composition takes,
-        ``"full"``; by their sort.
-    certificate : mapping of str to Any, optional
-        Bounds of the intensity, for the values that are known.
-    tolerance : mapping of str to Any, optional
-        What is taken in place of the exact model, and when.
-    notes : tuple of str
-        What else a reader should know.
-    parameters : tuple of str
-        The parameters, a sentence each.
-    """
+    """What a plan does, step by step."""
 
     counts: Mapping[str, int]
     manner: Mapping[str, str]

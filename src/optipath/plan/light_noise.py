@@ -27,26 +27,7 @@ def noise_at(
 ) -> Array:
     """Return what is noise in light, wherever a component of it is small enough for that.
 
-    Parameters
-    ----------
-    answers : Answers
-        What computes it.
-    end : str
-        The name of the end where the light is.
-    parameters : mapping of str to Any
-        What was given. Where somebody has written into an array of it since, there is no noise
-        but the rounding of the light itself.
-    where : tuple
-        Which part of the batch the light is.
-    stokes : ndarray, shape (..., 4)
-        The light.
-    exponent : ndarray of int, shape (...)
-        Of the power of two times it.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        To be taken times the same power; 0 where nothing is that small.
+    Shapes: stokes (..., 4); exponent (...); returns (...).
     """
     found = np.zeros(exponent.shape, stokes.dtype)
     interpreter = answers.noise
@@ -75,19 +56,7 @@ def matrix_noise_at(
 ) -> Array:
     """Return the noise in the matrix of a path: that in what a source's light becomes, as a share.
 
-    Parameters
-    ----------
-    answers, end, parameters
-        As `noise_at` takes them.
-    source : str
-        The name of the source.
-    matrix : ndarray, shape (..., 4, 4)
-        What was found.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        0 where nothing is that small, and where other sources, or none, emit.
+    Shapes: matrix (..., 4, 4); returns (...).
     """
     interpreter = answers.noise
     traced = is_traced(matrix) or any(map(is_traced, parameters.values()))

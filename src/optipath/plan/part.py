@@ -9,15 +9,7 @@ if TYPE_CHECKING:
 
 
 class Part(NamedTuple):
-    """A part of a batch, and its light.
-
-    Attributes
-    ----------
-    where : tuple of (int or slice)
-        The index of the part in arrays of the batch's shape.
-    light : Light
-        The light of the part.
-    """
+    """A part of a batch, and its light."""
 
     where: tuple[int | slice, ...]
     light: Light

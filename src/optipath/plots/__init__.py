@@ -70,13 +70,7 @@ _HOMES = {
 
 
 def check_matplotlib() -> None:
-    """Raise where Matplotlib is not installed.
-
-    Raises
-    ------
-    MissingExtraError
-        Which says what to install.
-    """
+    """Raise where Matplotlib is not installed."""
     need("pictures", "matplotlib")
 
 

@@ -19,17 +19,7 @@ _FILLED = 0.75
 
 
 def fitting_text(text: Text, texts: Sequence[str], room: float) -> None:
-    """Give a text the first of several wordings that is no longer than there is room.
-
-    Parameters
-    ----------
-    text : Text
-        What is drawn, along the horizontal or the vertical.
-    texts : sequence of str
-        The longest first; the last one is taken where none fits.
-    room : float
-        In pixels.
-    """
+    """Give a text the first of several wordings that is no longer than there is room."""
     for each in texts:
         text.set_text(each)
         box = text.get_window_extent()
@@ -38,15 +28,7 @@ def fitting_text(text: Text, texts: Sequence[str], room: float) -> None:
 
 
 def label_axes(ax: Axes, along: Sequence[str], up: Sequence[str]) -> None:
-    """Label axes by the longest of several wordings that fit.
-
-    Parameters
-    ----------
-    ax : Axes
-        What is labelled.
-    along, up : sequence of str
-        What x and y are, the longest first.
-    """
+    """Label axes by the longest of several wordings that fit."""
     ax.set(xlabel=along[-1], ylabel=up[-1])
     figure: Any = ax.figure
     figure.draw_without_rendering()  # By which axes have the places of their layout.

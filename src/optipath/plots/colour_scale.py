@@ -23,15 +23,6 @@ class ColourScale(NamedTuple):
 
     Colours are in the order of their lightness, or go apart from white, or round in a circle; who
     is colour-blind can tell them apart.
-
-    Attributes
-    ----------
-    colours : str
-        The colour map of Matplotlib.
-    norm : Normalize
-        From numbers to places on it.
-    ticks : tuple of float
-        The numbers that are named; none where they are equally far apart, whichever fit.
     """
 
     colours: str
@@ -62,17 +53,7 @@ class ColourScale(NamedTuple):
 
     @classmethod
     def ordered(cls, least: float, largest: float) -> ColourScale:
-        """Return that of numbers in an order; of one number, with some room about it.
-
-        Parameters
-        ----------
-        least, largest : float
-            The numbers at its ends.
-
-        Returns
-        -------
-        ColourScale
-        """
+        """Return that of numbers in an order; of one number, with some room about it."""
         room = 0.5 * max(abs(least), 1.0) if least == largest else 0.0
         return cls("viridis", Normalize(least - room, largest + room))
 
@@ -88,37 +69,11 @@ class ColourScale(NamedTuple):
 
     @classmethod
     def between(cls, least: float, largest: float) -> ColourScale:
-        """Return that of numbers between any two.
-
-        Parameters
-        ----------
-        least, largest : float
-            The two, which are apart.
-
-        Returns
-        -------
-        ColourScale
-        """
+        """Return that of numbers between any two."""
         return cls("viridis", Normalize(least, largest))
 
     def bar(self, image: Any, axes: Any, label: str, **options: Any) -> Colorbar:
-        """Draw the colour bar of an image.
-
-        Parameters
-        ----------
-        image : AxesImage
-            In these colours.
-        axes : Axes or list of Axes
-            Beside which it stands.
-        label : str
-            The quantity, with its unit.
-        **options : Any
-            As `Figure.colorbar` of Matplotlib takes them.
-
-        Returns
-        -------
-        Colorbar
-        """
+        """Draw the colour bar of an image."""
         bar: Colorbar = image.figure.colorbar(image, ax=axes, label=label, **options)
         if self.ticks:
             bar.set_ticks(list(self.ticks), labels=[f"{tick:g}" for tick in self.ticks])

@@ -33,14 +33,7 @@ _IN_A_ROW = 4
 class FineSteps(NamedTuple):
     """Values along an axis.
 
-    Attributes
-    ----------
-    values : ndarray, shape (count,)
-        In order, in the unit in which they were given.
-    numbers : ndarray, shape (count, k)
-        What there is at each.
-    resolved : bool
-        Whether straight lines between them are near to what is drawn, but for single jumps.
+    Shapes: values (count,); numbers (count, k).
     """
 
     values: Numbers
@@ -49,16 +42,6 @@ class FineSteps(NamedTuple):
 
     def told(self, name: str) -> str:
         """Return what is to be said where lines are not near.
-
-        Parameters
-        ----------
-        name : str
-            Of the parameter along the axis.
-
-        Returns
-        -------
-        str
-            Empty where all is well.
 
         Examples
         --------
@@ -80,23 +63,7 @@ def fine_steps(
 ) -> FineSteps:
     """Halve steps while the middle of what is drawn over them is off the straight line.
 
-    Parameters
-    ----------
-    values : array_like, shape (n,)
-        The first values, in order.
-    numbers : ndarray, shape (n, k)
-        What there is at each; NaN where there is nothing.
-    numbers_at : callable
-        Takes other values, of shape (m,), and returns what there is at these, of shape (m, k). It
-        is called once for each halving.
-    on_picture : callable
-        Takes numbers of shape (m, k) and returns what is drawn of them, of shape (m, j), in units
-        of the size of the picture.
-
-    Returns
-    -------
-    FineSteps
-        With 32 times as many steps at most.
+    Shapes: values (n,); numbers (n, k).
 
     Examples
     --------

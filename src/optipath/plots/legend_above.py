@@ -22,15 +22,7 @@ _ENOUGH = 0.36
 
 
 def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
-    """Draw a legend in a strip at the top, for which the axes are made higher.
-
-    Parameters
-    ----------
-    sides : sequence of Axes
-        The left axis, and that on the right over it if there is one; the ticks stay.
-    lines : sequence of Line2D
-        With labels.
-    """
+    """Draw a legend in a strip at the top, for which the axes are made higher."""
     on_top = sides[-1]
     figure: Any = on_top.figure
     figure.draw_without_rendering()  # By which axes have the places of their layout.

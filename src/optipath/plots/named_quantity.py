@@ -24,23 +24,6 @@ Quantity = TypeVar("Quantity", bound=Named)
 def named_quantity(name: Any, quantities: Sequence[Quantity]) -> Quantity:
     """Return the quantity of a name.
 
-    Parameters
-    ----------
-    name : str
-        Such as ``"S0"`` or ``"DoLP"``.
-    quantities : sequence
-        Those that there are.
-
-    Returns
-    -------
-    PixelQuantity or PlaneQuantity
-        One of them.
-
-    Raises
-    ------
-    SurfaceError
-        If none is called so.
-
     Examples
     --------
     >>> from optipath.plots.hemispheres.pixel_quantity import QUANTITIES

@@ -18,24 +18,7 @@ Drawn = TypeVar("Drawn", bound=Axes)
 
 
 def own_axes(given: Any, size: tuple[float, float]) -> Axes:
-    """Return the axes that are given, or those of a new figure that no window belongs to.
-
-    Parameters
-    ----------
-    given : Axes or None
-        What a caller has.
-    size : tuple of float
-        Of a new figure, in inches.
-
-    Returns
-    -------
-    Axes
-
-    Raises
-    ------
-    OptipathError
-        If what is given is something else, or axes in space or of angles.
-    """
+    """Return the axes that are given, or those of a new figure that no window belongs to."""
     if given is None:
         return own_lines(Figure(figsize=size, layout="constrained").add_subplot())
     if not isinstance(given, Axes):
@@ -49,26 +32,7 @@ def own_axes(given: Any, size: tuple[float, float]) -> Axes:
 
 
 def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> Panel:
-    """Return the axes that are given, or those of a new figure, row by row.
-
-    Parameters
-    ----------
-    given : array_like of Axes, or None
-        What a caller has.
-    shape : tuple of int
-        How many rows and columns there are to be.
-    size : tuple of float
-        Of a new figure, in inches.
-
-    Returns
-    -------
-    ndarray of Axes
-
-    Raises
-    ------
-    OptipathError
-        If what is given is something else, or of another shape, or axes in space.
-    """
+    """Return the axes that are given, or those of a new figure, row by row."""
     if given is None:
         panel = Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
         for ax in panel.flat:
@@ -85,18 +49,7 @@ def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> 
 
 
 def own_lines(ax: Drawn) -> Drawn:
-    """Return axes whose lines are solid unless said otherwise, whatever Matplotlib's settings are.
-
-    Parameters
-    ----------
-    ax : Axes
-        New ones.
-
-    Returns
-    -------
-    Axes
-        The same.
-    """
+    """Return axes whose lines are solid by default, whatever Matplotlib's settings are."""
     ax.set_prop_cycle(color=LINES)
     return ax
 

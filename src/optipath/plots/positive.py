@@ -11,16 +11,6 @@ from optipath.errors import shown
 def positive(what: str, number: Any) -> list[str]:
     """Return the sentence for what is no number above 0; none for one that is, or for None.
 
-    Parameters
-    ----------
-    what, number : str, Any
-        What it is of, and what was given; infinity serves.
-
-    Returns
-    -------
-    list of str
-        The sentence, or nothing.
-
     Examples
     --------
     >>> positive("largest", -1.0), positive("largest", 2), positive("largest", None)

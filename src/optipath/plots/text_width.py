@@ -19,17 +19,6 @@ _MEASURE = TextToPath()
 def width_of(text: str, points: float) -> float:
     """Return how wide a text is, in inches.
 
-    Parameters
-    ----------
-    text : str
-        One line.
-    points : float
-        The size of its letters.
-
-    Returns
-    -------
-    float
-
     Examples
     --------
     >>> width_of("iii", 14.0) < width_of("mmm", 14.0) < 1.0
@@ -42,19 +31,6 @@ def width_of(text: str, points: float) -> float:
 
 def shortened(text: str, inches: float, points: float) -> str:
     """Return a text, or its beginning, so that it is no wider.
-
-    Parameters
-    ----------
-    text : str
-        One line.
-    inches : float
-        How much room there is.
-    points : float
-        The size of its letters.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -71,19 +47,6 @@ def shortened(text: str, inches: float, points: float) -> str:
 
 def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
     """Return lines that are no wider, made of words that stay whole where they fit.
-
-    Parameters
-    ----------
-    words : iterable of str
-        Each may have blanks, and stays on one line.
-    inches : float
-        How wide a line may be.
-    points : float
-        The size of its letters.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------

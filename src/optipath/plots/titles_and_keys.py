@@ -35,21 +35,6 @@ _SPHERE_LEAVES = 0.08
 def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
     r"""Return a text in lines that are no wider than some axes.
 
-    Parameters
-    ----------
-    ax : Axes
-        Below, above or in which it is to stand.
-    text : str
-        One line, or several, each of which is broken by itself.
-    size : str, optional
-        Of its font, as Matplotlib names sizes.
-    less : int, optional
-        How many letters are kept free, as for the handle of a legend.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> from matplotlib.figure import Figure
@@ -70,15 +55,7 @@ def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
 
 
 def head(ax: Axes, text: str) -> None:
-    """Write a title in lines that are no wider than the axes, smaller above small ones.
-
-    Parameters
-    ----------
-    ax : Axes
-        Above which it stands.
-    text : str
-        One line, or several.
-    """
+    """Write a title in lines that are no wider than the axes, smaller above small ones."""
     size = "medium" if inches_wide(ax) > _NARROW else "small"
     ax.set_title(fitting(ax, text, size), fontsize=size, parse_math=False)
 
@@ -96,17 +73,7 @@ def inches_wide(ax: Axes) -> float:
 
 
 def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
-    """Draw a legend below some axes, their ticks and their label.
-
-    Parameters
-    ----------
-    ax : Axes
-        Whose label is there already.
-    handles : sequence of Artist
-        With their labels; nothing is drawn where there are none.
-    size : str, optional
-        Of the font.
-    """
+    """Draw a legend below some axes, their ticks and their label."""
     if not handles:
         return
     down = _TICKS + _LINE * (1 + ax.get_xlabel().count("\n")) if ax.axison else 0.0
@@ -118,15 +85,7 @@ def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
 
 
 def key_above(ax: Axes, handles: Sequence[Any]) -> None:
-    """Draw a legend above some axes, where ticks of many lines are below them.
-
-    Parameters
-    ----------
-    ax : Axes
-        Which have no title.
-    handles : sequence of Artist
-        With their labels; nothing is drawn where there are none.
-    """
+    """Draw a legend above some axes, where ticks of many lines are below them."""
     if handles:
         wide = inches_wide(ax) > _NARROW
         size = "small" if wide else "x-small"

@@ -35,23 +35,7 @@ def sweep(
     progress: bool | Callable[[int, int], None] = False,
     composer: Composer | None = None,
 ) -> xr.Dataset:
-    """Return the light of a path for every combination of values; see `PathGraph.sweep`.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What is swept.
-    unnamed : tuple
-        What is given without a name.
-    given : dict of str to Any
-        What is given by name.
-    zip, coords, chunks, store, scheduler, progress, composer
-        As `PathGraph.sweep` takes them.
-
-    Returns
-    -------
-    xarray.Dataset
-    """
+    """Return the light of a path for every combination of values; see `PathGraph.sweep`."""
     place = _place(store, scheduler, progress)
     plan = _plan(path, composer)
     check_named("sweep", unnamed, plan.inputs.open)

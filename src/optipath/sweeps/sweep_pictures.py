@@ -19,11 +19,6 @@ _OF_DATASETS = f"{_PICTURES}.curves.dataset_pictures"
 class SweepPictures:
     """Pictures of the Dataset of a sweep, in memory, in chunks, or read from a file.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        With the variables and coordinates that `PathGraph.sweep` gives it, or some of them.
-
     Examples
     --------
     >>> import optipath as op
@@ -43,29 +38,7 @@ class SweepPictures:
         *,
         detector: str | None = None,
     ) -> Axes:
-        """Draw quantities against one coordinate, as `optipath.plots.curve` draws them.
-
-        Parameters
-        ----------
-        y : str or sequence of str, optional
-            What goes up: ``"S0"``, ``("DoP", "DoLP")``.
-        x : str, optional
-            A coordinate along one dimension; needed where several are along it, or where there
-            are several dimensions, of which the others are chosen before: ``dataset.sel(...)``.
-        ax : Axes, optional
-            Where; a figure of its own by default.
-        detector : str, optional
-            Needed where there are several.
-
-        Returns
-        -------
-        Axes
-
-        Raises
-        ------
-        OptipathError
-            If the Dataset does not have it.
-        """
+        """Draw quantities against one coordinate, as `optipath.plots.curve` draws them."""
         drawn: Axes = _drawn("curve", self._dataset, y, x, ax, detector)
         return drawn
 
@@ -78,53 +51,12 @@ class SweepPictures:
         *,
         detector: str | None = None,
     ) -> Axes:
-        """Draw a quantity over two coordinates, as `optipath.plots.quantity_map` draws it.
-
-        Parameters
-        ----------
-        quantity : str, optional
-            What the colours show.
-        x, y : str, optional
-            Coordinates along two dimensions; by default those of a Dataset that has two, in
-            their order.
-        ax : Axes, optional
-            Where; a figure of its own by default.
-        detector : str, optional
-            Needed where there are several.
-
-        Returns
-        -------
-        Axes
-
-        Raises
-        ------
-        OptipathError
-            If the Dataset does not have it.
-        """
+        """Draw a quantity over two coordinates, as `optipath.plots.quantity_map` draws it."""
         drawn: Axes = _drawn("quantity_map", self._dataset, quantity, x, y, ax, detector)
         return drawn
 
     def poincare(self, x: str | None = None, ax: Any = None, *, detector: str | None = None) -> Any:
-        """Draw the light along one coordinate on the Poincaré sphere, coloured by it.
-
-        Parameters
-        ----------
-        x : str, optional
-            As `curve` takes it.
-        ax : Axes3D, optional
-            Where; a figure of its own by default.
-        detector : str, optional
-            Needed where there are several.
-
-        Returns
-        -------
-        Axes3D
-
-        Raises
-        ------
-        OptipathError
-            If the Dataset does not have it.
-        """
+        """Draw the light along one coordinate on the Poincaré sphere, coloured by it."""
         return _drawn("poincare", self._dataset, x, ax, detector)
 
 

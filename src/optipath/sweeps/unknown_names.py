@@ -21,25 +21,13 @@ _OPTIONS = frozenset(each.name for each in fields(Composer)) - {"keep"}
 def unknown_names(inputs: Inputs, given: Mapping[str, Any]) -> list[str]:
     """Return what is wrong with names that no parameter has.
 
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    given : mapping of str to Any
-        What is, by name.
-
-    Returns
-    -------
-    list of str
-        One sentence for all options of a composer, and one for each other name.
-
     Examples
     --------
     >>> import optipath as op
     >>> inputs = op.load_preset("malus").compose().inputs
     >>> unknown_names(inputs, {"engine": "numba", "dtype": "float32"})
     ["'engine' and 'dtype' are no parameters of the path; give \
-composer=op.Composer(engine='numba', dtype='float32')"]
+    composer=op.Composer(engine='numba', dtype='float32')"]
     """
     unknown = [name for name in given if name not in inputs.open]
     chosen = {*inputs.open, *inputs.bound, *inputs.choices}

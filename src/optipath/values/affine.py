@@ -29,21 +29,7 @@ _PURE = "pure number"
 
 
 class Affine:
-    """A named value that is given later, and ``scale * value + offset`` in its place.
-
-    Attributes
-    ----------
-    name : str
-        Of the value.
-    unit : str
-        In which people write it.
-    default : Any
-        What it is where nobody gives it, or None.
-    scale, offset : float
-        1 and 0 where it stands for the value itself.
-    offset_dimension : str
-        What the offset was given as, where it was a text: ``"angle"``, ..., ``"pure number"``.
-    """
+    """A named value that is given later, and ``scale * value + offset`` in its place."""
 
     name: str
     unit: str

@@ -28,47 +28,16 @@ _AT_ONCE = 8192
 
 @dataclass(frozen=True, eq=False)
 class Agreement:
-    """Numbers that must fit to each other.
-
-    Attributes
-    ----------
-    operands : tuple of Operand
-        The numbers, in the order in which `fits` takes them.
-    """
+    """Numbers that must fit to each other."""
 
     operands: tuple[Operand, ...]
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        """Return for which paths numbers fit, with the functions of NumPy or of JAX.
-
-        Parameters
-        ----------
-        xp : module
-            ``numpy`` or ``jax.numpy``.
-        *numbers : array_like
-            One for each operand; they broadcast together.
-
-        Returns
-        -------
-        array_like of bool
-            True where a number is NaN, which is told elsewhere.
-        """
+        """Return for which paths numbers fit, with the functions of NumPy or of JAX."""
         raise NotImplementedError
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        """Say of numbers of one path that they do not fit, and the cure.
-
-        Parameters
-        ----------
-        *numbers : float
-            One for each operand.
-        varying : collection of int, optional
-            The places of those that are others on other paths, and no cure for all.
-
-        Returns
-        -------
-        str
-        """
+        """Say of numbers of one path that they do not fit, and the cure."""
         raise NotImplementedError
 
     @property
@@ -103,18 +72,7 @@ class Agreement:
         return None if None in keys else (type(self), keys, *others)
 
     def fault(self, given: Mapping[str, Resolved] = NOTHING) -> str:
-        """Say what does not fit; nothing where all does, or cannot be compared.
-
-        Parameters
-        ----------
-        given : mapping of str to Resolved, optional
-            The open parameters.
-
-        Returns
-        -------
-        str
-            A sentence, of the first path where it is so.
-        """
+        """Say what does not fit; nothing where all does, or cannot be compared."""
         try:
             numbers = [_number(operand, given) for operand in self.operands]
         except (OptipathError, ArithmeticError, TypeError, ValueError):
@@ -156,17 +114,7 @@ class Agreement:
         return None
 
     def inside(self, given: Mapping[str, Resolved]) -> Any:
-        """Return for which paths numbers fit that JAX traces; True where it traces none.
-
-        Parameters
-        ----------
-        given : mapping of str to Resolved
-            The open parameters.
-
-        Returns
-        -------
-        bool or Array of bool
-        """
+        """Return for which paths numbers fit that JAX traces; True where it traces none."""
         numbers = [_number(operand, given) for operand in self.operands]
         traced = [number for number in numbers if is_traced(number)]
         return self.fits(namespace(traced[0]), *numbers) if traced else True
@@ -175,20 +123,7 @@ class Agreement:
 def first_faults(
     agreements: Iterable[Agreement], given: Mapping[str, Resolved] = NOTHING
 ) -> list[str]:
-    """Say what does not fit, but for what may only follow from another of these faults.
-
-    Parameters
-    ----------
-    agreements : iterable of Agreement
-        What must fit.
-    given : mapping of str to Resolved, optional
-        The open parameters.
-
-    Returns
-    -------
-    list of str
-        A sentence for each.
-    """
+    """Say what does not fit, but for what may only follow from another of these faults."""
     found = [(law, fault) for law in agreements if (fault := law.fault(given))]
     spoilt = {what for law, _ in found for what in law.spoils}
     first = [fault for law, fault in found if spoilt.isdisjoint(law.rests_on)]
@@ -216,19 +151,6 @@ def _number(operand: Operand, given: Mapping[str, Resolved]) -> Any:
 def text_of(operand: Operand, number: float, unit: str = "") -> str:
     """Write a number, and whose value it is.
 
-    Parameters
-    ----------
-    operand : Operand
-        Where it stands.
-    number : float
-        What it is.
-    unit : str, optional
-        What stands behind it.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> text_of(Operand(Parameter("n")), 1.5)
@@ -249,18 +171,6 @@ def text_of(operand: Operand, number: float, unit: str = "") -> str:
 
 def is_single(xp: Any, numbers: Any) -> Any:
     """Tell of numbers whether they have been rounded to single precision.
-
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    numbers : array_like
-        As doubles.
-
-    Returns
-    -------
-    array_like of bool
-        False of short numbers, such as 1.5, which any precision has.
 
     Examples
     --------

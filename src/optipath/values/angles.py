@@ -115,16 +115,6 @@ class CosSin(Unchanging):
 def within_right_angle(cos: Any, sin: Any) -> Any:
     """Return cosines; 0 where the angle is beyond a right one by the rounding it is given in.
 
-    Parameters
-    ----------
-    cos, sin : float or array_like
-        Of the angles, as they are given.
-
-    Returns
-    -------
-    float or array_like
-        The cosines, in the precision that they came in.
-
     Examples
     --------
     >>> within_right_angle(np.cos(np.float32([np.pi / 2.0])), np.ones(1, np.float32))
@@ -139,16 +129,6 @@ def within_right_angle(cos: Any, sin: Any) -> Any:
 
 def is_angle(cos: Any, sin: Any) -> bool:
     """Tell whether cosines and sines belong to angles, to the rounding in which they are given.
-
-    Parameters
-    ----------
-    cos, sin : float or array_like
-        They broadcast together.
-
-    Returns
-    -------
-    bool
-        Whether cos^2 + sin^2 is 1 for all.
 
     Examples
     --------

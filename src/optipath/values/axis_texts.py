@@ -30,14 +30,7 @@ _NUMBER = re.compile(rf"[-+]?{NUMBER}", re.ASCII)
 class AxisValues(NamedTuple):
     """The values of one parameter.
 
-    Attributes
-    ----------
-    shown : ndarray, shape (count,) or ()
-        As they were given, in `unit`; texts where there are words among them.
-    unit : str
-        ``""`` without a dimension, and for words.
-    given : ndarray, shape (count,) or ()
-        In radians and metres; the word ``"none"`` for an element that is left out.
+    Shapes: shown (count,); given (count,). Units: given in radians.
     """
 
     shown: npt.NDArray[Any]
@@ -66,26 +59,6 @@ def read_axis_text(
     text: str, parameter: Parameter, unit: str = "", uses: Iterable[Use] = ()
 ) -> AxisValues | None:
     """Return the values that one text stands for; None for a text that is given alone.
-
-    Parameters
-    ----------
-    text : str
-        As `several_texts` takes it.
-    parameter : Parameter
-        What the values are for.
-    unit : str, optional
-        That of bare numbers; without one, they have none where the parameter has a dimension.
-    uses : iterable of Use, optional
-        Where parameters stand: some as axes, which have names.
-
-    Returns
-    -------
-    AxisValues or None
-
-    Raises
-    ------
-    ParameterError
-        With all that is wrong.
 
     Examples
     --------
@@ -127,22 +100,7 @@ def read_entries(
 ) -> AxisValues:
     """Return values of which some are texts.
 
-    Parameters
-    ----------
-    entries : sequence
-        Texts with units, words, and numbers in radians and metres.
-    parameter, unit, uses
-        As `read_axis_text` takes them.
-
-    Returns
-    -------
-    AxisValues
-        In the unit of the first, or as texts where there are words.
-
-    Raises
-    ------
-    ParameterError
-        With a sentence for each that stands for no value.
+    Units: entries in radians.
     """
     uses = [*uses]
     found: list[_Entry] = []

@@ -16,22 +16,6 @@ def check_named(
 ) -> None:
     """Refuse values that are given without a name.
 
-    Parameters
-    ----------
-    call : str
-        What is called, such as ``trace``.
-    unnamed : sequence of object
-        What is given by its place.
-    names : iterable of str
-        What could be given by name.
-    first : str, optional
-        What the call is given by its place.
-
-    Raises
-    ------
-    ParameterError
-        Showing how it is written.
-
     Examples
     --------
     >>> check_named("run", [0.5], ["delta", "rho"])

@@ -24,21 +24,6 @@ def texts_of_range(text: str) -> list[str]:
 
     They are evenly spaced in the unit of the ends, exactly, and each is rounded once.
 
-    Parameters
-    ----------
-    text : str
-        ``start:stop:count``, both ends included, in one unit; it may fall.
-
-    Returns
-    -------
-    list of str
-        With the unit; the ends are those that are written.
-
-    Raises
-    ------
-    UnitError
-        With what is wrong, and how it is written.
-
     Examples
     --------
     >>> texts_of_range("0:1:5")

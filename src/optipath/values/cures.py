@@ -36,13 +36,7 @@ def of_fields() -> Iterator[None]:
 
 @contextmanager
 def of_options(options: Mapping[str, str]) -> Iterator[None]:
-    """Let all arguments inside be given by options of a command line, and those left out by none.
-
-    Parameters
-    ----------
-    options : mapping of str to str
-        The option of each argument, such as ``{"k": "--k1"}``.
-    """
+    """Let all arguments inside be named as options of a command line."""
     token = _OPTIONS.set(options)
     try:
         yield
@@ -52,15 +46,6 @@ def of_options(options: Mapping[str, str]) -> Iterator[None]:
 
 def argument(name: str, value: str = "") -> str:
     """Return how an argument is given where the fault is; nothing where no option gives it.
-
-    Parameters
-    ----------
-    name, value : str
-        The argument, and what is given.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -78,15 +63,6 @@ def argument(name: str, value: str = "") -> str:
 
 def cure(python: str, file: str) -> str:
     """Return a cure as it is written where the fault is.
-
-    Parameters
-    ----------
-    python, file : str
-        In both ways of writing it.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

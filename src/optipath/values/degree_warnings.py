@@ -31,21 +31,6 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
 
     The sentence is the same for all values, so that Python shows it once a place.
 
-    Parameters
-    ----------
-    what : str
-        What the angle is given for.
-    value : Any
-        What is given: a number, a text, an array or a list of either, or anything else.
-    place : Affine, optional
-        What the angle is of the number, where that is a multiple with an offset; a multiple of a
-        pure number is not warned of.
-
-    Warns
-    -----
-    AngleWarning
-        At the line that called the library.
-
     Examples
     --------
     >>> warn_of_degrees("a turn", 1.0)
@@ -63,20 +48,7 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
 
 
 def warn_of_two_factors(name: str, value: Any) -> None:
-    """Warn of a text in degrees for a parameter of which pi/180 makes radians once more.
-
-    Parameters
-    ----------
-    name : str
-        Of the parameter.
-    value : Any
-        What is given: a text, or an array or a list with texts among its entries.
-
-    Warns
-    -----
-    AngleWarning
-        At the line that called the library.
-    """
+    """Warn of a text in degrees for a parameter of which pi/180 makes radians once more."""
     try:
         entries = as_given("", value).ravel().tolist()
     except OptipathError:

@@ -21,15 +21,7 @@ _MULTIPLES = 10.0
 def is_within_a_turn(low: Any, high: Any) -> bool:
     """Tell whether a range has no angle beyond a whole turn.
 
-    Parameters
-    ----------
-    low, high : Any
-        Its ends, in radians.
-
-    Returns
-    -------
-    bool
-        False also where an end is no number.
+    Units: low, high in radians.
 
     Examples
     --------
@@ -43,14 +35,7 @@ def is_within_a_turn(low: Any, high: Any) -> bool:
 def has_plain_degrees(low: float, high: float) -> bool:
     """Tell whether a range of angles was given by plain numbers that were meant in degrees.
 
-    Parameters
-    ----------
-    low, high : float
-        Its ends, in radians.
-
-    Returns
-    -------
-    bool
+    Units: low, high in radians.
 
     Examples
     --------
@@ -79,17 +64,7 @@ def is_of_an_angle(scale: float) -> bool:
 def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
     """Return what a number that is refused as an angle was meant to be, ready to be put behind.
 
-    Parameters
-    ----------
-    number : float
-        In radians.
-    allows : callable
-        Tells whether an angle in radians is allowed.
-
-    Returns
-    -------
-    str
-        ``"; did you mean '48 deg' or np.radians(48)?"``; nothing where degrees are refused too.
+    Units: number, allows in radians.
 
     Examples
     --------
@@ -110,21 +85,7 @@ def called(
 ) -> tuple[str, str]:
     """Return how a number beyond its limits is called, and what it was meant to be.
 
-    Parameters
-    ----------
-    number : float
-        In radians, if it is an angle.
-    text : str
-        How it is called in its unit.
-    dimension : str
-        What it measures.
-    limits : tuple of float
-        What is allowed.
-
-    Returns
-    -------
-    tuple of str
-        The second to be put behind the sentence; empty but for degrees given for radians.
+    Units: number in radians.
 
     Examples
     --------

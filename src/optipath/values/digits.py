@@ -13,17 +13,6 @@ _ALL = 17
 def digits_until(holds: Callable[[int], bool], least: int = 10) -> int:
     """Return with how few significant digits something holds; 17, which tell all doubles apart.
 
-    Parameters
-    ----------
-    holds : callable
-        Tells of a number of digits whether they will do.
-    least : int, optional
-        The fewest.
-
-    Returns
-    -------
-    int
-
     Examples
     --------
     >>> digits_until(lambda digits: f"{1 + 1e-11:.{digits}g}" != "1")

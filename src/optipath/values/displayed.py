@@ -10,16 +10,7 @@ from optipath.values.units import dimension_of, format_quantity, in_unit, parse_
 def displayed(value: float, unit: str) -> str:
     """Write a number with a unit, to 15 digits.
 
-    Parameters
-    ----------
-    value : float
-        In radians or metres, or a pure number.
-    unit : str
-        One of `UNITS`, or none.
-
-    Returns
-    -------
-    str
+    Units: value in radians.
 
     Examples
     --------
@@ -32,17 +23,7 @@ def displayed(value: float, unit: str) -> str:
 def format_range(low: float, high: float, unit: str) -> str:
     """Write the limits of a range, or nothing where there are none.
 
-    Parameters
-    ----------
-    low, high : float
-        In radians or metres, or pure numbers.
-    unit : str
-        One of `UNITS`, or none.
-
-    Returns
-    -------
-    str
-        For a sentence.
+    Units: low, high in radians.
 
     Examples
     --------

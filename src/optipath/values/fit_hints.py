@@ -25,21 +25,6 @@ def with_bounds_hint(
 ) -> list[str]:
     """Return sentences on a value; where it is one number beyond its limits, with `bounds=`.
 
-    Parameters
-    ----------
-    faults : iterable of str
-        What is wrong with the value.
-    value : Any
-        What was given for a parameter.
-    limits : tuple of float
-        The least and the largest real number.
-    domains : sequence of Domain
-        What the parameter must be where it stands.
-
-    Returns
-    -------
-    list of str
-
     Examples
     --------
     >>> with_bounds_hint(["k is -0.1; give 0 or more"], -0.1, (0.0, 9.0), [])

@@ -17,22 +17,6 @@ LARGEST = 64 * 1024 * 1024
 def given_file(path: Any, error: type[OptipathError] = ValueFault) -> Path:
     """Return the path of a file that is to be read.
 
-    Parameters
-    ----------
-    path : str or PathLike
-        What is given.
-    error : type, optional
-        What is raised.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    OptipathError
-        Of that type, if it is no name of a file.
-
     Examples
     --------
     >>> given_file("lamp.csv").stem
@@ -50,24 +34,7 @@ def given_file(path: Any, error: type[OptipathError] = ValueFault) -> Path:
 
 
 def bytes_of(file: Path, most: int = LARGEST) -> bytes:
-    """Return what is in a file, or what comes out of a pipe that somebody writes to.
-
-    Parameters
-    ----------
-    file : Path
-        The file.
-    most : int, optional
-        How many bytes it may have.
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    OSError
-        If it cannot be read, is no file, or is too large.
-    """
+    """Return what is in a file, or what comes out of a pipe that somebody writes to."""
     # A named pipe that nobody writes to is empty, and not waited for.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     with open(file, "rb", opener=lambda name, _: os.open(name, flags)) as stream:

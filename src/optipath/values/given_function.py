@@ -8,18 +8,6 @@ from optipath.errors import shown
 def no_function(name: str, given: object, wanted: str) -> list[str]:
     """Return the sentence for what is no function; none for one, or for None.
 
-    Parameters
-    ----------
-    name, given : str, object
-        What it is called, and what was given.
-    wanted : str
-        Of what it is to be a function.
-
-    Returns
-    -------
-    list of str
-        The sentence, or nothing.
-
     Examples
     --------
     >>> no_function("progress", 3, "two numbers"), no_function("progress", print, "two numbers")

@@ -11,18 +11,7 @@ if TYPE_CHECKING:
 
 
 class InputKey(NamedTuple):
-    """A number that is given for a parameter, before anything is done to it.
-
-    Attributes
-    ----------
-    name : str
-        The parameter.
-    part : str or int
-        As in `Operand`; cosines and sines are made of ``"value"``.
-    scale, offset : float
-        What the parameter is multiplied by, and what is added, where the number is not what is
-        given as it stands.
-    """
+    """A number that is given for a parameter, before anything is done to it."""
 
     name: str
     part: str | int = "value"
@@ -50,17 +39,5 @@ class InputKey(NamedTuple):
         return (min(low, 0.0), high) if self.part == "imag" else (low, high)
 
     def placed(self, numbers: Any, limits: tuple[float, float]) -> Any:
-        """Return numbers for it.
-
-        Parameters
-        ----------
-        numbers : float or ndarray
-            Those that are given.
-        limits : tuple of float
-            What it must be within, as for `affine`.
-
-        Returns
-        -------
-        float or ndarray
-        """
+        """Return numbers for it."""
         return affine(self.scale, self.offset, numbers, limits) if self.is_affine else numbers

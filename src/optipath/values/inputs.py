@@ -36,33 +36,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """The open parameters of a path, where they are used, and the shapes already known.
-
-    Attributes
-    ----------
-    open : mapping of str to Parameter
-        What can be given.
-    bound : mapping of str to Parameter
-        What has been given for good.
-    uses : tuple of Use
-        Where the open parameters stand.
-    shapes : mapping of str to tuple of int
-        The batch shapes of arrays that are known, by owner.
-    known : tuple of Use
-        Where values stand that are known, but to JAX alone.
-    choices : tuple of str
-        What is chosen before a path is composed, and not given when it runs.
-    agreements : tuple of Agreement
-        What must fit together, and is not known to.
-    masks : bool
-        Whether light of what cannot be is NaN, and is not refused.
-    for_complex : tuple of Agreement
-        What must fit together besides, once a complex number is given.
-    computed : tuple of CurveValue
-        What follows from open parameters, and stands where these might.
-    per_nanometre : tuple of str
-        The wavelengths, open or bound, that spectra follow from.
-    """
+    """The open parameters of a path, where they are used, and the shapes already known."""
 
     open: Mapping[str, Parameter]
     bound: Mapping[str, Parameter]
@@ -79,27 +53,7 @@ class Inputs:
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
     ) -> tuple[dict[str, Resolved], tuple[int, ...]]:
-        """Return the numbers of every open parameter, and the shape of the batch.
-
-        Parameters
-        ----------
-        given : mapping of str to Any
-            What is given, by name; defaults stand in for the rest.
-        plain : callable, optional
-            Tells of a name and a value whether it is taken as it stands, its range unchecked.
-
-        Returns
-        -------
-        resolved : dict of str to Resolved
-            The numbers by name.
-        batch : tuple of int
-            The shape that they and all known arrays broadcast to.
-
-        Raises
-        ------
-        ParameterError
-            With every fault of what is given.
-        """
+        """Return the numbers of every open parameter, and the shape of the batch."""
         faults = [self.unknown(name) for name in given if name not in self.open]
         resolved: dict[str, Resolved] = {}
         unchecked = set()
@@ -154,25 +108,7 @@ class Inputs:
         return resolved, joint_shape(*shapes.values())
 
     def numbers_for(self, name: str, value: Any) -> Resolved:
-        """Return the numbers that are given for an open parameter.
-
-        Parameters
-        ----------
-        name : str
-            The parameter.
-        value : Any
-            What is given for it.
-
-        Returns
-        -------
-        Resolved
-            With numbers that are not finite, where these are taken.
-
-        Raises
-        ------
-        ParameterError, UnitError
-            If it stands for no number that is allowed.
-        """
+        """Return the numbers that are given for an open parameter."""
         parameter, limits = self.open[name], self.limits[name]
         if name not in self._taken or is_traced(value):
             return parameter.resolve(value, limits)
@@ -261,15 +197,7 @@ class Inputs:
     __hash__ = None  # type: ignore[assignment]
 
     def ask_in_doubt(self, name: str, value: Any) -> None:
-        """Raise at the first place where a value may be one or several, or is not known yet.
-
-        Parameters
-        ----------
-        name : str
-            The parameter.
-        value : Any
-            What is given for it.
-        """
+        """Raise at the first place where a value may be one or several, or is not known yet."""
         if late := given_too_late(name, value):
             raise ParameterError(late)
         for use in self.uses:

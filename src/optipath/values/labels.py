@@ -10,24 +10,6 @@ from optipath.errors import ValueFault, shown
 def label_of(what: str, name: Any, usual: str) -> str:
     """Return what sentences call a thing by.
 
-    Parameters
-    ----------
-    what : str
-        What is named, such as ``"a spectrum"``.
-    name : str
-        What it is called; empty for nothing of its own.
-    usual : str
-        What sentences call it then.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    ValueFault
-        If the name is no text.
-
     Examples
     --------
     >>> label_of("a spectrum", "", "a histogram"), label_of("a spectrum", "LED", "a histogram")

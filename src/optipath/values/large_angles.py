@@ -21,11 +21,6 @@ class LargeAngles:
 
     Of the first array for a parameter, a thousand numbers are looked at; of those that follow,
     which may be many and short, the first, the last, and one between.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
     """
 
     def __init__(self, inputs: Inputs) -> None:
@@ -42,18 +37,7 @@ class LargeAngles:
         self._looked_at: set[str] = set()
 
     def look(self, given: Mapping[str, Any]) -> None:
-        """Warn of plain numbers that come to angles beyond a whole turn.
-
-        Parameters
-        ----------
-        given : mapping of str to Any
-            What is given to a run, by name.
-
-        Warns
-        -----
-        AngleWarning
-            Once for each parameter.
-        """
+        """Warn of plain numbers that come to angles beyond a whole turn."""
         for name in self._turned & given.keys():
             if may_hold_texts(given[name]):
                 warn_of_two_factors(name, given[name])
@@ -68,18 +52,7 @@ class LargeAngles:
             warn_of_degrees(f"parameter '{name}'", value)
 
     def look_at_uncertainties(self, given: Mapping[str, Any]) -> None:
-        """Warn of standard uncertainties that come to angles beyond a whole turn.
-
-        Parameters
-        ----------
-        given : mapping of str to Any
-            Those that are given, by the name of the parameter.
-
-        Warns
-        -----
-        AngleWarning
-            Once for each parameter.
-        """
+        """Warn of standard uncertainties that come to angles beyond a whole turn."""
         for name in [name for name in given if name in self.names]:
             warn_of_degrees(f"the standard uncertainty of parameter '{name}'", given[name])
 

@@ -57,34 +57,7 @@ def make_sound(
     *,
     of_fields: bool = True,
 ) -> bool:
-    """Replace the values of something by what it keeps, and refuse what is not allowed.
-
-    Parameters
-    ----------
-    whole : Any
-        A frozen dataclass, just made.
-    domains : mapping of str to Domain
-        Its fields that hold values, in order.
-    quantities : callable
-        Returns the names of its values, the values, and what they may be.
-    of_fields : bool, optional
-        Whether these are no more than the parts of its fields, each by its own domain.
-
-    Returns
-    -------
-    bool
-        Whether all of them are allowed; False where that is told later.
-
-    Raises
-    ------
-    ValueFault
-        With all faults at once, unless they are told later.
-
-    Warns
-    -----
-    AngleWarning
-        Where an angle is beyond a whole turn.
-    """
+    """Replace the values of something by what it keeps, and refuse what is not allowed."""
     sound: dict[str, Domain] = {}
     faults: dict[str, list[str]] = {}
     for name, domain in domains.items():
@@ -129,32 +102,7 @@ def not_known_sound(whole: T) -> T:
 
 
 def kept_value(owner: str, value: Any, domain: Domain) -> Any:
-    """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit.
-
-    Parameters
-    ----------
-    owner : str
-        What has the value, as sentences name it.
-    value : Any
-        What is given.
-    domain : Domain
-        What it may be.
-
-    Returns
-    -------
-    Any
-        What is no value at all stays what it is, for the check to name.
-
-    Raises
-    ------
-    ValueFault
-        With a sentence for each text that stands for no number.
-
-    Warns
-    -----
-    AngleWarning
-        If an angle is beyond a whole turn, or a limit or a word of a parameter that is one.
-    """
+    """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
     if domain.takes_large_angles and not _is_checked_later.get():
         # Of a parameter with a unit, it has been told when it was made.
         without = isinstance(value, Parameter) and (value.bound or not value.unit)
@@ -172,13 +120,7 @@ def kept_value(owner: str, value: Any, domain: Domain) -> Any:
 
 
 def refuse(faults: list[str]) -> None:
-    """Raise with what is wrong with something that has just been made, unless it is told later.
-
-    Raises
-    ------
-    ValueFault
-        If there is anything.
-    """
+    """Raise with what is wrong with something that has just been made, unless it is told later."""
     if faults and not _is_checked_later.get():
         raise ValueFault(*faults)
 

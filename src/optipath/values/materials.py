@@ -50,22 +50,6 @@ def _number(value: Any) -> Any:
 def index_of(text: str, asked: str = "") -> complex:
     """Return the number that a text stands for, which is no name of a material.
 
-    Parameters
-    ----------
-    text : str
-        What is given.
-    asked : str, optional
-        What to give in place of a name; n and k by default.
-
-    Returns
-    -------
-    complex
-
-    Raises
-    ------
-    UnitError
-        If it stands for none.
-
     Examples
     --------
     >>> index_of("0.2+3.4j")

@@ -18,21 +18,6 @@ _ROUNDINGS = 2.0**-51
 def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float] = ENDLESS) -> Any:
     """Return a multiple of numbers plus an offset.
 
-    Parameters
-    ----------
-    scale, offset : float
-        The factor, and what is added.
-    numbers : float or array_like
-        Of NumPy or JAX. What has less than double precision becomes double.
-    limits : tuple of float, optional
-        What is beyond one of these by the rounding of the sum alone becomes the limit, as
-        80 deg and 10 deg are a right angle together.
-
-    Returns
-    -------
-    float or array_like
-        The numbers themselves, or their negatives, where it is no more than that.
-
     Examples
     --------
     >>> affine(2.0, 0.5, np.float32([0.25]))

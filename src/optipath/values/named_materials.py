@@ -24,21 +24,7 @@ WAVELENGTH = Wavelength(help="wavelength in vacuum, by which materials that have
 
 
 def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
-    """Tell whether a text is the name of a material, for the index of refraction that stands there.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        What it is given for.
-    text : str
-        What stands behind the option.
-    uses : sequence of Use
-        The numbers of the path.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether a text is the name of a material for the index of refraction there."""
     is_range = ":" in text  # Of which an end may be no number.
     if not text[:1].isalpha() or is_range or text in (*parameter.all_words, "inf", "nan"):
         return False
@@ -46,64 +32,19 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
 
 
 def stands_for_index(uses: Sequence[Use], name: str) -> bool:
-    """Tell whether a parameter stands as an index of refraction, wherever it stands.
-
-    Parameters
-    ----------
-    uses : sequence of Use
-        The numbers of the path.
-    name : str
-        The parameter.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether a parameter stands as an index of refraction, wherever it stands."""
     places = places_of(uses, name)
     return bool(places) and all(use.domain.takes_materials for use in places)
 
 
 def extinction_beside(uses: Sequence[Use], name: str) -> str:
-    """Return the parameter that is the k of an index of which another is n; nothing without one.
-
-    Parameters
-    ----------
-    uses : sequence of Use
-        The numbers of the path.
-    name : str
-        The parameter that is n.
-
-    Returns
-    -------
-    str
-    """
+    """Return the parameter that is the k of an index of which another is n; nothing without one."""
     found = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
     return found.pop() if len(found) == 1 else ""
 
 
 def material_named(option: str, text: str, beside: str = "", k: Any = None) -> Material:
-    """Return the material of a name.
-
-    Parameters
-    ----------
-    option : str
-        Behind which it stands.
-    text : str
-        A name, or a book and a page, ``"Au/Johnson"``.
-    beside : str, optional
-        The option that gives k.
-    k : float, optional
-        What that gives, in place of the material's own.
-
-    Returns
-    -------
-    Material
-
-    Raises
-    ------
-    ParameterError
-        Naming the option: if there is no such material, or no database.
-    """
+    """Return the material of a name."""
     if "," in text:
         raise ParameterError(
             f"{option} takes one material, and {shown(text)} names several; give one, and write a "
@@ -118,15 +59,7 @@ def material_named(option: str, text: str, beside: str = "", k: Any = None) -> M
 
 
 def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
-    """Take each k out of some values that a material beside it has in place of its own.
-
-    Parameters
-    ----------
-    uses : sequence of Use
-        The numbers of the path.
-    values : dict of str to Any
-        What is given, by name.
-    """
+    """Take each k out of some values that a material beside it has in place of its own."""
     for name, value in list(values.items()):
         if isinstance(value, Material):
             values.pop(extinction_beside(uses, name), None)
@@ -143,18 +76,7 @@ def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Mater
 def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:
     """Return what a material is called and comes to, as JSON can hold it.
 
-    Parameters
-    ----------
-    label : str
-        What it is called.
-    material : Material
-        With its n and k.
-    wavelength : float or ndarray
-        Where it is taken, in metres.
-
-    Returns
-    -------
-    dict of str to Any
+    Units: wavelength in metres.
     """
     parts = {part: getattr(material, part) for part in ("n", "k")}
     return {"name": label} | {

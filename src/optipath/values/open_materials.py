@@ -49,19 +49,7 @@ def waits_for(given: Any) -> Sequence[str]:
 
 
 def given_too_late(name: str, given: Any) -> str:
-    """Return what is said of a material or curve that is given while a path runs; mostly nothing.
-
-    Parameters
-    ----------
-    name : str
-        The parameter that it is given for.
-    given : Any
-        What is given.
-
-    Returns
-    -------
-    str
-    """
+    """Return the fault of a material or curve that is given while a path runs; mostly none."""
     if not (names := waits_for(given)):
         return ""
     return (

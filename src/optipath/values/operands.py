@@ -40,19 +40,7 @@ _COMPARED = 1 << 20
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
     """Return a part of numbers, as `Operand` names them.
 
-    Parameters
-    ----------
-    numbers : array_like, shape (..., *tail)
-        The numbers of a value.
-    part : str or int
-        ``"value"`` for all, ``"real"``, ``"imag"``, or an index into the flattened tail.
-    tail : tuple of int
-        The axes of one value, behind the batch.
-
-    Returns
-    -------
-    array_like, shape (...)
-        The part of each.
+    Shapes: numbers (..., *tail); returns (...).
 
     Examples
     --------
@@ -69,18 +57,7 @@ def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Operand:
-    """A number, an array or a parameter, and which part of it a kernel is given.
-
-    Attributes
-    ----------
-    value : Any
-        A number, an array, or a `Parameter`.
-    part : str or int
-        ``"value"``, ``"real"``, ``"imag"``, ``"cos"``, ``"sin"``, ``"present"`` (is an
-        optional parameter there?), or the position in a flattened vector or matrix.
-    tail : tuple of int
-        The axes of the value behind the batch.
-    """
+    """A number, an array or a parameter, and which part of it a kernel is given."""
 
     value: Any
     part: str | int = "value"
@@ -111,20 +88,7 @@ class Operand:
         return "value" if self.part in ("cos", "sin") else self.part
 
     def evaluated(self, xp: Primitives, raw: Any) -> Any:
-        """Return what a kernel is given, for the number that is given for the `input_key`.
-
-        Parameters
-        ----------
-        xp : Primitives
-            What it is computed with.
-        raw : Any
-            A number of their sort; for an angle that is given by them, its cosine and sine.
-
-        Returns
-        -------
-        Any
-            Another.
-        """
+        """Return what a kernel is given, for the number that is given for the `input_key`."""
         if self.part == "present":
             return raw
         negative = isinstance(self.value, Parameter) and self.value.is_negative
@@ -138,20 +102,7 @@ class Operand:
         return -raw if negative else raw
 
     def given_in(self, numbers: Mapping[InputKey, Any], sort: Callable[[Any], Any]) -> Any:
-        """Return what is given for it among numbers, as `evaluated` takes it.
-
-        Parameters
-        ----------
-        numbers : mapping of InputKey to Any
-            An angle may be among them as its cosine and sine.
-        sort : callable
-            Makes a number one of the sort that is computed with.
-
-        Returns
-        -------
-        Any
-            A number, or a cosine and a sine.
-        """
+        """Return what is given for it among numbers, as `evaluated` takes it."""
         key = self.input_key
         if key in numbers:
             return sort(numbers[key])
@@ -177,24 +128,7 @@ class Operand:
     def numbers(
         self, given: Mapping[str, Resolved] = NOTHING, kind: np.dtype[Any] = _DOUBLE
     ) -> np.ndarray[Any, Any]:
-        """Return this part of the value as an array.
-
-        Parameters
-        ----------
-        given : mapping of str to Resolved, optional
-            The parameters, where the value is not known.
-        kind : dtype, optional
-            The precision in which cosines and sines are computed.
-
-        Returns
-        -------
-        ndarray
-
-        Raises
-        ------
-        ParameterError
-            If it is a value that JAX traces, which a path takes where it has a parameter.
-        """
+        """Return this part of the value as an array."""
         raw = self.raw(given)
         check_known(_BY_ITSELF, raw)
         if self.part in ("cos", "sin"):

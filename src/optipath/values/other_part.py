@@ -22,22 +22,7 @@ _OTHER = {"n": "k", "k": "n"}
 
 
 def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) -> str:
-    """Say how the other part of a complex index is given; nothing where there is none.
-
-    Parameters
-    ----------
-    uses : iterable of Use
-        The numbers of a path.
-    name : str
-        The parameter that is the one part.
-    how : callable, optional
-        Writes down the name by which a parameter is given.
-
-    Returns
-    -------
-    str
-        Such as ``"give k by k1"``.
-    """
+    """Say how the other part of a complex index is given; nothing where there is none."""
     values = {use.owner: use.value for use in uses}
     for owner, value in values.items():
         place, _, part = owner.rpartition(".")
@@ -54,37 +39,12 @@ def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) 
 
 
 def places_of(uses: Iterable[Use], name: str) -> list[Use]:
-    """Return where a parameter stands.
-
-    Parameters
-    ----------
-    uses : iterable of Use
-        The numbers of a path.
-    name : str
-        The parameter.
-
-    Returns
-    -------
-    list of Use
-    """
+    """Return where a parameter stands."""
     return [u for u in uses if isinstance(u.value, Parameter) and u.value.name == name]
 
 
 def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
-    """Return what k is wherever a parameter stands as the n of an index.
-
-    Parameters
-    ----------
-    uses : iterable of Use
-        The numbers of a path.
-    name : str
-        The parameter that is n.
-
-    Returns
-    -------
-    dict of str to Any
-        By place; nothing where it stands as an index by itself, or as something else.
-    """
+    """Return what k is wherever a parameter stands as the n of an index."""
     values = {use.owner: use.value for use in uses}
     found: dict[str, Any] = {}
     for owner, value in values.items():
@@ -96,23 +56,7 @@ def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
 
 
 def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any) -> list[str]:
-    """Return sentences on a value; those on a complex one with how its other part is given.
-
-    Parameters
-    ----------
-    faults : iterable of str
-        What is wrong with the value.
-    uses : iterable of Use
-        The numbers of a path.
-    name : str
-        The parameter that the value was given for.
-    value : Any
-        What was given.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return sentences on a value; those on a complex one with how its other part is given."""
     cure = other_part(uses, name) if _is_complex(value) else ""
     return [f"{fault}; {cure}" if cure else fault for fault in faults]
 

@@ -28,37 +28,14 @@ _TEXT_IS_TEXT: dict[Any, Any] = {
 
 
 def check_form(file: Path) -> None:
-    """Refuse a file in whose form nothing can be drawn.
-
-    Raises
-    ------
-    OptipathError
-        Naming the forms that there are.
-    """
+    """Refuse a file in whose form nothing can be drawn."""
     if file.suffix.lower() not in _METADATA:
         known = ", ".join(_METADATA)
         raise OptipathError(f"'{file}' has an ending that cannot be drawn; use one of: {known}")
 
 
 def write_picture(figure: Figure, file: Path, dots_per_inch: float | str = "figure") -> None:
-    """Draw a figure into a file, with texts that can be searched and set in another type.
-
-    Parameters
-    ----------
-    figure : Figure
-        Of Matplotlib.
-    file : Path
-        Such as ``map.png``, ``map.svg`` or ``map.pdf``.
-    dots_per_inch : float or "figure", optional
-        Of what is drawn in dots; by default as many as the figure says.
-
-    Raises
-    ------
-    OptipathError
-        If nothing can be drawn in the form that the ending says.
-    OSError
-        If it cannot be written; what was there before stays.
-    """
+    """Draw a figure into a file, with texts that can be searched and set in another type."""
     from matplotlib import rc_context  # noqa: PLC0415 - an extra
 
     check_form(file)

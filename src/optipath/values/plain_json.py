@@ -17,20 +17,6 @@ def plain(
 ) -> Any:
     """Return a value as JSON can hold it, in a unit; what is not finite is None.
 
-    Parameters
-    ----------
-    value : Any
-        A number, an array, a word or None.
-    unit : str, optional
-        The unit of numbers.
-    complex_parts : tuple of str, optional
-        What the two parts of complex numbers are called.
-
-    Returns
-    -------
-    Any
-        A number, a list of them, a dict of two parts, or what was no number.
-
     Examples
     --------
     >>> plain(0.5 + 0.1j), plain(1.5 + 0.1j, "", ("n", "k"))

@@ -16,11 +16,6 @@ _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
 def precision(given: Any) -> np.dtype[Any]:
     """Return the dtype of a name, or of what NumPy takes for one.
 
-    Raises
-    ------
-    ComposerError
-        If there is no such precision, on any platform or on this one.
-
     Examples
     --------
     >>> precision("float32"), precision("f4"), precision(float)
@@ -31,11 +26,6 @@ def precision(given: Any) -> np.dtype[Any]:
 
 def precision_name(given: Any) -> str:
     """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is.
-
-    Raises
-    ------
-    ComposerError
-        As `precision` does.
 
     Examples
     --------

@@ -23,20 +23,6 @@ _LARGEST = 300.0
 def ratio_of(text: str) -> float | None:
     """Return the number that a ratio is, or None for a text that is none.
 
-    Parameters
-    ----------
-    text : str
-        Two numbers with a colon between them, or ``"inf"``.
-
-    Returns
-    -------
-    float or None
-
-    Raises
-    ------
-    UnitError
-        If there is a colon, but not two positive numbers with a ratio.
-
     Examples
     --------
     >>> ratio_of("1000:1"), ratio_of("inf"), ratio_of("20")
@@ -56,15 +42,6 @@ def ratio_of(text: str) -> float | None:
 
 def without_unit(number: str, unit: str) -> str:
     """Return the cure for a unit where a pure number is asked for; decibels are a ratio.
-
-    Parameters
-    ----------
-    number, unit : str
-        The two parts of what is given.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -87,17 +64,6 @@ def is_of_decibels(unit: str) -> bool:
 
 def finite_number(value: Any, unit: str) -> str:
     """Return what to give in place of a number that is not finite.
-
-    Parameters
-    ----------
-    value : float
-        NaN, or infinity.
-    unit : str
-        That of what it is given for.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

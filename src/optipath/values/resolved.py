@@ -15,12 +15,7 @@ THERE.flags.writeable = False
 
 
 class Resolved(NamedTuple):
-    """Numbers for a parameter, and where an optional one is there at all.
-
-    Attributes
-    ----------
-    value, present : ndarray of one shape
-    """
+    """Numbers for a parameter, and where an optional one is there at all."""
 
     value: npt.NDArray[Any]
     present: npt.NDArray[np.bool_]

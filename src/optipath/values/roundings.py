@@ -19,17 +19,6 @@ NARROW = (np.float16, np.float32)
 def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
     """Return limits as the precision of JAX's numbers holds them, neither as 0 nor as infinite.
 
-    Parameters
-    ----------
-    numbers : array_like
-        An array of NumPy's, whose limits stay, or of JAX's, which takes subnormal numbers for 0.
-    limits : tuple of float
-        The least and the largest number.
-
-    Returns
-    -------
-    low, high : float
-
     Examples
     --------
     >>> held(np.array([0.5], np.float32), (0.0, 1e60))
@@ -47,18 +36,6 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
 
     What is beyond a limit by its rounding becomes the limit, as `within` has it; so does what is
     beyond a right angle, which limits angles of incidence.
-
-    Parameters
-    ----------
-    array : ndarray
-        Of any dtype.
-    limits : tuple of float, optional
-        The least and the largest number.
-
-    Returns
-    -------
-    ndarray
-        Of float64 or complex128, of more precision, or of what are no numbers.
 
     Examples
     --------
@@ -91,18 +68,6 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
 
     Where there are such, they are doubles at least.
 
-    Parameters
-    ----------
-    array : ndarray
-        Of any dtype.
-    limits : tuple of float
-        The least and the largest number.
-
-    Returns
-    -------
-    ndarray
-        The array itself where nothing is beyond.
-
     Examples
     --------
     >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
@@ -120,18 +85,6 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
 def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
     """Tell whether numbers of less precision than double are beyond a limit, rounded to that.
 
-    Parameters
-    ----------
-    array : ndarray
-        Of any dtype.
-    limits : tuple of float
-        The least and the largest number.
-
-    Returns
-    -------
-    bool
-        Whether any of them is; False for doubles.
-
     Examples
     --------
     >>> is_beyond(np.float32([0.5, np.pi / 2.0]), (0.0, np.pi / 2.0))
@@ -148,18 +101,6 @@ def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
 
 def traced_within(numbers: Any, limits: tuple[float, float]) -> Any:
     """Return numbers that JAX traces as `within` does, with their slopes.
-
-    Parameters
-    ----------
-    numbers : jax.Array
-        The numbers.
-    limits : tuple of float
-        The least and the largest number.
-
-    Returns
-    -------
-    jax.Array
-        Of doubles where a limit has been rounded.
 
     Examples
     --------
@@ -198,20 +139,6 @@ def _rounded(kind: Any, limits: tuple[float, float]) -> tuple[float, float]:
 
 def with_limits(array: Array, kind: Any, limits: tuple[float, float]) -> Array:
     """Return doubles; those beyond a limit by its rounding to a precision, as the limit.
-
-    Parameters
-    ----------
-    array : ndarray of float64
-        The numbers.
-    kind : type
-        The precision in which they were given.
-    limits : tuple of float
-        The least and the largest number.
-
-    Returns
-    -------
-    ndarray of float64
-        The array itself where no limit is rounded outwards.
 
     Examples
     --------

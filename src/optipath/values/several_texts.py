@@ -22,25 +22,6 @@ _THOUSANDS = re.compile(r"0\d\d(?:\D.*)?", re.ASCII)
 def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     """Return the texts of several values that one text stands for.
 
-    Parameters
-    ----------
-    parameter : Parameter
-        What they are for.
-    text : str
-        A range ``"0 deg:90 deg:91"``, a list ``"10 deg, 20 deg, 30 deg"``, or ``"@file.csv"``: the
-        column that is called as the parameter, or the only one.
-
-    Returns
-    -------
-    list of str or None
-        One text for each value, to be read as one that is given alone; None for a text that is
-        given alone, such as ``"30 deg"``, ``"horizontal"``, or the ratio ``"1000:1"``.
-
-    Raises
-    ------
-    ParameterError
-        With what is wrong, and how it is written.
-
     Examples
     --------
     >>> from optipath.values.parameters import Parameter

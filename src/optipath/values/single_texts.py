@@ -24,28 +24,6 @@ def single_value(
 ) -> Any:
     """Return what a text stands for: a number, a word of the parameter, or an axis.
 
-    Parameters
-    ----------
-    parameter : Parameter
-        For which it is given.
-    text : str
-        A number with its unit, or a word.
-    uses : sequence of Use
-        The numbers of the path.
-    unit : str, optional
-        That of a bare number; without one it is refused where the parameter has a dimension.
-    called : callable, optional
-        Writes down the name by which a parameter is given, such as ``--n1``.
-
-    Returns
-    -------
-    float, complex, str or ndarray
-
-    Raises
-    ------
-    ParameterError, UnitError
-        If it stands for nothing that the parameter may be.
-
     Examples
     --------
     >>> from optipath.values.parameters import Parameter

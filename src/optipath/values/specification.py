@@ -29,13 +29,7 @@ _KINDS: dict[str, tuple[type, str]] = {
 
 
 def check_types(parameter: Any) -> None:
-    """Check what a parameter is specified by that is no number.
-
-    Raises
-    ------
-    ParameterError
-        Naming what is of another type.
-    """
+    """Check what a parameter is specified by that is no number."""
     for name, (kind, described) in _KINDS.items():
         if not isinstance(value := getattr(parameter, name), kind):
             raise ParameterError(
@@ -44,13 +38,7 @@ def check_types(parameter: Any) -> None:
 
 
 def checked_name(name: Any) -> str:
-    """Return the name of a parameter.
-
-    Raises
-    ------
-    ParameterError
-        If it is no identifier.
-    """
+    """Return the name of a parameter."""
     if isinstance(name, str) and name.isidentifier():
         return name
     raise ParameterError(
@@ -60,24 +48,7 @@ def checked_name(name: Any) -> str:
 
 
 def limit_of(name: str, value: Any) -> float:
-    """Return an end of the range of a parameter as a number.
-
-    Parameters
-    ----------
-    name : str
-        That of the parameter.
-    value : Any
-        What is given, texts read already.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ParameterError
-        If it is no real number.
-    """
+    """Return an end of the range of a parameter as a number."""
     if type(value) is float:
         return value
     what = f"the range of parameter '{name}'"
@@ -92,28 +63,6 @@ def read_specification(parameter: Any) -> dict[str, Any]:
 
     The unit is that of the first text that has one, where none is given. A default stays a text,
     which may be a word.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        As it was given.
-
-    Returns
-    -------
-    dict of str to Any
-        The fields that are read.
-
-    Raises
-    ------
-    UnitError
-        If the unit is unknown.
-    ParameterError
-        With a sentence for each text that stands for no number.
-
-    Warns
-    -----
-    AngleWarning
-        If the default, a limit or a word is an angle beyond a whole turn, given as a plain number.
     """
     name, words = parameter.name, parameter.words
     named = words if isinstance(words, dict) else {}
@@ -150,18 +99,7 @@ def read_specification(parameter: Any) -> dict[str, Any]:
 
 
 def warn_where_it_stands(parameter: Any) -> None:
-    """Warn of limits and words of a parameter that is an angle since it stands for one.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        Without a unit, so that all its numbers are plain ones.
-
-    Warns
-    -----
-    AngleWarning
-        For each number beyond a whole turn.
-    """
+    """Warn of limits and words of a parameter that is an angle since it stands for one."""
     limits = {end: getattr(parameter, end) for end in ("minimum", "maximum")}
     _warn_of(parameter.name, limits | _by_phrase(parameter.words), parameter)
 

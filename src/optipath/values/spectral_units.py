@@ -36,21 +36,7 @@ _TEXT = re.compile(rf"([-+]?{NUMBER})\s*(\S+)", re.ASCII)
 def wavelength_of(text: str) -> float | None:
     """Return the wavelength that a photon energy, a wave number or a frequency stands for.
 
-    Parameters
-    ----------
-    text : str
-        A number with one of the units eV, meV, keV, 1/cm (or ``cm^-1``), 1/um, 1/mm, 1/m, Hz, GHz,
-        THz, PHz.
-
-    Returns
-    -------
-    float or None
-        In vacuum, in metres; None for what has none of these units.
-
-    Raises
-    ------
-    UnitError
-        If the number is not above 0.
+    Units: the result in metres.
 
     Examples
     --------
@@ -79,19 +65,7 @@ def falls_with_wavelength(text: object) -> bool:
 
 
 def with_other_units(fault: UnitError, text: str) -> UnitError:
-    """Return what is said of a text that is no length, with what else a wavelength may be in.
-
-    Parameters
-    ----------
-    fault : UnitError
-        What is wrong with the text.
-    text : str
-        Without a unit, or with that of something else; else the fault stays as it is.
-
-    Returns
-    -------
-    UnitError
-    """
+    """Return what is said of a text that is no length, with what else a wavelength may be in."""
     if (unit := unit_of(text)) and unit not in UNITS:
         return fault
     return UnitError(*[f"{sentence}, or eV, 1/cm, THz" for sentence in fault.faults])

@@ -25,19 +25,7 @@ NO_UNIT = "1"
 
 
 class TextColumn(NamedTuple):
-    """A column of a file.
-
-    Attributes
-    ----------
-    name, unit : str
-        As the first line says; ``""`` for no unit.
-    texts : tuple of str
-        What stands below, numbers with the unit behind them.
-    lines : tuple of int
-        Where each of these stands.
-    file : str
-        That of the column.
-    """
+    """A column of a file."""
 
     name: str
     unit: str
@@ -58,22 +46,6 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
     ``delta [deg]``, ``delta_deg``; or each number has one. The unit ``(1)`` is none.
     Values are separated by commas, semicolons or tabulators; empty lines and those that begin with
     ``#`` are comments.
-
-    Parameters
-    ----------
-    path : str or PathLike
-        The file, in UTF-8.
-    known : collection of str, optional
-        Names that are no name and unit, such as ``width_mm``.
-
-    Returns
-    -------
-    list of TextColumn
-
-    Raises
-    ------
-    ParameterError, ValueFault
-        With all that is wrong, and the lines.
     """
     file = given_file(path, ParameterError)
     lines = lines_of(file)
@@ -112,24 +84,7 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
 
 
 def column_for(parameter: Parameter, path: str) -> list[str]:
-    """Return the texts of the column that is a parameter's: of its name, or the only one.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        What they are for.
-    path : str
-        The file.
-
-    Returns
-    -------
-    list of str
-
-    Raises
-    ------
-    ParameterError, ValueFault
-        As `columns_of`, or if there are several columns of other names.
-    """
+    """Return the texts of the column that is a parameter's: of its name, or the only one."""
     name = parameter.name
     columns = columns_of(path, [name])
     for column in columns:
@@ -146,19 +101,7 @@ def column_for(parameter: Parameter, path: str) -> list[str]:
 
 
 def missing_unit(column: TextColumn, parameter: Parameter) -> str:
-    """Return what is wrong with a column whose numbers need a unit and have none; else nothing.
-
-    Parameters
-    ----------
-    column : TextColumn
-        Of a file.
-    parameter : Parameter
-        What it is for.
-
-    Returns
-    -------
-    str
-    """
+    """Return what is wrong with a column whose numbers need a unit and have none; else nothing."""
     if not (dimension := dimension_of(parameter.unit)) or not column.lacks_units:
         return ""
     return (

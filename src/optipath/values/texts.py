@@ -24,27 +24,6 @@ def numbers_for(
 ) -> Any:
     """Return a value with the number in place of each text that stands for one.
 
-    Parameters
-    ----------
-    what : str
-        What the value is given for.
-    value : Any
-        A text, a list or an array with texts among its entries, or anything else.
-    parse : callable
-        Returns the number that a text stands for, or raises an `OptipathError`.
-    error : type, optional
-        What is raised.
-
-    Returns
-    -------
-    Any
-        Numbers; the value itself where there is no text, or it is no array at all.
-
-    Raises
-    ------
-    OptipathError
-        Of that type, with a sentence for each text that stands for no number.
-
     Examples
     --------
     >>> from optipath.values.units import parse_quantity

@@ -58,17 +58,6 @@ def usual_name(word: str) -> str:
 def unit_meant(word: str, units: Collection[str]) -> str:
     """Return the cure for an unknown unit, ready to be put behind the fault.
 
-    Parameters
-    ----------
-    word : str
-        What was written.
-    units : collection of str
-        What could have been meant.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> unit_meant("degrees", ["deg", "rad"]), unit_meant("pints", ["deg", "rad"])

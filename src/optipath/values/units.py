@@ -20,14 +20,7 @@ from optipath.values.unit_names import unit_meant
 class Unit(NamedTuple):
     """A unit: so many base units, times ten to a power.
 
-    Attributes
-    ----------
-    dimension : str
-        What it measures.
-    power : int
-        By how many places the decimal point of a number moves, which rounds nothing.
-    size : float
-        What is left of its size then; 1 but for angles in degrees and parts of them.
+    Units: size in degrees.
     """
 
     dimension: str
@@ -99,11 +92,6 @@ _NOTHING = Unit("")
 def dimension_of(unit: str) -> str:
     """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit.
 
-    Raises
-    ------
-    UnitError
-        If the unit is unknown.
-
     Examples
     --------
     >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
@@ -137,28 +125,6 @@ def unit_of(text: str) -> str:
 def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float | complex:
     """Return the number that a text such as ``"30 deg"`` stands for.
 
-    Parameters
-    ----------
-    text : str
-        A number and its unit.
-    dimension : str
-        The dimension asked for: ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per
-        length"``, ``"magnetic field"``, ``"Verdet constant"``, or ``""``.
-    default_unit : str, optional
-        The unit of a bare number; without one, a bare number is accepted only
-        where there is no dimension.
-
-    Returns
-    -------
-    float or complex
-        Radians, metres, what of them there is per metre, or a pure number, which may be
-        complex, ``"0.3+0.4j"``, with parentheses or without, or a ratio, ``"1000:1"``.
-
-    Raises
-    ------
-    UnitError
-        If the text is no number, or its unit is missing, unknown or of another dimension.
-
     Examples
     --------
     >>> parse_quantity("180 deg", "angle")
@@ -189,17 +155,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
 def in_unit(value: float, unit: str) -> float:
     """Return a number in base units in another unit, without the noise of conversion.
 
-    Parameters
-    ----------
-    value : float
-        In radians or metres, or a pure number.
-    unit : str
-        One of `UNITS`, or none.
-
-    Returns
-    -------
-    float
-        The number of fewest digits that gives it back.
+    Units: value in radians.
 
     Examples
     --------
@@ -214,17 +170,7 @@ def in_unit(value: float, unit: str) -> float:
 def format_quantity(value: complex, unit: str) -> str:
     """Write a number with a unit so that reading it gives the very same number back.
 
-    Parameters
-    ----------
-    value : float or complex
-        In radians or metres, or a pure number.
-    unit : str
-        One of `UNITS`, or none.
-
-    Returns
-    -------
-    str
-        As `parse_quantity` reads it.
+    Units: value in radians.
 
     Examples
     --------

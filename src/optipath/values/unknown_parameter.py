@@ -20,18 +20,6 @@ _CASE = "cas"
 def unknown_parameter(name: str, known: Iterable[str]) -> str:
     """Return the sentence for a parameter that there is not.
 
-    Parameters
-    ----------
-    name : str
-        What was written.
-    known : iterable of str
-        What could have been meant.
-
-    Returns
-    -------
-    str
-        It says where a case is named, and an option of a composer, if these were meant.
-
     Examples
     --------
     >>> unknown_parameter("dtype", ["delta"])
@@ -49,19 +37,6 @@ def unknown_parameter(name: str, known: Iterable[str]) -> str:
 def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = "") -> str:
     """Return the sentence for a word that a parameter does not know, or that is no number.
 
-    Parameters
-    ----------
-    name, word : str
-        The parameter, and what was given for it.
-    known : iterable of str
-        The words that it knows.
-    dimension : str, optional
-        That of its numbers.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> unknown_word("filter", "vertikal", ["horizontal", "vertical"])
@@ -77,20 +52,6 @@ def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = ""
 
 def word_meant(word: str, known: Iterable[str], dimension: str) -> str:
     """Return the cure for a word that is unknown where a number may stand, too.
-
-    Parameters
-    ----------
-    word : str
-        What was written.
-    known : iterable of str
-        The words that are known.
-    dimension : str
-        That of the numbers; an angle may be that of an axis which has a name.
-
-    Returns
-    -------
-    str
-        To be put behind the fault; nothing where no look is left.
 
     Examples
     --------

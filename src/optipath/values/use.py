@@ -29,19 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Use:
-    """A value where it stands.
-
-    Attributes
-    ----------
-    owner : str
-        The node and the field, such as ``X1.incidence``.
-    value : Any
-        A number, an array, or a `Parameter`.
-    domain : Domain
-        Which values are allowed there.
-    checked : bool
-        Whether it is known that this one is.
-    """
+    """A value where it stands."""
 
     owner: str
     value: Any
@@ -109,13 +97,7 @@ class Use:
         return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
 
     def check(self) -> None:
-        """Check what is known of the value: all of it, or a parameter's unit and default.
-
-        Raises
-        ------
-        ValueFault
-            Naming the owner, the value and what is asked for.
-        """
+        """Check what is known of the value: all of it, or a parameter's unit and default."""
         if self.checked:
             return
         if not isinstance(self.value, Parameter):
@@ -160,22 +142,7 @@ class Use:
         present: np.ndarray[Any, Any] = THERE,
         given: Mapping[str, Resolved] | None = None,
     ) -> None:
-        """Check numbers given for the parameter that stands here.
-
-        Parameters
-        ----------
-        numbers : float or ndarray
-            The values of the parameter.
-        present : ndarray, optional
-            Where an optional one is there at all.
-        given : mapping of str to Resolved, optional
-            What else is given, of which it may have been computed.
-
-        Raises
-        ------
-        ValueFault
-            Naming the parameter, the place and the value.
-        """
+        """Check numbers given for the parameter that stands here."""
         value = self.value
         if isinstance(value, CurveValue):
             check_computed(value, self.owner, self.domain, numbers, given)

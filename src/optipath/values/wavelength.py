@@ -113,21 +113,7 @@ class Wavelength(Parameter):
 def read_within(span: tuple[float, float], given: Any) -> Any:
     """Return wavelengths in metres, as long as a curve is known for.
 
-    Parameters
-    ----------
-    span : tuple of float
-        The least and the largest wavelength of the curve; infinite where it has no end.
-    given : float, str or array_like
-        In metres, or texts with units.
-
-    Returns
-    -------
-    array_like
-
-    Raises
-    ------
-    ParameterError
-        If they are no wavelengths.
+    Units: given in metres.
 
     Examples
     --------

@@ -11,17 +11,7 @@ from optipath.errors import shown
 
 
 def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
-    """Tell whether something is a whole number of any integer type, but no bool.
-
-    Parameters
-    ----------
-    number, least, most : object, int, int or infinity
-        What was given, and within what it must be.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether something is a whole number of any integer type, but no bool."""
     with suppress(TypeError):  # NumPy's durations are Integral, and index nothing
         return (
             isinstance(number, Integral)
@@ -33,18 +23,6 @@ def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
 
 def whole_number(what: str, number: object, least: int = 1) -> list[str]:
     """Return the sentence for what is no whole number, or too small; none for one that serves.
-
-    Parameters
-    ----------
-    what, number : str, object
-        What is counted, and what was given; any integer type serves, but no bool.
-    least : int
-        The smallest that serves.
-
-    Returns
-    -------
-    list of str
-        The sentence, or nothing.
 
     Examples
     --------

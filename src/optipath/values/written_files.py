@@ -22,18 +22,6 @@ def write_file(file: Path, content: bytes) -> None:
     A new file has the permissions that the umask leaves, one that is replaced keeps its own. A
     link is followed; what is no ordinary file, such as ``/dev/stdout``, is written to directly.
 
-    Parameters
-    ----------
-    file : Path
-        Where it is to be.
-    content : bytes
-        All that is in it.
-
-    Raises
-    ------
-    OSError
-        If the folder takes no file, or the disk is full. No draft is left behind.
-
     Examples
     --------
     >>> import tempfile
@@ -48,23 +36,7 @@ def write_file(file: Path, content: bytes) -> None:
 
 @contextmanager
 def written_whole(file: Path) -> Iterator[IO[bytes]]:
-    """Let a file be written part by part, which is in its place once all is written.
-
-    Parameters
-    ----------
-    file : Path
-        Where it is to be, as `write_file` takes it.
-
-    Yields
-    ------
-    IO of bytes
-        What takes the parts.
-
-    Raises
-    ------
-    OSError
-        As `write_file` does.
-    """
+    """Let a file be written part by part, which is in its place once all is written."""
     # The real path of a pipe is none.
     if file.exists() and not file.is_file():
         with file.open("wb") as stream:
@@ -78,21 +50,6 @@ def written_whole(file: Path) -> Iterator[IO[bytes]]:
 @contextmanager
 def drafted(file: Path) -> Iterator[Path]:
     """Let a file be written by others under the name of a draft, which is then moved to its place.
-
-    Parameters
-    ----------
-    file : Path
-        Where it is to be, as `write_file` takes it; no pipe.
-
-    Yields
-    ------
-    Path
-        Where it is to be written.
-
-    Raises
-    ------
-    OSError
-        As `write_file` does.
 
     Examples
     --------
@@ -119,17 +76,7 @@ def drafted(file: Path) -> Iterator[Path]:
 
 
 def write_own_file(file: Path, content: bytes, mode: int = 0o600) -> None:
-    """Write a file in place of whatever stood there, a link too; by default for its owner alone.
-
-    Parameters
-    ----------
-    file : Path
-        Its place.
-    content : bytes
-        What it is to hold.
-    mode : int, optional
-        Its permissions, of which the umask takes some away.
-    """
+    """Write a file in place of whatever stood there, a link too; by default for its owner alone."""
     with _draft(file, mode) as stream:
         stream.write(content)
 

@@ -136,17 +136,6 @@ def vertices_from_angles(
 def counted(count: int, what: str) -> str:
     """Return how many there are of something.
 
-    Parameters
-    ----------
-    count : int
-        How many.
-    what : str
-        What one of them is called.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> counted(1, "turn"), counted(2, "turn")

@@ -16,17 +16,7 @@ if TYPE_CHECKING:
 
 
 class Coordinates(NamedTuple):
-    """Points of a chain: what is given of them, and what makes coordinates of it.
-
-    Attributes
-    ----------
-    arguments : tuple of Operand
-        Coordinates, or cosines and sines of angles.
-    points : PointsByAngles or None
-        Makes coordinates of the arguments, where they are none.
-    events : tuple of Operand
-        What happens at each vertex between the points, where that differs from path to path.
-    """
+    """Points of a chain: what is given of them, and what makes coordinates of it."""
 
     arguments: tuple[Operand, ...]
     points: PointsByAngles | None
@@ -38,19 +28,7 @@ class Coordinates(NamedTuple):
         return *self.events, *self.arguments
 
     def given_to(self, kernel: Kernel, *before: Any) -> Operation:
-        """Return the operation of a kernel of coordinates.
-
-        Parameters
-        ----------
-        kernel : Kernel
-            What is computed.
-        *before
-            What it is given before the coordinates.
-
-        Returns
-        -------
-        Operation
-        """
+        """Return the operation of a kernel of coordinates."""
         return Operation(kernel, (*before, *self._coordinates(self.points)))
 
     def planes(self, kernel: Kernel) -> Operation:
@@ -73,19 +51,6 @@ class Coordinates(NamedTuple):
 
 def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates:
     """Return the coordinates of some points of a chain.
-
-    Parameters
-    ----------
-    vertices : array_like, Parameter or VerticesByAngles
-        The chain.
-    count : int
-        How many points it has.
-    first, last : int
-        Which are wanted; 0 is where light starts.
-
-    Returns
-    -------
-    Coordinates
 
     Examples
     --------

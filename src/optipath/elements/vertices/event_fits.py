@@ -27,11 +27,6 @@ class EventFits(Agreement):
     """Light can go from point to point as the event at a vertex says.
 
     The operands are the event, n in front, n and k behind, and the coordinates of three points.
-
-    Attributes
-    ----------
-    owner : str
-        What sentences call the vertex.
     """
 
     owner: str

@@ -34,15 +34,6 @@ class VertexFrame:
     """How light arrives at the last of some vertices, or how it leaves there.
 
     On its way from there it may be told in a frame that is turned about its direction.
-
-    Attributes
-    ----------
-    points : Coordinates
-        From the start of the chain to the point behind the vertex.
-    leaves : bool
-        Whether the frame is that of the reflected light.
-    turns : tuple of Operand
-        The angles by which the light's own frame is turned on about the direction of travel.
     """
 
     points: Coordinates
@@ -62,22 +53,7 @@ class VertexFrame:
     def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
         """Return the frame: x across the plane of incidence, and turned from there.
 
-        Parameters
-        ----------
-        given : mapping of str to Resolved
-            The values of the open parameters.
-        cut : callable, optional
-            Of a part of a batch: returns what belongs to it of numbers for the whole.
-
-        Returns
-        -------
-        Frame
-            With axes of shape (..., 3).
-
-        Raises
-        ------
-        FrameError
-            If JAX traces the values, or there is no memory for so many frames.
+        Shape: returns (..., 3).
         """
         if any(operand.traced for operand in self._views) or any(
             is_traced(given[name].value) for name in self.names

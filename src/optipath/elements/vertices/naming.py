@@ -16,18 +16,6 @@ _AT_ONCE = 1 << 11
 def of_chain(chain: int, batch: tuple[int, ...]) -> str:
     """Return which chain of a batch is meant, ready to be put behind what is in it.
 
-    Parameters
-    ----------
-    chain : int
-        Its place in C order.
-    batch : tuple of int
-        The shape of the batch.
-
-    Returns
-    -------
-    str
-        Empty where there is no batch.
-
     Examples
     --------
     >>> of_chain(0, ()), of_chain(7, (10,)), of_chain(7, (2, 5))

@@ -33,22 +33,7 @@ def normal_faults(
     That of a reflection is along the bisector k_out - k_in, and that of a refraction along
     n2 k_out - n1 k_in; between equal media any will do.
 
-    Parameters
-    ----------
-    chains : ndarray, shape (..., count + 2, 3), or None
-        Vertices that are sound; where there are none, the normals are looked at alone.
-    normals : array_like, shape (..., count, 3)
-        What is given.
-    count : int
-        The number of vertices.
-    sides : ndarray, shape (..., count, 2), optional
-        n1 and n2 at each vertex, over the larger; both 1 where it reflects (by default
-        everywhere), and 0 between equal media.
-
-    Returns
-    -------
-    list of str
-        A sentence for the first normal of each fault.
+    Shapes: chains (..., count + 2, 3); normals (..., count, 3); sides (..., count, 2).
 
     Examples
     --------
@@ -97,15 +82,7 @@ def normal_faults(
 def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_]:
     """Return which chains have a normal that is not along that of its vertex.
 
-    Parameters
-    ----------
-    chains, normals, sides
-        As `normal_faults` takes them, which has found no fault with these normals alone.
-
-    Returns
-    -------
-    ndarray of bool, shape (...)
-        False of chains whose points tell no direction.
+    Shape: returns (...).
     """
     count = normals.shape[-2]
     tolerance = max(_TOLERANCE, 2.0 * rounding_of(normals))

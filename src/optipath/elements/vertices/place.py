@@ -22,17 +22,6 @@ _DOUBLE = np.dtype(np.float64)
 class PlaceInChain:
     """Which vertex of a chain, as somebody says it; it may be none.
 
-    Attributes
-    ----------
-    vertices : array, Parameter or VerticesByAngles
-        The chain.
-    number : int
-        Which of its vertices, 1 being the first that light meets.
-    told : int or None
-        How many there are, where that is told.
-    counted_by : str
-        The field that tells it.
-
     Examples
     --------
     >>> import numpy as np
@@ -98,15 +87,6 @@ class PlaceInChain:
 
 def same_points(first: Any, second: Any) -> bool:
     """Tell whether two chains are equal; points that are not finite are, where they stand alike.
-
-    Parameters
-    ----------
-    first, second : Any
-        What is given for the vertices of an element.
-
-    Returns
-    -------
-    bool
 
     Examples
     --------

@@ -22,11 +22,6 @@ class SnellAtVertex(Agreement):
     """A surface between two media can turn light so far by refraction.
 
     The operands are the indices in front and behind, and the coordinates of three points.
-
-    Attributes
-    ----------
-    owner : str
-        What sentences call the vertex.
     """
 
     owner: str
@@ -68,15 +63,6 @@ class SnellAtVertex(Agreement):
 
 def deviation(points: Any) -> float:
     """Return by how many degrees light is turned at the middle of three points.
-
-    Parameters
-    ----------
-    points : sequence of float
-        Their nine coordinates.
-
-    Returns
-    -------
-    float
 
     Examples
     --------

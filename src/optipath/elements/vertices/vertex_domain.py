@@ -27,15 +27,7 @@ _LEAST, _MOST = SHORTEST**2, LONGEST**2
 
 @dataclass(frozen=True)
 class VerticesDomain(Domain):
-    """Points from the light to the eye, in the unit of any length.
-
-    Attributes
-    ----------
-    masks : bool
-        Whether chains that cannot be are let in, and have light that is NaN.
-    ends : bool
-        Whether chains may end before the last point, and nothing is said of those behind.
-    """
+    """Points from the light to the eye, in the unit of any length."""
 
     masks: bool = False
     ends: bool = False

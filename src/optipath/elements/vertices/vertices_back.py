@@ -14,21 +14,7 @@ from optipath.values.parameters import Parameter
 def vertices_back(owner: str, vertices: Any) -> Any:
     """Return the points of a chain from its end to its start.
 
-    Parameters
-    ----------
-    owner : str
-        What sentences call the vertex.
-    vertices : array, shape (..., m + 2, 3), Parameter or VerticesByAngles
-        The chain.
-
-    Returns
-    -------
-    array, shape (..., m + 2, 3), or VerticesByAngles
-
-    Raises
-    ------
-    PathError
-        If they are an open parameter.
+    Shapes: vertices (..., m + 2, 3); returns (..., m + 2, 3).
 
     Examples
     --------

@@ -17,28 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Formula:
-    """Operations in the order in which they can be done; only those that are needed.
-
-    Attributes
-    ----------
-    dtype : dtype
-        The precision of the operations.
-    results : tuple
-        Symbols, or numbers that are known.
-    conditions : tuple
-        What must be true for the formula to hold.
-    wide : mapping of str to (float, float)
-        The inputs whose arrays have more digits than the formula, and their ranges.
-    constants : mapping of str to float
-        The inputs whose numbers are known.
-    axes : frozenset of int
-        The axes of the batch that are gone through.
-    last : int or None
-        The axis of the inner loop where there is one of its own; None where paths follow
-        each other in one loop.
-    earlier : frozenset of int
-        Symbols, by their places in the record, that have been computed before.
-    """
+    """Operations in the order in which they can be done; only those that are needed."""
 
     dtype: np.dtype[Any]
     results: tuple[Any, ...]

@@ -16,19 +16,7 @@ if TYPE_CHECKING:
 
 
 def is_in_first_quadrant(operand: Operand, limits: tuple[float, float]) -> bool:
-    """Tell whether the angle of an operand is known to be within 0 .. pi/2.
-
-    Parameters
-    ----------
-    operand : Operand
-        A cosine or a sine.
-    limits : tuple of float
-        The least and the largest angle that may be given for it.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether the angle of an operand is known to be within 0 .. pi/2."""
     low, high = limits
     return not operand.value.is_negative and low >= 0.0 and high <= np.pi / 2
 
@@ -36,27 +24,7 @@ def is_in_first_quadrant(operand: Operand, limits: tuple[float, float]) -> bool:
 def of_angle(
     xp: Primitives, digits: Digits, operand: Operand, angle: Any, left: Any, *, first: bool
 ) -> Any:
-    """Return the cosine or the sine that an operand is.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    digits : Digits
-        What sines of the precision are made of.
-    operand : Operand
-        Which of the two.
-    angle : float, array_like or Symbol
-        At most `digits.most` in size; its sign that of the operand.
-    left : float, array_like or Symbol
-        What is left of it beside right angles, where it has been given in more digits; or None.
-    first : bool
-        Whether it is within 0 .. pi/2.
-
-    Returns
-    -------
-    float, array_like or Symbol
-    """
+    """Return the cosine or the sine that an operand is."""
     if first:
         return first_quadrant(xp, digits)(angle, left)[operand.part == "cos"]
     value = any_quadrant(xp, digits)(angle, left)[operand.part == "cos"]

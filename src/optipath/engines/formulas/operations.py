@@ -13,19 +13,7 @@ if TYPE_CHECKING:
 
 
 class About(NamedTuple):
-    """What is known of an operation.
-
-    Attributes
-    ----------
-    ufunc : callable
-        Does it to NumPy's arrays and scalars.
-    kind : str
-        ``"float"``, ``"bool"`` or ``"int"``; ``"same"`` as its operands.
-    text : str
-        How Python writes it, for engines that compile scalars.
-    commutes : bool
-        Whether its two operands may change places.
-    """
+    """What is known of an operation."""
 
     ufunc: Callable[..., Any]
     kind: str

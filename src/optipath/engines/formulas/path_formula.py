@@ -52,31 +52,6 @@ def lights_formula(
     four components are computed, read or not. The results are the four components of each
     reading in turn, else NaN where they are not read, and then the exponents. It holds for values
     within their limits whose light is finite and not too faint.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    carrier : type
-        How light is carried.
-    dtype : str
-        The precision of the formula.
-    forms : mapping of InputKey to str
-        What is given for each number.
-    limits : mapping of Hashable to tuple of float
-        The range of each parameter.
-    axes : mapping of str to frozenset of int, optional
-        Along which axes of the batch each array differs.
-    unreduced : bool, optional
-        Whether nothing is left out.
-    masks : bool, optional
-        Whether light that is NaN is so on purpose, and the formula holds for it.
-    single, counted : bool, optional
-        As `SymbolicInputs` takes them.
-
-    Returns
-    -------
-    Formula
     """
     recorder = Recorder(np.dtype(dtype))
     known = recorder.opaque if unreduced else None
@@ -117,25 +92,6 @@ def bounds_formula(
 
     With the name of a model, that of the intensities without polarisation at every end, and
     of the largest error that the model has at any of them.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    dtype : str
-        The precision of the formula.
-    forms : mapping of InputKey to str
-        What is given for each number.
-    limits : mapping of Hashable to tuple of float
-        The range of each parameter.
-    axes : mapping of str to frozenset of int, optional
-        Along which axes of the batch each array differs.
-    model : str, optional
-        What is carried in place of all light.
-
-    Returns
-    -------
-    Formula
     """
     recorder = Recorder(np.dtype(dtype))
     operands = SymbolicInputs(recorder, forms, limits, axes=axes)
@@ -155,19 +111,7 @@ def bounds_formula(
 
 
 def slack_of(program: Program, dtype: str) -> float:
-    """Return what bounds give away for roundings, those of whole Mueller matrices included.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    dtype : str
-        The precision.
-
-    Returns
-    -------
-    float
-    """
+    """Return what bounds give away for roundings, those of whole Mueller matrices included."""
     matrices = sum(map(len, program.matrices.values()))
     return 256.0 * float(np.finfo(dtype).eps) + 16.0 * _spare(dtype) * matrices
 
@@ -188,31 +132,7 @@ def matrix_formula(
     *,
     masks: bool = False,
 ) -> Formula:
-    """Return the formula of the Mueller matrix from a source to a reading, row by row.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    source : str
-        Where light is emitted.
-    reading : Reading
-        Where it is read.
-    dtype : str
-        The precision of the formula.
-    forms : mapping of InputKey to str
-        What is given for each number.
-    limits : mapping of Hashable to tuple of float
-        The range of each parameter.
-    axes : mapping of str to frozenset of int, optional
-        Along which axes of the batch each array differs.
-    masks : bool, optional
-        As `lights_formula` takes it.
-
-    Returns
-    -------
-    Formula
-    """
+    """Return the formula of the Mueller matrix from a source to a reading, row by row."""
     recorder = Recorder(np.dtype(dtype))
     operands = SymbolicInputs(recorder, forms, limits, axes=axes)
     symbols, carrier = operands.of(program), MatrixCarrier(operands.primitives)

@@ -13,38 +13,14 @@ if TYPE_CHECKING:
 
 
 def indented(*lines: str) -> list[str]:
-    """Return lines one level deeper.
-
-    Parameters
-    ----------
-    *lines : str
-        Which.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return lines one level deeper."""
     return ["    " + line for line in lines]
 
 
 def assignments(
     steps: Iterable[Symbol], written: Callable[[Any], str], *, branchless: bool = False
 ) -> list[str]:
-    """Return a line for each operation.
-
-    Parameters
-    ----------
-    steps : iterable of Symbol
-        The operations.
-    written : callable
-        How symbols and numbers are written.
-    branchless : bool, optional
-        Whether choices are calls of ``chosen`` instead of branches.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return a line for each operation."""
     found = []
     for step in steps:
         text = OPERATIONS[step.operation].text

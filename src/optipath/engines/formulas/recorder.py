@@ -17,11 +17,6 @@ ONE_AXIS = frozenset({0})
 class Recorder:
     """A record of operations in the order in which they can be done.
 
-    Parameters
-    ----------
-    dtype : dtype
-        The precision of numbers that are known.
-
     Examples
     --------
     >>> import numpy as np
@@ -55,40 +50,12 @@ class Recorder:
         axes: frozenset[int] = ONE_AXIS,
         left: str = "",
     ) -> Symbol:
-        """Return the symbol of a number that is given, or of what is left of an angle.
-
-        Parameters
-        ----------
-        name : str
-            What it is called.
-        kind : str, optional
-            ``"float"``, ``"bool"`` or ``"int"``.
-        axes : frozenset of int, optional
-            Along which axes of the batch it differs.
-        left : str, optional
-            What is left, one of `LEFT`.
-
-        Returns
-        -------
-        Symbol
-        """
+        """Return the symbol of a number that is given, or of what is left of an angle."""
         operation = left or "input"
         return self._entered((operation, name), operation, (name,), kind, axes)
 
     def record(self, operation: str, *operands: Any) -> Any:
-        """Return what an operation comes to: a symbol, or a number where that is known.
-
-        Parameters
-        ----------
-        operation : str
-            One of `OPERATIONS`.
-        *operands : Symbol or number
-            What it is done to.
-
-        Returns
-        -------
-        Symbol or number
-        """
+        """Return what an operation comes to: a symbol, or a number where that is known."""
         about = OPERATIONS[operation]
         operands = self._alike(operation, operands)
         symbols = [operand for operand in operands if isinstance(operand, Symbol)]

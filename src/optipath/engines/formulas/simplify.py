@@ -20,36 +20,13 @@ def simplified(operation: str, operands: tuple[Any, ...]) -> Any:
 
     A product with 0 is 0: a number that is not finite is found out elsewhere, since it
     reaches the intensity.
-
-    Parameters
-    ----------
-    operation : str
-        One of `OPERATIONS`.
-    operands : tuple
-        What it is done to.
-
-    Returns
-    -------
-    Symbol, number or `UNKNOWN`
     """
     rule = _RULES.get(operation)
     return UNKNOWN if rule is None else rule(*operands)
 
 
 def is_number(operand: Any, value: float) -> bool:
-    """Tell whether an operand is known, and this number.
-
-    Parameters
-    ----------
-    operand : Symbol or number
-        Which.
-    value : float
-        The number.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether an operand is known, and this number."""
     return not isinstance(operand, Symbol) and bool(operand == value)
 
 
@@ -59,19 +36,7 @@ def is_positive(operand: Any) -> bool:
 
 
 def stays_positive(operation: str, operands: tuple[Any, ...]) -> bool:
-    """Tell whether a result is known not to be negative.
-
-    Parameters
-    ----------
-    operation : str
-        One of `OPERATIONS`.
-    operands : tuple
-        What it is done to.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether a result is known not to be negative."""
     match operation:
         case "absolute" | "sqrt" | "exp":
             return True

@@ -18,19 +18,6 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
 
     What depends on a few axes of the batch only is computed along these alone, by a stage
     whose results are given to later ones.
-
-    Parameters
-    ----------
-    whole : Formula
-        What is to be done.
-    axes : frozenset of int
-        The axes of the batch.
-    last : int or None
-        The innermost axis, where it is long enough for a loop of its own.
-
-    Returns
-    -------
-    tuple of Formula
     """
     known: list[Symbol] = []
     found: list[Formula] = []

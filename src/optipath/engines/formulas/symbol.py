@@ -12,19 +12,7 @@ class Record(Protocol):
     """What symbols ask of whoever keeps what is done to them."""
 
     def record(self, operation: str, *operands: Any) -> Any:
-        """Return what an operation comes to: a symbol, or a number where that is known.
-
-        Parameters
-        ----------
-        operation : str
-            One of `OPERATIONS`.
-        *operands : Symbol or number
-            What it is done to.
-
-        Returns
-        -------
-        Symbol or number
-        """
+        """Return what an operation comes to: a symbol, or a number where that is known."""
 
     def require(self, condition: Any) -> None:
         """Note what must be true for the formula to hold."""
@@ -45,23 +33,6 @@ class Symbol:
 
     Kernels that are given symbols in place of numbers leave a record of what they compute;
     engines make code of it.
-
-    Attributes
-    ----------
-    recorder : Record
-        Where it is recorded.
-    operation : str
-        What is done; ``"input"`` for a number that is given.
-    operands : tuple
-        Symbols and NumPy scalars.
-    kind : str
-        ``"float"``, ``"bool"`` or ``"int"``.
-    axes : frozenset of int
-        The axes of the batch along which it differs; none for one number for all of it.
-    index : int
-        Its place in the record; operands come first.
-    positive : bool
-        Whether it is known not to be negative.
     """
 
     __slots__ = ("axes", "index", "kind", "operands", "operation", "positive", "recorder")

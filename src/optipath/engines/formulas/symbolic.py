@@ -13,19 +13,7 @@ from optipath.kernels.numbers.trigonometry import DIGITS
 
 
 def record(operation: str, *operands: Any) -> Any:
-    """Return what an operation on symbols comes to, or on numbers if all are known.
-
-    Parameters
-    ----------
-    operation : str
-        One of `OPERATIONS`.
-    *operands : Symbol or number
-        What it is done to.
-
-    Returns
-    -------
-    Symbol or number
-    """
+    """Return what an operation on symbols comes to, or on numbers if all are known."""
     for operand in operands:
         if isinstance(operand, Symbol):
             return operand.recorder.record(operation, *operands)

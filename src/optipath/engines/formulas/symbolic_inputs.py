@@ -30,26 +30,7 @@ _APART = 1e-6
 
 
 class SymbolicInputs:
-    """Makes the symbols of a program's operands.
-
-    Parameters
-    ----------
-    recorder : Recorder
-        Where they are recorded.
-    forms : mapping of InputKey to str
-        What is given for each number.
-    limits : mapping of Hashable to tuple of float
-        The range of each parameter; a value outside it is against a requirement.
-    axes : mapping of str to frozenset of int
-        Along which axes of the batch each array differs, by its name as an input; along the
-        only one where nothing is said.
-    known : callable, optional
-        What is done to each number that is known.
-    single : bool, optional
-        Whether single numbers are looked at by the formula, too, and not before.
-    counted : bool, optional
-        Whether elementary functions are one operation each.
-    """
+    """Makes the symbols of a program's operands."""
 
     def __init__(
         self,

@@ -21,26 +21,7 @@ _SPARE = 2.0**60
 def carrying(
     program: Program, carrier: type[Carrier], xp: Primitives, dtype: str
 ) -> tuple[Program, Carrier]:
-    """Return what is done to light, and how it is carried: by intensities alone where that will do.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    carrier : type
-        How light is carried if more than intensities is needed.
-    xp : Primitives
-        What is computed with.
-    dtype : str
-        The precision.
-
-    Returns
-    -------
-    program : Program
-        The same steps, or what is left of them for intensities.
-    carrier : Carrier
-        Gives 0 where intensities lose digits.
-    """
+    """Return what is done to light, and its carrier: intensities alone where that will do."""
     if carrier is StokesCarrier and program.for_powers is not None:
         return program.for_powers, IntensityCarrier(xp, float(np.finfo(dtype).tiny) * _SPARE)
     return program, carrier(xp)

@@ -34,33 +34,7 @@ def execute(
     solvers: list[LoopSolver] | None = None,
     meet: Callable[[Loop], LoopSolver] | None = None,
 ) -> dict[int, tuple[Components, Any]]:
-    """Return the light of every reading, as four components and an exponent.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    operands : sequence
-        The numbers behind ``program.operands``: floats, arrays that broadcast, or symbols.
-    carrier : Carrier
-        How light is carried from step to step, and in which primitives.
-    emitted : mapping of int to tuple, optional
-        The light of each emitting step, in place of what the sources emit.
-    number : callable, optional
-        What is done to each number that a kernel gives.
-    shared : mapping of int to tuple, optional
-        What some evaluations come to, if that is known.
-    solvers : list, optional
-        Takes what has been solved for each loop.
-    meet : callable, optional
-        ``meet(loop)`` gives the solver of a loop that is solved in other numbers.
-
-    Returns
-    -------
-    dict of int to (tuple, int or array)
-        For each light that is read, its four Stokes components, and the exponent of
-        the power of two that they are to be taken times.
-    """
+    """Return the light of every reading, as four components and an exponent."""
     reads: dict[int, int] = {}
     for reading in program.readings.values():
         reads[reading.light] = max(reading.components, reads.get(reading.light, 1))
@@ -107,17 +81,7 @@ def whole_matrices(
     carrier: Carrier,
     number: Callable[[Any], Any] = itself,
 ) -> dict[int, tuple[Any, ...]]:
-    """Return what the evaluations of whole Mueller matrices come to, as `execute` may be given it.
-
-    Parameters
-    ----------
-    program, operands, carrier, number
-        As `execute` takes them.
-
-    Returns
-    -------
-    dict of int to tuple
-    """
+    """Return the values of evaluations of whole Mueller matrices, which `execute` may take."""
     return {i: evaluated(program, i, operands, carrier, number) for i in program.matrices}
 
 
@@ -164,24 +128,7 @@ def evaluated(
     number: Callable[[Any], Any] = itself,
     results: dict[int, Numbers] | None = None,
 ) -> tuple[Any, ...]:
-    """Return the numbers that an evaluation comes to.
-
-    Parameters
-    ----------
-    program : Program
-        The evaluations.
-    index : int
-        Which of them is wanted.
-    operands, carrier, number
-        As `execute` takes them.
-    results : dict, optional
-        What evaluations come to whose results several others take; it is added to.
-
-    Returns
-    -------
-    tuple
-        As many numbers as the structure of the kernel has.
-    """
+    """Return the numbers that an evaluation comes to."""
     found = _evaluated(program, index, operands, carrier, {} if results is None else results)
     return tuple(map(number, found))
 

@@ -36,52 +36,14 @@ _ROUNDING = 1e-9
 
 
 class Column(NamedTuple):
-    """What becomes of one unit of light at a junction until it meets other light again.
-
-    Attributes
-    ----------
-    back : dict of int to tuple
-        The parts of the light that it brings to junctions.
-    leaves : number
-        How much intensity leaves the loop, or is absorbed in it.
-    """
+    """What becomes of one unit of light at a junction until it meets other light again."""
 
     back: dict[int, Parts]
     leaves: Any
 
 
 class LoopSolver:
-    """The lights at the junctions of a loop, for any light that arrives there.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    loop : Loop
-        Those that are solved for.
-    numbers : callable
-        ``numbers(evaluation)`` gives the numbers of an evaluation.
-    xp : Primitives
-        What is computed with.
-    number : callable
-        What is done to each number that comes of unit lights, which have no precision.
-    rounded : callable, optional
-        What is done to each number that is found, where what is computed with has so many
-        digits that a loop which gains is solved, too.
-
-    Attributes
-    ----------
-    unknowns : list of tuple of int
-        The junction and the part that each unknown is.
-    columns : list of Column
-        What becomes of a unit of each.
-    leaves : list
-        How much intensity of a unit of each leaves the loop.
-    pivots : list
-        As those of `Elimination`.
-    found : list
-        What the unknowns have last been found to be.
-    """
+    """The lights at the junctions of a loop, for any light that arrives there."""
 
     def __init__(
         self,

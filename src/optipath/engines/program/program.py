@@ -24,15 +24,7 @@ if TYPE_CHECKING:
 
 
 class Result(NamedTuple):
-    """One of the numbers that an earlier evaluation comes to.
-
-    Attributes
-    ----------
-    evaluation : int
-        Which evaluation.
-    place : int
-        Which of its numbers.
-    """
+    """One of the numbers that an earlier evaluation comes to."""
 
     evaluation: int
     place: int
@@ -40,17 +32,7 @@ class Result(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """A kernel called on operands, and on what other evaluations come to.
-
-    Attributes
-    ----------
-    kernel : Kernel
-        What is computed.
-    arguments : tuple of int or Result
-        The operands it is given, and results of evaluations before it.
-    presence : int or None
-        The operand that says where the element is there at all; None where it always is.
-    """
+    """A kernel called on operands, and on what other evaluations come to."""
 
     kernel: Kernel
     arguments: tuple[int | Result, ...]
@@ -59,21 +41,7 @@ class Evaluation:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Makes one light: the sum of its inputs, changed by an evaluation.
-
-    Attributes
-    ----------
-    label : str
-        The node and the port where this happens.
-    inputs : tuple of int
-        The lights that are added up; empty where light is emitted.
-    evaluation : int or None
-        What is done to the sum; None leaves it as it is.
-    port : bool
-        Whether the label is an out-port, which the light of this step leaves by.
-    bounces : int
-        How often light is reflected here.
-    """
+    """Makes one light: the sum of its inputs, changed by an evaluation."""
 
     label: str
     inputs: tuple[int, ...]
@@ -84,17 +52,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Reading:
-    """A light that a detector or a dump takes.
-
-    Attributes
-    ----------
-    light : int
-        The step that makes it.
-    frame : Frame or VertexFrame
-        The frame of the port where it arrives.
-    components : int
-        How many of the four Stokes components are read.
-    """
+    """A light that a detector or a dump takes."""
 
     light: int
     frame: Frame | VertexFrame
@@ -103,18 +61,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """Neighbouring steps whose lights depend on each other: a strongly connected component.
-
-    Attributes
-    ----------
-    junctions : tuple of int
-        The steps where lights meet, those that every way round passes, in the order in which
-        they are to be eliminated; they stand before the other steps.
-    stop : int
-        The step behind the last one.
-    layered : bool
-        Whether each junction, when it is eliminated, has no more than two neighbours left.
-    """
+    """Neighbouring steps whose lights depend on each other: a strongly connected component."""
 
     junctions: tuple[int, ...]
     stop: int
@@ -128,31 +75,7 @@ class Loop:
 
 @dataclass(frozen=True)
 class Program:
-    """Everything an engine needs.
-
-    Attributes
-    ----------
-    operands : tuple of Operand
-        The numbers that kernels are given, constants and parameters alike.
-    evaluations : tuple of Evaluation
-        What is computed from the operands; each takes results of those before it alone.
-    steps : tuple of Step
-        In the order of travel.
-    sources : mapping of str to (int, frame)
-        The emitting step and the frame of each source.
-    detectors, dumps : mapping of str to Reading
-        Where light ends.
-    counts : tuple of int
-        How many of (S0, S1, S2, S3) each light is carried by, the first ones; all four where
-        it is empty.
-    loops : tuple of Loop
-        Where light goes round. A junction may add up lights of later steps of its loop; all other
-        steps have inputs before them.
-    links : mapping of str to Reading
-        Light on its way that is kept, and light that leaves the path, by link or out-port.
-    live : tuple of tuple of int
-        Which components of each light are alive; empty where nobody has looked.
-    """
+    """Everything an engine needs."""
 
     operands: tuple[Operand, ...]
     evaluations: tuple[Evaluation, ...]

@@ -14,21 +14,7 @@ MODELS = ("scalar", "sp", "linear", "full")
 
 @dataclass(frozen=True)
 class Reduction:
-    """The program that is run, and how it came out of the path as it stands.
-
-    Attributes
-    ----------
-    program : Program
-        What is run.
-    model : str
-        The model of which the light of every step is a part.
-    reason : str
-        Why this model.
-    folded : tuple of str
-        What was merged, left out, or made cheaper, a sentence each.
-    unreduced : bool
-        Whether each step is done as the path has it, with every number that it has.
-    """
+    """The program that is run, and how it came out of the path as it stands."""
 
     program: Program
     model: str
@@ -49,15 +35,7 @@ class Reduction:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """What is taken in place of an exact model where a certificate allows it.
-
-    Attributes
-    ----------
-    model : str
-        The cheaper model.
-    most : float
-        How large its error may be, as a share of the intensity.
-    """
+    """What is taken in place of an exact model where a certificate allows it."""
 
     model: str
     most: float

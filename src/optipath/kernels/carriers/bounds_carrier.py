@@ -25,15 +25,7 @@ if TYPE_CHECKING:
 
 
 class Boosts(NamedTuple):
-    """What is known of several boosts of the tangents hyperbolic t_i.
-
-    Attributes
-    ----------
-    most : float
-        The largest t_i.
-    more, less : float
-        The products of 1 + t_i and of 1 - t_i over all others.
-    """
+    """What is known of several boosts of the tangents hyperbolic t_i."""
 
     most: Any
     more: Any = 1.0
@@ -42,20 +34,6 @@ class Boosts(NamedTuple):
 
 def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
     """Return the boosts with one more.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    boosts : Boosts
-        Those before.
-    t : float or array_like
-        The tangent hyperbolic of one more, within 0 .. 1.
-
-    Returns
-    -------
-    Boosts
-        All together.
 
     Examples
     --------
@@ -69,18 +47,6 @@ def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
 
 def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
     """Return the least and the largest ratio of the true intensity to that of no polarisation.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    boosts : Boosts
-        What the light has been through, its source among them.
-
-    Returns
-    -------
-    least, largest : float or array_like
-        Bounds of the true intensity over the intensity without polarisation.
 
     Examples
     --------
@@ -114,20 +80,6 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
     As a share of the true intensity, or of that of the model, whichever is larger. What any
     model gives that drops components lies between the bounds, too.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    lower, upper : float or array_like
-        Bounds of the true intensity over that of the scalar model.
-    model : str
-        ``"scalar"``, or one that drops fewer components.
-
-    Returns
-    -------
-    float or array_like
-        The error as a share; infinite where the lower bound is 0.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -141,19 +93,7 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
 
 
 class Bounded(NamedTuple):
-    """Light of which nothing is known but its intensity without polarisation, and bounds.
-
-    Attributes
-    ----------
-    total : float
-        The intensity that no polarisation would leave.
-    lower, upper : float
-        Bounds of the ratio of the true intensity to it, when the boosts began.
-    boosts : Boosts
-        What has happened since.
-    excess : float
-        By how much more than wholly its source says, in rounded numbers, that it is polarised.
-    """
+    """Light of which nothing is known but its intensity without polarisation, and bounds."""
 
     total: Any
     lower: Any
@@ -168,13 +108,6 @@ class BoundsCarrier(Carrier):
     What is read is the intensity without polarisation, the least and the largest ratio of the true
     one to it, and the largest degree of polarisation. The bounds hold for
     physical matrices, which `is_physical` tells.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    slack : float or array_like, optional
-        What is given away for roundings.
 
     Examples
     --------

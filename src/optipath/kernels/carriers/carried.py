@@ -31,20 +31,6 @@ _MANY = 1024.0
 def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
     """Return Stokes components as they are carried, or the first `count` of them.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    stokes : tuple
-        (S0, S1, S2, S3).
-    count : int
-        How many components are carried, 1 to 4.
-
-    Returns
-    -------
-    tuple
-        The first components of (weak, S1, S2, S3); of one, half of S0.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -73,20 +59,6 @@ def all_four(carried: Carried) -> tuple[Any, Any, Any, Any]:
 def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
     """Return the first `count` components of carried light.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    carried : tuple
-        The first components of (weak, S1, S2, S3).
-    count : int
-        How many are kept, 1 to 4.
-
-    Returns
-    -------
-    tuple
-        No more than there were.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -102,18 +74,6 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     """Return light whose S1, S2, S3 are shortened where roundings made them longer than S0.
 
     Matrices of one's own may make light that cannot be; it stays as it is.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    carried : tuple
-        The first components of (weak, S1, S2, S3).
-
-    Returns
-    -------
-    tuple
-        As many components.
 
     Examples
     --------
@@ -138,18 +98,6 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 def stokes_of(xp: Primitives, carried: Carried) -> Components:
     """Return the Stokes components of carried light; those that are left out are 0.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    carried : tuple
-        The first components of (weak, S1, S2, S3).
-
-    Returns
-    -------
-    tuple
-        (S0, S1, S2, S3).
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -161,20 +109,7 @@ def stokes_of(xp: Primitives, carried: Carried) -> Components:
 
 
 def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
-    """Return the intensities along x and along y.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    carried : tuple
-        The first components of (weak, S1, S2, S3).
-
-    Returns
-    -------
-    x, y : float or array_like
-        The intensities; half of S0 each where nothing else is carried.
-    """
+    """Return the intensities along x and along y."""
     if len(carried) == 1:
         return carried[0], carried[0]
     weak, s1 = carried[:2]
@@ -183,18 +118,6 @@ def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
 
 def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
     """Return two lights together, incoherently.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    first, second : tuple
-        Carried lights, of as many components or not.
-
-    Returns
-    -------
-    tuple
-        As many components as the longer one has.
 
     Examples
     --------

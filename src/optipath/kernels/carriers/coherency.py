@@ -35,20 +35,6 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
     By elimination without pivots, which a positive matrix needs none of (Higham, Accuracy and
     Stability of Numerical Algorithms, sec. 10.1): right but for a few roundings of M00.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    numbers : sequence
-        The sixteen entries of a Mueller matrix, row by row.
-    spare : float
-        What is given away for roundings, as a share of M00.
-
-    Returns
-    -------
-    bool or array_like
-        Whether an element can have such a matrix.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT

@@ -16,13 +16,6 @@ if TYPE_CHECKING:
 class IntensityCarrier(Carrier):
     """Carries intensities over one denominator, which is divided by at the very end.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    least : float, optional
-        Numerators and denominators below this have lost digits: what is read is 0.
-
     Examples
     --------
     >>> from optipath.kernels.carriers.structures import BLOCK

@@ -18,30 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Kernel:
-    """A pure elementwise function, made for any set of primitives.
-
-    Attributes
-    ----------
-    name : str
-        What explanations call it.
-    structure : Structure or None
-        The shape of Mueller matrix that its numbers describe; None for the four
-        Stokes components that a source emits.
-    factory : callable
-        ``factory(primitives)`` gives the function; its result has as many
-        numbers as the structure asks for.
-    without : tuple of int and Kernel, optional
-        A cheaper kernel for where one argument is 0: the position of that argument, and
-        the kernel that takes the others.
-    denser : tuple of int, int and Kernel, optional
-        A cheaper kernel for where one argument is never less than another: their positions,
-        and the kernel, which takes the same arguments.
-    powers : Kernel, optional
-        What is left of the kernel where only intensities are asked.
-    unpolarising : Kernel, optional
-        The kernel of what is made of the same boundaries, each dimming all light by its mean;
-        None where there is one, whose own mean says that.
-    """
+    """A pure elementwise function, made for any set of primitives."""
 
     name: str
     structure: Structure | None
@@ -69,22 +46,7 @@ class Kernel:
     def specialised(
         self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
     ) -> tuple[Kernel, tuple[Any, ...]]:
-        """Return the cheapest kernel for these arguments, and those that it takes.
-
-        Parameters
-        ----------
-        arguments : sequence
-            What the kernel would be given.
-        vanishes : callable
-            Tells of an argument whether it is 0 for every path.
-
-        Returns
-        -------
-        kernel : Kernel
-            This one, or a cheaper one.
-        arguments : tuple
-            Those that it takes.
-        """
+        """Return the cheapest kernel for these arguments, and those that it takes."""
         if self.without is None or not vanishes(arguments[self.without[0]]):
             return self, tuple(arguments)
         position, cheaper = self.without
@@ -94,20 +56,7 @@ class Kernel:
     def never_less(
         self, arguments: Sequence[Any], ranges: Callable[[Any], tuple[float, float]]
     ) -> Kernel:
-        """Return the cheapest kernel for the ranges that the arguments are known to be in.
-
-        Parameters
-        ----------
-        arguments : sequence
-            What the kernel would be given.
-        ranges : callable
-            Gives the least and the largest value that an argument may have.
-
-        Returns
-        -------
-        Kernel
-            This one, or a cheaper one of the same arguments.
-        """
+        """Return the cheapest kernel for the ranges that the arguments are known to be in."""
         if self.denser is None:
             return self
         larger, smaller, cheaper = self.denser
@@ -122,27 +71,13 @@ class Kernel:
 
 @dataclass(frozen=True)
 class KernelFamily:
-    """One piece of the physics that several methods compute.
-
-    Attributes
-    ----------
-    name : str
-        What the methods compute.
-    methods : mapping of str to Kernel
-        The kernel of each method.
-    """
+    """One piece of the physics that several methods compute."""
 
     name: str
     methods: Mapping[str, Kernel]
 
     def by_method(self, method: str) -> Kernel:
-        """Return the kernel of a method.
-
-        Raises
-        ------
-        ComposerError
-            If there is no such method.
-        """
+        """Return the kernel of a method."""
         if faults := unknown("method", method, self.methods):
             raise ComposerError(*faults)
         return self.methods[method]

@@ -37,15 +37,7 @@ _ROUNDINGS = 4.0
 
 
 class Noisy(NamedTuple):
-    """Light, and what of it may be rounding.
-
-    Attributes
-    ----------
-    light : tuple
-        What `ScaledCarrier` carries.
-    x, y : float or array_like
-        The roundings of the intensities along x and along y, times the power of two of the light.
-    """
+    """Light, and what of it may be rounding."""
 
     light: ScaledState
     x: Any
@@ -54,13 +46,6 @@ class Noisy(NamedTuple):
 
 class NoiseCarrier(Carrier):
     """Carries light with its roundings; what is read is S0 and the noise.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    eps : float
-        The rounding of 1 in the precision of the path.
 
     Examples
     --------

@@ -69,18 +69,6 @@ _CURES = (
 def in_words(what: str, error: BaseException) -> OptipathError:
     """Return an error of the library for what code of a user's own has raised.
 
-    Parameters
-    ----------
-    what : str
-        What has raised it, such as ``"mueller_rows of element class Foil"``.
-    error : BaseException
-        What was raised.
-
-    Returns
-    -------
-    OptipathError
-        Of which the other is the cause.
-
     Examples
     --------
     >>> print(in_words("it", ZeroDivisionError("division by zero")))
@@ -103,23 +91,7 @@ def called(
     *given: Any,
     left: tuple[type[Exception], ...] = (),
 ) -> T:
-    """Return what code of a user's own gives, which raises errors of the library alone.
-
-    Parameters
-    ----------
-    what : str
-        What sentences call it.
-    function : callable
-        The code.
-    *given : Any
-        What it is called with.
-    left : tuple of type, optional
-        Errors that stay what they are, as interruptions and warnings do.
-
-    Returns
-    -------
-    Any
-    """
+    """Return what code of a user's own gives, which raises errors of the library alone."""
     kept: tuple[type[Exception], ...] = (MemoryError, OptipathError, Warning, *left)
     try:
         return function(*given)
@@ -130,42 +102,13 @@ def called(
 
 
 def is_defined_in(package: str, factory: Any) -> bool:
-    """Tell whether what makes a kernel is defined in a package, or its class is.
-
-    Parameters
-    ----------
-    package : str
-        What the names of its modules begin with.
-    factory : callable
-        What makes a kernel.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether what makes a kernel is defined in a package, or its class is."""
     maker = factory if hasattr(factory, "__name__") else type(factory)
     return str(getattr(maker, "__module__", "")).startswith(package)
 
 
 def guarded(what: str, xp: Primitives, factory: Factory) -> KernelFunction:
-    """Return a function of a user's own that raises errors of the library alone.
-
-    Parameters
-    ----------
-    what : str
-        What sentences call it.
-    xp : Primitives
-        What is computed with. In place of plain floats, it is given numbers of NumPy: the
-        comparisons of those are what ``~`` is right of, as it is of arrays.
-    factory : callable
-        Makes the function: numbers in, numbers out.
-
-    Returns
-    -------
-    callable
-        Of plain floats, it raises errors of arithmetic as they are: arrays, which know infinity,
-        do it once more.
-    """
+    """Return a function of a user's own that raises errors of the library alone."""
     if xp is not FLOAT:
         function = called(what, factory, xp)
         return lambda *values: called(what, function, *_of_one_path(values))
@@ -190,15 +133,7 @@ def _of_one_path(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 @dataclass(frozen=True)
 class GuardedFactory:
-    """Makes the function of a kernel of a user's own.
-
-    Parameters
-    ----------
-    name : str
-        Of the kernel.
-    factory : callable
-        Makes the function itself.
-    """
+    """Makes the function of a kernel of a user's own."""
 
     name: str
     factory: Factory

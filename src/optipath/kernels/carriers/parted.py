@@ -41,39 +41,12 @@ _UNITS: tuple[Carried, ...] = (
 
 
 def unit_light(part: int, count: int) -> Carried:
-    """Return carried light of which one part of some count is 1, and the others 0.
-
-    Parameters
-    ----------
-    part : int
-        Which part is 1, from 0.
-    count : int
-        By how many components the light is carried.
-
-    Returns
-    -------
-    tuple
-        The light, as it is carried.
-    """
+    """Return carried light of which one part of some count is 1, and the others 0."""
     return (0.5,) if count == 1 else _UNITS[part][:count]
 
 
 def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
     """Return the parts of carried light, as many as a count of components has.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    carried : tuple
-        The first components of (weak, S1, S2, S3).
-    count : int
-        How many components count, 1 to 4.
-
-    Returns
-    -------
-    tuple
-        (S0,), (x, y), (x, y, S2) or (x, y, S2, S3).
 
     Examples
     --------
@@ -89,18 +62,6 @@ def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
 def light_of(xp: Primitives, parts: Parts) -> Carried:
     """Return carried light of these parts.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    parts : tuple
-        As `parts_of` returns them.
-
-    Returns
-    -------
-    tuple
-        The first components of (weak, S1, S2, S3).
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -115,18 +76,5 @@ def light_of(xp: Primitives, parts: Parts) -> Carried:
 
 
 def energy(xp: Primitives, carried: Carried) -> Any:
-    """Return the intensity S0 of carried light.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    carried : tuple
-        The first components of (weak, S1, S2, S3).
-
-    Returns
-    -------
-    float or array_like
-        S0.
-    """
+    """Return the intensity S0 of carried light."""
     return stokes_of(xp, carried)[0]

@@ -15,11 +15,6 @@ class Sloped:
 
     What loses digits loses those of its slopes, too, and has none where its roots and angles
     have none. A class, so that plans can be pickled.
-
-    Attributes
-    ----------
-    values, slopes : callable
-        The factories.
     """
 
     values: Factory

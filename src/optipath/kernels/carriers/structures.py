@@ -32,29 +32,7 @@ Row: TypeAlias = tuple[Any, Any, Any, Any]
 
 @dataclass(frozen=True)
 class Structure:
-    """One shape of Mueller matrix.
-
-    Attributes
-    ----------
-    name : str
-        What explanations call it.
-    identity : tuple of float
-        The numbers that leave every light as it is.
-    action : callable
-        ``action(primitives)`` makes ``act(numbers, carried, count) -> carried``, the first
-        `count` components of the light behind.
-    rows : callable
-        ``rows(primitives, numbers)`` gives the four rows of the matrix.
-    powers : callable
-        ``powers(primitives)`` makes ``act(numbers, powers, count) -> powers`` for intensities
-        over one denominator.
-    jones : callable, optional
-        ``jones(primitives)`` makes ``act(numbers, columns) -> columns`` for two Jones
-        columns; None for a shape that may depolarise.
-    unpolarising : callable, optional
-        ``unpolarising(numbers)`` gives those of an element that dims all light by the mean;
-        None for a shape that does so anyway.
-    """
+    """One shape of Mueller matrix."""
 
     name: str
     identity: tuple[float, ...]
@@ -82,20 +60,7 @@ class Structure:
 
 
 def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
-    """Return (S1, S2) in a frame turned by a, from (cos 2a, sin 2a).
-
-    Parameters
-    ----------
-    numbers : sequence
-        (cos 2a, sin 2a).
-    s1, s2 : float or array_like
-        S1 and S2 in the frame before.
-
-    Returns
-    -------
-    tuple
-        S1 and S2 in the turned frame.
-    """
+    """Return (S1, S2) in a frame turned by a, from (cos 2a, sin 2a)."""
     c, s = numbers
     return c * s1 + s * s2, c * s2 - s * s1
 

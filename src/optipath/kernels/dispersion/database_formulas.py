@@ -102,17 +102,6 @@ DATABASE_FORMULAS: dict[int, Formula] = {
 def coefficients_fit(number: int, count: int) -> bool:
     """Tell whether a formula may have so many coefficients.
 
-    Parameters
-    ----------
-    number : int
-        That of the formula, 1 to 9.
-    count : int
-        How many coefficients there are.
-
-    Returns
-    -------
-    bool
-
     Examples
     --------
     >>> coefficients_fit(2, 7), coefficients_fit(2, 6), coefficients_fit(8, 4)

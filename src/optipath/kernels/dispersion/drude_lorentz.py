@@ -17,22 +17,7 @@ def drude_lorentz_permittivity(
     field exp(-iwt): F. Wooten, Optical Properties of Solids (1972), chapter 3; in the form of
     A. D. Rakic et al., Appl. Opt. 37, 5271 (1998), eqs. 1 to 3, whose field is exp(+iwt).
 
-    Parameters
-    ----------
-    energy : array_like
-        w, the photon energy, in electronvolts as all energies.
-    background : array_like
-        The permittivity at high energies; 1 in most tables.
-    plasma : array_like
-        wp, the energy of the plasma frequency.
-    free : pair of array_like
-        f0 and g0: the strength, a pure number, and the damping of free electrons.
-    bound : sequence of array_like
-        f, w0 and g of each oscillator: strength, energy of the resonance and damping.
-
-    Returns
-    -------
-    real, imaginary : array_like
+    Units: energy in electronvolts.
 
     Examples
     --------

@@ -11,17 +11,6 @@ def index_of_permittivity(xp: Any, real: Any, imaginary: Any) -> tuple[Any, Any]
     The field is exp(-iwt), so that what absorbs has a positive imaginary part. Slopes are finite
     but where the permittivity is 0.
 
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    real, imaginary : array_like
-        The permittivity, relative to that of vacuum; the imaginary part is not negative.
-
-    Returns
-    -------
-    n, k : array_like
-
     Examples
     --------
     >>> import numpy as np

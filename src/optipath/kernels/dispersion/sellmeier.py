@@ -15,21 +15,7 @@ def sellmeier_square(
 
     W. Sellmeier, Annalen der Physik 219, 272 (1871); in the form of the catalogues of glass.
 
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    wavelength : array_like
-        w, in micrometres.
-    offset : array_like
-        1 in most tables.
-    strengths, poles : sequence of array_like
-        B, a pure number, and C, in square micrometres: the square of a resonance's wavelength.
-
-    Returns
-    -------
-    array_like
-        NaN at a resonance.
+    Units: wavelength in micrometres; strengths, poles in square micrometres.
 
     Examples
     --------
@@ -49,18 +35,7 @@ def sellmeier_square(
 
 
 def index_of_square(xp: Any, square: Any) -> Any:
-    """Return n of n^2; NaN where that is not above 0.
-
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    square : array_like
-
-    Returns
-    -------
-    array_like
-    """
+    """Return n of n^2; NaN where that is not above 0."""
     there = square > 0.0
     return xp.where(there, xp.sqrt(xp.where(there, square, 1.0)), xp.nan)
 
@@ -70,18 +45,7 @@ def cauchy_index(xp: Any, wavelength: Any, coefficients: Sequence[Any]) -> Any:
 
     A.-L. Cauchy, Memoire sur la dispersion de la lumiere (1836).
 
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    wavelength : array_like
-        w, in micrometres.
-    coefficients : sequence of array_like
-        A, B, C, ...: a pure number, in square micrometres, in um^4, ...
-
-    Returns
-    -------
-    array_like
+    Units: wavelength in micrometres; coefficients in square micrometres.
 
     Examples
     --------

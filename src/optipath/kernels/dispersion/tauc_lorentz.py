@@ -15,18 +15,7 @@ def tauc_lorentz_permittivity(
     logarithms of the real part are taken together, so that what becomes infinite at the gap, and
     cancels there, does not stand in it.
 
-    Parameters
-    ----------
-    xp : module
-        ``numpy`` or ``jax.numpy``.
-    energy : array_like
-        E, the photon energy, in electronvolts as all of them.
-    amplitude, resonance, broadening, gap : array_like
-        A, E0, C and Eg; C is below 2 E0.
-
-    Returns
-    -------
-    real, imaginary : array_like
+    Units: energy in electronvolts.
 
     Examples
     --------

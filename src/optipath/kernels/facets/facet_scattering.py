@@ -23,13 +23,6 @@ class FacetScattering:
     Those of the polarised reflectance distribution, row by row: the Mueller matrix of the facet
     between two directions, times density / (4 tilt^4) G / (cos_in cos_out). Of each vector there
     are three numbers.
-
-    Attributes
-    ----------
-    reflection : Kernel
-        Of a boundary, as the facet reflects.
-    masking : str
-        One of `MASKINGS`.
     """
 
     reflection: Kernel

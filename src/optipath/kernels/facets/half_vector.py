@@ -18,21 +18,7 @@ _PARALLEL = 2.0**-50
 
 
 class FacetBetween(NamedTuple):
-    """How light meets the facet that reflects it from one direction into another.
-
-    Attributes
-    ----------
-    cos, sin : float
-        Of the incidence on the facet.
-    slopes : tuple of float
-        Of the facet's height, along x and y.
-    tilt : float
-        The z of its normal.
-    turn_in : tuple of float
-        (cos 2a, sin 2a) of the turn from the frame in which light comes to x = s.
-    turn_out : tuple of float
-        The same from there to the frame in which it goes.
-    """
+    """How light meets the facet that reflects it from one direction into another."""
 
     cos: Any
     sin: Any

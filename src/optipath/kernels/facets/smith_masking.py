@@ -54,18 +54,6 @@ def masked_cosines(xp: Primitives, masking: str) -> Callable[[Vector, Vector, An
     Lambda_out) of ``"smith"``, since what is high is seen along both (V. Ross, D. Dion and G.
     Potvin, J. Opt. Soc. Am. A 22, 2442 (2005)), the product of 1 / (1 + Lambda) of ``"separate"``,
     and 1 of ``"none"``.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    masking : str
-        One of `MASKINGS`.
-
-    Returns
-    -------
-    callable
-        Finite, and above 0 where both cosines are.
     """
     cosine, absolute = smith_cosine(xp), xp.absolute
 

@@ -84,13 +84,6 @@ class _Ring:
 
     V is 0 where nothing depolarises and p . q is 0, so that its coefficient, which is large
     where X turns light far, does no harm.
-
-    Parameters
-    ----------
-    k : Any
-        As above.
-    first : sequence
-        X V, by Cayley and Hamilton.
     """
 
     def __init__(self, k: Any, first: Polynomial) -> None:

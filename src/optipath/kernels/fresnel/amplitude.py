@@ -90,19 +90,7 @@ def _waves(xp: Primitives) -> Callable[..., tuple[Complex, Complex, Complex]]:
 
 
 def ratio(xp: Primitives, top: Complex, bottom: Complex) -> Complex:
-    """Return a quotient of two complex numbers; where the second is 0, the first.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    top, bottom : Complex
-        The two.
-
-    Returns
-    -------
-    Complex
-    """
+    """Return a quotient of two complex numbers; where the second is 0, the first."""
     size = power(bottom)
     size = xp.where(size > 0.0, size, 1.0)
     re, im = times_conjugate(top, bottom)
@@ -110,33 +98,13 @@ def ratio(xp: Primitives, top: Complex, bottom: Complex) -> Complex:
 
 
 def times(first: Complex, second: Complex) -> Complex:
-    """Return the product of two complex numbers.
-
-    Parameters
-    ----------
-    first, second : Complex
-        The two.
-
-    Returns
-    -------
-    Complex
-    """
+    """Return the product of two complex numbers."""
     (a, b), (c, d) = first, second
     return a * c - b * d, a * d + b * c
 
 
 def times_conjugate(first: Complex, second: Complex) -> Complex:
-    """Return a complex number times the conjugate of another.
-
-    Parameters
-    ----------
-    first, second : Complex
-        The two.
-
-    Returns
-    -------
-    Complex
-    """
+    """Return a complex number times the conjugate of another."""
     (a, b), (c, d) = first, second
     return a * c + b * d, b * c - a * d
 

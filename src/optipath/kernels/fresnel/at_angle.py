@@ -17,11 +17,6 @@ class AtAngle:
     """Makes a kernel ``(..., cos, sin) -> (Fs, Fp, B, C, S)`` that is NaN where its cosine is.
 
     What is known of media, such as that they are equal, can make a number of any angle else.
-
-    Attributes
-    ----------
-    factory : callable
-        Makes the kernel.
     """
 
     factory: Factory
@@ -40,19 +35,6 @@ class AtAngle:
 
 def numbers_at(xp: Primitives, cos: Any, numbers: Sequence[Any]) -> list[Any]:
     """Return numbers where there is an angle, and NaN elsewhere.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What they are computed with.
-    cos : float or array_like
-        NaN where there is none.
-    numbers : sequence of float or array_like
-        What a kernel makes of it.
-
-    Returns
-    -------
-    list
 
     Examples
     --------

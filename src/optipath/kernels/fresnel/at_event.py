@@ -19,11 +19,6 @@ class AtEvent:
     """Makes ``(event, n1, n, [k,] cos, sin) -> (Fs, Fp, B, C, S)`` for an `Event`.
 
     All of them are NaN where the cosine is.
-
-    Attributes
-    ----------
-    reflection, transmission : Kernel
-        Of one boundary. What is let through goes on in a medium without absorption.
     """
 
     reflection: Kernel

@@ -25,21 +25,6 @@ class Boundary(NamedTuple):
 
     Indices are divided by a power of two near the largest of them, so that no square
     overflows; every result is a ratio in which it falls out.
-
-    Attributes
-    ----------
-    p : float
-        n1 cos, the wave in front along the normal.
-    a, b : float
-        The wave behind along the normal, g = a + ib = sqrt(m2^2 - (n1 sin)^2), a, b >= 0.
-    squared : float
-        |g|^2.
-    D, v : float
-        m2^2 - n1^2 = D + iv.
-    s, c : float
-        The sine and the cosine.
-    n1, n, k : float
-        The indices, divided.
     """
 
     p: Any
@@ -159,19 +144,7 @@ def _wave(xp: Primitives) -> KernelFunction:
 
 
 def contrast(where: Callable[..., Any], n1: Any, n: Any, loss: Any) -> Any:
-    """Return n^2 - n1^2 - loss, with few roundings.
-
-    Parameters
-    ----------
-    where : callable
-        That of the primitives.
-    n1, n, loss : float or array_like
-        Real parts of two indices, and the difference of the squares of the imaginary ones.
-
-    Returns
-    -------
-    float or array_like
-    """
+    """Return n^2 - n1^2 - loss, with few roundings."""
     # Up to 2 n1, d is exact, and so is its product with n1 in front of vacuum.
     d = n - n1
     return where(d > n1, n * n - (n1 * n1 + loss), 2.0 * n1 * d + (d * d - loss))
@@ -199,22 +172,7 @@ def refracted_wave(xp: Primitives) -> KernelFunction:
 def squared_along_normal(
     xp: Primitives, n0: Any, c0: Any, s0: Any
 ) -> tuple[Callable[[Any], Any], Any]:
-    """Return ``n -> n^2 - y^2`` and the wave y = n0 sin0 along the face.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    n0, c0, s0 : float or array_like
-        The index of a medium that does not absorb, and the angle in it.
-
-    Returns
-    -------
-    along : callable
-        Of the index of any medium.
-    y : float or array_like
-        What Snell's law keeps.
-    """
+    """Return ``n -> n^2 - y^2`` and the wave y = n0 sin0 along the face."""
     p0, y = n0 * c0, n0 * s0
 
     def along(m: Any) -> Any:

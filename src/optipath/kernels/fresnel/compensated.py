@@ -14,13 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Compensated:
-    """Makes a kernel in twice the precision; a class, so that plans can be pickled.
-
-    Attributes
-    ----------
-    factory : callable
-        Makes the kernel.
-    """
+    """Makes a kernel in twice the precision; a class, so that plans can be pickled."""
 
     factory: Factory
 

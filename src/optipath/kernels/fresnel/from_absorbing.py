@@ -65,19 +65,7 @@ def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, 
 
 
 def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
-    """Return how the polarisations differ, with g1 g2 / n1 in place of c g.
-
-    Parameters
-    ----------
-    where : callable
-        That of the primitives.
-    at : InhomogeneousBoundary
-        The boundary.
-
-    Returns
-    -------
-    Slant
-    """
+    """Return how the polarisations differ, with g1 g2 / n1 in place of c g."""
     z = at.n1 * (at.s * at.s)
     re, im = at.c * at.a - at.e * at.b, at.c * at.b + at.e * at.a
     z2, g2 = z * z, (at.c * at.c + at.e * at.e) * at.squared
@@ -129,19 +117,6 @@ def phases_through(
     From g - m = -y^2 / (g + m) on both sides, (y^2 + g1 g2 - m1 m2) / y^2 is
     1 - g1 / (g2 + m2) - m2 / (g1 + m1); the first part, over n1 |m2|, is that of the first two
     terms, the second, over |m2|^2, that of the last.
-
-    Parameters
-    ----------
-    where : callable
-        That of the primitives.
-    at : InhomogeneousBoundary
-        The boundary.
-    n, k : float or array_like
-        Of the medium behind, divided by |m2|.
-
-    Returns
-    -------
-    first, second : float or array_like
     """
     kappa = at.kappa
     re, im = at.a + at.n, at.b + at.k

@@ -25,25 +25,6 @@ class InhomogeneousBoundary(NamedTuple):
     """What reflection and transmission are made of where the medium in front absorbs.
 
     Indices are divided by a power of two near the largest of them.
-
-    Attributes
-    ----------
-    p, fades : float
-        The wave in front along the normal, g1 = p + i fades, both at least 0.
-    c, e : float
-        The same over n1.
-    s : float
-        The wave along the face, y = n1 s.
-    kappa : float
-        k1 / n1.
-    a, b : float
-        The wave behind along the normal, g2 = a + ib, a, b >= 0.
-    squared : float
-        |g2|^2.
-    D, v : float
-        m2^2 - m1^2 = D + iv.
-    n1, n, k : float
-        The indices, divided.
     """
 
     p: Any

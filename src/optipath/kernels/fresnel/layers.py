@@ -26,22 +26,6 @@ class Stack:
     wavelength in vacuum. Layers are added one after the other; the intensities along s and
     along p go their own ways, and (S2, S3) together, the complex C + iS of a boundary being what
     multiplies S2 - iS3.
-
-    Attributes
-    ----------
-    reflection, transmission, from_behind : Kernel
-        Of one boundary, ``(n1, k1, n, k, [n0,] cos, sin)``; the last is what is let through from
-        behind.
-    wanted : {"reflected", "transmitted", "absorbed"}
-        The light that comes back, ``(Fs, Fp, B, C, S)``, that which passes the stack, or what of
-        s and of p stays in each layer, ``(s, p, s, p, ...)``.
-    measured : {"in front", "behind", "before"}
-        Whether the incidence is that in the first medium, in the last, light coming from the
-        other side, or in a medium n0 from which parallel boundaries have refracted the light.
-    absorbing : tuple of int
-        The places of the layers that absorb, the medium in front being at 0.
-    unpolarising : bool
-        Whether each boundary does to the intensity what it does to unpolarised light.
     """
 
     reflection: Kernel
@@ -124,21 +108,7 @@ class Stack:
 
 
 class _Pile(NamedTuple):
-    """What a stack is made of, and the angle of its light.
-
-    Attributes
-    ----------
-    media : list of tuple
-        The n and k of each medium.
-    lengths : dict of int to number
-        The length of each layer that absorbs, by its place.
-    wavelength : number
-        In vacuum; None where no layer absorbs.
-    measured_at : int or None
-        The place of the medium in which the angle is measured, where it is one of them.
-    angle : tuple
-        The index of the medium in which the angle is measured, its cosine, and its sine.
-    """
+    """What a stack is made of, and the angle of its light."""
 
     media: list[tuple[Any, Any]]
     lengths: dict[int, Any]

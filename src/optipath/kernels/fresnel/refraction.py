@@ -55,13 +55,7 @@ def effective_index(xp: Primitives) -> KernelFunction:
 
 @dataclass(frozen=True)
 class Refracting:
-    """Makes a kernel that takes an angle before refraction, too, of one that does not.
-
-    Attributes
-    ----------
-    factory : callable
-        Makes the kernel ``(n1, n, k, cos, sin)``.
-    """
+    """Makes a kernel that takes an angle before refraction, too, of one that does not."""
 
     factory: Factory
 

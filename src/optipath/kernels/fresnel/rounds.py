@@ -21,18 +21,7 @@ _LITTLE = 1e-3
 
 
 class Face(NamedTuple):
-    """The numbers of a boundary, (Fs, Fp, B, C, S) each.
-
-    Attributes
-    ----------
-    reflected : tuple
-        The same from either side.
-    passed, back : tuple
-        What is let through from in front, and from behind.
-    beside, beside_behind : tuple of (s, p), optional
-        What light from in front, and from behind, carries by interference with what is reflected;
-        None where the medium that it comes from does not absorb.
-    """
+    """The numbers of a boundary, (Fs, Fp, B, C, S) each."""
 
     reflected: tuple[Any, ...]
     passed: tuple[Any, ...]
@@ -52,20 +41,7 @@ class Face(NamedTuple):
 
 
 class Side(NamedTuple):
-    """What becomes of some parts of light that comes to a boundary from one side.
-
-    Attributes
-    ----------
-    passed : Rows
-        What is let through.
-    stays : tuple
-        What of each part is neither reflected nor let through, of either sign.
-    leaves : tuple of (tuple, tuple)
-        What of each part is not in the layers any more: where the light that is let through is
-        out of the stack, and where it is in another layer.
-    sizes : tuple of (tuple, tuple)
-        The sums of the absolute values of what that is the sum of.
-    """
+    """What becomes of some parts of light that comes to a boundary from one side."""
 
     passed: Rows
     stays: tuple[Any, ...]
@@ -74,34 +50,14 @@ class Side(NamedTuple):
 
 
 class Parts(NamedTuple):
-    """What a boundary does to some parts of light.
-
-    Attributes
-    ----------
-    reflected : Rows
-        What is reflected, the same from either side.
-    sides : tuple of Side
-        What becomes of light from in front, and from behind.
-    """
+    """What a boundary does to some parts of light."""
 
     reflected: Rows
     sides: tuple[Side, Side]
 
 
 def along(face: Face, part: int) -> Parts:
-    """Return what a boundary does to the intensity along s, or along p.
-
-    Parameters
-    ----------
-    face : Face
-        The boundary.
-    part : int
-        0 for s, 1 for p.
-
-    Returns
-    -------
-    Parts
-    """
+    """Return what a boundary does to the intensity along s, or along p."""
 
     def side(passed: tuple[Any, ...], beside: tuple[Any, Any] | None) -> Side:
         T = passed[part]
@@ -119,19 +75,6 @@ def across(xp: Primitives, face: Face, sign: Any) -> Parts:
 
     What is left of 1 when C and that of the other side are taken away is the sum of what each
     leaves of (Fs + Fp) / 2, which is not computed as a difference where C is near to that.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What is computed with.
-    face : Face
-        The boundary.
-    sign : float or array_like
-        1, or -1 where light is turned over at each reflection.
-
-    Returns
-    -------
-    Parts
     """
     Fs, Fp, B, *turned = face.reflected
     C, S = (sign * number for number in turned)
@@ -175,17 +118,7 @@ def _rows(C: Any, S: Any) -> Rows:
 
 
 class Rounds:
-    """Some parts of light between boundaries, for a unit of the first part from the front.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What is computed with.
-    faces : sequence of Parts
-        What each boundary does, from the front to the back.
-    ways : sequence of (number, number) or None
-        What is left behind each layer, and what is not; None where all is left.
-    """
+    """Some parts of light between boundaries, for a unit of the first part from the front."""
 
     def __init__(
         self,

@@ -114,21 +114,7 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
 def through_and_back(
     where: Callable[..., Any], even: Any, mixed: Any, D: Any, v: Any
 ) -> tuple[Any, Any, Any]:
-    """Return P = |g1 + g2|^2, 1 - Fs, and Fs, which has its digits where it is small.
-
-    Parameters
-    ----------
-    where : callable
-        That of the primitives.
-    even, mixed : float or array_like
-        |g1|^2 + |g2|^2 and 2 Re(g1 conj g2), which is no larger.
-    D, v : float or array_like
-        The parts of the difference of the squares, g2^2 - g1^2, no larger than P.
-
-    Returns
-    -------
-    P, entering, small : float or array_like
-    """
+    """Return P = |g1 + g2|^2, 1 - Fs, and Fs, which has its digits where it is small."""
     P = even + mixed
     # At grazing incidence on an equal medium there is no interface. Asked so that NaN stays NaN.
     vanishes, lost = P < _EQUAL, mixed - (P - even)
@@ -149,19 +135,7 @@ def sum_squared(at: Boundary | InhomogeneousBoundary) -> Any:
 
 
 class Slant(NamedTuple):
-    """How r_p differs from r_s: by z and p g, all of it divided by n1.
-
-    Attributes
-    ----------
-    z : float
-        n1 sin^2.
-    ca, cb : float
-        The parts of c g, g being the wave behind the boundary.
-    z2, g2 : float
-        The squares of z and of c|g|.
-    q : float
-        |z + c g|^2.
-    """
+    """How r_p differs from r_s: by z and p g, all of it divided by n1."""
 
     z: Any
     ca: Any
@@ -184,20 +158,7 @@ def slant(at: Boundary) -> Slant:
 
 
 def is_there(where: Callable[..., Any], q: Any) -> tuple[Any, Any]:
-    """Return whether the q of a `Slant` is there, and q where it is.
-
-    Parameters
-    ----------
-    where : callable
-        That of the primitives.
-    q : float or array_like
-        |z + c g|^2.
-
-    Returns
-    -------
-    there, q : bool and float, or array_like
-        What is not there is 1.
-    """
+    """Return whether the q of a `Slant` is there, and q where it is."""
     # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
     # where the limits are known; at 90 degrees they are exact.
     there = (_LOST * q > 0.0) & (q > _LEAST)
@@ -212,23 +173,7 @@ def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
 def in_plane(
     where: Callable[..., Any], Fs: Any, along: Slant, c: Any
 ) -> tuple[Any, Any, Any, Any, Any]:
-    """Return (Fs, Fp, B, C, S) of what is reflected, from Fs.
-
-    Parameters
-    ----------
-    where : callable
-        That of the primitives.
-    Fs : float or array_like
-        What is reflected across the plane.
-    along : Slant
-        How the other differs.
-    c : float or array_like
-        The cosine in front.
-
-    Returns
-    -------
-    tuple of float or array_like
-    """
+    """Return (Fs, Fp, B, C, S) of what is reflected, from Fs."""
     there, q = is_there(where, along.q)
     f = Fs / q
     parted = 2.0 * f * along.z

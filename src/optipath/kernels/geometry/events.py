@@ -9,19 +9,7 @@ if TYPE_CHECKING:
 
 
 class Event:
-    """The numbers by which kernels tell what happens at a vertex, which differs from path to path.
-
-    Attributes
-    ----------
-    REFLECTS : float
-        Light goes back into its medium.
-    REFRACTS : float
-        It goes on in the medium on the other side.
-    BEHIND : float
-        The chain has ended before; light goes on as it is, wherever the points are.
-    CANNOT : float
-        There is no such chain, and its light is not a number.
-    """
+    """The numbers by which kernels tell what happens at a vertex of each path."""
 
     REFLECTS: ClassVar[float] = 0.0
     REFRACTS: ClassVar[float] = 1.0

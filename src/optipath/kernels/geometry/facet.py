@@ -48,18 +48,6 @@ def plane_at_facet(xp: Primitives) -> Callable[[Vector, Vector, Vector], tuple[A
 def reflected_at_facet(k: Vector, normal: Vector, cos: Any) -> Vector:
     """Return the direction of what a facet reflects.
 
-    Parameters
-    ----------
-    k, normal : tuple
-        The direction of the light, and the normal on its side.
-    cos : float
-        Of the angle of incidence.
-
-    Returns
-    -------
-    tuple
-        Three components.
-
     Examples
     --------
     >>> reflected_at_facet((0.6, 0.0, -0.8), (0.0, 0.0, 1.0), 0.8)

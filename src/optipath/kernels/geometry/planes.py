@@ -32,14 +32,6 @@ class OfPlanes:
     """Makes ``(x0, y0, z0, ...) -> numbers`` of the planes of incidence of a chain.
 
     The points are all from the start of the chain to the one behind the last vertex.
-
-    Attributes
-    ----------
-    known : bool
-        Whether, behind the points, an x is given for each vertex: for those next to the
-        normal or to grazing incidence, whose points tell no plane.
-    events : int
-        How many vertices have what happens at them given before the points, by `Event`.
     """
 
     known: bool = False
@@ -66,12 +58,6 @@ class OfPlanes:
 @dataclass(frozen=True)
 class TurnBetweenPlanes(OfPlanes):
     """Makes ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices.
-
-    Attributes
-    ----------
-    across : bool
-        Whether only what is across the light between the two counts of each x. Where light
-        is hardly refracted, its plane has few digits, and x is not at right angles to it.
 
     Examples
     --------
@@ -101,13 +87,7 @@ class TurnBetweenPlanes(OfPlanes):
 
 @dataclass(frozen=True)
 class AxesAtVertex(OfPlanes):
-    """Makes ``(x, z)``, six numbers: how light arrives at the last vertex, or leaves it.
-
-    Attributes
-    ----------
-    leaves : bool
-        Whether it is that which leaves.
-    """
+    """Makes ``(x, z)``, six numbers: how light arrives at the last vertex, or leaves it."""
 
     leaves: bool = False
 

@@ -19,17 +19,6 @@ class PointsByAngles:
     points lose no digit of a small angle, and the plane of incidence at its start is the one
     across the world's x.
 
-    Attributes
-    ----------
-    reflections : int
-        How many vertices there are between the start and the end.
-    first, last : int
-        Which points are wanted, 0 being the start.
-    axes : bool
-        Whether the x of each vertex between these points is wanted behind them.
-    backwards : bool
-        Whether light goes from the end to the start, so that points are counted from there.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT

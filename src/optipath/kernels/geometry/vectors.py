@@ -13,67 +13,22 @@ Vector: TypeAlias = tuple[Any, Any, Any]
 
 
 def plus(a: Vector, b: Vector) -> Vector:
-    """Return a + b.
-
-    Parameters
-    ----------
-    a, b : tuple
-        Three components each.
-
-    Returns
-    -------
-    tuple
-        Three components.
-    """
+    """Return a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def minus(a: Vector, b: Vector) -> Vector:
-    """Return a - b.
-
-    Parameters
-    ----------
-    a, b : tuple
-        Three components each.
-
-    Returns
-    -------
-    tuple
-        Three components.
-    """
+    """Return a - b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 def times(number: Any, a: Vector) -> Vector:
-    """Return a number times a vector.
-
-    Parameters
-    ----------
-    number : float or array_like
-        The factor.
-    a : tuple
-        Three components.
-
-    Returns
-    -------
-    tuple
-        Three components.
-    """
+    """Return a number times a vector."""
     return number * a[0], number * a[1], number * a[2]
 
 
 def dot(a: Vector, b: Vector) -> Any:
     """Return a . b.
-
-    Parameters
-    ----------
-    a, b : tuple
-        Three components each.
-
-    Returns
-    -------
-    float or array_like
-        The scalar product.
 
     Examples
     --------
@@ -85,16 +40,6 @@ def dot(a: Vector, b: Vector) -> Any:
 
 def cross(a: Vector, b: Vector) -> Vector:
     """Return a cross b.
-
-    Parameters
-    ----------
-    a, b : tuple
-        Three components each.
-
-    Returns
-    -------
-    tuple
-        Three components.
 
     Examples
     --------

@@ -24,17 +24,7 @@ _LEAST, _INVERSE = SHORTEST * SHORTEST, 1.0 / LONGEST
 
 
 class Leg(NamedTuple):
-    """The way from a vertex to the next.
-
-    Attributes
-    ----------
-    along : tuple
-        From point to point.
-    inverse : float
-        One over its length.
-    unit : tuple
-        The direction.
-    """
+    """The way from a vertex to the next."""
 
     along: Vector
     inverse: Any

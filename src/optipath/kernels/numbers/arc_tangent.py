@@ -38,16 +38,6 @@ _RIGHT_LOW = 6.123233995736766e-17
 def arc_tangent(xp: Primitives) -> Callable[[Any, Any], Any]:
     """Make ``(y, x) -> angle`` of a point, within -pi .. pi; that of the origin is 0.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-
-    Returns
-    -------
-    callable
-        Of two real numbers.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT

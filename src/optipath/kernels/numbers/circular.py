@@ -46,17 +46,7 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
 def without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """Make a sine or cosine that is 0 where the angle cannot tell it from 0.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    function : callable
-        The sine or cosine, or what else vanishes where one of them does.
-
-    Returns
-    -------
-    callable
-        ``angle -> value``, for angles in radians.
+    Units: the result in radians.
     """
     where, below_rounding, fixed = xp.where, xp.below_rounding, xp.fixed
 

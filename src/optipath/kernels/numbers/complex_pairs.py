@@ -33,18 +33,6 @@ def from_within(xp: Primitives, power: int = 1) -> Callable[[Any], Any]:
     """Make ``number -> number`` for one that is not negative; for slopes, one just above 0 for 0.
 
     At grazing incidence, and without absorption, branches for exactly that have no slopes.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    power : int
-        How far above 0: ``xp.within`` to this power.
-
-    Returns
-    -------
-    callable
-        Of one number.
     """
     where, within = xp.where, xp.within**power
     if not within:

@@ -26,15 +26,6 @@ class DoubleDouble:
     It takes the place of a float in a kernel. Two that are the same to all digits that they
     have are equal.
 
-    Attributes
-    ----------
-    xp : Primitives
-        What it is computed with.
-    high : float or array_like
-        The number, rounded.
-    low : float or array_like
-        What is left of it.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -52,20 +43,7 @@ class DoubleDouble:
 
     @classmethod
     def nearest(cls, xp: Primitives, number: Fraction) -> DoubleDouble:
-        """Return the number nearest to a fraction.
-
-        Parameters
-        ----------
-        xp : Primitives
-            What it is computed with.
-        number : Fraction
-            What is rounded.
-
-        Returns
-        -------
-        DoubleDouble
-            To twice the digits of a double.
-        """
+        """Return the number nearest to a fraction."""
         high = float(number)
         return cls(xp, high, float(number - type(number)(high)))
 

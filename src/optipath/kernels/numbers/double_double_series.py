@@ -98,15 +98,7 @@ def exponential(number: DoubleDouble) -> DoubleDouble:
 def angle(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble:
     """Return the angle of a point, by one step from where floats have it.
 
-    Parameters
-    ----------
-    y, x : DoubleDouble
-        The point; not both 0.
-
-    Returns
-    -------
-    DoubleDouble
-        The angle from x to y in radians, in -pi .. pi.
+    Units: the result in radians.
     """
     near = DoubleDouble(y.xp, np.arctan2(y.high, x.high))
     s, c = sine(near), cosine(near)

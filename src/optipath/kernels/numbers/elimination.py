@@ -32,32 +32,6 @@ _LEAST = 2.0**-53
 class Elimination:
     """A system of unknowns, eliminated one after the other, and what its solutions are.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What is computed with.
-    back : sequence of dict of int to number
-        For each unknown, what of it comes back directly as which unknowns.
-    leaves : sequence of number
-        For each unknown, how much intensity of it goes elsewhere for good; one that carries
-        none, such as S2, may take some from others all the same.
-    intensities : sequence of bool
-        Which unknowns are intensities.
-    fading : bool or array, optional
-        Where no light gains on its way. Elsewhere a pivot that is 0 by chance says nothing and
-        is moved by the rounding of a float, which takes numbers of more digits; not given, no
-        pivot is moved.
-    sizes : sequence of number, optional
-        Where what goes elsewhere may be of either sign, the sums of the absolute values of what
-        each of `leaves` is the sum of: where they are large, a sum of these has fewer digits than
-        a difference of 1 and what comes back, which is taken then.
-
-    Attributes
-    ----------
-    pivots : list
-        What of each unknown does not come back to it by way of those before it; a number
-        that is not above 0 tells that light gains in a round trip.
-
     Examples
     --------
     Of x, 1/4 comes back as y and 3/4 leaves; of y, 1/2 comes back as x, and 1/2 leaves.

@@ -44,18 +44,6 @@ _SERIES = (
 def exponential(xp: Primitives, dtype: str) -> Callable[[Any], Any]:
     """Make ``exp``, infinite and 0 where that is beyond floats.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    dtype : str
-        The precision, ``"float64"`` or ``"float32"``.
-
-    Returns
-    -------
-    callable
-        Of one real number.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT

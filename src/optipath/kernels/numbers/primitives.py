@@ -23,39 +23,6 @@ class Primitives:
 
     All are elementwise, and broadcast: numbers may be floats, arrays over paths, values that JAX
     traces, or symbols that a formula is made of. `docs/own-elements.md` has them as a table.
-
-    Attributes
-    ----------
-    where : callable
-        ``(condition, yes, no)``, in place of ``if``. Both may be evaluated, so kernels keep either
-        free of division by zero and of roots of negative numbers.
-    sqrt, absolute, sin, cos, exp : callable
-        Of one number; in ``mueller_rows`` of a complex one, too.
-    maximum, minimum, atan2 : callable
-        Of two.
-    scaling : callable
-        The exponent of a power of two near a number, by which numbers are scaled and scaled back;
-        0 where an engine gains nothing by that.
-    ldexp : callable
-        ``(m, e)`` to m 2^e.
-    two_product : callable
-        ``(a, b)`` to a b and what its rounding has lost.
-    below_rounding : callable
-        ``(larger, number)``: whether a small number is no more than the rounding of a larger one,
-        in double precision at most.
-    fixed : callable
-        A value without its slope, where an engine takes gradients; elsewhere the value itself.
-    multiply_add : callable
-        ``(a, b, c)`` to a b + c, rounded twice, as every engine does.
-    integer : callable
-        A whole number that is given as a float, as `ldexp` takes one.
-    apart : callable
-        A function that returns a tuple, as a piece of its own, where an engine compiles one large
-        piece too slowly.
-    within : float
-        0 but where numbers are computed for the sake of their slopes, their values being known:
-        forms with the right slopes then take the place of those with the right digits, and at an
-        edge of a domain slopes are those so far within it.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -87,20 +54,7 @@ Factory: TypeAlias = Callable[[Primitives], KernelFunction]
 
 @lru_cache(4096)
 def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
-    """Return what a factory makes of primitives, made once and kept.
-
-    Parameters
-    ----------
-    factory : callable
-        What makes something of primitives; it can be hashed.
-    primitives : Primitives
-        What it is made of.
-
-    Returns
-    -------
-    Any
-        What the factory returns.
-    """
+    """Return what a factory makes of primitives, made once and kept."""
     return factory(primitives)
 
 
@@ -112,18 +66,6 @@ def is_below_rounding(larger: Any, number: Any) -> Any:
     """Tell whether a number is no more than the rounding of a larger one, its square of 1.
 
     A sine that is taken as 0 so takes no energy from cos^2 + sin^2.
-
-    Parameters
-    ----------
-    larger : float or array_like
-        What the number would be added to, such as an angle.
-    number : float or array_like
-        The number, such as the angle's sine.
-
-    Returns
-    -------
-    bool or array_like
-        Whether neither sum changes.
     """
     return (larger + number == larger) & (1.0 + number * number == 1.0)
 
@@ -136,34 +78,12 @@ def _below_rounding_in_arrays(larger: Any, number: Any) -> Any:
 
 
 def product_rest(a: Any, b: Any) -> Any:
-    """Return what the rounding of a b has lost, without a fused multiply-add.
-
-    Parameters
-    ----------
-    a, b : float or array_like
-        The factors, both of one precision.
-
-    Returns
-    -------
-    float or array_like
-        a b less the rounded product, exactly.
-    """
+    """Return what the rounding of a b has lost, without a fused multiply-add."""
     return product_and_rest(a, b)[1]
 
 
 def product_and_rest(a: Any, b: Any) -> tuple[Any, Any]:
-    """Return a product and what its rounding has lost (Dekker, Numer. Math. 18, 1971).
-
-    Parameters
-    ----------
-    a, b : float or array_like
-        The factors, both of one precision.
-
-    Returns
-    -------
-    product, rest : float or array_like
-        Their sum is a b, exactly.
-    """
+    """Return a product and what its rounding has lost (Dekker, Numer. Math. 18, 1971)."""
     product = a * b
     a_high, a_low = _halves(a)
     b_high, b_low = _halves(b)

@@ -27,21 +27,7 @@ _OF_PLAIN_NUMBERS = "where", "sqrt", "absolute", "maximum", "minimum", "ldexp", 
 def reproducible(
     xp: Primitives, dtype: str, small_enough: Callable[[Any], Any] | None = None
 ) -> Primitives:
-    """Return primitives whose elementary functions are made of the others.
-
-    Parameters
-    ----------
-    xp : Primitives
-        The others.
-    dtype : str
-        The precision, ``"float64"`` or ``"float32"``.
-    small_enough : callable, optional
-        Tells which angles are: by their size, if not otherwise.
-
-    Returns
-    -------
-    Primitives
-    """
+    """Return primitives whose elementary functions are made of the others."""
     in_precision: dict[str, Any]
     in_precision = {name: _in_precision(getattr(xp, name), dtype) for name in _OF_PLAIN_NUMBERS}
     xp = replace(xp, below_rounding=is_below_rounding, **in_precision)

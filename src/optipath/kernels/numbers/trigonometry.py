@@ -20,21 +20,7 @@ SinCos = tuple[Any, Any]
 
 
 class Digits(NamedTuple):
-    """What sines of one precision are made of.
-
-    Attributes
-    ----------
-    most : float
-        The largest angle that may be given.
-    rounding : float
-        What rounds to an integer when it is added and taken away again.
-    right : tuple of float
-        Pi/2 in parts, whose products with small integers are exact.
-    right_high, right_low : float
-        Pi/2 rounded, and the rest.
-    sine, cosine : tuple of float
-        The coefficients, the lowest power first.
-    """
+    """What sines of one precision are made of."""
 
     most: float
     rounding: float
@@ -88,18 +74,6 @@ def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
 
     It is 0 where the angle cannot tell itself from a multiple of a right one.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    digits : Digits
-        What sines of the precision are made of.
-
-    Returns
-    -------
-    callable
-        Of one angle, at most `digits.most` in size.
-
     Examples
     --------
     >>> import math
@@ -115,18 +89,6 @@ def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
     """Make ``angle -> left`` for angles within 0 .. pi/2: the angle, or what pi/2 is more than it.
 
     It is 0 where the angle cannot tell itself from a right one.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    digits : Digits
-        What sines of the precision are made of.
-
-    Returns
-    -------
-    callable
-        Of one angle.
 
     Examples
     --------
@@ -150,18 +112,6 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     """Make ``(angle, [left]) -> (sin, cos)`` of an angle of at most `digits.most` in size.
 
     Of an angle that has been given in more digits, `from_axes` in its own gives what is left.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    digits : Digits
-        What sines of the precision are made of.
-
-    Returns
-    -------
-    callable
-        Of an angle, and what is left of it.
 
     Examples
     --------
@@ -190,18 +140,6 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 
     The cosine is 0 where the angle cannot tell itself from a right one. Of an angle that has
     been given in more digits, `from_nearer_axis` in its own gives what is left.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    digits : Digits
-        What sines of the precision are made of.
-
-    Returns
-    -------
-    callable
-        Of an angle, and what is left of it.
 
     Examples
     --------

@@ -32,20 +32,6 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 
     Matrices of one's own may make light that cannot be; its negative intensities stay.
 
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    weak : float or array_like
-        The intensity.
-    size : float or array_like
-        What it may have been rounded with, not negative.
-
-    Returns
-    -------
-    float or array_like
-        The intensity, or 0.
-
     Examples
     --------
     >>> from optipath.kernels.numbers.primitives import FLOAT
@@ -57,20 +43,6 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 
 def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
     """Return a number, 0 where it is no more than the roundings of a size.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    number : float or array_like
-        The number, of any sign.
-    size : float or array_like
-        What it may have been rounded with, not negative.
-
-    Returns
-    -------
-    float or array_like
-        The number, or 0.
 
     Examples
     --------
@@ -89,16 +61,5 @@ def _taken_as_0(xp: Primitives, condition: Any, number: Any) -> Any:
 
 
 def vanishes(number: Any, beside: Any) -> Any:
-    """Tell whether a number is no more than the rounding of another.
-
-    Parameters
-    ----------
-    number, beside : float or array_like
-        The two, of any sign.
-
-    Returns
-    -------
-    bool or array_like
-        Whether the other does not change when the number is added to it.
-    """
+    """Tell whether a number is no more than the rounding of another."""
     return beside + number == beside

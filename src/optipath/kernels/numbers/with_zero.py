@@ -11,15 +11,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class WithZero:
-    """Makes a kernel that is given no argument at one place; a class, so that plans can be pickled.
-
-    Attributes
-    ----------
-    factory : callable
-        Makes the kernel of all arguments.
-    place : int
-        Which of them is 0, not the first.
-    """
+    """Makes a kernel without the argument at one place; a class, so that plans can be pickled."""
 
     factory: Factory
     place: int

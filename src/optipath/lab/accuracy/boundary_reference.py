@@ -17,32 +17,14 @@ Jones: TypeAlias = tuple[tuple[Any, Any], tuple[Any, Any]]
 
 
 class ExactBoundary(NamedTuple):
-    """What a boundary does to the field, the same from either side.
-
-    Attributes
-    ----------
-    reflected, transmitted : Jones
-        The Jones matrices of what is reflected and, as carried power, let through.
-    """
+    """What a boundary does to the field, the same from either side."""
 
     reflected: Jones
     transmitted: Jones
 
 
 def boundary(m: Any, c: Any, s: Any) -> ExactBoundary:
-    """Return what a boundary reflects and lets through.
-
-    Parameters
-    ----------
-    m : mpc
-        The relative index.
-    c, s : mpf
-        Of the angle of incidence.
-
-    Returns
-    -------
-    ExactBoundary
-    """
+    """Return what a boundary reflects and lets through."""
     # 1 - s^2 is c^2: an equal medium reflects nothing, at grazing incidence too.
     g = _root(m * m - s * s if s < c else (m * m - 1) + c * c)
     rs = (c - g) / (c + g) if c + g else mpmath.mpf(0)
@@ -60,19 +42,7 @@ def boundary(m: Any, c: Any, s: Any) -> ExactBoundary:
 
 
 def along_face(m: Any, angle: Any) -> Any:
-    """Return the wave along a face, for the real angle in a medium that absorbs or does not.
-
-    Parameters
-    ----------
-    m : mpc
-        The index of the medium.
-    angle : mpf
-        Between the normals of the face and of the planes of constant phase.
-
-    Returns
-    -------
-    mpf
-    """
+    """Return the wave along a face, for the real angle in a medium that absorbs or does not."""
     # By g^2 = m^2 - y^2 with y = q sin, Re g = q cos: a quadratic equation for q^2.
     square = m * m
     q2 = (square.real + mpmath.sqrt(square.real**2 + (square.imag / mpmath.cos(angle)) ** 2)) / 2
@@ -84,17 +54,6 @@ def between(m1: Any, m2: Any, y: Any) -> ExactBoundary:
 
     What is let through is the power carried behind over that of the arriving wave alone (S. J.
     Byrnes, arXiv:1603.02720).
-
-    Parameters
-    ----------
-    m1, m2 : mpc
-        The indices in front and behind.
-    y : mpf
-        The wave along the face.
-
-    Returns
-    -------
-    ExactBoundary
     """
     g1, g2 = (_root(m * m - y * y) for m in (m1, m2))
     # Cosines, which are complex in either medium.
@@ -117,42 +76,13 @@ def _root(square: Any) -> Any:
 
 
 def refracted(ratio: Any, s: Any) -> tuple[Any, Any]:
-    """Return cosine and sine behind a boundary.
-
-    Parameters
-    ----------
-    ratio : mpf
-        The index before over that behind.
-    s : mpf
-        The sine before.
-
-    Returns
-    -------
-    tuple of two mpf
-        ``(0, 1)`` where all is reflected.
-    """
+    """Return cosine and sine behind a boundary."""
     s = ratio * s
     return (mpmath.sqrt(1 - s * s), s) if s < 1 else (mpmath.mpf(0), mpmath.mpf(1))
 
 
 def stack(indices: Sequence[Any], c: Any, s: Any, *, back: bool, way: bool) -> list[list[Any]]:
-    """Return the Mueller matrix of a stack, by adding boundary after boundary from the far side.
-
-    Parameters
-    ----------
-    indices : sequence of mpc
-        From the front medium to the substrate.
-    c, s : mpf
-        Of the incidence in the front medium.
-    back : bool
-        Whether light comes from behind.
-    way : bool
-        Whether it is reflected.
-
-    Returns
-    -------
-    list of four lists of four mpf
-    """
+    """Return the Mueller matrix of a stack, by adding boundary after boundary from the far side."""
     first, faces = indices[0].real, []
     for place, (n, behind) in enumerate(pairwise(indices)):
         angle = refracted(first / n.real, s) if place else (c, s)
@@ -175,17 +105,7 @@ def powers(matrix: Jones) -> tuple[Any, Any, Any]:
 
 
 def mueller_numbers(Fs: Any, Fp: Any, z: Any) -> tuple[Any, Any, Any, Any]:
-    """Return (A, B, C, S) of a Mueller matrix.
-
-    Parameters
-    ----------
-    Fs, Fp, z
-        As `powers` has them.
-
-    Returns
-    -------
-    tuple of four mpf
-    """
+    """Return (A, B, C, S) of a Mueller matrix."""
     return (Fs + Fp) / 2, (Fs - Fp) / 2, mpmath.re(z), mpmath.im(z)
 
 

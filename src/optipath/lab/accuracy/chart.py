@@ -48,26 +48,7 @@ def path_chart(
     progress: Progress = lambda *_: None,
     keep: Keep = lambda _: None,
 ) -> dict[str, Any]:
-    """Measure every way to compute a path: first the times, then region after region.
-
-    Parameters
-    ----------
-    path : PathGraph
-        All its parameters have values or defaults.
-    title : str
-        What is measured.
-    effort : Effort, optional
-        How much is measured.
-    progress : callable, optional
-        Is told what is being done, and how much of the whole is done.
-    keep : callable, optional
-        Is given the chart of what is measured so far, after every region.
-
-    Returns
-    -------
-    dict
-        What `optipath.plots.chart` draws, ready to be written as JSON.
-    """
+    """Measure every way to compute a path: first the times, then region after region."""
     _refuse_batches(path)
     runners = _different(path, effort)
     graph, values = many_paths(path, PATHS)
@@ -100,18 +81,7 @@ def path_chart(
 def interface_chart(
     effort: Effort = FULL, progress: Progress = lambda *_: None, keep: Keep = lambda _: None
 ) -> dict[str, Any]:
-    """Measure every way to compute (A, B, C, S) of one interface.
-
-    Parameters
-    ----------
-    effort, progress, keep
-        As for `path_chart`.
-
-    Returns
-    -------
-    dict
-        What `optipath.plots.chart` draws.
-    """
+    """Measure every way to compute (A, B, C, S) of one interface."""
     runners = contenders(("stokes",), ("numpy",))
     found, actions = [_entry(runner) for runner in runners], []
     for runner in runners:

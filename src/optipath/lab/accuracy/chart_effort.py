@@ -11,20 +11,7 @@ if TYPE_CHECKING:
 
 
 class Effort(NamedTuple):
-    """How much is measured.
-
-    Attributes
-    ----------
-    samples : int
-        How many a region has.
-    rounds : int
-        How often each contender is timed.
-    engines : tuple of str
-        Which are measured.
-    compiles_all : bool
-        Whether every method and precision is measured by engines that compile, for tens of seconds
-        each; else only the default method with Stokes vectors.
-    """
+    """How much is measured."""
 
     samples: int = 24
     rounds: int = 7
@@ -32,17 +19,7 @@ class Effort(NamedTuple):
     compiles_all: bool = True
 
     def measures(self, runner: Composer) -> bool:
-        """Tell whether a contender is measured.
-
-        Parameters
-        ----------
-        runner : Composer
-            One of `contenders`.
-
-        Returns
-        -------
-        bool
-        """
+        """Tell whether a contender is measured."""
         default = runner.method == "stable" and runner.composing == "stokes"
         return (
             runner.engine == "numpy" or self.compiles_all or (default and runner.dtype == "float64")
@@ -66,15 +43,6 @@ _COMPILED = 40.0
 
 def expected(effort: Effort) -> str:
     """Return about how long a chart of a path of some elements takes, before it is measured.
-
-    Parameters
-    ----------
-    effort : Effort
-        How much is measured.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -29,25 +29,7 @@ def chart_text(chart: Mapping[str, Any]) -> str:
 
 
 def read_chart(text: str, name: str) -> dict[str, Any]:
-    """Return a chart that was written as JSON.
-
-    Parameters
-    ----------
-    text : str
-        The JSON.
-    name : str
-        What it is called where it is refused.
-
-    Returns
-    -------
-    dict
-        As `path_chart`, `interface_chart` or `critical_chart` returns it.
-
-    Raises
-    ------
-    OptipathError
-        If it is none, or one of another form.
-    """
+    """Return a chart that was written as JSON."""
     try:
         chart = json.loads(text, object_hook=_read)
     except (ValueError, RecursionError):
@@ -56,24 +38,7 @@ def read_chart(text: str, name: str) -> dict[str, Any]:
 
 
 def checked_chart(chart: Any, name: str) -> dict[str, Any]:
-    """Return a chart in which everything is there that is drawn.
-
-    Parameters
-    ----------
-    chart : mapping
-        As `read_chart` returns it.
-    name : str
-        What it is called where it is refused.
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    OptipathError
-        If it is none, or one of another form.
-    """
+    """Return a chart in which everything is there that is drawn."""
     if not _is_whole(chart):
         raise OptipathError(f"{name} is no whole chart of this version; {_CURE}")
     return chart  # type: ignore[no-any-return]

@@ -14,19 +14,7 @@ if TYPE_CHECKING:
 
 
 def passed(matrix: Jones, light: Jones) -> Jones:
-    """Return the light behind an element.
-
-    Parameters
-    ----------
-    matrix : Jones
-        Of the element.
-    light : Jones
-        The coherency matrix before it.
-
-    Returns
-    -------
-    Jones
-    """
+    """Return the light behind an element."""
     (a, b), (c, d) = matrix
     conj = mpmath.conj
     return times(times(matrix, light), ((conj(a), conj(c)), (conj(b), conj(d))))

@@ -21,16 +21,6 @@ def contenders(
 
     JAX is not among them: it compiles anew for every path that it is given.
 
-    Parameters
-    ----------
-    composing, engines : tuple of str, optional
-        Those that are wanted.
-
-    Returns
-    -------
-    list of Composer
-        Those whose engine is installed and has their precision.
-
     Examples
     --------
     >>> Composer("stable", engine="numpy", composing="jones") in contenders()

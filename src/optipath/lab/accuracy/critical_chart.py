@@ -45,31 +45,6 @@ def critical_chart(
     """Measure every method at each of many distances from places where some fail.
 
     In float64, NumPy and Stokes vectors; media and sides are drawn at random.
-
-    Parameters
-    ----------
-    path : PathGraph or None
-        Whose interfaces stand there; None for one interface.
-    title : str
-        What is measured.
-    places : sequence of str
-        Names of `PLACES`.
-    samples : int, optional
-        How many there are at a distance.
-    progress : callable, optional
-        Is told what is being done, and how much of the whole is done.
-    keep : callable, optional
-        Is given the chart of what is measured so far, after every distance.
-
-    Returns
-    -------
-    dict
-        What `optipath.plots.chart` draws, ready to be written as JSON.
-
-    Raises
-    ------
-    OptipathError
-        If a place is unknown, or no interface of the path can stand there.
     """
     wanted = places_called(places)
     measured = _of_interface(samples) if path is None else _of_path(path, title, samples)

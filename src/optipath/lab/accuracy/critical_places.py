@@ -22,14 +22,7 @@ if TYPE_CHECKING:
 class CriticalPlace:
     """An angle of incidence that methods fail next to.
 
-    Attributes
-    ----------
-    name : str
-        As it is asked for.
-    called : str
-        As it is written in pictures, after "distance from".
-    draw : callable
-        Makes n, k, cos and sin of random numbers and of a distance in radians.
+    Units: draw in radians.
     """
 
     name: str
@@ -39,14 +32,7 @@ class CriticalPlace:
     def region(self, distance: float) -> Region:
         """Return the boundaries at one distance.
 
-        Parameters
-        ----------
-        distance : float
-            In radians, above 0.
-
-        Returns
-        -------
-        Region
+        Units: distance in radians.
 
         Examples
         --------
@@ -92,22 +78,7 @@ PLACES = {
 
 
 def places_called(names: Sequence[str]) -> list[CriticalPlace]:
-    """Return places by their names, each once.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Of `PLACES`.
-
-    Returns
-    -------
-    list of CriticalPlace
-
-    Raises
-    ------
-    OptipathError
-        If there is none of a name.
-    """
+    """Return places by their names, each once."""
     if faults := [fault for name in names for fault in unknown("place", name, PLACES)]:
         raise OptipathError(*faults)
     return [PLACES[name] for name in dict.fromkeys(names)]

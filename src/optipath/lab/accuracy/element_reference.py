@@ -53,22 +53,7 @@ if TYPE_CHECKING:
 
 @singledispatch
 def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
-    """Return the Jones matrix of a way through; None where only Mueller's will do.
-
-    Parameters
-    ----------
-    element : Element
-        What the light meets.
-    way : Coupling
-        The way through.
-    read : Reader
-        Gives its values in many digits.
-
-    Returns
-    -------
-    Jones or None
-        Its rows.
-    """
+    """Return the Jones matrix of a way through; None where only Mueller's will do."""
     del element, way, read
     return None
 
@@ -232,27 +217,7 @@ def _(_element: Combiner, _way: Coupling, _read: Reader) -> Jones:
 
 @singledispatch
 def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of a way through what has no Jones matrix.
-
-    Parameters
-    ----------
-    element : Element
-        One whose class is registered here, or in `jones`.
-    way : Coupling
-        The way through.
-    read : Reader
-        Gives its values in many digits.
-
-    Returns
-    -------
-    list of list of mpf
-        Its rows.
-
-    Raises
-    ------
-    PathError
-        If nothing is registered for the class.
-    """
+    """Return the Mueller matrix of a way through what has no Jones matrix."""
     del way, read
     raise PathError(
         f"elements of class {type(element).__name__} have no reference in many digits: register "

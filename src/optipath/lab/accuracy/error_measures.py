@@ -20,13 +20,7 @@ LIMIT = 1000.0
 class Errors(NamedTuple):
     """The errors of four numbers, one row a sample; A, B, C, S or S0, S1, S2, S3.
 
-    Attributes
-    ----------
-    componentwise : ndarray, shape (samples, 4)
-        In ulp of each, divided by 1 + its condition number: ulp*.
-    normwise : ndarray, shape (samples,)
-        The largest, in ulp of the first (A or S0), divided by 1 + the largest condition
-        against that.
+    Shapes: componentwise (samples, 4); normwise (samples,). Units: componentwise, normwise in ulp.
     """
 
     componentwise: npt.NDArray[np.float64]
@@ -38,21 +32,7 @@ def errors(
 ) -> Errors:
     """Return the errors of computed numbers.
 
-    Parameters
-    ----------
-    found : ndarray, shape (samples, 4)
-        What was computed.
-    exact : iterable of (values, conditions)
-        The references, four values and four condition numbers each.
-    dtype : str
-        The precision whose ulp is the unit.
-    against_first : bool, optional
-        Take the error of a component that is exactly 0 in ulp of the first, rather than
-        in ulp of nothing.
-
-    Returns
-    -------
-    Errors
+    Shape: found (samples, 4). Units: against_first in ulp.
 
     Examples
     --------
@@ -81,19 +61,7 @@ def _distance(number: Any, value: Any) -> Any:
 
 
 def in_ulp(distance: Any, value: Any, dtype: str) -> float:
-    """Return a distance in units in the last place of a value.
-
-    Parameters
-    ----------
-    distance, value : mpf
-        Any numbers; a value of 0 has the unit of the smallest one.
-    dtype : str
-        The precision.
-
-    Returns
-    -------
-    float
-    """
+    """Return a distance in units in the last place of a value."""
     if not distance:
         return 0.0
     kind = np.finfo(dtype)

@@ -19,28 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Reader:
-    """Reads the values of a path as numbers of many digits, and moves one angle a little.
-
-    Parameters
-    ----------
-    given : mapping of str to Resolved
-        The values of the open parameters.
-    batch : tuple of int
-        The shape of all values together.
-    at : tuple of int
-        Which of the batch.
-    moved : int, optional
-        Which angle, in the order in which they are read, is moved.
-    by : mpf, optional
-        The relative change of its tangent.
-
-    Attributes
-    ----------
-    count : int
-        How many angles have been read.
-    decades : int
-        How far the numbers that have been read are from 1, all together.
-    """
+    """Reads the values of a path as numbers of many digits, and moves one angle a little."""
 
     given: Mapping[str, Resolved]
     batch: tuple[int, ...]
@@ -55,20 +34,7 @@ class Reader:
         return np.broadcast_to(numbers, self.batch)[self.at]
 
     def real(self, value: Any, part: str = "") -> Any:
-        """Return a number.
-
-        Parameters
-        ----------
-        value : float, array_like or Parameter
-            A value of the path, or an operand of a kernel.
-        part : str, optional
-            Which of its parts, such as ``"real"``.
-
-        Returns
-        -------
-        mpf
-            As the float that the library is given has it, exactly.
-        """
+        """Return a number."""
         operand = Operand(value, part) if part else operand_of(value)
         number = exactly(self.pick(operand.numbers(self.given)))
         self.decades += abs(int(mpmath.log10(number))) if 0 < number < mpmath.inf else 0
@@ -87,17 +53,7 @@ class Reader:
     def angle(self, value: Any, turns: int = 1) -> Any:
         """Return an angle; its tangent, or that of `turns` times it, is what may be moved.
 
-        Parameters
-        ----------
-        value : float, array_like or Parameter
-            In radians.
-        turns : int, optional
-            How many times the angle it is that matters.
-
-        Returns
-        -------
-        mpf
-            In radians; a multiple of 45 degrees is one exactly.
+        Units: value, the result in radians.
         """
         return self.move(
             exact_angle(float(self.pick(operand_of(value).numbers(self.given)))), turns
@@ -106,36 +62,14 @@ class Reader:
     def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
         """Return an angle that grows with a length, both given; else as `angle`.
 
-        Parameters
-        ----------
-        per_length : float, array_like or Parameter
-            In radians a metre.
-        length : float, array_like or Parameter
-            In metres.
-        turns : int, optional
-            As in `angle`.
-
-        Returns
-        -------
-        mpf
-            In radians.
+        Units: per_length, the result in radians; length in metres.
         """
         return self.near_multiple(self.real(per_length) * self.real(length), turns)
 
     def near_multiple(self, angle: Any, turns: int = 1) -> Any:
         """Return an angle that is a product; a multiple of 45 degrees is one exactly.
 
-        Parameters
-        ----------
-        angle : mpf
-            In radians, its factors as floats have them.
-        turns : int, optional
-            As in `angle`.
-
-        Returns
-        -------
-        mpf
-            In radians.
+        Units: angle, the result in radians.
         """
         nearest = exact_angle(float(angle))
         # A multiple of 45 degrees is one, however its factors are rounded.
@@ -151,17 +85,7 @@ class Reader:
     def move(self, angle: Any, turns: int) -> Any:
         """Return an angle, moved if it is the one.
 
-        Parameters
-        ----------
-        angle : mpf
-            In radians.
-        turns : int
-            How many times the angle it is whose tangent changes.
-
-        Returns
-        -------
-        mpf
-            In radians, to first order in the change.
+        Units: angle, the result in radians.
         """
         self.count += 1
         if self.count - 1 != self.moved:

@@ -36,25 +36,6 @@ def interface_errors(
 ) -> Errors:
     """Return the errors of (A, B, C, S) by a method in a region.
 
-    Parameters
-    ----------
-    method : str
-        One of the methods.
-    region : Region
-        Where the samples are drawn.
-    dtype : str, optional
-        The precision; the samples are rounded to it before anything is computed.
-    count : int, optional
-        How many samples.
-    what : {"reflection", "transmission"}, optional
-        Which Mueller matrix.
-    against_first : bool, optional
-        As for `errors`.
-
-    Returns
-    -------
-    Errors
-
     Examples
     --------
     >>> from optipath.lab.accuracy.regions import REGIONS
@@ -71,17 +52,7 @@ def interface_errors(
 def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
     """Return (A, B, C, S) as a kernel computes them.
 
-    Parameters
-    ----------
-    kernel : Kernel
-        Of an interface.
-    samples : Samples
-        Boundaries and angles.
-
-    Returns
-    -------
-    ndarray, shape (samples, 4)
-        In the precision of the samples.
+    Shape: returns (samples, 4).
     """
     outside = np.ones((), samples.n.dtype)
     with np.errstate(all="ignore"):

@@ -18,19 +18,7 @@ def turn(angle: Any) -> Jones:
 
 
 def filtering(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
-    """Return what a filter does.
-
-    Parameters
-    ----------
-    read : Reader
-        Gives numbers of values.
-    along, across, angle : Any
-        The two transmittances and the axis, as an element has them.
-
-    Returns
-    -------
-    Jones
-    """
+    """Return what a filter does."""
     roots = (mpmath.sqrt(read.real(transmittance)) for transmittance in (along, across))
     return _turned(diagonal(*roots), read.angle(angle, 2))
 
@@ -38,18 +26,7 @@ def filtering(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
 def retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
     """Return what a retarder does.
 
-    Parameters
-    ----------
-    read : Reader
-        Gives numbers of values.
-    retardance : mpf
-        In radians.
-    angle : Any
-        The fast axis, as an element has it.
-
-    Returns
-    -------
-    Jones
+    Units: retardance in radians.
     """
     # The field is exp(-iwt): what falls behind gains a positive phase.
     slow = mpmath.mpc(*cos_sin(retardance))
@@ -57,17 +34,7 @@ def retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
 
 
 def diagonal(x: Any, y: Any) -> Jones:
-    """Return a diagonal matrix.
-
-    Parameters
-    ----------
-    x, y : mpf or mpc
-        What multiplies the two components.
-
-    Returns
-    -------
-    Jones
-    """
+    """Return a diagonal matrix."""
     return (x, 0), (0, y)
 
 
@@ -76,17 +43,7 @@ def _turned(matrix: Jones, angle: Any) -> Jones:
 
 
 def times(first: Jones, second: Jones) -> Jones:
-    """Return the product of two matrices.
-
-    Parameters
-    ----------
-    first, second : Jones
-        The second is met first by the light.
-
-    Returns
-    -------
-    Jones
-    """
+    """Return the product of two matrices."""
     (a, b), (c, d) = first
     (e, f), (g, h) = second
     return (a * e + b * g, a * f + b * h), (c * e + d * g, c * f + d * h)

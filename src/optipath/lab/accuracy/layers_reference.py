@@ -22,23 +22,7 @@ if TYPE_CHECKING:
 def absorbing_stack(
     indices: Sequence[Any], depths: Sequence[Any], y: Any, *, way: bool
 ) -> list[list[Any]]:
-    """Return the Mueller matrix of a stack of thick layers, of which some absorb.
-
-    Parameters
-    ----------
-    indices : sequence of mpc
-        From the medium that light comes from, which does not absorb, to the last.
-    depths : sequence of mpf
-        Of each layer, 4 pi length / wavelength.
-    y : mpf
-        The wave along the faces.
-    way : bool
-        Whether the light is reflected.
-
-    Returns
-    -------
-    list of four lists of four mpf
-    """
+    """Return the Mueller matrix of a stack of thick layers, of which some absorb."""
     faces = [_both_sides(*pair, y) for pair in pairwise(indices)]
     total = [(r, t) for r, t, _ in faces[-1]]
     for here, n, depth in reversed([*zip(faces[:-1], indices[1:-1], depths, strict=True)]):

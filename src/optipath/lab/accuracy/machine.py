@@ -50,20 +50,7 @@ def _least_ns(action: Callable[[], Any], calls: int = 1) -> float:
 
 
 def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
-    """Return the least ns a path: its roots and divisions, and its numbers in and out.
-
-    Parameters
-    ----------
-    numbers : int
-        How many float64 a path is given and gives.
-    counts : mapping
-        What `slow_operations` has counted.
-
-    Returns
-    -------
-    dict of str to float
-        Of those that are above 0.
-    """
+    """Return the least ns a path: its roots and divisions, and its numbers in and out."""
     unit = throughput()
     found = {
         "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],

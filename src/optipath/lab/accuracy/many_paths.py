@@ -24,19 +24,7 @@ def many_paths(path: PathGraph, count: int) -> tuple[nx.MultiDiGraph, dict[str, 
     Interfaces are drawn from the generic region, each path its own; open parameters that
     are left are repeated, and so are the intensities of sources.
 
-    Parameters
-    ----------
-    path : PathGraph
-        Any path.
-    count : int
-        The length of the batch.
-
-    Returns
-    -------
-    networkx.MultiDiGraph
-        The elements and links.
-    dict of str to ndarray, shape (count,)
-        The values.
+    Shape: returns (count,).
 
     Examples
     --------

@@ -16,20 +16,7 @@ if TYPE_CHECKING:
 
 
 def exponential(dichroism: Any, retardance: Any, depth: Any = 0, depolarization: Any = 0) -> Any:
-    """Return the Mueller matrix of a generator.
-
-    Parameters
-    ----------
-    dichroism, retardance : tuple of mpf
-        Three components each: linear, linear at 45 degrees, circular.
-    depth, depolarization : mpf, optional
-        What absorbs all states alike, and what depolarises them alike.
-
-    Returns
-    -------
-    list of list of mpf
-        Its rows.
-    """
+    """Return the Mueller matrix of a generator."""
     (p1, p2, p3), (q1, q2, q3), d = dichroism, retardance, depth + depolarization
     generator = mpmath.matrix(
         [[-depth, p1, p2, p3], [p1, -d, -q3, q2], [p2, q3, -d, -q1], [p3, -q2, q1, -d]]
@@ -38,20 +25,7 @@ def exponential(dichroism: Any, retardance: Any, depth: Any = 0, depolarization:
 
 
 def medium(element: Medium, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of a medium.
-
-    Parameters
-    ----------
-    element : Medium
-        The medium.
-    read : Reader
-        Gives its values in many digits.
-
-    Returns
-    -------
-    list of list of mpf
-        Its rows.
-    """
+    """Return the Mueller matrix of a medium."""
     length = read.real(element.length)
     depth = length * read.real(element.absorption)
     rotation = read.angle_along(element.rotation, element.length, 2)
@@ -73,19 +47,6 @@ def medium(element: Medium, read: Reader) -> list[list[Any]]:
 
 
 def elliptical_retarder(element: EllipticalRetarder, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of an elliptical retarder.
-
-    Parameters
-    ----------
-    element : EllipticalRetarder
-        The retarder.
-    read : Reader
-        Gives its values in many digits.
-
-    Returns
-    -------
-    list of list of mpf
-        Its rows.
-    """
+    """Return the Mueller matrix of an elliptical retarder."""
     turns = tuple(read.angle(part) for part in (element.s1, element.s2, element.s3))
     return exponential((0, 0, 0), turns)  # type: ignore[no-any-return]

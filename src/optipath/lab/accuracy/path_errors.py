@@ -26,17 +26,7 @@ AS_GIVEN = "as given"
 
 
 class Trial(NamedTuple):
-    """A path in one region, and what exactly comes of it.
-
-    Attributes
-    ----------
-    region : str
-        Its name; "as given" for the path with its own values.
-    graph : networkx.MultiDiGraph
-        The elements and links.
-    lights : tuple of mapping
-        The exact light at every end, for each of the batch.
-    """
+    """A path in one region, and what exactly comes of it."""
 
     region: str
     graph: nx.MultiDiGraph
@@ -49,23 +39,7 @@ def trials(
     dtype: str,
     count: int,
 ) -> Iterator[Trial]:
-    """Yield the path as given, and in every region if it has interfaces.
-
-    Parameters
-    ----------
-    path : PathGraph
-        Any path.
-    regions : tuple of Region
-        Where its interfaces are drawn.
-    dtype : str
-        The precision that they are rounded to.
-    count : int
-        How many samples a region has.
-
-    Yields
-    ------
-    Trial
-    """
+    """Yield the path as given, and in every region if it has interfaces."""
     given = path.graph.copy()
     yield Trial(AS_GIVEN, given, tuple(exact_batch(given)))
     for region in regions if interfaces(path) else ():
@@ -73,44 +47,13 @@ def trials(
 
 
 def trial(path: PathGraph, region: Region, dtype: str, count: int) -> Trial:
-    """Return the path with its interfaces in one region.
-
-    Parameters
-    ----------
-    path : PathGraph
-        Any path.
-    region : Region
-        Where its interfaces are drawn.
-    dtype : str
-        The precision that they are rounded to.
-    count : int
-        How many samples there are.
-
-    Returns
-    -------
-    Trial
-    """
+    """Return the path with its interfaces in one region."""
     graph = in_region(path, region, count, dtype)
     return Trial(region.name, graph, tuple(exact_batch(graph)))
 
 
 def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
-    """Return the errors of a composer's plan, at all ends together.
-
-    Parameters
-    ----------
-    composer : Composer
-        What makes the plan.
-    of : Trial
-        What it is made of.
-    dtype : str
-        The precision whose ulp is the unit.
-
-    Returns
-    -------
-    Errors
-        One row a sample and end; infinite for a plan that refuses, because a number is not finite.
-    """
+    """Return the errors of a composer's plan, at all ends together."""
     ends = list(of.lights[0])
     exact = [lights[end] for end in ends for lights in of.lights]
     try:

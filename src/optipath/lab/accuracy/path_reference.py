@@ -34,16 +34,7 @@ if TYPE_CHECKING:
 
 
 class ExactLight(NamedTuple):
-    """The light at an end, and how it follows the angles of the path.
-
-    Attributes
-    ----------
-    stokes : tuple of mpf
-        S0, S1, S2, S3.
-    conditions : tuple of float
-        Of each component: the sum of |t dX/dt / X| over the tangents t of all angles of
-        incidence and of twice all turns; 0 where X is 0.
-    """
+    """The light at an end, and how it follows the angles of the path."""
 
     stokes: tuple[Any, ...]
     conditions: tuple[float, ...]
@@ -51,22 +42,6 @@ class ExactLight(NamedTuple):
 
 def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     """Return the light at every detector and dump of a path, in 50 digits.
-
-    Parameters
-    ----------
-    path : PathGraph
-        Any path.
-    **parameters : float
-        Single values; `exact_batch` takes arrays.
-
-    Returns
-    -------
-    dict of str to ExactLight
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is unknown or not allowed, or if there are several values for one.
 
     Examples
     --------
@@ -83,15 +58,6 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
     """Return the Stokes vector at every detector and dump of a path, as `exact_lights` has it.
 
     It takes one passage of light, and not one for each angle of the path.
-
-    Parameters
-    ----------
-    path, **parameters
-        As in `exact_lights`.
-
-    Returns
-    -------
-    dict of str to tuple of four mpf
 
     Examples
     --------
@@ -115,19 +81,7 @@ def _single(path: PathGraph, parameters: Mapping[str, Any]) -> Mapping[str, Reso
 
 
 def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str, ExactLight]]:
-    """Yield the light at every detector and dump, for each of a batch in C order.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        The elements and links of a path.
-    **parameters : float or array_like
-        Values of the open parameters.
-
-    Yields
-    ------
-    dict of str to ExactLight
-    """
+    """Yield the light at every detector and dump, for each of a batch in C order."""
     given, batch = Values(graph).inputs().resolve(parameters)
     wiring = _wiring(graph)
     for at in np.ndindex(batch):

@@ -19,17 +19,7 @@ _SHARED = {"optipath, numba": "numba", "optipath, numpy": "numpy"}
 
 
 class Racer(NamedTuple):
-    """Who took part in a race.
-
-    Attributes
-    ----------
-    name : str
-        Such as ``"tmm"``.
-    ns : float
-        The time of a path, on the scale of the chart.
-    error : float
-        The largest error of a component over S0, 1 where no digit is right.
-    """
+    """Who took part in a race."""
 
     name: str
     ns: float
@@ -42,17 +32,7 @@ class Racer(NamedTuple):
 
 
 class PeerTimes(NamedTuple):
-    """A race beside a chart.
-
-    Attributes
-    ----------
-    racers : tuple of Racer
-        All who took part.
-    shared : str
-        Who is in both.
-    ratio : float
-        The time of that in the chart over its time in the race; all times are multiplied by it.
-    """
+    """A race beside a chart."""
 
     racers: tuple[Racer, ...]
     shared: str
@@ -60,18 +40,7 @@ class PeerTimes(NamedTuple):
 
 
 def check_race(text: str, name: str) -> None:
-    """Refuse what is no race, before a chart is measured for it.
-
-    Parameters
-    ----------
-    text, name : str
-        As `peer_times` takes them.
-
-    Raises
-    ------
-    OptipathError
-        If it is no such file, or of another processor than this one.
-    """
+    """Refuse what is no race, before a chart is measured for it."""
     race = _read(text, name)
     if race["processor"] != (here := processor()):
         raise OptipathError(
@@ -81,26 +50,7 @@ def check_race(text: str, name: str) -> None:
 
 
 def peer_times(text: str, name: str, chart: Mapping[str, Any]) -> PeerTimes:
-    """Return the times of a race that can be compared with a chart.
-
-    Parameters
-    ----------
-    text : str
-        What ``benchmarks/peers/race.py --json`` wrote.
-    name : str
-        What it is called where it is refused.
-    chart : mapping
-        What `path_chart` has measured.
-
-    Returns
-    -------
-    PeerTimes
-
-    Raises
-    ------
-    OptipathError
-        If it is no such file, or of another machine, other versions or another path.
-    """
+    """Return the times of a race that can be compared with a chart."""
     return _compared(_read(text, name), name, chart)
 
 

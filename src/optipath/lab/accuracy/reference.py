@@ -13,15 +13,7 @@ from optipath.lab.accuracy.many_digits import DIGITS, WORKING_DIGITS, mpmath
 
 
 class Exact(NamedTuple):
-    """A, B, C, S of a Mueller matrix, and how each follows tan(theta).
-
-    Attributes
-    ----------
-    values : tuple of mpf
-        A, B, C, S.
-    conditions : tuple of float
-        |t dX/dt / X| of each for t = tan(theta), 0 where X is 0.
-    """
+    """A, B, C, S of a Mueller matrix, and how each follows tan(theta)."""
 
     values: tuple[Any, ...]
     conditions: tuple[float, ...]
@@ -29,19 +21,6 @@ class Exact(NamedTuple):
 
 def reflection(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
     """Return (A, B, C, S) of a reflection, with C + iS = r_s conj(r_p).
-
-    Parameters
-    ----------
-    n, k : float
-        The medium behind the boundary.
-    cos, sin : float
-        Of the angle of incidence.
-    n1 : float, optional
-        The medium in front.
-
-    Returns
-    -------
-    Exact
 
     Examples
     --------
@@ -53,15 +32,6 @@ def reflection(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> E
 
 def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
     """Return (A, B, C, S) of the power let through, with the phase of t_s conj(t_p).
-
-    Parameters
-    ----------
-    n, k, cos, sin, n1 : float
-        As in `reflection`.
-
-    Returns
-    -------
-    Exact
 
     Examples
     --------

@@ -21,21 +21,6 @@ def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.Mul
     Everything else stays. The incidence of an interface that has world frames stays too:
     they fix it.
 
-    Parameters
-    ----------
-    path : PathGraph
-        Any path.
-    region : Region
-        Where indices and angles are drawn.
-    count : int
-        The length of the batch.
-    dtype : str
-        The precision that they are rounded to.
-
-    Returns
-    -------
-    networkx.MultiDiGraph
-
     Examples
     --------
     >>> import optipath as op

@@ -15,15 +15,7 @@ if TYPE_CHECKING:
 
 
 class Samples(NamedTuple):
-    """Boundaries and angles, one a row.
-
-    Attributes
-    ----------
-    n, k : ndarray
-        The index n + ik, relative to the medium in front.
-    cos, sin : ndarray
-        Of the angle of incidence.
-    """
+    """Boundaries and angles, one a row."""
 
     n: Floats
     k: Floats
@@ -41,34 +33,13 @@ Draw: TypeAlias = Callable[["Dice"], tuple["Floats", ...]]
 
 @dataclass(frozen=True)
 class Region:
-    """A part of the parameter space, drawn at random and always in the same way.
-
-    Attributes
-    ----------
-    name : str
-        In tables and charts.
-    draw : callable
-        Makes n, k, cos and sin from random numbers.
-    """
+    """A part of the parameter space, drawn at random and always in the same way."""
 
     name: str
     draw: Draw
 
     def samples(self, count: int, dtype: str = "float64", seed: int = 0) -> Samples:
         """Return boundaries and angles, rounded to a precision.
-
-        Parameters
-        ----------
-        count : int
-            How many.
-        dtype : str, optional
-            The precision.
-        seed : int, optional
-            Another one draws others.
-
-        Returns
-        -------
-        Samples
 
         Examples
         --------
@@ -81,16 +52,7 @@ class Region:
     def at(self, units: Floats, dtype: str = "float64") -> Samples:
         """Return what comes of numbers within 0 .. 1 in place of random ones.
 
-        Parameters
-        ----------
-        units : ndarray, shape (dimensions, count)
-            The numbers.
-        dtype : str, optional
-            The precision that samples are rounded to.
-
-        Returns
-        -------
-        Samples
+        Shape: units (dimensions, count).
 
         Examples
         --------
@@ -117,17 +79,7 @@ class Region:
 
 
 class Dice:
-    """Numbers for one region, made of others within 0 .. 1 that are rolled.
-
-    Parameters
-    ----------
-    count : int
-        How many samples there are.
-    roll : callable
-        Returns as many numbers within 0 .. 1, others at every call.
-    precision : numpy.finfo
-        What samples are rounded to.
-    """
+    """Numbers for one region, made of others within 0 .. 1 that are rolled."""
 
     def __init__(self, count: int, roll: Callable[[], Floats], precision: Any) -> None:
         self.count = count
@@ -135,33 +87,13 @@ class Dice:
         self._roll = roll
 
     def even(self, low: float, high: float) -> Floats:
-        """Return numbers spread evenly.
-
-        Parameters
-        ----------
-        low, high : float
-            Between which.
-
-        Returns
-        -------
-        ndarray
-        """
+        """Return numbers spread evenly."""
         numbers: Floats = low + (high - low) * self._roll()
         # What is computed from them has the digits of the precision, if that is more.
         return numbers.astype(np.result_type(self.precision.dtype, np.float64))
 
     def decades(self, low: float, high: float) -> Floats:
-        """Return numbers whose logarithms are spread evenly.
-
-        Parameters
-        ----------
-        low, high : float
-            Between which, above 0.
-
-        Returns
-        -------
-        ndarray
-        """
+        """Return numbers whose logarithms are spread evenly."""
         return 10.0 ** self.even(np.log10(low), np.log10(high))
 
     def sign(self) -> Floats:
@@ -202,16 +134,7 @@ def _beside(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
 def beside(tangent: Floats, off: Floats) -> tuple[Floats, Floats]:
     """Return cosine and sine of what is so far from the angle of a tangent.
 
-    Parameters
-    ----------
-    tangent : ndarray
-        Of the angle.
-    off : ndarray
-        How far, in radians, with a sign.
-
-    Returns
-    -------
-    tuple of two ndarray
+    Units: off in radians.
     """
     t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
     return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)

@@ -58,20 +58,7 @@ def slow_operations(program: Program) -> dict[str, int]:
 
 
 def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
-    """Return the number of square roots and divisions of one evaluation of a kernel.
-
-    Parameters
-    ----------
-    kernel : Kernel
-        Any.
-    arguments : int
-        How many it takes.
-
-    Returns
-    -------
-    Counter
-        Of "sqrt" and "div".
-    """
+    """Return the number of square roots and divisions of one evaluation of a kernel."""
     counts: Counter[str] = Counter()
     xp, number = _counting(counts)
     # Not made_for, which would keep what is made for these primitives, used once.

@@ -25,16 +25,6 @@ if TYPE_CHECKING:
 def mueller_of(steps: Iterable[Step]) -> list[list[Any]]:
     """Return the Mueller matrix of steps in the order in which light meets them.
 
-    Parameters
-    ----------
-    steps : iterable of (str, mapping)
-        What each does, one of `STEPS`, and its values.
-
-    Returns
-    -------
-    list of four lists of four mpf
-        In 50 digits; what cancels is 0.
-
     Examples
     --------
     >>> rows = mueller_of([("reflection", {"n": "1.5", "incidence": "0"})])

@@ -25,17 +25,7 @@ SEARCHED = "<!-- worst cases: optipath accuracy --search -->", "<!-- end of wors
 
 
 class TextTable(NamedTuple):
-    """A table of words.
-
-    Attributes
-    ----------
-    title : str
-        What it tells.
-    header : tuple of str
-        The names of its columns.
-    rows : tuple of tuple of str
-        The regions, one a row.
-    """
+    """A table of words."""
 
     title: str
     header: tuple[str, ...]
@@ -60,24 +50,6 @@ def searched_tables(generations: int) -> list[TextTable]:
 
 def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = SAMPLED) -> str:
     """Return a Markdown text with the tables between the two lines that mark their place.
-
-    Parameters
-    ----------
-    text : str
-        Of the document.
-    found : sequence of TextTable
-        In their order.
-    marks : tuple of two str, optional
-        The lines before and behind.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    OptipathError
-        If the lines are not there.
 
     Examples
     --------

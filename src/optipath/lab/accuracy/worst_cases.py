@@ -45,12 +45,7 @@ ANYWHERE = Region("anywhere", _anywhere)
 class WorstCase(NamedTuple):
     """The worst case that was found.
 
-    Attributes
-    ----------
-    error : float
-        In ulp*; of "C near 0", in ulp of A. 0 where there is no such case.
-    n, k, cos, sin : float
-        The boundary and the angle.
+    Units: error in ulp.
     """
 
     error: float
@@ -76,27 +71,6 @@ def worst(
     samples have the next generation. While it climbs, the truth comes from the stable formulas
     in a wider float (`numpy.longdouble` for float64; where that is no wider, nothing is found);
     the error of what is found is measured against 50 digits.
-
-    Parameters
-    ----------
-    method : str
-        One of the methods.
-    region : Region
-        Where is searched.
-    component : str
-        One of `COMPONENTS`.
-    what : {"reflection", "transmission"}, optional
-        Which Mueller matrix.
-    dtype : str, optional
-        The precision.
-    generations : int, optional
-        How often a thousand samples are tried.
-    seed : int, optional
-        Another one finds other cases.
-
-    Returns
-    -------
-    WorstCase
 
     Examples
     --------
@@ -168,19 +142,7 @@ def _wide(
 
 
 def is_near_double_zero(A: Any, C: Any, condition: Any) -> Any:
-    """Tell whether C is small at an angle that hardly moves it.
-
-    Parameters
-    ----------
-    A, C : mpf or array
-        Of the Mueller matrix.
-    condition : float or array
-        The condition number of C.
-
-    Returns
-    -------
-    bool or array of bool
-    """
+    """Tell whether C is small at an angle that hardly moves it."""
     return abs(C) * (1.0 + condition) < 0.5 * A
 
 

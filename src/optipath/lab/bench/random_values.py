@@ -18,23 +18,7 @@ def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
     Angles are drawn from their range, at most a whole turn; where there are none, the
     other numbers within 10 % of their defaults. What is optional stays as it is by default.
 
-    Parameters
-    ----------
-    plan : Plan
-        What the values are for.
-    count : int
-        The length of the arrays.
-    seed : int, optional
-        Another one draws others.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (count,)
-
-    Raises
-    ------
-    ParameterError
-        If the plan has no open parameter that can be drawn.
+    Shape: returns (count,).
 
     Examples
     --------

@@ -33,19 +33,7 @@ _FIRST_PATH = "from optipath import Detector, Source; (Source() >> Detector()).t
 
 @dataclass(frozen=True)
 class Report:
-    """How long a path takes.
-
-    Attributes
-    ----------
-    single : mapping of str to float
-        Milliseconds of what is done once: compose, import, and one run of plain floats.
-    batches : list of mapping
-        Engine, dtype, output, number of paths, and nanoseconds a path.
-    methods : list of mapping
-        The same for each method.
-    software : mapping of str to str
-        What has run, in which version.
-    """
+    """How long a path takes."""
 
     single: dict[str, float] = field(default_factory=dict)
     batches: list[dict[str, Any]] = field(default_factory=list)
@@ -63,37 +51,7 @@ def bench(
     threads: int = 1,
     progress: Callable[[str], object] = lambda _: None,
 ) -> Report:
-    """Measure a path.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What is run; its open angles are drawn at random.
-    load : callable
-        Loads it.
-    largest : int
-        The largest batch; the other one has a hundredth of its paths.
-    long : bool
-        Whether batches grow by tens from 1, in both precisions, Mueller matrices and all methods
-        are measured, too.
-    engines : iterable of str
-        Which are measured; all that are installed by default.
-    threads : int
-        How many threads share a large batch.
-    progress : callable
-        Is told what is being measured.
-
-    Returns
-    -------
-    Report
-
-    Raises
-    ------
-    MissingExtraError
-        If an engine is not installed.
-    ParameterError
-        If the path has no open parameter that can be varied.
-    """
+    """Measure a path."""
     found = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
     for engine in found:
         if not is_installed(engine):

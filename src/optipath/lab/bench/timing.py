@@ -13,15 +13,7 @@ _UNITS = {1.0: "s", 1e-3: "ms", 1e-6: "us", 1e-9: "ns"}
 
 
 class Timing(NamedTuple):
-    """Seconds of one call.
-
-    Attributes
-    ----------
-    first : float
-        The first call, which may compile.
-    least, middle : float
-        The shortest and the median of the others.
-    """
+    """Seconds of one call."""
 
     first: float
     least: float
@@ -34,19 +26,6 @@ def race(
     tick: Callable[[str], object] = lambda _: None,
 ) -> dict[str, Timing]:
     """Return the timing of each contender.
-
-    Parameters
-    ----------
-    contenders : mapping of str to callable
-        What is called.
-    seconds : float
-        About how long each contender runs in all; at least three times.
-    tick : callable
-        Is told the name of each contender as its turn comes.
-
-    Returns
-    -------
-    dict of str to Timing
 
     Examples
     --------
@@ -72,17 +51,7 @@ def race(
 def seconds_of(action: Callable[[], object], calls: int = 1) -> float:
     """Return the time of one call of an action, the mean of several.
 
-    Parameters
-    ----------
-    action : callable
-        What is called.
-    calls : int, optional
-        How often.
-
-    Returns
-    -------
-    float
-        In seconds.
+    Units: the result in seconds.
     """
     begin = perf_counter()
     for _ in range(calls):

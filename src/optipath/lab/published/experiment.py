@@ -12,17 +12,7 @@ if TYPE_CHECKING:
 
 
 class Walks(NamedTuple):
-    """The photons that measurements have in common.
-
-    Attributes
-    ----------
-    incidence : str
-        The angle of incidence, such as ``"60 deg"``.
-    wavelengths : tuple of str
-        In vacuum, such as ``"380 nm"``; none where no medium depends on it.
-    cells : int or None
-        Those of the sample's random fields, where they are others than the sample says.
-    """
+    """The photons that measurements have in common."""
 
     incidence: str
     wavelengths: tuple[str, ...]
@@ -31,27 +21,7 @@ class Walks(NamedTuple):
 
 @dataclass(frozen=True)
 class Measurement:
-    """A number that is published, and how it is measured.
-
-    Attributes
-    ----------
-    measure : str
-        What is measured: a name out of `measured_quantities.MEASURES`.
-    text : str
-        What the publication says.
-    walks : Walks
-        The photons.
-    published : tuple of float or None
-        The least and the largest number that is published; None where there is none.
-    within : float
-        How far off a number may be, beside two standard errors.
-    brighter_than, noise : float
-        Of pixels: how bright they must be, and how well known; see `Hemisphere.adm`.
-    azimuth : float
-        And within how many degrees of the plane of incidence, on the forward side.
-    stokes : tuple of float
-        The light, where the measure depends on it.
-    """
+    """A number that is published, and how it is measured."""
 
     measure: str
     text: str
@@ -65,16 +35,6 @@ class Measurement:
 
     def agrees(self, value: float, error: float) -> bool | None:
         """Tell whether a value is the published one, as far as it is known.
-
-        Parameters
-        ----------
-        value, error : float
-            What has been measured, and its standard error.
-
-        Returns
-        -------
-        bool or None
-            None where no number is published.
 
         Examples
         --------
@@ -91,23 +51,7 @@ class Measurement:
 
 @dataclass(frozen=True)
 class Experiment:
-    """What was published of a sample.
-
-    Attributes
-    ----------
-    name : str
-        That of the experiment, or the path of its file.
-    description, source : str
-        What it is, and where it is published.
-    sample : Sample
-        What light falls on.
-    measurements : tuple of Measurement
-        What is measured.
-    sensor : int
-        How many pixels there are along each side of a hemisphere.
-    photons : int
-        How many are walked from each direction, unless told otherwise.
-    """
+    """What was published of a sample."""
 
     name: str
     description: str

@@ -30,20 +30,6 @@ def experiment_names() -> list[str]:
 def load_experiment(experiment: str | PathLike[str]) -> Experiment:
     """Return an experiment out of its file.
 
-    Parameters
-    ----------
-    experiment : str or path
-        A name out of `experiment_names`, or the path of a TOML file of one's own.
-
-    Returns
-    -------
-    Experiment
-
-    Raises
-    ------
-    SurfaceError
-        If there is no such experiment, or with every fault of its file.
-
     Examples
     --------
     >>> print(load_experiment("wang-2017-table-1").source)

@@ -30,26 +30,7 @@ _WITHOUT_PIXELS = [name for name, each in MEASURES.items() if "sensor" not in ea
 
 
 def experiment_of_text(text: str, path: Path, name: str) -> Experiment:
-    """Return the experiment that a text describes.
-
-    Parameters
-    ----------
-    text : str
-        TOML of format 1.
-    path : Path
-        Its file, beside which that of its sample may be.
-    name : str
-        What it is called.
-
-    Returns
-    -------
-    Experiment
-
-    Raises
-    ------
-    SurfaceError
-        With every fault of what it says.
-    """
+    """Return the experiment that a text describes."""
     try:
         document = parsed(text, str(path))
         with of_files():

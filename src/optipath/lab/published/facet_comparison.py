@@ -26,20 +26,7 @@ def model_of(hemisphere: Hemisphere) -> Numbers:
 
 
 def model_excess(hemisphere: Hemisphere, component: int) -> tuple[float, float]:
-    """Return by how much the model is above photons, in all: its sum over theirs, less 1.
-
-    Parameters
-    ----------
-    hemisphere : Hemisphere
-        What photons tell.
-    component : {0, 1, 2}
-        Of the Stokes vectors. Pixels count with the sign that the model has there, so that noise
-        cancels.
-
-    Returns
-    -------
-    value, error : float
-    """
+    """Return by how much the model is above photons, in all: its sum over theirs, less 1."""
     model = model_of(hemisphere)[..., component]
     sign, whole = np.sign(model), np.sum(np.abs(model))
 
@@ -51,18 +38,7 @@ def model_excess(hemisphere: Hemisphere, component: int) -> tuple[float, float]:
 
 
 def model_off(hemisphere: Hemisphere) -> tuple[float, float]:
-    """Return how far the model is off at most, of all components, over the largest S0.
-
-    Parameters
-    ----------
-    hemisphere : Hemisphere
-        What photons tell that have met one facet.
-
-    Returns
-    -------
-    value, error : float
-        Of 16 x 16 blocks of pixels, whose centres are within 60 deg of the normal.
-    """
+    """Return how far the model is off at most, of all components, over the largest S0."""
     model = _blocks(model_of(hemisphere))
     place = (2.0 * np.arange(len(model)) + 1.0) / len(model) - 1.0
     near = 90.0 * np.hypot(place, place[:, np.newaxis]) < FARTHEST

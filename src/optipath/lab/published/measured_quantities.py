@@ -29,17 +29,7 @@ ANY_AZIMUTH = 180.0
 
 
 class Found(NamedTuple):
-    """A number that has been measured.
-
-    Attributes
-    ----------
-    value, error : float
-        It, and its standard error.
-    mask : str
-        Which pixels it is of; nothing where it is not of pixels.
-    pixel : str
-        Where it is found, as the angle to the normal and the azimuth.
-    """
+    """A number that has been measured."""
 
     value: float
     error: float
@@ -48,19 +38,7 @@ class Found(NamedTuple):
 
 
 class Measure(NamedTuple):
-    """What is measured, and how.
-
-    Attributes
-    ----------
-    told : str
-        What it is.
-    of : callable
-        Returns it of photons, and of what is asked.
-    takes : tuple of str
-        The keys of an experiment's file that it depends on, of those that not all measures do.
-    several : bool
-        Whether light may have several wavelengths.
-    """
+    """What is measured, and how."""
 
     told: str
     of: Callable[[Walked, Measurement], Found]

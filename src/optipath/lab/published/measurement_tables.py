@@ -33,26 +33,7 @@ _PLAIN = Sample([(1.5, 0.0)])
 def measurements_of(
     table: Any, sample: Sample | None, wavelengths: tuple[str, ...]
 ) -> list[Measurement]:
-    """Return a measurement for each angle of incidence.
-
-    Parameters
-    ----------
-    table : Any
-        What stands under ``[[measurements]]``.
-    sample : Sample or None
-        What light falls on; None where it is not known.
-    wavelengths : tuple of str
-        Those of the experiment.
-
-    Returns
-    -------
-    list of Measurement
-
-    Raises
-    ------
-    SurfaceError
-        With every fault of what it says.
-    """
+    """Return a measurement for each angle of incidence."""
     if not isinstance(table, dict):
         raise SurfaceError(f"it must be a table headed [[measurements]], not {shown(table)}")
     faults = Faults(fault.removeprefix("it: ") for fault in type_faults("it", table, MEASUREMENT))
@@ -145,18 +126,6 @@ def _range(given: Any) -> tuple[float, float]:
 
 
 def readable(table: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
-    """Return what a table has by keys that are known or meant, where it is of the right type.
-
-    Parameters
-    ----------
-    table : dict
-        What stands in the file.
-    schema : dict of str to type
-        The keys that it may have, and the types of their values.
-
-    Returns
-    -------
-    dict
-    """
+    """Return what a table has by keys that are known or meant, where it is of the right type."""
     meant = as_meant(table, schema)
     return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}

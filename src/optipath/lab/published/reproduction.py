@@ -14,17 +14,7 @@ if TYPE_CHECKING:
 
 
 class Reproduced(NamedTuple):
-    """A published number, and the one that has been measured.
-
-    Attributes
-    ----------
-    measurement : Measurement
-        What is published.
-    found : Found
-        What has been measured.
-    photons : int
-        How many have been walked for it.
-    """
+    """A published number, and the one that has been measured."""
 
     measurement: Measurement
     found: Found
@@ -45,28 +35,6 @@ def reproduce(
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Reproduced]:
     """Do an experiment again, and yield what is found, one after the other.
-
-    Parameters
-    ----------
-    experiment : Experiment
-        What is published.
-    photons : int, optional
-        How many are walked from each direction; as many as the experiment says by default.
-    seed : int, optional
-        That of the photons.
-    threads : int, optional
-        How many walk at a time; as many as there are processors by default.
-    progress : callable, optional
-        Told how many photons of a direction there are, and of how many.
-
-    Yields
-    ------
-    Reproduced
-
-    Raises
-    ------
-    SurfaceError
-        If there are no such photons.
 
     Examples
     --------

@@ -23,23 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Walked:
-    """Photons of an experiment; each kind of them is walked once, when it is asked for.
-
-    Attributes
-    ----------
-    experiment : Experiment
-        What is done again.
-    walks : Walks
-        The direction, wavelengths and mesh.
-    photons : int
-        How many there are of each kind.
-    seed : int
-        That of the photons.
-    threads : int or None
-        How many walk at a time.
-    progress : callable or None
-        Told how many photons there are, and of how many.
-    """
+    """Photons of an experiment; each kind of them is walked once, when it is asked for."""
 
     experiment: Experiment
     walks: Walks

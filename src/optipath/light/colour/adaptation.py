@@ -20,16 +20,7 @@ DISPLAY_WHITE = np.array([0.3127, 0.3290, 0.3583]) / 0.3290
 def adapted(xyz: Any, white: Any) -> Any:
     """Return X, Y, Z as they are under the white of a display.
 
-    Parameters
-    ----------
-    xyz : ndarray, shape (..., 3)
-        Tristimulus values where Y of white is 1.
-    white : ndarray, shape (..., 3)
-        X, Y, Z of that white, in any unit.
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
+    Shapes: xyz (..., 3); white (..., 3); returns (..., 3).
 
     Examples
     --------

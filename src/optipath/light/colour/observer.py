@@ -28,14 +28,7 @@ _ROUNDING = 1e-6
 class Observer:
     """Colour-matching functions at whole nanometres, cubic between them.
 
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    wavelengths : ndarray, shape (m,)
-        In nanometres.
-    functions : ndarray, shape (m, 3)
-        Of X, Y and Z.
+    Shapes: wavelengths (m,); functions (m, 3). Units: wavelengths in nanometres.
     """
 
     name: str
@@ -45,15 +38,7 @@ class Observer:
     def at(self, wavelengths: Array) -> Array:
         """Return the functions, by the cubic through the four values that are nearest.
 
-        Parameters
-        ----------
-        wavelengths : ndarray, shape (n,)
-            In nanometres, within those of the table.
-
-        Returns
-        -------
-        ndarray, shape (n, 3)
-            Not below 0.
+        Shapes: wavelengths (n,); returns (n, 3). Units: wavelengths in nanometres.
         """
         place = wavelengths - self.wavelengths[0]
         first = np.clip(np.floor(place).astype(int) - 1, 0, len(self.wavelengths) - 4)
@@ -72,16 +57,7 @@ class Observer:
         last one of the observer have a whole nanometre, as in the sums of CIE 15:2018. So light
         at whole nanometres comes to these sums, and none is lost between them.
 
-        Parameters
-        ----------
-        grid : ndarray, shape (n,)
-            The wavelengths of the light in nanometres, rising.
-        nearest : bool, optional
-            Whether light goes on beyond its wavelengths as it is at the last one.
-
-        Returns
-        -------
-        ndarray, shape (n, 3)
+        Shapes: grid (n,); returns (n, 3). Units: grid in nanometres.
         """
         low, high = self.wavelengths[[0, -1]]
         nodes = np.union1d(self.wavelengths, grid[(grid > low) & (grid < high)])
@@ -105,14 +81,7 @@ class Observer:
     def left_out(self, grid: Array) -> float:
         """Return the largest share of X, Y or Z, of equal energy, beyond some wavelengths.
 
-        Parameters
-        ----------
-        grid : ndarray, shape (n,)
-            In nanometres, rising.
-
-        Returns
-        -------
-        float
+        Shape: grid (n,). Units: grid in nanometres.
         """
         outside = (self.wavelengths < grid[0]) | (self.wavelengths > grid[-1])
         shares = self.functions[outside].sum(axis=0) / self.functions.sum(axis=0)
@@ -121,20 +90,6 @@ class Observer:
 
 def observer_called(name: str) -> Observer:
     """Return a standard observer.
-
-    Parameters
-    ----------
-    name : str
-        ``"CIE 1931 2 deg"``, whose functions are those of CIE 018:2019, table 6.
-
-    Returns
-    -------
-    Observer
-
-    Raises
-    ------
-    ValueFault
-        If there is none of that name.
 
     Examples
     --------

@@ -108,23 +108,7 @@ def srgb_of(
     adapt: bool,
     out_of_gamut: str,
 ) -> Srgb:
-    """Return the colour of light; see `Light.to_srgb`.
-
-    Parameters
-    ----------
-    light : Light
-        Per nanometre.
-    white : Light or Spectrum
-        What has Y = 1.
-    seen : tuple of str
-        The observer, and what the light is outside its wavelengths.
-    adapt, out_of_gamut
-        As `Light.to_srgb` takes them.
-
-    Returns
-    -------
-    Srgb
-    """
+    """Return the colour of light; see `Light.to_srgb`."""
     faults = unknown("out_of_gamut", out_of_gamut, OUT_OF_GAMUT)
     if white is None:
         faults.append(
@@ -154,15 +138,6 @@ def srgb_of(
 
 def encoded(linear: Any) -> Any:
     """Return components with the transfer function of sRGB; negative ones as positive ones.
-
-    Parameters
-    ----------
-    linear : array_like
-        Powers of light, 1 at white.
-
-    Returns
-    -------
-    ndarray
 
     Examples
     --------

@@ -12,16 +12,7 @@ from optipath.values.arrays.jax_values import namespace
 def times(matrix: Any, vectors: Any) -> Any:
     """Return products in an order that does not depend on how many there are.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (3, 3)
-        What each is multiplied by.
-    vectors : ndarray, shape (..., 3)
-        Such as X, Y and Z.
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
+    Shapes: matrix (3, 3); vectors (..., 3); returns (..., 3).
 
     Examples
     --------

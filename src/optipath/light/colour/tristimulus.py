@@ -32,16 +32,7 @@ _ROUNDING = 1e-6
 def tristimulus(light: WavelengthOnDemand, white: Any, observer: str, outside: str) -> Array:
     """Return X, Y and Z of spectral light; see `Light.to_xyz`.
 
-    Parameters
-    ----------
-    light : Light
-        Per nanometre.
-    white, observer, outside
-        As `Light.to_xyz` takes them.
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
+    Shape: returns (..., 3).
     """
     standard = observer_called(observer)
     total, power = _sums(light, standard, outside)
@@ -66,26 +57,7 @@ def white_sums(
 ) -> tuple[Any, Any]:
     """Return X, Y and Z of what is white, as a mantissa and the exponent of its power of two.
 
-    Parameters
-    ----------
-    light : Light
-        What is looked at, at whose wavelengths a spectrum is taken.
-    white : Light or Spectrum
-        What has Y = 1.
-    observer : Observer
-        Who looks.
-    outside : str
-        As `Light.to_xyz` takes it.
-
-    Returns
-    -------
-    total : ndarray, shape (..., 3)
-    exponent : int or ndarray
-
-    Raises
-    ------
-    ValueFault
-        If it is neither, or dark.
+    Shape: returns total (..., 3).
     """
     if isinstance(white, WavelengthOnDemand):
         total, power = _sums(white, observer, outside)
@@ -122,22 +94,7 @@ def _weights(grid: Array, observer: Observer, outside: str) -> Array:
 
 
 def warn_of(light: WavelengthOnDemand, observer: Observer, outside: str) -> None:
-    """Say what colour loses by wavelengths that are few, or end within what is seen.
-
-    Parameters
-    ----------
-    light : Light
-        Per nanometre.
-    observer : Observer
-        Who looks.
-    outside : str
-        As `Light.to_xyz` takes it.
-
-    Raises
-    ------
-    LightError
-        If none of the light is seen.
-    """
+    """Say what colour loses by wavelengths that are few, or end within what is seen."""
     grid = np.sort(spectral_axis(light)[0]) * NANOMETRES
     first, last = grid[[0, -1]]
     if last < _VISIBLE[0] or first > _VISIBLE[1]:

@@ -46,22 +46,7 @@ def eigenvalues(matrix: Array) -> Array:
 def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
     """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (..., 4, 4)
-        The Mueller matrices.
-    tolerance : float, optional
-        A share of the largest eigenvalue; by default, that of the roundings of the matrix.
-
-    Returns
-    -------
-    ndarray of bool, shape (...)
-        Which of them an element can have.
-
-    Raises
-    ------
-    ValueFault
-        If the tolerance is no finite number >= 0.
+    Shapes: matrix (..., 4, 4); returns (...).
 
     Examples
     --------

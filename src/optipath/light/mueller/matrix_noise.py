@@ -82,15 +82,6 @@ def noise_of_product(behind: tuple[Any, Any], before: tuple[Any, Any]) -> Any:
 
     The noise of each times the other, and the roundings of sums of products of both.
 
-    Parameters
-    ----------
-    behind, before : tuple of ndarray
-        The matrices, of which light meets the second first, each with its noise.
-
-    Returns
-    -------
-    ndarray
-
     Examples
     --------
     >>> one = np.eye(4), 2.0**-52

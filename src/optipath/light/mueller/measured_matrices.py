@@ -40,19 +40,7 @@ def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
     A matrix that is physical by the default of `Mueller.is_physical` does so of none, nor does one
     whose entries may be no more than what is left of roundings of 1, as of crossed polarisers.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (..., 4, 4)
-        The matrices.
-    noise : ndarray, shape (...)
-        What of their entries is rounding.
-    arriving, made : ndarray, shape (..., 4)
-        Stokes vectors near 1, and those behind the matrix.
-
-    Returns
-    -------
-    ndarray of bool, shape (...)
-        Not where what arrives is no light, or not known.
+    Shapes: matrix (..., 4, 4); noise (...); arriving, made (..., 4); returns (...).
 
     Examples
     --------
@@ -72,18 +60,7 @@ def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
 
 
 def check_becomes_light(matrix: Array, noise: Array, arriving: Array, made: Array) -> None:
-    """Refuse a matrix that makes of light what no light is.
-
-    Parameters
-    ----------
-    matrix, noise, arriving, made
-        As `becomes_no_light` takes them.
-
-    Raises
-    ------
-    LightError
-        Naming the first such light.
-    """
+    """Refuse a matrix that makes of light what no light is."""
     if surely_light(made):
         return
     bad = np.asarray(becomes_no_light(matrix, noise, arriving, made))
@@ -105,14 +82,7 @@ def check_becomes_light(matrix: Array, noise: Array, arriving: Array, made: Arra
 def nan_where_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
     """Return light that JAX traces, NaN where it is none, with its slopes.
 
-    Parameters
-    ----------
-    matrix, noise, arriving, made
-        As `becomes_no_light` takes them.
-
-    Returns
-    -------
-    jax.Array, shape (..., 4)
+    Shape: returns (..., 4).
     """
     xp = namespace(made)
     # A product, since a choice would have slopes of 0.

@@ -18,11 +18,6 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
 
     A matrix of which an entry is not known becomes 0, for `unscaled` to give back.
 
-    Raises
-    ------
-    ParameterError
-        If JAX traces the matrix.
-
     Examples
     --------
     >>> [part.tolist() for part in scaled(np.diag([6.0, 3.0, 3.0, 3.0]))][1]
@@ -38,19 +33,7 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
 def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
     """Return what was found for scaled matrices in the matrices' own scale.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (..., 4, 4)
-        What was given to `scaled`.
-    parts : ndarray, shape (..., 4, n)
-        What was found for the scaled matrices.
-    power : ndarray of int, shape (...)
-        The exponent that `scaled` returned.
-
-    Returns
-    -------
-    ndarray, shape (..., 4, n)
-        NaN where an entry of the matrix is not known.
+    Shapes: matrix (..., 4, 4); parts (..., 4, n); power (...); returns (..., 4, n).
     """
     *batch, rows, columns = parts.shape
     found = times_two_to(parts.reshape(*batch, rows * columns), power)

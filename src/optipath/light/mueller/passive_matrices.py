@@ -42,16 +42,7 @@ def gain(matrix: Array) -> Array:
 def are_passive(matrix: Array, tolerance: float) -> Array:
     """Tell which matrices a passive element can have, as far as their rounding lets one say.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (..., 4, 4)
-        JAX's as well.
-    tolerance : float
-        What is put down to rounding, as a share, see `cloude.tolerance_of`.
-
-    Returns
-    -------
-    ndarray of bool, shape (...)
+    Shapes: matrix (..., 4, 4); returns (...).
 
     Examples
     --------
@@ -82,16 +73,7 @@ def are_passive(matrix: Array, tolerance: float) -> Array:
 def problem_of(matrix: Array, tolerance: float) -> str:
     """Return why no passive element has a matrix, as a sentence goes on with it.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (4, 4)
-        One that is not among `are_passive`.
-    tolerance : float
-        As there.
-
-    Returns
-    -------
-    str
+    Shape: matrix (4, 4).
 
     Examples
     --------
@@ -114,17 +96,7 @@ def problem_of(matrix: Array, tolerance: float) -> str:
 def cure_of(matrices: Array, tolerance: float) -> str:
     """Return what is to be given in place of matrices, so that all `are_passive`.
 
-    Parameters
-    ----------
-    matrices : ndarray, shape (..., 4, 4)
-        All that were given, of which some are not.
-    tolerance : float
-        As there.
-
-    Returns
-    -------
-    str
-        With the divisor that is enough for the brightest.
+    Shape: matrices (..., 4, 4).
 
     Examples
     --------

@@ -22,21 +22,8 @@ def jones_parts(unit: Array, tolerance: Array) -> tuple[Array, Array, Array]:
 
     What is pure has but one eigenvalue in its coherency.
 
-    Parameters
-    ----------
-    unit : ndarray, shape (..., 4, 4)
-        Mueller matrices over their M00.
-    tolerance : ndarray, shape (..., 1)
-        How far entries of the coherency may be from those of one eigenvalue.
-
-    Returns
-    -------
-    pure : ndarray of bool, shape (..., 1)
-        Which they are.
-    root : ndarray, shape (..., 1)
-        sqrt(1 - D^2) of each, D its diattenuation.
-    rotation : ndarray, shape (..., 3, 3)
-        How each turns (S1, S2, S3).
+    Shapes: unit (..., 4, 4); tolerance (..., 1); returns pure (..., 1), root (..., 1), rotation
+    (..., 3, 3).
 
     Examples
     --------

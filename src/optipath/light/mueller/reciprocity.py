@@ -24,14 +24,7 @@ def reciprocal(matrix: Any) -> Any:
 
     De Hoop, Appl. Sci. Res. B 8, 135 (1960); Sekera, J. Opt. Soc. Am. 56, 1732 (1966).
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (..., 4, 4)
-        JAX's arrays, too.
-
-    Returns
-    -------
-    ndarray, shape (..., 4, 4)
+    Shapes: matrix (..., 4, 4); returns (..., 4, 4).
 
     Examples
     --------

@@ -19,15 +19,7 @@ _UNIT = np.eye(3)
 def least_turn(a: Array, b: Array) -> Array:
     """Return the rotations by the least angle that turn unit vectors a into b.
 
-    Parameters
-    ----------
-    a, b : ndarray, shape (..., 3)
-        Unit vectors.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        The rotation matrices; for opposite vectors, one of the half turns.
+    Shapes: a, b (..., 3); returns (..., 3, 3).
 
     Examples
     --------
@@ -51,17 +43,7 @@ def least_turn(a: Array, b: Array) -> Array:
 def rotation(w: Array, v: Array) -> Array:
     """Return what the unitary matrices w s_0 + i (v_1 s_1 + ...), of any size, do to S1, S2, S3.
 
-    Parameters
-    ----------
-    w : ndarray, shape (...)
-        The real coefficient of s_0.
-    v : ndarray, shape (..., 3)
-        Those of i s_1, i s_2 and i s_3.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        Rotation matrices.
+    Shapes: w (...); v (..., 3); returns (..., 3, 3).
 
     Examples
     --------
@@ -91,15 +73,7 @@ def size_and_direction(vector: Array) -> tuple[Array, Array]:
 def outer(a: Array, b: Array) -> Array:
     """Return the products of each component with each.
 
-    Parameters
-    ----------
-    a, b : ndarray, shape (..., 3)
-        The vectors.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        Rows of a, columns of b.
+    Shapes: a, b (..., 3); returns (..., 3, 3).
 
     Examples
     --------

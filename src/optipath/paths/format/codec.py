@@ -51,24 +51,7 @@ _LISTED = (IntensityDomain, FirstComponentDomain)
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
     """Return the value of an element's field.
 
-    Parameters
-    ----------
-    raw : Any
-        What stands in the file.
-    domain : Domain
-        What the field may be.
-    parameters : mapping of str to Parameter
-        What ``"$name"`` can refer to.
-
-    Returns
-    -------
-    Any
-        What the element takes, in radians and metres.
-
-    Raises
-    ------
-    OptipathError
-        If it is none of these, or its unit does not fit.
+    Units: the result in radians.
 
     Examples
     --------
@@ -107,19 +90,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
 
 
 def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
-    """Ask whether a pair of numbers is one complex number, or those of two paths.
-
-    Parameters
-    ----------
-    raw : sequence of float
-        What stands in the file.
-    names : tuple of str
-        What files call the two parts.
-
-    Returns
-    -------
-    str
-    """
+    """Ask whether a pair of numbers is one complex number, or those of two paths."""
     (first, second), (real, imaginary) = raw, names
     return (
         f"{shown(raw)} may be {real} and {imaginary}, or the numbers of two paths; write "
@@ -131,24 +102,7 @@ def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
 def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
     """Return a value given for a parameter: a default, or one of a case.
 
-    Parameters
-    ----------
-    raw : Any
-        What stands in the file.
-    parameter : Parameter
-        Whose value it is.
-    uses : iterable of Use, optional
-        Where parameters stand, if that is known: axes have names.
-
-    Returns
-    -------
-    Any
-        Numbers in radians and metres, or words.
-
-    Raises
-    ------
-    OptipathError
-        If it is no word of the parameter and no quantity of its dimension.
+    Units: the result in radians.
     """
     if isinstance(raw, str):
         try:
@@ -168,27 +122,7 @@ def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> An
 
 
 def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex_parts) -> Any:
-    """Write a value so that decoding gives it back.
-
-    Parameters
-    ----------
-    value : Any
-        A number, an array, a material, a word, or a parameter.
-    unit : str
-        The unit of numbers.
-    complex_parts : tuple of str, optional
-        What the two parts of complex numbers are called.
-
-    Returns
-    -------
-    Any
-        A number, a text, a table or a list of these.
-
-    Raises
-    ------
-    PresetError
-        If it has no form in TOML.
-    """
+    """Write a value so that decoding gives it back."""
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, CurveValue):

@@ -22,24 +22,6 @@ _QUANTITIES = {"": "birefringence", "angle per length": "rotatory_power"}
 def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
     """Return what a crystal gives where one number stands.
 
-    Parameters
-    ----------
-    raw : str
-        The name of the crystal.
-    domain : Domain
-        What may stand there: a birefringence, or the rotation per length.
-    wavelength : float or Parameter
-        That of the run.
-
-    Returns
-    -------
-    CurveValue or float
-
-    Raises
-    ------
-    OptipathError
-        If there is no such crystal, or it gives nothing of the kind.
-
     Examples
     --------
     >>> from optipath.values.domains.domain import Domain
@@ -60,15 +42,6 @@ def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
 
 def crystal_of(curve: Curve) -> str:
     """Return the name of the crystal that a curve is of; ``""`` for any other.
-
-    Parameters
-    ----------
-    curve : Curve
-        A birefringence or a rotatory power.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -54,29 +54,7 @@ def is_curve(raw: Mapping[str, Any]) -> bool:
 def decode_curve(
     raw: Mapping[str, Any], domain: Domain, parameters: Mapping[str, Parameter], decode: Decode
 ) -> Any:
-    """Return what stands for a table of what depends on the wavelength.
-
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file.
-    domain : Domain
-        What the field may be.
-    parameters : mapping of str to Parameter
-        What is declared.
-    decode : callable
-        Returns the value of one entry, which may be a parameter.
-
-    Returns
-    -------
-    Material, Parameter or float
-        A material where an index stands; elsewhere one number, known or not.
-
-    Raises
-    ------
-    OptipathError
-        With all faults of the table.
-    """
+    """Return what stands for a table of what depends on the wavelength."""
     form, *others = [key for key in FORMS if key in raw]
     if others:
         raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")

@@ -24,20 +24,6 @@ class Faults(list[str]):
     ) -> T | None:
         """Return what an action gives, or None after keeping its faults.
 
-        Parameters
-        ----------
-        where : str
-            The place in the file; nothing where a fault says its place itself.
-        action : callable
-            What may raise an `OptipathError`.
-        *arguments, **keywords : Any
-            What it is called with.
-
-        Returns
-        -------
-        Any
-            What it returns.
-
         Examples
         --------
         >>> from optipath.values.units import dimension_of
@@ -55,18 +41,6 @@ class Faults(list[str]):
 
 def unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
     """Return a sentence for each key of a table that is none of those that there are.
-
-    Parameters
-    ----------
-    raw : mapping
-        The table.
-    names : sequence of str
-        The keys that there are.
-
-    Returns
-    -------
-    Faults
-        Empty where nothing is wrong.
 
     Examples
     --------

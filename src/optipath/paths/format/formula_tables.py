@@ -38,26 +38,7 @@ BESIDE = ("name", "span")
 
 
 def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
-    """Return the curve of a table with a formula.
-
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file, its keys known.
-    form : str
-        Which formula.
-    decode : callable
-        Returns the value of one entry, which may be a parameter.
-
-    Returns
-    -------
-    Curve
-
-    Raises
-    ------
-    OptipathError
-        With all faults of the coefficients.
-    """
+    """Return the curve of a table with a formula."""
     known = _coefficients_of(form)
     table = raw[form]
     if not isinstance(table, dict):
@@ -83,19 +64,7 @@ def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
 
 
 def formula_table(curve: Curve, encode: Encode) -> dict[str, Any] | None:
-    """Return the table of a formula; None for another curve.
-
-    Parameters
-    ----------
-    curve : Curve
-        What may be one.
-    encode : callable
-        Returns what stands in a file for a value, in a unit.
-
-    Returns
-    -------
-    dict or None
-    """
+    """Return the table of a formula; None for another curve."""
     form = next((form for form, of in FORMULAS.items() if type(curve) is of), None)
     if form is None:
         return None

@@ -22,16 +22,6 @@ _SIGNS = re.compile(r"[*/+()^\s\d]|(?<=.)-|\$.*\$")
 def table_for(text: str) -> str:
     """Return how a file writes a multiple of a parameter with an offset; an example for others.
 
-    Parameters
-    ----------
-    text : str
-        Arithmetic.
-
-    Returns
-    -------
-    str
-        A table.
-
     Examples
     --------
     >>> table_for("$theta/2"), table_for("10 * $a - 5 deg")

@@ -37,11 +37,6 @@ _STEPS = {"[": 1, "{": 1, "]": -1, "}": -1}
 def refuse_unwieldy(text: str) -> None:
     """Raise where a text would take long to parse, in time that grows with its length.
 
-    Raises
-    ------
-    PresetError
-        Naming the line, what is too long or too deep, and the limit.
-
     Examples
     --------
     >>> try:

@@ -25,26 +25,7 @@ def entry_domain(domain: Domain) -> Domain | None:
 
 
 def decode_list(raw: Any, domain: Domain, decode: Callable[[Any, Domain], Any]) -> list[Any]:
-    """Return the values of a list.
-
-    Parameters
-    ----------
-    raw : Any
-        What stands in the file.
-    domain : Domain
-        That of a field whose entries have an `entry_domain`.
-    decode : callable
-        Returns the value of one entry.
-
-    Returns
-    -------
-    list
-
-    Raises
-    ------
-    PresetError
-        If it is no list, or entries are no values, all of which are told at once.
-    """
+    """Return the values of a list."""
     of_indices, each = isinstance(domain, IndicesDomain), entry_domain(domain)
     assert each is not None  # noqa: S101 - asked for lists alone
     if not isinstance(raw, list):

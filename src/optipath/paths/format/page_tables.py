@@ -27,26 +27,7 @@ OF_PAGES = (*_TEXTS, *_NUMBERS)
 def material_by_name(
     raw: Mapping[str, Any], wavelength: Any, decode: Callable[[Any, Domain], Any]
 ) -> dict[str, Any]:
-    """Return n and k of a material of the database.
-
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file, its keys known.
-    wavelength : float or Parameter
-        That of the run.
-    decode : callable
-        Returns the value of one entry, which may be a parameter.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    OptipathError
-        As `Material.named` does, and if what is given in place of n or k is no number.
-    """
+    """Return n and k of a material of the database."""
     faults = Faults()
     numbers: dict[str, Any] = {
         key: faults.attempt(f".{key}", decode, raw[key], of)
@@ -61,37 +42,14 @@ def material_by_name(
 
 
 def page_table(curve: PageCurve) -> dict[str, Any] | None:
-    """Return the table of a material by name; None for what is read from a file.
-
-    Parameters
-    ----------
-    curve : PageCurve
-        n, k or both of it.
-
-    Returns
-    -------
-    dict or None
-    """
+    """Return the table of a material by name; None for what is read from a file."""
     if not curve.asked:
         return None
     return {NAMED if key == "name" else key: text for key, text in curve.asked.items()}
 
 
 def own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
-    """Return which of n and k a table has to say beside the name of a material.
-
-    Parameters
-    ----------
-    curve : PageCurve
-        What the name gives, n, k or both.
-    n, k : Any
-        Of the material.
-
-    Returns
-    -------
-    dict of str to Any
-        Nothing where the name says that k is 0.
-    """
+    """Return which of n and k a table has to say beside the name of a material."""
     given = {"n": n, "k": k}
     own = {part: given[part] for part in given if part not in curve.parts}
     try:
@@ -106,17 +64,6 @@ def is_usual_part(curve: PageCurve, part: str) -> bool:
     """Tell whether a name by itself gives a curve, with no other part beside it.
 
     The index of a page without k reaches further, or is had at all, where a k is given.
-
-    Parameters
-    ----------
-    curve : PageCurve
-        Of a material by name.
-    part : str
-        Which it has, ``"n"`` or ``"k"``.
-
-    Returns
-    -------
-    bool
     """
     try:
         usual = getattr(Material.named(**curve.asked), part)

@@ -15,25 +15,7 @@ if TYPE_CHECKING:
 
 
 def named(raw: str, domain: Domain) -> Any:
-    """Return what a word stands for that is the name of a parameter, too.
-
-    Parameters
-    ----------
-    raw : str
-        What stands in the file.
-    domain : Domain
-        What the field may be.
-
-    Returns
-    -------
-    Any
-        What its domain reads.
-
-    Raises
-    ------
-    PresetError
-        If it is no word of the domain: how a parameter is written.
-    """
+    """Return what a word stands for that is the name of a parameter, too."""
     try:
         return domain.parse(raw)
     except OptipathError:
@@ -43,24 +25,7 @@ def named(raw: str, domain: Domain) -> Any:
 
 
 def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
-    """Return the parameter that ``"$name"`` or ``"-$name"`` stands for.
-
-    Parameters
-    ----------
-    raw : str
-        What stands in the file.
-    parameters : mapping of str to Parameter
-        What is declared.
-
-    Returns
-    -------
-    Parameter
-
-    Raises
-    ------
-    PresetError
-        If it is not declared, or the text is a formula.
-    """
+    """Return the parameter that ``"$name"`` or ``"-$name"`` stands for."""
     sign, _, name = raw.partition("$")
     if sign in ("", "-") and name in parameters:
         return -parameters[name] if sign else parameters[name]

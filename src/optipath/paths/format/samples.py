@@ -23,26 +23,7 @@ _NM = "nm"
 
 
 def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Domain) -> Tabulated:
-    """Return the curve through the samples of a table.
-
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file, its keys known.
-    columns : tuple of str
-        Which keys have samples: ``"n"`` and ``"k"``, of which one may be there, or ``"values"``.
-    domain : Domain
-        What ``"values"`` may be.
-
-    Returns
-    -------
-    Tabulated
-
-    Raises
-    ------
-    OptipathError
-        With all faults of the samples.
-    """
+    """Return the curve through the samples of a table."""
     faults, domains = Faults(), {"n": N, "k": K, "values": domain}
     of_numbers = columns == ("values",)
     given = [key for key in columns if key in raw or of_numbers]
@@ -63,22 +44,6 @@ def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Doma
 
 def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
     """Return wavelengths in metres.
-
-    Parameters
-    ----------
-    raw : Any
-        What stands in the file: texts with units, or numbers.
-    unit : str, optional
-        The unit of numbers: of length, energy, wave number or frequency.
-
-    Returns
-    -------
-    list of float
-
-    Raises
-    ------
-    PresetError, UnitError
-        Naming the first entry that is none, or if they are most likely in another unit.
 
     Examples
     --------
@@ -110,22 +75,6 @@ def _wavelength(entry: Any, place: int, unit: Any) -> float:
 
 def samples_of(raw: Any, unit: str) -> list[float]:
     """Return the samples of one quantity in base units.
-
-    Parameters
-    ----------
-    raw : Any
-        What stands in the file: numbers, or texts with a unit where there is one.
-    unit : str
-        The usual unit of the quantity; none for pure numbers.
-
-    Returns
-    -------
-    list of float
-
-    Raises
-    ------
-    PresetError, UnitError
-        Naming the first entry that is none.
 
     Examples
     --------
@@ -168,15 +117,7 @@ def _real(entry: Any, place: int) -> float:
 def written_wavelengths(metres: Any) -> dict[str, Any]:
     """Return wavelengths as a table has them, from which the same numbers are read.
 
-    Parameters
-    ----------
-    metres : array_like, shape (n,)
-        In metres.
-
-    Returns
-    -------
-    dict
-        Numbers and their unit; texts where rounding would change them.
+    Shape: metres (n,). Units: metres in metres.
 
     Examples
     --------

@@ -38,20 +38,6 @@ _WORDS = {
 def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> list[str]:
     """Return a sentence for each key that is not known.
 
-    Parameters
-    ----------
-    where : str
-        The table's place in the file.
-    table : mapping of str to Any
-        What stands there.
-    known : iterable of str
-        The keys that it may have.
-
-    Returns
-    -------
-    list of str
-        Nothing where all are known.
-
     Examples
     --------
     >>> key_faults("links[0]", {"form": "a.out"}, ["from", "to"])
@@ -65,20 +51,7 @@ def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> li
 
 
 def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
-    """Return a sentence for each key that is unknown or has a value of another type.
-
-    Parameters
-    ----------
-    where, table
-        As `key_faults` takes them.
-    schema : mapping of str to type
-        The keys that it may have, and the types of their values.
-
-    Returns
-    -------
-    list of str
-        Nothing where all is well.
-    """
+    """Return a sentence for each key that is unknown or has a value of another type."""
     wrong = [
         f"{where}: '{key}' must be {_EXAMPLES.get(key, _WORDS[kind])}, not {shown(table[key])}"
         for key, kind in schema.items()
@@ -91,16 +64,6 @@ def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
     """Return a table in which misspelt keys stand under the names that were meant.
 
     So that what stands there is read, and not called missing as well.
-
-    Parameters
-    ----------
-    table, known
-        As `key_faults` takes them.
-
-    Returns
-    -------
-    dict
-        Only known keys.
 
     Examples
     --------
@@ -122,20 +85,7 @@ def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
 def checked(
     where: str, table: dict[str, Any], schema: Mapping[str, Any], faults: list[str]
 ) -> dict[str, Any] | None:
-    """Return a table with its keys as they were meant; None where a value has another type.
-
-    Parameters
-    ----------
-    where, table, schema
-        As `type_faults` takes them.
-    faults : list of str
-        Takes what is wrong.
-
-    Returns
-    -------
-    dict or None
-        The table itself where all is well.
-    """
+    """Return a table with its keys as they were meant; None where a value has another type."""
     found = type_faults(where, table, schema)
     if not found:
         return table

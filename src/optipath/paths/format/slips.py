@@ -21,18 +21,6 @@ _LONGEST = 200
 def likely_cure(text: str, reason: str) -> str:
     """Return the cure for a slip, ready to be put behind what the parser says.
 
-    Parameters
-    ----------
-    text : str
-        The whole file.
-    reason : str
-        The parser's sentence, with the place.
-
-    Returns
-    -------
-    str
-        With the line that was meant, or with the line at fault; nothing where there is none.
-
     Examples
     --------
     >>> likely_cure("kind = interface", "Invalid value (at line 1, column 8)")

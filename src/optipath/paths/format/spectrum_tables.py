@@ -53,27 +53,7 @@ _WHEN, _SCALE, _OFFSET = "wavelength", "scale", "offset"
 def decode_spectrum(
     raw: Mapping[str, Any], parameters: Mapping[str, Parameter], decode: Decode
 ) -> Any:
-    """Return what stands for a spectrum at the wavelength of a run.
-
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file.
-    parameters : mapping of str to Parameter
-        What is declared.
-    decode : callable
-        Returns the value of one entry, which may be a parameter.
-
-    Returns
-    -------
-    CurveValue or ndarray
-        A number where the wavelength is one.
-
-    Raises
-    ------
-    OptipathError
-        With all faults of the table.
-    """
+    """Return what stands for a spectrum at the wavelength of a run."""
     faults = Faults()
     when: Any = parameters.get(_WHEN) or Wavelength()
     if _WHEN in raw:
@@ -87,20 +67,6 @@ def decode_spectrum(
 
 def spectrum_of(raw: Any) -> Spectrum:
     """Return the spectrum of a table.
-
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file.
-
-    Returns
-    -------
-    Spectrum
-
-    Raises
-    ------
-    OptipathError
-        With all faults of the table.
 
     Examples
     --------
@@ -135,15 +101,6 @@ def spectrum_of(raw: Any) -> Spectrum:
 
 def spectrum_table(spectrum: Spectrum) -> dict[str, Any]:
     """Return the table of a spectrum, of which the same one is read.
-
-    Parameters
-    ----------
-    spectrum : Spectrum
-        Of any kind.
-
-    Returns
-    -------
-    dict
 
     Examples
     --------

@@ -18,22 +18,6 @@ _BACKWARDS = "backwards"
 def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> VerticesByAngles:
     """Return the chain of a table.
 
-    Parameters
-    ----------
-    raw : mapping
-        What stands in the file.
-    decoded : callable
-        Returns an angle for what stands there.
-
-    Returns
-    -------
-    VerticesByAngles
-
-    Raises
-    ------
-    PresetError
-        With all faults of the table.
-
     Examples
     --------
     >>> chain_by_angles({"incidences": [0.5], "backwards": True}, float)
@@ -59,17 +43,6 @@ def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> Ve
 
 def table_of_angles(chain: VerticesByAngles, encoded: Callable[[Any], Any]) -> dict[str, Any]:
     """Return the table of a chain.
-
-    Parameters
-    ----------
-    chain : VerticesByAngles
-        The chain.
-    encoded : callable
-        Returns what stands in a file for an angle.
-
-    Returns
-    -------
-    dict
 
     Examples
     --------

@@ -38,27 +38,7 @@ if TYPE_CHECKING:
 
 
 def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
-    """Return the text of a preset file.
-
-    Parameters
-    ----------
-    graph : networkx.MultiDiGraph
-        Elements and links.
-    description : str
-        One line about the path.
-    cases : mapping of str to Case
-        Named sets of values.
-
-    Returns
-    -------
-    str
-        In TOML.
-
-    Raises
-    ------
-    PathError
-        With every element that has no kind and every value that has no form in TOML.
-    """
+    """Return the text of a preset file."""
     faults = Faults()
     parameters = parameters_of(graph)
     top: dict[str, Any] = {"format": FORMAT, "description": description}
@@ -190,17 +170,6 @@ def _case(
 
 def toml_lines(header: str, row: Mapping[str, Any]) -> str:
     """Return a table of a file, with a line for each of its keys.
-
-    Parameters
-    ----------
-    header : str
-        Its name in brackets; nothing for what stands above all tables.
-    row : mapping of str to Any
-        Texts, numbers, and lists and tables of such.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -31,24 +31,7 @@ if TYPE_CHECKING:
 
 
 def material_table(material: Material, encode: Encode) -> dict[str, Any]:
-    """Return the table of a material: of its curve, or of n and k apart.
-
-    Parameters
-    ----------
-    material : Material
-        What stands for an index.
-    encode : callable
-        Returns what stands in a file for a value, in a unit.
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    PresetError
-        If n or k follows from a curve that has no form in files.
-    """
+    """Return the table of a material: of its curve, or of n and k apart."""
     n, k = material.n, material.k
     if isinstance(n, CurveValue) and _are_parts(n, k):
         return _table(n.curve, n.given_by, "", encode)
@@ -85,26 +68,7 @@ def _are_both_curves(n: Any, k: Any) -> bool:
 
 
 def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]:
-    """Return the table of one number by wavelength, or of a multiple of it with an offset.
-
-    Parameters
-    ----------
-    value : CurveValue
-        What stands for the number.
-    unit : str
-        The unit of numbers where it stands.
-    encode : callable
-        Returns what stands in a file for a value, in a unit.
-
-    Returns
-    -------
-    dict
-
-    Raises
-    ------
-    PresetError
-        If its curve has no form in files.
-    """
+    """Return the table of one number by wavelength, or of a multiple of it with an offset."""
     table = _table(value.curve, value.given_by, unit, encode) | _part(value.curve, value.place)
     if value.scale != 1.0:
         table["scale"] = value.scale

@@ -27,15 +27,7 @@ if TYPE_CHECKING:
 class Histories:
     """What is told of the chains of a batch, besides their points.
 
-    Attributes
-    ----------
-    materials : tuple
-        The medium on the other side of the surface at each vertex, or the first of them.
-    events : str, ndarray of shape (..., m) or None
-        A letter for each vertex, where it is the same for all chains; else numbers of `Event`.
-        None where nobody tells.
-    ended : ndarray of bool, shape (..., m), or None
-        Which vertices are behind the end of their chain, where some are.
+    Shapes: events (..., m); ended (..., m).
     """
 
     materials: tuple[Any, ...]
@@ -52,19 +44,6 @@ def histories(
     materials: Sequence[Any], events: Any, ids: Any, lengths: Any, batch: tuple[int, ...]
 ) -> tuple[Histories, list[str]]:
     """Return what is told of chains, and what is wrong with it.
-
-    Parameters
-    ----------
-    materials : sequence
-        One for each vertex, or the palette of `ids`.
-    events, ids, lengths : Any
-        As `path_from_vertices` takes them.
-    batch : tuple of int
-        The shape of the batch of points.
-
-    Returns
-    -------
-    Histories, list of str
 
     Examples
     --------
@@ -122,16 +101,7 @@ def _simplest(chains: Histories, *, told: bool) -> Histories:
 def masked(chains: Histories, bad: npt.NDArray[np.bool_]) -> Histories:
     """Return histories in which some chains cannot be.
 
-    Parameters
-    ----------
-    chains : Histories
-        What is told.
-    bad : ndarray of bool, shape (...)
-        Which cannot be.
-
-    Returns
-    -------
-    Histories
+    Shape: bad (...).
     """
     codes = numbers_of_events(chains)
     return replace(chains, events=np.where(bad[..., np.newaxis], Event.CANNOT, codes))
@@ -151,18 +121,7 @@ def numbers_of_events(chains: Histories) -> Floats:
 
 
 def apart_where_absorbed(chains: Histories) -> Histories:
-    """Return histories whose chains are told apart, where light would go on in what absorbs.
-
-    Parameters
-    ----------
-    chains : Histories
-        What is told.
-
-    Returns
-    -------
-    Histories
-        With events by numbers, where some chains may be refracted into such a medium.
-    """
+    """Return histories whose chains are told apart, where light would go on in what absorbs."""
     events = chains.events
     if not isinstance(events, str):
         return chains

@@ -19,21 +19,7 @@ if TYPE_CHECKING:
 def lengths_given(lengths: Any, count: int) -> Whole:
     """Return how many vertices each chain has.
 
-    Parameters
-    ----------
-    lengths : array_like, shape (...)
-        What is given.
-    count : int
-        The most that there are.
-
-    Returns
-    -------
-    ndarray of int
-
-    Raises
-    ------
-    ValueFault
-        If one is no whole number of 1 .. count.
+    Shape: lengths (...).
 
     Examples
     --------
@@ -51,24 +37,7 @@ def lengths_given(lengths: Any, count: int) -> Whole:
 
 
 def whole_numbers(what: str, given: Any) -> npt.NDArray[Any]:
-    """Return real numbers, which are to be whole ones.
-
-    Parameters
-    ----------
-    what : str
-        What they are given for.
-    given : Any
-        What is given.
-
-    Returns
-    -------
-    ndarray
-
-    Raises
-    ------
-    ValueFault
-        If they are no real numbers.
-    """
+    """Return real numbers, which are to be whole ones."""
     numbers = as_given(what, given)
     if numbers.dtype.kind not in "iuf":
         raise ValueFault(f"{what} must be whole numbers, not {shown(given)}")
@@ -77,15 +46,6 @@ def whole_numbers(what: str, given: Any) -> npt.NDArray[Any]:
 
 def number_of(numbers: npt.NDArray[Any], bad: npt.NDArray[np.bool_]) -> str:
     """Return the first number that is bad, as sentences have it.
-
-    Parameters
-    ----------
-    numbers, bad : ndarray
-        Of one shape.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -98,16 +58,7 @@ def number_of(numbers: npt.NDArray[Any], bad: npt.NDArray[np.bool_]) -> str:
 def has_ended(lengths: Whole, count: int) -> npt.NDArray[np.bool_]:
     """Return which vertices are behind the end of their chain.
 
-    Parameters
-    ----------
-    lengths : ndarray of int, shape (...)
-        How many vertices each chain has.
-    count : int
-        The most that there are.
-
-    Returns
-    -------
-    ndarray of bool, shape (..., count)
+    Shapes: lengths (...); returns (..., count).
 
     Examples
     --------

@@ -25,21 +25,7 @@ _CURE = "give R for each vertex that reflects and T for each that refracts"
 def letters_given(events: Any, count: int) -> Letters:
     """Return the letter of each vertex of each chain, as its number in Unicode; 0 for none.
 
-    Parameters
-    ----------
-    events : str, sequence of str, or array_like of str, shape (..., count)
-        A text for all chains, one for each, or a letter for each vertex of each.
-    count : int
-        The most vertices that there are.
-
-    Returns
-    -------
-    ndarray, shape (..., count)
-
-    Raises
-    ------
-    ValueFault
-        If they are no texts, or of more letters than there are vertices.
+    Shapes: events (..., count); returns (..., count).
 
     Examples
     --------
@@ -65,21 +51,7 @@ def letters_given(events: Any, count: int) -> Letters:
 def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats:
     """Return what happens at each vertex of each chain, by numbers of `Event`.
 
-    Parameters
-    ----------
-    letters : ndarray, shape (..., count)
-        As `letters_given` returns them.
-    lengths : ndarray of int, shape (...), or None
-        How many vertices each chain has; by default as many as there are letters.
-
-    Returns
-    -------
-    ndarray, shape (..., count)
-
-    Raises
-    ------
-    ValueFault
-        If another letter is among them, or there is none for a vertex.
+    Shapes: letters (..., count); lengths (...); returns (..., count).
 
     Examples
     --------

@@ -24,21 +24,7 @@ _TURNED = 2.0**-50
 def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: Any = None) -> str:
     """Ask what is meant at a vertex where every chain may be reflected, and refracted as well.
 
-    Parameters
-    ----------
-    chains : array_like, shape (..., m + 2, 3), or Parameter
-        Sound vertices; what is not known is not asked about.
-    materials : sequence
-        The media on the other side of each.
-    outside : float, array_like, Material or Parameter
-        Where light starts.
-    there : ndarray of bool, shape (..., m), optional
-        Which vertices are those of chains that can be, and have not ended before; by default all.
-
-    Returns
-    -------
-    str
-        A sentence of the first such vertex, with both readings; nothing where there is none.
+    Shapes: chains (..., m + 2, 3); there (..., m).
     """
     points, front = known(chains), known_index(outside)
     if points is None or front is None:

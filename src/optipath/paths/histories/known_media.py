@@ -50,20 +50,7 @@ def known_index(medium: Any) -> Floats | None:
 def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | None:
     """Return the indices in front of the vertices of a chain and behind, as normals need them.
 
-    Parameters
-    ----------
-    events : str
-        Of R and T, one for each vertex.
-    materials : sequence
-        The media on the other side of each.
-    outside : Any
-        Where light starts.
-
-    Returns
-    -------
-    ndarray, shape (..., m, 2), or None
-        Both over the larger; 1 where a vertex reflects, and 0 between equal media. None if one
-        is not known, or they do not broadcast.
+    Shape: returns (..., m, 2).
 
     Examples
     --------
@@ -87,20 +74,6 @@ def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | No
 def over_the_larger(n1: Any, n2: Any, refracts: Any, otherwise: Any = 1.0) -> tuple[Any, Any]:
     """Return the indices on both sides of a vertex as normals need them.
 
-    Parameters
-    ----------
-    n1, n2 : array_like
-        In front and behind.
-    refracts : array_like of bool
-        Where light is refracted.
-    otherwise : array_like, optional
-        What stands for both elsewhere.
-
-    Returns
-    -------
-    tuple of ndarray
-        Both over the larger; 0 between equal media.
-
     Examples
     --------
     >>> [float(n) for n in over_the_larger(1.5, 3.0, True)]
@@ -111,12 +84,6 @@ def over_the_larger(n1: Any, n2: Any, refracts: Any, otherwise: Any = 1.0) -> tu
 
 
 def in_order(sides: Sequence[tuple[Any, Any]]) -> Floats:
-    """Return what stands on both sides of each vertex as one array, shape (..., m, 2).
-
-    Raises
-    ------
-    ValueError
-        If they do not broadcast.
-    """
+    """Return what stands on both sides of each vertex as one array, shape (..., m, 2)."""
     together = np.broadcast_arrays(*[side for both in sides for side in both])
     return np.stack(together, axis=-1).reshape(*together[0].shape, len(sides), 2)

@@ -22,15 +22,7 @@ _WHY = "which medium light is in differs from chain to chain"
 
 
 class Sides(NamedTuple):
-    """The media on both sides of a vertex, for each chain.
-
-    Attributes
-    ----------
-    front : float or ndarray
-        n where light comes from.
-    behind : float, ndarray or Material
-        On the other side of the surface.
-    """
+    """The media on both sides of a vertex, for each chain."""
 
     front: Any
     behind: Any
@@ -39,23 +31,7 @@ class Sides(NamedTuple):
 def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[Sides]:
     """Return the media on both sides of each vertex.
 
-    Parameters
-    ----------
-    events : ndarray, shape (..., m)
-        What happens at each vertex, by `Event`.
-    materials : sequence of m float, complex, array_like or Material
-        The media on the other sides.
-    outside : float, array_like or Material
-        Where light starts.
-
-    Returns
-    -------
-    list of Sides
-
-    Raises
-    ------
-    ValueFault
-        If one is not known.
+    Shape: events (..., m).
 
     Examples
     --------

@@ -27,22 +27,7 @@ def normals_checked(
 ) -> tuple[Histories, list[str]]:
     """Return what is told of chains, and what is wrong with their normals.
 
-    Parameters
-    ----------
-    points : ndarray, shape (..., m + 2, 3), or None
-        Vertices that are sound; where there are none, the normals are looked at alone.
-    normals : array_like, shape (..., m, 3)
-        What is given.
-    chains : Histories
-        What happens at each vertex.
-    outside : Any
-        Where light starts.
-    bad : {"refuse", "mask"}
-        Whether chains with other normals are refused, or cannot be.
-
-    Returns
-    -------
-    Histories, list of str
+    Shapes: points (..., m + 2, 3); normals (..., m, 3).
     """
     sides = _sides(chains, outside)
     if sides is None:

@@ -24,13 +24,7 @@ if TYPE_CHECKING:
 
 
 def rows_of_ids(ids: Any) -> npt.NDArray[Any]:
-    """Return ids as an array of real numbers, shape (..., m).
-
-    Raises
-    ------
-    ValueFault
-        If they are no such rows.
-    """
+    """Return ids as an array of real numbers, shape (..., m)."""
     numbers = whole_numbers("ids", ids)
     if not numbers.ndim or not numbers.shape[-1]:
         raise ValueFault(f"ids must have shape (..., m), one for each vertex, not {numbers.shape}")
@@ -40,24 +34,7 @@ def rows_of_ids(ids: Any) -> npt.NDArray[Any]:
 def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray[Any]:
     """Return which medium stands behind each vertex of each chain.
 
-    Parameters
-    ----------
-    numbers : ndarray, shape (..., m)
-        Ids: whole numbers from 0.
-    media : int
-        How many there are.
-    ended : ndarray of bool, shape (..., m), or None
-        Which vertices are behind the end of their chain, so that their ids say nothing.
-
-    Returns
-    -------
-    ndarray of int
-        In as few bytes as there are for so many; 0 behind the end of a chain.
-
-    Raises
-    ------
-    ValueFault
-        If one is no whole number of 0 .. media - 1.
+    Shapes: numbers (..., m); ended (..., m).
 
     Examples
     --------
@@ -84,22 +61,7 @@ def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray
 def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tuple[Any, ...] | None:
     """Return the medium behind each vertex, an array over chains for each.
 
-    Parameters
-    ----------
-    materials : sequence of m float, complex or Material
-        The palette.
-    ids : ndarray of int, shape (..., m), or None
-        Which of them, as `ids_within` returns it; without them the palette alone is looked at.
-
-    Returns
-    -------
-    tuple of m ndarray or Material, or None
-        The latter of the two where some absorb; None without ids.
-
-    Raises
-    ------
-    ValueFault
-        With what is wrong with each entry of the palette.
+    Shape: ids (..., m).
 
     Examples
     --------
@@ -131,24 +93,6 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tupl
 
 def index_parts(name: str, medium: Any, why: str) -> tuple[Floats, Floats]:
     """Return n and k of a medium as numbers.
-
-    Parameters
-    ----------
-    name : str
-        What has it, as sentences name it.
-    medium : float, complex, array_like or Material
-        What is given.
-    why : str
-        Why it must be known.
-
-    Returns
-    -------
-    n, k : ndarray
-
-    Raises
-    ------
-    ValueFault
-        If it is a parameter, or traced by JAX, or no index.
 
     Examples
     --------

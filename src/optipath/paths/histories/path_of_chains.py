@@ -26,28 +26,7 @@ if TYPE_CHECKING:
 def path_of_chains(
     points: Any, chains: Histories, intensity: Any, outside: Any, bad: str
 ) -> PathGraph:
-    """Return the path of light from point to point.
-
-    Parameters
-    ----------
-    points : ndarray, Parameter or VerticesByAngles
-        From the light to the eye.
-    chains : Histories
-        What happens on the way.
-    intensity, outside : Any
-        Of the light, and the index of the medium that it starts in.
-    bad : {"refuse", "mask"}
-        What becomes of chains that cannot be.
-
-    Returns
-    -------
-    PathGraph
-
-    Raises
-    ------
-    ValueFault
-        If media must be known, and are not.
-    """
+    """Return the path of light from point to point."""
     path = PathGraph()
     node = path.add("light", Source(intensity))
     each = _alike if not isinstance(chains.events, np.ndarray) else _differing

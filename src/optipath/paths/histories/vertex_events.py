@@ -20,17 +20,6 @@ REFLECTS, REFRACTS = "R", "T"
 def event_faults(events: Any, count: int) -> list[str]:
     """Return what is wrong with the events of a chain, a sentence each.
 
-    Parameters
-    ----------
-    events : str
-        What is given.
-    count : int
-        How many vertices the chain has; 0 where that is not known.
-
-    Returns
-    -------
-    list of str
-
     Examples
     --------
     >>> event_faults("RTR", 3)
@@ -53,19 +42,6 @@ def event_faults(events: Any, count: int) -> list[str]:
 def passable(events: str, materials: Sequence[Any]) -> tuple[list[Any], list[str]]:
     """Return the media of a chain, and why light cannot go on in some of those that it should.
 
-    Parameters
-    ----------
-    events : str
-        Of R and T, one for each vertex.
-    materials : sequence
-        The media on the other side of each.
-
-    Returns
-    -------
-    media : list
-        Others in place of those that are told, so that the rest is checked.
-    faults : list of str
-
     Examples
     --------
     >>> passable("RT", (1.5 + 2j, 1.5))
@@ -80,21 +56,7 @@ def passable(events: str, materials: Sequence[Any]) -> tuple[list[Any], list[str
 
 
 def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
-    """Return why a value is no medium that light may go on in, or come from.
-
-    Parameters
-    ----------
-    owner : str
-        What sentences call it.
-    medium : Any
-        The value.
-    domain : Domain, optional
-        Which of both is asked.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return why a value is no medium that light may go on in, or come from."""
     if doubt := INDEX.doubt(owner, medium):
         return [doubt]
     try:
@@ -106,19 +68,6 @@ def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
 
 def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[Any]:
     """Return the medium that light comes from at each vertex.
-
-    Parameters
-    ----------
-    events : str
-        Of R and T, one for each vertex.
-    materials : sequence
-        The media on the other side of each.
-    outside : Any
-        Where light starts.
-
-    Returns
-    -------
-    list
 
     Examples
     --------

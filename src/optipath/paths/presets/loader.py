@@ -106,27 +106,7 @@ def load_preset(
 
 
 def preset_of_case(path: PathGraph, preset: str | PathLike[str], case: str | int) -> PathGraph:
-    """Return the path of a preset with the values of a case as its defaults.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What the preset describes.
-    preset : str or path
-        Its name, for what is said of it.
-    case : str or int
-        A named set of its values.
-
-    Returns
-    -------
-    PathGraph
-        In which all parameters are open still.
-
-    Raises
-    ------
-    PresetError
-        If there is no such case.
-    """
+    """Return the path of a preset with the values of a case as its defaults."""
     known, faults = _of_case(path, preset, case)
     return _bound(path.with_defaults(**known), {}, faults)
 
@@ -138,50 +118,14 @@ def bound_preset(
     values: Mapping[str, Any],
     varied: Collection[str] = (),
 ) -> PathGraph:
-    """Return the path of a preset, bound to the values of a case and to others.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What the preset describes.
-    preset : str or path
-        Its name, for what is said of it.
-    case : str or int, optional
-        A named set of its values.
-    values : mapping of str to float, str or array_like
-        Values that take precedence over the case.
-    varied : collection of str, optional
-        Parameters that stay open, whatever the case says of them.
-
-    Returns
-    -------
-    PathGraph
-        The same path where nothing is given.
-
-    Raises
-    ------
-    PresetError, ParameterError
-        As `load_preset` does.
-    """
+    """Return the path of a preset, bound to the values of a case and to others."""
     known, faults = _of_case(path, preset, case)
     known = {name: value for name, value in known.items() if name not in varied}
     return _bound(path, beside(path, known, values), faults)
 
 
 def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values of a case and others, which take precedence: of a `Material`, its k as well.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What they are given for.
-    known, values : mapping of str to Any
-        Those of the case, and the others.
-
-    Returns
-    -------
-    dict of str to Any
-    """
+    """Return values of a case and others, which take precedence: of a `Material`, its k as well."""
     # Not for every import of the library.
     from optipath.paths.bound_materials import given_by_materials  # noqa: PLC0415
 
@@ -217,26 +161,12 @@ def _bound(path: PathGraph, values: Mapping[str, Any], faults: list[str]) -> Pat
 
 
 def locate(preset: str | PathLike[str]) -> Path:
-    """Return the file of a preset, which need not exist if a path is given.
-
-    Raises
-    ------
-    PresetError
-        If it is neither the name of a preset nor the path of a TOML file.
-    """
+    """Return the file of a preset, which need not exist if a path is given."""
     return file_of(preset, "preset", presets_folder(), "`optipath presets`")
 
 
 def read_preset(path: Path) -> PathGraph:
-    """Return the path that a file describes.
-
-    Raises
-    ------
-    PresetError
-        If the file cannot be read, is too large, or is not UTF-8, TOML, or format 1.
-    PathError
-        With every fault of what it says.
-    """
+    """Return the path that a file describes."""
     from optipath.paths.presets.preset_text import path_of_text  # noqa: PLC0415 - not for all
 
     return path_of_text(text_of(path, "preset"), str(path), path.name)

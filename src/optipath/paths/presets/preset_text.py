@@ -17,28 +17,7 @@ if TYPE_CHECKING:
 
 
 def path_of_text(text: str, source: str, about: str = "") -> PathGraph:
-    """Return the path that a text describes, as `PathGraph.to_toml` writes it.
-
-    Parameters
-    ----------
-    text : str
-        TOML of format 1.
-    source : str
-        Where it comes from, as sentences about its format say it.
-    about : str, optional
-        The same for sentences about its path.
-
-    Returns
-    -------
-    PathGraph
-
-    Raises
-    ------
-    PresetError
-        If it is not TOML, or not format 1.
-    PathError
-        With every fault of what it says.
-    """
+    """Return the path that a text describes, as `PathGraph.to_toml` writes it."""
     document = parsed(text, source)
     number = document.get("format", FORMAT)
     if number != FORMAT or isinstance(number, bool):

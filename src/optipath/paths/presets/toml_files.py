@@ -21,28 +21,7 @@ def names_in(folder: Path) -> list[str]:
 
 
 def file_of(given: Any, what: str, folder: Path, see: str) -> Path:
-    """Return the file that a name or a path stands for, which need not exist if it is a path.
-
-    Parameters
-    ----------
-    given : str or path
-        What is given.
-    what : str
-        What sentences call what the file holds, such as ``"preset"``.
-    folder : Path
-        Where the files are that have names.
-    see : str
-        How one sees the names.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    PresetError
-        If it is neither a name that is known nor the path of a TOML file.
-    """
+    """Return the file that a name or a path stands for, which need not exist if it is a path."""
     names: Sequence[str] = names_in(folder)
     if isinstance(given, str) and _NAME.fullmatch(given):
         if given not in names:
@@ -64,24 +43,7 @@ def file_of(given: Any, what: str, folder: Path, see: str) -> Path:
 
 
 def text_of(path: Path, what: str) -> str:
-    """Return the text of a file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    what : str
-        What sentences call what it holds.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    PresetError
-        If it cannot be read, is too large, or is not UTF-8.
-    """
+    """Return the text of a file."""
     try:
         if path.exists() and not path.is_file():
             raise PresetError(f"'{path}' cannot be read: it is no file")

@@ -11,24 +11,7 @@ from optipath.paths.format.slips import likely_cure
 
 
 def parsed(text: str, source: str) -> dict[str, Any]:
-    """Return what a text holds.
-
-    Parameters
-    ----------
-    text : str
-        TOML.
-    source : str
-        Where it comes from.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    PresetError
-        If it is not TOML as presets use it.
-    """
+    """Return what a text holds."""
     try:
         refuse_unwieldy(text)
     except PresetError as error:

@@ -46,17 +46,7 @@ class _Branch:
 
 
 class Search:
-    """Goes along all ways at once, always on from where most may come of it.
-
-    Parameters
-    ----------
-    whole : Runner
-        The path as it stands.
-    parameters : mapping of str to Any
-        What is given.
-    as_light : callable
-        Makes light of Stokes vectors and the frame of a reading, for these values.
-    """
+    """Goes along all ways at once, always on from where most may come of it."""
 
     def __init__(
         self, whole: Runner, parameters: Mapping[str, Any], as_light: Callable[[Any, Any], Light]
@@ -83,13 +73,7 @@ class Search:
         self._patience = _PATIENCE + 64 * len(self.program.steps)
 
     def paths(self, bounces: int | None) -> Iterator[LightPath]:
-        """Yield the ways with so many bounces at most.
-
-        Raises
-        ------
-        ParameterError
-            If light is followed on and on, and none arrives.
-        """
+        """Yield the ways with so many bounces at most."""
         for light, _ in self.program.sources.values():
             s0, s1, s2, s3 = self.numbers[self.program.steps[light].evaluation or 0]
             state = self.carrier.emit((s0, s1, s2, s3))

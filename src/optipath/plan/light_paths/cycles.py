@@ -9,20 +9,7 @@ if TYPE_CHECKING:
 
 
 def endless(program: Program, bounces: int | None) -> str:
-    """Return a place where light goes round without end; nothing where it does not.
-
-    Parameters
-    ----------
-    program : Program
-        The path as it stands.
-    bounces : int or None
-        How many reflections a way may have; None for any number.
-
-    Returns
-    -------
-    str
-        The label of a step in the loop, or nothing.
-    """
+    """Return a place where light goes round without end; nothing where it does not."""
     for loop in program.loops:
         if bounces is None or _goes_round_unbounced(program, range(loop.start, loop.stop)):
             return program.steps[loop.start].label

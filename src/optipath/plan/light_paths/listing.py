@@ -24,30 +24,7 @@ def light_paths(
     parameters: Mapping[str, Any],
     as_light: Callable[[Any, Any], Light],
 ) -> list[LightPath]:
-    """Return the ways of light through a path, the brightest first.
-
-    Parameters
-    ----------
-    whole : Runner
-        The path as it stands.
-    limit : int or None
-        How many at most.
-    bounces : int or None
-        How many reflections each may have.
-    parameters : mapping of str to Any
-        As a plan takes them.
-    as_light : callable
-        Makes light of Stokes vectors and the frame of a reading, for these values.
-
-    Returns
-    -------
-    list of LightPath
-
-    Raises
-    ------
-    ParameterError
-        If what is given is not allowed, or there is no end of ways.
-    """
+    """Return the ways of light through a path, the brightest first."""
     faults = [] if limit is None else whole_number("limit", limit)
     faults += [] if bounces is None else whole_number("bounces", bounces, 0)
     if faults:

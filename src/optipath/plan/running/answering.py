@@ -21,50 +21,10 @@ class Answering(ABC):
 
     @abstractmethod
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
-        """Return what is asked for.
-
-        Parameters
-        ----------
-        question : Question
-            What that is.
-        parameters : mapping of str to Any
-            What is given.
-
-        Returns
-        -------
-        Any
-            As the class of the question says.
-
-        Raises
-        ------
-        ParameterError
-            With every fault of what is given, or if a result is not finite.
-        """
+        """Return what is asked for."""
 
     @abstractmethod
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
-        """Yield what is asked for, part by part.
-
-        Parameters
-        ----------
-        question : Question
-            What that is.
-        size : int
-            How many paths a part has at most.
-        parameters : mapping of str to Any
-            What is given.
-
-        Yields
-        ------
-        where : tuple of (int or slice)
-            The index of the part in arrays of the batch's shape.
-        answer : Any
-            As `answer` gives it.
-
-        Raises
-        ------
-        ParameterError
-            As `answer`, of each part when it is met; and if JAX is asked, which has no parts.
-        """
+        """Yield what is asked for, part by part."""

@@ -19,22 +19,6 @@ _THIN = 64
 class Layout:
     """The axes of a batch; neighbours that all arrays have together, or lack, are one.
 
-    Parameters
-    ----------
-    batch : tuple of int
-        The shape that all arrays broadcast to.
-    arrays : mapping of str to ndarray
-        The arrays by name.
-
-    Attributes
-    ----------
-    shape : tuple of int
-        The lengths of the axes that are left.
-    paths : int
-        How many paths there are.
-    axes : dict of str to frozenset of int
-        Along which of them each array differs.
-
     Examples
     --------
     >>> layout = Layout((4, 3, 2), {"a": np.ones((4, 1, 1)), "b": np.ones((3, 2))})
@@ -86,39 +70,11 @@ class Layout:
         return tuple(self.shape[axis] for axis in sorted(axes))
 
     def among(self, array: Array, own: frozenset[int], axes: frozenset[int]) -> Array:
-        """Return an array with an axis for each of some, long where it differs along it.
-
-        Parameters
-        ----------
-        array : ndarray
-            One that differs along its own axes.
-        own : frozenset of int
-            These, of those that are left.
-        axes : frozenset of int
-            The axes that the result has.
-
-        Returns
-        -------
-        ndarray
-            A view where it can be one.
-        """
+        """Return an array with an axis for each of some, long where it differs along it."""
         return array.reshape([self.shape[axis] if axis in own else 1 for axis in sorted(axes)])
 
     def in_batch(self, array: Array, own: frozenset[int]) -> Array:
-        """Return an array with an axis for each of the batch, long where it differs along it.
-
-        Parameters
-        ----------
-        array : ndarray
-            One that differs along its own axes.
-        own : frozenset of int
-            These, of those that are left.
-
-        Returns
-        -------
-        ndarray
-            It broadcasts to the shape of the batch.
-        """
+        """Return an array with an axis for each of the batch, long where it differs along it."""
         lengths = [1] * len(self.batch)
         for axis in own:
             for member in self.groups[axis]:
@@ -128,20 +84,6 @@ class Layout:
 
 def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Array:
     """Return what belongs to a part of the batch, still without the axes along which it is one.
-
-    Parameters
-    ----------
-    array : ndarray
-        It broadcasts to the batch.
-    batch : tuple of int
-        The shape of the batch.
-    where : tuple
-        The part: an index for each axis, or a mask of the paths in it.
-
-    Returns
-    -------
-    ndarray
-        It broadcasts to the part.
 
     Examples
     --------

@@ -30,14 +30,7 @@ _AT_ONCE = 1 << 16
 class Results(NamedTuple):
     """What a formula has come to: for each result a number, or an array over paths.
 
-    Attributes
-    ----------
-    each : list
-        The results.
-    out : ndarray, shape (rows, paths)
-        Where the last of them were written.
-    rows : list of int or None
-        In which row of it each result stands, if it does.
+    Shape: out (rows, paths).
     """
 
     each: list[Any]
@@ -48,18 +41,7 @@ class Results(NamedTuple):
     def of(cls, rows: Array, read: int, dtype: np.dtype[Any]) -> Results:
         """Return results that stand in rows, so many of them read in the precision of a plan.
 
-        Parameters
-        ----------
-        rows : ndarray, shape (results, paths)
-            The results.
-        read : int
-            How many, the first, get the precision of the plan; the others are exponents.
-        dtype : dtype
-            That precision.
-
-        Returns
-        -------
-        Results
+        Shape: rows (results, paths).
         """
         out = rows if rows.dtype == dtype else rows[:read].astype(dtype)
         return cls([*out[:read], *rows[read:]], out, [*range(read), *[None] * (len(rows) - read)])
@@ -67,15 +49,7 @@ class Results(NamedTuple):
     def together(self, start: int, stop: int) -> Array | None:
         """Return some results as rows of one array, if they stand there one after the other.
 
-        Parameters
-        ----------
-        start, stop : int
-            The range of the results.
-
-        Returns
-        -------
-        ndarray, shape (stop - start, paths), or None
-            A view of `out`.
+        Shape: returns (stop - start, paths).
         """
         first = self.rows[start]
         if first is None or self.rows[start:stop] != list(range(first, first + stop - start)):
@@ -85,15 +59,7 @@ class Results(NamedTuple):
     def block(self, start: int, stop: int) -> Array:
         """Return some results as rows of one array, copied if need be.
 
-        Parameters
-        ----------
-        start, stop : int
-            The range of the results.
-
-        Returns
-        -------
-        ndarray, shape (stop - start, paths)
-            A view of `out` where they stand there together.
+        Shape: returns (stop - start, paths).
         """
         together = self.together(start, stop)
         if together is not None:
@@ -112,21 +78,7 @@ class Results(NamedTuple):
 
 
 class BatchRunner:
-    """Does a formula to batches of any shape whose arrays differ along the same axes.
-
-    Parameters
-    ----------
-    formula : Formula
-        What is done.
-    layout : Layout
-        The axes of a batch, its own or one like it.
-    threads : int
-        How many threads share a batch of several pieces.
-    read : int
-        How many of the results are always read; exponents of 0 are not.
-    staged : bool
-        Whether what differs along a few axes only is computed along these alone.
-    """
+    """Does a formula to batches of any shape whose arrays differ along the same axes."""
 
     def __init__(
         self, formula: Formula, layout: Layout, *, threads: int, read: int, staged: bool
@@ -145,26 +97,7 @@ class BatchRunner:
         refused: Callable[[], object],
         fallback: Callable[[Piece], Array],
     ) -> Results:
-        """Return the results, an array over paths or a number each.
-
-        Parameters
-        ----------
-        engine : str
-            What compiles the formula.
-        numbers : mapping of str to float or ndarray
-            What is given, and the arrays that are known beforehand.
-        layout : Layout
-            The axes of the batch.
-        refused : callable
-            Called once where the formula does not hold; it raises if that is because of
-            what is given.
-        fallback : callable
-            Gives the results for a piece of the batch, where the formula does not hold.
-
-        Returns
-        -------
-        Results
-        """
+        """Return the results, an array over paths or a number each."""
         if self.formula.unread:
             refused()
         found, failed = self._found(self._stages(engine), numbers, layout)
@@ -233,21 +166,7 @@ class BatchRunner:
 
 
 class _Compiled(NamedTuple):
-    """A formula compiled, stage after stage, and where its results are written.
-
-    Attributes
-    ----------
-    stages : list of Stage
-        One after the other.
-    results : tuple
-        Symbols, or numbers that are known.
-    rows : list of int or None
-        In which row each is written, if it is.
-    known : list of (int, float)
-        The rows of numbers that are known, behind the others.
-    room : int
-        How many rows there are.
-    """
+    """A formula compiled, stage after stage, and where its results are written."""
 
     stages: list[Stage]
     results: tuple[Any, ...]

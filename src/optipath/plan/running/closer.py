@@ -29,19 +29,7 @@ _TWICE = twice(NUMPY)
 
 
 class CloserLook:
-    """Solves the loops of a program for what is given.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    given : ResolvedInputs
-        The numbers.
-    plain : list of ndarray
-        The operands of the program for these, as they are where nobody looks closer.
-    dtype : dtype
-        The precision of what is found.
-    """
+    """Solves the loops of a program for what is given."""
 
     def __init__(
         self,

@@ -20,22 +20,7 @@ if TYPE_CHECKING:
 def operations(
     runner: Runner, *, unreduced: bool, carrier: type[Carrier] | None = None
 ) -> dict[str, int] | None:
-    """Return how many operations a path takes in all, and of the dear sorts.
-
-    Parameters
-    ----------
-    runner : Runner
-        What runs the path.
-    unreduced : bool
-        Whether everything is counted for each path.
-    carrier : type, optional
-        How light is carried, if not as it is.
-
-    Returns
-    -------
-    dict of str to int, or None
-        None for what cannot be compiled, and so not counted.
-    """
+    """Return how many operations a path takes in all, and of the dear sorts."""
     formulas = runner.formulas
     forms = formulas.all_given_as(MANY)
     made = formulas.attempt(
@@ -45,25 +30,7 @@ def operations(
 
 
 def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]:
-    """Return how often the numbers of each step are computed for a batch.
-
-    Parameters
-    ----------
-    runner : Runner
-        What runs the path.
-    parameters : mapping of str to Any
-        What is given.
-
-    Returns
-    -------
-    dict of str to int
-        By the labels of the steps.
-
-    Raises
-    ------
-    ParameterError
-        With every fault of what is given.
-    """
+    """Return how often the numbers of each step are computed for a batch."""
     runner.for_jax.refuse_traced(parameters, "evaluations are counted")
     runner.inputs.resolve(parameters)
     given, program = runner.reader.read(parameters), runner.program

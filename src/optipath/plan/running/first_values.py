@@ -26,13 +26,7 @@ _MOST = 64
 
 
 class FirstValues:
-    """Looks at ways through elements of a user's own, once for each kind of values.
-
-    Parameters
-    ----------
-    ways : tuple of OwnWays
-        Those whose values are given when a plan runs.
-    """
+    """Looks at ways through elements of a user's own, once for each kind of values."""
 
     def __init__(self, ways: tuple[OwnWays, ...]) -> None:
         self.ways = ways
@@ -45,20 +39,7 @@ class FirstValues:
         return f", or the rows of {listed([*owners])} are not finite there" if owners else ""
 
     def check(self, kind: Hashable, read: Callable[[], ResolvedInputs]) -> None:
-        """Refuse what no light can do, found with some of the values that are given.
-
-        Parameters
-        ----------
-        kind : hashable
-            What values have in common that are looked at once.
-        read : callable
-            Gives them.
-
-        Raises
-        ------
-        ParameterError
-            Naming the element, its class, the matrix and the values.
-        """
+        """Refuse what no light can do, found with some of the values that are given."""
         if not self.ways or kind in self._seen:
             return
         given = read()

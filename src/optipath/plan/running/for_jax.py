@@ -24,19 +24,7 @@ if TYPE_CHECKING:
 
 
 class ForJax:
-    """A program as JAX runs it.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        What may be given.
-    carrier : type
-        How light is carried.
-    options : RunOptions
-        How it is run.
-    """
+    """A program as JAX runs it."""
 
     def __init__(
         self, program: Program, inputs: Inputs, carrier: type[Carrier], options: RunOptions
@@ -58,13 +46,7 @@ class ForJax:
         return any(operand.traced for operand in self.program.operands)
 
     def is_asked(self, parameters: Mapping[str, Any]) -> bool:
-        """Tell whether a run is asked of JAX: by name, or by what is given.
-
-        Raises
-        ------
-        ParameterError
-            If values of JAX are given to another engine.
-        """
+        """Tell whether a run is asked of JAX: by name, or by what is given."""
         traced = self.has_traced or any(map(_is_of_jax, parameters.values()))
         if traced and self.options.engine not in ("auto", "jax"):
             raise ParameterError(
@@ -74,40 +56,12 @@ class ForJax:
         return traced or self.options.engine == "jax"
 
     def needs_closer_look(self, sound: Any, resolved: Mapping[str, Resolved]) -> bool:
-        """Tell whether hardly any light leaves a loop, of values that are all known.
-
-        Parameters
-        ----------
-        sound : bool, of JAX
-            Whether so much light leaves every loop that what JAX gives holds.
-        resolved : mapping of str to Resolved
-            What is given.
-
-        Returns
-        -------
-        bool
-            Never where JAX traces a value.
-        """
+        """Tell whether hardly any light leaves a loop, of values that are all known."""
         traces = self.has_traced or any(is_traced(given.value) for given in resolved.values())
         return not traces and not np.all(sound)
 
     def nan_outside(self, numbers: Any, resolved: Mapping[str, Resolved], axes: int) -> Any:
-        """Return what JAX gives, NaN where a value that it traces is not allowed, or S0 is NaN.
-
-        Parameters
-        ----------
-        numbers : Array
-            Of the shape of the batch, with some axes behind it.
-        resolved : mapping of str to Resolved
-            What is given.
-        axes : int
-            How many there are behind the batch.
-
-        Returns
-        -------
-        Array
-            Of the shape of the numbers.
-        """
+        """Return what JAX gives, NaN where a value that it traces is not allowed, or S0 is NaN."""
         inside = self.inputs.inside(resolved)
         if self.inputs.masks:
             # What is known is NumPy's from here, whatever precision JAX is set to.
@@ -128,20 +82,7 @@ class ForJax:
         )
 
     def refuse_traced(self, parameters: Mapping[str, Any], what: str) -> None:
-        """Refuse values that are not known yet.
-
-        Parameters
-        ----------
-        parameters : mapping of str to Any
-            What is given.
-        what : str
-            What is done, such as ``"certificates are made"``.
-
-        Raises
-        ------
-        ParameterError
-            Telling what they are not for.
-        """
+        """Refuse values that are not known yet."""
         if self.traces(parameters):
             raise ParameterError(
                 f"{what} of numbers, not of values that JAX traces; do it outside of jit and grad"

@@ -26,26 +26,7 @@ LONGEST = 200
 
 
 class FormulaMaker:
-    """Makes the formulas of one program.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        What may be given.
-    carrier : type
-        How light is carried.
-    options : RunOptions
-        How programs are run.
-    unreduced : bool
-        Whether everything is done for each path.
-
-    Attributes
-    ----------
-    may_make : bool
-        Whether there may be a formula, as far as that is known.
-    """
+    """Makes the formulas of one program."""
 
     def __init__(
         self,
@@ -81,22 +62,7 @@ class FormulaMaker:
     def lights(
         self, forms: Mapping[InputKey, str], *, carrier: type[Carrier] | None = None, **options: Any
     ) -> Formula:
-        """Return the formula of the light at every end, as `lights_formula` takes options.
-
-        Parameters
-        ----------
-        forms : mapping of InputKey to str
-            In which form each number is given.
-        carrier : type, optional
-            How light is carried, if not as it is.
-        **options : Any
-            Handed on.
-
-        Returns
-        -------
-        Formula
-            Of four components at every end, and of the exponents behind them.
-        """
+        """Return the formula of the light at every end, as `lights_formula` takes options."""
         kind, carrier = self.dtype.name, carrier or self.carrier
         own = self.limits
         return lights_formula(self.program, carrier, kind, forms, own, masks=self.masks, **options)

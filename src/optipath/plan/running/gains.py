@@ -32,17 +32,7 @@ _ROUNDING = 1e-15
 
 
 class LargestGain(NamedTuple):
-    """That path of a batch of which most stays in a loop.
-
-    Attributes
-    ----------
-    closed : bool
-        Whether all of some light stays, or more.
-    leaves : float
-        How much leaves each time round, as a share.
-    condition : float
-        The condition number of the sum.
-    """
+    """That path of a batch of which most stays in a loop."""
 
     closed: bool
     leaves: float
@@ -56,16 +46,6 @@ def check_gains(solvers: Sequence[LoopSolver]) -> None:
     radius of the whole round trip tells; next to 1, whether unpolarised light that is given to
     every junction adds up to light that can be, which it does where the radius is below 1, and
     only there (Krein & Rutman, Uspekhi Mat. Nauk 3, 1948).
-
-    Raises
-    ------
-    ParameterError
-        Naming the loop and its gain, or that its gains are not finite.
-
-    Warns
-    -----
-    LoopWarning
-        With the gain and the condition number of the system.
     """
     faults = []
     for solver in solvers:

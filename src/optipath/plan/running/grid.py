@@ -20,17 +20,7 @@ if TYPE_CHECKING:
 
 
 class Stage(NamedTuple):
-    """A formula, compiled.
-
-    Attributes
-    ----------
-    formula : Formula
-        What is done.
-    path : ArrayPath
-        What does it.
-    inputs : tuple of (str, str)
-        What it takes: a name, and the place as `Formula.place_of` has it.
-    """
+    """A formula, compiled."""
 
     formula: Formula
     path: ArrayPath
@@ -38,39 +28,13 @@ class Stage(NamedTuple):
 
     @classmethod
     def of(cls, engine: str, formula: Formula) -> Stage:
-        """Return a formula compiled by an engine.
-
-        Parameters
-        ----------
-        engine : str
-            ``"numpy"`` or ``"numba"``.
-        formula : Formula
-            What is done.
-
-        Returns
-        -------
-        Stage
-        """
+        """Return a formula compiled by an engine."""
         inputs = tuple((formula.name_of(s), formula.place_of(s)) for s in formula.inputs)
         return cls(formula, REGISTRY[engine].compiled(formula), inputs)
 
 
 class Grid:
-    """Gives a compiled formula what it needs for each piece of a batch.
-
-    Parameters
-    ----------
-    stage : Stage
-        The formula.
-    layout : Layout
-        The axes of the batch, of which the stage may know a few only.
-    numbers : mapping of str to float or ndarray
-        What is given, by the names of the formula's inputs.
-    axes : mapping of str to frozenset of int
-        Along which axes the arrays among them differ.
-    last : bool
-        Whether pieces are parts of the batch itself, and not of the axes that the stage knows.
-    """
+    """Gives a compiled formula what it needs for each piece of a batch."""
 
     def __init__(
         self,
@@ -113,17 +77,7 @@ class Grid:
     def fill(self, piece: Piece, out: Array) -> bool:
         """Fill a piece of the results; return whether the formula holds for all of it.
 
-        Parameters
-        ----------
-        piece : Piece
-            Which paths.
-        out : ndarray, shape (results, paths)
-            Filled in the columns of these.
-
-        Returns
-        -------
-        bool
-            Where it is false, what was filled means nothing.
+        Shape: out (results, paths).
         """
         given, count = list(self.given), piece.stop - piece.start
         for place in self.cells:

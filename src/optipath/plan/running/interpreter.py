@@ -41,36 +41,14 @@ _LONG = 16
 
 
 def carrier_of(program: Program, composing: str) -> type[Carrier]:
-    """Return how light is carried along a program.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    composing : str
-        ``stokes`` or ``jones``.
-
-    Returns
-    -------
-    type
-    """
+    """Return how light is carried along a program."""
     if composing == "jones":
         return JonesCarrier
     return ScaledCarrier if len(program.steps) > _LONG else StokesCarrier
 
 
 class Interpreter:
-    """Runs a program without compiling anything.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    carrier : type
-        How light is carried.
-    dtype : dtype
-        The precision.
-    """
+    """Runs a program without compiling anything."""
 
     def __init__(self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any]) -> None:
         self.program = program
@@ -95,17 +73,6 @@ class Interpreter:
         """Return Stokes vectors (..., 4) and exponents at every end.
 
         What several parts of a batch have in common may be given, see `shared`.
-
-        Parameters
-        ----------
-        given : ResolvedInputs
-            The numbers.
-        shared : mapping of int to tuple, optional
-            What some evaluations come to.
-
-        Returns
-        -------
-        list of (ndarray, ndarray)
         """
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
         return [folded(*light) for light in self._found(given, own)]
@@ -131,21 +98,7 @@ class Interpreter:
         return found
 
     def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading.
-
-        Parameters
-        ----------
-        given : ResolvedInputs
-            The numbers.
-        source : str
-            Where light is emitted.
-        reading : Reading
-            Where it is read.
-
-        Returns
-        -------
-        ndarray
-        """
+        """Return Mueller matrices (..., 4, 4) from a source to a reading."""
         none = self.dtype.type(0.0)
         begin, _ = self.program.sources[source]
 
@@ -159,13 +112,7 @@ class Interpreter:
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
 
     def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
-        """Return what `BoundsCarrier` reads at every end, shape (4, ...).
-
-        Raises
-        ------
-        ParameterError
-            If a Mueller matrix is unphysical.
-        """
+        """Return what `BoundsCarrier` reads at every end, shape (4, ...)."""
         operands = self.operands(given)
         with np.errstate(all="ignore"):
             matrices = whole_matrices(

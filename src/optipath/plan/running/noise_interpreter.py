@@ -28,36 +28,13 @@ _AT_ONCE = 8192
 
 
 class NoiseInterpreter(Interpreter):
-    """Finds the noise of light by every element that stands in its way, none of them merged.
-
-    Parameters
-    ----------
-    program : Program
-        The path as it stands.
-    dtype : dtype
-        The precision.
-    """
+    """Finds the noise of light by every element that stands in its way, none of them merged."""
 
     def __init__(self, program: Program, dtype: np.dtype[Any]) -> None:
         super().__init__(program, ScaledCarrier, dtype)
 
     def noise(self, given: ResolvedInputs, reading: Reading, exponent: Array) -> tuple[Any, Any]:
-        """Return the intensity at an end, and its noise, over two to a power.
-
-        Parameters
-        ----------
-        given : ResolvedInputs
-            The numbers.
-        reading : Reading
-            The end.
-        exponent : ndarray of int
-            The power, of the shape of the batch.
-
-        Returns
-        -------
-        intensity, noise : ndarray
-            Of the same shape.
-        """
+        """Return the intensity at an end, and its noise, over two to a power."""
         carrier = NoiseCarrier(NUMPY, self.eps)
         found = np.zeros((2, *given.batch), self.dtype)
         for piece in pieces(given.batch, _AT_ONCE):
@@ -72,16 +49,7 @@ class NoiseInterpreter(Interpreter):
     def emitted(self, given: ResolvedInputs, source: str) -> Array:
         """Return the light that a source emits, as Stokes vectors, in its own shape.
 
-        Parameters
-        ----------
-        given : ResolvedInputs
-            The numbers.
-        source : str
-            Its name.
-
-        Returns
-        -------
-        ndarray, shape (..., 4)
+        Shape: returns (..., 4).
         """
         evaluation = self.program.steps[self.program.sources[source][0]].evaluation
         operands, carrier = self.operands(given), self._carriers[self.carrier]
@@ -100,18 +68,7 @@ class NoiseInterpreter(Interpreter):
         return self._most(self.operands(given))
 
     def most_of_one(self, parameters: Mapping[str, Any]) -> float | None:
-        """Return the same where sources emit one number each, plain as it is given; else None.
-
-        Parameters
-        ----------
-        parameters : mapping of str to Any
-            What is given to the path, with which it has run.
-
-        Returns
-        -------
-        float or None
-            None where `most` is to be asked.
-        """
+        """Return the same where sources emit one number each, plain as it is given; else None."""
         found = {}
         for place, operand in self._emitted.items():
             given = {}

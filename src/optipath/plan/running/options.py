@@ -8,21 +8,7 @@ from optipath.kernels.numbers.trigonometry import DIGITS
 
 
 class RunOptions(NamedTuple):
-    """How programs are run, as `Composer` takes it.
-
-    Attributes
-    ----------
-    method : str
-        How Fresnel's equations are computed.
-    composing : str
-        Whether light is carried as Stokes or as Jones vectors.
-    dtype : str
-        The precision.
-    engine : str
-        What is asked for, ``"auto"`` or the name of an engine.
-    threads : int
-        How many share a large batch.
-    """
+    """How programs are run, as `Composer` takes it."""
 
     method: str
     composing: str

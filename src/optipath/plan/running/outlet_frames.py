@@ -20,19 +20,7 @@ if TYPE_CHECKING:
 
 
 class LaterFrame:
-    """Makes a frame out of what a run was given.
-
-    Parameters
-    ----------
-    frame : VertexFrame
-        What makes it.
-    inputs : Inputs
-        What could be given.
-    parameters : mapping of str to Any
-        What was; arrays that somebody may change are copied.
-    where : tuple, optional
-        Which part of the batch the light is.
-    """
+    """Makes a frame out of what a run was given."""
 
     def __init__(
         self, frame: VertexFrame, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()

@@ -24,20 +24,7 @@ USUAL = "wavelength"
 
 
 def wavelengths_among(inputs: Inputs) -> tuple[Parameter, ...]:
-    """Return the parameters by which light may have its wavelength.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given to a plan, and what it is bound to.
-
-    Returns
-    -------
-    tuple of Parameter
-        The one that a spectrum follows from, for light is per nanometre of that; without
-        spectra, every `Wavelength`, and the length that is called ``wavelength``. Of several,
-        none is that of the light.
-    """
+    """Return the parameters by which light may have its wavelength."""
     several = {**inputs.bound, **inputs.open}
     if inputs.per_nanometre:
         return tuple([several[name] for name in inputs.per_nanometre])
@@ -48,19 +35,7 @@ def wavelengths_among(inputs: Inputs) -> tuple[Parameter, ...]:
 
 
 class LaterWavelength:
-    """Finds the wavelengths of light in what a run was given.
-
-    Parameters
-    ----------
-    among : tuple of Parameter
-        What gives them; several are in doubt.
-    inputs : Inputs
-        What could be given.
-    parameters : mapping of str to Any
-        What was; arrays that somebody may change are copied.
-    where : tuple, optional
-        Which part of the batch the light is.
-    """
+    """Finds the wavelengths of light in what a run was given."""
 
     def __init__(
         self,

@@ -24,25 +24,7 @@ M00: what it adds is counted once for the intensity without polarisation, once f
 
 
 def what_matrices_lack(program: Program, matrices: Mapping[int, Numbers]) -> Any:
-    """Return what bounds must give away, since some matrices have been rounded.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    matrices : mapping of int to sequence of ndarray
-        The sixteen numbers of each evaluation that is a whole Mueller matrix.
-
-    Returns
-    -------
-    float or ndarray
-        As a share of the intensity, for each path.
-
-    Raises
-    ------
-    ParameterError
-        If a matrix is unphysical by Cloude's criterion, beyond what rounding explains.
-    """
+    """Return what bounds must give away, since some matrices have been rounded."""
     total: Any = 0.0
     for index, numbers in matrices.items():
         elements = program.matrices[index]

@@ -12,15 +12,7 @@ if TYPE_CHECKING:
 
 
 class Piece(NamedTuple):
-    """A part of a batch.
-
-    Attributes
-    ----------
-    where : tuple
-        The index of the part in arrays of the batch's shape.
-    start, stop : int
-        The range of its paths, counted in order.
-    """
+    """A part of a batch."""
 
     where: tuple[int | slice, ...]
     start: int
@@ -29,18 +21,6 @@ class Piece(NamedTuple):
 
 def pieces(batch: tuple[int, ...], size: int) -> Iterator[Piece]:
     """Yield the parts of a batch in order, each of a size at most.
-
-    Parameters
-    ----------
-    batch : tuple of int
-        The shape of the batch.
-    size : int
-        How many paths a part has at most.
-
-    Yields
-    ------
-    Piece
-        In the order of memory.
 
     Examples
     --------

@@ -29,40 +29,14 @@ MOST_KEPT = 64
 
 
 def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
-    """Keep a value with others, the oldest of which go.
-
-    Parameters
-    ----------
-    store : dict
-        The others.
-    key, value : Any
-        What is kept, and by what it is found.
-    """
+    """Keep a value with others, the oldest of which go."""
     for oldest in list(store)[: max(0, len(store) - MOST_KEPT + 1)]:
         store.pop(oldest, None)
     store[key] = value
 
 
 class BatchKind:
-    """Batches of one kind: one question, numbers of the same forms, the same axes.
-
-    Parameters
-    ----------
-    question : Question
-        What is asked.
-    forms : mapping of InputKey to str
-        In which form each number is given.
-    layout : Layout
-        The axes of one of the batches.
-    formulas : FormulaMaker
-        Makes the formula.
-    single : ScalarRunner
-        Has functions of floats.
-    options : RunOptions
-        How they are run.
-    floats : bool
-        Whether paths may be run as floats one by one.
-    """
+    """Batches of one kind: one question, numbers of the same forms, the same axes."""
 
     def __init__(
         self,
@@ -121,17 +95,7 @@ class BatchKind:
 
 
 class Prepared(NamedTuple):
-    """A batch of which all is known but the numbers.
-
-    Attributes
-    ----------
-    kind : BatchKind
-        What it has in common with others.
-    layout : Layout
-        Its axes.
-    known : mapping of str to ndarray
-        The arrays that are known beforehand, as formulas name them.
-    """
+    """A batch of which all is known but the numbers."""
 
     kind: BatchKind
     layout: Layout
@@ -139,19 +103,7 @@ class Prepared(NamedTuple):
 
 
 class Recipe:
-    """How the numbers of a prepared batch are taken out of what is given.
-
-    Parameters
-    ----------
-    prepared : Prepared
-        The batch.
-    reader : InputReader
-        What has read it.
-    given : ResolvedInputs
-        What it was given.
-    parameters : mapping of str to Any
-        What that has been read from.
-    """
+    """How the numbers of a prepared batch are taken out of what is given."""
 
     def __init__(
         self,
@@ -187,22 +139,7 @@ class Recipe:
 
     @staticmethod
     def holds(reader: InputReader, given: ResolvedInputs, parameters: Mapping[str, Any]) -> bool:
-        """Tell whether what was read says as much of the next batch of the same shapes.
-
-        Parameters
-        ----------
-        reader : InputReader
-            What has read it.
-        given : ResolvedInputs
-            What was read.
-        parameters : mapping of str to Any
-            What it was read from.
-
-        Returns
-        -------
-        bool
-            Whether a recipe may be made of it.
-        """
+        """Tell whether what was read says as much of the next batch of the same shapes."""
         if not parameters.keys() <= {key.name for key in given.numbers}:
             return False  # What nothing needs is looked at each time.
         if any(key.name not in reader.inputs.open for key in given.numbers):

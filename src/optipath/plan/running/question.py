@@ -38,19 +38,7 @@ class Asked(Protocol):
 
 
 class Question(ABC):
-    """What is asked of a runner.
-
-    Attributes
-    ----------
-    key : hashable
-        By which what has been prepared for it is found again.
-    read : int
-        How many results are read; powers of two may follow, one for each end.
-    cure : str
-        What to do where there is no memory for a batch.
-    is_light : bool
-        Whether it is the light, for which there are functions of floats.
-    """
+    """What is asked of a runner."""
 
     key: Hashable
     read: int
@@ -63,75 +51,19 @@ class Question(ABC):
 
     @abstractmethod
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        """Return the formula of the results, for numbers of some forms.
-
-        Parameters
-        ----------
-        maker : FormulaMaker
-            Makes the formulas of the program.
-        forms : mapping of InputKey to str
-            In which form each number is given.
-        axes : mapping of str to frozenset of int
-            Along which axes of a batch the arrays differ.
-
-        Returns
-        -------
-        Formula
-            Of `read` results, and of the exponents that may follow.
-        """
+        """Return the formula of the results, for numbers of some forms."""
 
     @abstractmethod
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the results step by step.
 
-        Parameters
-        ----------
-        runner : Asked
-            What does the steps.
-        given : ResolvedInputs
-            The numbers.
-        shared : Shared
-            What some evaluations come to for the whole batch; only light makes use of it.
-
-        Returns
-        -------
-        ndarray, shape (results, paths)
+        Shape: returns (results, paths).
         """
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        """Return what the user gets of JAX; None where NumPy is to be asked.
-
-        Parameters
-        ----------
-        runner : Asked
-            What runs the program by JAX.
-        resolved : mapping of str to Resolved
-            What is given, with defaults.
-        batch : tuple of int
-            The shape of all values together.
-        parameters : mapping of str to Any
-            What is given, as it came.
-
-        Returns
-        -------
-        Any
-            As `answer` gives it; None as well where the question is not for JAX.
-        """
+        """Return what the user gets of JAX; None where NumPy is to be asked."""
         del runner, resolved, batch, parameters
 
     @abstractmethod
     def answer(self, results: Results, batch: Batch) -> Any:
-        """Return what the user gets.
-
-        Parameters
-        ----------
-        results : Results
-            What the formula, or the steps, came to.
-        batch : tuple of int
-            The shape that the user gets.
-
-        Returns
-        -------
-        Any
-            As the class of the question says.
-        """
+        """Return what the user gets."""

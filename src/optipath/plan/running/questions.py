@@ -92,17 +92,7 @@ class LightQuestion(Question):
 
 
 class MatrixQuestion(Question):
-    """The Mueller matrix from a source to a reading, shape (..., 4, 4).
-
-    Parameters
-    ----------
-    program : Program
-        The path as it stands.
-    source : str
-        The name of the source.
-    reading : Reading
-        An end of the path.
-    """
+    """The Mueller matrix from a source to a reading, shape (..., 4, 4)."""
 
     read = 16
 
@@ -181,15 +171,7 @@ class BoundsQuestion(Question):
 
 
 class ErrorsQuestion(BoundsQuestion):
-    """The scalar intensity by the name of each end, and the largest error of a model at any.
-
-    Parameters
-    ----------
-    program : Program
-        The path as it stands.
-    model : str
-        What is carried in place of all: ``"scalar"``, ``"sp"`` or ``"linear"``.
-    """
+    """The scalar intensity by the name of each end, and the largest error of a model at any."""
 
     def __init__(self, program: Program, model: str) -> None:
         self.model = model

@@ -23,20 +23,7 @@ _DOUBLE = np.dtype(np.float64)
 
 
 class ResolvedInputs(NamedTuple):
-    """Numbers for a program.
-
-    Attributes
-    ----------
-    numbers : mapping of InputKey to float or ndarray
-        What is given; a bool or an array of them for whether an element is there, and False for
-        the imaginary part of real numbers.
-    batch : tuple of int
-        The shape that all arrays broadcast to, those known beforehand included.
-    before : ResolvedInputs, optional
-        What this is a part of.
-    where : tuple, optional
-        The index of the part in it.
-    """
+    """Numbers for a program."""
 
     numbers: Mapping[InputKey, Any]
     batch: tuple[int, ...]
@@ -92,19 +79,7 @@ class ResolvedInputs(NamedTuple):
 
 
 class InputReader:
-    """Reads what is given to a program.
-
-    Parameters
-    ----------
-    program : Program
-        What needs the numbers.
-    inputs : Inputs
-        What may be given.
-    dtype : dtype
-        The precision of the plan.
-    reproducible : bool, optional
-        Whether arrays are read as the numbers in them are read alone.
-    """
+    """Reads what is given to a program."""
 
     def __init__(
         self, program: Program, inputs: Inputs, dtype: np.dtype[Any], *, reproducible: bool = False
@@ -159,11 +134,6 @@ class InputReader:
         """Return the numbers that are given.
 
         Ranges of plain floats and arrays of floats are left to be checked by who uses them.
-
-        Raises
-        ------
-        ParameterError
-            With every fault of what is given.
         """
         resolved, batch = self.inputs.resolve(parameters, self.is_plain)
         numbers: dict[InputKey, Any] = {}
@@ -183,20 +153,7 @@ class InputReader:
         return ResolvedInputs(numbers, batch)
 
     def is_plain(self, name: str, value: Any) -> bool:
-        """Tell whether a value is taken as it stands: a float, an array of them, or an angle.
-
-        Parameters
-        ----------
-        name : str
-            The parameter.
-        value : Any
-            What is given for it.
-
-        Returns
-        -------
-        bool
-            If not, the domain of the parameter looks at it.
-        """
+        """Tell whether a value is taken as it stands: a float, an array of them, or an angle."""
         if name not in self._plain:
             return False
         tail = self.inputs.tails[name]
@@ -213,22 +170,7 @@ class InputReader:
         return bool(value.shape[value.ndim - len(tail) :] == tail)
 
     def part(self, key: InputKey, value: Any, present: Any = True) -> Any:  # noqa: FBT002
-        """Return a part of a value that has been read.
-
-        Parameters
-        ----------
-        key : InputKey
-            Which part.
-        value : float or ndarray
-            The value.
-        present : bool or ndarray, optional
-            Where the element is there that has it.
-
-        Returns
-        -------
-        float, bool or ndarray
-            Without the axes of a row of numbers, of which the part is one.
-        """
+        """Return a part of a value that has been read."""
         if key.part == "present":
             return True if np.all(present) else present
         # Of real numbers it is known for all paths, and the kernels without absorption do.

@@ -32,23 +32,7 @@ if TYPE_CHECKING:
 def interpreter_for(
     program: Program, inputs: Inputs, carrier: type[Carrier], options: RunOptions
 ) -> Interpreter:
-    """Return what runs a program step by step.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        What may be given.
-    carrier : type
-        How light is carried.
-    options : RunOptions
-        How programs are run.
-
-    Returns
-    -------
-    Interpreter
-    """
+    """Return what runs a program step by step."""
     dtype = np.dtype(options.dtype)
     if options.reproducible:
         return ReproducibleInterpreter(program, carrier, dtype, inputs)
@@ -61,17 +45,6 @@ class ReproducibleInterpreter(Interpreter):
     Kernels choose what is cheaper where a number is a plain 0. A number that is given is an array
     here, be it one alone, so that a path whose index has no absorption at its own wavelength is
     computed as its neighbours are.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    carrier : type
-        How light is carried.
-    dtype : dtype
-        The precision, float64 or float32.
-    inputs : Inputs
-        What may be given.
     """
 
     def __init__(

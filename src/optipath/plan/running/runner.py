@@ -45,21 +45,7 @@ _LITTLE = 1 << 20
 
 
 class Runner(Answering):
-    """Runs one program, and keeps what has been prepared.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        What may be given.
-    options : RunOptions
-        How they are run.
-    own_ways : tuple of OwnWays
-        What is looked at with the first values.
-    unreduced : bool
-        Whether everything is done for each path.
-    """
+    """Runs one program, and keeps what has been prepared."""
 
     def __init__(
         self,
@@ -121,26 +107,7 @@ class Runner(Answering):
         key: Any = None,
         ahead: int = 0,
     ) -> Any:
-        """Return what is asked for numbers that have been read.
-
-        Parameters
-        ----------
-        question : Question
-            What that is.
-        given : ResolvedInputs
-            The numbers, or a part of them.
-        parameters : mapping of str to Any
-            What they were read from, whole.
-        key : tuple, optional
-            By which the batch is found again.
-        ahead : int, optional
-            How many paths there are in all, where this is a part.
-
-        Returns
-        -------
-        Any
-            As the class of the question says.
-        """
+        """Return what is asked for numbers that have been read."""
         if self.first_values.ways:
             kind = (given.forms(self.dtype), given.batch, *parameters)
             self.first_values.check(kind, lambda: given)
@@ -164,13 +131,7 @@ class Runner(Answering):
         return self._run(question, prepared, numbers, parameters, given, ahead)
 
     def read_for_bounds(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
-        """Return what is given, for both the bounds of light and the light.
-
-        Raises
-        ------
-        ParameterError
-            With every fault of what is given, or if light goes round.
-        """
+        """Return what is given, for both the bounds of light and the light."""
         if self.program.loops:
             raise ParameterError(
                 "there are no certificates for light that goes round in a loop; run the path, "
@@ -264,27 +225,7 @@ class Runner(Answering):
     def enough_for(
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE
     ) -> AbstractContextManager[None]:
-        """Return a context for so many numbers a path.
-
-        Parameters
-        ----------
-        batch : tuple of int
-            The shape of the batch.
-        numbers : int
-            How many of the plan's precision each path takes.
-        cure : str, optional
-            What to do where there is no memory for them.
-
-        Returns
-        -------
-        context manager
-            What runs out of memory within it raises the same error.
-
-        Raises
-        ------
-        ParameterError
-            If the machine has no memory for them.
-        """
+        """Return a context for so many numbers a path."""
         return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
 
     def parts(self, given: ResolvedInputs) -> Iterator[ResolvedInputs]:
@@ -294,13 +235,7 @@ class Runner(Answering):
         return (given.part(piece.where) for piece in pieces(given.batch, CACHED))
 
     def refuse_infinite(self, numbers: Array) -> None:
-        """Refuse light that is not finite, but for NaN where that says what cannot be.
-
-        Raises
-        ------
-        ParameterError
-            Telling the cure.
-        """
+        """Refuse light that is not finite, but for NaN where that says what cannot be."""
         method = self.options.method
         if not is_traced(numbers) and np.any(self.inputs.unsound(numbers)):
             raise ParameterError(

@@ -38,19 +38,7 @@ _REFUSED = (ArithmeticError, TypeError, ValueError)
 
 
 class FloatFunction(NamedTuple):
-    """A function of floats.
-
-    Attributes
-    ----------
-    path : callable
-        Gives the four components at every end, and then the exponents.
-    names : tuple of str
-        What it takes, as formulas name it.
-    keys : list of InputKey
-        The same, where it is given.
-    operations : int
-        How many it has.
-    """
+    """A function of floats."""
 
     path: Callable[..., tuple[Any, ...] | None]
     names: tuple[str, ...]
@@ -58,19 +46,7 @@ class FloatFunction(NamedTuple):
     operations: int
 
     def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
-        """Return the results of a few paths, shape (results, paths); None where it takes care.
-
-        Parameters
-        ----------
-        numbers : mapping of str to float or ndarray
-            What is given, as formulas name it.
-        layout : Layout
-            The axes of the batch.
-
-        Returns
-        -------
-        ndarray or None
-        """
+        """Return the results of a few paths, shape (results, paths); None where it takes care."""
         columns: list[Any] = []
         for name in self.names:
             number = numbers[name]
@@ -90,22 +66,7 @@ class FloatFunction(NamedTuple):
 
 
 class ScalarRunner:
-    """Runs a program on plain floats.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        What may be given.
-    interpreter : Interpreter
-        Runs it until a function is made.
-    formulas : FormulaMaker
-        Makes the formula of the function.
-    own_ways : tuple of OwnWays, optional
-        Ways through elements of a user's own; with defaults by which these could not be, values
-        are read in every run.
-    """
+    """Runs a program on plain floats."""
 
     def __init__(
         self,

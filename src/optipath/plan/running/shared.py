@@ -37,26 +37,7 @@ def runner_for(
     *,
     unreduced: bool = False,
 ) -> Runner:
-    """Return what runs a program: what ran an equal one before, if that is still kept.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        What may be given.
-    options : RunOptions
-        How they are run.
-    own_ways : tuple of OwnWays, optional
-        What is looked at with the first values.
-    unreduced : bool, optional
-        Whether everything is done for each path.
-
-    Returns
-    -------
-    Runner
-        One for all programs of equal steps, numbers and parameters.
-    """
+    """Return what runs a program: what ran an equal one before, if that is still kept."""
     key = _key(program, inputs)
     if key is None or own_ways:
         return Runner(program, inputs, options, own_ways, unreduced=unreduced)

@@ -24,19 +24,7 @@ _BESIDE = 0.31
 
 
 class ChartFrame(NamedTuple):
-    """The room of a panel from below: names of limits, marks, the frontier's name, what fails.
-
-    Attributes
-    ----------
-    times : tuple of float
-        The first and the last that are seen, in ns.
-    errors : tuple of float
-        The least and the largest error that stands among the marks.
-    methods : tuple of str
-        The rows of what fails, from below.
-    limits : int
-        How many limits of the machine are named.
-    """
+    """The room of a panel from below: names of limits, marks, the frontier's name, what fails."""
 
     times: tuple[float, float]
     errors: tuple[float, float]
@@ -45,19 +33,7 @@ class ChartFrame(NamedTuple):
 
     @classmethod
     def around(cls, chart: Mapping[str, Any], panels: list[list[Mark]]) -> ChartFrame:
-        """Return the frame of all panels of a chart.
-
-        Parameters
-        ----------
-        chart : mapping
-            What was measured.
-        panels : list of list of Mark
-            The marks of each panel.
-
-        Returns
-        -------
-        ChartFrame
-        """
+        """Return the frame of all panels of a chart."""
         marks = [mark for panel in panels for mark in panel]
         rows = dict.fromkeys(mark.method for mark in marks if mark.fails)
         held = [mark for mark in marks if not mark.fails]

@@ -31,21 +31,7 @@ _FACES = {"numba": "filled: ", "numpy": "open: "}
 
 
 def legend_rows(chart: Mapping[str, Any], looks: Looks, *, fails: bool) -> list[list[Artist]]:
-    """Return what is explained, in rows that fit the width of a picture.
-
-    Parameters
-    ----------
-    chart : mapping
-        What was measured.
-    looks : Looks
-        How its marks look.
-    fails : bool
-        Whether anything fails.
-
-    Returns
-    -------
-    list of list of Artist
-    """
+    """Return what is explained, in rows that fit the width of a picture."""
     groups = _groups(looks)
     if fails:
         label = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
@@ -56,17 +42,7 @@ def legend_rows(chart: Mapping[str, Any], looks: Looks, *, fails: bool) -> list[
 
 
 def flowing(groups: list[list[Artist]]) -> list[list[Artist]]:
-    """Return groups of what is explained in rows that fit the width of a picture.
-
-    Parameters
-    ----------
-    groups : list of list of Artist
-        Each begins a row.
-
-    Returns
-    -------
-    list of list of Artist
-    """
+    """Return groups of what is explained in rows that fit the width of a picture."""
     rows: list[list[Artist]] = []
     for group in groups:
         reached = WIDTH
@@ -124,17 +100,7 @@ def _short(name: str) -> str:
 
 
 def draw_legend(figure: Figure, rows: list[list[Artist]], top: float) -> None:
-    """Draw rows of what is explained.
-
-    Parameters
-    ----------
-    figure : Figure
-        Where.
-    rows : list of list of Artist
-        As `legend_rows` returns them.
-    top : float
-        How far from below the first begins, in inches.
-    """
+    """Draw rows of what is explained."""
     height = figure.get_figheight()
     for number, row in enumerate(rows):
         figure.legend(
@@ -154,22 +120,7 @@ def draw_legend(figure: Figure, rows: list[list[Artist]], top: float) -> None:
 
 
 def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[tuple[str, str]]:
-    """Return in which regions methods fail.
-
-    Parameters
-    ----------
-    marks : list of Mark
-        Of one kind of errors.
-    regions : list of str
-        All that were measured.
-    inches : float
-        How wide a line may be.
-
-    Returns
-    -------
-    list of (str, str)
-        The method, of the first line of each, and the line.
-    """
+    """Return in which regions methods fail."""
     found = []
     for method in dict.fromkeys(mark.method for mark in marks if mark.fails):
         own = [mark for mark in marks if mark.method == method]

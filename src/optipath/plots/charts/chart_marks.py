@@ -23,19 +23,7 @@ _LARGE, _SMALL = 12.0, 7.0
 
 
 class Mark(NamedTuple):
-    """A contender in one panel.
-
-    Attributes
-    ----------
-    method, dtype, engine, composing : str
-        What it is.
-    ns : float
-        The time of a path.
-    worst, median : float
-        Relative errors: of the worst region, and of the one in the middle.
-    fails : tuple of str
-        The regions where it fails.
-    """
+    """A contender in one panel."""
 
     method: str
     dtype: str
@@ -48,19 +36,7 @@ class Mark(NamedTuple):
 
 
 def marks_of(chart: Mapping[str, Any], kind: str) -> list[Mark]:
-    """Return the marks of one kind of errors.
-
-    Parameters
-    ----------
-    chart : mapping
-        What `path_chart` or `interface_chart` has measured.
-    kind : {"componentwise", "normwise"}
-        Which errors.
-
-    Returns
-    -------
-    list of Mark
-    """
+    """Return the marks of one kind of errors."""
     return [_mark(entry, kind, chart["fails_above"]) for entry in chart["contenders"]]
 
 
@@ -81,13 +57,7 @@ def _mark(entry: Mapping[str, Any], kind: str, most: float) -> Mark:
 
 
 class Looks:
-    """How the marks of a chart look.
-
-    Parameters
-    ----------
-    chart : mapping
-        As `marks_of` takes it.
-    """
+    """How the marks of a chart look."""
 
     def __init__(self, chart: Mapping[str, Any]) -> None:
         def named(word: str) -> list[str]:
@@ -122,19 +92,7 @@ class Looks:
         return _SMALL if composing == "jones" else _LARGE
 
     def draw(self, axes: Axes, mark: Mark, y: float, **keywords: Any) -> None:
-        """Draw a mark.
-
-        Parameters
-        ----------
-        axes : Axes
-            Where.
-        mark : Mark
-            What.
-        y : float
-            Its height there.
-        **keywords : Any
-            As `Axes.plot` takes them.
-        """
+        """Draw a mark."""
         axes.plot(
             mark.ns,
             y,

@@ -30,21 +30,7 @@ _ON_WHITE: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 1
 def draw_panel(
     axes: Axes, chart: Mapping[str, Any], marks: list[Mark], frame: ChartFrame, looks: Looks
 ) -> None:
-    """Draw one kind of errors.
-
-    Parameters
-    ----------
-    axes : Axes
-        Where, as high as the frame says.
-    chart : mapping
-        What was measured.
-    marks : list of Mark
-        What is drawn of it.
-    frame : ChartFrame
-        How much room there is for what.
-    looks : Looks
-        How marks look.
-    """
+    """Draw one kind of errors."""
     axes.set(xscale="log", yscale="log", xlim=frame.times, ylim=frame.seen)
     axes.set_yticks(frame.decades)
     axes.set_xticks(frame.ticks)
@@ -68,15 +54,7 @@ def draw_panel(
 
 
 def name_rows(axes: Axes, frame: ChartFrame) -> None:
-    """Write the methods that fail to the left of their rows.
-
-    Parameters
-    ----------
-    axes : Axes
-        Of the panel that stands on the left.
-    frame : ChartFrame
-        Which has the rows.
-    """
+    """Write the methods that fail to the left of their rows."""
     base = frame.height - frame.band
     for number, method in enumerate(frame.methods):
         y = frame.share(base + ROW * (number + 0.5))

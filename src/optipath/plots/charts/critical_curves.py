@@ -29,18 +29,7 @@ _LOST = 1.0
 
 
 def draw_critical(chart: Mapping[str, Any]) -> Panel:
-    """Draw what `critical_chart` has measured, a panel a place.
-
-    Parameters
-    ----------
-    chart : mapping
-        What was measured.
-
-    Returns
-    -------
-    ndarray of Axes
-        One a place.
-    """
+    """Draw what `critical_chart` has measured, a panel a place."""
     places = chart["places"]
     methods = list(dict.fromkeys(name for place in places for name in place["errors"]))
     columns = min(2, len(places))

@@ -23,18 +23,7 @@ _ROOM = WIDTH - LEFT - RIGHT
 
 
 class PeerFrame(NamedTuple):
-    """Which times are seen, and in which row each name stands.
-
-    Attributes
-    ----------
-    names : tuple of str
-        As they are written.
-    rows : tuple of int
-        From below; a name stands above those that begin beneath it, so that no line from a name
-        to its mark goes through another.
-    times : tuple of float
-        The first and the last that are seen, in ns.
-    """
+    """Which times are seen, and in which row each name stands."""
 
     names: tuple[str, ...]
     rows: tuple[int, ...]
@@ -66,17 +55,7 @@ class PeerFrame(NamedTuple):
 
 
 def draw_peers(axes: Axes, peers: PeerTimes, frame: PeerFrame) -> None:
-    """Draw error over time of all who took part in a race.
-
-    Parameters
-    ----------
-    axes : Axes
-        As high as the frame says.
-    peers : PeerTimes
-        What is drawn.
-    frame : PeerFrame
-        Where the names stand.
-    """
+    """Draw error over time of all who took part in a race."""
     errors = np.log10([racer.error for racer in peers.racers])
     low, high = errors.min() - 0.7, errors.max() + 0.7
     top = low + (high - low) * frame.height / _MAIN

@@ -30,20 +30,7 @@ _TITLE, _HEAD, _FOOT, _TITLED = 20.0, 0.75, 0.8, 0.7
 
 
 def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = None) -> Panel:
-    """Draw what `path_chart` or `interface_chart` has measured.
-
-    Parameters
-    ----------
-    chart : mapping
-        What was measured.
-    peers : PeerTimes, optional
-        A race with other software, drawn below.
-
-    Returns
-    -------
-    ndarray of Axes
-        One of componentwise errors, one of errors against the intensity, and one of peers.
-    """
+    """Draw what `path_chart` or `interface_chart` has measured."""
     looks = Looks(chart)
     marks = {kind: marks_of(chart, kind) for kind in _KINDS}
     frame = ChartFrame.around(chart, list(marks.values()))

@@ -15,18 +15,7 @@ _LONGEST = 60
 class AlongAxis(NamedTuple):
     """What goes along an axis.
 
-    Attributes
-    ----------
-    name : str
-        The parameter.
-    unit : str
-        Of the numbers; ``""`` for pure ones.
-    numbers : ndarray, shape (count,)
-        As they are drawn.
-    help : str
-        What the parameter is.
-    default : float or None
-        The value by default; None where there is none between the numbers.
+    Shape: numbers (count,).
     """
 
     name: str

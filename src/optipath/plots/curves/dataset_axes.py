@@ -26,24 +26,7 @@ _SHORT = (("nm", 1e-5), ("um", 1e-3), ("mm", np.inf))
 
 
 def at_detector(dataset: Any, detector: str | None) -> Any:
-    """Return what a Dataset has at one detector.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Of a sweep.
-    detector : str or None
-        Which; None for the only one.
-
-    Returns
-    -------
-    xarray.Dataset
-
-    Raises
-    ------
-    OptipathError
-        If it is not known which is meant, or there is none of the name.
-    """
+    """Return what a Dataset has at one detector."""
     known = [str(name) for name in np.atleast_1d(dataset.get(_DETECTOR, ()))]
     if detector is None:
         if _DETECTOR in dataset.dims and len(known) > 1:
@@ -60,24 +43,7 @@ def at_detector(dataset: Any, detector: str | None) -> Any:
 
 
 def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
-    """Return coordinates along as many dimensions, the only ones with several values.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        At one detector.
-    names : sequence of str or None
-        What they are called; None for one that there is no choice of.
-
-    Returns
-    -------
-    list of AlongAxis
-
-    Raises
-    ------
-    OptipathError
-        If there are others, or more, or none.
-    """
+    """Return coordinates along as many dimensions, the only ones with several values."""
     along = {
         str(dimension): [
             str(name) for name, each in dataset.coords.items() if each.dims == (dimension,)
@@ -144,27 +110,7 @@ def _axis(dataset: Any, name: str) -> AlongAxis:
 def numbers_of(
     dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
 ) -> npt.NDArray[np.float64]:
-    """Return a quantity as it is drawn.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        At one detector.
-    quantity : DrawnQuantity
-        Which.
-    axes : sequence of AlongAxis
-        The order of dimensions.
-
-    Returns
-    -------
-    ndarray
-        With an axis for each; what is in chunks is computed.
-
-    Raises
-    ------
-    OptipathError
-        If the Dataset does not have it.
-    """
+    """Return a quantity as it is drawn."""
     beside = _BESIDE.get(quantity.name, quantity.name)
     name = beside if beside in dataset.data_vars else quantity.name
     if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):

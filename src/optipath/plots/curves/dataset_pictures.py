@@ -22,19 +22,7 @@ _CURVE, _MAP = (6.4, 4.2), (6.4, 4.8)
 
 
 def curve(dataset: Any, y: Any, x: str | None, ax: Axes | None, detector: str | None) -> Axes:
-    """Draw quantities against a coordinate; see `SweepPictures.curve`.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Of a sweep.
-    y, x, ax, detector
-        As `SweepPictures.curve` takes them.
-
-    Returns
-    -------
-    Axes
-    """
+    """Draw quantities against a coordinate; see `SweepPictures.curve`."""
     quantities = drawn_quantities(y)
     units_of(quantities)
     there = at_detector(dataset, detector)
@@ -53,19 +41,7 @@ def quantity_map(
     ax: Axes | None,
     detector: str | None,
 ) -> Axes:
-    """Draw a quantity over two coordinates; see `SweepPictures.map`.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Of a sweep.
-    quantity, x, y, ax, detector
-        As `SweepPictures.map` takes them.
-
-    Returns
-    -------
-    Axes
-    """
+    """Draw a quantity over two coordinates; see `SweepPictures.map`."""
     drawn = drawn_quantity(quantity)
     there = at_detector(dataset, detector)
     along, up = axes_of(there, [x, y])
@@ -76,19 +52,7 @@ def quantity_map(
 
 
 def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
-    """Draw light on the Poincaré sphere, coloured by a coordinate; see `SweepPictures.poincare`.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Of a sweep.
-    x, ax, detector
-        As `SweepPictures.poincare` takes them.
-
-    Returns
-    -------
-    Axes3D
-    """
+    """Draw light on the Poincaré sphere, coloured by a coordinate; see `SweepPictures.poincare`."""
     there = at_detector(dataset, detector)
     (along,) = axes_of(there, [x])
     components = drawn_quantities(("S0", "S1", "S2", "S3"))

@@ -34,13 +34,7 @@ _MARKS = "o", "s", "D", "^", "v"
 
 
 def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
-    """Return quantities by their units: the left axis, and the right one.
-
-    Raises
-    ------
-    OptipathError
-        If there are more than two units.
-    """
+    """Return quantities by their units: the left axis, and the right one."""
     groups: dict[str, list[DrawnQuantity]] = {}
     for each in quantities:
         groups.setdefault(each.unit, []).append(each)
@@ -59,22 +53,6 @@ def draw_curves(
     """Draw curves, their axes, and a legend where there are several.
 
     Points are marked where they are few, or stand alone between gaps.
-
-    Parameters
-    ----------
-    ax : Axes
-        Where; the axis on the right is made where there are two units.
-    along : AlongAxis
-        What goes along x.
-    curves : sequence of (DrawnQuantity, ndarray)
-        What goes up, each of the shape of `along.numbers`.
-    reads : str, optional
-        What the detector reads.
-
-    Raises
-    ------
-    OptipathError
-        If they have more than two units.
     """
     groups = units_of([quantity for quantity, _ in curves])
     order = np.argsort(along.numbers, kind="stable")
@@ -145,15 +123,7 @@ def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
 
 
 def mark_default(ax: Axes, along: AlongAxis) -> None:
-    """Mark the value by default by a thin vertical line, with its text above.
-
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    along : AlongAxis
-        What goes along x, with its default or without one.
-    """
+    """Mark the value by default by a thin vertical line, with its text above."""
     if along.default is None:
         return
     ax.axvline(along.default, color=FAINT, linewidth=0.8, zorder=0.5, gid="default")
@@ -163,17 +133,7 @@ def mark_default(ax: Axes, along: AlongAxis) -> None:
 
 
 def tell_missing(ax: Axes, curves: Sequence[Drawn], reads: str) -> None:
-    """Say which quantities have no value anywhere, or are not read, where curves are missing.
-
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    curves : sequence of (DrawnQuantity, ndarray)
-        Quantities, and their numbers.
-    reads : str
-        What the detector reads.
-    """
+    """Say which quantities have no value anywhere, or are not read, where curves are missing."""
     missing = [quantity for quantity, values in curves if not np.isfinite(values).any()]
     if not missing:
         return

@@ -35,13 +35,7 @@ _READ["linear"] = {*_READ["intensity"], "S1", "S2", "DoLP", "AoP"}
 
 
 class DrawnQuantity(NamedTuple):
-    """A quantity of light as it is drawn.
-
-    Attributes
-    ----------
-    light : LightQuantity
-        What it is.
-    """
+    """A quantity of light as it is drawn."""
 
     light: LightQuantity
 
@@ -110,20 +104,6 @@ def _ends(numbers: npt.NDArray[np.float64]) -> tuple[float, float]:
 def drawn_quantities(names: Any) -> list[DrawnQuantity]:
     """Return the quantities of some names, which may be written in small letters.
 
-    Parameters
-    ----------
-    names : str or sequence of str
-        Such as ``"S0"`` or ``("dop", "dolp")``.
-
-    Returns
-    -------
-    list of DrawnQuantity
-
-    Raises
-    ------
-    OptipathError
-        With every name that no quantity has, or one that stands there twice.
-
     Examples
     --------
     >>> [each.label for each in drawn_quantities(("s0", "AoP"))]
@@ -146,22 +126,7 @@ def drawn_quantities(names: Any) -> list[DrawnQuantity]:
 
 
 def drawn_quantity(name: Any) -> DrawnQuantity:
-    """Return the quantity of one name.
-
-    Parameters
-    ----------
-    name : str
-        Such as ``"S0"``.
-
-    Returns
-    -------
-    DrawnQuantity
-
-    Raises
-    ------
-    OptipathError
-        If no quantity has it.
-    """
+    """Return the quantity of one name."""
     if not isinstance(name, str):
         raise OptipathError(f"quantity is {shown(name)}; give one name, such as 'S0'")
     return drawn_quantities(name)[0]

@@ -29,26 +29,7 @@ if TYPE_CHECKING:
 def varied(
     path: PathGraph, names: Sequence[Any], fixed: Mapping[str, Any]
 ) -> tuple[Parameter, ...]:
-    """Return the open parameters that go along axes, once all that is given for a path fits.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    names : sequence of str
-        What goes along axes.
-    fixed : mapping of str to Any
-        What is given besides, one value each.
-
-    Returns
-    -------
-    tuple of Parameter
-
-    Raises
-    ------
-    OptipathError
-        With all that is wrong.
-    """
+    """Return the open parameters that go along axes, once all that is given for a path fits."""
     if not isinstance(path, PathGraph):
         raise OptipathError(f"a curve is of a path, not of {shown(path)}; give a PathGraph")
     inputs = path.compose().inputs
@@ -79,27 +60,7 @@ def axis_of(
 ) -> tuple[AlongAxis, npt.NDArray[Any]]:
     """Return what goes along an axis: as it is drawn, and as a path takes it.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    parameter : Parameter
-        Which of its parameters.
-    values : array_like, str or None
-        As a sweep takes them; by default `count` over the usual range.
-    count : int
-        How many.
-
-    Returns
-    -------
-    axis : AlongAxis
-    given : ndarray, shape (count,)
-        In radians, metres or pure numbers.
-
-    Raises
-    ------
-    ParameterError
-        If they are no axis of numbers.
+    Shape: returns given (count,). Units: given in radians.
     """
     name, inputs = parameter.name, path.compose().inputs
     if values is None:
@@ -168,32 +129,7 @@ def quantities_at(
 ) -> tuple[str, list[Numbers]]:
     """Return quantities of the light at a detector, as they are drawn.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    detector : str or None
-        Which of its ends; None for the only detector.
-    quantities : sequence of DrawnQuantity
-        What is drawn.
-    given : mapping of str to ndarray, shape (count,)
-        The values along axes, in order.
-    fixed : mapping of str to Any
-        The other values.
-    chosen : bool
-        Whether nobody has given the values along the axes; then quantities are NaN where a
-        path does not take them.
-
-    Returns
-    -------
-    detector : str
-    numbers : list of ndarray
-        One for each quantity, with an axis for each parameter.
-
-    Raises
-    ------
-    ParameterError
-        As `PathGraph.trace`, or if it is not known which detector is meant.
+    Shape: given (count,).
     """
     end = _end(path, detector)
     shape = tuple(map(len, given.values()))
@@ -238,18 +174,6 @@ def _fill(
 
 def reads_of(path: PathGraph, end: str) -> str:
     """Return what an end of a path reads.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    end : str
-        A detector or a dump.
-
-    Returns
-    -------
-    str
-        ``"stokes"``, ``"linear"`` or ``"intensity"``.
 
     Examples
     --------

@@ -26,12 +26,7 @@ _SEEN = 1e-9
 class Reflected(NamedTuple):
     """What a boundary reflects of light without polarisation.
 
-    Attributes
-    ----------
-    s, p, unpolarised : ndarray, shape (...)
-        The reflectances.
-    dolp : ndarray, shape (...)
-        The degree of linear polarisation; NaN where nothing is reflected.
+    Shapes: s, p, unpolarised (...); dolp (...).
     """
 
     s: Numbers
@@ -43,12 +38,7 @@ class Reflected(NamedTuple):
 class MarkedAngle(NamedTuple):
     """An angle of incidence that has a name.
 
-    Attributes
-    ----------
-    name : str
-        Such as ``"Brewster's angle"``.
-    angle : float
-        In radians.
+    Units: angle in radians.
     """
 
     name: str
@@ -58,16 +48,7 @@ class MarkedAngle(NamedTuple):
 def reflected(index: complex, incidence: Numbers) -> Reflected:
     """Return what a boundary reflects.
 
-    Parameters
-    ----------
-    index : complex
-        The relative index, that behind over that in front.
-    incidence : ndarray, shape (...)
-        In radians.
-
-    Returns
-    -------
-    Reflected
+    Shape: incidence (...). Units: incidence in radians.
 
     Examples
     --------
@@ -83,18 +64,6 @@ def reflected(index: complex, incidence: Numbers) -> Reflected:
 
 def marked_angles(index: complex) -> list[MarkedAngle]:
     """Return the angles of a reflection that have names.
-
-    Parameters
-    ----------
-    index : complex
-        The relative index, that behind over that in front.
-
-    Returns
-    -------
-    list of MarkedAngle
-        Of what is clear, arctan(n), at which p is not reflected, and below n = 1 arcsin(n), from
-        which on all is reflected (Born & Wolf, Principles of Optics, sec. 1.5); of what absorbs,
-        those at which least of p is reflected, and at which the light is polarised most.
 
     Examples
     --------

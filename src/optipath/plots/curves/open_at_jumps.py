@@ -18,18 +18,7 @@ _FLIP = 0.05
 def open_at_jumps(along: Numbers, angles: Numbers, period: float) -> tuple[Numbers, Numbers]:
     """Return a curve that goes out at one end and comes in at the other, with a gap between.
 
-    Parameters
-    ----------
-    along, angles : ndarray, shape (count,)
-        The points; angles lie between minus and plus half a period.
-    period : float
-        After which an angle is the same.
-
-    Returns
-    -------
-    along, angles : ndarray
-        With the points at which the curve meets the ends, and NaN where it is open: also at a
-        step of half a period, as that from s to p through light without polarisation.
+    Shape: along, angles (count,).
 
     Examples
     --------

@@ -33,18 +33,7 @@ def draw_map(
 ) -> None:
     """Draw a map, its colour bar, and a cross where both values are those by default.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    along, up : AlongAxis
-        What goes along x and y.
-    quantity : DrawnQuantity
-        What the colours show.
-    numbers : ndarray, shape (along, up)
-        Of it.
-    reads : str, optional
-        What the detector reads.
+    Shape: numbers (along, up).
     """
     columns, rows = np.argsort(along.numbers), np.argsort(up.numbers)
     sorted_numbers = numbers[np.ix_(columns, rows)].T

@@ -26,19 +26,7 @@ _GAP, _LEAST = 0.2, 0.12
 
 @dataclass(frozen=True)
 class EnergyPlaces:
-    """Where everything is.
-
-    Attributes
-    ----------
-    drawn : EnergyRows
-        The rows and links, with powers of 1 at most.
-    level : dict of str to float
-        The y of each row.
-    left : dict of int to float
-        The x at which each lane begins, with all that stands in it.
-    width : float
-        Of all lanes together.
-    """
+    """Where everything is."""
 
     drawn: EnergyRows
     level: dict[str, float] = field(init=False)

@@ -13,21 +13,7 @@ if TYPE_CHECKING:
 
 
 class EnergyLink(NamedTuple):
-    """A link as it is drawn.
-
-    Attributes
-    ----------
-    start, end : str
-        The rows that it goes from and to.
-    power : float
-        How wide it is.
-    lane : int
-        Which way it takes beside the rows between.
-    back : bool
-        Whether it goes up, to a row above.
-    tap : bool
-        Whether light is only read there.
-    """
+    """A link as it is drawn."""
 
     start: str
     end: str
@@ -38,20 +24,7 @@ class EnergyLink(NamedTuple):
 
 
 class EnergyRow(NamedTuple):
-    """An element, or a port by which light leaves, in a row of its own.
-
-    Attributes
-    ----------
-    name : str
-        Of the element, or ``"glass.transmitted"``.
-    lane : int
-        In which it stands.
-    told : str
-        What becomes of light there: ``"gives"``, ``"takes"``, ``"adds"``, ``"gets"``,
-        ``"leaves"``, ``"reads"``; empty for nothing.
-    power : float
-        How much.
-    """
+    """An element, or a port by which light leaves, in a row of its own."""
 
     name: str
     lane: int
@@ -60,15 +33,7 @@ class EnergyRow(NamedTuple):
 
 
 class EnergyRows(NamedTuple):
-    """All rows in the order of travel, and all links.
-
-    Attributes
-    ----------
-    rows : list of EnergyRow
-        From above.
-    links : list of EnergyLink
-        Between them.
-    """
+    """All rows in the order of travel, and all links."""
 
     rows: list[EnergyRow]
     links: list[EnergyLink]
@@ -87,15 +52,6 @@ def energy_rows(found: EnergyAlong) -> EnergyRows:
 
     Light goes on in the lane of its element, and what parts from it in the next that is free;
     light that comes back goes up to the right of all others.
-
-    Parameters
-    ----------
-    found : EnergyAlong
-        Of one path, not of a batch.
-
-    Returns
-    -------
-    EnergyRows
 
     Examples
     --------

@@ -23,14 +23,7 @@ _THICK = 0.25
 def bent(stations: list[tuple[float, float]]) -> Numbers:
     """Return a line that goes through stations and is upright in each.
 
-    Parameters
-    ----------
-    stations : list of (float, float)
-        x and y; two of them one above the other are joined by a straight line.
-
-    Returns
-    -------
-    ndarray, shape (..., 2)
+    Shape: returns (..., 2).
 
     Examples
     --------
@@ -47,16 +40,7 @@ def bent(stations: list[tuple[float, float]]) -> Numbers:
 def ribbon(stations: list[tuple[float, float]], width: float) -> Numbers:
     """Return the outline of a ribbon through stations, as wide everywhere along x.
 
-    Parameters
-    ----------
-    stations : list of (float, float)
-        The middle of it.
-    width : float
-        Of the ribbon.
-
-    Returns
-    -------
-    ndarray, shape (..., 2)
+    Shape: returns (..., 2).
     """
     middle = bent(stations)
     half = np.array([width / 2, 0.0])
@@ -68,20 +52,7 @@ def turned_back(
 ) -> Numbers:
     """Return the outline of a ribbon that goes down, up in a lane on the right, and down again.
 
-    Parameters
-    ----------
-    begin, end : tuple of float
-        Its ends, x and y.
-    lane : float
-        The x in which it goes up.
-    width : float
-        Of the ribbon.
-    share : float
-        The width over the largest one, by which turns are thick.
-
-    Returns
-    -------
-    ndarray, shape (..., 2)
+    Shape: returns (..., 2).
     """
     edges = []
     for side, deep in ((-0.5, _DEEP), (0.5, _DEEP - _THICK * share)):

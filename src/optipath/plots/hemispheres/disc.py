@@ -60,25 +60,7 @@ def draw_disc(
     Pixels without a value are hatched; the direction in which a smooth sample reflects, or lets
     through, is marked by a cross.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where, alone.
-    seen : SeenSide
-        Whose pixels they are.
-    values : ndarray, shape (rows, columns)
-        NaN where there is none.
-    scale : ColourScale
-        Their colours.
-    labelled : bool, optional
-        Whether rings, azimuths and the cross are named.
-    hatched : str, optional
-        What pixels are without a value, in a word or two.
-
-    Returns
-    -------
-    AxesImage
-        Of which a colour bar can be made.
+    Shape: values (rows, columns).
     """
     ax.set_aspect("equal")
     ax.set_axis_off()
@@ -109,21 +91,7 @@ def draw_disc(
 
 
 def head_panel(axes: Any, given: Any, seen: SeenSide, what: str, hatched: str = "") -> None:
-    """Say above discs that are not labelled what is seen, where a caller has not their figure.
-
-    Parameters
-    ----------
-    axes : ndarray of Axes
-        Those of the discs.
-    given : Any
-        What the caller gave for them; None where they are of a figure of their own.
-    seen : SeenSide
-        The side.
-    what : str
-        The picture.
-    hatched : str, optional
-        What hatched pixels are.
-    """
+    """Say above discs that are not labelled what is seen, where a caller has not their figure."""
     if given is None:
         told = [
             "rings: 30° and 60° from the normal",

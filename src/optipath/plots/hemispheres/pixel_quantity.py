@@ -24,12 +24,7 @@ if TYPE_CHECKING:
 class KnownPixels(NamedTuple):
     """What is known of the pixels of a side.
 
-    Attributes
-    ----------
-    values, errors : ndarray, shape (rows, columns)
-        NaN beyond the horizon, and where nothing is known; the errors are standard errors.
-    unknown : str
-        What pixels are of which nothing is known.
+    Shape: values, errors (rows, columns).
     """
 
     values: Numbers
@@ -43,26 +38,7 @@ class KnownPixels(NamedTuple):
 
 
 class PixelQuantity(NamedTuple):
-    """What pictures show of each pixel of a hemisphere.
-
-    Attributes
-    ----------
-    variable : str
-        What it is called.
-    name, unit : str
-        What it is, as colour bars have it, and its unit, if it has one.
-    of : callable
-        Returns the `KnownPixels` of a `SeenSide`, under a mask.
-    scale : callable
-        Returns its `ColourScale` for the largest of its sizes.
-    known_to : float
-        The standard error up to which a pixel is shown.
-    masked : tuple of str
-        By what, where it compares light with and without polarisation under a mask, for a source
-        that is unpolarised.
-    over_wavelengths : bool
-        Whether it is of all wavelengths together.
-    """
+    """What pictures show of each pixel of a hemisphere."""
 
     variable: str
     name: str
@@ -100,21 +76,7 @@ class PixelQuantity(NamedTuple):
     def known(
         self, seen: SeenSide, known_to: float | None, mask: Mapping[str, Any] | None
     ) -> KnownPixels:
-        """Return what is known of the pixels of a side.
-
-        Parameters
-        ----------
-        seen : SeenSide
-            The pixels.
-        known_to : float or None
-            The largest standard error; None is the usual one.
-        mask : mapping or None
-            Where it is masked.
-
-        Returns
-        -------
-        KnownPixels
-        """
+        """Return what is known of the pixels of a side."""
         limit = self.known_to if known_to is None else known_to
         found = self.of(seen, mask or {})
         if np.isinf(limit):

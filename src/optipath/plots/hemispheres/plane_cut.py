@@ -28,11 +28,6 @@ class PlaneCut:
 
     It is that of the row of pixels in the plane, or the mean of the two that it lies between, in
     frames with x perpendicular to the plane.
-
-    Attributes
-    ----------
-    seen : SeenSide
-        The side.
     """
 
     seen: SeenSide
@@ -60,14 +55,7 @@ class PlaneCut:
     def light(self, numbers: Numbers) -> Light:
         """Return the light per steradian among the numbers of `PartSums.estimate`.
 
-        Parameters
-        ----------
-        numbers : ndarray, shape (sides, rows, columns, wavelengths, numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        Light, shape (columns,)
+        Shapes: numbers (sides, rows, columns, wavelengths, numbers); returns (columns,).
         """
         own, plane = self._frames
         matrices = self.seen.measured.matrices(self._pixels(numbers))
@@ -79,14 +67,7 @@ class PlaneCut:
     def scalar(self, numbers: Numbers) -> Numbers:
         """Return the light per steradian that there is without polarisation.
 
-        Parameters
-        ----------
-        numbers : ndarray, shape (sides, rows, columns, wavelengths, numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        ndarray, shape (columns,)
+        Shapes: numbers (sides, rows, columns, wavelengths, numbers); returns (columns,).
         """
         return self._mean(self.seen.measured.intensities(self._pixels(numbers)))
 

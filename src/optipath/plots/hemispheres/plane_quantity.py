@@ -23,23 +23,7 @@ _OF_LIGHT = {each.variable: each for each in OF_LIGHT}
 
 
 class PlaneQuantity(NamedTuple):
-    """What curves in the plane of incidence show.
-
-    Attributes
-    ----------
-    variable : str
-        What it is called.
-    label : str
-        That, with its unit, as axes have it.
-    of : callable
-        Returns it for a `PlaneCut` and the numbers of `PartSums.estimate`.
-    limits : tuple
-        Those of its axis; None where they are those of the curves.
-    known_to : float
-        The standard error up to which it is shown.
-    period : float
-        After which an angle is the same; infinite of all else.
-    """
+    """What curves in the plane of incidence show."""
 
     variable: str
     label: str
@@ -51,16 +35,7 @@ class PlaneQuantity(NamedTuple):
     def known(self, cut: PlaneCut, known_to: float | None) -> tuple[Numbers, Numbers]:
         """Return it with its standard errors, NaN where it is not known.
 
-        Parameters
-        ----------
-        cut : PlaneCut
-            The light.
-        known_to : float or None
-            The largest standard error; None is the usual one.
-
-        Returns
-        -------
-        value, error : ndarray, shape (columns,)
+        Shape: returns value, error (columns,).
         """
         if self.variable == "difference" and any(cut.seen.source[1:]):
             raise SurfaceError("difference is of unpolarised light; leave source out")

@@ -24,19 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SeenSide:
-    """One side of a measured sample, at one wavelength, for light of one state.
-
-    Attributes
-    ----------
-    measured : Hemisphere
-        All of it.
-    side : {"reflected", "transmitted"}
-        Which side.
-    place : int or None
-        Of the wavelength, among those measured; None where they are all seen together.
-    source : tuple of float, (S0, S1, S2, S3)
-        The light that comes in, in the frame whose x is horizontal.
-    """
+    """One side of a measured sample, at one wavelength, for light of one state."""
 
     measured: Hemisphere
     side: str
@@ -49,27 +37,7 @@ class SeenSide:
     ) -> SeenSide:
         """Return the side that pictures are asked for.
 
-        Parameters
-        ----------
-        measured : Hemisphere
-            What `measure` returned.
-        side : {"reflected", "transmitted"}
-            Above the sample, or below.
-        wavelength : float, str or None
-            One of those measured; None where there is only one.
-        source : array_like, shape (4,)
-            The Stokes vector of the light that comes in.
-        every : bool, optional
-            Whether all wavelengths are seen together.
-
-        Returns
-        -------
-        SeenSide
-
-        Raises
-        ------
-        SurfaceError
-            With all faults at once.
+        Shape: source (4,).
         """
         if not isinstance(measured, Hemisphere):
             raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
@@ -85,14 +53,7 @@ class SeenSide:
     def pixels(self, numbers: Numbers) -> Numbers:
         """Return what is known of the pixels of this side, NaN beyond the horizon.
 
-        Parameters
-        ----------
-        numbers : ndarray, shape (sides, rows, columns, wavelengths, ...)
-            Of all sides and wavelengths.
-
-        Returns
-        -------
-        ndarray, shape (rows, columns, ...)
+        Shapes: numbers (sides, rows, columns, wavelengths, ...); returns (rows, columns, ...).
         """
         found = numbers[self.measured.side(self.side), :, :, self.place].copy()
         found[self.measured.sensor.solid_angle == 0.0] = np.nan
@@ -101,14 +62,7 @@ class SeenSide:
     def radius(self, theta: float) -> float:
         """Return how far from the centre of the disc light falls, 1 at the horizon.
 
-        Parameters
-        ----------
-        theta : float
-            Its angle to the normal, in radians.
-
-        Returns
-        -------
-        float
+        Units: theta in radians.
         """
         projection = PROJECTIONS[self.measured.sensor.projection]
         return float(projection.radius(np.sin(theta), np.cos(theta)))

@@ -26,24 +26,6 @@ def seen_sides(
     """Return the sides that a picture of several samples is asked for.
 
     The wavelength is for those that were measured at several; where none was, for those at one.
-
-    Parameters
-    ----------
-    several : mapping of str to Hemisphere
-        What `measure` returned, by the names of their curves.
-    side, wavelength, source
-        As `SeenSide.of` takes them.
-    beside : sequence of str, optional
-        Faults of what else is asked for, told with the others.
-
-    Returns
-    -------
-    dict of str to SeenSide
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once, and the curves that they are of.
     """
     most = max(map(_choices, several.values()))
     faults = Faults(beside)
@@ -64,19 +46,7 @@ def seen_sides(
 
 
 def titled(what: str, several: Collection[SeenSide]) -> str:
-    """Return the title of a picture of several samples, of what is the same of all.
-
-    Parameters
-    ----------
-    what : str
-        What is drawn.
-    several : collection of SeenSide
-        What is seen, on one side and in light of one state.
-
-    Returns
-    -------
-    str
-    """
+    """Return the title of a picture of several samples, of what is the same of all."""
     first = next(iter(several))
     parts = [what, first.side, "in the plane of incidence"]
     colours = {each.colour for each in several} - {""}

@@ -34,18 +34,7 @@ _SPLITTING = ("beam-splitter", "polarizing-beam-splitter")
 def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | None) -> None:
     """Draw the symbol of an element.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    node : SceneNode
-        The element.
-    at : ndarray of shape (2,)
-        The place on the sheet.
-    way : ndarray of shape (2,)
-        The direction of the light that arrives.
-    face : ndarray of shape (3, 2), or None
-        The normal of its surface on the sheet, and its two ends.
+    Shapes: at (2,); way (2,); face (3, 2).
     """
     if node.role == "source":
         _lamp(ax, at)
@@ -71,23 +60,7 @@ def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | 
 def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> Array:
     """Draw a dial with what is seen in it when one looks at the source.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    at : ndarray of shape (2,)
-        The middle.
-    line : ndarray of shape (points, 2)
-        Along x and y of the frame, 1 being the rim; empty where there is nothing.
-    colour : str
-        Of the line.
-    zorder : float, optional
-        What it is drawn over.
-
-    Returns
-    -------
-    ndarray of shape (points, 2)
-        The line on the sheet.
+    Shapes: at (2,); line (points, 2); returns (points, 2).
     """
     _add(ax, Circle(tuple(at), DIAL, fc="white", ec=FAINT, lw=0.7), zorder)
     # Who looks at the source has x to the right where y is up, and z comes to him.

@@ -35,16 +35,6 @@ _ALWAYS = "angle", "incidence"
 def values_below(element: Element) -> list[str]:
     """Return the values of an element that are written below its symbol.
 
-    Parameters
-    ----------
-    element : Element
-        All its values are numbers.
-
-    Returns
-    -------
-    list of str
-        A line each: by the names of parameters, or of fields.
-
     Examples
     --------
     >>> import optipath as op

@@ -11,16 +11,7 @@ from optipath.elements.vertices.by_angles import VerticesByAngles
 def angles_in_chain(element: Any) -> tuple[Any, Any]:
     """Return the incidence at a surface, and the turn of its plane against that of the one before.
 
-    Parameters
-    ----------
-    element : Element
-        Any.
-
-    Returns
-    -------
-    incidence, turn : float, Parameter or None
-        In radians; both None of what is no surface of a chain that is given by angles, and the
-        turn of the first.
+    Units: incidence, turn in radians.
 
     Examples
     --------

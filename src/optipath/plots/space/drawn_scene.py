@@ -41,19 +41,7 @@ _TURN, _NARROW = (0.065, 0.025), 0.8
 
 
 def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
-    """Draw all of a scene but its names.
-
-    Parameters
-    ----------
-    ax : Axes
-        With limits that show the scene.
-    scene : Scene
-        What is drawn.
-    view : View
-        From where.
-    weight : float, optional
-        By how much lines are wider and marks larger than usual.
-    """
+    """Draw all of a scene but its names."""
     first = len(ax.lines)
     for plane in scene.planes:
         _face(ax, view.points(plane.corners), FAINT, 0.09, 1.0)
@@ -85,17 +73,7 @@ _MARKS: dict[str, dict[str, Any]] = {
 def lines_of(scene: Scene, view: View) -> list[Array]:
     """Return the lines of a scene that no text should cover, and what is to be seen of it.
 
-    Parameters
-    ----------
-    scene : Scene
-        What is drawn.
-    view : View
-        From where.
-
-    Returns
-    -------
-    list of ndarray of shape (points, 2)
-        On the sheet.
+    Shape: returns (points, 2).
     """
     found = [np.array([ray.tail, ray.head]) for ray in scene.rays]
     found += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
@@ -110,33 +88,13 @@ def lines_of(scene: Scene, view: View) -> list[Array]:
 
 
 def drawn_frames(scene: Scene) -> list[SceneFrame]:
-    """Return the frames that are drawn: those of links, since rays that leave end soon.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is drawn.
-
-    Returns
-    -------
-    list of SceneFrame
-    """
+    """Return the frames that are drawn: those of links, since rays that leave end soon."""
     leaving = {ray.name for ray in scene.rays if ray.leaves}
     return [frame for frame in scene.frames if frame.port not in leaving]
 
 
 def key_to(scene: Scene) -> list[Artist]:
-    """Return what a key shows of the lines and faces that are drawn.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is drawn.
-
-    Returns
-    -------
-    list of Artist
-    """
+    """Return what a key shows of the lines and faces that are drawn."""
     s = "surface" in {node.role for node in scene.nodes}
     found: list[Artist] = [
         Line2D([], [], color=X_COLOUR, lw=1.6, label="x of a frame" + " (s)" * s),
@@ -201,16 +159,7 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
 def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> None:
     """Draw the head of an arrow.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    tip, way : ndarray of shape (2,)
-        Where it ends, and where it points to.
-    size : ndarray of shape (2,)
-        Its length, and half its width.
-    **style
-        As patches take it.
+    Shapes: tip, way (2,); size (2,).
     """
     along = way / np.linalg.norm(way)
     foot, aside = tip - size[0] * along, size[1] * np.array([-along[1], along[0]])
@@ -220,18 +169,7 @@ def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> No
 def draw_turn(ax: Axes, curve: Array, unit: float, colour: str, zorder: float) -> None:
     """Draw a head on an ellipse that shows how the field turns, where the ellipse is flattest.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where.
-    curve : ndarray of shape (points, 2)
-        In the order of time; the last point is the first one.
-    unit : float
-        How long a link is, by which the head is sized.
-    colour : str
-        Of the head.
-    zorder : float
-        What it is drawn over.
+    Shape: curve (points, 2).
     """
     size = unit * np.array(_TURN)
     narrow = np.linalg.svd(curve[:-1] - curve[:-1].mean(axis=0))[1][1]

@@ -34,17 +34,7 @@ _STRAIGHT_ON = 1e-12
 def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
     """Return the axes that ports of a node have in the world.
 
-    Parameters
-    ----------
-    wiring : Wiring
-        The path, all of whose values are numbers.
-    name : str
-        The node.
-
-    Returns
-    -------
-    dict of str to ndarray of shape (3, 3)
-        x, y and z by port, a column each; none of a node that is placed relatively.
+    Shape: returns (3, 3).
     """
     element = wiring.elements[name]
     found = {}
@@ -59,19 +49,7 @@ def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
 def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Posture:
     """Return how the ports of a node stand in the world, of which some have axes there.
 
-    Parameters
-    ----------
-    wiring : Wiring
-        The path, all of whose values are numbers.
-    name : str
-        The node.
-    axes : dict of str to ndarray of shape (3, 3)
-        What `own_axes_of` returns.
-
-    Returns
-    -------
-    Posture
-        In the basis of the world.
+    Shape: axes (3, 3).
     """
     element = wiring.elements[name]
     usual = posture_of(element)
@@ -127,17 +105,7 @@ def _bisector(arriving: Array, leaves: Array) -> Array:
 def incidence_at(element: Element, posture: Posture) -> float:
     """Return the angle between the light that arrives at a surface and its normal.
 
-    Parameters
-    ----------
-    element : Element
-        The surface.
-    posture : Posture
-        How it stands.
-
-    Returns
-    -------
-    float
-        In radians.
+    Units: the result in radians.
     """
     if not isinstance(element, ChainVertex) and hasattr(element, "incidence"):
         return angles_at(element)[0]

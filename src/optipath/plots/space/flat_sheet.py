@@ -28,12 +28,7 @@ _FROM_EDGE = 0.2
 class FlatRay(NamedTuple):
     """A ray on a sheet.
 
-    Attributes
-    ----------
-    pieces : tuple of ndarray of shape (2, 2)
-        From where to where; two of light that goes on in the next row.
-    middle : ndarray of shape (2,)
-        Where its polarisation is drawn.
+    Shapes: pieces (2, 2); middle (2,).
     """
 
     pieces: tuple[Array, ...]
@@ -43,18 +38,7 @@ class FlatRay(NamedTuple):
 class FlatSheet(NamedTuple):
     """A scene on a sheet, a link being about 1 long.
 
-    Attributes
-    ----------
-    sheet : ndarray of shape (2, 3)
-        The directions to the right and up.
-    at : dict of str to ndarray of shape (2,)
-        The place of each node.
-    rays : tuple of FlatRay
-        Those of the scene.
-    straight : bool
-        Whether all light goes to the right.
-    unit : float
-        How long a link is in space.
+    Shapes: sheet (2, 3); at (2,).
     """
 
     sheet: Array
@@ -66,39 +50,14 @@ class FlatSheet(NamedTuple):
     def in_dial(self, axes: Array, vectors: Array) -> Array:
         """Return what lies across light as who looks at the source sees it.
 
-        Parameters
-        ----------
-        axes : ndarray of shape (3, 3)
-            x, y and z of the light, a row each.
-        vectors : ndarray of shape (..., 3)
-            In space.
-
-        Returns
-        -------
-        ndarray of shape (..., 2)
-            To the right, what stands across the sheet; up, what lies in it.
+        Shapes: axes (3, 3); vectors (..., 3); returns (..., 2).
         """
         right = np.cross(self.sheet[1], self.sheet[0])
         return np.asarray(vectors @ np.array([right, np.cross(axes[2], right)]).T)
 
 
 def flat_sheet(scene: Scene) -> FlatSheet:
-    """Return a scene laid flat.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is drawn.
-
-    Returns
-    -------
-    FlatSheet
-
-    Raises
-    ------
-    PathError
-        If its light does not stay in one plane.
-    """
+    """Return a scene laid flat."""
     right = scene.rays[0].axes[2] if scene.rays else np.eye(3)[0]
     ways = np.array([ray.axes[2] for ray in scene.rays]).reshape(-1, 3)
     aside = ways - np.outer(ways @ right, right)
@@ -127,23 +86,7 @@ def flat_sheet(scene: Scene) -> FlatSheet:
 
 
 def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]) -> FlatSheet:
-    """Return a straight set-up in rows.
-
-    Parameters
-    ----------
-    flat : FlatSheet
-        One row.
-    scene : Scene
-        What is drawn.
-    each : int
-        How many nodes a row has.
-    apart : tuple of float
-        How far nodes are apart in a row, and rows from one another.
-
-    Returns
-    -------
-    FlatSheet
-    """
+    """Return a straight set-up in rows."""
     step, down = apart
     order = sorted(flat.at, key=lambda name: float(flat.at[name][0]))
     at = {
@@ -166,18 +109,7 @@ def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]
 def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
     """Return the way on the sheet in which light arrives at a node, or leaves a source.
 
-    Parameters
-    ----------
-    node : SceneNode
-        The node.
-    scene : Scene
-        Where it stands.
-    flat : FlatSheet
-        Where it is drawn.
-
-    Returns
-    -------
-    ndarray of shape (2,)
+    Shape: returns (2,).
     """
     rays = [ray for ray in scene.rays if ray.end == node.name]
     rays += [ray for ray in scene.rays if ray.start == node.name]
@@ -185,20 +117,7 @@ def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
 
 
 def nearest_symbols(scene: Scene, flat: FlatSheet) -> float:
-    """Return how near two symbols are whose middles are nearest, dials of light included.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is drawn.
-    flat : FlatSheet
-        Where.
-
-    Returns
-    -------
-    float
-        In lengths of a link; infinite where there are not two.
-    """
+    """Return how near two symbols are whose middles are nearest, dials of light included."""
     rays = zip(scene.rays, flat.rays, strict=True)
     dials = [drawn.middle for ray, drawn in rays if not (ray.leaves or ray.is_dark)]
     return min(

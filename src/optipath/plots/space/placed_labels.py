@@ -37,16 +37,7 @@ _APART = np.array([9.0, 5.0])
 class Label(NamedTuple):
     """A text, and what it names.
 
-    Attributes
-    ----------
-    text : str
-        What is written.
-    at : ndarray of shape (2,)
-        What it names, in the data of the axes.
-    style : dict
-        How Matplotlib writes it.
-    leader : float
-        From which distance on a line leads to the text, in heights of a line.
+    Shape: at (2,).
     """
 
     text: str
@@ -60,18 +51,7 @@ def place_labels(
 ) -> None:
     """Write each text near what it names, over no other text and over few lines.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where; its limits stay as they are.
-    labels : list of Label
-        The most important first.
-    lines : list of ndarray of shape (points, 2)
-        What should not be covered, in data.
-    within : Bbox
-        What texts must not leave, in pixels.
-    solids : sequence of Patch, optional
-        What is drawn and no text should touch.
+    Shape: lines (points, 2).
     """
     filled = [outline for solid in solids for outline in _outlines(solid)]
     crowd = [_dense(ax.transData.transform(line)) for line in lines if len(line)]

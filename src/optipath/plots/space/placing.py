@@ -44,12 +44,7 @@ _START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 class DrawnLink(NamedTuple):
     """A link where it is drawn.
 
-    Attributes
-    ----------
-    tail, head : ndarray of shape (3,)
-        Its ends.
-    axes : ndarray of shape (3, 3)
-        x, y and z of its light, a column each.
+    Shapes: tail, head (3,); axes (3, 3).
     """
 
     tail: Array
@@ -60,22 +55,7 @@ class DrawnLink(NamedTuple):
 class Placing:
     """Where the nodes and links of a path are drawn.
 
-    Parameters
-    ----------
-    told : ToldPath
-        The path.
-
-    Attributes
-    ----------
-    at : dict of str to ndarray of shape (3,)
-        The place of each node.
-    postures : dict of str to Posture
-        How each stands, in the basis of the world.
-    links : dict of Link to DrawnLink
-    notes : dict of str to None
-        What was chosen, in order.
-    unit : float
-        How long a link is, where nothing says it.
+    Shape: at (3,).
     """
 
     def __init__(self, told: ToldPath) -> None:
@@ -181,14 +161,7 @@ class Placing:
     def tail_of(self, name: str, port: str) -> Array:
         """Return where light begins that leaves a port.
 
-        Parameters
-        ----------
-        name, port : str
-            The port of a node that stands.
-
-        Returns
-        -------
-        ndarray of shape (3,)
+        Shape: returns (3,).
         """
         if (name, port) not in self._returning:
             return self.at[name]

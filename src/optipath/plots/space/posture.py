@@ -31,16 +31,7 @@ _SCHEMATIC = np.pi / 4.0
 class Posture(NamedTuple):
     """The frames of the ports of an element, in a basis of its own.
 
-    Attributes
-    ----------
-    axes : dict of str to ndarray of shape (3, 3)
-        The x, y and z of each port, a column each.
-    normal, across : ndarray of shape (3,), or None
-        The normal on the side that light comes from, and x of the surface.
-    role : str
-        What a drawing makes of it.
-    told : bool
-        Whether the values of the element tell its directions.
+    Shapes: axes (3, 3); normal, across (3,).
     """
 
     axes: dict[str, Array]
@@ -64,16 +55,6 @@ def turn_about_z(angle: float) -> Array:
 
 def posture_of(element: Element) -> Posture:
     """Return how the ports of an element stand to one another, by its values alone.
-
-    Parameters
-    ----------
-    element : Element
-        All its values are numbers.
-
-    Returns
-    -------
-    Posture
-        A surface has the basis x = s, normal, and along the surface; all else that of the light.
 
     Examples
     --------
@@ -104,16 +85,6 @@ def angles_at(element: Any) -> tuple[float, float]:
 
 def has_axis(element: Any) -> bool:
     """Tell whether the angle of an element is that of an axis, and no turn of the light.
-
-    Parameters
-    ----------
-    element : Element
-        All its values are numbers.
-
-    Returns
-    -------
-    bool
-        False of a medium that is the same along all directions.
 
     Examples
     --------

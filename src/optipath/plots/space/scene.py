@@ -19,19 +19,7 @@ if TYPE_CHECKING:
 class SceneNode(NamedTuple):
     """An element where it stands.
 
-    Attributes
-    ----------
-    name, kind : str
-        Those of the node and of its element.
-    at : ndarray of shape (3,)
-        The place.
-    normal, across : ndarray of shape (3,), or None
-        The normal of its surface on the side that light comes from, and x of the surface.
-    role : str
-        ``"source"``, ``"detector"``, ``"dump"``, ``"surface"``, ``"plate"``, ``"mirror"`` or
-        ``"other"``.
-    axis : ndarray of shape (3,), or None
-        The axis of a plate that has one and is there.
+    Shapes: at (3,); normal, across (3,); axis (3,).
     """
 
     name: str
@@ -46,20 +34,7 @@ class SceneNode(NamedTuple):
 class SceneRay(NamedTuple):
     """The light of a link, or what leaves the path.
 
-    Attributes
-    ----------
-    name, start, end : str
-        As `LightOnLink` has them.
-    tail, head : ndarray of shape (3,)
-        Where it begins and where it ends.
-    axes : ndarray of shape (3, 3)
-        x, y and z of the frame of the light, a row each; z is the way that light goes.
-    ellipse : ndarray of shape (points, 3), or None
-        Offsets from the middle of the ray; None where nothing is polarised.
-    light : Light
-        In this frame.
-    leaves, tap : bool
-        Whether it leaves the path, and whether it is only read.
+    Shapes: tail, head (3,); axes (3, 3); ellipse (points, 3).
     """
 
     name: str
@@ -87,12 +62,7 @@ class SceneRay(NamedTuple):
 class ScenePlane(NamedTuple):
     """A plane of incidence, as a rectangle.
 
-    Attributes
-    ----------
-    node : str
-        The surface.
-    corners : ndarray of shape (4, 3)
-        In turn.
+    Shape: corners (4, 3).
     """
 
     node: str
@@ -102,14 +72,7 @@ class ScenePlane(NamedTuple):
 class SceneFrame(NamedTuple):
     """The frame of a port.
 
-    Attributes
-    ----------
-    port : str
-        As ``"node.port"``.
-    at : ndarray of shape (3,)
-        Where it is drawn: beside the node, on the ray.
-    axes : ndarray of shape (3, 3)
-        x, y and z, a row each.
+    Shapes: at (3,); axes (3, 3).
     """
 
     port: str
@@ -120,18 +83,7 @@ class SceneFrame(NamedTuple):
 class SceneAngle(NamedTuple):
     """An angle that has a name.
 
-    Attributes
-    ----------
-    name, text : str
-        The name, and the name with the value.
-    arc : ndarray of shape (points, 3)
-        From one side to the other; of no points where the element is left out.
-    at : ndarray of shape (3,)
-        Where the text belongs.
-    centre : ndarray of shape (3,)
-        What the arc is about.
-    about : str
-        ``"incidence"``, ``"azimuth"`` or ``"axis"``.
+    Shapes: arc (points, 3); at (3,); centre (3,).
     """
 
     name: str
@@ -143,23 +95,7 @@ class SceneAngle(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """A path laid out in space.
-
-    Attributes
-    ----------
-    notes : tuple of str
-        What the drawing chose by itself.
-    schematic : bool
-        Whether a direction was chosen that no value tells.
-    unit : float
-        How long a link is, about.
-    nodes : tuple of SceneNode
-    rays : tuple of SceneRay
-        In the order of travel.
-    planes : tuple of ScenePlane
-    frames : tuple of SceneFrame
-    angles : tuple of SceneAngle
-    """
+    """A path laid out in space."""
 
     notes: tuple[str, ...]
     schematic: bool

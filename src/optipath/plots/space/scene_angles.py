@@ -38,19 +38,7 @@ _OF_AXES = "angle", "dichroic_angle"
 
 
 def scene_angles(told: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
-    """Return the angles of a path that have names, node by node as light travels.
-
-    Parameters
-    ----------
-    told : ToldPath
-        The path.
-    placing : Placing
-        Where it is drawn.
-
-    Returns
-    -------
-    tuple of SceneAngle
-    """
+    """Return the angles of a path that have names, node by node as light travels."""
     found: list[SceneAngle] = []
     names = dict.fromkeys(name for name, _ in told.wiring.order)
     for name in names:

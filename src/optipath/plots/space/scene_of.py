@@ -43,26 +43,6 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     laid out by following the light from its source, in the frames of docs/conventions.md: x of a
     surface is along k_out cross k_in, azimuths turn the frame about the light.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    what : str, optional
-        What asks for it, as sentences name it.
-    **values : float or str
-        As in `PathGraph.trace`, a single number each.
-
-    Returns
-    -------
-    Scene
-
-    Raises
-    ------
-    PathError
-        If the values are those of several paths, or there is no such light.
-    OptipathError
-        If what is given is no path.
-
     Examples
     --------
     >>> import optipath as op
@@ -74,17 +54,7 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
 
 
 def scene_with(told: ToldPath) -> Scene:
-    """Return a path with all its values laid out in space.
-
-    Parameters
-    ----------
-    told : ToldPath
-        The path.
-
-    Returns
-    -------
-    Scene
-    """
+    """Return a path with all its values laid out in space."""
     placing = Placing(told)
     rays = tuple(_ray(placing, each) for each in told.lights)
     schematic = not all(posture.told for posture in placing.postures.values())
@@ -140,19 +110,7 @@ def _ray(placing: Placing, each: LightOnLink) -> SceneRay:
 
 
 def drawn_link(placing: Placing, each: LightOnLink) -> DrawnLink:
-    """Return where the light of a link, or of an outlet, is drawn.
-
-    Parameters
-    ----------
-    placing : Placing
-        Where nodes stand.
-    each : LightOnLink
-        The light.
-
-    Returns
-    -------
-    DrawnLink
-    """
+    """Return where the light of a link, or of an outlet, is drawn."""
     if each.end:
         return placing.links[each.start, each.end, (each.leaves, each.enters)]
     axes = placing.postures[each.start].axes[each.leaves]

@@ -20,17 +20,7 @@ _HALF, _RADIUS = 0.3, 0.24
 def outline(scene: Scene, node: SceneNode) -> Array:
     """Return the outline of a surface or a plate.
 
-    Parameters
-    ----------
-    scene : Scene
-        Where it stands.
-    node : SceneNode
-        It has a normal.
-
-    Returns
-    -------
-    ndarray of shape (points, 3)
-        A rectangle, which reaches to all places where light meets the surface, or a circle.
+    Shape: returns (points, 3).
     """
     normal, across = np.asarray(node.normal), np.asarray(node.across)
     along = np.cross(normal, across)
@@ -50,16 +40,7 @@ def outline(scene: Scene, node: SceneNode) -> Array:
 def axis_line(scene: Scene, node: SceneNode) -> Array:
     """Return the line along the axis of a plate.
 
-    Parameters
-    ----------
-    scene : Scene
-        Where it stands.
-    node : SceneNode
-        It has an axis.
-
-    Returns
-    -------
-    ndarray of shape (2, 3)
+    Shape: returns (2, 3).
     """
     reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
     return np.array([node.at - reach, node.at + reach])

@@ -25,16 +25,7 @@ _SAME_ANGLE = 1e-9
 class ToldAngle(NamedTuple):
     """An angle of a path by its name.
 
-    Attributes
-    ----------
-    name : str
-        That of its parameter; empty for a number.
-    angle : float
-        In radians: the value of the parameter, or of its multiple if that has a name.
-    there : bool
-        Whether its element is in the path.
-    unit : str
-        That of its parameter, or degrees.
+    Units: angle in radians.
     """
 
     name: str
@@ -56,25 +47,7 @@ class ToldAngle(NamedTuple):
 
 
 class ToldPath:
-    """A path with all its values, one number each.
-
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    what : str
-        The drawing that asks, as sentences name it.
-    values : dict
-        Those of open parameters that are not the defaults.
-
-    Raises
-    ------
-    OptipathError
-        If what is given is no path.
-    ParameterError, PathError
-        If the path cannot be traced, stands for several paths, or lets light go a way that there
-        is not.
-    """
+    """A path with all its values, one number each."""
 
     def __init__(self, path: PathGraph, what: str, values: dict[str, Any]) -> None:
         # What keeps the light of a path stands for it as well.
@@ -106,16 +79,7 @@ def number(value: Any) -> float:
 def quantity_text(value: float, unit: str) -> str:
     """Return a value as pictures write it: five digits, and the unit.
 
-    Parameters
-    ----------
-    value : float
-        In radians, metres, and what is made of them.
-    unit : str
-        In which it is written; empty of pure numbers.
-
-    Returns
-    -------
-    str
+    Units: value in radians.
 
     Examples
     --------
@@ -128,17 +92,7 @@ def quantity_text(value: float, unit: str) -> str:
 def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
     """Return an angle by the name of its parameter, or the formula that stands for a multiple.
 
-    Parameters
-    ----------
-    value : float or Parameter
-        In radians.
-    signed : bool, optional
-        Whether the negative of a parameter is told as that, and not by the parameter itself, as
-        rho is, which people count against the light.
-
-    Returns
-    -------
-    ToldAngle
+    Units: value in radians.
     """
     if not isinstance(value, Parameter):
         return ToldAngle("", number(value))
@@ -153,16 +107,7 @@ def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
 def told_incidence(value: Any, front: float) -> ToldAngle:
     """Return the angle at which light meets a surface, by its name if it is what is given.
 
-    Parameters
-    ----------
-    value : float or Parameter
-        What the surface is given, in radians: the angle in front of it, or another one.
-    front : float
-        The angle in front of it.
-
-    Returns
-    -------
-    ToldAngle
+    Units: value in radians.
     """
     told = told_angle(value)
     if told.name and abs(number(value) - front) <= _SAME_ANGLE:

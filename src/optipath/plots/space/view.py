@@ -23,10 +23,7 @@ _ELEVATIONS, _AZIMUTHS = (15.0, 24.0, 34.0, 46.0), np.arange(-180.0, 180.0, 15.0
 class View(NamedTuple):
     """A direction to look from; parallel lines stay parallel.
 
-    Attributes
-    ----------
-    elevation, azimuth : float
-        In degrees: above the plane of x and y, and about z from x, as Matplotlib has them.
+    Units: elevation, azimuth in degrees.
     """
 
     elevation: float
@@ -43,14 +40,7 @@ class View(NamedTuple):
     def points(self, points: Array) -> Array:
         """Return points of space on the sheet.
 
-        Parameters
-        ----------
-        points : ndarray of shape (..., 3)
-            In space.
-
-        Returns
-        -------
-        ndarray of shape (..., 2)
+        Shapes: points (..., 3); returns (..., 2).
 
         Examples
         --------
@@ -61,20 +51,7 @@ class View(NamedTuple):
 
 
 def chosen_view(scene: Scene, aspect: float) -> View:
-    """Return the view in which nodes and rays are farthest apart, and surfaces are seen best.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is looked at.
-    aspect : float
-        How many times as wide as high the sheet is.
-
-    Returns
-    -------
-    View
-        One of several dozen.
-    """
+    """Return the view in which nodes and rays are farthest apart, and surfaces are seen best."""
     views = [View(elevation, float(azimuth)) for elevation in _ELEVATIONS for azimuth in _AZIMUTHS]
     return max(views, key=lambda view: _merit(scene, view, aspect))
 

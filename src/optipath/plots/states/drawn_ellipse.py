@@ -29,21 +29,7 @@ _BACKED = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none
 
 
 def draw_ellipse(ax: Axes, light: Light, line: Mapping[str, Any]) -> Any:
-    """Draw the ellipse of one light, with heads that show how the field turns.
-
-    Parameters
-    ----------
-    ax : Axes
-        In which the field is over the root of S0.
-    light : Light
-        A single one, of which there is an ellipse.
-    line : mapping
-        How the curve is drawn, as `Axes.plot` takes it.
-
-    Returns
-    -------
-    Line2D
-    """
+    """Draw the ellipse of one light, with heads that show how the field turns."""
     points = np.sqrt(float(light.dop)) * ellipse_points(light, 145)
     (curve,) = ax.plot(*points.T, solid_capstyle="round", zorder=4, **line)
     if light.handedness and np.hypot(*np.ptp(points, axis=0)) > _SEEN:
@@ -55,21 +41,7 @@ def draw_ellipse(ax: Axes, light: Light, line: Mapping[str, Any]) -> Any:
 
 
 def draw_unpolarised(ax: Axes, light: Light, line: Mapping[str, Any]) -> Circle | None:
-    """Draw the part without polarisation as the circle that has its power; none of others.
-
-    Parameters
-    ----------
-    ax : Axes
-        As in `draw_ellipse`.
-    light : Light
-        A single one.
-    line : mapping
-        How the circle is drawn, as patches take it.
-
-    Returns
-    -------
-    Circle or None
-    """
+    """Draw the part without polarisation as the circle that has its power; none of others."""
     share = unpolarised_share(light)
     if not share > 0.0:
         return None
@@ -91,15 +63,7 @@ def unpolarised_share(light: Light) -> float:
 
 
 def draw_axes_of(ax: Axes, light: Light) -> None:
-    """Draw the axes of an ellipse with their names, and the angle of the major one.
-
-    Parameters
-    ----------
-    ax : Axes
-        As in `draw_ellipse`.
-    light : Light
-        A single one.
-    """
+    """Draw the axes of an ellipse with their names, and the angle of the major one."""
     if no_ellipse(light) or np.isnan(light.aop):
         return
     size, angle = np.sqrt(float(light.dop)), float(light.aop)

@@ -15,20 +15,7 @@ if TYPE_CHECKING:
 def ellipse_points(light: Light, count: int = 73) -> npt.NDArray[np.float64]:
     """Return points of the ellipse of the polarised part of light, in the order of time.
 
-    Parameters
-    ----------
-    light : Light
-        One, or a batch of shape (...).
-    count : int, optional
-        How many points; the last is the first.
-
-    Returns
-    -------
-    ndarray of shape (..., count, 2)
-        Along x and y of the frame of the light, the half axes of Ex and Ey adding up to 1 in
-        squares: linear light goes from -1 to 1. NaN where nothing is polarised. The field turns
-        from x to y where S3 > 0 (Born and Wolf, *Principles of Optics*, sec. 1.4.2, in the signs of
-        `docs/conventions.md`).
+    Shapes: light (...); returns (..., count, 2).
 
     Examples
     --------

@@ -17,22 +17,6 @@ MOST = len(LINES)
 def known_light(light: Any) -> Light:
     """Return what is a light, with numbers that are known.
 
-    Parameters
-    ----------
-    light : Light
-        What a caller has.
-
-    Returns
-    -------
-    Light
-
-    Raises
-    ------
-    OptipathError
-        If it is something else.
-    ParameterError
-        If JAX traces it.
-
     Examples
     --------
     >>> known_light(Light([1.0, 0.0, 0.0, 1.0])).shape
@@ -50,25 +34,7 @@ def known_light(light: Any) -> Light:
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
     """Return one or several lights by their names.
 
-    Parameters
-    ----------
-    light : Light, or mapping of str to Light
-        One, a batch of shape (n,), or single ones by their names; six at most.
-    labels : str or sequence of str, optional
-        The name of the one, or of each of the batch. Without it one has none, and those of a
-        batch have their indices.
-
-    Returns
-    -------
-    dict of str to Light
-        Single lights.
-
-    Raises
-    ------
-    OptipathError
-        If there are none, or too many, or they and their names do not fit.
-    ParameterError
-        If JAX traces a light.
+    Shape: light (n,).
 
     Examples
     --------

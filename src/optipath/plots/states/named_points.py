@@ -51,16 +51,7 @@ def name_points(
 
     Of places that are free, one with few lines behind it is taken.
 
-    Parameters
-    ----------
-    ax : Axes
-        Where; all else is drawn there already.
-    points : ndarray, shape (n, 2)
-        In its coordinates.
-    names : sequence of str
-        One for each.
-    size : str, optional
-        Of the font.
+    Shape: points (n, 2).
     """
     figure: Any = ax.figure.figure
     figure.draw_without_rendering()

@@ -23,27 +23,6 @@ if TYPE_CHECKING:
 def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = None) -> Axes3D:
     """Draw the light at a detector on the Poincaré sphere, coloured by a parameter.
 
-    Parameters
-    ----------
-    path : PathGraph
-        The path.
-    name : str
-        One of its open parameters.
-    detector : str
-        One of its ends.
-    values : array_like or str, optional
-        Of the parameter, as `curve` takes them; by default 721 over its usual range, up to 23041
-        where the light changes fast, and a title where that does not do.
-
-    Returns
-    -------
-    Axes3D
-
-    Raises
-    ------
-    OptipathError
-        With what is wrong with the name and the values.
-
     Examples
     --------
     >>> import optipath as op

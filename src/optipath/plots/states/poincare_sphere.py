@@ -44,22 +44,6 @@ def sphere_axes(given: Any, size: tuple[float, float]) -> Axes3D:
 
     S3 > 0 is up; the far half is fainter. The picture stands still, since its halves and its
     names are those of one point of view.
-
-    Parameters
-    ----------
-    given : Axes3D or None
-        What a caller has.
-    size : tuple of float
-        Of a new figure, in inches.
-
-    Returns
-    -------
-    Axes3D
-
-    Raises
-    ------
-    OptipathError
-        If what is given is something else.
     """
     if given is None:
         given = Figure(figsize=size, layout="constrained").add_subplot(projection="3d")
@@ -77,14 +61,7 @@ def sphere_axes(given: Any, size: tuple[float, float]) -> Axes3D:
 def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
     """Tell which points are on the near half of the sphere.
 
-    Parameters
-    ----------
-    points : ndarray, shape (..., 3)
-        S1, S2 and S3 over S0.
-
-    Returns
-    -------
-    ndarray of bool, shape (...)
+    Shapes: points (..., 3); returns (...).
 
     Examples
     --------
@@ -97,16 +74,7 @@ def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
 def on_paper(ax: Axes3D, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Return where points are seen, in the flat coordinates of the axes.
 
-    Parameters
-    ----------
-    ax : Axes3D
-        With the sphere.
-    points : ndarray, shape (n, 3)
-        S1, S2 and S3 over S0.
-
-    Returns
-    -------
-    ndarray, shape (n, 2)
+    Shapes: points (n, 3); returns (n, 2).
     """
     return np.stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2], axis=-1)
 

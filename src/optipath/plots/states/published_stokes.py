@@ -19,23 +19,7 @@ def published_for(
 ) -> dict[str, npt.NDArray[np.float64]]:
     """Return published Stokes vectors by the names of the lights that they stand beside.
 
-    Parameters
-    ----------
-    published : array_like of shape (..., 4), or mapping of str to it
-        What a caller has; None where there are none.
-    light : Light, or mapping of str to Light
-        What it is for.
-    several : mapping of str to Light
-        The same, each by its name.
-
-    Returns
-    -------
-    dict of str to ndarray of shape (4,)
-
-    Raises
-    ------
-    OptipathError
-        With all faults at once.
+    Shapes: published (..., 4); returns (4,).
 
     Examples
     --------

@@ -36,17 +36,6 @@ def without_noise(light: Light) -> Light:
 def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float64]]) -> int:
     """Return over which power of ten some Stokes vectors are drawn; 0 where they need none.
 
-    Parameters
-    ----------
-    lights : sequence of Light
-        Single ones.
-    others : iterable of ndarray
-        Numbers beside them, in the same unit.
-
-    Returns
-    -------
-    int
-
     Examples
     --------
     >>> import optipath as op
@@ -64,18 +53,7 @@ def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float6
 def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]:
     """Return numbers times two to an exponent over a power of ten, be they floats or not.
 
-    Parameters
-    ----------
-    stokes : ndarray, shape (4,)
-        The numbers; what is infinite stays so.
-    exponent : int or ndarray
-        Of the power of two times them.
-    power : int
-        Of ten.
-
-    Returns
-    -------
-    ndarray, shape (4,)
+    Shapes: stokes (4,); returns (4,).
 
     Examples
     --------

@@ -22,14 +22,7 @@ _FAR = 0.45
 def sphere_point(light: Any) -> npt.NDArray[np.float64]:
     """Return S1, S2 and S3 over S0; NaN where light is dark or has not been read.
 
-    Parameters
-    ----------
-    light : Light
-        One, or a batch of shape (...).
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
+    Shapes: light (...); returns (..., 3).
 
     Examples
     --------
@@ -43,16 +36,7 @@ def sphere_point(light: Any) -> npt.NDArray[np.float64]:
 def draw_points(ax: Axes3D, points: npt.NDArray[np.float64], colours: Any, size: float) -> None:
     """Draw points on the sphere and within it.
 
-    Parameters
-    ----------
-    ax : Axes3D
-        With the sphere.
-    points : ndarray, shape (n, 3)
-        None of them NaN.
-    colours : array_like, shape (n, 4)
-        Of each.
-    size : float
-        In points of a font.
+    Shapes: points (n, 3); colours (n, 4).
     """
     near, colours = is_near(points), np.array(colours, float)
     face = np.where(near[:, np.newaxis], colours, 1.0)
@@ -70,16 +54,7 @@ def draw_steps(
 ) -> None:
     """Draw straight lines, fainter on the far half.
 
-    Parameters
-    ----------
-    ax : Axes3D
-        With the sphere.
-    starts, ends : ndarray, shape (n, 3)
-        Lines to or from NaN are left out.
-    colours : array_like, shape (n, 4)
-        Of each.
-    **line
-        How they are drawn, as `Line3DCollection` takes it.
+    Shapes: starts, ends (n, 3); colours (n, 4).
     """
     there = np.isfinite(starts + ends).all(axis=1) & (starts != ends).any(axis=1)
     near = is_near(np.where(there[:, np.newaxis], starts + ends, 0.0))
@@ -95,16 +70,7 @@ def draw_steps(
 def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D]:
     """Return the key of hollow points, where there are some.
 
-    Parameters
-    ----------
-    points : ndarray, shape (n, 3)
-        All that are drawn.
-    colour : str, optional
-        In which the key is shown.
-
-    Returns
-    -------
-    list of Line2D
+    Shape: points (n, 3).
     """
     if is_near(points).all():
         return []

@@ -18,18 +18,6 @@ _MINUS = "\N{MINUS SIGN}"
 def digits(value: float, count: int = 4) -> str:
     """Return a number as a picture shows it.
 
-    Parameters
-    ----------
-    value : float
-        The number.
-    count : int, optional
-        How many significant digits it has at most.
-
-    Returns
-    -------
-    str
-        With a minus sign, and no hyphen.
-
     Examples
     --------
     >>> digits(0.25), digits(2e200), digits(0.1 + 0.2), digits(-0.0)

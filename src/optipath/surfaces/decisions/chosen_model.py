@@ -17,23 +17,7 @@ if TYPE_CHECKING:
 def chosen_model(
     run: PairedRun, tolerance: float, smooth: float, told: Sequence[str]
 ) -> ModelChoice:
-    """Return the simplest model that photons allow.
-
-    Parameters
-    ----------
-    run : PairedRun
-        The photons.
-    tolerance : float
-        The relative error of a pixel's light that will do.
-    smooth : float
-        What polarisation makes of light on smooth interfaces.
-    told : sequence of str
-        The evidence so far.
-
-    Returns
-    -------
-    ModelChoice
-    """
+    """Return the simplest model that photons allow."""
     single, multiple, apart, evidence = _single_scattering(run, tolerance)
     difference = run.difference
     scalar = _serves(difference, tolerance)

@@ -12,17 +12,7 @@ _SURE = 3.0
 
 
 class LargestOf(NamedTuple):
-    """The largest of noisy numbers, and within what it is.
-
-    Attributes
-    ----------
-    value, error : float
-        Of the largest, as it was found; it is too large, as the largest of noisy numbers is.
-    least, most : float
-        Within what the largest is. Three standard errors above each number; below, where one that
-        chance has made large is enough to go wrong, as many as make that as rare among all the
-        numbers: sqrt(9 + 2 ln n) of n. Infinite where an error is not known.
-    """
+    """The largest of noisy numbers, and within what it is."""
 
     value: float
     error: float
@@ -33,15 +23,7 @@ class LargestOf(NamedTuple):
     def of(cls, values: npt.ArrayLike, errors: npt.ArrayLike) -> Self:
         """Return the largest size among some numbers.
 
-        Parameters
-        ----------
-        values, errors : array_like, shape (...)
-            The numbers, and their standard errors; NaN where these are not known.
-
-        Returns
-        -------
-        LargestOf
-            NaN, and not known at all, where there are no numbers.
+        Shape: values, errors (...).
 
         Examples
         --------

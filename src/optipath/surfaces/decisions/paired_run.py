@@ -23,19 +23,7 @@ Numbers = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class PairedRun:
-    """Photons that fall on a sample, all that come back, and those that have met it once.
-
-    Attributes
-    ----------
-    sample, incidence : Sample, float
-        What they fall on, and how.
-    mask : PixelMask
-        Which pixels count.
-    side : str
-        Where they are looked at.
-    walked : dict
-        What else `measure` takes.
-    """
+    """Photons that fall on a sample, all that come back, and those that have met it once."""
 
     sample: Sample
     incidence: Any

@@ -35,26 +35,7 @@ def smooth_exit(
     that stands halfway between the ways there and back, and refracted out, all in one plane.
     Pixels whose light comes so, and not from the topmost interface, tend to it.
 
-    Parameters
-    ----------
-    sample : Sample
-        Its media count, its roughness does not.
-    incidence, exit_angle : float, str or array_like
-        From the normal, in radians, 0 up to pi/2, or texts such as ``"80 deg"``.
-    depth : int, optional
-        Which interface reflects the light: 0 is the topmost.
-    wavelengths : float, str or array_like, optional
-        Where an index depends on it.
-
-    Returns
-    -------
-    ndarray
-        (S0 - U) / U for unpolarised light, of the shape of wavelengths and angles broadcast.
-
-    Raises
-    ------
-    SurfaceError
-        If there is no such interface, or the facet would be lit by light that cannot get there.
+    Units: incidence, exit_angle in radians.
 
     Examples
     --------

@@ -16,19 +16,7 @@ if TYPE_CHECKING:
 def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> float:
     """Return (S0 - U) / U of all unpolarised light that a smooth sample sends to one side.
 
-    Parameters
-    ----------
-    indices : SampleIndices
-        Of its media.
-    incidence : float or str
-        The angle, in radians or with a unit.
-    side : {"reflected", "transmitted"}
-        Above the sample, or below.
-
-    Returns
-    -------
-    float
-        Of several wavelengths, that of the largest size.
+    Units: incidence in radians.
 
     Examples
     --------

@@ -28,20 +28,8 @@ class PhotonEnds:
     Their directions are as the sample lies; on an isotropic one, where each photon comes from an
     azimuth of its own, they are turned back so that all have come along x.
 
-    Attributes
-    ----------
-    ends : ndarray of str, shape (photons,)
-        ``"up"``, ``"down"``, ``"sideways"`` or ``"stuck"``.
-    events : ndarray of int, shape (photons,)
-        How often each has met a facet.
-    directions : ndarray, shape (photons, 3)
-        Where it goes.
-    x : ndarray, shape (photons, 3)
-        The x of its frame, z cross its direction: perpendicular to the meridional plane.
-    stokes : ndarray, shape (photons, ..., 4)
-        Its Stokes vector, divided by the probability of its way; for each wavelength.
-    scalar : ndarray, shape (photons, ...)
-        The intensity that it has without polarisation.
+    Shapes: ends (photons,); events (photons,); directions (photons, 3); x (photons, 3); stokes
+    (photons, ..., 4); scalar (photons, ...).
     """
 
     ends: npt.NDArray[np.str_]

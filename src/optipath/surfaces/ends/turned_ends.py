@@ -33,12 +33,7 @@ _ACROSS = 0.0, 1.0, 0.0
 class TurnedDirections(NamedTuple):
     """Where photons go, as the sample lies; on an isotropic one as if all had come along x.
 
-    Attributes
-    ----------
-    k, x : ndarray, shape (photons, 3)
-        The direction, and the x of its frame: z cross the direction.
-    turns : ndarray, shape (photons, 2)
-        (cos 2a, sin 2a) of the turn to that frame from the one in which the light is known.
+    Shapes: k, x (photons, 3); turns (photons, 2).
     """
 
     k: Numbers
@@ -49,14 +44,8 @@ class TurnedDirections(NamedTuple):
 class TurnedEnds(NamedTuple):
     """Where photons end, with their lights; directions are those of `TurnedDirections`.
 
-    Attributes
-    ----------
-    outcomes, events : ndarray of int, shape (photons,)
-        How each ends, as `walk_layout` counts, and how often it has met a facet.
-    directions, x : ndarray, shape (photons, 3)
-        Where it goes, and the x of its frame: z cross its direction.
-    stokes : ndarray, shape (photons, lights, 4)
-    scalar : ndarray, shape (photons, lights)
+    Shapes: outcomes, events (photons,); directions, x (photons, 3); stokes (photons, lights, 4);
+    scalar (photons, lights).
     """
 
     outcomes: npt.NDArray[np.int64]
@@ -70,16 +59,7 @@ class TurnedEnds(NamedTuple):
 def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
     """Return where photons go, and the frames that belong to their directions.
 
-    Parameters
-    ----------
-    beam : PhotonBeam
-        Of which they are.
-    found : ndarray, shape (photons, ENDS + CARRIED lights)
-        As `WalkedBlock.ends` has them.
-
-    Returns
-    -------
-    TurnedDirections
+    Shape: found (photons, ENDS + CARRIED lights).
     """
     back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
     k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
@@ -95,17 +75,7 @@ def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
 
 
 def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
-    """Return the ends of photons in frames that belong to their directions.
-
-    Parameters
-    ----------
-    beam, found
-        As `turned_directions` takes them.
-
-    Returns
-    -------
-    TurnedEnds
-    """
+    """Return the ends of photons in frames that belong to their directions."""
     directions = turned_directions(beam, found)
     lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
     carried = tuple(lights[..., place] for place in range(4))

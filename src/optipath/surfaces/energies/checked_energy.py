@@ -22,20 +22,6 @@ def checked_energy(run: EnergyRun) -> Energy:
     Light that is trapped goes through many events, and at each its weight is changed by how it is
     polarised. The few photons that then carry most of it are seldom met: until they are, light is
     missing, and no standard error knows of it.
-
-    Parameters
-    ----------
-    run : EnergyRun
-        Photons that have been walked.
-
-    Returns
-    -------
-    Energy
-
-    Warns
-    -----
-    PhotonWarning
-        If a sample of media that do not absorb has lost light, or gained some.
     """
     found = run.energy
     if run.beam.indices.opaque:

@@ -121,21 +121,7 @@ def walk_wanted(
     tolerance: float | None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Energy:
-    """Walk as many photons as are wanted.
-
-    Parameters
-    ----------
-    run : EnergyRun
-        What has been walked; it has what is done where this is interrupted.
-    most : int
-        How many photons there are to be; with a tolerance, how many at most.
-    tolerance, progress
-        As `energy` takes them.
-
-    Returns
-    -------
-    Energy
-    """
+    """Walk as many photons as are wanted."""
     if tolerance is not None:
         return walk_until(run, tolerance, most, progress)
     run.walk(most, progress)
@@ -145,28 +131,7 @@ def walk_wanted(
 def walk_until(
     run: EnergyRun, tolerance: float, most: int, progress: Callable[[int, int], None] | None
 ) -> Energy:
-    """Walk photons until the standard error of R is within a tolerance.
-
-    Parameters
-    ----------
-    run : EnergyRun
-        What has been walked.
-    tolerance : float
-        The largest error that will do.
-    most : int
-        How many photons there may be.
-    progress : callable or None
-        As `EnergyRun.walk` takes it; how many it will take is known better and better.
-
-    Returns
-    -------
-    Energy
-
-    Warns
-    -----
-    PhotonWarning
-        If it is not reached; or as `checked_energy` does.
-    """
+    """Walk photons until the standard error of R is within a tolerance."""
     # A block on every surface, so that their differences are known.
     wanted = min(2 * BLOCK * run.beam.surfaces, most)
     while True:

@@ -21,15 +21,7 @@ if TYPE_CHECKING:
 
 
 class EnergyRun:
-    """The sums over the photons that have been walked so far, in the order of their blocks.
-
-    Parameters
-    ----------
-    beam : PhotonBeam
-        The photons.
-    threads : int
-        How many walk at a time; sums do not depend on it.
-    """
+    """The sums over the photons that have been walked so far, in the order of their blocks."""
 
     def __init__(self, beam: PhotonBeam, threads: int) -> None:
         self.beam, self.threads = beam, threads
@@ -37,20 +29,7 @@ class EnergyRun:
         self._sums: list[npt.NDArray[np.float64]] = []
 
     def walk(self, photons: int, progress: Callable[[int, int], None] | None = None) -> None:
-        """Walk on until there are as many photons in all; what is done stays if it is interrupted.
-
-        Parameters
-        ----------
-        photons : int
-            How many there are to be; they end with a whole block, or with these.
-        progress : callable, optional
-            Told how many there are, and how many there are to be, whenever a block is done.
-
-        Raises
-        ------
-        SurfaceError
-            If photons meet nothing, or come to what is no number.
-        """
+        """Walk on until there are as many photons in all; an interruption loses nothing."""
         todo = range(self.blocks, -(-photons // BLOCK))
         walked = walked_in_order(self.beam, todo, photons, self.threads, self.beam.block)
         with closing(walked):

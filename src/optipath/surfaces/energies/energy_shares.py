@@ -19,18 +19,7 @@ class EnergyShares:
 
     All have the shape of the wavelengths, () where there is one.
 
-    Attributes
-    ----------
-    R_s, R_m, R, R_s_se, R_m_se, R_se : ndarray
-        Reflected after one event, after more, and in all.
-    T_s, T_m, T, T_s_se, T_m_se, T_se : ndarray
-        Let through after one event, after more, and in all.
-    lost, lost_se : ndarray
-        Gone beside a finite field, or still on its way after as many events as allowed.
-    absorbed, absorbed_se : ndarray
-        What is left: 1 - R - T - lost.
-    reflected, transmitted, reflected_se, transmitted_se : ndarray, shape (events, ...)
-        R and T after one event, after two, and so on; the last after as many or more.
+    Shape: reflected, transmitted, reflected_se, transmitted_se (events, ...).
     """
 
     R_s: Numbers
@@ -71,18 +60,7 @@ _PARTS: dict[str, tuple[list[int], slice]] = {
 def energy_shares(photons: Numbers, total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
     """Return the shares of light out of sums over photons.
 
-    Parameters
-    ----------
-    photons : ndarray, shape (surfaces,)
-        How many photons fell on each realisation of the surfaces.
-    total, squares : ndarray, shape (surfaces, ends, events, ...)
-        The sums of what each photon has brought to an end, and of its square.
-    whole : float
-        What comes; 0 where differences are summed, of which nothing comes.
-
-    Returns
-    -------
-    EnergyShares
+    Shapes: photons (surfaces,); total, squares (surfaces, ends, events, ...).
     """
     found: dict[str, Numbers] = {}
     for name, (ends, events) in _PARTS.items():
@@ -101,16 +79,7 @@ def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[
     then that of the mean over surfaces (the larger mean square of a one-way analysis of variance;
     Scheffe, The Analysis of Variance, Wiley 1959, ch. 7).
 
-    Parameters
-    ----------
-    photons : ndarray, shape (surfaces,)
-        How many there were on each surface.
-    total, squares : ndarray, shape (surfaces, ...)
-        Sums of what they have brought, and of its square.
-
-    Returns
-    -------
-    mean, error : ndarray, shape (...)
+    Shapes: photons (surfaces,); total, squares (surfaces, ...); returns mean, error (...).
 
     Examples
     --------

@@ -30,21 +30,6 @@ class Energy(EnergyShares):
 
     Standard errors are over the photons, and over the realisations of random surfaces that they
     fell on. Of one surface nothing is known of others; of one photon nothing at all (NaN).
-
-    Attributes
-    ----------
-    scalar : EnergyShares
-        The same without polarisation: every Mueller matrix replaced by its mean, on the same
-        paths.
-    difference : EnergyShares
-        The shares less those of the scalar model, photon by photon, which have a far smaller
-        error than two separate runs.
-    photons : int
-        How many there were.
-    surfaces : int
-        On how many realisations of random surfaces.
-    sideways, stuck : int
-        How many of them were lost beside a finite field, and after as many events as allowed.
     """
 
     scalar: EnergyShares
@@ -58,16 +43,7 @@ class Energy(EnergyShares):
     def of(cls, beam: PhotonBeam, sums: npt.NDArray[np.float64]) -> Energy:
         """Return what sums over photons say.
 
-        Parameters
-        ----------
-        beam : PhotonBeam
-            The photons.
-        sums : ndarray, shape (surfaces, ends, events, lights, SUMS)
-            As `walk_layout` says.
-
-        Returns
-        -------
-        Energy
+        Shape: sums (surfaces, ends, events, lights, SUMS).
         """
         source, shape = beam.states[0][0], beam.indices.n.shape
         counts = sums[..., 0, COUNT]

@@ -32,26 +32,7 @@ def given_run(
     threads: int | None = None,
     **light: Any,
 ) -> tuple[EnergyRun, int]:
-    """Return the run of photons that a user asks for, of which none is walked yet.
-
-    Parameters
-    ----------
-    sample, incidence, photons, tolerance, threads
-        As `energy` takes them.
-    **light : Any
-        All else that `given_beam` takes.
-
-    Returns
-    -------
-    run : EnergyRun
-    most : int
-        How many photons there are to be; with a tolerance, how many at most.
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-    """
+    """Return the run of photons that a user asks for, of which none is walked yet."""
     faults = _faults("photons", photons, _MOST) + _faults("threads", threads, _MOST_THREADS)
     if tolerance is not None and not _is_error(tolerance):
         faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")

@@ -28,27 +28,7 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
     normal, where there is no such plane, it is (0, 1, 0), as for light beside it that travels on
     towards x.
 
-    Parameters
-    ----------
-    name : str
-        What sentences call the direction.
-    direction : array_like, shape (..., 3)
-        Unit vectors, to 1e-8 or to the rounding of their precision, which are made so to the last
-        digit.
-    up : bool
-        Whether light goes up from the surface.
-
-    Returns
-    -------
-    Frame
-        Of shape (...).
-
-    Raises
-    ------
-    SurfaceError
-        If a vector has another length, or light goes the other way or along the surface.
-    FrameError, ParameterError
-        If they are no vectors, or JAX traces them.
+    Shapes: direction (..., 3); returns (...).
 
     Examples
     --------

@@ -49,17 +49,7 @@ _DOMAINS = {"outside": OUTSIDE, "index": INDEX, "alpha": ALPHA, "alpha_y": ALPHA
 
 
 class FacetInputs(NamedTuple):
-    """What the model is computed of.
-
-    Attributes
-    ----------
-    media : tuple of array
-        n1 of the medium above; n and k of the one below.
-    alphas : tuple of array
-        Along x and along y.
-    before, behind : Frame
-        Of the light that comes down and that goes up.
-    """
+    """What the model is computed of."""
 
     media: tuple[Any, Any, Any]
     alphas: tuple[Any, Any]
@@ -69,25 +59,6 @@ class FacetInputs(NamedTuple):
 
 def read_facets(given: Mapping[str, Any], masking: str, wavelength: Any) -> FacetInputs:
     """Return what is given as numbers.
-
-    Parameters
-    ----------
-    given : mapping of str to Any
-        ``index``, ``outside``, ``alpha``, ``incoming`` and ``outgoing``; ``alpha_y`` where it is
-        another.
-    masking : str
-        One of `MASKINGS`.
-    wavelength : float, str, array_like or None
-        In vacuum, for a `Material` that depends on it.
-
-    Returns
-    -------
-    FacetInputs
-
-    Raises
-    ------
-    SurfaceError
-        With every fault.
 
     Examples
     --------

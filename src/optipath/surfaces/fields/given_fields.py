@@ -29,18 +29,6 @@ _FARTHEST = 1e30
 def length_faults(what: str, value: object, cure: str = "") -> list[str]:
     """Return the sentence for what is no positive number; none for one that is.
 
-    Parameters
-    ----------
-    what, value : str, object
-        What it is given for, and what is given.
-    cure : str, optional
-        What else could be meant.
-
-    Returns
-    -------
-    list of str
-        The sentence, or nothing.
-
     Examples
     --------
     >>> length_faults("alpha", -0.1), length_faults("alpha", 0.1)
@@ -53,17 +41,6 @@ def length_faults(what: str, value: object, cure: str = "") -> list[str]:
 
 def pair_of(what: str, value: Any, faults: list[str]) -> Pair:
     """Return positive numbers for x and for y, of one number or of a pair.
-
-    Parameters
-    ----------
-    what, value : str, float or pair of float
-        What it is given for, and what is given.
-    faults : list of str
-        Where a sentence is added for what is none.
-
-    Returns
-    -------
-    tuple of float
 
     Examples
     --------
@@ -92,17 +69,6 @@ def period_or_not(periodic: object) -> list[str]:
 def cells_of(cells: Any, faults: list[str]) -> tuple[int, int]:
     """Return how many cells there are along x and y, of one number or of a pair.
 
-    Parameters
-    ----------
-    cells : int or pair of int
-        What is given.
-    faults : list of str
-        Where a sentence is added for what is none.
-
-    Returns
-    -------
-    tuple of int
-
     Examples
     --------
     >>> cells_of((640, 320), [])
@@ -119,17 +85,6 @@ def cells_of(cells: Any, faults: list[str]) -> tuple[int, int]:
 
 def seed_of(seed: Any, faults: list[str]) -> np.random.SeedSequence:
     """Return the sequence of seeds that a number stands for, or one that is given.
-
-    Parameters
-    ----------
-    seed : int or SeedSequence
-        What is given.
-    faults : list of str
-        Where a sentence is added for what is none.
-
-    Returns
-    -------
-    SeedSequence
 
     Examples
     --------
@@ -149,15 +104,6 @@ def seed_of(seed: Any, faults: list[str]) -> np.random.SeedSequence:
 
 def period_faults(alpha: Pair, size: Pair) -> list[str]:
     """Return the sentences for periods too short for random waves; none for long ones.
-
-    Parameters
-    ----------
-    alpha, size : tuple of float
-        The roughness, and the lengths of the sides, along x and along y.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------
@@ -181,18 +127,7 @@ def period_faults(alpha: Pair, size: Pair) -> list[str]:
 def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
     """Return heights as a read-only copy in float64.
 
-    Parameters
-    ----------
-    heights : array_like, shape (rows, columns)
-        What is given.
-    faults : list of str
-        Where sentences are added for what is none.
-    periodic : bool
-        Whether the first row and column follow the last ones.
-
-    Returns
-    -------
-    ndarray
+    Shape: heights (rows, columns).
     """
     try:
         given = as_given("the array of heights", heights, SurfaceError)

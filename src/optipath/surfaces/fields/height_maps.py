@@ -24,27 +24,7 @@ _LARGEST = 256 * 1024 * 1024
 
 
 def read_heights(path: str | PathLike[str]) -> Array:
-    """Read the heights of a file, row by row.
-
-    Parameters
-    ----------
-    path : str or PathLike
-        Its ending says what it is: ``.txt``, ``.csv``, ``.dat`` or ``.asc`` is plain text with
-        a line for each row, numbers separated by blanks or commas, and ``#`` before remarks;
-        ``.npy`` is an array of NumPy's; ``.tif`` or ``.tiff`` a picture (extra: tiff).
-
-    Returns
-    -------
-    ndarray
-        As the file has it.
-
-    Raises
-    ------
-    SurfaceError
-        If there is no such file, if its ending is none of these, or if it holds something else.
-    MissingExtraError
-        If it is a picture, and tifffile is not installed.
-    """
+    """Read the heights of a file, row by row."""
     file = given_file(path, SurfaceError)
     ending = file.suffix.lower()
     if ending not in _READERS:

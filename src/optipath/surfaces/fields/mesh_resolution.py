@@ -32,16 +32,6 @@ def correlation_lengths(
 ) -> tuple[float, float]:
     """Return how many correlation lengths, 2 / alpha, a surface of random waves has.
 
-    Parameters
-    ----------
-    alpha, size : tuple of float
-        The roughness, and the lengths of the sides, along x and along y.
-
-    Returns
-    -------
-    tuple of float
-        Along x and along y.
-
     Examples
     --------
     >>> correlation_lengths((1.0, 0.5), (80.0, 80.0))
@@ -52,16 +42,6 @@ def correlation_lengths(
 
 def converged_cells(alpha: tuple[float, float], size: tuple[float, float]) -> tuple[int, int]:
     """Return how many cells are enough for light of any number of events.
-
-    Parameters
-    ----------
-    alpha, size : tuple of float
-        The roughness, and the lengths of the sides, along x and along y.
-
-    Returns
-    -------
-    tuple of int
-        Along x and along y.
 
     Examples
     --------
@@ -75,20 +55,7 @@ def converged_cells(alpha: tuple[float, float], size: tuple[float, float]) -> tu
 def warn_of_coarse(
     alpha: tuple[float, float], size: tuple[float, float], cells: tuple[int, int]
 ) -> None:
-    """Warn of a mesh that is too coarse for its roughness.
-
-    Parameters
-    ----------
-    alpha, size : tuple of float
-        The roughness, and the lengths of the sides, along x and along y.
-    cells : tuple of int
-        Along x and along y.
-
-    Warns
-    -----
-    MeshWarning
-        With what it costs, and how many cells do.
-    """
+    """Warn of a mesh that is too coarse for its roughness."""
     needed = CONVERGED if max(alpha) > _SMOOTH else _OF_SMOOTH
     lengths = correlation_lengths(alpha, size)
     enough = tuple(_cells(needed, length) for length in lengths)

@@ -28,21 +28,7 @@ _FEWER = "take fewer cells, or a smaller field"
 
 
 class RandomField(NamedTuple):
-    """A random surface to be drawn.
-
-    Attributes
-    ----------
-    alpha, size : tuple of float
-        The roughness, and the lengths of the sides, along x and along y.
-    cells : tuple of int
-        Along x and along y.
-    waves : int
-        How many are drawn.
-    seed : SeedSequence
-        Of the random numbers.
-    periodic : bool
-        Whether its first cells follow its last.
-    """
+    """A random surface to be drawn."""
 
     alpha: tuple[float, float]
     size: tuple[float, float]
@@ -63,22 +49,7 @@ class RandomField(NamedTuple):
         *,
         periodic: Any,
     ) -> RandomField:
-        """Read what `HeightField.beckmann` is given.
-
-        Parameters
-        ----------
-        alpha, alpha_y, size, cells, waves, seed, periodic : Any
-            As given.
-
-        Returns
-        -------
-        RandomField
-
-        Raises
-        ------
-        SurfaceError
-            With all faults at once.
-        """
+        """Read what `HeightField.beckmann` is given."""
         faults = length_faults("alpha", alpha, " (HeightField.flat() is a flat surface)")
         if alpha_y is not None:
             faults += length_faults("alpha_y", alpha_y)
@@ -98,19 +69,7 @@ class RandomField(NamedTuple):
     def heights(self) -> Array:
         """Draw the surface, and return the heights of its vertices.
 
-        Returns
-        -------
-        ndarray, shape (rows, columns)
-
-        Raises
-        ------
-        SurfaceError
-            If there is no memory for the mesh or the waves.
-
-        Warns
-        -----
-        MeshWarning
-            If the mesh is too coarse.
+        Shape: returns (rows, columns).
         """
         with (
             enough_for(self.cells, _CELL, _FEWER, SurfaceError, "mesh of {:.3g} cells"),

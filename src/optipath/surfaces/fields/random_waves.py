@@ -16,12 +16,8 @@ _AT_ONCE = 1 << 20
 class RandomWaves(NamedTuple):
     """Waves ``amplitude * cos(phase + x_number * x + y_number * y)``, a component of an array each.
 
-    Attributes
-    ----------
-    x_number, y_number : ndarray, shape (n,)
-        The components of their wave vectors, in radians per length; the first are in order.
-    phase, amplitude : ndarray, shape (n,)
-        In radians, and in the unit of the heights.
+    Shapes: x_number, y_number (n,); phase, amplitude (n,). Units: x_number, y_number, phase,
+    amplitude in radians.
     """
 
     x_number: Array
@@ -47,21 +43,6 @@ class RandomWaves(NamedTuple):
         wave vectors are rounded to whole numbers of waves in it, and waves of one wave vector are
         a single one of their power. The powers are then weighted with a polynomial of the
         squares of the wave vector, by some per cent, for the variances to be what they should.
-
-        Parameters
-        ----------
-        alpha : tuple of float
-            The roughness along x and along y.
-        waves : int
-            How many are drawn; with a period, fewer of them differ.
-        seed : int or SeedSequence
-            The same seed gives the same bits.
-        period : tuple of float, optional
-            After what lengths, along x and y, the surface repeats itself.
-
-        Returns
-        -------
-        RandomWaves
 
         Examples
         --------
@@ -97,14 +78,7 @@ class RandomWaves(NamedTuple):
         cosines, ``heights[i, j] = sum C[i, m] cos(f[m] x[j]) - S[i, m] sin(f[m] x[j])``, where C
         and S are sums over the waves of one component f along x.
 
-        Parameters
-        ----------
-        x, y : ndarray
-            Of any lengths.
-
-        Returns
-        -------
-        ndarray, shape (len(y), len(x))
+        Shape: returns (len(y), len(x)).
         """
         numbers, first = np.unique(self.x_number, return_index=True)
         along = np.multiply.outer(numbers, x)

@@ -35,33 +35,13 @@ class BrdfOfHemispheres:
     incidence goes that is mirrored by the same facet, so that lobes stay where they are; times
     cos(theta_i) cos(theta_o), by which the light of facets is divided. Beyond the first and the
     last incidence it is that of these, by the same facet.
-
-    Attributes
-    ----------
-    hemispheres : tuple of Hemisphere
-        By their angles of incidence.
     """
 
     hemispheres: tuple[Hemisphere, ...]
 
     @classmethod
     def of(cls, hemispheres: Sequence[Any]) -> BrdfOfHemispheres:
-        """Return that of hemispheres in any order.
-
-        Parameters
-        ----------
-        hemispheres : sequence of Hemisphere
-            Two or more, of one sample and its wavelengths.
-
-        Returns
-        -------
-        BrdfOfHemispheres
-
-        Raises
-        ------
-        SurfaceError
-            If they do not belong together.
-        """
+        """Return that of hemispheres in any order."""
         for each in hemispheres:
             if not isinstance(each, Hemisphere):
                 raise SurfaceError(f"{shown(each)} is no hemisphere; give what op.measure returns")
@@ -98,17 +78,8 @@ class BrdfOfHemispheres:
     def at(self, before: Frame, behind: Frame) -> tuple[Numbers, Numbers]:
         """Return the BRDF for light that comes and goes in frames whose x is across both.
 
-        Parameters
-        ----------
-        before, behind : Frame, shape (n,)
-            Their directions are those in which light travels.
-
-        Returns
-        -------
-        matrices : ndarray, shape (n, wavelengths, 4, 4)
-            In 1 / sr.
-        errors : ndarray, shape (n, wavelengths)
-            No less than the standard errors of M00.
+        Shapes: before, behind (n,); returns matrices (n, wavelengths, 4, 4), errors (n,
+        wavelengths).
         """
         to_light, to_eye = -before.z, behind.z
         half = to_light + to_eye

@@ -17,18 +17,6 @@ if TYPE_CHECKING:
 def told_of(place: Path, error: type[OptipathError] = SurfaceError) -> Iterator[None]:
     """Tell what the file system refuses while a file is written.
 
-    Parameters
-    ----------
-    place : Path
-        Where it is to be.
-    error : type, optional
-        What is raised.
-
-    Raises
-    ------
-    OptipathError
-        Of that type, in place of an OSError.
-
     Examples
     --------
     >>> from pathlib import Path
@@ -36,7 +24,7 @@ def told_of(place: Path, error: type[OptipathError] = SurfaceError) -> Iterator[
     ...     raise FileNotFoundError(2, "")
     Traceback (most recent call last):
     optipath.errors.SurfaceError: 'nowhere/a.nc' cannot be written: No such file or directory; \
-give a name in a folder that takes files
+    give a name in a folder that takes files
     """
     try:
         yield

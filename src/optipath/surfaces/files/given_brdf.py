@@ -24,12 +24,7 @@ Numbers = npt.NDArray[np.float64]
 class GivenBrdf:
     """A function of the directions in which light comes and goes.
 
-    Attributes
-    ----------
-    function : callable
-        Takes unit vectors, and ``wavelength=`` where there are any; returns a Mueller in 1 / sr.
-    wavelengths : ndarray
-        In metres; NaN alone where nothing depends on them.
+    Units: wavelengths in metres.
     """
 
     function: Callable[..., Any]
@@ -38,22 +33,7 @@ class GivenBrdf:
     def at(self, before: Frame, behind: Frame) -> tuple[Numbers, None]:
         """Return the BRDF for light that comes and goes in frames.
 
-        Parameters
-        ----------
-        before, behind : Frame, shape (n,)
-            Their directions are those in which light travels.
-
-        Returns
-        -------
-        matrices : ndarray, shape (n, wavelengths, 4, 4)
-            In 1 / sr.
-        errors : None
-            It has none.
-
-        Raises
-        ------
-        SurfaceError
-            If the function returns something else.
+        Shapes: before, behind (n,); returns matrices (n, wavelengths, 4, 4).
         """
         found = []
         for wavelength in self.wavelengths:

@@ -21,11 +21,6 @@ class HalfAngles(NamedTuple):
     The half vector h is halfway between the directions to the light and to the eye, at theta_h to
     the normal n; the light is at theta_d to h, and phi_d about it: 0 towards (n x h) x h, pi / 2
     towards n x h.
-
-    Attributes
-    ----------
-    phi_d, theta_d, theta_h : ndarray
-        Each from its lowest to its highest.
     """
 
     phi_d: Numbers
@@ -56,18 +51,7 @@ class HalfAngles(NamedTuple):
     def frames(self, turn: int) -> tuple[npt.NDArray[np.bool_], Frame, Frame]:
         """Return the frames of the light that comes and goes at one of the phi_d.
 
-        Parameters
-        ----------
-        turn : int
-            The place of phi_d.
-
-        Returns
-        -------
-        there : ndarray of bool, shape (theta_d, theta_h)
-            Where light can come and go. Beyond the horizon of one of both, theta_d is taken to be
-            the largest that is not, so that all that is near the horizon is between two numbers.
-        before, behind : Frame, shape (n,)
-            Of these places alone, x perpendicular to both directions.
+        Shapes: returns there (theta_d, theta_h), before, behind (n,).
         """
         c, s = np.cos(self.phi_d[turn]), np.sin(self.phi_d[turn])
         ch, sh = np.cos(self.theta_h), np.sin(self.theta_h)

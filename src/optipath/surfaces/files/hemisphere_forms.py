@@ -20,20 +20,7 @@ _RECORD = ".zattrs"
 
 
 def write_netcdf(dataset: xr.Dataset, file: Path) -> None:
-    """Write a Dataset as a file of NetCDF 4, compressed part by part.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What is written.
-    file : Path
-        Where it is to be.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written there.
-    """
+    """Write a Dataset as a file of NetCDF 4, compressed part by part."""
     packed: dict[str, Any] = {"zlib": True, "complevel": 4, "shuffle": True}
     encoding = {name: packed for name in dataset.data_vars if dataset[name].ndim > 1}
     encoding["sums"] = packed | {"chunksizes": _chunks(dataset)}
@@ -42,22 +29,7 @@ def write_netcdf(dataset: xr.Dataset, file: Path) -> None:
 
 
 def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
-    """Write a Dataset as a Zarr group, part by part, in place of a hemisphere that was there.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What is written.
-    folder : Path
-        Where it is to be.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written there.
-    SurfaceError
-        If something else is there.
-    """
+    """Write a Dataset as a Zarr group, part by part, in place of a hemisphere that was there."""
     folder = Path(os.path.realpath(folder))
     if folder.exists() and not _is_hemisphere(folder):
         raise SurfaceError(
@@ -82,23 +54,7 @@ def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
 
 
 def read_dataset(place: Path) -> xr.Dataset:
-    """Return all of what a file or folder holds.
-
-    Parameters
-    ----------
-    place : Path
-        What ends in .zarr or .nc.
-
-    Returns
-    -------
-    xarray.Dataset
-        In memory.
-
-    Raises
-    ------
-    Exception
-        Whatever Zarr, h5netcdf and xarray make of a damaged one.
-    """
+    """Return all of what a file or folder holds."""
     is_netcdf = place.suffix == ".nc"
     engine: Any = {"engine": "h5netcdf"} if is_netcdf else {"engine": "zarr", "consolidated": True}
     with xr.open_dataset(place, chunks=None, **engine) as found:

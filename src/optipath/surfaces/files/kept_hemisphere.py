@@ -34,20 +34,7 @@ _LARGEST = 2**63
 
 
 def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
-    """Return the Dataset of a file, of which `hemisphere_of` makes the hemisphere again.
-
-    Parameters
-    ----------
-    hemisphere : Hemisphere
-        What has been measured.
-
-    Returns
-    -------
-    xarray.Dataset
-        Its `dataset`, and besides ``sums`` (part, side, y, x, wavelength, number) over the photons
-        of each part, as they were counted; ``part_photons`` (part), how many these are; and
-        ``index_n`` and ``index_k`` (wavelength) of the last medium.
-    """
+    """Return the Dataset of a file, of which `hemisphere_of` makes the hemisphere again."""
     parts, indices = hemisphere.parts, hemisphere.seen.beam.indices
     names = [f"M{row}{column}" for row in range(4) for column in range(4)]
     numbers = {"scalar": ["scalar"], "polarized": names, "both": [*names, "scalar"]}
@@ -67,26 +54,7 @@ def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
 
 
 def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
-    """Return the hemisphere that is in a file.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        As `kept_hemisphere` returns it, read.
-    sample : Sample, optional
-        What was measured, where the file does not hold it.
-
-    Returns
-    -------
-    Hemisphere
-
-    Raises
-    ------
-    SurfaceError
-        If another sample was measured, or the file is of another version.
-    KeyError, TypeError, ValueError
-        If it is no such file, or a damaged one.
-    """
+    """Return the hemisphere that is in a file."""
     told = json.loads(dataset.attrs[MEASUREMENT])
     if told["layout"] != LAYOUT:
         raise SurfaceError(

@@ -20,16 +20,6 @@ if TYPE_CHECKING:
 def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
     """Return what a file keeps of a sample besides its text.
 
-    Parameters
-    ----------
-    sample : Sample or UnknownSample
-        What was measured.
-
-    Returns
-    -------
-    dict
-        What `UnknownSample` is made of; ``why`` is "" where the sample can be read back.
-
     Examples
     --------
     >>> found = kept_sample(Sample([(1.5, 0.1)]))
@@ -47,25 +37,7 @@ def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
 
 
 def sample_of(kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSample:
-    """Return the sample of a file.
-
-    Parameters
-    ----------
-    kept : mapping of str to Any
-        As `kept_sample` returns it.
-    given : Sample, optional
-        The sample that a user has.
-
-    Returns
-    -------
-    Sample or UnknownSample
-        The second if it cannot be read, or is another now.
-
-    Raises
-    ------
-    SurfaceError
-        If the sample that is given is another.
-    """
+    """Return the sample of a file."""
     if given is not None:
         return _known_again(given, kept)
     unknown = UnknownSample(**kept)

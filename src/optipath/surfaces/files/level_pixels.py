@@ -39,16 +39,8 @@ class LevelPixels:
     Those of pixels turn about the normal; x of a level frame is (0, 1, 0), carried from the normal
     to the direction by the least turn.
 
-    Attributes
-    ----------
-    sensor : Sensor
-        The pixels.
-    there : ndarray, shape (rows, columns)
-        1 where the centre of a pixel is above the horizon, else 0.
-    matrices : ndarray, shape (rows, columns, wavelengths, 4, 4)
-        In 1 / sr; 0 where there is none.
-    errors : ndarray, shape (rows, columns, wavelengths)
-        The standard errors of M00; NaN where they are not known.
+    Shapes: there (rows, columns); matrices (rows, columns, wavelengths, 4, 4); errors (rows,
+    columns, wavelengths).
     """
 
     sensor: Sensor
@@ -58,22 +50,7 @@ class LevelPixels:
 
     @classmethod
     def of(cls, hemisphere: Hemisphere) -> LevelPixels:
-        """Return those of the light that a sample reflects.
-
-        Parameters
-        ----------
-        hemisphere : Hemisphere
-            What has been measured.
-
-        Returns
-        -------
-        LevelPixels
-
-        Raises
-        ------
-        SurfaceError
-            If no Mueller matrix has been measured.
-        """
+        """Return those of the light that a sample reflects."""
         brdf, sensor = hemisphere.brdf(), hemisphere.sensor
         there = ~np.isnan(sensor.theta)
         seen = there[..., np.newaxis]
@@ -91,17 +68,7 @@ class LevelPixels:
     def at(self, directions: Numbers) -> tuple[Numbers, Numbers]:
         """Return what there is in directions, in their level frames, from the nearest four pixels.
 
-        Parameters
-        ----------
-        directions : ndarray, shape (n, 3)
-            Unit vectors, upwards.
-
-        Returns
-        -------
-        matrices : ndarray, shape (n, wavelengths, 4, 4)
-        errors : ndarray, shape (n, wavelengths)
-            Of M00, as if all four were wrong on one side: no less than the standard error. NaN
-            where that of one is not known.
+        Shapes: directions (n, 3); returns matrices (n, wavelengths, 4, 4), errors (n, wavelengths).
         """
         pixels = self.sensor.pixels
         across, up = (each - 0.5 for each in self.sensor.at(directions))
@@ -122,14 +89,7 @@ class LevelPixels:
 def level_frame(z: Numbers) -> Frame:
     """Return the frames of light along directions above the horizon that are level.
 
-    Parameters
-    ----------
-    z : ndarray, shape (..., 3)
-        Unit vectors.
-
-    Returns
-    -------
-    Frame
+    Shape: z (..., 3).
 
     Examples
     --------
@@ -144,16 +104,7 @@ def level_frame(z: Numbers) -> Frame:
 def in_frames(matrix: Mueller, before: Frame, behind: Frame) -> Numbers:
     """Return the numbers of Mueller matrices in other frames of the same directions.
 
-    Parameters
-    ----------
-    matrix : Mueller, shape (...)
-        In frames of its own.
-    before, behind : Frame
-        Of the light that comes in and that goes out.
-
-    Returns
-    -------
-    ndarray, shape (..., 4, 4)
+    Shapes: matrix (...); returns (..., 4, 4).
     """
     as_it_is = np.eye(4)
     turned = Mueller.of(as_it_is, behind, behind) @ matrix @ Mueller.of(as_it_is, before, before)
@@ -167,9 +118,7 @@ def _unturned(sensor: Sensor, there: npt.NDArray[np.bool_]) -> Numbers:
     next to the normal the latter turns a lot within one, and light that is alike all over it has
     lost much of its polarisation in the sum.
 
-    Returns
-    -------
-    ndarray, shape (rows, columns, 1, 2, 2)
+    Shape: returns (rows, columns, 1, 2, 2).
     """
     part = ((np.arange(_PARTS) + 0.5) / _PARTS - 0.5) * 2.0 / sensor.pixels
     c, s = np.ones(there.shape), np.zeros(there.shape)

@@ -19,20 +19,7 @@ _WRITERS = {".zarr": ("zarr", "write_zarr"), ".nc": ("h5netcdf", "write_netcdf")
 
 
 def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -> None:
-    """Write a hemisphere.
-
-    Parameters
-    ----------
-    hemisphere : Hemisphere
-        What has been measured.
-    path, source, side
-        As `Hemisphere.save` takes them.
-
-    Raises
-    ------
-    SurfaceError, MissingExtraError
-        As `Hemisphere.save` does.
-    """
+    """Write a hemisphere."""
     place = given_file(path, SurfaceError)
     if place.suffix == ".exr":
         picture = StokesPicture.of(hemisphere, source, side)

@@ -33,13 +33,7 @@ _UNIT = "W.m^-2.sr^-1"
 class StokesPicture:
     """What light of one source a hemisphere sends into each direction.
 
-    Attributes
-    ----------
-    channels : mapping of str to ndarray, shape (pixels, pixels)
-        Radiances where the sample gets 1 W / m^2, float32, 0 beyond the horizon; the first row is
-        that of the largest y, as pictures have it.
-    attributes : mapping of str to str
-        What they are.
+    Shape: channels (pixels, pixels).
     """
 
     channels: Mapping[str, npt.NDArray[np.float32]]
@@ -47,24 +41,7 @@ class StokesPicture:
 
     @classmethod
     def of(cls, hemisphere: Hemisphere, source: Any = None, side: Any = None) -> StokesPicture:
-        """Return the picture of a hemisphere.
-
-        Parameters
-        ----------
-        hemisphere : Hemisphere
-            What has been measured.
-        source, side
-            As `Hemisphere.save` takes them.
-
-        Returns
-        -------
-        StokesPicture
-
-        Raises
-        ------
-        SurfaceError
-            With all faults at once.
-        """
+        """Return the picture of a hemisphere."""
         sides = hemisphere.seen.sides
         if side is None and len(sides) > 1:
             raise SurfaceError(
@@ -83,20 +60,7 @@ class StokesPicture:
         )
 
     def write(self, file: Path) -> None:
-        """Write the picture.
-
-        Parameters
-        ----------
-        file : Path
-            Where it is to be, whole or not at all.
-
-        Raises
-        ------
-        OSError
-            If it cannot be written there.
-        MissingExtraError
-            If OpenEXR is not installed.
-        """
+        """Write the picture."""
         with needing("pictures of Stokes vectors"):
             import OpenEXR  # noqa: PLC0415 - an extra
         header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}

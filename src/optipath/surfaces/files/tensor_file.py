@@ -19,17 +19,7 @@ _ALIGNED = 8
 
 
 class Tensor(NamedTuple):
-    """An array of a tensor file, whose parts may be computed while it is written.
-
-    Attributes
-    ----------
-    type : str
-        "uint8", "uint16" or "float32".
-    shape : tuple of int
-        That of the whole.
-    parts : iterable of ndarray
-        One after the other along the first axis.
-    """
+    """An array of a tensor file, whose parts may be computed while it is written."""
 
     type: str
     shape: tuple[int, ...]
@@ -52,13 +42,6 @@ def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
     Little-endian: the word ``tensor_file``, the version 1.0, how many arrays; of each the length
     of its name (16 bits), its name, how many axes (16), its type (8), its place in the file (64)
     and its shape (64 each); then the arrays.
-
-    Parameters
-    ----------
-    stream : IO of bytes
-        Where they are written.
-    tensors : mapping of str to Tensor
-        By their names, in the order in which they are written, and computed.
 
     Examples
     --------

@@ -12,23 +12,12 @@ from optipath.errors import SurfaceError
 class UnknownSample:
     """What stands for a sample that is not known, and refuses to be asked for more than this.
 
-    Attributes
-    ----------
-    why : str
-        Why it is not known.
-    isotropic : bool
-        Whether no direction is any other on it.
-    digest : str
-        By which it is known again.
-    text : str or None
-        What its file said of it in TOML, if anything.
-
     Examples
     --------
     >>> UnknownSample("its heights are in no file", isotropic=True, digest="").layers
     Traceback (most recent call last):
     optipath.errors.SurfaceError: the sample of this hemisphere is not known: its heights are in \
-no file; give it, op.load_hemisphere(path, sample=...)
+    no file; give it, op.load_hemisphere(path, sample=...)
     """
 
     why: str
@@ -37,13 +26,7 @@ no file; give it, op.load_hemisphere(path, sample=...)
     text: str | None = None
 
     def to_toml(self) -> str:
-        """Return the text of its file, as it has been read.
-
-        Raises
-        ------
-        SurfaceError
-            If there is none.
-        """
+        """Return the text of its file, as it has been read."""
         if self.text is None:
             raise SurfaceError(self.why)
         return self.text

@@ -39,22 +39,7 @@ def chunk_identity(
 ) -> str:
     """Return all of what is measured, a line each, so that the first other one can be told.
 
-    Parameters
-    ----------
-    seen : SensedBeam
-        What is walked, and how it is seen.
-    wavelengths : ndarray
-        In metres.
-    photons : int
-        How many there are.
-    code : str
-        As `measuring_code` returns it.
-
-    Returns
-    -------
-    str
-        Numbers stand in it to their last bit. Indices are those that photons meet, and heights
-        are known by a hash, so that neither depends on names of materials and files.
+    Units: wavelengths in metres.
     """
     beam = seen.beam
     lines = [

@@ -26,18 +26,7 @@ _SUMS = "sum over photons of the Mueller matrix, row by row, and of the light wi
 class ChunkJob:
     """A measurement that is walked chunk by chunk and kept; see `BlockJob`.
 
-    Attributes
-    ----------
-    seen : SensedBeam
-        What is walked, and how it is seen.
-    wavelengths : ndarray
-        In metres.
-    photons : int
-        How many there are.
-    threads : int
-        How many walk at a time in each chunk.
-    code : str
-        That of who measures, which workers are to have as well.
+    Units: wavelengths in metres.
     """
 
     seen: SensedBeam
@@ -99,22 +88,7 @@ class ChunkJob:
         return {"title": "chunks of photons of a measurement; optipath.measure adds them up"}
 
     def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
-        """Return the sums over the photons of a chunk, and their places.
-
-        Parameters
-        ----------
-        number : int
-            Which chunk, from 0.
-
-        Returns
-        -------
-        dict of str to (tuple of slice, ndarray)
-
-        Raises
-        ------
-        SurfaceError
-            If a worker has another optipath than who measures.
-        """
+        """Return the sums over the photons of a chunk, and their places."""
         if measuring_code() != self.code:
             raise SurfaceError(
                 f"a worker has optipath {measuring_code()}, and the measurement was begun by "

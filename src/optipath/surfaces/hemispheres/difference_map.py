@@ -50,27 +50,7 @@ def difference_map(
     noise: float | None,
     known_to: float = 0.001,
 ) -> xr.DataArray:
-    """Return what polarisation makes of each pixel.
-
-    Parameters
-    ----------
-    hemisphere : MeasuredPixels
-        What has been measured.
-    measure : {"signed", "adm", "mdm"}
-        What is made of the differences at several wavelengths.
-    side, brighter_than, noise, known_to
-        As `PolarizationEffect.adm` takes them.
-
-    Returns
-    -------
-    xarray.DataArray
-
-    Raises
-    ------
-    SurfaceError
-        If there is no such side, light was not measured both with polarisation and without, a
-        threshold is none, or there are too few photons to know the noise.
-    """
+    """Return what polarisation makes of each pixel."""
     mask = PixelMask(brighter_than, noise, known_to)
     at, what = hemisphere.side(side), _MEASURES[measure]
     found = hemisphere.own.estimate(lambda light: what.made(_relative(hemisphere, light)))

@@ -23,17 +23,7 @@ _MOST_EVENTS = 1000
 
 
 def is_flat(seen: SensedBeam) -> bool:
-    """Tell whether light is known without photons: it meets flat interfaces, and is not cut short.
-
-    Parameters
-    ----------
-    seen : SensedBeam
-        What is measured.
-
-    Returns
-    -------
-    bool
-    """
+    """Tell whether light is known without photons: it meets flat interfaces and no limit."""
     beam = seen.beam
     whole = seen.events is None and beam.most_events >= _MOST_EVENTS
     return whole and beam.sample.is_flat
@@ -44,16 +34,6 @@ def flat_light(seen: SensedBeam) -> PartSums:
 
     Of light that goes to and fro between the interfaces, the sum over all rounds, as a
     `LayerStack` has it; without polarisation, the same with each interface by its mean.
-
-    Parameters
-    ----------
-    seen : SensedBeam
-        What is measured, and of which `is_flat` holds.
-
-    Returns
-    -------
-    PartSums
-        Of no photons.
     """
     found = PartSums.none(seen.shape)
     for place, side in enumerate(seen.sides):

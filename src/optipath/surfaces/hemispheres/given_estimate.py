@@ -18,20 +18,6 @@ Numbers = npt.NDArray[np.float64]
 def following(found: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:
     """Return a function that returns arrays, or refuses what is returned.
 
-    Parameters
-    ----------
-    found : callable
-        Takes light, and returns what follows from it.
-
-    Returns
-    -------
-    callable
-
-    Raises
-    ------
-    SurfaceError
-        If that is no function; when it is called, if it returns no real numbers.
-
     Examples
     --------
     >>> following(lambda light: None)(np.eye(4))

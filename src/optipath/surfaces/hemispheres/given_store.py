@@ -17,26 +17,12 @@ _ENDING = ".zarr"
 def given_store(store: Any, scheduler: Any) -> Path | None:
     """Return where a measurement is to be kept; None where it is not.
 
-    Parameters
-    ----------
-    store, scheduler
-        As `measure` takes them.
-
-    Returns
-    -------
-    Path or None
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-
     Examples
     --------
     >>> given_store("hemisphere.nc", None)
     Traceback (most recent call last):
     optipath.errors.SurfaceError: store 'hemisphere.nc' is no Zarr store; give a name that ends \
-in .zarr, such as 'hemisphere.zarr'
+    in .zarr, such as 'hemisphere.zarr'
     """
     faults = Faults()
     if scheduler is not None:

@@ -24,24 +24,7 @@ _SAME = 1e-9
 def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
     """Return the frame of light toward a direction, or several.
 
-    Parameters
-    ----------
-    given : float, str or array_like
-        An angle in the plane of incidence, or a unit vector of shape (..., 3).
-    azimuth : float
-        Towards which side light goes that is mirrored, from x towards y.
-    up : bool
-        Whether it is above the sample.
-
-    Returns
-    -------
-    Frame
-        Its x is perpendicular to the meridional plane.
-
-    Raises
-    ------
-    SurfaceError
-        If that is no direction on this side of the sample.
+    Shape: given (..., 3).
 
     Examples
     --------
@@ -69,21 +52,7 @@ def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
 def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
     """Return the place of a wavelength among those that have been measured.
 
-    Parameters
-    ----------
-    known : ndarray, shape (wavelengths,)
-        In metres; NaN where nothing depends on it.
-    given : float, str or None
-        Which is meant; None of one.
-
-    Returns
-    -------
-    int
-
-    Raises
-    ------
-    SurfaceError
-        If it is not said which of several is meant, or it is none of them.
+    Shape: known (wavelengths,). Units: known in metres.
 
     Examples
     --------

@@ -18,20 +18,7 @@ if TYPE_CHECKING:
 def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
     """Return the Dataset of a hemisphere.
 
-    Parameters
-    ----------
-    hemisphere : MeasuredPixels
-        What has been measured.
-
-    Returns
-    -------
-    xarray.Dataset
-        ``mueller`` (side, y, x, wavelength, out, in) and ``scalar`` (side, y, x, wavelength), the
-        shares of the light on the sample that go into each pixel, with polarisation and without;
-        ``difference``, that of an unpolarised source less the scalar; their standard errors,
-        ``mueller_se`` and so on; ``count``, the photons; ``solid_angle`` in sr. The coordinates
-        ``theta`` and ``phi`` are those of the centres of pixels, in radians: theta from the normal
-        on its side of the sample, NaN beyond the horizon.
+    Units: the result in radians.
     """
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
     found: dict[str, Any] = {}

@@ -27,24 +27,7 @@ def kept_sums(
     threads: Any,
     progress: Callable[[int, int], None] | None,
 ) -> PartSums:
-    """Walk those chunks that a store does not hold, and add up all of them in their order.
-
-    Parameters
-    ----------
-    job : ChunkJob
-        What is measured.
-    store, scheduler, threads, progress
-        As `measure` takes them.
-
-    Returns
-    -------
-    PartSums
-
-    Raises
-    ------
-    JobError
-        If the store holds something else, or cannot be written.
-    """
+    """Walk those chunks that a store does not hold, and add up all of them in their order."""
     if scheduler is None:
         scheduler = active_client() or "synchronous"
     if threads is None:

@@ -24,16 +24,7 @@ Numbers = npt.NDArray[np.float64]
 class MeasuredPixels:
     """The light of each pixel, and standard errors: what a `Hemisphere` is made of.
 
-    Attributes
-    ----------
-    seen : SensedBeam
-        What was walked, and how it was seen.
-    parts : PartSums
-        Of the photons, as they were counted.
-    wavelengths : ndarray, shape (wavelengths,)
-        In metres; NaN where the media do not depend on it.
-    symmetric : bool
-        Whether the pixels are means with their mirror images.
+    Shape: wavelengths (wavelengths,). Units: wavelengths in metres.
     """
 
     seen: SensedBeam

@@ -21,15 +21,8 @@ _MIRRORED = np.outer([1.0, 1.0, -1.0, -1.0], [1.0, 1.0, -1.0, -1.0]).ravel()
 class PartSums(NamedTuple):
     """Sums over photons, part by part; or, where none are walked, light that is known exactly.
 
-    Attributes
-    ----------
-    sums : ndarray, shape (parts, sides, rows, columns, wavelengths, numbers)
-        Of the numbers of a Mueller matrix, row by row, and of the light without polarisation.
-    counts : ndarray of int, shape (sides, rows, columns)
-        How many photons have fallen on each pixel.
-    photons : ndarray of int, shape (parts,)
-        How many photons have been walked; none where the sum over the parts is the light itself,
-        and has no error.
+    Shapes: sums (parts, sides, rows, columns, wavelengths, numbers); counts (sides, rows, columns);
+    photons (parts,).
     """
 
     sums: Numbers
@@ -61,22 +54,6 @@ class PartSums(NamedTuple):
 
         The jackknife: the spread of what follows where one part after the other is left out
         (B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, eq. 3.13).
-
-        Parameters
-        ----------
-        found : callable
-            Takes the mean over photons, of shape (sides, rows, columns, wavelengths, numbers), and
-            returns what follows.
-
-        Returns
-        -------
-        value, error : ndarray
-            The error is NaN where there are less than two parts of the photons.
-
-        Raises
-        ------
-        SurfaceError
-            If that is no function, or does not return real numbers.
         """
         found = following(found)
         total, photons = self.sums.sum(axis=0), self.photons.sum()

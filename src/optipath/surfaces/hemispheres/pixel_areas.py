@@ -22,17 +22,7 @@ def pixel_areas(pixels: int, cap: Callable[[Numbers], Numbers]) -> Numbers:
     its border, and that over r^2 of x dy - y dx: along the sides of the pixels within the disc,
     and its rim. What neighbours share comes in with both signs, so that all add up to 2 pi.
 
-    Parameters
-    ----------
-    pixels : int
-        How many there are along each side.
-    cap : callable
-        (1 - cos theta) / r^2 at a distance r from the centre, 1 at the rim.
-
-    Returns
-    -------
-    ndarray, shape (pixels, pixels)
-        In sr.
+    Shape: returns (pixels, pixels).
 
     Examples
     --------

@@ -37,29 +37,7 @@ def pixel_array(
     error: Numbers | None = None,
     **told: Any,
 ) -> xr.DataArray:
-    """Return what is known of each pixel as an array with names.
-
-    Parameters
-    ----------
-    hemisphere : MeasuredPixels
-        Whose pixels they are.
-    name : str
-        That of the array.
-    value : ndarray
-        The numbers, over `PIXELS`; of fewer sides than there are, the first.
-    what, units : str
-        What they are.
-    more : tuple of str, optional
-        The dimensions behind: ``"out"``, ``"in"``.
-    error : ndarray, optional
-        Their standard errors, the coordinate ``se``.
-    **told : Any
-        Further attributes.
-
-    Returns
-    -------
-    xarray.DataArray
-    """
+    """Return what is known of each pixel as an array with names."""
     dims = (*PIXELS, *more)
     known = coordinates(hemisphere, dims)
     known["side"] = "side", known["side"][1][: len(value)]
@@ -70,20 +48,7 @@ def pixel_array(
 
 
 def coordinates(hemisphere: MeasuredPixels, dims: tuple[str, ...]) -> dict[str, Any]:
-    """Return the coordinates of what is known of each pixel.
-
-    Parameters
-    ----------
-    hemisphere : MeasuredPixels
-        What has been measured.
-    dims : tuple of str
-        The dimensions that there are: those of `PIXELS`, and ``"out"`` and ``"in"`` or not.
-
-    Returns
-    -------
-    dict
-        As `xarray.DataArray` takes them, ``theta`` and ``phi`` among them.
-    """
+    """Return the coordinates of what is known of each pixel."""
     sensor, place = hemisphere.sensor, {"units": "1"}
     towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
     across = {"long_name": "place on the sensor, across the plane of incidence"}

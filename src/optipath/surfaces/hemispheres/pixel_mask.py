@@ -21,21 +21,6 @@ class PixelMask:
     Dim pixels decide how large the largest difference is, so that none is worth anything without
     its mask; and the largest of many noisy ones is noise.
 
-    Parameters
-    ----------
-    brighter_than : float, optional
-        A pixel counts whose light without polarisation is above this many times the mean over the
-        pixels of its hemisphere; of several wavelengths, the mean over these.
-    noise : float or None, optional
-        And whose difference has a standard error of at most this share of itself; None is any.
-    known_to : float, optional
-        Or at most this, however small the difference is: a pixel that is known to have none counts.
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-
     Examples
     --------
     >>> print(PixelMask(brighter_than=0.5, noise=None))
@@ -62,28 +47,14 @@ class PixelMask:
     def bright(self, light: Numbers) -> npt.NDArray[np.bool_]:
         """Return which pixels are bright enough.
 
-        Parameters
-        ----------
-        light : ndarray, shape (rows, columns)
-            Without polarisation; NaN beyond the horizon.
-
-        Returns
-        -------
-        ndarray of bool, shape (rows, columns)
+        Shapes: light (rows, columns); returns (rows, columns).
         """
         return np.asarray(light > self.brighter_than * np.nanmean(light))
 
     def known(self, difference: Numbers, error: Numbers) -> npt.NDArray[np.bool_]:
         """Return which differences are known well enough.
 
-        Parameters
-        ----------
-        difference, error : ndarray, shape (...)
-            The relative differences, and their standard errors.
-
-        Returns
-        -------
-        ndarray of bool, shape (...)
+        Shapes: difference, error (...); returns (...).
         """
         if self.noise is None:
             return ~np.isnan(difference)

@@ -22,19 +22,7 @@ def pixel_points(sensor: Sensor, points: int) -> Iterator[tuple[Numbers, Numbers
 
     By the rule of Gauss and Legendre along y, and along what of x is within the hemisphere.
 
-    Parameters
-    ----------
-    sensor : Sensor
-        The pixels.
-    points : int
-        How many there are along each side.
-
-    Yields
-    ------
-    directions : ndarray, shape (pixels, pixels, 3)
-        Unit vectors, upwards; the normal where a pixel has nothing of the hemisphere.
-    solid_angles : ndarray, shape (pixels, pixels)
-        In sr.
+    Shapes: returns directions (pixels, pixels, 3), solid_angles (pixels, pixels).
 
     Examples
     --------

@@ -14,19 +14,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 class Projection(NamedTuple):
-    """A projection of directions, each at its azimuth.
-
-    Attributes
-    ----------
-    radius : callable
-        The distance from the centre of (sin, cos) of the angle theta to the normal.
-    angle : callable
-        Theta at a distance r from the centre.
-    cap : callable
-        (1 - cos theta) / r^2 at r: 1 at the rim.
-    density : callable
-        The solid angle at r over the area on the disc, sin theta / r d theta / d r.
-    """
+    """A projection of directions, each at its azimuth."""
 
     radius: Callable[[Numbers, Numbers], Numbers]
     angle: Callable[[Numbers], Numbers]

@@ -51,19 +51,7 @@ class _Seen(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SensedBeam:
-    """Photons, and how they are seen; chunks of them do not depend on each other.
-
-    Attributes
-    ----------
-    beam : PhotonBeam
-        What falls on the sample: `STATES`, or unpolarised light.
-    sensor : Sensor
-        Where they end.
-    polarized : {"both", "polarized", "scalar"}
-        Whether the Mueller matrix is summed up, what it is without polarisation, or both.
-    events : int or None
-        After how many events photons are seen; None is after any number.
-    """
+    """Photons, and how they are seen; chunks of them do not depend on each other."""
 
     beam: PhotonBeam
     sensor: Sensor
@@ -96,23 +84,7 @@ class SensedBeam:
         threads: int,
         progress: Callable[[int], None] | None = None,
     ) -> PartSums:
-        """Walk the photons of a chunk, and sum them up in their order.
-
-        Parameters
-        ----------
-        number : int
-            Which chunk.
-        photons : int
-            How many photons there are in all chunks.
-        threads : int
-            How many walk at a time; the sums do not depend on it.
-        progress : callable, optional
-            Told how many have been walked since it was told.
-
-        Returns
-        -------
-        PartSums
-        """
+        """Walk the photons of a chunk, and sum them up in their order."""
         found, add = PartSums.none(self.shape), pixel_code()
         kept = [int(self.polarized != other) for other in ("scalar", "polarized")]
         lights = self.beam.indices.n.size

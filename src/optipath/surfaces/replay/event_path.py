@@ -25,24 +25,7 @@ Place: TypeAlias = int | tuple[int, ...]
 def event_path(
     source: Source, events: Iterable[PhotonEvent], which: Place | None, description: str
 ) -> PathGraph:
-    """Return the path of a photon through its events.
-
-    Parameters
-    ----------
-    source : Source
-        What it comes from, in the frame in which it starts.
-    events : iterable of PhotonEvent
-        What it meets.
-    which : int, tuple of int or None
-        The place of a wavelength, or all of them.
-    description : str
-        That of the path.
-
-    Returns
-    -------
-    PathGraph
-        With nodes called ``source``, ``facet-1`` and so on, and ``detector``.
-    """
+    """Return the path of a photon through its events."""
     path = PathGraph(description=description)
     path.add("source", source)
     last = "source"

@@ -16,18 +16,7 @@ _HEADS = ("", "layer", "", "media", "incidence", "turn", "probability", "x", "y"
 
 
 def event_table(events: Iterable[PhotonEvent]) -> str:
-    """Return a line for each event of a photon.
-
-    Parameters
-    ----------
-    events : iterable of PhotonEvent
-        In their order.
-
-    Returns
-    -------
-    str
-        x, y and z are the point on the mesh of the layer.
-    """
+    """Return a line for each event of a photon."""
     rows = [_HEADS, *(_row(number, event) for number, event in enumerate(events, 1))]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return "\n".join(

@@ -42,38 +42,6 @@ class PhotonEvent:
     """A photon meets a facet.
 
     Vectors have three components, along the x and y of the sample and upwards.
-
-    Attributes
-    ----------
-    layer : int
-        Which interface of the sample, from 0 at the top.
-    facet : tuple of int
-        Which triangle of its mesh: the column and the row of the cell, and 0 for the half beside
-        its edge along x, 1 for that beside its edge along y.
-    position : ndarray
-        Where, in one space for all events of the photon, between which it goes straight on: x and
-        y begin where it gets to the height of the topmost mesh's highest point. Lower meshes stand
-        there below the upper ones, far enough not to touch them.
-    on_mesh : ndarray
-        The same point on the `HeightField` of the layer: x and y within its sides, and its own
-        height. Periodic meshes are shifted against each other at random for every photon.
-    normal : ndarray
-        That of the facet, on the side of the light.
-    direction, onwards : ndarray
-        Of the photon before the event, and behind it.
-    cos, sin : float
-        Of the angle of incidence.
-    turn : float
-        The angle from the x of the frame to s, perpendicular to the plane of incidence, about the
-        direction of the photon; s is the x of the frame behind.
-    reflected : bool
-        Else refracted.
-    probability : float
-        How likely it was; the light is divided by it.
-    n1 : float
-        The index of the medium that the photon comes in.
-    n2 : float, complex or ndarray
-        The index of the other one; for each wavelength where the photon carries several.
     """
 
     layer: int
@@ -100,25 +68,7 @@ class PhotonEvent:
 def event_of(
     beam: PhotonBeam, surface: int, walked: WalkedBlock, number: int, onwards: Vector
 ) -> PhotonEvent:
-    """Return an event out of the record of a photon.
-
-    Parameters
-    ----------
-    beam : PhotonBeam
-        Of which the photon is.
-    surface : int
-        Which realisation of the surfaces it is on.
-    walked : WalkedBlock
-        With the record, and where the photon started.
-    number : int
-        Which event, from 1.
-    onwards : ndarray
-        The direction behind it.
-
-    Returns
-    -------
-    PhotonEvent
-    """
+    """Return an event out of the record of a photon."""
     row = walked.record[number]
     layer, column, line, facet = (int(row[place]) for place in (LAYER, COLUMN, LINE, FACET))
     position = row[POINT : POINT + 3].copy()

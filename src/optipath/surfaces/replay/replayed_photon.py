@@ -47,22 +47,7 @@ def replayed_photon(
     stokes: npt.ArrayLike = UNPOLARISED,
     most_events: int = 1000,
 ) -> Photon:
-    """Return one of the photons that `energy` counts, with all that happens to it.
-
-    Parameters
-    ----------
-    sample, number, incidence, seed, azimuth, wavelength, stokes, most_events
-        As `Sample.photon` takes them.
-
-    Returns
-    -------
-    Photon
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-    """
+    """Return one of the photons that `energy` counts, with all that happens to it."""
     beam = given_beam(
         sample,
         incidence,

@@ -19,27 +19,7 @@ _NAME = re.compile(r"[\w-][\w. -]*(/[\w-][\w. -]*)*")
 
 
 def roughness_of_table(table: Mapping[str, Any], folder: Path) -> tuple[Any, str]:
-    """Return the roughness of an interface, and the file that it has been read from.
-
-    Parameters
-    ----------
-    table : mapping of str to Any
-        What the file of the sample says of the interface, its keys and their types known.
-    folder : Path
-        Where that file is, and those of heights.
-
-    Returns
-    -------
-    roughness : Any
-        Alpha as it stands there, or a `HeightField`.
-    file : str
-        Nothing where there is none.
-
-    Raises
-    ------
-    SurfaceError
-        If one of the two is missing, or heights cannot be read.
-    """
+    """Return the roughness of an interface, and the file that it has been read from."""
     if "heights" in table:
         return _heights(table, folder), table["heights"]
     faults = [

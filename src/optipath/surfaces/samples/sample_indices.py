@@ -32,17 +32,7 @@ WHEN = "wavelength"
 
 
 class SampleIndices(NamedTuple):
-    """The indices of the media of a sample, of which the last alone may depend on the wavelength.
-
-    Attributes
-    ----------
-    outside : float
-        That of the medium above.
-    inner : tuple of float
-        Those of the media between two interfaces, from the top.
-    n, k : ndarray
-        Those of the base, of the shape of the wavelengths; () where none was given.
-    """
+    """The indices of the media of a sample; only the last may depend on the wavelength."""
 
     outside: float
     inner: tuple[float, ...]
@@ -63,21 +53,7 @@ class SampleIndices(NamedTuple):
 def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
     """Return the indices of media.
 
-    Parameters
-    ----------
-    media : mapping of str to float, complex or Material
-        By their places, as sentences name them: the medium above first, the base last.
-    wavelength : float, str, array_like or None
-        In vacuum, in metres or with a unit.
-
-    Returns
-    -------
-    SampleIndices
-
-    Raises
-    ------
-    SurfaceError
-        With every fault; see `Sample.indices`.
+    Units: wavelength in metres.
     """
     given = _given(media.values(), wavelength)
     domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]

@@ -43,17 +43,7 @@ ALPHA = AlphaDomain("roughness", minimum=1e-6, maximum=100.0)
 
 @dataclass(frozen=True, eq=False)
 class SampleLayer:
-    """An interface of a sample, and the medium below it.
-
-    Attributes
-    ----------
-    index : float, complex or Material
-        The index of refraction of the medium.
-    roughness : tuple of float or HeightField
-        The roughness alpha along x and along y, (0, 0) of a flat interface; or its heights.
-    file : str
-        The file that the heights were read from, beside that of the sample; nothing for others.
-    """
+    """An interface of a sample, and the medium below it."""
 
     index: float | complex | Material
     roughness: Roughness
@@ -89,26 +79,7 @@ class SampleLayer:
 
 
 def layer_of(owner: str, given: Any, domain: Domain) -> SampleLayer:
-    """Return a layer as a sample keeps it.
-
-    Parameters
-    ----------
-    owner : str
-        Where it stands, as sentences name it.
-    given : tuple or SampleLayer
-        The index of the medium below, and the roughness.
-    domain : Domain
-        What the index may be.
-
-    Returns
-    -------
-    SampleLayer
-
-    Raises
-    ------
-    SurfaceError
-        With all that is wrong with it.
-    """
+    """Return a layer as a sample keeps it."""
     file = given.file if isinstance(given, SampleLayer) else ""
     if isinstance(given, SampleLayer):
         given = given.index, given.roughness

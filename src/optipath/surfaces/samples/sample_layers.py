@@ -17,20 +17,7 @@ if TYPE_CHECKING:
 
 
 def layers_of(given: Any, faults: Faults) -> tuple[SampleLayer, ...]:
-    """Return the layers of a sample as it keeps them.
-
-    Parameters
-    ----------
-    given : sequence of pair
-        What is given, from the top.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    tuple of SampleLayer
-        Those without a fault.
-    """
+    """Return the layers of a sample as it keeps them."""
     if not isinstance(given, (list, tuple)) or not given:
         faults.append(
             f"layers is {shown(given)}; give a list with a pair for each interface, the index of "
@@ -47,19 +34,6 @@ def layers_of(given: Any, faults: Faults) -> tuple[SampleLayer, ...]:
 
 def unused_faults(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool) -> list[str]:
     """Return a sentence for what is given of random fields and says nothing of those there are.
-
-    Parameters
-    ----------
-    layers : sequence of SampleLayer
-        From the top.
-    cells : tuple of int, optional
-        How many cells random fields have.
-    periodic : bool
-        Whether random fields go on beyond their border.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------

@@ -66,25 +66,6 @@ BASE = BaseDomain(_NAME)
 def medium_of(owner: str, value: Any, domain: Domain) -> float | complex | Material:
     """Return a medium as a sample keeps it.
 
-    Parameters
-    ----------
-    owner : str
-        Where it stands, as sentences name it.
-    value : float, complex, str or Material
-        What is given.
-    domain : Domain
-        What it may be: `CLEAR_MEDIUM` or `BASE`.
-
-    Returns
-    -------
-    float, complex or Material
-        A `Material` where it depends on the wavelength; real where it does not absorb.
-
-    Raises
-    ------
-    SurfaceError, ValueFault
-        If it is none.
-
     Examples
     --------
     >>> medium_of("outside", Material(1.5), CLEAR_MEDIUM), medium_of("base", "0.5+2.1j", BASE)

@@ -31,24 +31,7 @@ _INDEX, _ROUGHNESS = 1.5, (0.1, 0.1)
 
 
 def sample_of_text(text: str, path: Path) -> Sample:
-    """Return the sample that a text describes, as `Sample.to_toml` writes it.
-
-    Parameters
-    ----------
-    text : str
-        TOML of format 1.
-    path : Path
-        Its file, beside which those of heights are.
-
-    Returns
-    -------
-    Sample
-
-    Raises
-    ------
-    SurfaceError
-        With every fault of what it says.
-    """
+    """Return the sample that a text describes, as `Sample.to_toml` writes it."""
     try:
         document = parsed(text, str(path))
         with few_suggestions(), units_are_written(), of_files():

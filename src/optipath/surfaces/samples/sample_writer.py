@@ -18,25 +18,7 @@ if TYPE_CHECKING:
 
 
 def toml_of(options: Mapping[str, Any], layers: Sequence[SampleLayer]) -> str:
-    """Return the text of the file of a sample.
-
-    Parameters
-    ----------
-    options : mapping of str to Any
-        What stands above the layers: its description, and what is not usual.
-    layers : sequence of SampleLayer
-        From the top.
-
-    Returns
-    -------
-    str
-        In TOML.
-
-    Raises
-    ------
-    SurfaceError
-        With every layer that has no form in a file.
-    """
+    """Return the text of the file of a sample."""
     faults = Faults()
     top = {"format": FORMAT} | {
         name: value if isinstance(value, bool) else faults.attempt(name, encode, value, "")

@@ -21,17 +21,6 @@ def smooth_path(indices: SampleIndices, side: str) -> PathGraph:
 
     Its parameter is the angle of ``incidence``.
 
-    Parameters
-    ----------
-    indices : SampleIndices
-        Of the media.
-    side : {"reflected", "transmitted"}
-        Above the sample, or below.
-
-    Returns
-    -------
-    PathGraph
-
     Examples
     --------
     >>> from optipath.surfaces.samples.sample import Sample

@@ -25,19 +25,6 @@ def compiled_kernel(
 ) -> Any:
     """Return a kernel as a function of Numba.
 
-    Parameters
-    ----------
-    name : str
-        What it is called.
-    kernel : callable
-        Makes it for primitives: numbers in, a tuple of numbers out.
-    given : int
-        How many numbers it takes.
-
-    Returns
-    -------
-    Dispatcher
-
     Examples
     --------
     >>> from optipath.kernels.filters.rotation import align
@@ -53,17 +40,7 @@ def compiled_kernel(
 def kernel_text(
     name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], given: int
 ) -> str:
-    """Return the text of what `compiled_kernel` compiles, common terms found once.
-
-    Parameters
-    ----------
-    name, kernel, given
-        As `compiled_kernel` takes them.
-
-    Returns
-    -------
-    str
-    """
+    """Return the text of what `compiled_kernel` compiles, common terms found once."""
     recorder = Recorder(np.dtype(float))
     inputs = [recorder.input(f"a{place}") for place in range(given)]
     formula = Formula(recorder.dtype, tuple(kernel(SYMBOLIC)(*inputs)))

@@ -23,21 +23,7 @@ from optipath.surfaces.walk.walk_layout import CARRIED, OPAQUE
 
 @nb.njit(error_model="numpy")
 def facet_normal(meshes: Any, layer: int, column: int, line: int, facet: int, side: float) -> Any:
-    """Return the normal of a facet, on one side of it.
-
-    Parameters
-    ----------
-    meshes : tuple
-        As `packed_meshes` has them.
-    layer, column, line, facet : int
-        Which.
-    side : float
-        1 for the upper side, -1 for the lower one.
-
-    Returns
-    -------
-    tuple of float
-    """
+    """Return the normal of a facet, on one side of it."""
     wholes, numbers, heights = meshes[0], meshes[1], meshes[2]
     about, sizes = layer * WHOLES, layer * NUMBERS
     row = wholes[about + CELLS_X] + 1
@@ -64,31 +50,6 @@ def facet_event(
 
     Which of the two is drawn by the mean of the shares of s and p, whatever the polarisation;
     what is drawn is divided by its probability. An opaque medium reflects always.
-
-    Parameters
-    ----------
-    k, x, normal : tuple of float
-        The direction of the light, the x of its frame, and the normal on its side.
-    n1, n2 : float
-        The index of the medium that it comes in, and of the other, or `OPAQUE`.
-    base : pointer or ndarray
-        n and k of an opaque medium for each light.
-    lights : pointer or ndarray
-        `CARRIED` numbers for each light; changed.
-    count : int
-        How many lights there are.
-    state : pointer or ndarray of uint64
-        Of the random numbers.
-
-    Returns
-    -------
-    reflected : bool
-        Else refracted.
-    k, x : tuple of float
-        The direction of the light behind, and the x of its frame.
-    plane : tuple of float
-        (cos, sin) of the incidence, (cos 2a, sin 2a) of the turn into its plane, and the
-        probability of what has happened.
     """
     c, s, sx, sy, sz, cos2, sin2, rx, ry, rz = plane(*k, *x, *normal)
     if n2 == OPAQUE:

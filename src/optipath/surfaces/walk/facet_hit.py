@@ -12,40 +12,14 @@ NO_FACET, LOWER, UPPER = -1, 0, 1
 
 @nb.njit(error_model="numpy")
 def corners_of(heights: Any, corner: int, row: int) -> Any:
-    """Return the heights of a cell's corners (0, 0), (1, 0), (0, 1) and (1, 1).
-
-    Parameters
-    ----------
-    heights : pointer or ndarray
-        Of the vertices, row by row.
-    corner : int
-        The vertex (0, 0) of the cell.
-    row : int
-        How many vertices a row has.
-
-    Returns
-    -------
-    tuple of float
-    """
+    """Return the heights of a cell's corners (0, 0), (1, 0), (0, 1) and (1, 1)."""
     other = corner + row
     return heights[corner], heights[corner + 1], heights[other], heights[other + 1]
 
 
 @nb.njit(error_model="numpy")
 def facet_gradient(corners: Any, facet: int) -> Any:
-    """Return how a facet rises from a cell's side to the next, along x and along y.
-
-    Parameters
-    ----------
-    corners : tuple of float
-        As `corners_of` gives them.
-    facet : int
-        `LOWER` or `UPPER`.
-
-    Returns
-    -------
-    tuple of float
-    """
+    """Return how a facet rises from a cell's side to the next, along x and along y."""
     low, right, back, high = corners
     if facet == LOWER:
         return right - low, high - right
@@ -59,28 +33,6 @@ def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float
     A facet is met where the ray comes nearer to it, from its side of the surface, and is at its
     plane or behind it where it leaves the facet. So a ray can slip through no edge: what
     roundings let past one facet is met by the next.
-
-    Parameters
-    ----------
-    corners : tuple of float
-        As `corners_of` gives them.
-    u, v : float
-        Where the ray's origin is, from the corner (0, 0), in cells.
-    ray : tuple of float
-        Height of the origin, and the direction: in cells along x and y, and upwards.
-    span : tuple of float
-        Where the ray enters the cell and leaves it.
-    side : float
-        1 for light above the surface, -1 for light below it.
-    own : int
-        The facet that the ray starts from, which it does not meet; or `NO_FACET`.
-
-    Returns
-    -------
-    facet : int
-        `NO_FACET` where none is met.
-    t : float
-        Where it is met.
     """
     _, dx, dy, _ = ray
     enters, leaves = span

@@ -39,24 +39,7 @@ def given_beam(
     most_events: int = 1000,
     beside: Sequence[str] = (),
 ) -> PhotonBeam:
-    """Return the photons that a user asks for.
-
-    Parameters
-    ----------
-    sample, incidence, azimuth, wavelength, stokes, seed, most_events
-        As `energy` takes them.
-    beside : sequence of str, optional
-        Faults of what else is asked for, told with the others.
-
-    Returns
-    -------
-    PhotonBeam
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-    """
+    """Return the photons that a user asks for."""
     if not isinstance(sample, Sample):
         raise SurfaceError(
             *beside,
@@ -88,21 +71,7 @@ def given_beam(
 def given_state(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
     """Return the state of polarisation of the light that falls on a sample.
 
-    Parameters
-    ----------
-    name : str
-        What sentences call it.
-    stokes : array_like, shape (4,)
-        Its Stokes vector.
-
-    Returns
-    -------
-    tuple of float
-
-    Raises
-    ------
-    SurfaceError
-        If it is no Stokes vector, has no intensity, or is polarised by more than 100 %.
+    Shape: stokes (4,).
 
     Examples
     --------

@@ -18,28 +18,14 @@ _MORE = 8
 
 
 class PlacedMeshes(NamedTuple):
-    """Meshes, and where they are in memory.
-
-    Attributes
-    ----------
-    meshes : PackedMeshes
-        The arrays.
-    addresses : tuple of int
-        Where each of them is.
-    """
+    """Meshes, and where they are in memory."""
 
     meshes: PackedMeshes
     addresses: tuple[int, ...]
 
 
 class KeptMeshes:
-    """Packs what a sample draws, once for all threads, and drops what was packed first.
-
-    Parameters
-    ----------
-    sample : Sample
-        Whose surfaces they are.
-    """
+    """Packs what a sample draws, once for all threads, and drops what was packed first."""
 
     def __init__(self, sample: Sample) -> None:
         # It keeps these meshes itself, and both are to go as soon as nobody needs it.
@@ -48,17 +34,7 @@ class KeptMeshes:
         self._lock = Lock()
 
     def of(self, surface: int) -> PlacedMeshes:
-        """Return a realisation.
-
-        Parameters
-        ----------
-        surface : int
-            Which.
-
-        Returns
-        -------
-        PlacedMeshes
-        """
+        """Return a realisation."""
         with self._lock:
             if surface not in self._known:
                 if len(self._known) >= self._sample.surfaces + _MORE:
@@ -70,16 +46,6 @@ class KeptMeshes:
 
 
 def kept_meshes(sample: Sample) -> KeptMeshes:
-    """Return those that are kept with a sample.
-
-    Parameters
-    ----------
-    sample : Sample
-        Whose.
-
-    Returns
-    -------
-    KeptMeshes
-    """
+    """Return those that are kept with a sample."""
     found: KeptMeshes = vars(sample).setdefault("_packed", KeptMeshes(sample))
     return found

@@ -22,30 +22,7 @@ from optipath.surfaces.walk.packed_meshes import (
 
 @nb.njit(error_model="numpy")
 def mesh_entry(meshes: Any, layer: int, side: float, point: Any, k: Any, starts: Any) -> Any:
-    """Return where light gets to the height of a mesh's highest, or lowest, point.
-
-    Parameters
-    ----------
-    meshes : tuple
-        As `packed_meshes` has them.
-    layer : int
-        Which mesh.
-    side : float
-        1 for light from above, -1 for light from below.
-    point, k : tuple of float
-        Where it is, and its direction, towards the mesh.
-    starts : pointer or ndarray
-        For each mesh, where on it the photon has started, two numbers.
-
-    Returns
-    -------
-    inside : bool
-        Whether the mesh is there.
-    point : tuple of float
-        Where the light is.
-    x, y : float
-        The same on the mesh, in cells.
-    """
+    """Return where light gets to the height of a mesh's highest, or lowest, point."""
     wholes, numbers = meshes[0], meshes[1]
     about, sizes = layer * WHOLES, layer * NUMBERS
     height = numbers[sizes + (HIGH if side > 0.0 else LOW)]

@@ -45,36 +45,7 @@ def mesh_hit(
     line: int,
     own: int,
 ) -> Any:
-    """Return what a ray meets of a mesh.
-
-    Parameters
-    ----------
-    meshes : tuple
-        Whole numbers, numbers, heights and extremes, as `packed_meshes` has them.
-    layer : int
-        Which mesh.
-    x, y : float
-        Where the ray starts, in cells.
-    ray : tuple of float
-        The height where it starts, and its direction: in cells along x and y, and upwards.
-    side : float
-        1 for light above the mesh, -1 for light below it.
-    column, line : int
-        The cell in which it starts.
-    own : int
-        The facet of that cell that it starts from, or `NO_FACET`.
-
-    Returns
-    -------
-    outcome : int
-        `MET`, `MISSED`, `LEFT` or `LOST`.
-    t : float
-        Where along the ray.
-    column, line, facet : int
-        What is met.
-    x, y : float
-        The start of the ray, moved by as many periods as it has gone through.
-    """
+    """Return what a ray meets of a mesh."""
     wholes, numbers, heights, extremes = meshes
     z, dx, dy, dz = ray
     about = layer * WHOLES

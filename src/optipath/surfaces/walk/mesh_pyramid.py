@@ -12,15 +12,6 @@ SHIFT = 2
 def levels_of(cells_x: int, cells_y: int) -> int:
     """Return how many levels a mesh has above its cells, the last of them of one block.
 
-    Parameters
-    ----------
-    cells_x, cells_y : int
-        How many cells it has.
-
-    Returns
-    -------
-    int
-
     Examples
     --------
     >>> levels_of(640, 640), levels_of(1, 1)
@@ -35,15 +26,7 @@ def levels_of(cells_x: int, cells_y: int) -> int:
 def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
     """Return the extremes of a mesh by level, each of shape (rows, columns, 2).
 
-    Parameters
-    ----------
-    vertices : ndarray, shape (cells_y + 1, cells_x + 1)
-        The heights.
-
-    Returns
-    -------
-    list of ndarray
-        Lowest and highest point of each cell first, of all cells last.
+    Shape: vertices (cells_y + 1, cells_x + 1).
 
     Examples
     --------

@@ -32,19 +32,7 @@ GAP = 2.0
 
 
 class PackedMeshes(NamedTuple):
-    """Meshes one below the other, from the top.
-
-    Attributes
-    ----------
-    wholes : ndarray of int64
-        `WHOLES` for each.
-    numbers : ndarray of float64
-        `NUMBERS` for each.
-    heights : ndarray of float64
-        The vertices of all.
-    extremes : ndarray of float64
-        The pyramids of all.
-    """
+    """Meshes one below the other, from the top."""
 
     wholes: npt.NDArray[np.int64]
     numbers: npt.NDArray[np.float64]
@@ -53,19 +41,7 @@ class PackedMeshes(NamedTuple):
 
 
 def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> PackedMeshes:
-    """Return meshes as compiled code takes them, far enough from each other not to touch.
-
-    Parameters
-    ----------
-    fields : sequence of HeightField
-        From the top.
-    given : sequence of bool, optional
-        Which of them a user has given; those of one size stay in register.
-
-    Returns
-    -------
-    PackedMeshes
-    """
+    """Return meshes as compiled code takes them, far enough from each other not to touch."""
     standing = _standing(fields, given)
     wholes = np.zeros((len(fields), WHOLES), np.int64)
     numbers = np.zeros((len(fields), NUMBERS))

@@ -51,25 +51,6 @@ class PhotonBeam:
     The sample's surfaces take turns, each for a `PORTION` of photons, and after a `TURN` of them
     others take their places, so that the error of many photons goes down. Block b has the random
     numbers of child b of the seed (`numpy.random.SeedSequence`).
-
-    Attributes
-    ----------
-    sample : Sample
-        What they fall on.
-    cos, sin : float
-        Of the angle of incidence.
-    azimuth : float
-        Towards which side they go, from x towards y, unless the sample is isotropic, where each
-        photon has an azimuth of its own.
-    indices : SampleIndices
-        Of the media; of the base, one for each light that rides on a photon.
-    states : tuple of tuple of float, each (S0, S1, S2, S3)
-        The Stokes vectors of the source, which ride on one photon for each light of the base; the
-        x of their frame is horizontal.
-    seed : int
-        Of all random numbers.
-    most_events : int
-        How often a photon may meet a facet before it is given up.
     """
 
     sample: Sample
@@ -95,18 +76,7 @@ class PhotonBeam:
         return 0.0 if self.sample.isotropic else self.azimuth
 
     def smooth_sine(self, outcome: int) -> float:
-        """Return the sine of the angle at which a smooth sample sends light up or down.
-
-        Parameters
-        ----------
-        outcome : int
-            `UP`, or `DOWN` into the base, which has one index for all lights that ride together.
-
-        Returns
-        -------
-        float
-            Above 1 where all light is totally reflected.
-        """
+        """Return the sine of the angle at which a smooth sample sends light up or down."""
         if outcome == UP:
             return self.sin
         return self.sin * self.indices.outside / float(self.indices.n.flat[0])
@@ -121,36 +91,14 @@ class PhotonBeam:
         return any(each.is_random for each in self.sample.layers)
 
     def surface(self, photon: int) -> int:
-        """Return over which realisation of the surfaces a photon walks.
-
-        Parameters
-        ----------
-        photon : int
-            Its number, of all photons.
-
-        Returns
-        -------
-        int
-        """
+        """Return over which realisation of the surfaces a photon walks."""
         if not self._is_random:
             return 0
         drawn, place = divmod(photon // PORTION, TURN // PORTION * self.surfaces)
         return drawn * self.surfaces + place % self.surfaces
 
     def portions(self, number: int, photons: int) -> Iterator[tuple[int, int, int]]:
-        """Yield the portions of a block: the first photon, how many, and over which surface.
-
-        Parameters
-        ----------
-        number : int
-            The block.
-        photons : int
-            How many photons of it are wanted.
-
-        Yields
-        ------
-        tuple of int
-        """
+        """Yield the portions of a block: the first photon, how many, and over which surface."""
         size = PORTION if self._is_random else BLOCK
         for first in range(0, photons, size):
             yield first, min(size, photons - first), self.surface(BLOCK * number + first)
@@ -158,28 +106,7 @@ class PhotonBeam:
     def block(
         self, number: int, photons: int = BLOCK, wanted: int = -1, *, keeps: bool = False
     ) -> WalkedBlock:
-        """Walk the first photons of a block.
-
-        Parameters
-        ----------
-        number : int
-            Which block.
-        photons : int, optional
-            How many photons.
-        wanted : int, optional
-            Which of them is recorded, the last to be walked.
-        keeps : bool, optional
-            Whether the end of every photon is kept.
-
-        Returns
-        -------
-        WalkedBlock
-
-        Raises
-        ------
-        SurfaceError
-            If photons meet nothing, or come to what is no number.
-        """
+        """Walk the first photons of a block."""
         count, photons = self.lights, photons if wanted < 0 else wanted + 1
         stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
         state = np.array(stream.state["state"]["state"], np.uint64)

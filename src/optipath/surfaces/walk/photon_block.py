@@ -70,30 +70,7 @@ def photon_block(
 ) -> int:
     """Follow photons, and add up what becomes of them.
 
-    Parameters
-    ----------
-    meshes, media, base, layers, count, most, state, starts, lights, record
-        As `photon_walk` takes them.
-    beam : tuple of float
-        (cos, sin) of the incidence, and the azimuth; not a number for one of its own for each
-        photon.
-    source : pointer or ndarray
-        What `lights` are at first.
-    photons : int
-        How many there are.
-    wanted : int
-        The one that is recorded, with which it ends; or -1.
-    sums : pointer or ndarray, shape (OUTCOMES, MOST_COUNTED, count, SUMS)
-        Added to.
-    ends : pointer or ndarray, shape (photons, ENDS + CARRIED count)
-        Where the end of each photon is written.
-    keeps : int
-        Whether it is.
-
-    Returns
-    -------
-    int
-        How many photons there were; none where too many in a row meet nothing.
+    Shapes: sums (OUTCOMES, MOST_COUNTED, count, SUMS); ends (photons, ENDS + CARRIED count).
     """
     cos_i, sin_i, azimuth = beam
     number, misses = 0, 0

@@ -61,34 +61,6 @@ def photon_walk(
     Light above a mesh stays above it where it is reflected, and gets below it where it is
     refracted. It meets the mesh again, but for the facet that it comes from, or goes on
     to the next one on its side.
-
-    Parameters
-    ----------
-    meshes : tuple
-        As `packed_meshes` has them.
-    media : pointer or ndarray
-        The indices of the media from the top, one more than there are meshes.
-    base, lights, count, state
-        As `facet_event` takes them.
-    layers : int
-        How many meshes there are.
-    k, x : tuple of float
-        The direction of the photon, downwards, and the x of its frame.
-    starts : pointer or ndarray
-        Where on each mesh it starts.
-    most : int
-        How often it may meet a facet.
-    record : pointer or ndarray
-        Where events are written; nothing is if its first number is 0.
-
-    Returns
-    -------
-    outcome : int
-        How it ends.
-    events : int
-        How often it has met a facet.
-    k, x : tuple of float
-        Its direction and the x of its frame at the end.
     """
     wholes, numbers = meshes[0], meshes[1]
     layer, side, events = 0, 1.0, 0
@@ -146,15 +118,5 @@ def photon_walk(
 
 @nb.njit(error_model="numpy")
 def put(record: Any, at: int, vector: Any) -> None:
-    """Write three numbers.
-
-    Parameters
-    ----------
-    record : pointer or ndarray
-        Where.
-    at : int
-        The place of the first.
-    vector : tuple of float
-        The numbers.
-    """
+    """Write three numbers."""
     record[at], record[at + 1], record[at + 2] = vector

@@ -42,25 +42,8 @@ def pixel_sums(
 ) -> int:
     """Add what each photon carries to the numbers of its pixel, one photon after the other.
 
-    Parameters
-    ----------
-    places : pointer or ndarray of int
-        The pixel of each; below 0 where it falls on none.
-    turns : pointer or ndarray, shape (photons, 2)
-        (cos 2a, sin 2a) of the turn of each from its own frame to that of its direction.
-    ends : pointer or ndarray, shape (photons, ENDS + CARRIED lights states)
-        As `photon_block` writes them.
-    photons, lights, states : int
-        How many there are; of lights, each in as many states of the source.
-    has_matrix, has_scalar : int
-        Whether Mueller matrices are added up, and light without polarisation.
-    sums : pointer or ndarray, shape (pixels, lights, numbers)
-        Changed: 16 numbers of a Mueller matrix, row by row, and the light without polarisation.
-
-    Returns
-    -------
-    int
-        How many photons there were.
+    Shapes: turns (photons, 2); ends (photons, ENDS + CARRIED lights states); sums (pixels, lights,
+    numbers).
     """
     numbers = 16 * has_matrix + has_scalar
     for photon in range(photons):

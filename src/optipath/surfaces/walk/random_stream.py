@@ -18,15 +18,6 @@ def uniform(state: Any) -> float:
 
     The number that ``numpy.random.Generator(SFC64).random()`` gives for the same state
     (C. Doty-Humphrey, PractRand, sfc64).
-
-    Parameters
-    ----------
-    state : pointer or ndarray of uint64
-        Four words, as ``SFC64.state["state"]["state"]`` has them.
-
-    Returns
-    -------
-    float
     """
     right, left, around, back = _SHIFTS
     a, b, c, counter = state[0], state[1], state[2], state[3]

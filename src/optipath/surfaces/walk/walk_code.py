@@ -57,15 +57,7 @@ _SOURCES = "kernels", "engines/formulas", "surfaces/walk"
 
 @cache
 def walk_code() -> MachineCode:
-    """Return `photon_block` as compiled code, which leaves other threads to do their work.
-
-    Raises
-    ------
-    MissingExtraError
-        If Numba is not there.
-    SurfaceError
-        If it is forbidden to compile.
-    """
+    """Return `photon_block` as compiled code, which leaves other threads to do their work."""
     return _code_of(_TEXT)
 
 
@@ -76,15 +68,7 @@ def pixel_code() -> MachineCode:
 
 
 def _code_of(text: str) -> MachineCode:
-    """Return the code of a text.
-
-    Raises
-    ------
-    MissingExtraError
-        If Numba is not there.
-    SurfaceError
-        If it is forbidden to compile.
-    """
+    """Return the code of a text."""
     need("photons on rough surfaces", "numba", "llvmlite")
     from optipath.engines.code_cache import CODE  # noqa: PLC0415 - beside it
     from optipath.engines.machine_code import compiled  # noqa: PLC0415 - an extra
@@ -103,17 +87,7 @@ def _digest() -> str:
 
 
 def digest_of(rooms: Iterable[str]) -> str:
-    """Return a hash of all sources in some folders of the library.
-
-    Parameters
-    ----------
-    rooms : iterable of str
-        Their names, with slashes.
-
-    Returns
-    -------
-    str
-    """
+    """Return a hash of all sources in some folders of the library."""
     found, here = hashlib.sha256(), files("optipath")
     for room in rooms:
         _add(found, here.joinpath(*room.split("/")))

@@ -14,20 +14,8 @@ if TYPE_CHECKING:
 class WalkedBlock(NamedTuple):
     """What has become of the photons of a block.
 
-    Attributes
-    ----------
-    photons : int
-        How many there were.
-    sums : mapping of int to ndarray, shape (OUTCOMES, MOST_COUNTED, lights, SUMS)
-        By the surface that they walked over; as `walk_layout` says.
-    record : ndarray, shape (events + 1, RECORD)
-        The photon that was wanted.
-    starts : ndarray, shape (2 layers,)
-        Where on each mesh the last photon has started, along x and along y.
-    lights : ndarray, shape (lights, CARRIED)
-        The lights of the last photon.
-    ends : ndarray, shape (photons, ENDS + CARRIED lights)
-        The end of every photon, where these are kept.
+    Shapes: sums (OUTCOMES, MOST_COUNTED, lights, SUMS); record (events + 1, RECORD); starts (2
+    layers,); lights (lights, CARRIED); ends (photons, ENDS + CARRIED lights).
     """
 
     photons: int

@@ -32,24 +32,6 @@ def walked_in_order(
     """Yield what becomes of blocks, in their order, however many threads there are.
 
     No more are handed out than keep all threads at work; who closes the generator stops them.
-
-    Parameters
-    ----------
-    beam : PhotonBeam
-        What is walked.
-    todo : range
-        The numbers of the blocks.
-    photons : int
-        How many photons there are in all blocks from the first, 0, on; the last may be cut.
-    threads : int
-        How many walk at a time.
-    work : callable
-        Takes the number of a block, and how many of its photons are wanted.
-
-    Yields
-    ------
-    Any
-        What it returns.
     """
     walk_code()
     kept = kept_meshes(beam.sample)

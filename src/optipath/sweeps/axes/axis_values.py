@@ -23,25 +23,7 @@ if TYPE_CHECKING:
 def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
     """Return what is given for a parameter.
 
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    name : str
-        An open parameter.
-    value : array_like, str or xarray.DataArray
-        Numbers in radians and metres, texts with units, words; a range or a list in one text; a
-        `DataArray` whose attribute ``units`` says its unit.
-
-    Returns
-    -------
-    AxisValues
-        Of one dimension, or of none for a single value.
-
-    Raises
-    ------
-    OptipathError
-        If it is no axis and no value.
+    Units: value in radians.
     """
     if value is None:
         raise ParameterError(no_value(name))

@@ -27,20 +27,6 @@ def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list
     """Return what is wrong with values of a grid, each axis looked at by itself.
 
     What combinations of values do not fit together is found when they are run.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    grid : SweepGrid
-        What is.
-    ranges : bool, optional
-        Whether ranges are looked at, as a run does as well.
-
-    Returns
-    -------
-    list of str
-        A sentence each, with the place along the axis.
     """
     faults = broadcast_fault({"a sweep": grid.shape})
     given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
@@ -57,20 +43,7 @@ def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list
 
 
 def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
-    """Return what is wrong with what follows from values of a grid, each of which is well.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    grid : SweepGrid
-        What is.
-
-    Returns
-    -------
-    list of str
-        Of the index of a metal, for instance, which follows from a wavelength.
-    """
+    """Return what is wrong with what follows from values of a grid, each of which is well."""
     if not inputs.computed:
         return []
     try:
@@ -82,19 +55,7 @@ def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
 
 
 def unnamed_arrays(inputs: Inputs, given: Collection[str]) -> list[str]:
-    """Return what is wrong with a path that has arrays, of which no axis has the name.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What the path has.
-    given : collection of str
-        The parameters that a sweep gives.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return what is wrong with a path that has arrays, of which no axis has the name."""
     faults = [
         f"{owner} has an array of shape {shape}, and no axis has its name; put a Parameter there, "
         f"and sweep it"

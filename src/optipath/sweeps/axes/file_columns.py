@@ -21,24 +21,7 @@ _ENDLESS = re.compile(r"[-+]?(nan|inf|infinity)\b.*", re.IGNORECASE)
 
 
 def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
-    """Return the values of a column.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    column : TextColumn
-        It is called as an open parameter.
-
-    Returns
-    -------
-    AxisValues
-
-    Raises
-    ------
-    ParameterError
-        With the file, and the line of each cell that something is wrong with.
-    """
+    """Return the values of a column."""
     name = column.name
     if lacking := missing_unit(column, inputs.open[name]):
         raise ParameterError(f"{column.file}: {lacking}")

@@ -31,39 +31,14 @@ _OPENED = {
 
 
 class GivenCoordinate(NamedTuple):
-    """What is given for a parameter, and along which dimension.
-
-    Attributes
-    ----------
-    value : Any
-        As `PathGraph.sweep` takes it, or read already; a column of a file.
-    dimension : str
-        ``""`` for one of its own.
-    """
+    """What is given for a parameter, and along which dimension."""
 
     value: Any
     dimension: str = ""
 
 
 def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
-    """Return what ``coords=`` gives, by name.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    coords : str, PathLike, xarray.Dataset, xarray.DataArray, mapping or None
-        A CSV file with a column for each parameter: several vary together along ``point``; columns
-        called as what a sweep finds are not looked at.
-        Coordinates of a Dataset: those along one dimension vary together, and its data are not
-        looked at. A mapping from names to what else is given by keyword.
-    faults : list of str
-        To which is added what is wrong.
-
-    Returns
-    -------
-    dict of str to GivenCoordinate
-    """
+    """Return what ``coords=`` gives, by name."""
     if coords is None:
         return {}
     try:

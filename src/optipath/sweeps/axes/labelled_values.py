@@ -28,17 +28,6 @@ _NO_UNIT = ("", NO_UNIT, "dimensionless")
 def is_labelled(value: Any, axes: int | None = None) -> bool:
     """Tell whether a value is a `DataArray`, without importing xarray.
 
-    Parameters
-    ----------
-    value : Any
-        What is given.
-    axes : int, optional
-        How many dimensions it has to have.
-
-    Returns
-    -------
-    bool
-
     Examples
     --------
     >>> is_labelled([0.5])
@@ -66,18 +55,6 @@ def has_coordinates(value: Any) -> bool:
 def cure_of_table(name: str, value: Any) -> str:
     """Return what of a table is an axis; ``""`` for what is no table of several.
 
-    Parameters
-    ----------
-    name : str
-        A parameter.
-    value : Any
-        What is given: perhaps a `Dataset`, or a `DataFrame` of pandas or polars.
-
-    Returns
-    -------
-    str
-        A part of a sentence.
-
     Examples
     --------
     >>> cure_of_table("delta", [0.5])
@@ -93,25 +70,7 @@ def cure_of_table(name: str, value: Any) -> str:
 def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:
     """Return the values of an array with a unit.
 
-    Parameters
-    ----------
-    parameter : Parameter
-        What they are for.
-    array : xarray.DataArray
-        Numbers with ``attrs["units"]`` where the parameter has a dimension, or texts.
-    uses : iterable of Use
-        Where parameters stand.
-
-    Returns
-    -------
-    AxisValues
-        Of the shape of the array. What is given to a run is what the number with its unit is as a
-        text: ``48`` in degrees is ``"48 deg"`` to the last bit.
-
-    Raises
-    ------
-    OptipathError
-        If the unit is missing, unknown, or of another dimension.
+    Units: the result in degrees.
     """
     numbers = as_given(f"parameter '{parameter.name}'", array.values, ParameterError)
     if numbers.dtype.kind in "UO":

@@ -40,35 +40,7 @@ def grid_of(
     *,
     ranges: bool = True,
 ) -> SweepGrid:
-    """Return the grid of a sweep.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    given : mapping of str to Any
-        What is, by name.
-    zip, coords
-        As `PathGraph.sweep` takes them.
-    ranges : bool, optional
-        Whether values are looked at that a run looks at as well; they are where others are wrong,
-        and where the axes are short beside a large grid.
-
-    Returns
-    -------
-    SweepGrid
-        The dimensions of `given` in its order, and those of `coords` behind.
-
-    Raises
-    ------
-    ParameterError
-        With all that is wrong: with names, units, lengths, and with each axis by itself.
-
-    Warns
-    -----
-    AngleWarning
-        Once for each parameter of which a plain number is beyond a whole turn.
-    """
+    """Return the grid of a sweep."""
     faults: list[str] = []
     besides = given_coords(inputs, coords, faults)
     twice = [name for name in given if name in besides]

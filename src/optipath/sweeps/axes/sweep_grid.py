@@ -15,17 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SweepGrid:
-    """The outer product of some axes; those of one dimension vary together.
-
-    Attributes
-    ----------
-    axes : tuple of SweepAxis
-        In the order in which they were given.
-    fixed : mapping of str to Any
-        What is given besides, a single value each.
-    labels : mapping of str to (value, unit)
-        How coordinates have what is fixed: as it was given. What has none is in base units.
-    """
+    """The outer product of some axes; those of one dimension vary together."""
 
     axes: tuple[SweepAxis, ...]
     fixed: Mapping[str, Any] = field(default_factory=dict)
@@ -55,18 +45,7 @@ class SweepGrid:
         return self.part([slice(0, None if name in held else 1) for name in self.sizes])
 
     def part(self, region: Sequence[slice]) -> SweepGrid:
-        """Return a part of the grid.
-
-        Parameters
-        ----------
-        region : sequence of slice
-            One for each dimension.
-
-        Returns
-        -------
-        SweepGrid
-            Its arrays are views.
-        """
+        """Return a part of the grid."""
         cuts = dict(zip(self.sizes, region, strict=True))
         axes = [
             replace(
@@ -77,19 +56,7 @@ class SweepGrid:
         return replace(self, axes=tuple(axes))
 
     def given(self, region: Sequence[slice] | None = None) -> dict[str, Any]:
-        """Return what `Plan.run` is given for the grid, or for a part of it.
-
-        Parameters
-        ----------
-        region : sequence of slice, optional
-            One for each dimension; by default all of it.
-
-        Returns
-        -------
-        dict of str to Any
-            Arrays that broadcast to the shape of the part: nothing is laid out. Axes on which
-            nothing depends are not among them, so that the part has one value along them.
-        """
+        """Return what `Plan.run` is given for the grid, or for a part of it."""
         places = list(self.sizes)
         found = dict(self.fixed)
         used = [axis for axis in self.axes if not axis.idle]

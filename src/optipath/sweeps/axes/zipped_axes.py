@@ -21,22 +21,6 @@ def zipped_dimensions(
 ) -> dict[str, str]:
     """Return the dimension of each parameter that varies together with others.
 
-    Parameters
-    ----------
-    zipped : Any
-        One group of names, several, or groups by the names of their dimensions.
-    lengths : mapping of str to int
-        How many values each axis has that varies by itself.
-    parameters : collection of str
-        The names that no dimension may have.
-    faults : list of str
-        To which is added what is wrong.
-
-    Returns
-    -------
-    dict of str to str
-        By parameter; without those that something is wrong with.
-
     Examples
     --------
     >>> zipped_dimensions(("delta", "rho"), {"delta": 3, "rho": 3, "phi": 2}, [], [])
@@ -73,17 +57,6 @@ def zipped_dimensions(
 
 def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -> list[str]:
     """Return what is wrong with arrays along one dimension that may or may not vary together.
-
-    Parameters
-    ----------
-    along : mapping of str to Any
-        The dimension of each array that is given with one, by parameter.
-    dimensions : mapping of str to str
-        That along which each parameter varies.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------

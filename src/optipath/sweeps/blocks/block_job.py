@@ -11,19 +11,7 @@ if TYPE_CHECKING:
 
 
 class KeptArray(NamedTuple):
-    """An array that blocks fill, part by part.
-
-    Attributes
-    ----------
-    dims : tuple of str
-        What its dimensions are called.
-    shape, chunks : tuple of int
-        Of the whole, and of the parts that are files of their own: a block fills whole chunks.
-    dtype : str
-        As NumPy writes it. Floats that are not there yet are NaN.
-    attrs : mapping of str to Any
-        What JSON can hold, such as ``units`` and ``long_name``.
-    """
+    """An array that blocks fill, part by part."""
 
     dims: tuple[str, ...]
     shape: tuple[int, ...]
@@ -33,17 +21,7 @@ class KeptArray(NamedTuple):
 
 
 class WholeArray(NamedTuple):
-    """A small array that is written when the store is made, such as a coordinate.
-
-    Attributes
-    ----------
-    dims : tuple of str
-        What its dimensions are called.
-    values : ndarray
-        Numbers, or words of a fixed length.
-    attrs : mapping of str to Any
-        What JSON can hold.
-    """
+    """A small array that is written when the store is made, such as a coordinate."""
 
     dims: tuple[str, ...]
     values: npt.NDArray[Any]
@@ -54,18 +32,7 @@ class BlockPart(Protocol):
     """What a worker is sent of a job for one block."""
 
     def compute(self, number: int) -> Mapping[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
-        """Compute one block.
-
-        Parameters
-        ----------
-        number : int
-            Which one, from 0.
-
-        Returns
-        -------
-        mapping of str to (tuple of slice, ndarray)
-            For each array of the job the part that the block fills, and what is in it.
-        """
+        """Compute one block."""
 
 
 class BlockJob(BlockPart, Protocol):

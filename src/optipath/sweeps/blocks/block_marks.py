@@ -19,38 +19,13 @@ _MOST = 1 << 26
 
 
 def mark_of(about: str, stamps: Mapping[str, list[Any]]) -> bytes:
-    """Return the content of a mark.
-
-    Parameters
-    ----------
-    about : str
-        What it is the mark of: it is worth nothing in the place of another one.
-    stamps : mapping of str to list
-        Of each file, as `stamp_of` returns it, by its name.
-
-    Returns
-    -------
-    bytes
-    """
+    """Return the content of a mark."""
     content = json.dumps(stamps, sort_keys=True).encode()  # Chunks come in any order.
     return _seal(about, content) + b"\n" + content
 
 
 def damaged_files(folder: Path, mark: str, about: str) -> Iterator[str]:
     """Yield the names of files that are not as a mark says; its own name where it is damaged.
-
-    Parameters
-    ----------
-    folder : Path
-        Where files and mark are.
-    mark : str
-        The name of its file.
-    about : str
-        As `mark_of` took it.
-
-    Yields
-    ------
-    str
 
     Examples
     --------
@@ -85,22 +60,6 @@ def content_of(file: Path, most: int = _MOST) -> bytes:
     """Return what is in a file; nothing of what is no regular file, or a larger one.
 
     Pipes and devices are not opened: they may never end.
-
-    Parameters
-    ----------
-    file : Path
-        Its name.
-    most : int, optional
-        How many bytes it may have.
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    PermissionError
-        If it may not be read, which is no damage.
     """
     try:
         about = file.stat()
@@ -124,20 +83,7 @@ def object_of(file: Path) -> dict[str, Any]:
 
 
 def put_file(file: Path, content: bytes) -> None:
-    """Write a file, whole or not at all, in place of whatever is there.
-
-    Parameters
-    ----------
-    file : Path
-        Its place.
-    content : bytes
-        All that is in it.
-
-    Raises
-    ------
-    OSError
-        As `write_own_file` does.
-    """
+    """Write a file, whole or not at all, in place of whatever is there."""
     if file.is_dir():
         clear(file)
     write_own_file(file, content, 0o666)

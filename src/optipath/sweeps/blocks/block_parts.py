@@ -23,20 +23,6 @@ def chunk_files(
     """Yield the files of some whole chunks of an array, by Zarr's own codecs.
 
     Zarr itself may leave half of a file where it is interrupted.
-
-    Parameters
-    ----------
-    metadata : bytes
-        That of the array, as it stands in its file ``.zarray``.
-    region : tuple of slice
-        What is written.
-    values : ndarray
-        What is in it.
-
-    Yields
-    ------
-    tuple of (str, bytes)
-        The name and the content of a file, for every chunk.
     """
     buffer = default_buffer_prototype().buffer
     like = zarr.open_array(

@@ -40,17 +40,6 @@ class BlockStore:
     the same bits. The marks, in ``blocks/done``, have the sizes and the digests of the files that
     the block has written, and a digest of themselves, the job and the number of the block: where
     any byte of these is another, the block is not done.
-
-    Attributes
-    ----------
-    folder : Path
-        Where it is.
-    seal : str
-        A digest of what is said of the job, without which no mark is one.
-    is_new : bool
-        Whether this run has made it.
-    stood : bool
-        Whether an empty folder was there.
     """
 
     folder: Path
@@ -60,24 +49,7 @@ class BlockStore:
 
     @classmethod
     def of(cls, job: BlockJob, folder: Path) -> BlockStore:
-        """Return the store of a job, made if nothing is there.
-
-        Parameters
-        ----------
-        job : BlockJob
-            What is kept.
-        folder : Path
-            Where.
-
-        Returns
-        -------
-        BlockStore
-
-        Raises
-        ------
-        JobError
-            If something else is there, it is damaged, or it cannot be made.
-        """
+        """Return the store of a job, made if nothing is there."""
         record = record_of(job)
         seal = sha256(json.dumps(record).encode()).hexdigest()
         store = cls(Path(os.path.realpath(folder)), seal)
@@ -99,16 +71,6 @@ class BlockStore:
         """Return the numbers of the blocks that it holds, each byte of which is looked at.
 
         The marks of damaged blocks are removed, so that these are computed anew.
-
-        Raises
-        ------
-        JobError
-            If it cannot be read.
-
-        Warns
-        -----
-        StoreWarning
-            Naming the blocks that are damaged.
         """
         try:
             names = {each.name for each in (self.folder / _MARKS).iterdir()}
@@ -141,20 +103,7 @@ class BlockStore:
         return (self.folder / _mark(number)).exists()
 
     def keep(self, number: int, found: Mapping[str, Any]) -> None:
-        """Write a block, and then mark it as done.
-
-        Parameters
-        ----------
-        number : int
-            Which one it is.
-        found : mapping of str to (tuple of slice, ndarray)
-            What `BlockJob.compute` gave.
-
-        Raises
-        ------
-        JobError
-            If it cannot be written.
-        """
+        """Write a block, and then mark it as done."""
         with self._writing():
             stamps = {}
             for name, (region, values) in found.items():

@@ -25,13 +25,7 @@ _PATIENCE = 10.0
 
 
 def threads_of(client: Client) -> int:
-    """Return how many threads a cluster has now; one if it waits for work to have any.
-
-    Raises
-    ------
-    JobError
-        If it is lost.
-    """
+    """Return how many threads a cluster has now; one if it waits for work to have any."""
     try:
         threads: int = sum(client.nthreads().values())
     except (OSError, AttributeError):  # a client that is closed meanwhile has no scheduler
@@ -44,24 +38,7 @@ def threads_of(client: Client) -> int:
 
 @contextmanager
 def client_of(given: str | Client, blocks: int) -> Iterator[Client]:
-    """Have a client; what is made for it is closed afterwards.
-
-    Parameters
-    ----------
-    given : str or distributed.Client
-        One, the address of a cluster, or ``"processes"``.
-    blocks : int
-        How many there are to do; there are no more processes than that.
-
-    Yields
-    ------
-    distributed.Client
-
-    Raises
-    ------
-    JobError
-        If it is closed, or nothing answers.
-    """
+    """Have a client; what is made for it is closed afterwards."""
     if given == "processes":
         with _processes(min(CPU_COUNT, blocks)) as client:
             yield client

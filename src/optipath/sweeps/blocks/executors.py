@@ -18,19 +18,7 @@ class AtOnce(Executor):
     """An executor that does what it is given there and then."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Do it, and return what came of it.
-
-        Parameters
-        ----------
-        fn : callable
-            What is done.
-        *args, **kwargs : Any
-            What it is given.
-
-        Returns
-        -------
-        Future
-        """
+        """Do it, and return what came of it."""
         done: Future[Any] = Future()
         try:
             done.set_result(fn(*args, **kwargs))
@@ -43,30 +31,13 @@ class Travelling(Executor):
     """An executor of a cluster that says what is wrong where a worker cannot load what it gets.
 
     Of what distributed loads itself, nobody is told more than that the worker was lost.
-
-    Parameters
-    ----------
-    executor : Executor
-        Of a client.
     """
 
     def __init__(self, executor: Executor) -> None:
         self._executor = executor
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Have it done by a worker, and return what will come of it, or a `JobError`.
-
-        Parameters
-        ----------
-        fn : callable
-            What is done.
-        *args, **kwargs : Any
-            What it is given.
-
-        Returns
-        -------
-        Future
-        """
+        """Have it done by a worker, and return what will come of it, or a `JobError`."""
         return self._executor.submit(_unpacked, cloudpickle.dumps(partial(fn, *args, **kwargs)))
 
 

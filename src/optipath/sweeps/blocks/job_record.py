@@ -33,20 +33,7 @@ def record_of(job: BlockJob) -> dict[str, Any]:
 
 
 def check_record(folder: Path, record: dict[str, Any]) -> None:
-    """Refuse a folder that is not the store of a job.
-
-    Parameters
-    ----------
-    folder : Path
-        What is there where the job would be kept.
-    record : dict of str to Any
-        Of the job, as `record_of` returns it.
-
-    Raises
-    ------
-    JobError
-        If it is something else; nothing of it is changed.
-    """
+    """Refuse a folder that is not the store of a job."""
     if not folder.is_dir():
         raise JobError(f"'{folder}' is there, and is no folder; {OTHER_PLACE}")
     if not (folder / RECORD).exists():
@@ -73,22 +60,7 @@ def group_attrs(job: BlockJob) -> dict[str, Any]:
 
 
 def check_files(folder: Path, about: str, job: BlockJob) -> None:
-    """Refuse a store of which a file is damaged or gone that no block writes again.
-
-    Parameters
-    ----------
-    folder : Path
-        Where it is.
-    about : str
-        What the mark of these files was made with.
-    job : BlockJob
-        What is kept in it.
-
-    Raises
-    ------
-    JobError
-        Naming the file; nothing of it is changed.
-    """
+    """Refuse a store of which a file is damaged or gone that no block writes again."""
     damaged = [*damaged_files(folder, FILES, about)]
     if damaged and not ({*damaged} <= {".zattrs", ".zmetadata"} and _has_notes(folder, job)):
         raise JobError(

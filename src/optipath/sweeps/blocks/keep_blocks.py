@@ -30,35 +30,6 @@ def keep_blocks(
 ) -> Path:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
-    Parameters
-    ----------
-    job : BlockJob
-        What is computed.
-    store : str or PathLike
-        The folder of a Zarr group, which `xarray.open_zarr` opens as well; made if it is not
-        there. Workers on other machines see it under the same name.
-    scheduler : str or distributed.Client, optional
-        Who computes: ``"synchronous"``, ``"threads"``, ``"processes"``, a client of a cluster, or
-        its address such as ``"tcp://127.0.0.1:8786"``; by default the client that is active,
-        else threads.
-    progress : callable, optional
-        Told how many blocks are done, and of how many: at first, and whenever one is.
-
-    Returns
-    -------
-    Path
-        Of the store.
-
-    Raises
-    ------
-    JobError
-        If the store holds something else, cannot be written, or there is nobody to compute.
-
-    Warns
-    -----
-    StoreWarning
-        Naming blocks of the store that are damaged; they are computed anew.
-
     Notes
     -----
     A store that was made and has no block yet goes again where an error comes out, so that the job

@@ -23,19 +23,7 @@ _DIMENSIONS = "_ARRAY_DIMENSIONS"
 
 
 def make_group(job: BlockJob, record: dict[str, Any], about: str, folder: Path) -> None:
-    """Write a group with the arrays of a job, its coordinates and its record.
-
-    Parameters
-    ----------
-    job : BlockJob
-        What will be kept in it.
-    record : dict of str to Any
-        As `record_of` returns it.
-    about : str
-        What the mark of these files is made with.
-    folder : Path
-        Where it is made; nothing is there yet.
-    """
+    """Write a group with the arrays of a job, its coordinates and its record."""
     folder.mkdir()
     group = zarr.create_group(str(folder), zarr_format=_VERSION, attributes=group_attrs(job))
     for name, kept in job.arrays.items():

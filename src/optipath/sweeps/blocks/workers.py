@@ -26,17 +26,7 @@ _AHEAD = 2
 
 
 class Workers(NamedTuple):
-    """Those who compute.
-
-    Attributes
-    ----------
-    executor : Executor
-        Who hands out what is to be done.
-    handed_out : callable
-        How many blocks are given to them at a time, which bounds what waits; a cluster may grow.
-    stay : bool
-        Whether they are there afterwards, at work perhaps on blocks that nobody waits for.
-    """
+    """Those who compute."""
 
     executor: Executor
     handed_out: Callable[[], int]
@@ -44,13 +34,7 @@ class Workers(NamedTuple):
 
 
 def check_scheduler(scheduler: Any) -> None:
-    """Refuse what is no scheduler.
-
-    Raises
-    ------
-    JobError
-        If it is neither a known name, nor an address, nor a client.
-    """
+    """Refuse what is no scheduler."""
     if scheduler is None:
         return
     if isinstance(scheduler, str):
@@ -67,24 +51,7 @@ def check_scheduler(scheduler: Any) -> None:
 
 @contextmanager
 def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
-    """Have those at work whom a scheduler stands for; those who are made for it go afterwards.
-
-    Parameters
-    ----------
-    scheduler : str, distributed.Client or None
-        As `keep_blocks` takes it.
-    blocks : int
-        How many there are to do.
-
-    Yields
-    ------
-    Workers
-
-    Raises
-    ------
-    JobError
-        If it cannot be reached.
-    """
+    """Have those at work whom a scheduler stands for; those who are made for it go afterwards."""
     given = active_client() or "threads" if scheduler is None else scheduler
     if given == "synchronous":
         yield Workers(AtOnce(), lambda: 1)

@@ -27,16 +27,6 @@ _AT_ONCE = 1 << 18
 class BlockLight:
     """The light of all detectors, for the points of one block.
 
-    Attributes
-    ----------
-    shape : tuple of int
-        Of the block.
-    lights : tuple of (tuple of Light)
-        For each detector, that of the pieces of the block, which follow each other in memory.
-    ran : tuple of int, optional
-        The shape of what was run, 1 along dimensions on which nothing depends; that of the block
-        by default.
-
     Examples
     --------
     >>> import optipath as op
@@ -71,19 +61,7 @@ class BlockLight:
 
 
 def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
-    """Return the light of a block.
-
-    Parameters
-    ----------
-    recipe : PlanRecipe
-        What is run; its plan is made once a process.
-    block : SweepGrid
-        The part of a sweep that the block is.
-
-    Returns
-    -------
-    BlockLight
-    """
+    """Return the light of a block."""
     plan, varied = recipe.plan, block.varied
     with units_are_written():  # Who reads the axes has told of degrees among them.
         found = [

@@ -15,26 +15,6 @@ BLOCK = 1 << 20
 def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> dict[str, int]:
     """Return how many values a block has along each dimension.
 
-    Parameters
-    ----------
-    chunks : int, str or mapping of str to int
-        As `PathGraph.sweep` takes it. Dimensions that a mapping does not name, or calls
-        ``"auto"``, are cut in the room that the others leave.
-    sizes : mapping of str to int
-        How many values each dimension has, in order.
-    detectors : int, optional
-        How many lights each point has; a block has all of them.
-
-    Returns
-    -------
-    dict of str to int
-        In the order of the dimensions.
-
-    Raises
-    ------
-    ParameterError
-        With every fault: of an unknown dimension, or of what is no size.
-
     Examples
     --------
     >>> chunk_sizes("auto", {"delta": 1000, "rho": 1000, "phi": 100})

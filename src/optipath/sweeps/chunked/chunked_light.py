@@ -24,17 +24,7 @@ if TYPE_CHECKING:
 
 
 class ChunkedLight:
-    """The light of a sweep, block by block: each is computed once for all that is asked of it.
-
-    Parameters
-    ----------
-    recipe : PlanRecipe
-        What is run. It travels as text, once to each worker.
-    grid : SweepGrid
-        With the values of its parameters.
-    sizes : mapping of str to int
-        How many values a block has along each dimension.
-    """
+    """The light of a sweep, block by block: each is computed once for all that is asked of it."""
 
     def __init__(self, recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int]) -> None:
         self.detectors = len(detectors_of(recipe.plan))

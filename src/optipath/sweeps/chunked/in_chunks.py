@@ -25,19 +25,7 @@ if TYPE_CHECKING:
 
 
 class ChunkedSweep(NamedTuple):
-    """A sweep of which nothing is computed yet, and what it is made of.
-
-    Attributes
-    ----------
-    recipe : PlanRecipe
-        What is run.
-    grid : SweepGrid
-        With the values of its parameters.
-    quantities : mapping of str to LightQuantity
-        By the names of their variables.
-    dataset : xarray.Dataset
-        Of Dask arrays, with the labels of a sweep in memory.
-    """
+    """A sweep of which nothing is computed yet, and what it is made of."""
 
     recipe: PlanRecipe
     grid: SweepGrid
@@ -48,32 +36,7 @@ class ChunkedSweep(NamedTuple):
 def swept_in_chunks(
     path: PathGraph, plan: Plan, grid: SweepGrid, chunks: Any, composer: Composer | None = None
 ) -> ChunkedSweep:
-    """Return the light of a grid, to be computed block by block.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What is swept.
-    plan : Plan
-        What it is composed to.
-    grid : SweepGrid
-        With the values of its parameters.
-    chunks
-        As `PathGraph.sweep` takes it.
-    composer : Composer, optional
-        What has made the plan; the default one if not given.
-
-    Returns
-    -------
-    ChunkedSweep
-
-    Raises
-    ------
-    ParameterError
-        If the chunks are none of the grid, or a coordinate is called as a variable.
-    PathError
-        If the path has no form in TOML, in which it travels.
-    """
+    """Return the light of a grid, to be computed block by block."""
     names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
     sizes = chunk_sizes(chunks, grid.sizes, len(detectors_of(plan)))
     recipe = PlanRecipe.of(path, composer)

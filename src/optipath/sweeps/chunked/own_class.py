@@ -17,16 +17,7 @@ _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 
 class OwnClass(NamedTuple):
-    """What tells a class from another one of its name.
-
-    Attributes
-    ----------
-    module, name : str
-        Where it is defined, and how it is called there.
-    digest : str
-        Of its code: that of its functions, of what they call in its package, and of the values
-        that they use, as they are when it is asked for.
-    """
+    """What tells a class from another one of its name."""
 
     module: str
     name: str
@@ -35,15 +26,6 @@ class OwnClass(NamedTuple):
     @classmethod
     def of(cls, element_class: type[Any]) -> OwnClass:
         """Return what tells a class from others.
-
-        Parameters
-        ----------
-        element_class : type
-            One of a user's own.
-
-        Returns
-        -------
-        OwnClass
 
         Examples
         --------

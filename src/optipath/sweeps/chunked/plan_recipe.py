@@ -25,18 +25,6 @@ class PlanRecipe:
 
     Each process makes the plan once, and compiles it or finds its own compiled code.
 
-    Attributes
-    ----------
-    text : str
-        The path, as `PathGraph.to_toml` writes it.
-    options : tuple of (str, Any)
-        Those of the `Composer` that are not as they are by default.
-    own : tuple of OwnClass
-        The classes of elements of a user's own; their modules are imported first.
-    made : Plan or None
-        The plan in the process that has it already, of the very classes of its path; it stays
-        there, and is nothing by which recipes differ.
-
     Examples
     --------
     >>> import pickle
@@ -54,24 +42,7 @@ class PlanRecipe:
 
     @classmethod
     def of(cls, path: PathGraph, composer: Composer | None = None) -> PlanRecipe:
-        """Return the recipe of a path.
-
-        Parameters
-        ----------
-        path : PathGraph
-            What is to run.
-        composer : Composer, optional
-            How it is composed; the default one if not given.
-
-        Returns
-        -------
-        PlanRecipe
-
-        Raises
-        ------
-        PathError
-            If the path has no form in TOML.
-        """
+        """Return the recipe of a path."""
         chosen = composer or Composer()
         options = ((each.name, getattr(chosen, each.name)) for each in fields(Composer))
         usual = Composer()
@@ -91,13 +62,7 @@ class PlanRecipe:
 
     @property
     def plan(self) -> Plan:
-        """The plan, made once a process.
-
-        Raises
-        ------
-        PathError
-            If an element of a user's own is not there in this process, or is another one.
-        """
+        """The plan, made once a process."""
         if self.made is not None:
             return self.made
         with _making:

@@ -12,16 +12,6 @@ if TYPE_CHECKING:
 def place_of_blocks(store: str | PathLike[str]) -> Path:
     """Return where the blocks of a sweep are until all are there.
 
-    Parameters
-    ----------
-    store : str or PathLike
-        As `PathGraph.sweep` takes it.
-
-    Returns
-    -------
-    Path
-        A Zarr store itself. Beside a file, a hidden folder, which nobody takes for one of his own.
-
     Examples
     --------
     >>> place_of_blocks("sweep.zarr").name, place_of_blocks("sweep.nc").name

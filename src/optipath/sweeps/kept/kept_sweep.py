@@ -25,26 +25,12 @@ if TYPE_CHECKING:
 def place_of_store(store: str | PathLike[str]) -> Path:
     """Return where a sweep is to be kept.
 
-    Parameters
-    ----------
-    store : str or PathLike
-        As `PathGraph.sweep` takes it.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    ParameterError
-        If its name does not say in which form.
-
     Examples
     --------
     >>> place_of_store("sweep.csv")
     Traceback (most recent call last):
     optipath.errors.ParameterError: store 'sweep.csv' is neither a Zarr store nor a NetCDF file: \
-give a name that ends in .zarr or .nc, such as 'sweep.zarr'
+    give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     """
     is_path = isinstance(store, str | os.PathLike)
     place = Path(store) if is_path else Path()
@@ -58,27 +44,7 @@ give a name that ends in .zarr or .nc, such as 'sweep.zarr'
 
 
 def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool | Tell) -> xr.Dataset:
-    """Compute what is not kept yet of a sweep, and return what is kept.
-
-    Parameters
-    ----------
-    job : SweepJob
-        What is computed.
-    place : Path
-        As `place_of_store` returns it.
-    scheduler, progress
-        As `PathGraph.sweep` takes them.
-
-    Returns
-    -------
-    xarray.Dataset
-        Of Dask arrays that read the store, block by block.
-
-    Raises
-    ------
-    JobError
-        If something else is there already.
-    """
+    """Compute what is not kept yet of a sweep, and return what is kept."""
     tell = progress if callable(progress) else progress_line if progress else None
     if place.suffix == ".nc":
         return kept_in_netcdf(job, place, scheduler, tell)

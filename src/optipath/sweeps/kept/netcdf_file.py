@@ -36,28 +36,6 @@ def kept_in_netcdf(
     The blocks are kept in a Zarr store beside it until all are there, so that this goes on where it
     was interrupted, too; the file is then written from it block by block, and put into its place.
     Two runs share that store: who is later opens the file of who was first.
-
-    Parameters
-    ----------
-    job : SweepJob
-        What is computed.
-    file : Path
-        Where it is to be.
-    scheduler
-        As `PathGraph.sweep` takes it.
-    tell : callable or None
-        As `keep_blocks` takes it.
-
-    Returns
-    -------
-    xarray.Dataset
-
-    Raises
-    ------
-    ParameterError
-        If another file is there already.
-    JobError
-        If the store beside it is of something else.
     """
     identity = sha256(job.identity.encode()).hexdigest()
     if file.exists():

@@ -10,11 +10,6 @@ _WIDTH = 40
 def progress_line(done: int, total: int) -> None:
     """Write over the last line of the terminal how far a sweep is.
 
-    Parameters
-    ----------
-    done, total : int
-        How many blocks are there, and of how many.
-
     Examples
     --------
     >>> from contextlib import redirect_stderr

@@ -19,19 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SweepBlock:
-    """A block of a `SweepJob`, with its own part of the axes: whole ones may be large.
-
-    Attributes
-    ----------
-    recipe : PlanRecipe
-        What is run.
-    grid : SweepGrid
-        The part of the sweep that the block is.
-    region : tuple of slice
-        Where it is in the whole.
-    quantities : mapping of str to LightQuantity
-        By the names of their variables.
-    """
+    """A block of a `SweepJob`, with its own part of the axes: whole ones may be large."""
 
     recipe: PlanRecipe
     grid: SweepGrid

@@ -22,24 +22,7 @@ LAYOUT = 1
 def sweep_identity(
     recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int], types: Mapping[str, str]
 ) -> str:
-    """Return all of what a sweep computes, a line each, so that the first other one can be told.
-
-    Parameters
-    ----------
-    recipe : PlanRecipe
-        What is run.
-    grid : SweepGrid
-        With the values of its parameters.
-    sizes : mapping of str to int
-        How many values a block has along each dimension.
-    types : mapping of str to str
-        That of the numbers of each variable.
-
-    Returns
-    -------
-    str
-        Other values, blocks, bits, or another optipath are another sweep.
-    """
+    """Return all of what a sweep computes, a line each, so that the first other one can be told."""
     lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
     lines += [f"option {name}: {value!r}" for name, value in recipe.options]
     lines += [f"element class {' '.join(each)}" for each in recipe.own]

@@ -26,21 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SweepJob:
-    """A sweep that is computed block by block and kept; see `BlockJob`.
-
-    Attributes
-    ----------
-    recipe : PlanRecipe
-        What is run.
-    grid : SweepGrid
-        With the values of its parameters.
-    sizes : mapping of str to int
-        How many values a block has along each dimension.
-    quantities : mapping of str to LightQuantity
-        By the names of their variables.
-    arrays, coords, attrs
-        The variables, coordinates and attributes of the Dataset.
-    """
+    """A sweep that is computed block by block and kept; see `BlockJob`."""
 
     recipe: PlanRecipe
     grid: SweepGrid
@@ -52,22 +38,7 @@ class SweepJob:
 
     @classmethod
     def of(cls, chunked: ChunkedSweep) -> SweepJob:
-        """Return the job that keeps a sweep in chunks.
-
-        Parameters
-        ----------
-        chunked : ChunkedSweep
-            The sweep, of which nothing is computed yet.
-
-        Returns
-        -------
-        SweepJob
-
-        Raises
-        ------
-        ParameterError
-            If its numbers are of a precision that stores do not have.
-        """
+        """Return the job that keeps a sweep in chunks."""
         if chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
             raise ParameterError(
                 "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
@@ -128,33 +99,13 @@ class SweepJob:
         )
 
     def part(self, number: int) -> SweepBlock:
-        """Return what a block alone is computed of: whole axes may be too large to be sent along.
-
-        Parameters
-        ----------
-        number : int
-            Which block, from 0.
-
-        Returns
-        -------
-        SweepBlock
-        """
+        """Return the inputs of one block: whole axes may be too large to be sent along."""
         region = self.region(number)
         grid = self.grid.part(region)
         return SweepBlock(self.recipe, grid, region, self.quantities)
 
     def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
-        """Return the part of each variable that a block is, and what is in it.
-
-        Parameters
-        ----------
-        number : int
-            Which block, from 0.
-
-        Returns
-        -------
-        dict of str to (tuple of slice, ndarray)
-        """
+        """Return the part of each variable that a block is, and what is in it."""
         return self.part(number).compute(number)
 
 

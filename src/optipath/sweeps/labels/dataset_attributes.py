@@ -25,20 +25,6 @@ def dataset_attributes(
 ) -> dict[str, str | float]:
     """Return the attributes of the Dataset of a sweep, texts and numbers.
 
-    Parameters
-    ----------
-    path : PathGraph
-        What is swept.
-    plan : Plan
-        By what.
-    composer : Composer, optional
-        What has made the plan; the default one if not given.
-
-    Returns
-    -------
-    dict of str to (str or float)
-        ``path`` is its TOML, or a sentence where it has none.
-
     Examples
     --------
     >>> import optipath as op

@@ -21,38 +21,13 @@ if TYPE_CHECKING:
 
 
 def dimensions_of(grid: SweepGrid, plan: Plan) -> tuple[str, ...]:
-    """Return the dimensions of the variables: detectors, if there are several, and the axes.
-
-    Parameters
-    ----------
-    grid : SweepGrid
-        The axes.
-    plan : Plan
-        What is swept.
-
-    Returns
-    -------
-    tuple of str
-    """
+    """Return the dimensions of the variables: detectors, if there are several, and the axes."""
     front = (DETECTOR,) if len(detectors_of(plan)) > 1 else ()
     return (*front, *grid.sizes)
 
 
 def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dict[str, str]]]:
-    """Return a coordinate for every axis and every value that is fixed.
-
-    Parameters
-    ----------
-    grid : SweepGrid
-        The axes, and what is fixed.
-    plan : Plan
-        What is swept. Its parameters that are not given are as they are by default.
-
-    Returns
-    -------
-    dict of str to (dimension, values, attributes)
-        By name, as a Dataset takes them: in the order of the axes, then that of the plan.
-    """
+    """Return a coordinate for every axis and every value that is fixed."""
     several = detectors_of(plan)
     found: dict[str, tuple[Any, Any, dict[str, str]]] = {}
     if len(several) > 1:

@@ -13,19 +13,7 @@ if TYPE_CHECKING:
 
 
 class LightQuantity(NamedTuple):
-    """A quantity of light.
-
-    Attributes
-    ----------
-    variable : str
-        What the variable of a Dataset is called.
-    attribute : str
-        That of `Light`; a component of the Stokes vector stands as ``"0"`` to ``"3"``.
-    unit : str
-        Its unit; ``"1"`` without a dimension, and ``""`` for that of the sources.
-    name : str
-        What it is.
-    """
+    """A quantity of light."""
 
     variable: str
     attribute: str

@@ -22,15 +22,6 @@ _ROWS = 1 << 16
 def heading(name: str, unit: str) -> str:
     """Return the heading of a column, with the unit of its numbers.
 
-    Parameters
-    ----------
-    name, unit : str
-        Of the quantity; ``""`` for no unit.
-
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> heading("delta", "deg"), heading("n1", "")
@@ -41,18 +32,6 @@ def heading(name: str, unit: str) -> str:
 
 def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ...]]:
     """Yield parts of a grid in the order of its points.
-
-    Parameters
-    ----------
-    shape : sequence of int
-        Of the grid.
-    most : int, optional
-        How many points a part has at most.
-
-    Yields
-    ------
-    tuple of slice
-        One for each dimension.
 
     Examples
     --------
@@ -75,20 +54,7 @@ def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ..
 
 
 def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
-    """Return the heading of each column: of the axes, then of the quantities of light.
-
-    Parameters
-    ----------
-    plan : Plan
-        By which the light is computed.
-    grid : SweepGrid
-        The axes.
-
-    Returns
-    -------
-    list of str
-        As they stand in a file.
-    """
+    """Return the heading of each column: of the axes, then of the quantities of light."""
     names = variable_names(grid, plan)
     ends = detectors_of(plan)
     at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
@@ -101,22 +67,7 @@ def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
 
 
 def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Sequence[str]]:
-    """Yield the texts of each column for a part of a grid.
-
-    Parameters
-    ----------
-    plan : Plan
-        By which the light is computed.
-    grid : SweepGrid
-        The axes.
-    region : sequence of slice
-        The part, as `regions` has it.
-
-    Yields
-    ------
-    sequence of str
-        With all digits.
-    """
+    """Yield the texts of each column for a part of a grid."""
     shape = tuple(cut.stop - cut.start for cut in region)
     places = dict(zip(grid.sizes, range(len(shape)), strict=True))
     for axis in grid.axes:

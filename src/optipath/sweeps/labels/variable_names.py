@@ -38,25 +38,7 @@ def detectors_of(plan: Plan) -> tuple[str, ...]:
 
 
 def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
-    """Return what the variable of each quantity is called.
-
-    Parameters
-    ----------
-    grid : SweepGrid
-        Whose dimensions have names, too.
-    plan : Plan
-        Each of its open parameters is a coordinate.
-
-    Returns
-    -------
-    dict of str to str
-        By the usual name: ``"psi"`` and ``"delta"`` have another where a parameter has theirs.
-
-    Raises
-    ------
-    ParameterError
-        If a coordinate or a dimension is called as a variable.
-    """
+    """Return what the variable of each quantity is called."""
     taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
     own = [quantity.variable for quantity in (*QUANTITIES, FAINT)]
     beside = _BESIDE if _BESIDE.keys() & set(taken) else {}

@@ -22,19 +22,7 @@ _EXAMPLE = '{("n1", "k1"): 0.3}'
 def read_correlation(given: Any, names: Sequence[str]) -> tuple[npt.NDArray[np.float64], list[str]]:
     """Return the matrix of correlation coefficients, and what is wrong with what is given.
 
-    Parameters
-    ----------
-    given : mapping of pairs of str to float, or None
-        The coefficient of each pair that has one.
-    names : sequence of str
-        What is uncertain.
-
-    Returns
-    -------
-    matrix : ndarray, shape (k, k)
-        1 along the diagonal; see JCGM 100:2008, eq. 14.
-    faults : list of str
-        A sentence each.
+    Shape: returns matrix (k, k).
 
     Examples
     --------

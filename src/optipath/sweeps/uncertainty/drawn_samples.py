@@ -31,25 +31,7 @@ class DrawnSamples:
     same seed gives each value the same samples, however they are cut into blocks, in whatever
     order values are given, and whatever else is uncertain that it is not correlated with.
 
-    Parameters
-    ----------
-    uncertain : sequence of UncertainValue
-        What varies.
-    correlation : ndarray, shape (k, k)
-        The coefficients.
-    places : sequence of int
-        The place of each value among the parameters of the path.
-    count : int
-        How many samples there are.
-    seed : int
-        Of NumPy's SeedSequence and PCG64, one for each parameter.
-    axes : int
-        How many axes the batch has.
-
-    Attributes
-    ----------
-    outside : dict of str to int
-        Of how many samples, drawn first, a value was outside its range for some path.
+    Shape: correlation (k, k).
     """
 
     def __init__(
@@ -70,24 +52,7 @@ class DrawnSamples:
         self.outside = dict.fromkeys([each.name for each in uncertain], 0)
 
     def within(self, block: slice, names: Collection[str]) -> dict[str, npt.NDArray[np.float64]]:
-        """Return some samples of some values, an axis of them in front of the batch.
-
-        Parameters
-        ----------
-        block : slice
-            Which samples.
-        names : collection of str
-            Which values.
-
-        Returns
-        -------
-        dict of str to ndarray
-
-        Raises
-        ------
-        ParameterError
-            If hardly any of values that are correlated are within their ranges together.
-        """
+        """Return some samples of some values, an axis of them in front of the batch."""
         found: dict[str, list[Any]] = {name: [] for name in names}
         for chunk in range(block.start // _CHUNK, (block.stop - 1) // _CHUNK + 1):
             first = chunk * _CHUNK

@@ -21,14 +21,7 @@ _NOISES = 4.0
 class Spread(NamedTuple):
     """How figures of light vary.
 
-    Attributes
-    ----------
-    covariance : ndarray, shape (..., 4, 4)
-        Of the Stokes vector.
-    uncertainties : ndarray, shape (..., 10)
-        The standard uncertainty of each figure.
-    shares : ndarray, shape (..., 10, k)
-        That of each uncertain value in its variance.
+    Shapes: covariance (..., 4, 4); uncertainties (..., 10); shares (..., 10, k).
     """
 
     covariance: npt.NDArray[np.float64]
@@ -41,21 +34,7 @@ def changes_of(
 ) -> npt.NDArray[np.float64]:
     """Return by how much each figure changes with one standard uncertainty of each value.
 
-    Parameters
-    ----------
-    light : Light
-        At the best estimates.
-    slopes : ndarray, shape (..., 4, k)
-        Of its Stokes vector.
-    uncertain : tuple of UncertainValue
-        The k values.
-    rounding : float
-        What is less than this share of the terms that it is the sum of, is 0.
-
-    Returns
-    -------
-    ndarray, shape (..., 10, k)
-        NaN where there is no slope.
+    Shapes: slopes (..., 4, k); returns (..., 10, k).
     """
     sigmas, scales = (
         np.stack([np.broadcast_to(n, slopes.shape[:-2]) for n in numbers], axis=-1)
@@ -84,17 +63,7 @@ def spread_of(changes: Any, correlation: npt.NDArray[np.float64]) -> Spread:
     JCGM 100:2008 (GUM), eq. 13, and eq. 10 without correlation; for several figures at once
     JCGM 102:2011, sec. 6.2. The share of a value is that of its row in the double sum of eq. 13.
 
-    Parameters
-    ----------
-    changes : ndarray, shape (..., 10, k)
-        As `changes_of` returns them.
-    correlation : ndarray, shape (k, k)
-        The coefficients.
-
-    Returns
-    -------
-    Spread
-        Shares of what does not vary are 0.
+    Shapes: changes (..., 10, k); correlation (k, k).
 
     Examples
     --------

@@ -20,19 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class LightAt:
-    """What gives the light at one detector, as often as it is asked.
-
-    Attributes
-    ----------
-    plan : Plan
-        What is run.
-    detector : str
-        Whose light it is.
-    exact : mapping of str to Any
-        What is given without an uncertainty.
-    uncertain : tuple of UncertainValue
-        What varies.
-    """
+    """What gives the light at one detector, as often as it is asked."""
 
     plan: Plan
     detector: str
@@ -40,22 +28,7 @@ class LightAt:
     uncertain: tuple[UncertainValue, ...]
 
     def __call__(self, values: Mapping[str, Any]) -> Light:
-        """Return the light where some values are others than the best estimates.
-
-        Parameters
-        ----------
-        values : mapping of str to array
-            Those that are, by name.
-
-        Returns
-        -------
-        Light
-
-        Raises
-        ------
-        ParameterError
-            If the path cannot have them.
-        """
+        """Return the light where some values are others than the best estimates."""
         given = {**self.exact, **{each.name: each.value for each in self.uncertain}, **values}
         given = {n: v.item() if _is_one(v) else v for n, v in given.items()}
         with warnings.catch_warnings():
@@ -66,24 +39,7 @@ class LightAt:
             return self.plan.run_all(**given)[self.detector]
 
     def beside(self, values: Mapping[str, Any], names: Sequence[str]) -> Light:
-        """Return the light beside the best estimates; a fault says of which.
-
-        Parameters
-        ----------
-        values : mapping of str to array
-            As they are called with.
-        names : sequence of str
-            What varies.
-
-        Returns
-        -------
-        Light
-
-        Raises
-        ------
-        ParameterError
-            If the path cannot have them.
-        """
+        """Return the light beside the best estimates; a fault says of which."""
         try:
             return self(values)
         except ParameterError as fault:

@@ -34,14 +34,7 @@ def figures_of(light: Light) -> npt.NDArray[np.float64]:
 def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
     """Return figures less others, of angles the shorter way round.
 
-    Parameters
-    ----------
-    figures, others : ndarray, shape (..., 10)
-        They broadcast together.
-
-    Returns
-    -------
-    ndarray
+    Shape: figures, others (..., 10).
     """
     found = np.asarray(figures - others)
     for place, period in _PERIODS.items():
@@ -63,11 +56,6 @@ def rounding_of(light: Light) -> npt.NDArray[np.float64]:
 def place_of(quantity: object) -> int:
     """Return the place of a quantity among the figures.
 
-    Raises
-    ------
-    ParameterError
-        If there is none of that name.
-
     Examples
     --------
     >>> place_of("intensity"), place_of("S3"), place_of("dop"), place_of("DoP")
@@ -84,15 +72,7 @@ def gradients_of(light: Light) -> npt.NDArray[np.float64]:
     At a corner, as that of the degree of polarisation of unpolarised light, they are NaN: there
     is no slope to the first order.
 
-    Parameters
-    ----------
-    light : Light
-        Of shape (...).
-
-    Returns
-    -------
-    ndarray, shape (..., 10, 4)
-        NaN where the light does not have a figure.
+    Shapes: light (...); returns (..., 10, 4).
     """
     stokes = np.asarray(light.stokes, np.float64)
     s0 = stokes[..., 0]

@@ -43,23 +43,7 @@ def nonlinearity_of(
     Stokes component changes most. What the slopes did not say counts for the values that were
     changed; at n uncertainties divided by n squared, so that a curve is the same at all of them.
 
-    Parameters
-    ----------
-    light_at : LightAt
-        What gives the light.
-    light : Light
-        At the best estimates.
-    changes : ndarray, shape (..., 10, k)
-        What slopes say.
-    uncertainties : ndarray, shape (..., 10)
-        Of the figures.
-    correlation : ndarray, shape (k, k)
-        The coefficients.
-
-    Returns
-    -------
-    ndarray, shape (..., 10, k)
-        Infinite where the first order says that nothing varies, and something does.
+    Shapes: changes (..., 10, k); uncertainties (..., 10); correlation (k, k); returns (..., 10, k).
     """
     center, uncertain = figures_of(light), light_at.uncertain
     found, rounding = np.zeros_like(changes), rounding_of(light)

@@ -44,25 +44,7 @@ def spread_of_samples(
     JCGM 101:2008 (Supplement 1 of the GUM), eqs. 16 and 17; for the shares each value varies
     alone, with the same random numbers (annex B).
 
-    Parameters
-    ----------
-    light_at : LightAt
-        What gives the light.
-    light : Light
-        At the best estimates.
-    correlation : ndarray, shape (k, k)
-        The coefficients.
-    count, seed : int
-        How many samples, and what their random numbers begin with.
-
-    Returns
-    -------
-    spread : Spread
-        NaN where some sample does not have a figure.
-    mean : ndarray, shape (..., 4)
-        Of the Stokes vectors.
-    notes : list of str
-        What was outside of its range.
+    Shapes: correlation (k, k); returns mean (..., 4).
     """
     order = [*light_at.plan.inputs.open]
     places = [order.index(each.name) for each in light_at.uncertain]

@@ -23,20 +23,7 @@ def notes_of_first_order(
 ) -> list[str]:
     """Return what is doubtful to the first order, a sentence each.
 
-    Parameters
-    ----------
-    light : Light
-        At the best estimates.
-    uncertain : tuple of UncertainValue
-        What varies.
-    uncertainties : ndarray, shape (..., 10)
-        Of the figures.
-    left : ndarray, shape (..., 10, k)
-        What the first order leaves of each.
-
-    Returns
-    -------
-    list of str
+    Shapes: uncertainties (..., 10); left (..., 10, k).
     """
     notes = [
         f"{each.name} is closer to the ends of its range, {each.range_text}, than its uncertainty, "
@@ -79,14 +66,7 @@ def _named(where: Any) -> str:
 def notes_of_lost_figures(lost: Any) -> list[str]:
     """Return what is said of figures that some samples do not have, if there are any.
 
-    Parameters
-    ----------
-    lost : ndarray of bool, shape (..., 10)
-        Which they are.
-
-    Returns
-    -------
-    list of str
+    Shape: lost (..., 10).
 
     Examples
     --------
@@ -101,14 +81,7 @@ def notes_of_lost_figures(lost: Any) -> list[str]:
 def notes_of_lost_light(lost: Any) -> list[str]:
     """Return what is said of light that no float holds, if there is any.
 
-    Parameters
-    ----------
-    lost : ndarray of bool, shape (...)
-        Which light it is.
-
-    Returns
-    -------
-    list of str
+    Shape: lost (...).
 
     Examples
     --------

@@ -45,23 +45,7 @@ def propagate(
     given: dict[str, Any],
     options: PropagateOptions,
 ) -> Propagation:
-    """Return the light of a path with its uncertainty; see `PathGraph.propagate`.
-
-    Parameters
-    ----------
-    path : PathGraph
-        Whose light it is.
-    unnamed : tuple
-        What is given without a name.
-    given : dict of str to Any
-        What is given by name.
-    options : PropagateOptions
-        How it is done.
-
-    Returns
-    -------
-    Propagation
-    """
+    """Return the light of a path with its uncertainty; see `PathGraph.propagate`."""
     plan = path.compose()
     check_named("propagate", unnamed, plan.inputs.open)
     if clashes := options.clashes(plan.inputs):

@@ -19,13 +19,7 @@ _FEWEST, _MOST = 2, 10_000_000
 
 @dataclass(frozen=True)
 class PropagateOptions:
-    """The options of `PathGraph.propagate`, as they are given.
-
-    Attributes
-    ----------
-    method, samples, seed, correlation, detector, composer
-        As `PathGraph.propagate` takes them.
-    """
+    """The options of `PathGraph.propagate`, as they are given."""
 
     method: str = "auto"
     samples: int | None = None
@@ -50,17 +44,7 @@ class PropagateOptions:
         return _SEED if self.seed is None else int(self.seed)
 
     def clashes(self, inputs: Inputs) -> list[str]:
-        """Return what is said of parameters that are called as options, a sentence each.
-
-        Parameters
-        ----------
-        inputs : Inputs
-            What may be given to a path.
-
-        Returns
-        -------
-        list of str
-        """
+        """Return what is said of parameters that are called as options, a sentence each."""
         return [
             f"'{each.name}' is an option of propagate() and a parameter of this path; "
             f"path.bind({each.name}=...) gives the parameter its value"

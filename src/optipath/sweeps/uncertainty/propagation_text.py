@@ -28,22 +28,7 @@ def text_of_propagation(
 ) -> str:
     """Return a table of the quantities of light.
 
-    Parameters
-    ----------
-    method : str
-        How it was found.
-    light : Light
-        At the best estimates, of shape (...).
-    uncertain : sequence of UncertainValue
-        The k values that vary.
-    uncertainties : ndarray, shape (..., 10)
-        Of the quantities.
-    shares : ndarray, shape (..., 10, k)
-        Of each value in their variances.
-
-    Returns
-    -------
-    str
+    Shapes: light (...); uncertainties (..., 10); shares (..., 10, k).
     """
     values, names = figures_of(light), [each.name for each in uncertain]
     head = ["", "value", "uncertainty", *names]

@@ -28,24 +28,7 @@ _PAIR = 2
 def read_uncertain(
     inputs: Inputs, given: Mapping[str, Any]
 ) -> tuple[dict[str, Any], list[UncertainValue], list[str]]:
-    """Return what is exact, what is uncertain, and what is wrong with either.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given.
-    given : mapping of str to Any
-        What is: a tuple of two is a value and its standard uncertainty, all else is exact.
-
-    Returns
-    -------
-    exact : dict of str to Any
-        As it is given.
-    uncertain : list of UncertainValue
-        In the order given.
-    faults : list of str
-        A sentence each.
-    """
+    """Return what is exact, what is uncertain, and what is wrong with either."""
     faults = unknown_names(inputs, given)
     known = {name: value for name, value in given.items() if name in inputs.open}
     exact = {name: value for name, value in known.items() if not isinstance(value, tuple)}

@@ -18,11 +18,7 @@ class SampleMoments:
     One sample is added after the other, so that the sums are the same to the last bit in whatever
     blocks.
 
-    Parameters
-    ----------
-    intensity : array_like, shape (...)
-        That of the light. Stokes vectors are divided by the power of two above it, lest squares of
-        those of faint light underflow.
+    Shape: intensity (...).
 
     Examples
     --------
@@ -43,10 +39,7 @@ class SampleMoments:
     def add(self, apart: Array) -> None:
         """Add a block of samples.
 
-        Parameters
-        ----------
-        apart : ndarray, shape (samples, ..., 10)
-            By how much their figures differ.
+        Shape: apart (samples, ..., 10).
         """
         with np.errstate(all="ignore"):
             scaled = apart / self._scale

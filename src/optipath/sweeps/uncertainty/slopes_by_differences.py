@@ -34,15 +34,7 @@ _NEAR = 0.01
 def slopes_by_differences(light_at: LightAt) -> npt.NDArray[np.float64]:
     """Return the slopes of the Stokes vector along each value that is uncertain.
 
-    Parameters
-    ----------
-    light_at : LightAt
-        What gives the light.
-
-    Returns
-    -------
-    ndarray, shape (..., 4, k)
-        From the inner side at the ends of a range.
+    Shape: returns (..., 4, k).
     """
     light = light_at({})
     stokes, noise = np.asarray(light.stokes, np.float64), np.asarray(light.noise, np.float64)

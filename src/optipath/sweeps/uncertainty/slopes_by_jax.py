@@ -22,14 +22,7 @@ def slopes_by_jax(light_at: LightAt) -> npt.NDArray[np.float64]:
     All at once, one operation after the other: compiling them would take some seconds a path,
     for slopes that are mostly asked for once.
 
-    Parameters
-    ----------
-    light_at : LightAt
-        What gives the light.
-
-    Returns
-    -------
-    ndarray, shape (..., 4, k)
+    Shape: returns (..., 4, k).
     """
     uncertain = light_at.uncertain
 

@@ -25,14 +25,7 @@ _STEPS, _OPERATIONS = 100, 1_000
 class StokesSlopes(NamedTuple):
     """Slopes, and how they were found.
 
-    Attributes
-    ----------
-    slopes : ndarray, shape (..., 4, k)
-        Along each value that is uncertain.
-    method : str
-        In words.
-    rounding : float
-        What is less than this share of the terms that it is the sum of, is 0.
+    Shape: slopes (..., 4, k).
     """
 
     slopes: npt.NDArray[np.float64]
@@ -41,26 +34,7 @@ class StokesSlopes(NamedTuple):
 
 
 def slopes_of(light_at: LightAt, method: str) -> StokesSlopes:
-    """Return the slopes of the Stokes vector.
-
-    Parameters
-    ----------
-    light_at : LightAt
-        What gives the light.
-    method : {"auto", "gradients", "differences"}
-        By JAX if it is there, traces the path, and does not take long, by JAX, or by differences.
-
-    Returns
-    -------
-    StokesSlopes
-
-    Raises
-    ------
-    MissingExtraError
-        If gradients are asked for, and JAX is not there.
-    ParameterError
-        If they are, and JAX does not trace the path.
-    """
+    """Return the slopes of the Stokes vector."""
     if method == "gradients":
         return _gradients(light_at)
     why = ""

@@ -19,16 +19,7 @@ if TYPE_CHECKING:
 class UncertainValue(Unchanging):
     """A value of a parameter, or a batch of them, with its standard uncertainty.
 
-    Attributes
-    ----------
-    name : str
-        The parameter.
-    value, sigma : ndarray of float, of one shape
-        Read-only copies: the best estimate and one standard deviation, in radians, metres, ...
-    low, high : float
-        The range of the parameter, where it stands.
-    unit : str
-        That in which it is shown.
+    Units: value, sigma in radians.
 
     Examples
     --------

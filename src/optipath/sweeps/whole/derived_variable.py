@@ -17,15 +17,7 @@ if TYPE_CHECKING:
 
 
 class DerivedVariable(BackendArray):
-    """The numbers of a quantity over a grid; a part of it costs what the part does.
-
-    Parameters
-    ----------
-    quantity : LightQuantity
-        What is computed.
-    lights : tuple of SweptLight
-        Of which light: of one detector, or of several, which are the first axis.
-    """
+    """The numbers of a quantity over a grid; a part of it costs what the part does."""
 
     def __init__(self, quantity: LightQuantity, lights: tuple[SweptLight, ...]) -> None:
         self.quantity = quantity
@@ -56,20 +48,7 @@ class DerivedVariable(BackendArray):
 
 
 def derived(quantity: LightQuantity, lights: tuple[SweptLight, ...]) -> Any:
-    """Return the data of a variable that is computed once, of what is asked for.
-
-    Parameters
-    ----------
-    quantity : LightQuantity
-        What is computed.
-    lights : tuple of SweptLight
-        Of which light, as `DerivedVariable` takes it.
-
-    Returns
-    -------
-    MemoryCachedArray
-        As xarray has it for the variables of a file.
-    """
+    """Return the data of a variable that is computed once, of what is asked for."""
     data: Any = indexing.LazilyIndexedArray(DerivedVariable(quantity, lights))
     data = indexing.CopyOnWriteArray(data)
     cached: Any = indexing.MemoryCachedArray

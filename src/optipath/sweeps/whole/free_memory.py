@@ -27,18 +27,6 @@ _GROUP_LIMITS = ("memory.max", "memory/memory.limit_in_bytes")
 def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     """Refuse a sweep in memory that takes more than there is.
 
-    Parameters
-    ----------
-    plan : Plan
-        What is to run.
-    grid : SweepGrid
-        With what.
-
-    Raises
-    ------
-    ShapeError
-        With what to do instead.
-
     Examples
     --------
     >>> import optipath as op
@@ -62,17 +50,6 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
 
 def bytes_of_a_point(plan: Plan, points: int) -> int:
     """Return how many bytes a run takes for each point: its results, and what is made on the way.
-
-    Parameters
-    ----------
-    plan : Plan
-        What is to run.
-    points : int
-        How many there are, by which the engine is chosen.
-
-    Returns
-    -------
-    int
 
     Examples
     --------

@@ -27,30 +27,7 @@ if TYPE_CHECKING:
 def swept_in_memory(
     path: PathGraph, plan: Plan, grid: SweepGrid, composer: Composer | None = None
 ) -> xr.Dataset:
-    """Return the light of a grid.
-
-    Parameters
-    ----------
-    path : PathGraph
-        What is swept.
-    plan : Plan
-        What is run.
-    grid : SweepGrid
-        With the values of its parameters.
-    composer : Composer, optional
-        What has made the plan; the default one if not given.
-
-    Returns
-    -------
-    xarray.Dataset
-
-    Raises
-    ------
-    ParameterError
-        As `Plan.run`, or if a coordinate is called as a variable.
-    ShapeError
-        If it takes more memory than is free.
-    """
+    """Return the light of a grid."""
     names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
     coords = coordinates_of(grid, plan)
     refuse_more_than_free(plan, grid.varied)

@@ -19,17 +19,6 @@ def quick_dataset(
 ) -> xr.Dataset:
     """Return what ``xarray.Dataset`` returns, in a third of the time.
 
-    Parameters
-    ----------
-    variables, coords : mapping of str to (dimensions, values, attributes)
-        Values are arrays, all of the shape that their dimensions have.
-    attrs : mapping of str to Any
-        Of the whole.
-
-    Returns
-    -------
-    xarray.Dataset
-
     Examples
     --------
     >>> import numpy as np

@@ -15,17 +15,6 @@ if TYPE_CHECKING:
 def stacked(parts: Sequence[Array]) -> Array:
     """Return arrays of one shape as one array, with an axis for them in front.
 
-    Parameters
-    ----------
-    parts : sequence of ndarray
-        At least one, all of one shape and type.
-
-    Returns
-    -------
-    ndarray
-        Read-only: a view where they are rows of one array, as a run leaves the light of several
-        detectors; a copy otherwise.
-
     Examples
     --------
     >>> rows = np.arange(12.0).reshape(3, 4)

@@ -30,18 +30,7 @@ _AT_ONCE = 1 << 17
 class SweptLight:
     """The light of a run at one detector, as it was computed.
 
-    Attributes
-    ----------
-    plan : Plan
-        What was run.
-    grid : SweepGrid
-        With what.
-    detector : str
-        Where the light is.
-    stokes : tuple or ndarray
-        Stokes vectors of shape (..., 4), or the four components, each by itself.
-    exponent : int or ndarray, shape (...)
-        Of the power of two times these.
+    Shapes: stokes (..., 4); exponent (...).
     """
 
     plan: Plan
@@ -86,19 +75,7 @@ class SweptLight:
         return Light.of(parts, Frame(), cut(self.exponent) if self.is_faint else 0, noise)
 
     def computed(self, quantity: LightQuantity, key: Sequence[int | slice]) -> Array:
-        """Return a quantity of a part of the grid.
-
-        Parameters
-        ----------
-        quantity : LightQuantity
-            What is computed.
-        key : sequence of int or slice
-            The part, an index for each axis.
-
-        Returns
-        -------
-        ndarray
-        """
+        """Return a quantity of a part of the grid."""
         axes = [
             _places(range(size), index) for size, index in zip(self.grid.shape, key, strict=True)
         ]

@@ -52,23 +52,6 @@ def array_of(
 ) -> Array:
     """Return an array of a value, of float64 at least; words beside numbers stay words.
 
-    Parameters
-    ----------
-    what, value, error
-        As `as_given` takes them.
-    limits : tuple of float, optional
-        The least and the largest number allowed.
-
-    Returns
-    -------
-    ndarray
-        Of float64, or more precision, or of what are no numbers.
-
-    Raises
-    ------
-    OptipathError
-        As `as_given` does.
-
     Examples
     --------
     >>> array_of("a turn", [0.5, "none"]).tolist()
@@ -79,26 +62,6 @@ def array_of(
 
 def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
     """Return an array of a value, in the precision in which it is given.
-
-    Parameters
-    ----------
-    what : str
-        What the value is given for.
-    value : Any
-        A number, an array, a list of either, or whatever else NumPy makes an array of.
-    error : type, optional
-        What is raised.
-
-    Returns
-    -------
-    ndarray
-        Of any dtype; words among others are objects.
-
-    Raises
-    ------
-    OptipathError
-        Of that type, if rows are of unequal lengths, if entries are masked, if there are labels
-        or a unit, which an array does not have, or if the value itself raises anything.
 
     Examples
     --------
@@ -134,23 +97,6 @@ def entries_of(
     what: str, each: str, value: Any, error: type[OptipathError] = ValueFault
 ) -> tuple[Any, ...]:
     """Return the entries of a sequence, of which each may be an array or a parameter.
-
-    Parameters
-    ----------
-    what, value, error
-        As `as_given` takes them.
-    each : str
-        What the entries are.
-
-    Returns
-    -------
-    tuple
-        The entries, as they are.
-
-    Raises
-    ------
-    OptipathError
-        Of the type that is given, if it is no sequence, or says more than its entries do.
 
     Examples
     --------

@@ -51,18 +51,6 @@ def known(value: Any) -> Any:
 def check_known(what: str, value: Any) -> None:
     """Raise where a value is one that JAX does not know yet.
 
-    Parameters
-    ----------
-    what : str
-        What is made of it.
-    value : Any
-        The value.
-
-    Raises
-    ------
-    ParameterError
-        If it is one.
-
     Examples
     --------
     >>> check_known("an exponent", 1)

@@ -23,18 +23,6 @@ def kernel_values(
     Where JAX traces one of them, what comes out is JAX's, with its slopes, in the precision that
     JAX has; else it is NumPy's in float64.
 
-    Parameters
-    ----------
-    factory : callable
-        Makes the kernel.
-    *numbers : float or array_like
-        What it takes, already checked; they broadcast.
-
-    Returns
-    -------
-    tuple of array
-        Of the broadcast shape.
-
     Examples
     --------
     >>> from optipath.kernels.fresnel.inhomogeneous import phase_index

@@ -34,24 +34,6 @@ def refuse_too_large(
 ) -> None:
     """Refuse a batch that takes more memory than the machine has.
 
-    Parameters
-    ----------
-    batch : tuple of int
-        The shape of the batch.
-    each : int
-        How many bytes a path takes at least, results and what is made on the way.
-    cure : str, optional
-        What to do where it is too much.
-    error : type, optional
-        What is raised.
-    what : str, optional
-        What sentences call it, with a place for how many there are.
-
-    Raises
-    ------
-    OptipathError
-        Of that type.
-
     Examples
     --------
     >>> refuse_too_large((1000, 1000), 32)
@@ -70,16 +52,6 @@ def enough_for(
     what: str = PATHS,
 ) -> Iterator[None]:
     """Do what takes memory for each path of a batch, if there is enough of it.
-
-    Parameters
-    ----------
-    batch, each, cure, error, what
-        As `refuse_too_large` takes them.
-
-    Raises
-    ------
-    OptipathError
-        As `refuse_too_large` does, and also where the memory that is left runs out.
 
     Examples
     --------

@@ -55,20 +55,6 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
     What is a read-only array of its own already stays what it is, and what is no array of
     numbers or words is kept as given, for validation to name.
 
-    Parameters
-    ----------
-    value : Any
-        The value.
-    limits : tuple of float, optional
-        The least and the largest number; what is beyond one by its rounding becomes that one.
-    widened : bool, optional
-        Whether arrays become doubles at least.
-
-    Returns
-    -------
-    Any
-        A read-only array, a plain number, a tuple for a list of other things, or the value itself.
-
     Examples
     --------
     >>> read_only([1.0, 2.0]).flags.writeable
@@ -96,16 +82,6 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
 def same(first: Any, second: Any) -> bool:
     """Tell whether two values are equal, arrays by shape and elements.
 
-    Parameters
-    ----------
-    first, second : Any
-        Tuples and mappings are compared entry by entry.
-
-    Returns
-    -------
-    bool
-        False also for what cannot be compared.
-
     Examples
     --------
     >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
@@ -128,18 +104,6 @@ def same(first: Any, second: Any) -> bool:
 def changed(value: T, **others: Any) -> T:
     """Return a copy of a frozen dataclass with other fields, of which nothing is checked again.
 
-    Parameters
-    ----------
-    value : dataclass
-        What is copied.
-    **others : Any
-        What is known to be sound.
-
-    Returns
-    -------
-    dataclass
-        Of the same class.
-
     Examples
     --------
     >>> from optipath.values.materials import Material
@@ -153,16 +117,6 @@ def changed(value: T, **others: Any) -> T:
 
 def same_fields(first: Any, second: Any) -> Any:
     """Tell whether two values of one dataclass have the same fields; for its ``__eq__``.
-
-    Parameters
-    ----------
-    first, second : Any
-        A dataclass, and anything.
-
-    Returns
-    -------
-    bool
-        ``NotImplemented`` where the second is of another class.
 
     Examples
     --------

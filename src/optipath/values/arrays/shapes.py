@@ -31,11 +31,6 @@ MOST_PATHS = 2**53
 def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
     """Return the shape that shapes broadcast to.
 
-    Raises
-    ------
-    ShapeError
-        If they do not, or if that is more axes or paths than a batch may have.
-
     Examples
     --------
     >>> joint_shape((3, 1), (), (4,))
@@ -49,15 +44,6 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
     """Return the sentence that names shapes which do not broadcast, or nothing.
-
-    Parameters
-    ----------
-    shapes : mapping of str to tuple of int
-        The shapes by what has them, as the sentence names it.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------
@@ -93,22 +79,7 @@ def _joint(shapes: Iterable[tuple[int, ...]]) -> tuple[int, ...] | None:
 
 
 def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
-    """Return the shape that several shapes broadcast to.
-
-    Parameters
-    ----------
-    shapes
-        As `broadcast_fault` takes them.
-
-    Returns
-    -------
-    tuple of int
-
-    Raises
-    ------
-    ShapeError
-        Naming each shape and its owner; or if there is no memory for so much.
-    """
+    """Return the shape that several shapes broadcast to."""
     if faults := broadcast_fault(shapes):
         raise ShapeError(*faults)
     batch = joint_shape(*shapes.values())
@@ -118,25 +89,6 @@ def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
 
 def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
     """Return an array of real numbers whose last axes are given; what is JAX's stays so.
-
-    Parameters
-    ----------
-    what : str
-        What a sentence calls it.
-    value : Any
-        Whatever NumPy makes an array of.
-    tail : tuple of int
-        The shape behind the batch.
-
-    Returns
-    -------
-    ndarray
-        In the precision in which it is given; integers become float64.
-
-    Raises
-    ------
-    ShapeError
-        If it is not real, or of another shape.
 
     Examples
     --------
@@ -154,17 +106,6 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
 
 def place_text(shape: tuple[int, ...], at: int) -> str:
     """Say where something stands in an array, ready to be put behind it; nothing of one alone.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        That of the array.
-    at : int
-        The place in its entries, one row after the other.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -24,13 +24,6 @@ class BirefringenceCurve(Curve):
     thick plate would be wrong by as much. With a and b for the extraordinary and the ordinary
     ray, each pair of terms differs by w^2 ((B_a - B_b) (w^2 - C_b) + B_b (C_a - C_b)) /
     ((w^2 - C_a) (w^2 - C_b)), and the squares of the indices by the sum of these.
-
-    Attributes
-    ----------
-    label : str
-        What sentences call it.
-    extraordinary, ordinary : Sellmeier
-        The two formulas.
     """
 
     label: str

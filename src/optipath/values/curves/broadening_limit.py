@@ -16,11 +16,6 @@ class BroadeningLimit(Agreement):
     """The broadening C is below 2 E0, so that alpha of Jellison and Modine (1996) is real.
 
     The operands are the energy and the broadening.
-
-    Attributes
-    ----------
-    owner : str
-        The oscillator, as ``"oscillators[0] of silicon"``.
     """
 
     owner: str

@@ -18,43 +18,13 @@ if TYPE_CHECKING:
 
 
 def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:
-    """Say which coefficients of a curve do not fit to each other, whatever the wavelength.
-
-    Parameters
-    ----------
-    value : CurveValue
-        What stands in a path.
-    known : mapping of str to Resolved
-        What it is computed of.
-
-    Returns
-    -------
-    list of str
-        Nothing where they fit, or JAX alone knows them.
-    """
+    """Say which coefficients of a curve do not fit to each other, whatever the wavelength."""
     faults = value.curve.misfits(value.given_by[1:], known)
     return [f"{fault}{_hint(value, known)}" for fault in faults]
 
 
 def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[str, str]:
-    """Return where a curve comes to what is not allowed, and what else to give.
-
-    Parameters
-    ----------
-    value : CurveValue
-        What stands in a path.
-    bad : ndarray of bool
-        For which paths it is not allowed.
-    known : mapping of str to Resolved
-        What it is computed of.
-
-    Returns
-    -------
-    place : str
-        As a sentence goes on; nothing where the wavelength alone tells.
-    cure : str
-        With the coefficients there, where these are parameters.
-    """
+    """Return where a curve comes to what is not allowed, and what else to give."""
     told = []
     for place, one in enumerate(value.given_by[1:], 1):
         if isinstance(one, Parameter) and not is_traced(number := value.argument(place, known)):

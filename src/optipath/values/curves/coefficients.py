@@ -31,21 +31,6 @@ MICROMETRES = 1e6
 def several(name: str, values: Any) -> tuple[Any, ...]:
     """Return coefficients as a tuple.
 
-    Parameters
-    ----------
-    name : str
-        What sentences call them.
-    values : sequence of float or Parameter
-
-    Returns
-    -------
-    tuple
-
-    Raises
-    ------
-    ValueFault
-        If they are no row, or if it is empty.
-
     Examples
     --------
     >>> several("b", [1.0, 2])
@@ -63,24 +48,6 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
 
 def oscillators_of(label: str, rows: Any, names: tuple[str, ...]) -> tuple[tuple[Any, ...], ...]:
     """Return the coefficients of oscillators, so many of each.
-
-    Parameters
-    ----------
-    label : str
-        What sentences call what they belong to.
-    rows : sequence of sequence
-        What is given.
-    names : tuple of str
-        What the coefficients of one are called.
-
-    Returns
-    -------
-    tuple of tuple
-
-    Raises
-    ------
-    ValueFault
-        If there are more or fewer of one.
 
     Examples
     --------
@@ -100,21 +67,7 @@ def oscillators_of(label: str, rows: Any, names: tuple[str, ...]) -> tuple[tuple
 def coefficients_of(
     rows: tuple[tuple[Any, ...], ...], names: tuple[str, ...], domains: tuple[Domain, ...]
 ) -> list[Coefficient]:
-    """Return the coefficients of oscillators one after another, each with its name and domain.
-
-    Parameters
-    ----------
-    rows : tuple of tuple
-        As `oscillators_of` returns them.
-    names : tuple of str
-        What the coefficients of one are called.
-    domains : tuple of Domain
-        What they may be.
-
-    Returns
-    -------
-    list of tuple
-    """
+    """Return the coefficients of oscillators one after another, each with its name and domain."""
     return [
         (f"oscillators[{place}] {name}", value, domain)
         for place, row in enumerate(rows)

@@ -27,26 +27,7 @@ def check_computed(
     numbers: Any,
     given: Mapping[str, Resolved] | None = None,
 ) -> None:
-    """Check what a curve comes to where it stands.
-
-    Parameters
-    ----------
-    value : CurveValue
-        What stands there.
-    owner : str
-        The node and the field, such as ``X1.incidence``, or nothing.
-    domain : Domain
-        What may stand there.
-    numbers : array_like
-        What the curve comes to, scale and offset aside.
-    given : mapping of str to Resolved, optional
-        What it is computed of, where that is no default.
-
-    Raises
-    ------
-    ValueFault
-        Naming the curve, the wavelength, the place and the number.
-    """
+    """Check what a curve comes to where it stands."""
     placed = value.placed(numbers)
     try:
         domain.check(owner, placed)

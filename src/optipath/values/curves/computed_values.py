@@ -15,20 +15,7 @@ if TYPE_CHECKING:
 def computed_values(
     values: Iterable[CurveValue], given: Mapping[str, Resolved]
 ) -> dict[str, Resolved]:
-    """Return the numbers of those values of which all is given; each curve is evaluated once.
-
-    Parameters
-    ----------
-    values : iterable of CurveValue
-        The values.
-    given : mapping of str to Resolved
-        What they are computed of, by name.
-
-    Returns
-    -------
-    dict of str to Resolved
-        By the names of the values.
-    """
+    """Return the numbers of those values of which all is given; each curve is evaluated once."""
     found: dict[str, Resolved] = {}
     parts: dict[Any, tuple[Any, ...]] = {}
     for value in values:

@@ -28,14 +28,7 @@ Array: TypeAlias = "np.ndarray[Any, Any]"
 class CsvColumns:
     """What stands in a file.
 
-    Attributes
-    ----------
-    title : str
-        The name of the file, without its ending.
-    wavelengths : ndarray, shape (n,)
-        In vacuum and in metres, as they stand in the file: rising or falling.
-    columns : dict of str to ndarray, shape (n,)
-        Those that were asked for.
+    Shapes: wavelengths (n,); columns (n,). Units: wavelengths in metres.
     """
 
     title: str
@@ -58,28 +51,6 @@ def read_columns(
     separated by commas, semicolons or tabulators; empty lines and those that begin with ``#`` are
     comments. A second first line begins a second table, of the same wavelengths, as files of
     refractiveindex.info have n and k.
-
-    Parameters
-    ----------
-    path : str or PathLike
-        The file, in UTF-8.
-    names : sequence of str
-        The columns besides, capitals or not; of numbers that are not negative.
-    unit : str, optional
-        Of the wavelengths, where the first line has none.
-    cures : mapping of str to str, optional
-        What else to do where a column is missing, as a sentence goes on behind "or".
-    signs : mapping of str to str, optional
-        What else to say of a number below 0.
-
-    Returns
-    -------
-    CsvColumns
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong, and the lines.
     """
     file = given_file(path)
     _check_texts(names, unit)

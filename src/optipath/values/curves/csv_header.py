@@ -35,15 +35,6 @@ _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
 def split_heading(head: str) -> tuple[str, str]:
     """Return what a column is called, and its unit; ``""`` for none.
 
-    Parameters
-    ----------
-    head : str
-        What stands in the first line.
-
-    Returns
-    -------
-    name, unit : str
-
     Examples
     --------
     >>> split_heading("delta (deg)"), split_heading("wavelength_nm"), split_heading("n1")
@@ -72,29 +63,7 @@ def axis_of(
     names: Sequence[str] = (),
     rows: Sequence[Sequence[str]] = (),
 ) -> tuple[int, str]:
-    """Return which column has the wavelengths, and in which unit.
-
-    Parameters
-    ----------
-    number : int
-        That of the line.
-    header : list of str
-        What stands in it.
-    unit : str
-        The unit where the line has none.
-    faults : list of str
-        To which is added what is wrong.
-    names : sequence of str, optional
-        The columns besides.
-    rows : sequence of sequence of str, optional
-        What stands in the lines behind it.
-
-    Returns
-    -------
-    place : int
-    unit : str
-        None where numbers have one themselves.
-    """
+    """Return which column has the wavelengths, and in which unit."""
     heads = [_name_and_unit(head) for head in header]
     found = [place for place, (name, _) in enumerate(heads) if name in _AXES]
     if not found:
@@ -166,17 +135,6 @@ def is_header(cells: Sequence[str]) -> bool:
 def names_in(header: Sequence[str], names: Sequence[str]) -> list[str]:
     """Return those of some names that a first line has.
 
-    Parameters
-    ----------
-    header : sequence of str
-        What stands in the line.
-    names : sequence of str
-        What columns may be called, capitals or not.
-
-    Returns
-    -------
-    list of str
-
     Examples
     --------
     >>> names_in(["wl (um)", "N"], ["n", "k"])
@@ -193,25 +151,7 @@ def places_of(
     cures: Mapping[str, str],
     faults: list[str],
 ) -> dict[str, int]:
-    """Return which columns have the numbers that are asked for.
-
-    Parameters
-    ----------
-    number : int
-        That of the line.
-    header : list of str
-        What stands in it.
-    names : sequence of str
-        What the columns are called.
-    cures : mapping of str to str
-        What else to do where one is missing.
-    faults : list of str
-        To which is added what is wrong.
-
-    Returns
-    -------
-    dict of str to int
-    """
+    """Return which columns have the numbers that are asked for."""
     heads = [_name_and_unit(head)[0] for head in header]
     found = {}
     for name in names:

@@ -18,23 +18,7 @@ _MOST_TOLD = 12
 
 
 def lines_of(file: Path) -> list[Line]:
-    """Return the lines with values, each with its number.
-
-    Parameters
-    ----------
-    file : Path
-        In UTF-8.
-
-    Returns
-    -------
-    list of tuple
-        None of it is empty, or a comment.
-
-    Raises
-    ------
-    ValueFault
-        If it cannot be read.
-    """
+    """Return the lines with values, each with its number."""
     try:
         text = bytes_of(file).decode("utf-8-sig")
     except FileNotFoundError:

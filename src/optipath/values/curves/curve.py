@@ -24,23 +24,7 @@ class Curve(Unchanging, ABC):
     A subclass says what its numbers are called, which wavelengths it knows and what it
     comes to there. Two curves of the same content are equal.
 
-    Attributes
-    ----------
-    parts : tuple of str
-        What its numbers are called, such as ``("n", "k")``.
-    label : str
-        What sentences call it, such as ``"gold (Johnson and Christy 1972)"``.
-    span : tuple of float
-        The least and the largest wavelength that it may be asked for, in metres.
-    beyond : str
-        What else to do than to stay within these, as a sentence goes on behind "or".
-    takes_grid : bool
-        Whether what it is at a wavelength depends on the others that are given.
-    unit : str
-        In which people write its numbers, which are in radians, metres and teslas; ``""`` for
-        pure numbers, and where nobody says what is meant.
-    unreal : str
-        Why its numbers may be none, or such as nothing has, at wavelengths within these.
+    Units: span in metres; unit in radians.
     """
 
     parts: tuple[str, ...] = ("value",)

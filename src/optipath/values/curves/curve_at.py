@@ -18,25 +18,6 @@ if TYPE_CHECKING:
 def curve_at(curve: Curve, wavelength: Any = None) -> tuple[Any, ...]:
     """Return what stands for each part of a curve.
 
-    Parameters
-    ----------
-    curve : Curve
-        What depends on the wavelength.
-    wavelength : float, str, array_like or Parameter, optional
-        In vacuum; that of the run, ``Wavelength()``, by default.
-
-    Returns
-    -------
-    tuple of CurveValue, float or ndarray
-        Numbers where all that it depends on is known.
-
-    Raises
-    ------
-    ParameterError
-        If it is no wavelength.
-    ValueFault
-        If the curve is not known there.
-
     Examples
     --------
     >>> from optipath.values.curves.tabulated import Tabulated

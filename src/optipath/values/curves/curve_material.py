@@ -16,11 +16,6 @@ class CurveMaterial:
     The wavelength is by default the parameter of that name, which is given when a path is traced;
     or another `Parameter`; or a number in metres or a text such as ``"516 nm"``, of which a
     constant material is made.
-
-    Parameters
-    ----------
-    n, k : float, array_like or Parameter
-        The two numbers.
     """
 
     def __init__(self, n: Any, k: Any = 0.0) -> None:

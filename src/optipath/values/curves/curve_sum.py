@@ -17,15 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CurveSum(Curve):
-    """Numbers of curves, each times a number, and a number: n_e - n_o of a crystal.
-
-    Attributes
-    ----------
-    terms : tuple of tuple
-        Of each term the factor, the curve, and which of its parts.
-    constant : float
-        What is added.
-    """
+    """Numbers of curves, each times a number, and a number: n_e - n_o of a crystal."""
 
     terms: tuple[tuple[float, Curve, int], ...]
     constant: float = 0.0

@@ -39,15 +39,6 @@ class CurveValue(Parameter):
 
     It stands where a `Parameter` does, by a name of its own, and is computed of what is given
     before anything else is done. Made by `curve_values`.
-
-    Attributes
-    ----------
-    curve : Curve
-        What gives it.
-    place : int
-        Which of its parts.
-    given_by : tuple
-        The wavelength, and the arguments of the curve: numbers and parameters.
     """
 
     curve: Any = field(default=None, repr=False)
@@ -63,18 +54,7 @@ class CurveValue(Parameter):
         return tuple([one for one in self.given_by if isinstance(one, Parameter)])
 
     def argument_places(self, owner: str) -> list[tuple[str, Any, Domain]]:
-        """Return where the parameters stand that it is computed of, and what they may be.
-
-        Parameters
-        ----------
-        owner : str
-            What sentences call the place of the value.
-
-        Returns
-        -------
-        list of tuple
-            A place, a parameter and its domain for each.
-        """
+        """Return where the parameters stand that it is computed of, and what they may be."""
         domains = [
             (owner, WavelengthRange.of(self.curve)),
             *[(f"{owner}.{name}", domain) for name, _, domain in self.curve.arguments()],
@@ -97,17 +77,7 @@ class CurveValue(Parameter):
         return {one.name: np.shape(_number(one, given)) for one in self.arguments}
 
     def computed(self, given: Mapping[str, Resolved]) -> Resolved:
-        """Return its numbers, scale and offset aside.
-
-        Parameters
-        ----------
-        given : mapping of str to Resolved
-            At least the parameters that it is computed of.
-
-        Returns
-        -------
-        Resolved
-        """
+        """Return its numbers, scale and offset aside."""
         return Resolved(self.parts(given)[self.place], THERE)
 
     def parts(self, given: Mapping[str, Resolved]) -> tuple[Any, ...]:
@@ -117,18 +87,7 @@ class CurveValue(Parameter):
         return found
 
     def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
-        """Return what it is once parameters that it is computed of have values.
-
-        Parameters
-        ----------
-        values : mapping of str to Parameter
-            Parameters with values, by name.
-
-        Returns
-        -------
-        CurveValue
-            The same one where it is computed of none of them.
-        """
+        """Return what it is once parameters that it is computed of have values."""
         if not any(one.name in values for one in self.arguments):
             return self
         given_by = tuple(
@@ -140,19 +99,7 @@ class CurveValue(Parameter):
         return _of(self.curve, self.place, given_by).like(self)
 
     def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
-        """Return the numbers of one of those that it is computed of.
-
-        Parameters
-        ----------
-        place : int
-            Which one: 0 for the wavelength.
-        given : mapping of str to Resolved
-            At least that one, where it is a parameter.
-
-        Returns
-        -------
-        array_like
-        """
+        """Return the numbers of one of those that it is computed of."""
         return _number(self.given_by[place], given)
 
     def check_place(self, owner: str, domain: Domain) -> None:
@@ -181,23 +128,7 @@ class CurveValue(Parameter):
     def at(self, wavelength: Any) -> Any:
         """Return its numbers at wavelengths, scale and offset applied.
 
-        Parameters
-        ----------
-        wavelength : float, str or array_like
-            In metres, or texts such as ``"550 nm"``.
-
-        Returns
-        -------
-        float or ndarray
-
-        Raises
-        ------
-        ParameterError
-            If what else it is computed of is a parameter that has no value yet.
-        ShapeError
-            If that has an array that does not broadcast with the wavelengths.
-        ValueFault
-            If the curve is not known there.
+        Units: wavelength in metres.
         """
         others = self.given_by[1:]
         known = _defaults(others)
@@ -262,17 +193,7 @@ class CurveValue(Parameter):
 def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
     """Return what stands for each part of a curve, at a wavelength that may be a parameter.
 
-    Parameters
-    ----------
-    curve : Curve
-        What depends on it.
-    wavelength : float, array_like or Parameter
-        In metres.
-
-    Returns
-    -------
-    tuple of CurveValue, or of ndarray
-        Numbers where all that it depends on is known.
+    Units: wavelength in metres.
     """
     given_by = (wavelength, *[value for _, value, _ in curve.arguments()])
     if not any(isinstance(one, Parameter) for one in given_by):

@@ -16,23 +16,7 @@ if TYPE_CHECKING:
 class DispersionFormula(Curve):
     """The index of refraction by a formula, within the wavelengths for which it was found.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    formula : int
-        The number of the formula, 1 to 9 (`database_formulas`).
-    coefficients : sequence of float
-        C1, C2, ..., for wavelengths in micrometres.
-    known_span : tuple of float
-        The least and the largest wavelength that it holds for, in metres.
-    extrapolate : {"", "nearest"}, optional
-        What n is beyond: an error, or that at the end.
-
-    Raises
-    ------
-    ValueFault
-        If there is no such formula, or none with so many coefficients.
+    Units: coefficients in micrometres; known_span in metres.
 
     Examples
     --------

@@ -23,18 +23,6 @@ of X-rays are usual in eV, and those of the far infrared in THz and 1/cm.
 def unit_doubted(metres: Sequence[float], unit: str) -> str:
     """Return why the unit of a table of wavelengths is most likely another one, if it is.
 
-    Parameters
-    ----------
-    metres : sequence of float
-        All wavelengths whose unit stands apart from them.
-    unit : str
-        In which they are given.
-
-    Returns
-    -------
-    str
-        A sentence with its cures, or nothing.
-
     Examples
     --------
     >>> print(unit_doubted([400e-6, 500e-6], "um"))  # doctest: +NORMALIZE_WHITESPACE

@@ -21,23 +21,7 @@ _MICROMETRES = 1e6
 class DrudeRotation(Curve):
     """A constant and the sum of A / (w^2 - C), w in micrometres, times a unit; NaN at a resonance.
 
-    Attributes
-    ----------
-    label : str
-        What sentences call it.
-    strengths, poles : tuple of float
-        A, and C in square micrometres.
-    constant : float
-        What is added.
-    unit : str
-        That of the constant, and with square micrometres that of the strengths.
-    span : tuple of float
-        The wavelengths for which it holds, in metres; texts are read.
-
-    Raises
-    ------
-    ValueFault
-        If the numbers do not fit, or are none.
+    Units: strengths, poles in square micrometres; span in metres.
     """
 
     label: str

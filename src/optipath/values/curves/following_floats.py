@@ -14,18 +14,7 @@ if TYPE_CHECKING:
 
 
 class FollowingFloats:
-    """Puts numbers that follow from the wavelength beside those that are given.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        What may be given, and what follows from it.
-
-    Attributes
-    ----------
-    defaults : dict of str to float or None
-        The parameters that something follows from, and what they are if they are not given.
-    """
+    """Puts numbers that follow from the wavelength beside those that are given."""
 
     def __init__(self, inputs: Inputs) -> None:
         self.computed = inputs.computed
@@ -35,17 +24,7 @@ class FollowingFloats:
         self._last: tuple[tuple[Any, ...], dict[str, float]] = (), {}
 
     def beside(self, given: Mapping[str, float]) -> Mapping[str, float] | None:
-        """Return what is given and what follows from it; None where that is to be looked at.
-
-        Parameters
-        ----------
-        given : mapping of str to float
-            By the names of parameters.
-
-        Returns
-        -------
-        mapping of str to float or None
-        """
+        """Return what is given and what follows from it; None where that is to be looked at."""
         numbers = tuple([given.get(name, default) for name, default in self.defaults.items()])
         last, found = self._last
         if numbers != last:

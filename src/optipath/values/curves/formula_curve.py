@@ -29,19 +29,7 @@ EVERYWHERE = (0.0, np.inf)
 class FormulaCurve(Curve):
     """n and k by a published formula.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    span : pair of float or str
-        The least and the largest wavelength that it holds for, in metres or as texts.
-    **given : Any
-        What it is made of, kept as attributes; coefficients are numbers, or parameters of these.
-
-    Raises
-    ------
-    ValueFault
-        With all coefficients that are no numbers, or not such as the formula takes.
+    Units: span in metres.
     """
 
     parts: tuple[str, ...] = ("n", "k")
@@ -91,22 +79,6 @@ def _plain(given: Any) -> Any:
 
 def read_span(owner: str, span: Any) -> tuple[float, float]:
     """Return the least and the largest wavelength that a formula holds for, in metres.
-
-    Parameters
-    ----------
-    owner : str
-        What sentences call the pair.
-    span : pair of float or str
-        What is given.
-
-    Returns
-    -------
-    tuple of float
-
-    Raises
-    ------
-    ValueFault
-        If they are no two wavelengths of which the first is less.
 
     Examples
     --------

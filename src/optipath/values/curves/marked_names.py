@@ -18,22 +18,7 @@ if TYPE_CHECKING:
 
 
 def marked_name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
-    """Return a name that nobody can give, and that equal values alone share.
-
-    Parameters
-    ----------
-    curve : Curve
-        What gives the value.
-    place : int
-        Which of its parts.
-    given_by : tuple
-        What it is computed of: numbers and parameters.
-
-    Returns
-    -------
-    str
-        Such as ``"n of gold [0b51...]"``.
-    """
+    """Return a name that nobody can give, and that equal values alone share."""
     keys = [Operand(one).key() for one in given_by]
     bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
     mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=8).hexdigest()

@@ -20,16 +20,7 @@ def monotone_slopes(places: Array, values: Array) -> Array:
     R. E. Carlson, SIAM J. Numer. Anal. 17, 238, 1980; F. N. Fritsch and J. Butland, SIAM J. Sci.
     Stat. Comput. 5, 300, 1984).
 
-    Parameters
-    ----------
-    places : ndarray, shape (n,)
-        Where the samples are, rising; two at least.
-    values : ndarray, shape (n,)
-        What they are.
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    Shapes: places (n,); values (n,); returns (n,).
 
     Examples
     --------

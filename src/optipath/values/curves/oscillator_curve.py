@@ -35,28 +35,6 @@ _ABOVE_GAP = ("amplitude", "energy", "broadening", "gap")
 class DrudeLorentz(FormulaCurve):
     """Electrons that are free, and bound ones; energies in electronvolts.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    plasma : float or Parameter
-        The energy of the plasma frequency, to which all strengths belong.
-    damping : float or Parameter
-        The damping of free electrons.
-    strength : float or Parameter, optional
-        The strength of free electrons, a pure number; 0 where there are none.
-    oscillators : sequence of sequence, optional
-        The strength, the energy and the damping of each resonance.
-    background : float or Parameter, optional
-        The permittivity at high energies.
-    span : pair of float or str, optional
-        The wavelengths that it holds for.
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the coefficients.
-
     Examples
     --------
     >>> from optipath.values.curves.curve_value import curve_values
@@ -108,22 +86,6 @@ class DrudeLorentz(FormulaCurve):
 
 class TaucLorentz(FormulaCurve):
     """Oscillators above a gap, of amorphous films; energies in electronvolts.
-
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    oscillators : sequence of sequence
-        The amplitude A, the energy E0, the broadening C and the gap Eg of each; C is below 2 E0.
-    background : float or Parameter, optional
-        The permittivity at high energies.
-    span : pair of float or str, optional
-        The wavelengths that it holds for.
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the coefficients.
 
     Examples
     --------

@@ -16,23 +16,7 @@ if TYPE_CHECKING:
 class PageCurve(Curve):
     """Several curves as one, at the wavelengths at which all of them are known.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call the whole.
-    curves : sequence of Curve
-        What it is made of, with parts of different names.
-    within : tuple of float, optional
-        The wavelengths at which its k, which it does not have, is 0, in metres.
-    place, source : str, optional
-        The page or file, and where its numbers are from.
-    asked : mapping of str to str, optional
-        By which arguments `Material.named` makes it; none for what is read from a file.
-
-    Raises
-    ------
-    ValueFault
-        If there is no wavelength at which all are known.
+    Units: within in metres.
 
     Examples
     --------

@@ -23,25 +23,7 @@ if TYPE_CHECKING:
 class Sellmeier(FormulaCurve):
     """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    b : sequence of float or Parameter
-        B, the strengths.
-    c : sequence of float or Parameter, optional
-        C, in square micrometres.
-    resonances : sequence of float or Parameter, optional
-        In place of c, the wavelengths of which these are the squares, in micrometres.
-    offset : float or Parameter, optional
-        The first term.
-    span : pair of float or str, optional
-        The wavelengths that it holds for.
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the coefficients.
+    Units: c in square micrometres; resonances in micrometres.
 
     Examples
     --------
@@ -98,17 +80,7 @@ class Sellmeier(FormulaCurve):
         return (index_of_square(xp, square),)
 
     def terms(self, arguments: Sequence[Any]) -> tuple[Any, Sequence[Any], Sequence[Any]]:
-        """Return the offset, the strengths, and the poles in square micrometres.
-
-        Parameters
-        ----------
-        arguments : sequence of array_like
-            As `arguments` lists them.
-
-        Returns
-        -------
-        tuple
-        """
+        """Return the offset, the strengths, and the poles in square micrometres."""
         offset, *rest = arguments
         strengths, poles = rest[: len(self.b)], rest[len(self.b) :]
         return offset, strengths, [p * p for p in poles] if self.c is None else poles
@@ -117,19 +89,7 @@ class Sellmeier(FormulaCurve):
 class Cauchy(FormulaCurve):
     """n = A + B / w^2 + C / w^4 + ..., with w in micrometres.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    coefficients : sequence of float or Parameter
-        A, B, C, ...: a pure number, one in square micrometres, one in um^4, ...
-    span : pair of float or str, optional
-        The wavelengths that it holds for.
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the coefficients.
+    Units: coefficients in square micrometres.
 
     Examples
     --------

@@ -27,27 +27,7 @@ EXTRAPOLATIONS = ("", "nearest", "linear")
 class Tabulated(Curve):
     """Numbers between samples, at which they are exact.
 
-    Parameters
-    ----------
-    label : str
-        What sentences call it.
-    parts : tuple of str
-        What its numbers are called, such as ``("n", "k")``.
-    wavelengths : array_like, shape (n,)
-        In metres, or texts with a unit; rising or falling.
-    columns : sequence of array_like, shape (n,)
-        The samples, for each of the parts.
-    interpolation : {"linear", "monotone"}, optional
-        By straight lines, or by cubics that overshoot no sample (`monotone_slopes`).
-    extrapolate : {"", "nearest", "linear"}, optional
-        What it is beyond its samples: an error, the last sample, or the straight line on.
-    unit : str, optional
-        In which people write the samples, which are given in radians, metres and teslas.
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the samples.
+    Shapes: wavelengths (n,); columns (n,). Units: wavelengths in metres; unit in radians.
 
     Examples
     --------

@@ -30,16 +30,7 @@ _ROUNDING = 4.0 * sys.float_info.epsilon
 def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
     """Tell which wavelengths are within a range, both ends and their rounding included.
 
-    Parameters
-    ----------
-    wavelength : array_like
-        In metres; JAX's as well.
-    span : tuple of float
-        The least and the largest one.
-
-    Returns
-    -------
-    array_like of bool
+    Units: wavelength in metres.
 
     Examples
     --------
@@ -52,15 +43,7 @@ def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
 
 @dataclass(frozen=True)
 class WavelengthRange(WavelengthDomain):
-    """Wavelengths that a curve may be asked for.
-
-    Attributes
-    ----------
-    label : str
-        What sentences call the curve.
-    beyond : str
-        What else to do than to stay within its range.
-    """
+    """Wavelengths that a curve may be asked for."""
 
     label: str = ""
     beyond: str = ""

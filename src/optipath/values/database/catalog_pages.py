@@ -20,19 +20,7 @@ _MISPLACED = {
 
 
 class CatalogPage(NamedTuple):
-    """A page, as the catalogue has it.
-
-    Attributes
-    ----------
-    shelf, book, page : str
-        What identifies it.
-    about_book, about_page : str
-        What both are called: ``"Au (Gold)"``, and who found it, with what and where.
-    divider : str
-        The heading above it in its book, or nothing.
-    data : str
-        Its file, within the folder ``data`` of the database.
-    """
+    """A page, as the catalogue has it."""
 
     shelf: str
     book: str
@@ -61,13 +49,7 @@ class CatalogPage(NamedTuple):
 
 @cache
 def catalog_pages() -> tuple[CatalogPage, ...]:
-    """Return all pages, in the order of the catalogue.
-
-    Raises
-    ------
-    MissingExtraError, MaterialError
-        If there is no database.
-    """
+    """Return all pages, in the order of the catalogue."""
     found: dict[str, CatalogPage] = {}
     for page in _pages(
         read_yaml(database_folder() / "catalog-nk.yml", "the catalogue", installed=True)

@@ -9,21 +9,7 @@ from typing import NamedTuple
 class CuratedName(NamedTuple):
     """A short name, and the page that it stands for.
 
-    Attributes
-    ----------
-    names : tuple of str
-        The name, and others for the same.
-    place : str
-        The page, as the catalogue identifies it: ``"main/Au/Johnson"``.
-    reference : str
-        Who found it, as the catalogue has it.
-    why : str
-        Why this page and no other.
-    clear : tuple of float
-        Where the page has no k, and k is below 1e-5, so that it is taken for 0: the least and the
-        largest wavelength, in metres. Nothing where the page has k.
-    data : str
-        The file of the page within the database, where its name does not follow from the place.
+    Units: clear in metres.
     """
 
     names: tuple[str, ...]

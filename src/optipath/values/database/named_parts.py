@@ -30,25 +30,7 @@ def parts_by_name(
 ) -> dict[str, Any]:
     """Return n and k of a material by its name.
 
-    Parameters
-    ----------
-    name, page : str
-        As `named_page` takes them.
-    own : mapping of str to Any
-        n or k, where one is given in place of the page's, or None.
-    wavelength : Any
-        A parameter, a number in metres, a text with a unit, or None.
-    interpolation, extrapolate : str
-        As `Tabulated` has them.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    MaterialError, MissingExtraError, ValueFault
-        If there is no such material, or not at this wavelength.
+    Units: wavelength in metres.
     """
     given = {part: value for part, value in own.items() if value is not None}
     if isinstance(name, str) and alike(name) == VACUUM and not page:
@@ -72,25 +54,7 @@ def parts_of_file(
 ) -> dict[str, Any]:
     """Return n and k of a material from a YAML file of refractiveindex.info.
 
-    Parameters
-    ----------
-    path : str or path
-        The file.
-    own : mapping of str to Any
-        n or k, where one is given in place of the file's, or None.
-    wavelength : Any
-        A parameter, a number in metres, a text with a unit, or None.
-    interpolation, extrapolate : str
-        As `Tabulated` has them.
-
-    Returns
-    -------
-    dict of str to Any
-
-    Raises
-    ------
-    MaterialError, MissingExtraError, ValueFault
-        If the file cannot be read, or has nothing at this wavelength.
+    Units: wavelength in metres.
     """
     given = {part: value for part, value in own.items() if value is not None}
     file = given_file(path, MaterialError)
@@ -112,26 +76,7 @@ def curve_of(
     interpolation: str = "linear",
     extrapolate: str = "",
 ) -> PageCurve:
-    """Return the curve of a page of the database, without the parts that are given apart.
-
-    Parameters
-    ----------
-    found : NamedPage
-        The page.
-    own : mapping of str to Any
-        n or k, where one is given in place of the page's.
-    interpolation, extrapolate : str, optional
-        As `Tabulated` has them.
-
-    Returns
-    -------
-    PageCurve
-
-    Raises
-    ------
-    MaterialError, MissingExtraError
-        If the page cannot be read, or lacks what is not given.
-    """
+    """Return the curve of a page of the database, without the parts that are given apart."""
     how = {"interpolation": interpolation, "extrapolate": extrapolate}
     usual = {"interpolation": "linear", "extrapolate": ""}
     about = found.page.place

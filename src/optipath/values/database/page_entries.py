@@ -24,20 +24,7 @@ _TYPE = re.compile(r"tabulated (nk|n|k)|formula (\d{1,3})")
 class PageEntry(NamedTuple):
     """One entry under ``DATA``.
 
-    Attributes
-    ----------
-    kind : str
-        Its type: ``"tabulated nk"``, ``"formula 2"``.
-    parts : tuple of str
-        What it gives.
-    span : tuple of float
-        Its wavelengths, in metres.
-    columns : tuple of tuple of float
-        Those of a table: wavelengths in metres, and a column for each part.
-    coefficients : tuple of float
-        Those of a formula.
-    rows : tuple of int
-        Which rows of the data the lines of a table are.
+    Units: span, columns in metres.
     """
 
     kind: str
@@ -50,26 +37,7 @@ class PageEntry(NamedTuple):
     def curve(
         self, label: str, parts: Sequence[str], interpolation: str, extrapolate: str
     ) -> Curve:
-        """Return the curve of some of its parts.
-
-        Parameters
-        ----------
-        label : str
-            What sentences call it.
-        parts : sequence of str
-            Which are wanted.
-        interpolation, extrapolate : str
-            As `Tabulated` has them.
-
-        Returns
-        -------
-        Curve
-
-        Raises
-        ------
-        ValueFault
-            If there is no such curve.
-        """
+        """Return the curve of some of its parts."""
         if not self.columns:
             number = int(self.kind.split()[1])
             return DispersionFormula(
@@ -99,19 +67,7 @@ class PageEntry(NamedTuple):
 
 
 def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
-    """Return the entries of a page, and tell what is wrong with others.
-
-    Parameters
-    ----------
-    contents : Any
-        What its YAML holds.
-    faults : list of str
-        Gets a sentence for each entry that cannot be read.
-
-    Returns
-    -------
-    list of PageEntry
-    """
+    """Return the entries of a page, and tell what is wrong with others."""
     data = contents.get("DATA") if isinstance(contents, dict) else None
     if not isinstance(data, list) or not data:
         faults.append("it has no list DATA of tables and formulas, as refractiveindex.info has")
@@ -126,13 +82,7 @@ def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
 
 
 def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
-    """Return the wavelengths of each part of a page, of whose tables only these are read.
-
-    Raises
-    ------
-    OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError
-        If it is no page.
-    """
+    """Return the wavelengths of each part of a page, of whose tables only these are read."""
     found: dict[str, tuple[float, float]] = {}
     for entry in contents["DATA"]:
         [(parts, _)] = _TYPE.findall(entry["type"])

@@ -32,34 +32,7 @@ def page_curve(
     asked: Mapping[str, str] | None = None,
     remedy: str = "",
 ) -> PageCurve:
-    """Return the curve of a page.
-
-    Parameters
-    ----------
-    contents : Any
-        What its YAML holds.
-    label, about : str
-        What sentences call the material, and the page or file.
-    wanted : collection of str, optional
-        Which of n and k; others are given apart.
-    interpolation, extrapolate : str, optional
-        As `Tabulated` has them.
-    within : tuple of float, optional
-        Where k may be taken for 0, which is given apart; nothing where it is not.
-    asked : mapping of str to str, optional
-        By which arguments `Material.named` makes it.
-    remedy : str, optional
-        What to do where the numbers of the page are at fault.
-
-    Returns
-    -------
-    PageCurve
-
-    Raises
-    ------
-    MaterialError
-        With all that is wrong with the page, or if it lacks what is wanted.
-    """
+    """Return the curve of a page."""
     faults: list[str] = []
     entries = entries_of(contents, faults)
     if faults:

@@ -24,17 +24,7 @@ _RANGE = re.compile(
 
 
 class FoundPage(NamedTuple):
-    """A page that a search has found.
-
-    Attributes
-    ----------
-    name : str
-        What it is called by: a short name, or that of the page.
-    page : CatalogPage
-        The page.
-    curated : CuratedName
-        What is said of the short name, or None.
-    """
+    """A page that a search has found."""
 
     name: str
     page: CatalogPage
@@ -49,12 +39,7 @@ class FoundPage(NamedTuple):
         return "; ".join(filter(None, told))
 
     def spans(self) -> dict[str, tuple[float, float]]:
-        """Return the wavelengths of n and of k, in metres; nothing of a page that cannot be read.
-
-        Returns
-        -------
-        dict of str to tuple
-        """
+        """Return the wavelengths of n and of k, in metres; nothing if a page cannot be read."""
         try:
             found = spans_of(read_yaml(self.page.file, self.page.place, installed=True))
         except (OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
@@ -66,23 +51,7 @@ class FoundPage(NamedTuple):
 
 
 def pages_with(words: Sequence[str]) -> list[FoundPage]:
-    """Return the pages in which all of some words occur; those with short names for none.
-
-    Parameters
-    ----------
-    words : sequence of str
-        Parts of names, of authors, or of what the catalogue says, in large or small letters.
-
-    Returns
-    -------
-    list of FoundPage
-        Short names first; then pages of books that are called like one of the words.
-
-    Raises
-    ------
-    MissingExtraError, MaterialError
-        If there is no database.
-    """
+    """Return the pages in which all of some words occur; those with short names for none."""
     pages = {page.place: page for page in catalog_pages()}
     short = [FoundPage(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
     if not words:

@@ -21,24 +21,6 @@ def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
 
     It is the angle of the parameter itself that has the name, where its negative is the axis: on
     the way back, an axis stands at ``-a``.
-
-    Parameters
-    ----------
-    name : str
-        The parameter.
-    value : Any
-        What is given: words of the parameter stay what they are.
-    uses : iterable of Use
-        The numbers of a path, parameters among them.
-
-    Returns
-    -------
-    Any
-
-    Raises
-    ------
-    ParameterError
-        If it stands as an axis, and the word is no name of one.
     """
     if not isinstance(value, (str, list, tuple)):
         return value

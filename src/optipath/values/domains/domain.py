@@ -26,20 +26,7 @@ from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 class Domain:
     """Real numbers between two limits, both included.
 
-    Attributes
-    ----------
-    name : str
-        What error messages call the quantity.
-    dimension : str
-        ``"angle"``, ``"length"``, ... as `USUAL_UNITS` has them, or ``""``.
-    minimum, maximum : float
-        The limits, in radians and metres where there is a dimension.
-    tail : tuple of int
-        The axes behind the batch: ``(4,)`` for a Stokes vector.
-    own_unit : str
-        The unit that is usual here, where it is not the usual one of the dimension.
-    complex_parts : tuple of str
-        What files call the two parts of a complex number; none where numbers are real.
+    Units: minimum, maximum in radians.
     """
 
     complex_parts: ClassVar[tuple[str, ...]] = ()
@@ -61,22 +48,7 @@ class Domain:
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         """Return the value as an array of numbers, or say what is wrong with it.
 
-        Parameters
-        ----------
-        owner : str
-            What has the value, as sentences name it.
-        value : Any
-            What is given.
-
-        Returns
-        -------
-        ndarray
-            Of numbers, shape (..., *tail); what JAX traces stays its own.
-
-        Raises
-        ------
-        ValueFault
-            Naming the owner, the value, and what is asked for.
+        Shape: returns (..., *tail).
         """
         if self.quickly_allows(value):
             return np.array(value)
@@ -135,20 +107,7 @@ class Domain:
         return inside & (numbers >= low) & (numbers <= high)
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        """Say what is wrong with a parameter standing here, whatever its value; mostly nothing.
-
-        Parameters
-        ----------
-        owner : str
-            What has the parameter, as sentences name it.
-        parameter : Parameter
-            What stands for the value.
-
-        Raises
-        ------
-        ValueFault
-            Naming the owner and the parameter.
-        """
+        """Say what is wrong with a parameter standing here, whatever its value; mostly nothing."""
 
     @property
     def unphysical(self) -> Domain:
@@ -176,52 +135,15 @@ class Domain:
         return finite and (self.dimension != "angle" or abs(value) <= TURN)
 
     def parse(self, text: str) -> Any:
-        """Return the number that a text such as ``"30 deg"`` stands for.
-
-        Raises
-        ------
-        UnitError, ValueFault
-            If it stands for none.
-        """
+        """Return the number that a text such as ``"30 deg"`` stands for."""
         return parse_quantity(text, self.dimension)
 
     def read(self, owner: str, value: Any) -> Any:
-        """Return a value with numbers in place of texts.
-
-        Parameters
-        ----------
-        owner : str
-            What has the value, as sentences name it.
-        value : Any
-            What is given: a number, a text, an array or a list of either, or anything else.
-
-        Returns
-        -------
-        Any
-            The value itself where there is no text.
-
-        Raises
-        ------
-        ValueFault
-            With a sentence for each text that stands for no number.
-        """
+        """Return a value with numbers in place of texts."""
         return numbers_for(owner, value, self.parse)
 
     def doubt(self, owner: str, value: Any) -> str:
-        """Ask what a value means that may be one or several; mostly nothing.
-
-        Parameters
-        ----------
-        owner : str
-            What has the value, as sentences name it.
-        value : Any
-            What is given.
-
-        Returns
-        -------
-        str
-            A sentence, or nothing.
-        """
+        """Ask what a value means that may be one or several; mostly nothing."""
         del owner, value
         return ""
 
@@ -245,20 +167,7 @@ class Domain:
         return self.minimum, self.maximum
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return the numbers that make up a value: their names, values and domains.
-
-        Parameters
-        ----------
-        name : str
-            The name of the value's place.
-        value : Any
-            The value.
-
-        Returns
-        -------
-        list of tuple
-            A name, value and domain for each; empty where the value is left out.
-        """
+        """Return the numbers that make up a value: their names, values and domains."""
         return [(name, value, self)]
 
     def described(self) -> str:
@@ -297,18 +206,6 @@ class Domain:
 
 def in_unit_of(value: Any, domain: Domain) -> Any:
     """Return a value; a parameter without a unit gets the usual one of a domain.
-
-    Parameters
-    ----------
-    value : Any
-        Anything.
-    domain : Domain
-        That of the place where it stands.
-
-    Returns
-    -------
-    Any
-        The value, or a parameter like it with a unit.
 
     Examples
     --------

@@ -12,15 +12,6 @@ from optipath.values.domains.domain import Domain
 class NoAbsorption(Domain):
     """Extinction coefficients that are 0.
 
-    Attributes
-    ----------
-    minimum, maximum : float
-        Both are 0.
-    why : str
-        Why they must be, as a sentence goes on behind "0".
-    otherwise : str
-        What else to do than to leave the absorption out.
-
     Examples
     --------
     >>> NoAbsorption("k", why=", since light goes on in there").described()

@@ -28,19 +28,7 @@ def is_pair(value: Any) -> bool:
 
 
 def pair_in(value: Any, domain: Domain) -> tuple[float, float] | None:
-    """Return two real numbers written by hand that may be the parts of one; None for all else.
-
-    Parameters
-    ----------
-    value : Any
-        What is given: a list or a tuple of numbers or of their texts.
-    domain : Domain
-        Which complex numbers are allowed.
-
-    Returns
-    -------
-    tuple of two float, optional
-    """
+    """Return two real numbers written by hand that may be the parts of one; None for all else."""
     if not is_pair(value):
         return None
     first, second = _numbers(value)

@@ -16,11 +16,6 @@ if TYPE_CHECKING:
 class Refused(Domain):
     """No value at all.
 
-    Attributes
-    ----------
-    why : str
-        What is wrong, and the cure; what comes behind the name of the owner.
-
     Examples
     --------
     >>> Refused("length", why="is missing; give it").check("Rod length", None)

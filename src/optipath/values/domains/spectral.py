@@ -21,16 +21,6 @@ if TYPE_CHECKING:
 def spectrum_meant(text: str) -> str:
     """Return the sentence for a text in place of a spectrum, if it names one.
 
-    Parameters
-    ----------
-    text : str
-        Such as ``"D65"`` and ``"633 nm"``.
-
-    Returns
-    -------
-    str
-        Nothing where it is neither.
-
     Examples
     --------
     >>> print(spectrum_meant("D65"))

@@ -25,13 +25,7 @@ MOST_MEDIA = 1000
 
 @dataclass(frozen=True)
 class InnerDomain(OutsideDomain):
-    """Indices of the layers of a stack, between which light goes to and fro.
-
-    Attributes
-    ----------
-    missing : str
-        What the stack is not given, which says how much light a layer absorbs.
-    """
+    """Indices of the layers of a stack, between which light goes to and fro."""
 
     missing: str = "the lengths (one for each layer) and the wavelength"
 
@@ -55,13 +49,7 @@ class InnerDomain(OutsideDomain):
 
 @dataclass(frozen=True)
 class IndicesDomain(Domain):
-    """Indices of the media of a stack, the front medium first and the substrate last.
-
-    Attributes
-    ----------
-    inner : Domain, optional
-        That of the layers; without absorption by default.
-    """
+    """Indices of the media of a stack, the front medium first and the substrate last."""
 
     inner: Domain | None = None
 

@@ -88,13 +88,7 @@ def _may_be_a_state(value: Any) -> bool:
 
 @dataclass(frozen=True)
 class StokesDomain(Domain):
-    """Stokes vectors that light can have; none at all is unpolarised light.
-
-    Attributes
-    ----------
-    physical : bool
-        Whether they are polarised by 100 % at most.
-    """
+    """Stokes vectors that light can have; none at all is unpolarised light."""
 
     physical: bool = True
 
@@ -152,16 +146,7 @@ def surely_light(stokes: npt.NDArray[Any]) -> bool:
 def can_be_light(stokes: Any, rounding: float) -> Any:
     """Return which Stokes vectors are polarised by 100 % at most.
 
-    Parameters
-    ----------
-    stokes : ndarray, shape (..., 4)
-        The vectors; S0 >= 0.
-    rounding : float
-        That of the precision in which they are given, as `rounding_of` has it.
-
-    Returns
-    -------
-    ndarray of bool, shape (...)
+    Shapes: stokes (..., 4); returns (...).
 
     Examples
     --------

@@ -22,13 +22,7 @@ LENGTH_OF_LAYER = Domain("length", "length", minimum=0.0, maximum=1e100, own_uni
 
 @dataclass(frozen=True)
 class LengthsDomain(Domain):
-    """Lengths of the layers of a stack, one for each, or none at all.
-
-    Attributes
-    ----------
-    layers : int, optional
-        How many layers there are, where that is known.
-    """
+    """Lengths of the layers of a stack, one for each, or none at all."""
 
     layers: int | None = None
 

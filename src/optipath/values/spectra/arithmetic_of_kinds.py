@@ -31,22 +31,7 @@ _RESAMPLE = "spectrum.resample(op.wavelengths('380 nm', '700 nm', '5 nm'))"
 
 
 def sum_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
-    """Return the sum of two spectra: one of their kind where both are of one, else of both.
-
-    Parameters
-    ----------
-    first, second : SpectrumKind
-        Of any kinds.
-
-    Returns
-    -------
-    SpectrumKind
-
-    Raises
-    ------
-    ValueFault
-        If there is no wavelength at which both are known.
-    """
+    """Return the sum of two spectra: one of their kind where both are of one, else of both."""
     terms: list[SpectrumKind] = []
     for term in (*first.terms, *second.terms):
         joined = [_joined(other, term) for other in terms]
@@ -59,24 +44,7 @@ def sum_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
 
 
 def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
-    """Return the product of two spectra, sample by sample.
-
-    Parameters
-    ----------
-    first, second : SpectrumKind
-        Of which one is sampled, or one has lines.
-
-    Returns
-    -------
-    SpectrumKind
-        Samples, at the wavelengths of both where both are sampled, or lines that have their power
-        times the value there.
-
-    Raises
-    ------
-    ValueFault
-        If they do not fit.
-    """
+    """Return the product of two spectra, sample by sample."""
     for one, other in ((first, second), (second, first)):
         if isinstance(one, SumOfKinds):
             return _total([product_of(term, other) for term in one.terms])
@@ -95,23 +63,7 @@ def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
 
 
 def quotient_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
-    """Return the quotient of two spectra, such as of what is measured by that of the lamp.
-
-    Parameters
-    ----------
-    first, second : SpectrumKind
-        Of which one is sampled.
-
-    Returns
-    -------
-    SpectrumKind
-        Samples.
-
-    Raises
-    ------
-    ValueFault
-        If they do not fit, or the second is 0 somewhere.
-    """
+    """Return the quotient of two spectra, such as of what is measured by that of the lamp."""
     places = _sampled_at(first, second, "divided")
     above, below = values_at(first, places), values_at(second, places)
     if np.any(dark := below == 0.0):

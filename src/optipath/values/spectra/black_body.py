@@ -25,13 +25,6 @@ class BlackBody(SpectrumKind):
 
     2 h c^2 / L^5 / (exp(h c / (L k T)) - 1) for a wavelength L (M. Planck, Ann. Phys. 309, 553
     (1901)), times a factor.
-
-    Parameters
-    ----------
-    temperature : float
-        In kelvins, above 0.
-    factor : float, optional
-        What it is multiplied by, such as an emissivity.
     """
 
     temperature: float

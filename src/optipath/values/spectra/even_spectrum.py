@@ -11,13 +11,7 @@ if TYPE_CHECKING:
 
 
 class EvenSpectrum(SpectrumKind):
-    """One density at each wavelength.
-
-    Parameters
-    ----------
-    value : float
-        Per nanometre, or a relative value.
-    """
+    """One density at each wavelength."""
 
     value: float
 

@@ -23,12 +23,7 @@ class GaussianLine(SpectrumKind):
     The simplest of the shapes that stand for a diode; its integral over all wavelengths is the
     power.
 
-    Parameters
-    ----------
-    peak, width : float
-        The wavelength of the maximum, and the full width where it is half of that, in metres.
-    power : float
-        The whole.
+    Units: peak, width in metres.
     """
 
     peak: float

@@ -15,15 +15,7 @@ NANOMETRES = 1e9
 def grid_fault(wavelengths: Any) -> str:
     """Say why wavelengths are no grid; nothing if they are one.
 
-    Parameters
-    ----------
-    wavelengths : array_like
-        In metres.
-
-    Returns
-    -------
-    str
-        How a sentence about them goes on.
+    Units: wavelengths in metres.
 
     Examples
     --------
@@ -51,15 +43,7 @@ def grid_edges(wavelengths: Any) -> Any:
     A bin reaches halfway to each neighbour, and ends where the grid does, so that the sum of
     density times width is the integral by the trapezoidal rule.
 
-    Parameters
-    ----------
-    wavelengths : array_like, shape (n,)
-        In metres, a grid (`grid_fault`), rising or falling.
-
-    Returns
-    -------
-    ndarray, shape (n + 1,)
-        In the order of the grid.
+    Shapes: wavelengths (n,); returns (n + 1,). Units: wavelengths in metres.
 
     Examples
     --------
@@ -76,15 +60,7 @@ def grid_edges(wavelengths: Any) -> Any:
 def grid_widths(wavelengths: Any) -> Any:
     """Return the widths of the bins of a grid, in nanometres: weights of the trapezoidal rule.
 
-    Parameters
-    ----------
-    wavelengths : array_like, shape (n,)
-        In metres, a grid (`grid_fault`), rising or falling.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Not below 0.
+    Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
 
     Examples
     --------

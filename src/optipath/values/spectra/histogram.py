@@ -21,21 +21,7 @@ if TYPE_CHECKING:
 class Histogram(SpectrumKind):
     """Power in bins; its density is the power of a bin by its width.
 
-    Parameters
-    ----------
-    edges : array_like, shape (n + 1,)
-        In metres or as texts, rising or falling.
-    powers : array_like, shape (n,)
-        Of each bin, not negative.
-    outside : 0.0 or None, optional
-        What is beyond the bins; by default nobody knows.
-    label : str, optional
-        What sentences call it.
-
-    Raises
-    ------
-    ValueFault
-        If these are no bins.
+    Shapes: edges (n + 1,); powers (n,). Units: edges in metres.
     """
 
     is_pointwise: ClassVar[bool] = False

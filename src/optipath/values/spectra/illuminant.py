@@ -45,18 +45,6 @@ class Illuminant(SpectrumKind):
 
     A is 100 (560 / L)^5 (exp(1.435e7 / (2848 560)) - 1) / (exp(1.435e7 / (2848 L)) - 1) for L in
     nanometres, D65 a table, linear between its samples, and E the same everywhere (CIE 15:2018).
-
-    Parameters
-    ----------
-    name : {"A", "D65", "E"}
-        Which one.
-    factor : float, optional
-        What it is multiplied by.
-
-    Raises
-    ------
-    ValueFault
-        If there is none of that name.
     """
 
     name: str

@@ -24,17 +24,7 @@ def powers_between(kind: SpectrumKind, edges: Array) -> Array:
     By Gauss and Legendre with 16 nodes on pieces that are halved until halves come to what the
     whole did; exact, but for rounding, where densities are straight lines.
 
-    Parameters
-    ----------
-    kind : SpectrumKind
-        The spectrum, known between the edges.
-    edges : ndarray, shape (n + 1,)
-        In metres, rising.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        A line on an edge is of the bin above it, but for the last edge.
+    Shapes: edges (n + 1,); returns (n,). Units: edges in metres.
     """
     found = smooth_powers(kind, edges)
     for line in kind.lines:
@@ -47,14 +37,7 @@ def powers_between(kind: SpectrumKind, edges: Array) -> Array:
 def smooth_powers(kind: SpectrumKind, edges: Array) -> Array:
     """Return what `powers_between` does, lines aside.
 
-    Parameters
-    ----------
-    kind, edges
-        As `powers_between` takes them.
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    Shape: returns (n,).
     """
     breaks = kind.breaks
     inner = breaks[(breaks > edges[0]) & (breaks < edges[-1])]

@@ -19,13 +19,7 @@ _ROUNDING = 1e-12
 
 
 class Lines(SpectrumKind):
-    """Power at single wavelengths, and nothing between them.
-
-    Parameters
-    ----------
-    lines : sequence of EmissionLine
-        One or more.
-    """
+    """Power at single wavelengths, and nothing between them."""
 
     is_pointwise: ClassVar[bool] = False
 
@@ -68,21 +62,7 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> np.ndar
     All power of a line stands in the bin that holds it, and bins are those of `grid_edges`; so
     the integral by the trapezoidal rule is that power on any grid.
 
-    Parameters
-    ----------
-    lines : sequence of EmissionLine
-        The lines.
-    wavelengths : array_like, shape (n,)
-        A grid, in metres.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-
-    Raises
-    ------
-    ParameterError
-        If the wavelengths are no grid, or a line is outside of it that may not be left out.
+    Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
 
     Examples
     --------

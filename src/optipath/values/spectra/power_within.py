@@ -18,22 +18,7 @@ if TYPE_CHECKING:
 def power_within(kind: SpectrumKind, low: Any = None, high: Any = None) -> float:
     """Return the power of a spectrum between two wavelengths.
 
-    Parameters
-    ----------
-    kind : SpectrumKind
-        The spectrum.
-    low, high : float, str or None, optional
-        In metres or as texts; None where the spectrum ends. A line at the low end counts, and
-        one at a high end that is given does not, so that parts sum up to the whole.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueFault
-        If it is not known there, or does not end and no end is given.
+    Units: low, high in metres.
     """
     if low is None and high is None and (whole := _whole(kind)) is not None:
         return whole

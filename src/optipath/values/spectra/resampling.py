@@ -28,24 +28,7 @@ _CHOICES = ("refuse", "drop")
 
 
 def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
-    """Return the samples of a spectrum at wavelengths.
-
-    Parameters
-    ----------
-    kind : SpectrumKind
-        The spectrum.
-    wavelengths, outside
-        As `Sampled` takes them.
-
-    Returns
-    -------
-    Sampled
-
-    Raises
-    ------
-    ValueFault
-        If it is not known there, or has lines.
-    """
+    """Return the samples of a spectrum at wavelengths."""
     if kind.lines:
         raise ValueFault(
             f"{called(kind.lines)} has no value at a wavelength, so that it cannot be resampled; "
@@ -65,24 +48,7 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
 def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
     """Return the power of a spectrum in bins.
 
-    Parameters
-    ----------
-    kind : SpectrumKind
-        The spectrum.
-    edges : array_like, shape (n + 1,)
-        In metres or as texts.
-    outside : {"refuse", "drop"}
-        What becomes of power beyond them.
-
-    Returns
-    -------
-    Histogram
-        0 beyond its edges, where all of the spectrum is within them and nothing else is there.
-
-    Raises
-    ------
-    ValueFault
-        If it is not known there, or power would be lost.
+    Shape: edges (n + 1,). Units: edges in metres.
     """
     if faults := unknown("outside", outside, _CHOICES):
         raise ValueFault(*faults)

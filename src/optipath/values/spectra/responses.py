@@ -11,18 +11,6 @@ from optipath.values.spectra.spectrum import Spectrum
 def check_response(owner: str, response: Any) -> None:
     """Raise where a response is a spectrum with power in bins or lines.
 
-    Parameters
-    ----------
-    owner : str
-        What has it, as sentences name it.
-    response : Any
-        A `Spectrum`, what stands for one at the wavelength of a run, or anything else.
-
-    Raises
-    ------
-    ValueFault
-        Naming what of it is power.
-
     Examples
     --------
     >>> check_response("the response", Spectrum.constant(0.5))

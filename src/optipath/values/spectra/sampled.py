@@ -24,21 +24,7 @@ HELD = ("nearest", "linear")
 class Sampled(SpectrumKind):
     """Densities at samples, linear between them.
 
-    Parameters
-    ----------
-    wavelengths : array_like, shape (n,)
-        In metres or as texts, rising or falling.
-    values : array_like, shape (n,)
-        The densities, per nanometre, or relative values; not negative.
-    outside : {0.0, "nearest", "linear"} or None, optional
-        What is beyond the samples, of a straight line as far as 0; by default nobody knows.
-    label : str, optional
-        What sentences call it.
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the samples.
+    Shapes: wavelengths (n,); values (n,). Units: wavelengths in metres.
     """
 
     wavelengths: np.ndarray[Any, Any]

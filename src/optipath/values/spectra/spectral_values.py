@@ -25,24 +25,6 @@ LENGTH_CURE = "for nanometres write '{0:g} nm', or {0:g}e-9"
 def one_number(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> float:
     """Return one number of a spectrum.
 
-    Parameters
-    ----------
-    owner : str
-        What has it, as sentences name it.
-    value : Any
-        What is given.
-    domain : Domain, optional
-        What it may be.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueFault
-        If it is none.
-
     Examples
     --------
     >>> one_number("power of a line", 2)
@@ -55,27 +37,7 @@ def one_number(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> float:
 
 
 def several_numbers(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> Array:
-    """Return numbers of a spectrum.
-
-    Parameters
-    ----------
-    owner : str
-        What has them, as sentences name it.
-    value : Any
-        What is given.
-    domain : Domain, optional
-        What they may be.
-
-    Returns
-    -------
-    ndarray
-        A copy.
-
-    Raises
-    ------
-    ValueFault
-        If they are none.
-    """
+    """Return numbers of a spectrum."""
     if isinstance(value, Parameter):
         raise ValueFault(
             f"{owner} cannot be the parameter '{value.name}'; give a number here, and a parameter "
@@ -91,22 +53,6 @@ def several_numbers(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> Ar
 def some_wavelengths(owner: str, value: Any) -> Array:
     """Return wavelengths in metres, of numbers in metres or of texts.
 
-    Parameters
-    ----------
-    owner : str
-        What has them, as sentences name it.
-    value : Any
-        What is given.
-
-    Returns
-    -------
-    ndarray
-
-    Raises
-    ------
-    ValueFault
-        If they are none, or so large that they must be in another unit.
-
     Examples
     --------
     >>> some_wavelengths("a grid", ["500 nm", "2.4 eV"]).round(10)
@@ -118,20 +64,7 @@ def some_wavelengths(owner: str, value: Any) -> Array:
 
 
 def refuse_longest(owner: str, metres: Any) -> None:
-    """Raise where lengths are so large that they must be in another unit.
-
-    Parameters
-    ----------
-    owner : str
-        What has them, as sentences name it.
-    metres : array_like
-        The lengths.
-
-    Raises
-    ------
-    ValueFault
-        Saying how they are written.
-    """
+    """Raise where lengths are so large that they must be in another unit."""
     if np.size(metres) and (longest := float(np.max(metres))) > LONGEST:
         raise ValueFault(
             f"{owner} is {longest:g} metres, which is no wavelength of light; "
@@ -141,20 +74,6 @@ def refuse_longest(owner: str, metres: Any) -> None:
 
 def one_wavelength(owner: str, value: Any) -> float:
     """Return one wavelength in metres.
-
-    Parameters
-    ----------
-    owner, value
-        As `some_wavelengths` takes them.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueFault
-        As `some_wavelengths` does, and of several.
 
     Examples
     --------
@@ -170,22 +89,7 @@ def one_wavelength(owner: str, value: Any) -> float:
 def rising_edges(owner: str, value: Any) -> tuple[Array, bool]:
     """Return the edges of bins in metres, rising, and whether they were given falling.
 
-    Parameters
-    ----------
-    owner : str
-        What has them, as sentences name it.
-    value : Any
-        What is given.
-
-    Returns
-    -------
-    edges : ndarray, shape (n + 1,)
-    turned : bool
-
-    Raises
-    ------
-    ValueFault
-        If they are no edges of bins.
+    Shape: returns edges (n + 1,).
     """
     edges = some_wavelengths(owner, value)
     if edges.ndim != 1 or edges.size < 2:
@@ -200,24 +104,7 @@ def rising_edges(owner: str, value: Any) -> tuple[Array, bool]:
 
 
 def value_outside(owner: str, outside: Any) -> float | None:
-    """Return what a spectrum is beyond what it is known for; None where nobody says.
-
-    Parameters
-    ----------
-    owner : str
-        The spectrum, as sentences name it.
-    outside : Any
-        What is given.
-
-    Returns
-    -------
-    float or None
-
-    Raises
-    ------
-    ValueFault
-        If it is something else than 0.
-    """
+    """Return what a spectrum is beyond what it is known for; None where nobody says."""
     if outside is None:
         return None
     if np.ndim(outside) == 0 and not isinstance(outside, (str, bool)) and outside == 0.0:
@@ -231,22 +118,7 @@ def value_outside(owner: str, outside: Any) -> float | None:
 def values_at(kind: SpectrumKind, wavelengths: Array) -> Array:
     """Return what a spectrum is at wavelengths, lines aside.
 
-    Parameters
-    ----------
-    kind : SpectrumKind
-        The spectrum.
-    wavelengths : ndarray
-        In metres.
-
-    Returns
-    -------
-    ndarray
-        Of the same shape.
-
-    Raises
-    ------
-    ValueFault
-        If one of them is beyond those for which it is known.
+    Units: wavelengths in metres.
     """
     check_known_at(kind, wavelengths)
     row = np.ascontiguousarray(wavelengths, np.float64).reshape(-1)
@@ -257,17 +129,7 @@ def values_at(kind: SpectrumKind, wavelengths: Array) -> Array:
 def check_known_at(kind: SpectrumKind | Curve, wavelengths: Array) -> None:
     """Raise where a spectrum is not known.
 
-    Parameters
-    ----------
-    kind : SpectrumKind or Curve
-        The spectrum.
-    wavelengths : ndarray
-        In metres.
-
-    Raises
-    ------
-    ValueFault
-        Saying where it is.
+    Units: wavelengths in metres.
     """
     low, high = kind.span
     known = WavelengthRange("wavelength", "length", low, high, label=kind.label, beyond=kind.beyond)

@@ -18,10 +18,7 @@ class WidthAtPeak(Domain):
     half of it above and half of it below the peak: for a width d and a peak p, both per metre,
     d / (p^2 - d^2 / 4).
 
-    Attributes
-    ----------
-    peak : float
-        The wavelength of the peak, in metres.
+    Units: peak in metres.
 
     Examples
     --------

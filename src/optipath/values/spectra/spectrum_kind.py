@@ -16,14 +16,7 @@ if TYPE_CHECKING:
 class EmissionLine(NamedTuple):
     """Power at one wavelength.
 
-    Attributes
-    ----------
-    wavelength : float
-        In metres.
-    power : float
-        All of it.
-    outside : float or None
-        0 where a grid of wavelengths may leave it out; None where that is refused.
+    Units: wavelength in metres.
     """
 
     wavelength: float
@@ -34,20 +27,7 @@ class EmissionLine(NamedTuple):
 class SpectrumKind(Unchanging, ABC):
     """One way in which power is spread over wavelengths; a `Spectrum` has one.
 
-    Attributes
-    ----------
-    label : str
-        What sentences call it.
-    span : tuple of float
-        The least and the largest wavelength at which it is known, in metres.
-    beyond : str
-        What else to do than to stay within these.
-    extent : tuple of float
-        Beyond which nothing of it is, or is known, in metres.
-    lines : tuple of EmissionLine
-        Its power at single wavelengths.
-    integral : float or None
-        Its power at all wavelengths together, of what has no end; None where there is none.
+    Units: span, extent in metres.
     """
 
     is_pointwise: ClassVar[bool] = True
@@ -84,16 +64,7 @@ class SpectrumKind(Unchanging, ABC):
     def density(self, xp: Any, wavelength: Any) -> Any:
         """Return its power per nanometre, lines aside.
 
-        Parameters
-        ----------
-        xp : module
-            ``numpy`` or ``jax.numpy``.
-        wavelength : array_like
-            In metres.
-
-        Returns
-        -------
-        array_like
+        Units: wavelength in metres.
         """
 
     @abstractmethod

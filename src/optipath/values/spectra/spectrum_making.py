@@ -39,14 +39,7 @@ _MAKERS = (
 class SpectrumMaking(Curve):
     """A spectrum through samples, or by its kind, and its constructors.
 
-    Parameters
-    ----------
-    wavelengths : array_like, shape (n,), or SpectrumKind
-        Of the samples, in metres or as texts; or a way in which power is spread, alone.
-    values : array_like, shape (n,), optional
-        Of the samples.
-    outside, name
-        As `sampled` takes them.
+    Shapes: wavelengths (n,); values (n,). Units: wavelengths in metres.
     """
 
     kind: SpectrumKind

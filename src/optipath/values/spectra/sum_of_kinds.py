@@ -17,18 +17,7 @@ if TYPE_CHECKING:
 
 
 class SumOfKinds(SpectrumKind):
-    """The sum of spectra, known where all of them are.
-
-    Parameters
-    ----------
-    terms : sequence of SpectrumKind
-        Two or more.
-
-    Raises
-    ------
-    ValueFault
-        If they have no wavelength in common.
-    """
+    """The sum of spectra, known where all of them are."""
 
     _terms: tuple[SpectrumKind, ...]
 

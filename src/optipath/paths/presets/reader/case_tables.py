@@ -27,26 +27,7 @@ def read_case(
     uses: Iterable[Use],
     faults: Faults,
 ) -> Case:
-    """Return the case that a table describes, without what is faulty in it.
-
-    Parameters
-    ----------
-    where, table
-        Its place in the file, and what stands there.
-    parameters : mapping of str to Parameter
-        What it may give.
-    doubtful : collection of str
-        The names of which something wrong is told already.
-    uses : iterable of Use
-        Where they stand.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Case
-        With the numbers that the texts stand for.
-    """
+    """Return the case that a table describes, without what is faulty in it."""
     if loose := [name for name in table if name in parameters and name not in schema.CASE]:
         faults.append(
             f"{where}: the values of parameters stand in a table of their own; write values = "

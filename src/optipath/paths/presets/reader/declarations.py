@@ -18,14 +18,7 @@ if TYPE_CHECKING:
 
 
 class Declarations(dict[str, Parameter]):
-    """Parameters by name, bare ones in place of those that are faulty.
-
-    Attributes
-    ----------
-    doubtful : set of str
-        Their names, and those that are referred to and not declared: what follows from such a
-        fault is not told as well.
-    """
+    """Parameters by name, bare ones in place of those that are faulty."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -35,21 +28,7 @@ class Declarations(dict[str, Parameter]):
 def read_declarations(
     document: dict[str, Any], references: Collection[str], faults: Faults
 ) -> Declarations:
-    """Return the parameters that a document declares.
-
-    Parameters
-    ----------
-    document : dict
-        The whole of it.
-    references : collection of str
-        The names that elements and links refer to.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Declarations
-    """
+    """Return the parameters that a document declares."""
     found, tables = Declarations(), document.get("parameters", {})
     readable = tables_of(document, "parameters", faults)
     wavelengths = wavelength_names(document.get("elements"))
@@ -66,21 +45,7 @@ def read_declarations(
 
 
 def tables_of(document: dict[str, Any], section: str, faults: Faults) -> dict[str, Any]:
-    """Return the tables of a section, without what is none.
-
-    Parameters
-    ----------
-    document : dict
-        The whole of it.
-    section : str
-        ``"parameters"`` or ``"cases"``.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    dict of str to dict
-    """
+    """Return the tables of a section, without what is none."""
     tables = document.get(section, {})
     entries = tables.items() if isinstance(tables, dict) else ()
     wrong = {name: table for name, table in entries if not isinstance(table, dict)}
@@ -92,20 +57,7 @@ def tables_of(document: dict[str, Any], section: str, faults: Faults) -> dict[st
 
 
 def unit_faults(values: Values, parameters: Declarations) -> dict[str, str]:
-    """Return the parameters whose unit fits nowhere, with a sentence for each.
-
-    Parameters
-    ----------
-    values : Values
-        The values of the path.
-    parameters : Declarations
-        What has been declared.
-
-    Returns
-    -------
-    dict of str to str
-        By their names.
-    """
+    """Return the parameters whose unit fits nowhere, with a sentence for each."""
     asked: dict[str, dict[str, str]] = {}
     for use in values.uses:
         if isinstance(use.value, Parameter):

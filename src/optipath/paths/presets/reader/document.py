@@ -44,14 +44,7 @@ _MOST_ENTRIES = 3000
 
 
 def read(document: Table) -> PathGraph:
-    """Return the path that a parsed TOML document describes.
-
-    Raises
-    ------
-    PathError
-        With every fault: keys, kinds, units, values, ports, links, and the path itself; what
-        follows from another fault is left out.
-    """
+    """Return the path that a parsed TOML document describes."""
     for key, table in document.items():
         if isinstance(table, (dict, list)) and len(table) > _MOST_ENTRIES:
             raise PathError(f"it has {len(table):,} {key}; give {_MOST_ENTRIES:,} at most")

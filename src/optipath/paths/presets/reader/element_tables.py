@@ -30,22 +30,7 @@ STAND_IN = Parameter("unknown")
 def read_element(
     where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
 ) -> Element | None:
-    """Return the element that a table describes; None where its kind is not known.
-
-    Parameters
-    ----------
-    where, table
-        Its place in the file, and what stands there.
-    parameters : mapping of str to Parameter
-        What ``"$name"`` can refer to.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Element or None
-        With a parameter of no meaning in place of each value that is missing or faulty.
-    """
+    """Return the element that a table describes; None where its kind is not known."""
     named = table if "kind" in table else schema.as_meant(_no_fields(table), ["kind"])
     kind = named.get("kind")
     if not isinstance(kind, str):
@@ -85,20 +70,7 @@ def _no_fields(table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
-    """Return the world frames of an element's ports.
-
-    Parameters
-    ----------
-    where, table
-        The place of the element in the file, and the axes of each port.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    dict of str to Frame
-        Those that are without fault.
-    """
+    """Return the world frames of an element's ports."""
     if not isinstance(table, dict) or not all(isinstance(axes, dict) for axes in table.values()):
         faults.append(f"{where}.frames must be tables with x, y and z, one for each port")
         return {}

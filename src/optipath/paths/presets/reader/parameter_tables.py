@@ -28,23 +28,7 @@ _WITH_UNIT = re.compile(rf"[-+.\d][-+.\deE]*\s*({'|'.join(map(re.escape, UNITS))
 def read_parameter(
     name: str, table: dict[str, Any], wavelengths: Container[str], faults: Faults
 ) -> Parameter | None:
-    """Return the parameter that a table declares; None where the table is faulty.
-
-    Parameters
-    ----------
-    name : str
-        What it is called.
-    table : dict
-        What stands in the file.
-    wavelengths : container of str
-        The parameters that are wavelengths where they are lengths, as they are by default.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Parameter or None
-    """
+    """Return the parameter that a table declares; None where the table is faulty."""
     where, before = f"parameters.{name}", len(faults)
     sound = schema.checked(where, table, schema.PARAMETER, faults)
     named = faults.attempt(where, checked_name, name) is not None
