@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
-from optipath.light.conventions import changed_delta, changed_matrix, changed_stokes
+from optipath.light.conventions import changed_delta, changed_stokes
 from optipath.values.arrays.shapes import real_array
 
 if TYPE_CHECKING:
@@ -125,79 +125,3 @@ class LightExchange(EllipsometricAngles):
         """
         given = real_array("a Stokes vector", stokes, (4,))
         return cls(changed_stokes(convention, given), frame, **options)  # type: ignore[call-arg]
-
-
-class MuellerExchange(EllipsometricAngles):
-    """How Mueller matrices are given to other software, and taken from it."""
-
-    matrix: Any
-
-    def to(self, convention: str) -> Array:
-        """Return the matrices as other software writes them, of shape (..., 4, 4).
-
-        ``M.to(name) @ light.to(name)`` is ``(M @ light).to(name)``.
-
-        Parameters
-        ----------
-        convention : str
-            As in `Light.to`.
-
-        Returns
-        -------
-        ndarray, shape (..., 4, 4)
-
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name.
-
-        Examples
-        --------
-        >>> from optipath import Interface
-        >>> Interface(index=1.5, incidence=1.309).mueller().to("ellipsometry").round(3)[0]
-        array([ 0.253, -0.146,  0.   ,  0.   ])
-        """
-        return changed_matrix(convention, self.matrix)
-
-    @classmethod
-    def from_(
-        cls,
-        convention: str,
-        matrix: Any,
-        frame_in: Frame | None = None,
-        frame_out: Frame | None = None,
-    ) -> Self:
-        """Return Mueller matrices out of those of other software.
-
-        Parameters
-        ----------
-        convention : str
-            As in `Light.to`.
-        matrix : array_like, shape (..., 4, 4)
-            As that software writes them.
-        frame_in, frame_out : Frame, optional
-            The frames of the light that comes in and that goes out; unit frames by default.
-
-        Returns
-        -------
-        Mueller
-
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name.
-        ShapeError
-            If the last two axes have not four elements each.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from optipath import Mueller
-        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]]
-        >>> Mueller.from_("mitsuba", quarter).matrix[3]
-        array([0., 0., 1., 0.])
-        """
-        given = real_array("a Mueller matrix", matrix, (4, 4))
-        frames = {"frame_in": frame_in, "frame_out": frame_out}
-        own = {name: frame for name, frame in frames.items() if frame is not None}
-        return cls(changed_matrix(convention, given), **own)  # type: ignore[call-arg]

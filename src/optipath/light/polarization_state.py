@@ -52,6 +52,11 @@ def _hypotenuse(a: Any, b: Any) -> Any:
     return xp.where(there, xp.hypot(xp.where(there, a, 1.0), xp.where(there, b, 0.0)), 0.0)
 
 
+def norm(vector: Array) -> Array:
+    """Return the length along the last axis, however small; at 0 its slope is 0."""
+    return length(*(vector[..., i] for i in range(vector.shape[-1])))  # type: ignore[no-any-return]
+
+
 def direction(y: Any, x: Any) -> Any:
     """Return the angle from x to y in (-pi, pi], whatever signs zeros have; 0 where both are 0.
 

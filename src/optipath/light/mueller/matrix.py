@@ -1,47 +1,65 @@
-"""Mueller: a 4x4 matrix between two reference frames, and the three parts that it has."""
+"""Mueller: a 4x4 matrix between two reference frames, and the three parts that it has.
+
+Figures are read off the entries of a Mueller matrix, shape (..., 4, 4), each over M00.
+They are 0 where M00 is 0, but psi and delta, angles that are not there, NaN; NaN where M00 or
+what an angle is of is no more than noise, as of crossed polarisers, where M00 is infinite or an
+entry they need is not known; and exact in scale.
+"""
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field
+from math import sqrt
 from typing import TYPE_CHECKING, Any, NoReturn, overload
 
 import numpy as np
 
-from optipath.errors import FrameError, LightError
+from optipath.errors import CoherenceWarning, FrameError, LightError
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.array_axes import ArrayAxes, each_number
-from optipath.light.exchange import MuellerExchange
+from optipath.light.conventions import changed_matrix
+from optipath.light.exchange import EllipsometricAngles
 from optipath.light.frames import Frame
-from optipath.light.inherited_noise import inheriting
+from optipath.light.frames_on_demand import FramesOnDemand
+from optipath.light.inherited_noise import inheriting, rounding
 from optipath.light.light import Light
 from optipath.light.mueller import cloude
-from optipath.light.mueller.drawn_matrix import DrawnMatrix
-from optipath.light.mueller.figures import MatrixFigures
-from optipath.light.mueller.matrix_noise import noise_of_product
 from optipath.light.mueller.measured_matrices import (
     check_becomes_light,
     nan_where_no_light,
 )
 from optipath.light.mueller.polar_decomposition import polar_parts
-from optipath.light.mueller.reciprocity import HasReciprocal
+from optipath.light.mueller.reciprocity import reciprocal
 from optipath.light.mueller.sphere_rotations import turn_of
 from optipath.light.mueller.stacking import stacked
+from optipath.light.polarization_state import direction, length, norm, ratio
 from optipath.light.refused_products import why_refused
 from optipath.light.underflow import folded, normalise_exponent, rounded_to
-from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known
+from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
+from optipath.values.calls_up import calls_up
 from optipath.values.precision import at_least_single, coarser
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import numpy.typing as npt
 
+    from optipath.values.roundings import Array
+
+_SUMS = 4.0
+"""How many roundings a sum of four products has, and the turn of frames before it."""
+
+_BCS = (0, 1), (2, 2), (2, 3)
+_DEPOLARIZES, _MIXES = 0.02, 0.05
+"""From where on a matrix is no r_p / r_s: beyond the noise of ellipsometers, of some 0.01."""
+
 
 @dataclass(frozen=True, eq=False)
-class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMatrix, Unchanging):
+class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
     ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the numbers from the
@@ -109,10 +127,349 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMat
         found._keep_frames(frame_in=frame_in, frame_out=frame_out)  # noqa: SLF001 - its own
         return found
 
+    @classmethod
+    def from_(
+        cls,
+        convention: str,
+        matrix: Any,
+        frame_in: Frame | None = None,
+        frame_out: Frame | None = None,
+    ) -> Mueller:
+        """Return Mueller matrices out of those of other software.
+
+        Parameters
+        ----------
+        convention : str
+            As in `Light.to`.
+        matrix : array_like, shape (..., 4, 4)
+            As that software writes them.
+        frame_in, frame_out : Frame, optional
+            The frames of the light that comes in and that goes out; unit frames by default.
+
+        Returns
+        -------
+        Mueller
+
+        Raises
+        ------
+        ValueFault
+            If there is no convention of that name.
+        ShapeError
+            If the last two axes have not four elements each.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from optipath import Mueller
+        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]]
+        >>> Mueller.from_("mitsuba", quarter).matrix[3]
+        array([0., 0., 1., 0.])
+        """
+        given = real_array("a Mueller matrix", matrix, (4, 4))
+        frames = {"frame_in": frame_in, "frame_out": frame_out}
+        own = {name: frame for name, frame in frames.items() if frame is not None}
+        return cls(changed_matrix(convention, given), **own)
+
+    @property
+    def diattenuation(self) -> Array:
+        """The length of the diattenuation vector, of shape (...).
+
+        (max - min) / (max + min) of what is let through, over all states that come in: 0 for a
+        retarder, 1 for an ideal polariser, 0 where M00 is 0.
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller([[4, 2, 0, 0], [2, 4, 0, 0], [0, 0, 3, 0], [0, 0, 0, 3]]).diattenuation)
+        0.5
+        """
+        return norm(self.diattenuation_vector)
+
+    @property
+    def diattenuation_vector(self) -> Array:
+        """(M01, M02, M03) / M00, of shape (..., 3), in the frame of the light that comes in."""
+        return self._over_m00(known(self.matrix)[..., 0, 1:])
+
+    @property
+    def polarizance(self) -> Array:
+        """The degree of polarisation that unpolarised light leaves with, of shape (...)."""
+        return norm(self.polarizance_vector)
+
+    @property
+    def polarizance_vector(self) -> Array:
+        """(M10, M20, M30) / M00, of shape (..., 3), in the frame of the light that goes out."""
+        return self._over_m00(known(self.matrix)[..., 1:, 0])
+
+    @property
+    def depolarization_index(self) -> Array:
+        """The depolarisation index, of shape (...).
+
+        1 for what a Jones matrix describes, 0 for an ideal depolariser;
+        sqrt(sum of M_ij^2 - M00^2) / (sqrt(3) M00) by J. J. Gil and E. Bernabeu, Opt. Acta 33,
+        185 (1986); 0 where M00 is 0.
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller(np.diag([1.0, 0.5, 0.5, 0.5])).depolarization_index.round(12))
+        0.5
+        """
+        matrix = known(self.matrix)
+        flat = matrix.reshape(*matrix.shape[:-2], 16)
+        return norm(self._over_m00(flat[..., 1:])) / sqrt(3.0)
+
+    @property
+    def retardance(self) -> npt.NDArray[Any]:
+        """The retardance of `lu_chipman`'s retarder, in radians, in [0, pi], of shape (...)."""
+        return self.lu_chipman().retardance
+
+    @property
+    def psi(self) -> Array:
+        """The ellipsometric psi of an isotropic sample, of shape (...), in [0, pi/2].
+
+        tan psi = abs(r_p) / abs(r_s), with x along s and y along p in both frames, as
+        `Interface` has them; from cos 2 psi : sin 2 psi = M01 : hypot(M22, M23), and NaN where
+        all three are 0. Of a sample that does not depolarise: what depolarises has less of M22 and
+        M23, and so a psi nearer to 0 or pi/2 (see `depolarization_index`).
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> glass = [[0.5, 0.3, 0, 0], [0.3, 0.5, 0, 0], [0, 0, -0.4, 0], [0, 0, 0, -0.4]]
+        >>> print(np.tan(Mueller(glass).psi).round(12), Mueller(glass).delta.round(4))
+        0.5 3.1416
+        """
+        B, C, S = self._bcs()
+        rho = length(C, S)
+        return self._where_there(0.5 * direction(rho, B), length(rho, B))
+
+    @property
+    def delta(self) -> Array:
+        """The ellipsometric Delta of an isotropic sample, of shape (...), in (-pi, pi].
+
+        The phase of r_p / r_s in ellipsometry's exp(+i w t), atan2(M23, M22): pi where a
+        dielectric is met below Brewster's angle, between 0 and pi for a bare metal; NaN where
+        M22 and M23 are both 0.
+        """
+        _, C, S = self._bcs()
+        return self._where_there(direction(S, C), length(C, S))
+
+    @property
+    def coherency(self) -> npt.NDArray[np.complex128]:
+        """Cloude's coherency matrix, Hermitian, of shape (..., 4, 4), with the trace M00.
+
+        The mean of c_k conj(c_l) over Jones matrices T = c_0 s_0 + c_1 s_1 + c_2 s_2 + c_3 s_3
+        that make the matrix up; s_0 is the unit matrix, and the others are Pauli's in the order
+        of S1, S2, S3: diag(1, -1), [[0, 1], [1, 0]], [[0, -i], [i, 0]]. By S. R. Cloude, Optik
+        75, 26 (1986).
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).coherency.real.diagonal()
+        array([0.25, 0.25, 0.25, 0.25])
+        """
+        return cloude.coherency(self.matrix)
+
+    @property
+    def cloude_eigenvalues(self) -> Array:
+        """The eigenvalues of `coherency`, the largest first, of shape (..., 4); their sum is M00.
+
+        What does not depolarise has one above 0; a physical matrix has none below 0.
+        """
+        return cloude.eigenvalues(self.matrix)
+
+    def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
+        """Tell whether some mixture of Jones matrices acts like this, shape (...).
+
+        Parameters
+        ----------
+        tolerance : float, optional
+            How far below 0, against the largest, an eigenvalue of `coherency` may be. By
+            default 1e-9, or a hundred roundings of a matrix of less than double precision:
+            1.2e-5 for float32.
+
+        Raises
+        ------
+        ValueFault
+            If the tolerance is no finite number >= 0.
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
+        False
+        """
+        return cloude.is_physical(self.matrix, tolerance)
+
+    @property
+    def noise(self) -> Array:
+        """Which entries of `matrix` are no more than rounding: those below it, shape (...).
+
+        The rounding of M00; of a product, and of the matrix of a path, what is left of the
+        roundings of all factors: of crossed polarisers it is larger than M00.
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller(np.eye(4)).noise)
+        2.220446049250313e-16
+        """
+        own = self.__dict__
+        if callable(own.get("_noise")):
+            own["_noise"] = own["_noise"](self.matrix)
+        if "_floor" not in own:
+            least = rounding(known(self.matrix)[..., 0, :])
+            own["_floor"] = locked(namespace(least).maximum(least, own.get("_noise", 0.0)))
+        return own["_floor"]  # type: ignore[no-any-return]
+
+    def with_noise(self, noise: Array | Callable[[Any], Any], *, given: bool = False) -> Mueller:
+        """Return the same matrix, of which more is noise than its own rounding.
+
+        Parameters
+        ----------
+        noise : ndarray of shape (...), or callable
+            The noise, or what returns it for the matrix when somebody asks.
+        given : bool, optional
+            Whether it `is_given`.
+
+        Returns
+        -------
+        Mueller
+        """
+        frames = self._kept_frame("frame_in"), self._kept_frame("frame_out")
+        found = self.of(self.matrix, *frames)
+        vars(found).update(_noise=noise, _given=given)
+        return found
+
+    @property
+    def is_given(self) -> bool:
+        """Whether its numbers, or some of its factors', come from outside, as measured ones do."""
+        return bool(vars(self).get("_given", False))
+
+    def lu_chipman(self) -> LuChipman:
+        """Return the matrix as a depolarizer behind a retarder behind a diattenuator.
+
+        By S.-Y. Lu and R. A. Chipman, J. Opt. Soc. Am. A 13, 1106 (1996). See `LuChipman` for
+        what is chosen where the parts are not unique. Not inside ``jax.jit``.
+
+        Examples
+        --------
+        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
+        >>> parts = (Mueller(np.diag([0.8, 0.4, 0.4, 0.4])) @ Mueller(quarter)).lu_chipman()
+        >>> print(parts.retardance_vector.round(4), parts.depolarization.round(4))
+        [1.5708 0.     0.    ] 0.5
+        """
+        depolarizer, retarder, diattenuator = polar_parts(self.matrix)
+        return LuChipman(
+            depolarizer=Mueller.of(depolarizer, self.frame_out, self.frame_out),
+            retarder=Mueller.of(retarder, self.frame_in, self.frame_out),
+            diattenuator=Mueller.of(diattenuator, self.frame_in, self.frame_in),
+        )
+
+    def nearest_physical(self) -> Mueller:
+        """Return the physical matrix with the least sum of squared differences.
+
+        Without the part of `coherency` whose eigenvalues are negative; so M00 may grow.
+
+        Examples
+        --------
+        >>> Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).nearest_physical().matrix.diagonal().round(12)
+        array([ 1.5,  0.5,  0.5, -0.5])
+        """
+        return Mueller.of(cloude.nearest_physical(self.matrix), self.frame_in, self.frame_out)
+
+    def reversed(self) -> Mueller:
+        """Return what the same system does to light that goes back through it.
+
+        It is that of whatever is reciprocal: light that goes back along a frame (x, y, z) has
+        (x, -y, -z), and between these frames it meets Q M^T Q, Q = diag(1, 1, -1, 1) (Sekera,
+        J. Opt. Soc. Am. 56, 1732 (1966)). What stands in a magnetic field is not, nor is the power
+        that passes into a medium that absorbs, and a matrix does not know: reverse the element,
+        or the path.
+
+        Returns
+        -------
+        Mueller
+            From the mirrored `frame_out` to the mirrored `frame_in`.
+
+        Examples
+        --------
+        >>> from optipath import Retarder
+        >>> back = Retarder(1.0, 0.3).mueller().reversed()
+        >>> bool(np.allclose(back.matrix, Retarder(1.0, -0.3).mueller().matrix))
+        True
+        >>> print(back.frame_in.z)
+        [ 0.  0. -1.]
+        """
+        frames = self._mirrored("frame_out"), self._mirrored("frame_in")
+        back = self.of(reciprocal(self.matrix), *frames)
+        return back.with_noise(lambda _: self.noise, given=self.is_given)
+
+    def to(self, convention: str) -> Array:
+        """Return the matrices as other software writes them, of shape (..., 4, 4).
+
+        ``M.to(name) @ light.to(name)`` is ``(M @ light).to(name)``.
+
+        Parameters
+        ----------
+        convention : str
+            As in `Light.to`.
+
+        Returns
+        -------
+        ndarray, shape (..., 4, 4)
+
+        Raises
+        ------
+        ValueFault
+            If there is no convention of that name.
+
+        Examples
+        --------
+        >>> from optipath import Interface
+        >>> Interface(index=1.5, incidence=1.309).mueller().to("ellipsometry").round(3)[0]
+        array([ 0.253, -0.146,  0.   ,  0.   ])
+        """
+        return changed_matrix(convention, self.matrix)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the matrix over its M00 as a map of its elements with Matplotlib.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where; a figure of its own by default, ``.figure`` of what is returned.
+
+        Returns
+        -------
+        Axes
+
+        Raises
+        ------
+        OptipathError
+            If it is a batch, or the axes are something else.
+        ParameterError
+            If JAX traces it.
+        MissingExtraError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> op.Retarder("90 deg", "0 deg").mueller().plot().get_title()
+        'M / M00, with M00 = 1'
+        """
+        from optipath.plots import mueller  # noqa: PLC0415 - pictures stand above light
+
+        return mueller(self, ax)
+
     @overload
     def __matmul__(self, other: Mueller) -> Mueller: ...
+
     @overload
     def __matmul__(self, other: Light) -> Light: ...
+
     def __matmul__(self, other: Mueller | Light) -> Mueller | Light:
         if isinstance(other, Light):
             return self._attenuated(other)
@@ -161,6 +518,20 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMat
         """Refuse what has no frames."""
         raise LightError(why_refused(other))
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mueller):
+            return NotImplemented
+        for mueller in (self, other):
+            check_known("mueller == mueller", mueller.matrix)
+        frames = self.frame_in == other.frame_in and self.frame_out == other.frame_out
+        return frames and same(known(self.matrix), known(other.matrix))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What computes the noise stays here.
+        return {**super().__getstate__(), "_noise": self.noise}
+
     def _each(self, change: Callable[[Any], Any]) -> Mueller:
         numbers = known(self.matrix)
         flat = each_number(numbers.reshape(*self.shape, 16), change)
@@ -171,52 +542,44 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMat
         part = Mueller.of(matrix, *frames)
         return part.with_noise(lambda _: change(self.noise), given=self.is_given)
 
-    @property
-    def retardance(self) -> npt.NDArray[Any]:
-        """The retardance of `lu_chipman`'s retarder, in radians, in [0, pi], of shape (...)."""
-        return self.lu_chipman().retardance
+    def _mirrored(self, name: str) -> Callable[[], Frame]:
+        """Return what makes the mirrored frame when somebody asks, since most nobody looks."""
+        return lambda: getattr(self, name).reversed()
 
-    def lu_chipman(self) -> LuChipman:
-        """Return the matrix as a depolarizer behind a retarder behind a diattenuator.
+    def _over_m00(self, entries: Array) -> Array:
+        """Return entries over M00; NaN where that is no more than noise."""
+        whole = known(self.matrix)[..., 0, 0, np.newaxis]
+        noise = (whole != 0.0) & (abs(whole) < self.noise[..., np.newaxis])
+        return namespace(whole).where(noise, np.nan, ratio(entries, whole))  # type: ignore[no-any-return]
 
-        By S.-Y. Lu and R. A. Chipman, J. Opt. Soc. Am. A 13, 1106 (1996). See `LuChipman` for
-        what is chosen where the parts are not unique. Not inside ``jax.jit``.
+    def _where_there(self, value: Array, size: Array) -> Array:
+        """Return an angle, NaN where the vector whose direction it is is no longer than noise."""
+        floor = ratio(self.noise, abs(known(self.matrix)[..., 0, 0]))
+        return namespace(value).where(size <= floor, np.nan, value)  # type: ignore[no-any-return]
 
-        Examples
-        --------
-        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
-        >>> parts = (Mueller(np.diag([0.8, 0.4, 0.4, 0.4])) @ Mueller(quarter)).lu_chipman()
-        >>> print(parts.retardance_vector.round(4), parts.depolarization.round(4))
-        [1.5708 0.     0.    ] 0.5
-        """
-        depolarizer, retarder, diattenuator = polar_parts(self.matrix)
-        return LuChipman(
-            depolarizer=Mueller.of(depolarizer, self.frame_out, self.frame_out),
-            retarder=Mueller.of(retarder, self.frame_in, self.frame_out),
-            diattenuator=Mueller.of(diattenuator, self.frame_in, self.frame_in),
-        )
+    def _bcs(self) -> Iterator[Array]:
+        matrix = known(self.matrix)
+        if not is_traced(matrix):
+            self._warn_of_no_sample(matrix)
+        return (self._over_m00(matrix[..., i, j, np.newaxis])[..., 0] for i, j in _BCS)
 
-    def nearest_physical(self) -> Mueller:
-        """Return the physical matrix with the least sum of squared differences.
-
-        Without the part of `coherency` whose eigenvalues are negative; so M00 may grow.
-
-        Examples
-        --------
-        >>> Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).nearest_physical().matrix.diagonal().round(12)
-        array([ 1.5,  0.5,  0.5, -0.5])
-        """
-        return Mueller.of(cloude.nearest_physical(self.matrix), self.frame_in, self.frame_out)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Mueller):
-            return NotImplemented
-        for mueller in (self, other):
-            check_known("mueller == mueller", mueller.matrix)
-        frames = self.frame_in == other.frame_in and self.frame_out == other.frame_out
-        return frames and same(known(self.matrix), known(other.matrix))
-
-    __hash__ = None  # type: ignore[assignment]
+    def _warn_of_no_sample(self, matrix: Array) -> None:
+        """Warn where there is no r_p / r_s: of what depolarizes, or mixes s and p."""
+        lit = matrix[..., 0, 0] > self.noise
+        with np.errstate(all="ignore"):
+            near = np.abs(matrix / matrix[..., :1, :1] - _isotropic(matrix)).max(axis=(-2, -1))
+        for bad, what in (
+            (self.depolarization_index < 1.0 - _DEPOLARIZES, "depolarizes (index below 0.98)"),
+            (near > _MIXES, "is not that of an isotropic sample in its frame of s and p"),
+        ):
+            if np.any(lit & bad):
+                warnings.warn(
+                    f"psi and Delta are read off a matrix that {what}, and is none of r_p / r_s; "
+                    f"use the whole matrix",
+                    CoherenceWarning,
+                    stacklevel=calls_up(),
+                )
+                return
 
 
 @dataclass(frozen=True)
@@ -303,3 +666,38 @@ class LuChipman:
     def polarizance_vector(self) -> npt.NDArray[Any]:
         """What the depolarizer makes of unpolarised light, along S1, S2 and S3; shape (..., 3)."""
         return self.depolarizer.polarizance_vector
+
+
+def noise_of_product(behind: tuple[Any, Any], before: tuple[Any, Any]) -> Any:
+    """Return the noise in what two matrices make together, shape (...), by running error analysis.
+
+    The noise of each times the other, and the roundings of sums of products of both.
+
+    Examples
+    --------
+    >>> one = np.eye(4), 2.0**-52
+    >>> print(noise_of_product(one, one) * 2.0**52)
+    6.0
+    """
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        one, two = _size(*behind), _size(*before)
+        both = one * two
+        eps = float(namespace(both).finfo(both.dtype).eps)
+        return one * before[1] + behind[1] * two + _SUMS * eps * both
+
+
+def _size(matrix: Any, noise: Any) -> Any:
+    """Return M00, which no entry exceeds, or the noise where that is more."""
+    return namespace(matrix).maximum(abs(known(matrix)[..., 0, 0]), noise)
+
+
+def _isotropic(matrix: Array) -> Array:
+    """Return the matrix of an isotropic sample that is nearest to one, over M00."""
+    found = np.zeros(matrix.shape)
+    m = matrix / matrix[..., :1, :1]
+    found[..., 0, 0] = found[..., 1, 1] = 1.0
+    found[..., 0, 1] = found[..., 1, 0] = (m[..., 0, 1] + m[..., 1, 0]) / 2.0
+    found[..., 2, 2] = found[..., 3, 3] = (m[..., 2, 2] + m[..., 3, 3]) / 2.0
+    found[..., 2, 3] = (m[..., 2, 3] - m[..., 3, 2]) / 2.0
+    found[..., 3, 2] = -found[..., 2, 3]
+    return found

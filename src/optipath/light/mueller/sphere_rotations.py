@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.light.mueller.figures import norm
+from optipath.light.polarization_state import norm
 
 if TYPE_CHECKING:
     from optipath.values.roundings import Array
