@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from optipath.elements.circular_diattenuator import CircularDiattenuator
     from optipath.elements.circular_polarizer import CircularPolarizer
     from optipath.elements.combiner import Combiner
-    from optipath.elements.coupling import Coupling, Operation
+    from optipath.elements.coupling import Coupling
     from optipath.elements.depolarizer import Depolarizer
     from optipath.elements.diattenuator import Diattenuator
     from optipath.elements.effective_index import EffectiveIndex, effective_index
@@ -108,6 +108,7 @@ if TYPE_CHECKING:
     )
     from optipath.values.follows import FOLLOWS
     from optipath.values.materials import Material
+    from optipath.values.operation import Operation
     from optipath.values.parameters import Parameter
     from optipath.values.spectra.spectrum import Spectrum
     from optipath.values.spectra.wavelength_grid import wavelengths
@@ -231,7 +232,7 @@ _HOMES = {
     "elements.circular_polarizer": ["CircularPolarizer"],
     "elements.circular_diattenuator": ["CircularDiattenuator"],
     "elements.combiner": ["Combiner"],
-    "elements.coupling": ["Coupling", "Operation"],
+    "elements.coupling": ["Coupling"],
     "elements.depolarizer": ["Depolarizer"],
     "elements.diattenuator": ["Diattenuator"],
     "elements.effective_index": ["EffectiveIndex", "effective_index"],
@@ -298,6 +299,7 @@ _HOMES = {
     ],
     "values.follows": ["FOLLOWS"],
     "values.materials": ["Material"],
+    "values.operation": ["Operation"],
     "values.parameters": ["Parameter"],
     "values.spectra.spectrum": ["Spectrum"],
     "values.spectra.wavelength_grid": ["wavelengths"],

@@ -6,16 +6,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.junctions import in_order_of_elimination
-from optipath.elements.coupling import ResultOf
 from optipath.engines.program.program import Evaluation, Loop, Program, Reading, Result, Step
+from optipath.values.operation import ResultOf
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
 
-    from optipath.elements.coupling import Operation
     from optipath.elements.vertices.frame import VertexFrame
     from optipath.light.frames import Frame
     from optipath.values.operands import Operand
+    from optipath.values.operation import Operation
 
 
 class Builder:

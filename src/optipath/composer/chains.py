@@ -9,9 +9,9 @@ from optipath.composer.builder import Builder
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from optipath.elements.coupling import Operation
     from optipath.engines.program.program import Loop, Program, Step
     from optipath.values.operands import Operand
+    from optipath.values.operation import Operation
 
 _WORDS = 60
 """How long the name of a step may become that is made of several."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.chains import Item, along_chains
 from optipath.composer.entries import vanishes
-from optipath.elements.coupling import Operation, ResultOf
+from optipath.values.operation import Operation, ResultOf
 
 if TYPE_CHECKING:
     from optipath.engines.program.program import Program

@@ -10,7 +10,6 @@ from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
 from optipath.composer.vertex_frames import vertex_frame
 from optipath.composer.wiring import link_text
-from optipath.elements.coupling import Operation, ResultOf
 from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
 from optipath.kernels.catalogue import (
@@ -20,6 +19,7 @@ from optipath.kernels.catalogue import (
 )
 from optipath.light.frames import Frame
 from optipath.values.operands import Operand, operand_of
+from optipath.values.operation import Operation, ResultOf
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from optipath.composer.chains import Item, along_chains, label_of
 from optipath.composer.constants import Constant, multiplied
 from optipath.composer.entries import known_numbers
-from optipath.elements.coupling import Operation
 from optipath.kernels.carriers.structures import FULL
 from optipath.values.operands import Operand
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

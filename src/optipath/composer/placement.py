@@ -8,13 +8,13 @@ import numpy as np
 
 from optipath.composer.wiring import link_text
 from optipath.elements.azimuths import azimuth_at
-from optipath.elements.coupling import Operation
 from optipath.errors import OptipathError, shown
 from optipath.kernels.catalogue import GIVEN_TURN, TURN
 from optipath.light.frames import Frame
 from optipath.values.affine import Affine
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.operands import Operand
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.chains import Item, along_chains, label_of
 from optipath.composer.entries import number_of
-from optipath.elements.coupling import Operation
 from optipath.kernels.catalogue import TURN, TURN_BACK
 from optipath.values.operands import Operand
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from optipath.engines.program.program import Program

@@ -18,7 +18,7 @@ from optipath.values.operands import operand_of
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.elements.coupling import Operation
+    from optipath.values.operation import Operation
 
 
 def absorbed_alone(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.elements.coupling import Operation
 from optipath.elements.splitter import Splitter
 from optipath.kernels.catalogue import COMPLEMENT, MIRROR
 from optipath.values.domains.quantities import Angle, Fraction
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from optipath.elements.element import Element
+from optipath.elements.element import Element, with_values
 from optipath.elements.media_of_boundary import MediaOfBoundary
-from optipath.elements.reversing import with_values
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.frame import VertexFrame
 from optipath.elements.vertices.place import same_points
@@ -22,10 +21,10 @@ from optipath.values.whole_numbers import is_whole
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.coupling import Operation
     from optipath.elements.vertices.place import PlaceInChain
     from optipath.light.frames import Frame
     from optipath.values.domains.domain import Domain
+    from optipath.values.operation import Operation
 
 
 class ChainVertex(MediaOfBoundary, Element):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from optipath.elements.coupling import Operation, turned
+from optipath.elements.coupling import turned
 from optipath.kernels.catalogue import RETARDER
+from optipath.values.operation import Operation
 
 _QUARTER, _DIAGONAL = math.pi / 2, math.pi / 4
 

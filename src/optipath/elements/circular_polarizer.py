@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import ClassVar
 
 from optipath.elements.circular_axes import along_circular_axes
-from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import POLARIZER
 from optipath.values.domains.quantities import Fraction, Handedness
+from optipath.values.operation import Operation
 
 
 class CircularPolarizer(Element, kind="circular-polarizer"):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import DEPOLARIZER
 from optipath.values.domains.quantities import Fraction
+from optipath.values.operation import Operation
 
 
 class Depolarizer(Element, kind="depolarizer"):

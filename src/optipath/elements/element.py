@@ -4,37 +4,53 @@ from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields
 from itertools import chain
-from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, dataclass_transform, overload
 
-from optipath.elements.acting import ActsOnLight
-from optipath.elements.agreeing import OwnAgreements
 from optipath.elements.alone import mueller_alone
 from optipath.elements.chaining import Chainable, NamedElement
 from optipath.elements.class_faults import class_faults
 from optipath.elements.fields import domains_of, same_value
 from optipath.elements.frame_checks import same_frame
+from optipath.elements.known_sizes import vanishes
+from optipath.elements.own_couplings import is_own
 from optipath.elements.registry import register
-from optipath.elements.reversing import Reversible
 from optipath.elements.rows import coupling_by_rows, rows_kernel
-from optipath.errors import PathError
+from optipath.errors import LightError, OptipathError, PathError, listed, unknown
 from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.light.light import Light
+from optipath.light.mueller.matrix import Mueller
+from optipath.light.refused_products import why_refused
+from optipath.values.arrays.read_only import changed, read_only
 from optipath.values.curves.computed_values import parameters_among
-from optipath.values.made import faults_of, is_known_sound, make_sound, remember_sound
+from optipath.values.domains.axis import AxisDomain
+from optipath.values.made import (
+    faults_of,
+    is_known_sound,
+    make_sound,
+    not_known_sound,
+    remember_sound,
+)
+from optipath.values.parameters import Parameter
 from optipath.values.use import Use
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
-    from optipath.elements.coupling import Coupling, Operation
+    from optipath.elements.coupling import Coupling
     from optipath.elements.vertices.frame import VertexFrame
     from optipath.light.frames import Frame
-    from optipath.light.mueller.matrix import Mueller
+    from optipath.values.agreement import Agreement
     from optipath.values.domains.domain import Domain
-    from optipath.values.parameters import Parameter
+    from optipath.values.operation import Operation
+
+E = TypeVar("E", bound="Element")
+
+_SAYS = ("mueller_rows", "couplings")
+"""By what a class says what it does to light."""
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
-class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
+class Element(Chainable):
     """An optical element: ports, values, and the way light goes through.
 
     A subclass is a frozen dataclass without further ado. Its fields are values
@@ -98,7 +114,11 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
     self_placed: ClassVar[bool] = False
     detects: ClassVar[bool] = False
     physical: ClassVar[bool] = True
+    mirrored: ClassVar[tuple[str, ...] | None] = None
+    _ports_back: ClassVar[dict[str, str]] = {}
     _kernel: ClassVar[Kernel | None] = None
+
+    __array_ufunc__ = None  # NumPy's arrays leave products to it.
 
     def __init_subclass__(cls, kind: str = "", **keywords: Any) -> None:
         """Make the subclass a frozen dataclass and enter its kind in the registry."""
@@ -182,6 +202,21 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
         """Return the numbers that the values are made of, each with what it must be."""
         sound = is_known_sound(self)
         return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
+
+    def agreements(self, owner: str) -> Iterable[Agreement]:
+        """Return what must fit of the values, known or given when the path runs.
+
+        Parameters
+        ----------
+        owner : str
+            What sentences call the element.
+
+        Returns
+        -------
+        iterable of Agreement
+        """
+        del owner
+        return ()
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
         """Return the world frame of a port: its own, or what follows from those of others.
@@ -311,6 +346,110 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
         """
         return mueller_alone(self, enters, leaves, method, (frame_in, frame_out))
 
+    def reversed(self) -> Self:
+        """Return the element as light meets it that goes back through it.
+
+        That light has the mirrored frames (x, -y, -z): an axis stands at the opposite angle
+        there, natural rotation keeps its sign, and Faraday's changes it. What is reciprocal does
+        Q M^T Q, Q = diag(1, 1, -1, 1), as `Mueller.reversed` has it (Sekera, J. Opt. Soc. Am. 56,
+        1732 (1966)). Light enters by what `port_back` says of the port that it left by.
+
+        With an azimuth that turns it against what is before it, it stands in the frame that it
+        leaves on the way there, and its axis turns by so much more.
+
+        Returns
+        -------
+        Element
+
+        Raises
+        ------
+        PathError
+            If light begins, ends or adds up there, the class does not say what changes its sign,
+            or its azimuth is no turn of an axis alone.
+
+        Examples
+        --------
+        >>> from optipath import Retarder, Rotator
+        >>> Retarder(1.0, 0.25).reversed()
+        Retarder(retardance=1.0, angle=-0.25, azimuth=0.0)
+        >>> Rotator(0.5).reversed()
+        Rotator(angle=0.5)
+        """
+        mirrored = self._mirrored_fields()
+        turn = getattr(self, "azimuth", 0.0)
+        is_turned = not vanishes(turn)
+        if is_turned and not self._has_axes_alone(mirrored):
+            raise PathError(
+                f"{self._called} has an azimuth, which belongs to the link before it on the way "
+                f"back too; reverse the path that it stands in, path.reversed()"
+            )
+        others = {name: getattr(self, name) for name in mirrored}
+        others = {name: _opposite(value) for name, value in others.items() if value is not None}
+        if is_turned:
+            others = {name: self._turned_on(name, angle, turn) for name, angle in others.items()}
+        return with_values(self, **others) if others else self
+
+    @classmethod
+    def port_back(cls, port: str) -> str:
+        """Return the port by which light leaves, on its way back, where it came in by one; or so.
+
+        Parameters
+        ----------
+        port : str
+            One of the ports.
+
+        Returns
+        -------
+        str
+            The other one; empty where the class has several and does not say.
+
+        Raises
+        ------
+        PathError
+            If there is no such port.
+
+        Examples
+        --------
+        >>> from optipath import Interface, Retarder
+        >>> Retarder.port_back("in"), Interface.port_back("in"), Interface.port_back("back")
+        ('out', 'reflected', 'transmitted')
+        """
+        ports = (*cls.inputs, *cls.outputs)
+        if faults := unknown(f"port of {cls.__name__}", port, ports):
+            raise PathError(*faults)
+        if len(cls.inputs) == len(cls.outputs) == 1:
+            return ports[1 - ports.index(port)]
+        return cls._ports_back.get(port, "")
+
+    @overload
+    def __matmul__(self, other: Mueller | Element) -> Mueller: ...
+    @overload
+    def __matmul__(self, other: Light) -> Light: ...
+    def __matmul__(self, other: Mueller | Element | Light) -> Mueller | Light:
+        """Return the light behind the element, which stands in the frame that light arrives in.
+
+        Behind another element, or a matrix, it is the Mueller matrix of both.
+
+        Examples
+        --------
+        >>> from optipath import Light, Polarizer
+        >>> Polarizer(0.0) @ Light([1.0, 0.0, 0.0, 0.0])
+        Light([0.5, 0.5, 0. , 0. ])
+        >>> print((Polarizer(0.0) @ Polarizer("60 deg")).matrix[0, 0].round(12))
+        0.125
+        """
+        arriving = mueller_alone(other) if isinstance(other, Element) else other
+        if not isinstance(arriving, (Light, Mueller)):
+            raise LightError(why_refused(arriving))
+        frame = arriving.frame if isinstance(arriving, Light) else arriving.frame_out
+        return mueller_alone(self, before=frame) @ arriving
+
+    def __rmatmul__(self, other: object) -> Mueller:
+        """Return the Mueller matrix of the element and of what stands behind it."""
+        if not isinstance(other, Mueller):
+            raise LightError(why_refused(other))
+        return other @ mueller_alone(self)
+
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
@@ -318,3 +457,70 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
         return all(same_value(getattr(self, n), getattr(other, n), of) for n, of in domains)
 
     __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def _called(self) -> str:
+        return self.kind or type(self).__name__
+
+    def _mirrored_fields(self) -> tuple[str, ...]:
+        """Return the fields that change their sign."""
+        if not self.inputs or not self.outputs:
+            where = "ends" if self.inputs else "begins"
+            raise PathError(
+                f"light {where} at {self._called}, which has no way back of its own; reverse the "
+                f"path that it stands in, path.reversed()"
+            )
+        if getattr(self, "merges", False):
+            raise PathError(
+                f"{self._called} adds up light without loss, which has no way back; put a "
+                f"BeamSplitter in its place, or make one path for each light"
+            )
+        for one in type(self).__mro__:
+            if (said := vars(one).get("mirrored")) is not None:
+                return tuple(said)
+            if any(name in vars(one) for name in ("mirrored", *_SAYS)):
+                break
+        name = type(self).__name__
+        raise PathError(
+            f"element class {name} does not say what changes its sign on the way back; write "
+            f"mirrored: ClassVar[tuple[str, ...]] = ... in it, the fields that do, such as "
+            f"('angle',), or () if none does, or give it a method reversed()"
+        )
+
+    def _has_axes_alone(self, mirrored: tuple[str, ...]) -> bool:
+        """Tell whether turning the element is turning its axes, and nothing else."""
+        domains = self.domains()
+        axes = all(isinstance(domains[name], AxisDomain) for name in mirrored)
+        return bool(mirrored) and axes and not is_own(type(self))
+
+    def _turned_on(self, name: str, angle: Any, turn: Any) -> Any:
+        """Return an angle less the azimuth, by which the frame stands turned."""
+        try:
+            return angle - turn
+        except (OptipathError, ValueError):
+            both = listed([f"{self._called}.{field}" for field in (name, "azimuth")])
+            raise PathError(
+                f"{both} are values that make no one angle; reverse the path that the element "
+                f"stands in, path.reversed()"
+            ) from None
+
+
+def _opposite(value: Any) -> Any:
+    """Return a value with the other sign; of 0 that is 0."""
+    return -value if isinstance(value, Parameter) else 0.0 - value
+
+
+def with_values(element: E, **values: Any) -> E:
+    """Return an element with other values, of which no degrees are asked about again.
+
+    Examples
+    --------
+    >>> from optipath import Rotator
+    >>> with_values(Rotator(0.5), angle=-0.5)
+    Rotator(angle=-0.5)
+    """
+    kept = {name: read_only(value, widened=False) for name, value in values.items()}
+    found = not_known_sound(changed(element, **kept))
+    if faults := found.faults(element.kind or type(element).__name__):
+        raise PathError(*(f"on the way back, {fault}" for fault in faults))
+    return found

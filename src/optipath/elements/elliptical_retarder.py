@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
 from optipath.elements.known_sizes import vanishes
 from optipath.errors import ValueFault
@@ -16,6 +16,7 @@ from optipath.values.domains.quantities import (
     FirstRotationAngle,
     RotationAngle,
 )
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
 from optipath.errors import listed
 from optipath.kernels.catalogue import FARADAY_ROTATION, TURN_BACK
@@ -15,6 +15,7 @@ from optipath.values.domains.quantities import (
     VerdetConstant,
 )
 from optipath.values.domains.refused import Refused
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,7 +8,7 @@ from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
 
 if TYPE_CHECKING:
-    from optipath.elements.coupling import Operation
+    from optipath.values.operation import Operation
 
 
 class FourPort(Element):

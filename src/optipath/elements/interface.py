@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.boundary_frames import BoundaryElement
-from optipath.elements.coupling import Operation, numbers_of
+from optipath.elements.coupling import numbers_of
 from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalogue import (
     PHASE_INDEX,
@@ -25,6 +25,7 @@ from optipath.values.domains.quantities import (
     YesOrNo,
 )
 from optipath.values.operands import Operand
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.absorbed_alone import absorbed_alone
 from optipath.elements.boundary_frames import BoundaryElement
-from optipath.elements.coupling import Operation, numbers_of
+from optipath.elements.coupling import numbers_of
 from optipath.elements.fading_layer import FadingLayer
 from optipath.elements.known_sizes import vanishes
 from optipath.elements.thin_layer import ThinLayer
@@ -28,6 +28,7 @@ from optipath.values.domains.thick_layers import LENGTHS, LOSSY
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import not_known_sound
 from optipath.values.operands import Operand, operand_of
+from optipath.values.operation import Operation
 from optipath.values.use import Use
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.elements.circular_axes import along_circular_axes
-from optipath.elements.coupling import Operation, turned
+from optipath.elements.coupling import turned
 from optipath.elements.known_sizes import largest, vanishes
 from optipath.kernels.catalogue import (
     ABSORPTION_ALONG,
@@ -21,6 +21,7 @@ from optipath.kernels.catalogue import (
     THIRD_OF_ABSORPTION,
 )
 from optipath.values.arrays.read_only import same
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from optipath.kernels.carriers.kernel import Kernel

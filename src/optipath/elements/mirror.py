@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import share_x
 from optipath.kernels.catalogue import GIVEN_AMPLITUDES
 from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.quantities import AMPLITUDE, Amplitude, Angle
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import ClassVar, Self
 
-from optipath.elements.coupling import Coupling, Operation, numbers_of
-from optipath.elements.element import Element
+from optipath.elements.coupling import Coupling, numbers_of
+from optipath.elements.element import Element, with_values
 from optipath.elements.known_sizes import bound_value
 from optipath.elements.matrix_domain import ElementMatrix
-from optipath.elements.reversing import with_values
 from optipath.errors import PathError
 from optipath.kernels.catalogue import MATRIX
 from optipath.light.mueller.reciprocity import reciprocal
 from optipath.values.domains.quantities import Angle, YesOrNo
+from optipath.values.operation import Operation
 from optipath.values.parameters import Parameter
 
 

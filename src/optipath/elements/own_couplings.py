@@ -5,7 +5,7 @@ from __future__ import annotations
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.coupling import Coupling, Operation, ResultOf
+from optipath.elements.coupling import Coupling
 from optipath.errors import PathError, listed, shown
 from optipath.kernels.carriers.kernel import Kernel, KernelFamily
 from optipath.kernels.carriers.own_code import called
@@ -13,6 +13,7 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.operands import Operand, operand_of
+from optipath.values.operation import Operation, ResultOf
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:

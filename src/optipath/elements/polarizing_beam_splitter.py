@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from optipath.elements.coupling import Operation
 from optipath.elements.splitter import Splitter
 from optipath.kernels.catalogue import POLARIZING_REFLECTION, POLARIZING_TRANSMISSION
 from optipath.kernels.filters.bench import INFINITE
 from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.quantities import Angle, ExtinctionRatio
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar, Self
 
 from optipath.elements.chain_vertex import ChainVertex
-from optipath.elements.coupling import Coupling, Operation
-from optipath.elements.reversing import with_values
+from optipath.elements.coupling import Coupling
+from optipath.elements.element import with_values
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.snell_at_vertex import SnellAtVertex
@@ -18,6 +18,7 @@ from optipath.values.follows import FOLLOWS
 from optipath.values.made import is_checked_later, refuse
 from optipath.values.materials import Material
 from optipath.values.operands import operand_of
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from typing import Any

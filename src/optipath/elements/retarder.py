@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from optipath.elements.coupling import Coupling, Operation, turned
+from optipath.elements.coupling import Coupling, turned
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import RETARDER
 from optipath.values.domains.quantities import Angle, Axis
+from optipath.values.operation import Operation
 
 
 class Retarder(Element, kind="retarder"):

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.class_faults import TURN
-from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of
 from optipath.errors import PathError, shown
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.own_code import guarded
 from optipath.kernels.carriers.structures import FULL
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Callable

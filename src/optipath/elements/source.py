@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element
 from optipath.errors import ValueFault
 from optipath.kernels.catalogue import POLARIZED, PRODUCT, UNPOLARIZED
@@ -16,6 +16,7 @@ from optipath.values.domains.quantities import (
     StokesState,
     YesOrNo,
 )
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

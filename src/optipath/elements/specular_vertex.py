@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import ClassVar
 
 from optipath.elements.chain_vertex import ChainVertex
-from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.vertex_domain import Bad, Vertices
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION
 from optipath.values.domains.quantities import Index, OutsideIndex, Whole
+from optipath.values.operation import Operation
 
 
 class SpecularVertex(ChainVertex, kind="specular-vertex"):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 import numpy as np
 
 from optipath.elements.chain_vertex import ChainVertex
-from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.event_domain import Events, EventsDomain
 from optipath.elements.vertices.event_fits import EventFits
@@ -21,6 +21,7 @@ from optipath.values.domains.quantities import Index, OutsideIndex, Whole
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import is_checked_later, refuse
 from optipath.values.operands import Operand, operand_of
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from optipath.elements.element import Element

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from optipath.elements.coupling import Coupling, Operation, turned
+from optipath.elements.coupling import Coupling, turned
 from optipath.elements.designed_plates import plate_for
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import WAVEPLATE
@@ -16,6 +16,7 @@ from optipath.values.domains.quantities import (
     PartLength,
     Wavelength,
 )
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
     from optipath.values.crystals import Crystal

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.coupling import Coupling
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic import SYMBOLIC
 from optipath.engines.program.execute import execute
@@ -16,6 +16,7 @@ from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.kernels.catalogue import REFLECTION, UNPOLARIZED
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.values.operands import Operand
+from optipath.values.operation import Operation
 from tables import rows, slow
 
 CALLS = []

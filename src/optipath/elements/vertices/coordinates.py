@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.elements.coupling import Operation
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.values.operands import Operand
+from optipath.values.operation import Operation
 
 if TYPE_CHECKING:
-    from optipath.elements.coupling import ResultOf
+    from optipath.values.operation import ResultOf
 
 
 class Coordinates(NamedTuple):

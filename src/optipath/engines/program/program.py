@@ -11,15 +11,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from optipath.elements.coupling import Operation, ResultOf
 from optipath.kernels.carriers.structures import FULL
+from optipath.values.operation import Operation, ResultOf
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices.frame import VertexFrame
     from optipath.kernels.carriers.kernel import Kernel
-    from optipath.light.frames import Frame
     from optipath.values.operands import Operand
 
 
@@ -52,10 +50,13 @@ class Step:
 
 @dataclass(frozen=True)
 class Reading:
-    """A light that a detector or a dump takes."""
+    """A light that a detector or a dump takes.
+
+    Its frame is a `Frame`, or what gives one by the values of a run (`elements`' `VertexFrame`).
+    """
 
     light: int
-    frame: Frame | VertexFrame
+    frame: Any
     components: int = 4
 
 
@@ -80,7 +81,7 @@ class Program:
     operands: tuple[Operand, ...]
     evaluations: tuple[Evaluation, ...]
     steps: tuple[Step, ...]
-    sources: Mapping[str, tuple[int, Frame | VertexFrame]]
+    sources: Mapping[str, tuple[int, Any]]
     detectors: Mapping[str, Reading]
     dumps: Mapping[str, Reading]
     counts: tuple[int, ...] = ()

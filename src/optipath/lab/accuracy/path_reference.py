@@ -10,7 +10,6 @@ from optipath.composer.followed_values import with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.wiring import Wiring
-from optipath.elements.coupling import ResultOf
 from optipath.errors import ParameterError, PathError, shown
 from optipath.lab.accuracy.coherency_matrices import added, coherency, passed, stokes_of
 from optipath.lab.accuracy.element_reference import jones, mueller
@@ -18,6 +17,7 @@ from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.jones_matrices import turn
 from optipath.lab.accuracy.many_digits import DIGITS, MANY_DIGITS, WORKING_DIGITS, exactly, mpmath
 from optipath.paths.path_graph import PathGraph
+from optipath.values.operation import ResultOf
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
