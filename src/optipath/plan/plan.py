@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, Never
 
+from optipath.engines.automatic import LARGE
 from optipath.errors import ParameterError
 from optipath.light.frames import Frame
 from optipath.light.light import Light
@@ -13,8 +15,8 @@ from optipath.light.mueller.matrix import Mueller
 from optipath.plan.choosing import by_place, only
 from optipath.plan.light_noise import matrix_noise_at, noise_at
 from optipath.plan.part import Part
-from optipath.plan.plan_details import PlanDetails
 from optipath.plan.running.outlet_wavelengths import LaterWavelength
+from optipath.values.arrays.shapes import MOST_PATHS
 from optipath.values.by_name import check_named
 from optipath.values.whole_numbers import whole_number
 
@@ -25,6 +27,9 @@ if TYPE_CHECKING:
     from optipath.engines.program.program import Program
     from optipath.engines.program.reduction import Reduction, Tolerance
     from optipath.plan.answers import Answers
+    from optipath.plan.certificate import Certificate
+    from optipath.plan.explanation import Explanation
+    from optipath.plan.light_paths.light_path import LightPath
     from optipath.values.inputs import Inputs
 
 
@@ -32,7 +37,7 @@ _MADE = ("_detector", "answers")
 
 
 @dataclass(frozen=True)
-class Plan(PlanDetails):
+class Plan:
     """What a composer makes of a path: steps in order, and nothing of the graph.
 
     Attributes
@@ -88,6 +93,11 @@ class Plan(PlanDetails):
         With a tolerance, what is carried wherever a certificate allows it.
         """
         return self.instead.model if self.instead else self.reduction.model
+
+    @property
+    def engine(self) -> str:
+        """What runs large batches; `engine_for` says what runs smaller ones."""
+        return self.engine_for(LARGE).partition(",")[0]
 
     def run(self, /, *unnamed: Never, **parameters: Any) -> Light:
         """Return the light at the only detector.
@@ -242,17 +252,153 @@ class Plan(PlanDetails):
         found = Mueller.of(matrix, *frames)
         return found.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
 
-    @property
-    def _example_of_ends(self) -> tuple[str, str]:
-        """A source and a detector that matrices may be asked for."""
-        return next(iter(self.whole.sources)), next(iter(self.whole.readings))
+    def paths(
+        self,
+        /,
+        limit: int | None = None,
+        bounces: int | None = None,
+        *unnamed: Never,
+        **parameters: Any,
+    ) -> list[LightPath]:
+        """Return the ways of light from sources to detectors and dumps, the brightest first.
 
-    @cached_property
-    def _detector(self) -> tuple[str, int, Any]:
-        """The name of the only detector, its place among the ends, and its frame."""
-        name = self.only_detector("run_all()")
-        place = list(self.program.readings).index(name)
-        return name, place, self.program.detectors[name].frame
+        The light of all of them together is what `run_all` gives; where light goes round, there
+        is no end of them, and with more bounces their sum comes as near as one likes.
+
+        Parameters
+        ----------
+        limit : int, optional
+            How many at most.
+        bounces : int, optional
+            How often light may be reflected at most on its way.
+        *unnamed
+            None: values are given by name.
+        **parameters : float or array_like
+            As in `run`; of a batch, the brightest member counts.
+
+        Returns
+        -------
+        list of LightPath
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if light goes round and nothing says when to stop.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> for path in op.load_preset("coated-metal").compose().paths(limit=2):
+        ...     print(path)
+        0.539067  lamp.out -> surface.transmitted -> metal.reflected -> surface.reflected -> eye
+        0.388729  lamp.out -> surface.transmitted -> metal.transmitted -> heat
+        """
+        from optipath.plan.light_paths.listing import light_paths  # noqa: PLC0415 - not for every import
+
+        given = [value for value in (limit, bounces) if isinstance(value, Mapping)]
+        check_named("paths", (*given, *unnamed), self.inputs.open)
+        answers = self.answers
+        answers.large_angles.look(parameters)
+        as_light = partial(answers.as_light, parameters)
+        return light_paths(answers.whole, limit, bounces, parameters, as_light)
+
+    def certificate(
+        self, detector: str | None = None, /, *unnamed: Never, **parameters: Any
+    ) -> Certificate:
+        """Return how far the intensity at a detector can be from that without polarisation.
+
+        Parameters
+        ----------
+        detector : str, optional
+            Its name; needed only where there are several.
+        *unnamed
+            None: values are given by name.
+        **parameters : float or array_like
+            As in `run`.
+
+        Returns
+        -------
+        Certificate
+            Its arrays have the broadcast shape of all values.
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if a detector is not named or not known, if light goes round, or
+            if a Mueller matrix is unphysical.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import optipath as op
+        >>> gold = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
+        >>> found = op.load_preset("npgr026").compose().certificate(**gold, phi=[0.2, 1.2])
+        >>> print(found.error.round(5))
+        [3.00e-05 1.27e-03]
+        """
+        check_named("certificate", by_place((detector,), unnamed), self.inputs.open)
+        ends = tuple(self.whole.readings if detector is not None else self.whole.detectors)
+        end = only("detector", ends, "certificate(detector)", detector)
+        return self.answers.certificates(parameters)[end]
+
+    def engine_for(self, count: int, /) -> str:
+        """Return what runs a batch of so many paths.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> plan.engine, plan.engine_for(10)
+        ('numpy', 'numpy, step by step')
+        """
+        if faults := whole_number("the number of paths", count, 0):
+            raise ParameterError(*faults)
+        return self.answers.light.engine_for(min(count, MOST_PATHS))
+
+    def explain(self) -> str:
+        """Return the plan in words: its steps in order, what it reads, what leaves unread.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> print(plan.explain().splitlines()[0])
+        1 source, 1 detector, 5 steps; method stable, model linear, engine numpy, float64
+        """
+        return str(self.explanation())
+
+    def explanation(self) -> Explanation:
+        """Return the plan explained, part by part, as `explain` writes it down."""
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.plan.explaining import explanation_of  # noqa: PLC0415
+
+        return explanation_of(self)
+
+    def evaluations(self, /, **parameters: Any) -> dict[str, int]:
+        """Return how often each step's numbers are computed for a batch.
+
+        An element is evaluated only along those axes of a batch on which it depends: an
+        interface that sees one of the two axes of a grid once for each value on it, and one
+        without open values once.
+
+        Raises
+        ------
+        ParameterError
+            As `run`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import optipath as op
+        >>> plan = op.load_preset("npgr026").compose()
+        >>> delta, phi = np.linspace(0, 1, 1000)[:, np.newaxis], np.linspace(0, 1, 1000)
+        >>> found = plan.evaluations(delta=delta, phi=phi)
+        >>> found["X1.reflected"], found["X2.reflected"]
+        (1000, 1000)
+        """
+        from optipath.plan.running.counts import evaluations  # noqa: PLC0415 - not for every import
+
+        return evaluations(self.answers.light, parameters)
 
     def only_detector(self, cure: str) -> str:
         """Return the name of the detector, if there is one alone.
@@ -280,6 +426,18 @@ class Plan(PlanDetails):
         from optipath.plan.answers import Answers  # noqa: PLC0415
 
         return Answers(self)
+
+    @property
+    def _example_of_ends(self) -> tuple[str, str]:
+        """A source and a detector that matrices may be asked for."""
+        return next(iter(self.whole.sources)), next(iter(self.whole.readings))
+
+    @cached_property
+    def _detector(self) -> tuple[str, int, Any]:
+        """The name of the only detector, its place among the ends, and its frame."""
+        name = self.only_detector("run_all()")
+        place = list(self.program.readings).index(name)
+        return name, place, self.program.detectors[name].frame
 
     def __getstate__(self) -> dict[str, Any]:
         # What has been compiled stays here.
