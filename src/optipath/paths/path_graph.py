@@ -2,27 +2,49 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Never, overload
+from collections.abc import Mapping
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
+
+import networkx as nx
 
 from optipath.composer.composer import Composer
-from optipath.composer.wiring import KEPT
-from optipath.elements.chaining import NamedElement, chains_begin_with
+from optipath.composer.path_values import parameters_of
+from optipath.composer.validate import validate
+from optipath.composer.wiring import KEPT, LOOPS
+from optipath.elements.chaining import Chainable, NamedElement, begun, chains_begin_with
 from optipath.elements.element import Element
+from optipath.elements.terminal import Detector
 from optipath.errors import ComposerError, ParameterError, PathError, shown, unknown
-from optipath.paths.described_graph import DescribedGraph
-from optipath.paths.joining import name_by_kind
-from optipath.paths.sweeping import Sweeping
+from optipath.extras import needing
+from optipath.paths import splicing
+from optipath.paths.bound_materials import cases_left
+from optipath.paths.editing import add, connect, disconnect, edit
+from optipath.paths.joining import append, as_chain, join, name_by_kind
+from optipath.paths.place_choice import PlaceChoice, choice_faults, with_given
+from optipath.paths.port_names import check_port, element_at
+from optipath.paths.reversed_graph import reversed_graph
+from optipath.values.arrays.array_likes import entries_of
+from optipath.values.arrays.read_only import same
 from optipath.values.by_name import check_named
-from optipath.values.open_materials import is_curve
+from optipath.values.cases import Case
+from optipath.values.open_materials import is_by_wavelength, is_curve
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from os import PathLike
+
+    from optipath.elements.source import Source
+    from optipath.light.frames import Frame
     from optipath.light.light import Light
     from optipath.light.mueller.matrix import Mueller
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
+    from optipath.values.parameters import Parameter
 
 
-class PathGraph(Sweeping, DescribedGraph):
+class PathGraph(Chainable):
     """An optical path: named elements, linked from out-port to in-port.
 
     Parameters
@@ -54,29 +76,437 @@ class PathGraph(Sweeping, DescribedGraph):
     <PathGraph: source >> glass >> detector>
     """
 
-    _plans: dict[str | Composer, Plan]
+    def __init__(
+        self,
+        description: str = "",
+        cases: Mapping[str, Case] | None = None,
+        declared: Sequence[str] = (),
+        loops: str = "refuse",
+    ) -> None:
+        if not isinstance(description, str):
+            raise PathError(f"the description of a path must be a text, not {shown(description)}")
+        cases = {} if cases is None else cases
+        if not isinstance(cases, Mapping) or not all(isinstance(c, Case) for c in cases.values()):
+            raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
+        self.description = description
+        self.cases = dict(cases)
+        if faults := unknown("loops", loops, LOOPS):
+            raise PathError(*faults)
+        names = entries_of("declared", "names of parameters", declared, PathError)
+        if not all(isinstance(name, str) for name in names):
+            raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
+        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
+        # What the graph has been composed to, until it changes.
+        self._plans: dict[str | Composer, Plan] = {}
 
-    def compose(self) -> Plan:
-        """Return the plan of a default `Composer`, composed once and kept."""
-        # By a word, which costs each run less to look up than a composer.
-        if "usual" not in self._plans:
-            self._plans["usual"] = Composer().compose(self._graph)
-        return self._plans["usual"]
+    @property
+    def graph(self) -> nx.MultiDiGraph:
+        """The networkx graph, to query and not to change.
 
-    def plan_by(self, composer: Composer) -> Plan:
-        """Return the plan that a composer makes of the path, composed once and kept.
+        Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
+        and carry ``azimuth`` and ``tap``.
+        """
+        return self._graph.copy(as_view=True)
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """The parameters of all elements and links, by name, bound ones included."""
+        return parameters_of(self._graph)
+
+    @property
+    def choices(self) -> dict[str, PlaceChoice]:
+        """What is chosen by word before the path is composed, as `bind` takes it, by name."""
+        return dict(self._graph.graph.get("choices", {}))
+
+    @property
+    def loops(self) -> str:
+        """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
+        return str(self._graph.graph["loops"])
+
+    def element(self, name: str) -> Element:
+        """Return the element of a node.
 
         Raises
         ------
-        ComposerError
-            If it is none.
+        PathError
+            If there is no such node.
         """
-        if not isinstance(composer, Composer):
-            given, example = shown(composer), "op.Composer(engine='numpy')"
-            raise ComposerError(f"a plan is made by a Composer, not {given}; write {example}")
-        if composer not in self._plans:
-            self._plans[composer] = composer.compose(self._graph)
-        return self._plans[composer]
+        return element_at(self._graph, name)
+
+    def __getitem__(self, name: str) -> Node:
+        name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
+        element = self.element(name)
+        if dot:
+            check_port(element, name, port, (*element.inputs, *element.outputs))
+        return Node(self, name, port)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._graph
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of the nodes, in the order in which they were added."""
+        return iter(self._graph)
+
+    def __len__(self) -> int:
+        return len(self._graph)
+
+    def add(
+        self,
+        name: str,
+        element: Element | None = None,
+        frames: Mapping[str, Frame] | None = None,
+    ) -> Node:
+        """Add a named element.
+
+        Parameters
+        ----------
+        name : str
+            Not empty, without a dot, and new to the path.
+        element : Element
+            The same element may stand in several places.
+        frames : mapping of str to Frame, optional
+            The world frame of each port, for an element that stands in space rather
+            than relative to the one before it. One frame will do for an element that
+            light goes straight through.
+
+        Returns
+        -------
+        Node
+            For ``>>``.
+
+        Raises
+        ------
+        PathError
+            If the name is taken or not allowed, the element is no Element, or a port
+            does not exist.
+        """
+        add(self._graph, name, element, frames)
+        self._plans.clear()
+        return Node(self, name)
+
+    def connect(self, leaves: str, enters: str, azimuth: Any = None, *, tap: bool = False) -> None:
+        """Link an out-port to an in-port.
+
+        Parameters
+        ----------
+        leaves, enters : str
+            The ports, as ``"node.port"``, or ``"node"`` for its natural one, as ``>>`` has it.
+        azimuth : float, array_like or Parameter, optional
+            The turn of the in-port's frame against the out-port's about the direction
+            of travel, in radians; by default the azimuth of the element.
+        tap : bool, optional
+            Whether the link reads all the light of the out-port and takes nothing of it. An
+            out-port feeds one link, and any number of taps, each of which leads to ends of
+            its own.
+
+        Raises
+        ------
+        PathError
+            If a node or port does not exist, runs the other way, or the link is there
+            already.
+        """
+        connect(self._graph, leaves, enters, azimuth, tap)
+        self._plans.clear()
+
+    def disconnect(self, leaves: str, enters: str | None = None) -> None:
+        """Take a link out.
+
+        Parameters
+        ----------
+        leaves, enters : str
+            The ports that it links, as `connect` takes them; the first will do where it feeds
+            one link, taps included.
+
+        Raises
+        ------
+        PathError
+            If there is no such link, or there are several.
+        """
+        disconnect(self._graph, leaves, enters)
+        self._plans.clear()
+
+    def insert(
+        self, name: str, element: Element, behind: str | None = None, *, before: str | None = None
+    ) -> Node:
+        """Put an element into a link, which is named by a port or by both.
+
+        It stands in the frame of the port that light comes from, turned by its own azimuth. What
+        stands behind is not turned by an element that light goes straight through; where it has
+        an azimuth of its own, its link takes that over. Taps of the port stay, and read the light
+        in front of the element.
+
+        Parameters
+        ----------
+        name, element
+            As `add` takes them. The element has one natural way through.
+        behind, before : str, optional
+            The port that the link leaves, or leads to, as ``"node.port"``, or ``"node"`` for its
+            natural one.
+
+        Returns
+        -------
+        Node
+            For ``>>``.
+
+        Raises
+        ------
+        PathError
+            If the port has no one link, the element has no natural way through, or frames
+            would not fit; the path is as it was then.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.load_preset("npgr026", case=7)
+        >>> path.insert("P2", op.Polarizer(0.3), behind="X1.reflected")
+        Node 'P2'
+        >>> path
+        <PathGraph: L >> P >> X2 >> X1 >> P2 >> E>
+        """
+        self._edit(splicing.insert, name, element, behind, before)
+        return Node(self, name)
+
+    def remove(self, name: str) -> None:
+        """Take a node out, close the gap, and offer no places for it.
+
+        What stood before it is linked with what stood behind it, where one link came to it,
+        one left it, and light goes straight through. A node that no link comes to, or none
+        leaves, goes with its links.
+
+        Raises
+        ------
+        PathError
+            If there is no such node, or the links in the way do not tell how to close the gap;
+            the path is as it was then.
+        """
+        self._edit(splicing.remove, name)
+        if self.choices:
+            left = {word: choice for word, choice in self.choices.items() if choice.node != name}
+            self._graph.graph["choices"] = left
+
+    def replace(self, name: str, element: Element) -> Node:
+        """Put another element in the place of one; its links and world frames stay.
+
+        Its own azimuth turns it, as that of the old one did. Where light goes straight through
+        both, nothing behind it is turned, as by `insert` and `remove`.
+
+        Parameters
+        ----------
+        name : str
+            The node.
+        element : Element
+            With all ports that links and frames of the node use.
+
+        Returns
+        -------
+        Node
+            For ``>>``.
+
+        Raises
+        ------
+        PathError
+            If a port is missing, frames would not fit, its link says another azimuth, or it lacks
+            that of one that light does not go straight through; the path is as it was then.
+        """
+        self._edit(splicing.replace, name, element)
+        return Node(self, name)
+
+    def offer(self, name: str, node: str, behind: Mapping[str, str], help: str = "") -> None:  # noqa: A002 - as parameters have it
+        """Offer a choice of places for a node, which `bind` and `load_preset` take by name.
+
+        Parameters
+        ----------
+        name : str
+            That of the choice, which no parameter has.
+        node : str
+            What is moved; it has one natural way through, and stands where it will if nothing
+            is chosen.
+        behind : mapping of str to str
+            The port behind which it is put, for each word.
+        help : str, optional
+            What is chosen.
+
+        Raises
+        ------
+        PathError
+            If the node cannot be put there, or the name is taken.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.Source() >> op.Polarizer() >> op.Mirror() >> op.Detector()
+        >>> path.offer("place", "polarizer", {"light": "source.out", "eye": "mirror.reflected"})
+        >>> path.bind(place="eye")
+        <PathGraph: source >> mirror >> polarizer >> detector>
+        """
+        if not isinstance(name, str) or not name.isidentifier():
+            raise PathError(f"choice name {shown(name)} must be letters, digits and underscores")
+        if name in self.choices:
+            raise PathError(f"choice '{name}' is there already; use another name")
+        choice = PlaceChoice(node, behind, help)
+        if faults := choice_faults(self._graph, choice):
+            raise PathError(*faults)
+        self._graph.graph["choices"] = self.choices | {name: choice}
+        self._plans.clear()
+
+    def __rshift__(self, behind: Element | NamedElement | Self) -> Self:
+        """Return the path in which light goes on from here to what stands behind.
+
+        From the only natural way out that is open, to the only natural way in. Neither side
+        is changed.
+        """
+        others: Self = begun(behind)
+        if not self._graph or not others._graph:
+            return copy(self if self._graph else others)
+        if twice := sorted(self.cases.keys() & others.cases.keys()):
+            raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
+        path = copy(self)
+        names = join(path._graph, others._graph)
+        path.description = self.description or others.description
+        for name, case in others.cases.items():
+            published = {names.get(end, end): light for end, light in case.published.items()}
+            path.cases[name] = replace(case, published=published)
+        return path
+
+    def check(self) -> None:
+        """Raise with every fault of the path, if it has any.
+
+        Raises
+        ------
+        PathError
+            A sentence for each fault.
+        """
+        validate(self._graph)
+
+    def bind(self, /, *unnamed: Never, **values: Any) -> Self:
+        """Return a copy of the path in which parameters have these values for good.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        **values : float, str, array_like, Material or curve
+            In radians and metres, or texts with units. A `Material` for the n of an index gives
+            its k as well. What depends on the wavelength, as `op.tabulated(...)` and a `Spectrum`
+            do, stands wherever the parameter stood, and leaves the path the parameter wavelength.
+
+        Returns
+        -------
+        PathGraph
+
+        Raises
+        ------
+        ParameterError
+            With every unknown parameter and every value that is not allowed.
+        """
+        if unnamed:
+            opened = [name for name, p in self.parameters.items() if not p.bound]
+            check_named("bind", unnamed, opened)
+        path = self._with(with_given(self._graph, values, for_good=True))
+        if any(map(is_by_wavelength, values.values())):
+            path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
+        return path
+
+    def with_defaults(self, /, **values: Any) -> Self:
+        """Return a copy of the path in which parameters have these values by default.
+
+        They stay open: whoever traces the path may give others. None takes a default away.
+
+        Raises
+        ------
+        ParameterError
+            With every unknown parameter and every value that is not allowed.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> crossed = op.load_preset("malus").with_defaults(angle="90 deg")
+        >>> crossed.trace().intensity, crossed.trace(angle=0.0).intensity
+        (array(0.), array(0.5))
+        """
+        return self._with(with_given(self._graph, values, for_good=False))
+
+    def reading(self, reads: str) -> Self:
+        """Return a copy of the path whose detectors and dumps all read this, and no more.
+
+        Parameters
+        ----------
+        reads : {"stokes", "linear", "intensity"}
+            As `Detector` takes it.
+
+        Raises
+        ------
+        PathError
+            If there is no such reading.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> op.load_preset("malus").reading("intensity").trace().stokes
+        array([0.375,   nan,   nan,   nan])
+        """
+        if faults := Detector(reads).faults("path.reading(...)"):
+            raise PathError(*faults)
+        graph = self._graph.copy()
+        for node in graph.nodes.values():
+            if hasattr(node["element"], "reads"):
+                node["element"] = replace(node["element"], reads=reads)
+        return self._with(graph)
+
+    def reversed(self, source: Source | Mapping[str, Source] | None = None) -> Self:
+        """Return the path in which light goes the other way, from the detector to the source.
+
+        Each element is met from the other side, in mirrored frames (x, -y, -z); sources are
+        detectors there, and detectors sources. What each link turns stays the same, and links say
+        it, and not elements. Parameters, defaults and cases stay, but for what is published;
+        values of the sources go with them, and what is chosen stays chosen where a turn stands
+        beside a place. ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless
+        there is a magnetic field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
+
+        Parameters
+        ----------
+        source : Source or mapping of str to Source, optional
+            The light that begins at the detector, or at several by name; by default unpolarised
+            light of intensity 1, and none at a dump.
+
+        Returns
+        -------
+        PathGraph
+
+        Raises
+        ------
+        PathError
+            With all that has no way back: taps, lights that add up, elements that do not say.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.Source() >> op.Polarizer(0.1) >> op.Rotator(0.5) >> op.Detector()
+        >>> path.reversed()
+        <PathGraph: detector >> rotator >> polarizer >> source>
+        >>> print(path.reversed(op.Source(stokes=[1, 1, 0, 0])).trace().intensity.round(6))
+        0.681179
+        """
+        path = self._with(reversed_graph(self._graph, source))
+        path.cases = {}
+        known = {*path.parameters, *path.choices}
+        for name, case in self.cases.items():
+            left = {n: value for n, value in case.values.items() if n in known}
+            if not (self.choices.keys() - known).intersection(case.values):
+                path.cases[name] = replace(case, values=left, published={})
+        return path
+
+    def to_toml(self) -> str:
+        """Return the path as the text of a preset file; loading it gives the path back.
+
+        Raises
+        ------
+        PathError
+            If an element has no kind, or a value has no form in TOML.
+        """
+        from optipath.paths.format.writer import to_toml  # noqa: PLC0415 - not for every import
+
+        return to_toml(self._graph, self.description, self.cases)
 
     @overload
     def trace(self, /, *, keep: Literal["ends"] = ..., **parameters: Any) -> Light: ...
@@ -130,11 +560,28 @@ class PathGraph(Sweeping, DescribedGraph):
             plan.only_detector("trace_all()")
             raise
 
-    def _keeping(self, keep: str) -> Plan:
-        """Return the plan that keeps so much light."""
-        if faults := unknown("keep", keep, KEPT):
-            raise ParameterError(*faults)
-        return self.plan_by(Composer(keep=keep))
+    def trace_all(self, /, *unnamed: Never, **parameters: Any) -> dict[str, Light]:
+        """Return the light at every detector and dump by name; see `Plan.run_all`.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        **parameters : float or array_like
+            As in `trace`.
+
+        Returns
+        -------
+        dict of str to Light
+        """
+        plan = self.compose()
+        check_named("trace_all", unnamed, plan.inputs.open)
+        try:
+            return plan.run_all(**parameters)
+        except ParameterError:
+            if path := self._with_curves(parameters):
+                return path.trace_all(**parameters)
+            raise
 
     def paths(
         self,
@@ -161,34 +608,6 @@ class PathGraph(Sweeping, DescribedGraph):
         """
         return self.compose().paths(limit, bounces, *unnamed, **parameters)
 
-    def trace_all(self, /, *unnamed: Never, **parameters: Any) -> dict[str, Light]:
-        """Return the light at every detector and dump by name; see `Plan.run_all`.
-
-        Parameters
-        ----------
-        *unnamed
-            None: values are given by name.
-        **parameters : float or array_like
-            As in `trace`.
-
-        Returns
-        -------
-        dict of str to Light
-        """
-        plan = self.compose()
-        check_named("trace_all", unnamed, plan.inputs.open)
-        try:
-            return plan.run_all(**parameters)
-        except ParameterError:
-            if path := self._with_curves(parameters):
-                return path.trace_all(**parameters)
-            raise
-
-    def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:
-        """Return the path bound to what depends on the wavelength, which is taken out; or none."""
-        curves = {n: parameters.pop(n) for n in [*parameters] if is_curve(parameters[n])}
-        return self.bind(**curves) if curves else None
-
     def mueller(
         self,
         source: str | None = None,
@@ -213,6 +632,237 @@ class PathGraph(Sweeping, DescribedGraph):
         Mueller
         """
         return self.compose().mueller(source, detector, *unnamed, **parameters)
+
+    def compose(self) -> Plan:
+        """Return the plan of a default `Composer`, composed once and kept."""
+        # By a word, which costs each run less to look up than a composer.
+        if "usual" not in self._plans:
+            self._plans["usual"] = Composer().compose(self._graph)
+        return self._plans["usual"]
+
+    def plan_by(self, composer: Composer) -> Plan:
+        """Return the plan that a composer makes of the path, composed once and kept.
+
+        Raises
+        ------
+        ComposerError
+            If it is none.
+        """
+        if not isinstance(composer, Composer):
+            given, example = shown(composer), "op.Composer(engine='numpy')"
+            raise ComposerError(f"a plan is made by a Composer, not {given}; write {example}")
+        if composer not in self._plans:
+            self._plans[composer] = composer.compose(self._graph)
+        return self._plans[composer]
+
+    def sweep(
+        self,
+        /,
+        *unnamed: Never,
+        zip: Sequence[str] | Sequence[Sequence[str]] | Mapping[str, Sequence[str]] = (),  # noqa: A002 - what it does
+        coords: str | PathLike[str] | Any = None,
+        chunks: int | str | Mapping[str, int] | None = None,
+        store: str | PathLike[str] | None = None,
+        scheduler: Any = None,
+        progress: bool | Callable[[int, int], None] = False,
+        composer: Composer | None = None,
+        **axes: Any,
+    ) -> Any:
+        """Return the light for every combination of some values, with named axes.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        zip : sequence of str, or several, optional
+            Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
+            or a mapping of its name to them.
+        coords : str, PathLike, Dataset, DataArray or mapping, optional
+            Axes besides: a CSV file with a column for each parameter, its unit in the heading; the
+            coordinates of a Dataset; or a mapping from names to values.
+        chunks : int, str or mapping of str to int, optional
+            The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
+            blocks of about a million.
+        store : str or PathLike, optional
+            A Zarr store (``.zarr``) or a NetCDF file (``.nc``) that is written block by block; a
+            Zarr store goes on where it stopped.
+        scheduler : str or distributed.Client, optional
+            What computes the blocks for a store: ``"threads"``, ``"processes"``, ``"synchronous"``,
+            a client, or the address of a cluster.
+        progress : bool or callable, optional
+            Whether a bar shows how far it is; or what is told how many blocks are done, and of how
+            many.
+        composer : Composer, optional
+            How the path is composed.
+        **axes : array_like
+            The values of parameters, in radians and metres, texts with units, a range
+            ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value that
+            stands in no list is no axis.
+
+        Returns
+        -------
+        xarray.Dataset
+            The dimensions are called as the parameters, in the order given.
+
+        Raises
+        ------
+        MissingExtraError
+            If xarray is not installed.
+        ParameterError
+            With all that is wrong with the axes, or as `Plan.run`.
+        ShapeError
+            If the light takes more memory than is free.
+        """
+        own: dict[str, Any] = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
+        more: dict[str, Any] = {"scheduler": scheduler, "progress": progress, "composer": composer}
+        with needing("sweeps"):
+            from optipath.sweeps.sweep import sweep  # noqa: PLC0415 - sweeps stand above paths
+
+            return sweep(self, unnamed, axes, **own, **more)
+
+    def propagate(
+        self,
+        /,
+        *unnamed: Never,
+        method: str = "auto",
+        samples: int | None = None,
+        seed: int | None = None,
+        correlation: Mapping[tuple[str, str], float] | None = None,
+        detector: str | None = None,
+        composer: Composer | None = None,
+        **values: Any,
+    ) -> Any:
+        """Return the light with its uncertainty, which follows from those of values.
+
+        To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
+        Supplement 1, JCGM 101:2008). What is doubtful is told in `Propagation.notes`.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        method : {"auto", "gradients", "differences", "monte-carlo"}, optional
+            Slopes by JAX where it is installed, traces the path and does not take long, else by
+            differences; by JAX; by differences; or samples of normal distributions, which are cut
+            off at the ends of ranges.
+        samples, seed : int, optional
+            Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
+        correlation : mapping of pairs of str to float, optional
+            Coefficients of correlation, ``{("n1", "k1"): 0.3}``; 0 for other pairs.
+        detector : str, optional
+            Its name; needed only where there are several.
+        composer : Composer, optional
+            How the path is composed; slopes are in float64, and exact.
+        **values : tuple of two, or array_like
+            A value and its standard uncertainty (one standard deviation), each in radians, metres
+            or texts with units, ``delta=("48 deg", "0.1 deg")``; they may be arrays that
+            broadcast. What is no tuple is exact.
+
+        Returns
+        -------
+        Propagation
+
+        Raises
+        ------
+        ParameterError
+            With everything that is wrong with values, uncertainties and options.
+        MissingExtraError
+            If slopes by JAX are asked for, and JAX is not installed.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> found = op.load_preset("malus").propagate(
+        ...     angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
+        ... )
+        >>> print(found.light.intensity.round(6), found.uncertainty_of("intensity").round(6))
+        0.375 0.001065
+        >>> {name: float(share.round(3)) for name, share in found.contributions_to("S0").items()}
+        {'angle': 0.504, 'intensity': 0.496}
+        """
+        # Sweeps stand above paths.
+        from optipath.sweeps.uncertainty.propagate import propagate  # noqa: PLC0415
+        from optipath.sweeps.uncertainty.propagate_options import PropagateOptions  # noqa: PLC0415
+
+        options = PropagateOptions(method, samples, seed, correlation, detector, composer)
+        return propagate(self, unnamed, values, options)
+
+    def __copy__(self) -> Self:
+        return self._with(self._graph.copy())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, PathGraph):
+            return NotImplemented
+        told, also = ((path.description, path.cases, path.choices) for path in (self, other))
+        mine, theirs = self._graph, other._graph
+        return (
+            told == also
+            and self.loops == other.loops
+            and same(dict(mine.nodes.items()), dict(theirs.nodes.items()))
+            and same(dict(mine.edges.items()), dict(theirs.edges.items()))
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        if chain := as_chain(self._graph):
+            return f"<{type(self).__name__}: {' >> '.join(chain)}>"
+        nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
+        return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
+
+    def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
+        edit(self._graph, lambda graph: change(graph, *arguments))
+        self._plans.clear()
+
+    def _append(self, port: str, others: PathGraph) -> str:
+        """Add other elements behind a port, and return the name of the last of them."""
+        last = append(self._graph, port, others._graph)
+        self._plans.clear()
+        return last
+
+    def _with(self, graph: nx.MultiDiGraph) -> Self:
+        path = type(self)(self.description, self.cases)
+        path._graph = graph  # noqa: SLF001 - its own
+        return path
+
+    def _keeping(self, keep: str) -> Plan:
+        """Return the plan that keeps so much light."""
+        if faults := unknown("keep", keep, KEPT):
+            raise ParameterError(*faults)
+        return self.plan_by(Composer(keep=keep))
+
+    def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:
+        """Return the path bound to what depends on the wavelength, which is taken out; or none."""
+        curves = {n: parameters.pop(n) for n in [*parameters] if is_curve(parameters[n])}
+        return self.bind(**curves) if curves else None
+
+
+@dataclass(frozen=True)
+class Node(Chainable):
+    """A named element in its path; ``a >> b`` links the natural way out of a to b.
+
+    What stands in no path yet, an element or a chain of them, is added to the path of a first.
+    """
+
+    path: PathGraph
+    name: str
+    port: str = ""
+
+    def __rshift__(self, behind: Any) -> Node:
+        if not isinstance(behind, Node):
+            last = self.path._append(self._text, begun(behind))
+            return Node(self.path, last)
+        if behind.path is not self.path:
+            raise PathError(f"'{self.name}' and '{behind.name}' stand in different paths; use one")
+        self.path.connect(self._text, behind._text)
+        return Node(behind.path, behind.name)
+
+    @property
+    def _text(self) -> str:
+        return f"{self.name}.{self.port}" if self.port else self.name
+
+    def __repr__(self) -> str:
+        return f"Node '{self._text}'"
 
 
 def _beginning(first: Any) -> PathGraph:

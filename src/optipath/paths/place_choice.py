@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
-from optipath.errors import PathError, shown, unknown
+from optipath.errors import ParameterError, PathError, shown, unknown
+from optipath.paths.binding import bind
 from optipath.paths.link_turns import turn_to, turns_to
 from optipath.paths.port_names import element_at, find_port, natural_port
 from optipath.paths.splicing import insert, remove
@@ -91,3 +92,23 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool =
                 f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
             )
     return [*of_node, *of_places]
+
+
+def with_given(
+    graph: nx.MultiDiGraph, values: dict[str, Any], *, for_good: bool
+) -> nx.MultiDiGraph:
+    """Return a copy of the graph with nodes in the places chosen, and other values given."""
+    graph = graph.copy()
+    faults: list[str] = []
+    for name in [name for name in graph.graph.get("choices", {}) if name in values]:
+        try:
+            put_in_place(graph, name, values.pop(name))
+        except PathError as fault:
+            faults += fault.faults
+    try:
+        graph = bind(graph, values, for_good=for_good)
+    except ParameterError as fault:
+        faults += fault.faults
+    if faults:
+        raise ParameterError(*faults)
+    return graph

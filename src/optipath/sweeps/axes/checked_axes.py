@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.errors import OptipathError
-from optipath.paths.sweeping import Sweeping
+from optipath.paths.path_graph import PathGraph
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.cures import no_value
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from optipath.values.inputs import Inputs
     from optipath.values.use import Use
 
-KEYWORDS = frozenset(Sweeping.sweep.__kwdefaults__ or ())
+KEYWORDS = frozenset(PathGraph.sweep.__kwdefaults__ or ())
 """What `PathGraph.sweep` takes by name beside parameters."""
 
 
