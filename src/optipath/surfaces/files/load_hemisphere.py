@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from optipath.errors import OptipathError, SurfaceError
 from optipath.extras import needing
@@ -59,10 +59,14 @@ save it with a name that ends in .zarr or .nc, and load that
         raise SurfaceError(f"there is no '{place}'; save a hemisphere of that name first")
     with needing("files of hemispheres"):
         import_module(_PACKAGES[place.suffix])
-        forms: Any = import_module("optipath.surfaces.files.hemisphere_forms")
-        kept: Any = import_module("optipath.surfaces.files.kept_hemisphere")
+        from optipath.surfaces.files.hemisphere_forms import (  # noqa: PLC0415 - an extra
+            read_dataset,
+        )
+        from optipath.surfaces.files.kept_hemisphere import (  # noqa: PLC0415 - an extra
+            hemisphere_of,
+        )
     try:
-        found: Hemisphere = kept.hemisphere_of(forms.read_dataset(place), sample)
+        found = hemisphere_of(read_dataset(place), sample)
     except OptipathError as fault:
         raise SurfaceError(*fault.faults, about=f"'{place}'") from None
     except Exception:  # noqa: BLE001 - damaged files make their readers raise anything

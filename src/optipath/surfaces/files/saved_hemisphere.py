@@ -14,8 +14,8 @@ from optipath.values.given_files import given_file
 if TYPE_CHECKING:
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
-_WRITERS = {".zarr": ("zarr", "write_zarr"), ".nc": ("h5netcdf", "write_netcdf")}
-"""The package that each form needs, and what writes it."""
+_PACKAGES = {".zarr": "zarr", ".nc": "h5netcdf"}
+"""The package that each form needs."""
 
 
 def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -> None:
@@ -25,7 +25,7 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
         picture = StokesPicture.of(hemisphere, source, side)
         with told_of(place):
             picture.write(place)
-    elif place.suffix in _WRITERS:
+    elif place.suffix in _PACKAGES:
         if given := [n for n, each in {"source": source, "side": side}.items() if each is not None]:
             raise SurfaceError(
                 f"'{place}' is to hold the light of every source on all sides; leave "
@@ -42,9 +42,14 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
 
 
 def _writer(hemisphere: Hemisphere, ending: str) -> Any:
-    package, name = _WRITERS[ending]
     with needing("files of hemispheres"):
-        import_module(package)
-        kept: Any = import_module("optipath.surfaces.files.kept_hemisphere")
-        forms = import_module("optipath.surfaces.files.hemisphere_forms")
-    return lambda place: getattr(forms, name)(kept.kept_hemisphere(hemisphere), place)
+        import_module(_PACKAGES[ending])
+        from optipath.surfaces.files.hemisphere_forms import (  # noqa: PLC0415 - an extra
+            write_netcdf,
+            write_zarr,
+        )
+        from optipath.surfaces.files.kept_hemisphere import (  # noqa: PLC0415 - an extra
+            kept_hemisphere,
+        )
+    write = {".zarr": write_zarr, ".nc": write_netcdf}[ending]
+    return lambda place: write(kept_hemisphere(hemisphere), place)

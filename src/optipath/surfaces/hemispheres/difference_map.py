@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
 
 _Told = dict[str, str | float]
@@ -43,7 +43,7 @@ _MEASURES = {
 
 
 def difference_map(
-    hemisphere: MeasuredPixels,
+    hemisphere: Hemisphere,
     measure: str,
     side: str,
     brighter_than: float,
@@ -71,7 +71,7 @@ def difference_map(
     return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, told)
 
 
-def _relative(hemisphere: MeasuredPixels, light: Numbers) -> Numbers:
+def _relative(hemisphere: Hemisphere, light: Numbers) -> Numbers:
     scalar = hemisphere.intensities(light)
     return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
 
@@ -89,7 +89,7 @@ def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numb
     }
 
 
-def _pixel_attributes(hemisphere: MeasuredPixels) -> _Told:
+def _pixel_attributes(hemisphere: Hemisphere) -> _Told:
     sensor = hemisphere.sensor
     return {
         "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",

@@ -12,10 +12,10 @@ from optipath.errors import SurfaceError
 from optipath.surfaces.hemispheres.pixel_array import FRAME, PIXELS, coordinates
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
 
-def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
+def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a hemisphere.
 
     Units: the result in radians.
@@ -50,7 +50,7 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
     }
 
 
-def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:
+def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
     seen = hemisphere.seen
     beam = seen.beam
     return {
@@ -69,7 +69,7 @@ def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:
     }
 
 
-def _toml(hemisphere: MeasuredPixels) -> str:
+def _toml(hemisphere: Hemisphere) -> str:
     try:
         return hemisphere.seen.beam.sample.to_toml()
     except SurfaceError as fault:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 import xarray as xr
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
 Numbers = npt.NDArray[np.float64]
 
@@ -27,7 +27,7 @@ FRAME = (
 
 
 def pixel_array(
-    hemisphere: MeasuredPixels,
+    hemisphere: Hemisphere,
     name: str,
     value: Numbers,
     what: str,
@@ -47,7 +47,7 @@ def pixel_array(
     return xr.DataArray(value, known, dims, name, about)
 
 
-def coordinates(hemisphere: MeasuredPixels, dims: tuple[str, ...]) -> dict[str, Any]:
+def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]:
     """Return the coordinates of what is known of each pixel."""
     sensor, place = hemisphere.sensor, {"units": "1"}
     towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
