@@ -12,7 +12,6 @@ from optipath.errors import SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.fields.given_fields import cells_of
 from optipath.surfaces.fields.height_field import HeightField
-from optipath.surfaces.samples.replaying import Replaying
 from optipath.surfaces.samples.sample_indices import indices_of
 from optipath.surfaces.samples.sample_layers import layers_of, unused_faults
 from optipath.surfaces.samples.sample_media import CLEAR_MEDIUM, medium_of
@@ -24,6 +23,8 @@ from optipath.values.whole_numbers import whole_number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy.typing as npt
+
     from optipath.surfaces.samples.sample_indices import SampleIndices
     from optipath.values.materials import Material
 
@@ -32,7 +33,7 @@ _WIDTH = 80.0
 
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
-class Sample(Replaying, Unchanging):
+class Sample(Unchanging):
     """Rough or flat interfaces one below the other, and the media between them.
 
     Heights over x and y, lengths of the fields and wavelengths are no part of each other: light
@@ -151,22 +152,6 @@ class Sample(Replaying, Unchanging):
             known[surface] = drawn
         return known[surface]
 
-    def _field(self, surface: int, place: int) -> HeightField:
-        layer = self.layers[place]
-        if isinstance(layer.roughness, HeightField):
-            return layer.roughness
-        if not layer.is_random:
-            return HeightField.flat()
-        along_x, along_y = layer.roughness
-        return HeightField.beckmann(
-            along_x,
-            along_y,
-            size=(_WIDTH / along_x, _WIDTH / along_y),
-            cells=self.cells,
-            seed=np.random.SeedSequence(self.seed, spawn_key=(surface, place)),
-            periodic=self.periodic,
-        )
-
     def indices(self, wavelength: Any = None) -> SampleIndices:
         """Return the indices of refraction of all media.
 
@@ -217,6 +202,70 @@ class Sample(Replaying, Unchanging):
         angle = Parameter("incidence") if incidence is None else incidence
         return LayerStack([*self._media.values()], angle)
 
+    def photon(
+        self,
+        number: int,
+        incidence: Any = 0.0,
+        *,
+        seed: int = 0,
+        azimuth: Any = 0.0,
+        wavelength: str | npt.ArrayLike | None = None,
+        stokes: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        most_events: int = 1000,
+    ) -> Any:
+        """Return one of the photons that `energy` counts, with all that happens to it.
+
+        Parameters
+        ----------
+        number : int
+            Which photon, from 0. Those of its block of 16384 that come before it are walked, too.
+        incidence : float or str, optional
+            The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
+        seed : int, optional
+            That which `energy` is given.
+        azimuth : float or str, optional
+            Towards which side the light goes, from x towards y of the sample. On an isotropic
+            sample each photon has an azimuth of its own.
+        wavelength : float, str or array_like, optional
+            In metres, or ``"550 nm"``, where an index depends on it; several as `energy` has them.
+        stokes : array_like, optional
+            The Stokes vector of the light, the x of its frame horizontal; unpolarised by default.
+        most_events : int, optional
+            After how many events it is given up.
+
+        Returns
+        -------
+        Photon
+
+        Raises
+        ------
+        SurfaceError
+            With all faults at once, or if photons meet nothing of a finite field.
+
+        Examples
+        --------
+        >>> from optipath.surfaces.samples.sample import Sample
+        >>> photon = Sample([(1.5, 0.0)]).photon(3, "40 deg")
+        >>> photon
+        <Photon 3 of seed 0: down after 1 event>
+        >>> print(photon.events[0].onwards[2].round(6))
+        -0.90353
+        """
+        from optipath.surfaces.replay.replayed_photon import (  # noqa: PLC0415 - replays samples
+            replayed_photon,
+        )
+
+        return replayed_photon(
+            self,
+            number,
+            incidence,
+            seed=seed,
+            azimuth=azimuth,
+            wavelength=wavelength,
+            stokes=stokes,
+            most_events=most_events,
+        )
+
     def to_toml(self) -> str:
         """Return the sample as the text of a file; `load_sample` gives the sample back.
 
@@ -228,6 +277,22 @@ class Sample(Replaying, Unchanging):
         from optipath.surfaces.samples.sample_writer import toml_of  # noqa: PLC0415 - not for all
 
         return toml_of({"description": self.description, **self._unusual()}, self.layers)
+
+    def _field(self, surface: int, place: int) -> HeightField:
+        layer = self.layers[place]
+        if isinstance(layer.roughness, HeightField):
+            return layer.roughness
+        if not layer.is_random:
+            return HeightField.flat()
+        along_x, along_y = layer.roughness
+        return HeightField.beckmann(
+            along_x,
+            along_y,
+            size=(_WIDTH / along_x, _WIDTH / along_y),
+            cells=self.cells,
+            seed=np.random.SeedSequence(self.seed, spawn_key=(surface, place)),
+            periodic=self.periodic,
+        )
 
     @property
     def _media(self) -> dict[str, Any]:
