@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ParameterError, UnitError, shown
-from optipath.values.affine_arithmetic import AffineArithmetic
+from optipath.values.affine import Affine
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
@@ -35,7 +35,7 @@ _ASIDE = {"scale", "offset", "offset_dimension", "is_listed", "is_material"}
 
 
 @dataclass(frozen=True, eq=False)
-class Parameter(AffineArithmetic):
+class Parameter(Affine):
     """A named value of a path that is given when it is traced.
 
     Used in place of a value of any element; ``2 * parameter + 0.1`` stands for a multiple of it
