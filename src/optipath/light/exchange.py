@@ -1,14 +1,12 @@
-"""Light and Mueller matrices given to other software, and taken from it."""
+"""Ellipsometric angles of light and Mueller matrices, given to other software."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
-from optipath.light.conventions import changed_delta, changed_stokes
-from optipath.values.arrays.shapes import real_array
+from optipath.light.conventions import changed_delta
 
 if TYPE_CHECKING:
-    from optipath.light.frames import Frame
     from optipath.values.roundings import Array
 
 
@@ -51,77 +49,3 @@ class EllipsometricAngles:
         [0.584, 0.0]
         """
         return self.psi, changed_delta(convention, self.delta)
-
-
-class LightExchange(EllipsometricAngles):
-    """How light is given to other software, and taken from it."""
-
-    stokes: Any
-
-    def to(self, convention: str) -> Array:
-        """Return the Stokes vectors as other software writes them, of shape (..., 4).
-
-        In the frame of this light: where the convention has x along p, ours is taken to be along
-        s. ``docs/other-software.md`` says what differs, and where that comes from.
-
-        Parameters
-        ----------
-        convention : str
-            ``"mitsuba"``, ``"hecht"``, ``"ellipsometry"``, ``"py_pol"``, ``"pypolar"``,
-            ``"pyelli"``, ``"scatmech"`` or ``"tmm"``.
-
-        Returns
-        -------
-        ndarray, shape (..., 4)
-
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name.
-
-        Examples
-        --------
-        >>> from optipath import Light
-        >>> Light([1.0, 0.0, 0.6, 0.8]).to("mitsuba")
-        array([ 1. ,  0. ,  0.6, -0.8])
-        """
-        return changed_stokes(convention, self.stokes)
-
-    @classmethod
-    def from_(
-        cls, convention: str, stokes: Any, frame: Frame | None = None, **options: Any
-    ) -> Self:
-        """Return light out of Stokes vectors of other software.
-
-        Parameters
-        ----------
-        convention : str
-            As in `to`.
-        stokes : array_like, shape (..., 4)
-            As that software writes them.
-        frame : Frame, optional
-            The frame of the light, its x along s where the convention has x along p.
-        **options
-            What `Light` takes besides: the exponent of faint light, ``physical=False`` for
-            measured noise.
-
-        Returns
-        -------
-        Light
-
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name, or no light can be like that.
-        ShapeError
-            If the last axis has not four elements.
-
-        Examples
-        --------
-        >>> from optipath import Light
-        >>> right = Light.from_("hecht", [1.0, 0.0, 0.0, 1.0])
-        >>> print(right.stokes, right.handedness)
-        [ 1.  0.  0. -1.] -1
-        """
-        given = real_array("a Stokes vector", stokes, (4,))
-        return cls(changed_stokes(convention, given), frame, **options)  # type: ignore[call-arg]

@@ -12,12 +12,12 @@ from optipath.values.precision import at_least_single
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.light.array_of_light import ArrayOfLight
+    from optipath.light.light import Light
     from optipath.values.roundings import Array
 
 
 def inheriting(
-    lights: tuple[ArrayOfLight, ...],
+    lights: tuple[Light, ...],
     factor: Any = 1.0,
     power: Any = 0,
     *,
@@ -35,7 +35,7 @@ def inheriting(
 
 
 def inherited_noise(
-    lights: tuple[ArrayOfLight, ...],
+    lights: tuple[Light, ...],
     factor: Any,
     power: Any,
     mixed: bool,  # noqa: FBT001 - called by what is kept of it

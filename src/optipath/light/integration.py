@@ -17,11 +17,11 @@ from optipath.values.spectra.responses import check_response
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from optipath.light.wavelength_on_demand import WavelengthOnDemand
+    from optipath.light.light import Light
     from optipath.values.roundings import Array
 
 
-def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
+def spectral_axis(light: Light) -> tuple[Array, int]:
     """Return the wavelengths of light, and the axis of the batch along which they vary.
 
     Shape: returns grid (n,). Units: grid in metres.
@@ -70,9 +70,7 @@ def _varies(numbers: Array, axis: int) -> bool:
     return bool(np.any(numbers != numbers.take([0], axis)))
 
 
-def integrated(
-    light: WavelengthOnDemand, response: Any = None, edges: Any = None
-) -> tuple[Any, Any, Any, Any]:
+def integrated(light: Light, response: Any = None, edges: Any = None) -> tuple[Any, Any, Any, Any]:
     """Return light added up over its wavelengths, as `Light.of` takes it.
 
     Shape: returns stokes (..., 4).
@@ -92,9 +90,7 @@ def integrated(
     return total, frame, power, (noise_of_sum, light, weights, axis)
 
 
-def _along_bins(
-    light: WavelengthOnDemand, *, one_bin: bool
-) -> tuple[WavelengthOnDemand, Array, int]:
+def _along_bins(light: Light, *, one_bin: bool) -> tuple[Light, Array, int]:
     """Return light with its wavelengths and their axis; one, where all of it is in one bin."""
     wavelength = light.wavelength
     if not one_bin or wavelength is None or is_traced(wavelength) or np.ptp(wavelength) > 0.0:
@@ -149,9 +145,7 @@ def _sum_by_halves(terms: Any) -> Any:
     return terms[0]
 
 
-def noise_of_sum(
-    light: WavelengthOnDemand, weights: Array, axis: int, stokes: Array, exponent: Array
-) -> Array:
+def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array, exponent: Array) -> Array:
     """Return the noise in light that has been added up, of shape (...).
 
     Shapes: weights (n,); stokes (..., 4); exponent (...); returns (...).
@@ -214,7 +208,7 @@ def _response_at(response: Any, grid: Array) -> Any:
     return np.asarray(found, np.float64)
 
 
-def _frame_without(light: WavelengthOnDemand, axis: int) -> Any:
+def _frame_without(light: Light, axis: int) -> Any:
     """Return the frame of light along an axis, which must be one."""
     kept = light._kept_frame("frame")  # noqa: SLF001
     if not callable(kept) and kept.z.ndim == 1:

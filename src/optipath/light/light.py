@@ -2,39 +2,66 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from inspect import signature
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 import numpy as np
 
-from optipath.errors import FrameError, ShapeError, shown
-from optipath.kernels.carriers.structures import turn_linear
-from optipath.light.array_axes import each_number
-from optipath.light.array_of_light import stacked_components
-from optipath.light.drawn_light import DrawnLight
-from optipath.light.exchange import LightExchange
+from optipath.errors import FrameError, LightError, ParameterError, shown, unknown
+from optipath.light.arithmetic import factor_of_light, product_of, refuse, sum_of
+from optipath.light.array_axes import ArrayAxes, each_number
+from optipath.light.array_of_light import (
+    OPERATORS,
+    TAKES_LIGHT,
+    handed_out,
+    refuse_call,
+    stacked_components,
+)
+from optipath.light.conventions import changed_stokes
+from optipath.light.exchange import EllipsometricAngles
 from optipath.light.frames import Frame
-from optipath.light.inherited_noise import noise_in
+from optipath.light.frames_on_demand import FramesOnDemand
+from optipath.light.inherited_noise import inheriting, noise_in
 from optipath.light.light_text import text_of
 from optipath.light.physical_light import check_physical, nearest_light
-from optipath.light.spectral_light import SpectralLight
-from optipath.light.underflow import folded, normalise_exponent, times_two_to
-from optipath.light.wavelength_on_demand import wavelengths_for
-from optipath.values.arrays.array_likes import as_given
+from optipath.light.polarization_state import (
+    direction,
+    ellipse_of,
+    length,
+    minor_over_major,
+    polarised,
+    shares,
+    turned_stokes,
+    where_there,
+)
+from optipath.light.refused_products import why_refused
+from optipath.light.underflow import folded, given_exponent, same_numbers, times_two_to
+from optipath.light.wavelength_on_demand import (
+    common_wavelength,
+    part_of_wavelength,
+    wavelengths_for,
+)
 from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
-from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
+from optipath.values.arrays.read_only import Unchanging, locked, read_only
 from optipath.values.arrays.shapes import check_broadcast, real_array
-from optipath.values.precision import coarser
+from optipath.values.precision import at_least_single, coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
 
-_LARGEST = 2.0**40
+    from optipath.light.colour.srgb import Srgb
+    from optipath.values.roundings import Array
+
+_KINDS = ("ellipse", "poincare", "stokes")
 
 
-class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
+class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
+
+    Light does not change. `stokes` is read-only; a component is a copy, which may be scaled in
+    place, but of more than 65536 lights, where it is read-only, too.
 
     Parameters
     ----------
@@ -80,6 +107,10 @@ class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
     exponent: npt.NDArray[np.int64]
     mantissa: npt.NDArray[Any]
 
+    _kind, _several = "light", "lights"
+    _attribute, _axes = "stokes", 1
+    _written, _entry = "light.stokes", "light.S0 .. light.S3, or light.stokes[..., 0]"
+
     def __init__(
         self,
         stokes: Any,
@@ -93,19 +124,9 @@ class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
         if not isinstance(frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
         mantissa = real_array("a Stokes vector", stokes, (4,))
-        check_known("the exponent of a light", exponent)
-        given, exponent = exponent, as_given("the exponent of a light", exponent, ShapeError)
-        if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
-            raise ShapeError(
-                f"the exponent of a light must be an integer within -2^40 .. 2^40, "
-                f"not {shown(given)}"
-            )
+        exponent = given_exponent(exponent)
         batch = check_broadcast(
-            {
-                "stokes": mantissa.shape[:-1],
-                "exponent": exponent.shape,
-                "frame": frame.z.shape[:-1],
-            }
+            {"stokes": mantissa.shape[:-1], "exponent": exponent.shape, "frame": frame.z.shape[:-1]}
         )
         exponent = np.broadcast_to(exponent.astype(np.int64), batch)
         if mantissa.shape[:-1] != batch:
@@ -179,30 +200,79 @@ class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
             own["_wavelength"] = wavelength
         return light
 
-    if not TYPE_CHECKING:  # Else any name would do for who checks types.
+    @classmethod
+    def from_(
+        cls, convention: str, stokes: Any, frame: Frame | None = None, **options: Any
+    ) -> Self:
+        """Return light out of Stokes vectors of other software.
 
-        def __getattr__(self, name: str) -> Any:
-            own = self.__dict__
-            if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
-                return super().__getattr__(name)
-            if name == "exponent":
-                own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
-            else:
-                stokes = own["_stokes"]
-                stokes = stacked_components(stokes) if type(stokes) is tuple else stokes
-                own["stokes"] = own["mantissa"] = locked(stokes)
-            return own[name]
+        Parameters
+        ----------
+        convention : str
+            As in `to`.
+        stokes : array_like, shape (..., 4)
+            As that software writes them.
+        frame : Frame, optional
+            The frame of the light, its x along s where the convention has x along p.
+        **options
+            What `Light` takes besides: the exponent of faint light, ``physical=False`` for
+            measured noise.
 
-    def __repr__(self) -> str:
-        return text_of(self._numbers, self.frame, self.exponent)
+        Returns
+        -------
+        Light
 
-    def __str__(self) -> str:
-        """Return what `repr` does, with 0 for what is no more than rounding."""
-        numbers, floor = self._numbers, self.noise_floor
-        if is_traced(floor):
-            return repr(self)
-        quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
-        return text_of(quiet, self.frame, self.exponent)
+        Raises
+        ------
+        ValueFault
+            If there is no convention of that name, or no light can be like that.
+        ShapeError
+            If the last axis has not four elements.
+
+        Examples
+        --------
+        >>> right = Light.from_("hecht", [1.0, 0.0, 0.0, 1.0])
+        >>> print(right.stokes, right.handedness)
+        [ 1.  0.  0. -1.] -1
+        """
+        given = real_array("a Stokes vector", stokes, (4,))
+        return cls(changed_stokes(convention, given), frame, **options)
+
+    @property
+    def S0(self) -> Array:  # noqa: N802 - as everybody writes it
+        """The intensity, of shape (...)."""
+        return self._component(0)
+
+    @property
+    def S1(self) -> Array:  # noqa: N802
+        """The intensity along x less that along y, of shape (...)."""
+        return self._component(1)
+
+    @property
+    def S2(self) -> Array:  # noqa: N802
+        """The intensity along x + y less that along y - x, of shape (...)."""
+        return self._component(2)
+
+    @property
+    def S3(self) -> Array:  # noqa: N802
+        """The intensity that turns from x to y less that which turns back, of shape (...)."""
+        return self._component(3)
+
+    @property
+    def intensity(self) -> Array:
+        """S0, of shape (...)."""
+        parts = self.__dict__.get("_stokes")
+        if type(parts) is tuple and "stokes" not in self.__dict__:
+            return handed_out(parts[0])  # type: ignore[no-any-return]
+        return self.S0
+
+    @property
+    def log10_intensity(self) -> Array:
+        """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
+        s0 = self._numbers[..., 0]
+        xp = namespace(s0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
 
     @property
     def noise(self) -> npt.NDArray[Any]:
@@ -226,21 +296,149 @@ class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
             return np.asarray(np.ldexp(floor, self.exponent))
 
     @property
-    def noise_floor(self) -> Any:
-        """The noise in the mantissa, of shape (...)."""
-        own = self.__dict__
-        if "_floor" not in own:
-            own["_floor"] = locked(noise_in(self._numbers, own.get("_noise"), self.exponent))
-        return own["_floor"]
+    def wavelength(self) -> Array | None:
+        """The wavelengths in vacuum, in metres; None of light that is of no known ones.
 
-    def __getstate__(self) -> dict[str, Any]:
-        # What computes the noise stays here.
-        own = super().__getstate__()
-        if "_noise" in own:
-            own["_noise"] = self.noise_floor
-        if "_wavelength" in own:
-            own["_wavelength"] = self.wavelength
-        return own
+        They broadcast to the shape of the light. Those of a run that was given its
+        `Wavelength`, or was bound to it. An index takes its part of them; a sum has those
+        that both lights have; lights of different wavelengths are not added, and with light
+        of no known ones a sum has none.
+
+        Examples
+        --------
+        >>> light = Light([[1.0, 0.0, 0.0, 0.0]] * 2, wavelength=["500 nm", "600 nm"])
+        >>> light.wavelength, light[1].wavelength
+        (array([5.e-07, 6.e-07]), array(6.e-07))
+        """
+        own = self.__dict__
+        kept = own.get("_wavelength")
+        if callable(kept):
+            found = kept()
+            if found is None:
+                return None  # What is kept says which ones are in doubt.
+            own["_wavelength"] = kept = found
+        return kept
+
+    @property
+    def normalized(self) -> Array:
+        """The Stokes vector over S0, of shape (..., 4), however faint; NaN where it is dark."""
+        stokes = self._numbers
+        there = (stokes[..., 0] > self.noise_floor)[..., np.newaxis]
+        return namespace(stokes).where(there, shares(stokes), np.nan)  # type: ignore[no-any-return]
+
+    @property
+    def dop(self) -> Array:
+        """The degree of polarisation, of shape (...), however faint; NaN where it is dark."""
+        return self._where_there(length(*polarised(self._numbers)))
+
+    @property
+    def dolp(self) -> Array:
+        """The degree of linear polarisation, hypot(S1, S2) / S0, shape (...); NaN where dark."""
+        return self._where_there(length(*polarised(self._numbers)[:2]))
+
+    @property
+    def docp(self) -> Array:
+        """The signed degree of circular polarisation, S3 / S0, shape (...); NaN where dark."""
+        return self._where_there(shares(self._numbers)[..., 3])
+
+    @property
+    def aop(self) -> Array:
+        """The angle of polarisation, of shape (...): of the major axis, from x towards y.
+
+        In radians, in (-pi/2, pi/2]; NaN where S1 and S2 are no more than noise, as in
+        circular and in unpolarised light.
+
+        Examples
+        --------
+        >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
+        0.7854
+        """
+        s1, s2, _ = self._ellipse
+        return self._where_there(0.5 * direction(s2, s1), 1, 2)
+
+    @property
+    def ellipticity(self) -> Array:
+        """The minor axis over the major axis, in [-1, 1], with the sign of S3; shape (...).
+
+        Of the polarised part; 0 where the light is linear, NaN where it is unpolarised. It is
+        tan(asin(S3 / p) / 2) = S3 / (p + hypot(S1, S2)), p the length of (S1, S2, S3), with all
+        the digits that S3 has.
+
+        Examples
+        --------
+        >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
+        -0.5
+        """
+        return self._where_there(minor_over_major(*self._ellipse), 1, 2, 3)
+
+    @property
+    def ellipticity_angle(self) -> Array:
+        """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
+        s1, s2, s3 = self._ellipse
+        return self._where_there(0.5 * direction(s3, length(s1, s2)), 1, 2, 3)
+
+    @property
+    def handedness(self) -> Array:
+        """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
+
+        The sign of S3; 0 where S3 is no more than noise, or not read. By IEEE and the IAU: 1 is
+        a field that turns counter-clockwise to who looks at the source, which Hecht, and
+        Born & Wolf (sec. 1.4.2), call left-handed.
+
+        Examples
+        --------
+        A quarter-wave plate whose fast axis is x makes light of +45 degrees right-handed:
+
+        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
+        >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
+        1
+        """
+        s3, floor = self._numbers[..., 3], self.noise_floor
+        return namespace(s3).asarray((s3 > floor).astype(int) - (s3 < -floor).astype(int))  # type: ignore[no-any-return]
+
+    @property
+    def psi(self) -> Array:
+        """The ellipsometric psi of the polarised part, of shape (...), in [0, pi/2].
+
+        tan psi = abs(Ey) / abs(Ex), of partly polarised light those of its polarised part alone;
+        NaN where it has none. Behind a sample that light of +45 degrees has met, with
+        x along s and y along p, psi and `delta` are those of the sample.
+
+        Examples
+        --------
+        >>> mirror = [[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, -0.8, 0], [0, 0, 0, -0.8]]
+        >>> stokes = np.array(mirror) @ [1.0, 0.0, 1.0, 0.0]
+        >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
+        0.5 3.1416
+        """
+        s1, s2, s3 = self._ellipse
+        return self._where_there(0.5 * direction(length(s2, s3), s1), 1, 2, 3)
+
+    @property
+    def delta(self) -> Array:
+        """The ellipsometric Delta of the polarised part, of shape (...), in (-pi, pi].
+
+        The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
+        field exp(-i w t) of this library has the opposite sign. NaN where Ex or Ey of the
+        polarised part is 0, in light along x, along y, or unpolarised.
+        """
+        _, s2, s3 = self._ellipse
+        return self._where_there(direction(0.0 - s3, s2), 2, 3)
+
+    def in_frame(self, frame: Frame) -> Light:
+        """Return the same light with its components given in another frame.
+
+        Raises
+        ------
+        FrameError
+            If the other frame has another direction.
+        """
+        if frame is self._kept_frame("frame"):
+            return self
+        if isinstance(frame, Frame):
+            check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
+        turned = turned_stokes(self._numbers, self.frame.turn_to(frame))
+        return Light.of(turned, frame, self.exponent, self._inherited(), **self.origin())
 
     def nearest_physical(self) -> Light:
         """Return the light that is nearest: S0 is kept, and the polarised part scaled to it.
@@ -259,31 +457,404 @@ class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
         frame = self._kept_frame("frame")
         return Light.of(nearest, frame, self.exponent, self._inherited(), **origin)
 
-    def in_frame(self, frame: Frame) -> Light:
-        """Return the same light with its components given in another frame.
+    def to(self, convention: str) -> Array:
+        """Return the Stokes vectors as other software writes them, of shape (..., 4).
+
+        In the frame of this light: where the convention has x along p, ours is taken to be along
+        s. ``docs/other-software.md`` says what differs, and where that comes from.
+
+        Parameters
+        ----------
+        convention : str
+            ``"mitsuba"``, ``"hecht"``, ``"ellipsometry"``, ``"py_pol"``, ``"pypolar"``,
+            ``"pyelli"``, ``"scatmech"`` or ``"tmm"``.
+
+        Returns
+        -------
+        ndarray, shape (..., 4)
 
         Raises
         ------
-        FrameError
-            If the other frame has another direction.
+        ValueFault
+            If there is no convention of that name.
+
+        Examples
+        --------
+        >>> Light([1.0, 0.0, 0.6, 0.8]).to("mitsuba")
+        array([ 1. ,  0. ,  0.6, -0.8])
         """
-        if frame is self._kept_frame("frame"):
-            return self
-        if isinstance(frame, Frame):
-            check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
-        stokes = self._numbers
-        xp, (s0, s1, s2, s3) = namespace(stokes), (stokes[..., i] for i in range(4))
-        turn = self.frame.turn_to(frame)
-        with np.errstate(over="ignore", invalid="ignore"):
-            parts = (s0, *turn_linear(turn, s1, s2), s3)
-        turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
-        turned = turned.astype(coarser(turned, stokes), copy=False)
-        return Light.of(turned, frame, self.exponent, self._inherited(), **self.origin())
+        return changed_stokes(convention, self.stokes)
+
+    def at_wavelengths(self, wavelengths: Any) -> Self:
+        """Return the same light, known to be of some wavelengths.
+
+        Parameters
+        ----------
+        wavelengths : array_like
+            In metres, or texts with units; they broadcast to the shape of the light.
+
+        Returns
+        -------
+        Light
+
+        Raises
+        ------
+        ParameterError
+            If they are no wavelengths.
+        ShapeError
+            If they do not broadcast to the shape of the light.
+
+        Examples
+        --------
+        >>> light = Light([[1.0, 0.2, 0.0, 0.0], [3.0, 0.0, 0.0, 0.0]])
+        >>> light.at_wavelengths(["500 nm", "600 nm"]).integrate().stokes.round(9)
+        array([200.,  10.,   0.,   0.])
+        """
+        light = object.__new__(type(self))
+        vars(light).update(vars(self), _wavelength=wavelengths_for(self.shape, wavelengths))
+        return light
+
+    def integrate(self, response: Any = None, edges: Any = None) -> Light:
+        """Return the light of all wavelengths together, without their axis.
+
+        The light is per nanometre of wavelength, and linear between its wavelengths: the
+        trapezoidal rule, of which each wavelength has the bin that reaches halfway to its
+        neighbours. The result is the same alone and in batches, to the last bit.
+
+        Parameters
+        ----------
+        response : float, array_like of shape (n,), Spectrum or Curve, optional
+            What the light of each wavelength is multiplied by, as a `Detector` takes it: numbers
+            that are not negative, or what gives them by ``response.at(wavelengths)``, and no
+            power in bins or lines.
+        edges : array_like, shape (n + 1,), optional
+            The edges of the bins, in metres or as texts with units: what comes in each is
+            the density there times the width. Light of one wavelength has one bin, two edges.
+
+        Returns
+        -------
+        Light
+            In the same frame, in the unit of the power.
+
+        Raises
+        ------
+        LightError
+            If the wavelengths are not known or no grid along one axis, or frames differ.
+        ShapeError, ValueFault, ParameterError
+            If the response or the edges do not fit.
+
+        Examples
+        --------
+        >>> light = Light([[1.0, 0.2, 0.0, 0.0]] * 3, wavelength=["500 nm", "550 nm", "600 nm"])
+        >>> light.integrate().stokes.round(9)
+        array([100.,  20.,   0.,   0.])
+        >>> print(light.integrate(response=[0.0, 1.0, 0.0]).intensity.round(9))
+        50.0
+        """
+        from optipath.light.integration import integrated  # noqa: PLC0415 - hardly ever
+
+        summed = integrated(self, response, edges)
+        return self.of(*summed, measured=self.is_measured)
+
+    def to_xyz(
+        self, white: Any = None, observer: str = "CIE 1931 2 deg", *, outside: str = "dark"
+    ) -> Array:
+        """Return the tristimulus values X, Y and Z of spectral light, of shape (..., 3).
+
+        The light is linear between its wavelengths, and summed up with the colour-matching
+        functions of CIE 018:2019 at every whole nanometre and at its own wavelengths.
+
+        Parameters
+        ----------
+        white : Light or Spectrum, optional
+            What has Y = 1, such as the light of the same path without the sample. Without it,
+            the values are 683 lm/W times the integral: of a power in watts, Y is in lumens.
+        observer : {"CIE 1931 2 deg"}, optional
+            The standard observer.
+        outside : {"dark", "nearest"}, optional
+            What the light is beyond its wavelengths: there is none, or, as CIE 15:2018 allows
+            for smooth spectra, as much as at the last one.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Without the axis of the wavelengths.
+
+        Raises
+        ------
+        LightError
+            If the wavelengths are not known or no grid along one axis.
+        ValueFault
+            If the observer is unknown, or white is dark.
+
+        Warns
+        -----
+        ColourWarning
+            If the wavelengths leave out some of 380 .. 780 nm, or are more than 20 nm apart.
+
+        Examples
+        --------
+        >>> grid = np.arange(360, 831) * 1e-9
+        >>> X, Y, Z = Light([[1.0, 0.0, 0.0, 0.0]] * 471, wavelength=grid).to_xyz()
+        >>> print(round(X / (X + Y + Z), 5), round(Y / (X + Y + Z), 5))
+        0.33331 0.33329
+        """
+        from optipath.light.colour.tristimulus import tristimulus  # noqa: PLC0415 - hardly ever
+
+        return tristimulus(self, white, observer, outside)
+
+    def to_srgb(
+        self,
+        white: Any = None,
+        observer: str = "CIE 1931 2 deg",
+        *,
+        outside: str = "dark",
+        adapt: bool = False,
+        out_of_gamut: str = "refuse",
+    ) -> Srgb:
+        """Return the colour of spectral light for a display, by IEC 61966-2-1.
+
+        Parameters
+        ----------
+        white : Light or Spectrum
+            What has Y = 1; see `to_xyz`.
+        observer, outside
+            As `to_xyz` takes them.
+        adapt : bool, optional
+            Whether white becomes the white of the display, D65, by the linear Bradford
+            transform (ICC.1:2022, annex E); otherwise paper in candlelight is orange.
+        out_of_gamut : {"refuse", "clip", "scale", "keep"}, optional
+            What becomes of colours that no display of sRGB shows: an error that says how many
+            and how far, each component cut to 0 .. 1, mixed with grey of the same Y until none
+            is negative and dimmed until none is above 1, or values beyond 0 .. 1.
+
+        Returns
+        -------
+        Srgb
+            Its ``values``, of shape (..., 3), and where the light was ``outside`` of the gamut.
+
+        Raises
+        ------
+        ValueFault
+            If white is not given, or colours are out of gamut and nothing is said of them.
+        LightError
+            As `to_xyz`, which also warns.
+
+        Examples
+        --------
+        >>> grid = np.arange(360, 831) * 1e-9
+        >>> white = Light([[1.0, 0.0, 0.0, 0.0]] * 471, wavelength=grid)
+        >>> (0.2 * white).to_srgb(white, adapt=True).hex
+        '#7c7c7c'
+        """
+        from optipath.light.colour.srgb import srgb_of  # noqa: PLC0415 - hardly ever
+
+        return srgb_of(self, white, (observer, outside), adapt=adapt, out_of_gamut=out_of_gamut)
+
+    def plot(self, kind: str = "ellipse", ax: Any = None, **options: Any) -> Any:
+        r"""Draw the light with Matplotlib.
+
+        Parameters
+        ----------
+        kind : {"ellipse", "poincare", "stokes"}, optional
+            The polarisation ellipse, the point on the Poincaré sphere, or the Stokes vector as
+            bars, as the functions of `optipath.plots` of these names draw them.
+        ax : Axes, optional
+            Where, of three dimensions for ``"poincare"``; a figure of its own by default,
+            ``.figure`` of what is returned.
+        **options
+            What that function takes besides: ``labels`` of an ellipse, ``by`` and ``label`` on the
+            sphere, ``published`` and ``labels`` of bars.
+
+        Returns
+        -------
+        Axes
+
+        Raises
+        ------
+        ParameterError
+            If there is no such kind, it does not take an option, or JAX traces the light.
+        OptipathError
+            If the light, the axes or an option do not fit the picture.
+        MissingExtraError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> op.Light([1.0, 0.0, 1.0, 0.0]).plot().get_title()
+        'linear\nS0 = 1, DoP = 1, AoP = 45°'
+        """
+        if faults := unknown("kind of picture", kind, _KINDS):
+            raise ParameterError(*faults)
+        from optipath.plots import ellipse, poincare, stokes  # noqa: PLC0415 - above light
+
+        draws: Any = {"ellipse": ellipse, "poincare": poincare, "stokes": stokes}
+        draw = draws[kind]
+        known = [name for name in signature(draw).parameters if name not in ("light", "ax")]
+        wrong = [fault for name in options for fault in unknown(f"{kind} option", name, known)]
+        if wrong:
+            raise ParameterError(*wrong)
+        return draw(self, ax, **options)
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether it is, or is made of, ``Light(..., physical=False)``."""
+        return "_measured" in self.__dict__
+
+    @property
+    def noise_floor(self) -> Any:
+        """The noise in the mantissa, of shape (...)."""
+        own = self.__dict__
+        if "_floor" not in own:
+            own["_floor"] = locked(noise_in(self._numbers, own.get("_noise"), self.exponent))
+        return own["_floor"]
+
+    @property
+    def kept_wavelength(self) -> Any:
+        """The wavelengths as they are kept, which nobody has to find for it."""
+        return self.__dict__.get("_wavelength")
+
+    @property
+    def wavelengths_in_doubt(self) -> tuple[str, ...]:
+        """The parameters of a run of which any may be the wavelength of the light."""
+        return getattr(self.kept_wavelength, "in_doubt", ())
+
+    def origin(self, wavelength: Any = ...) -> dict[str, Any]:
+        """Return what light that is made of this one has of it, by the names of `Light.of`."""
+        kept = self.kept_wavelength if wavelength is ... else wavelength
+        return {"measured": self.is_measured, "wavelength": kept}
+
+    def __add__(self, other: object) -> Light:
+        """Return both lights together, incoherently, in the frame of this one.
+
+        Lights whose wavelengths are known to differ are refused.
+        """
+        if not isinstance(other, Light):
+            refuse(f"{shown(other)} is no light to be added")
+        check_broadcast({"light": self.shape, "other light": other.shape})
+        # Frames that are known to be one need not be made.
+        is_one = other._kept_frame("frame") is self._kept_frame("frame")
+        aligned = other if is_one else other.in_frame(self.frame)
+        if is_traced(self.mantissa) or is_traced(aligned.mantissa):
+            one, two = at_least_single(self.stokes), at_least_single(aligned.stokes)
+            total = (one + two).astype(coarser(one, two))
+            return self._like(total, other=aligned)
+        total, power = sum_of(self._numbers, self.exponent, aligned._numbers, aligned.exponent)
+        return self._like(total, power, inheriting((self, aligned)), aligned)
+
+    def __radd__(self, other: object) -> Light:
+        """Begin a sum: 0 and light is light, so that ``sum(lights)`` has one."""
+        if not (isinstance(other, (int, float)) and other == 0):
+            refuse(f"{shown(other)} is no light to be added")
+        return self
+
+    def __mul__(self, factor: Any) -> Light:
+        """Return the light times a number, or times numbers that broadcast over the batch."""
+        return self._times(factor, np.multiply)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: Any) -> Light:
+        """Return the light divided by a number, or by numbers that broadcast over the batch."""
+        return self._times(divisor, np.divide)
+
+    def _times(self, factor: Any, done: Callable[[Any, Any], Any]) -> Light:
+        multiplied = done is np.multiply
+        if isinstance(factor, Light):
+            refuse("light times light has no meaning")
+        factor = factor_of_light(factor, dark=multiplied)
+        check_broadcast({"light": self.shape, "factor": factor.shape})
+        if is_traced(self.mantissa) or is_traced(factor):
+            factor, stokes = factor[..., np.newaxis], at_least_single(self.stokes)
+            product = stokes * factor if multiplied else stokes / factor
+            return self._like(product.astype(coarser(product, stokes)))
+        stokes, exponent, share, power = product_of(self._numbers, self.exponent, factor, done)
+        return self._like(stokes, exponent, self._inherited(share, power))
+
+    def __matmul__(self, other: object) -> NoReturn:
+        """Refuse: what light meets stands before it."""
+        raise LightError("what light meets stands before it; write element @ light")
+
+    def __rmatmul__(self, other: object) -> NoReturn:
+        """Refuse a matrix without frames, a path, a class."""
+        raise LightError(why_refused(other))
+
+    def _refused(self, *_: object) -> NoReturn:
+        """Refuse what would be no light."""
+        refuse("differences, powers and divisors of light are no light")
+
+    __sub__ = __rsub__ = __neg__ = __pow__ = __rtruediv__ = _refused
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        """Add, dim, compare; refuse what would lose the frame."""
+        name = OPERATORS.get(ufunc)
+        if name is not None and method == "__call__" and not options:
+            first, second = inputs
+            if isinstance(first, Light):
+                return getattr(first, f"__{name}__")(second)
+            return getattr(second, f"__r{name}__")(first)
+        if all(kinds.endswith("?") for kinds in ufunc.types if "O" not in kinds):
+            numbers = [np.asarray(i) if isinstance(i, Light) else i for i in inputs]
+            return getattr(ufunc, method)(*numbers, **options)
+        return refuse_call(ufunc.__name__ if method == "__call__" else f"{ufunc.__name__}.{method}")
+
+    def __array_function__(self, function: Any, _: Any, given: Any, options: Any) -> Any:
+        """Compare, join and write numbers; refuse what would mix the components."""
+        if function.__name__ in TAKES_LIGHT:
+            # By NEP 18, what NumPy does without us.
+            return function._implementation(*given, **options)  # noqa: SLF001
+        return refuse_call(function.__name__)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Light):
+            return NotImplemented
+        for light in (self, other):
+            check_known("light == light", light.mantissa)
+        mine, theirs = ((light.mantissa, light.exponent) for light in (self, other))
+        return same_numbers(mine, theirs) and self.frame == other.frame
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return text_of(self._numbers, self.frame, self.exponent)
+
+    def __str__(self) -> str:
+        """Return what `repr` does, with 0 for what is no more than rounding."""
+        numbers, floor = self._numbers, self.noise_floor
+        if is_traced(floor):
+            return repr(self)
+        quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
+        return text_of(quiet, self.frame, self.exponent)
+
+    if not TYPE_CHECKING:  # Else any name would do for who checks types.
+
+        def __getattr__(self, name: str) -> Any:
+            own = self.__dict__
+            if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
+                return super().__getattr__(name)
+            if name == "exponent":
+                own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
+            else:
+                stokes = own["_stokes"]
+                stokes = stacked_components(stokes) if type(stokes) is tuple else stokes
+                own["stokes"] = own["mantissa"] = locked(stokes)
+            return own[name]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What computes the noise stays here.
+        own = super().__getstate__()
+        if "_noise" in own:
+            own["_noise"] = self.noise_floor
+        if "_wavelength" in own:
+            own["_wavelength"] = self.wavelength
+        return own
 
     def _like(
         self, mantissa: Any, exponent: Any = 0, noise: Any = None, other: Any = None
     ) -> Light:
-        frame, origin = self._kept_frame("frame"), self.origin(self._wavelength_with(other))
+        """Return light of other numbers in the frame of this one, with the other one in it."""
+        frame, origin = self._kept_frame("frame"), self.origin(common_wavelength(self, other))
         return Light.of(mantissa, frame, exponent, noise, **origin)
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
@@ -292,22 +863,31 @@ class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
         noise = self._inherited(part=change)
         frame = self._part_of_frame("frame", self.shape, change)
         numbers = each_number(self._numbers, change)
-        origin = self.origin(self._part_of_wavelength(change))
+        origin = self.origin(part_of_wavelength(self, change))
         return Light.of(numbers, frame, exponent, noise, **origin)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Light):
-            return NotImplemented
-        for light in (self, other):
-            check_known("light == light", light.mantissa)
-        mine, theirs = (
-            (light.mantissa, light.exponent)
-            if same(self.exponent, other.exponent)
-            else normalise_exponent(light.mantissa, light.exponent)
-            for light in (self, other)
-        )
-        # What a detector does not read is equal to itself.
-        numbers = np.array_equal(mine[0], theirs[0], equal_nan=True)
-        return numbers and same(mine[1], theirs[1]) and self.frame == other.frame
+    def _inherited(
+        self, factor: Any = 1.0, power: Any = 0, part: Any = None
+    ) -> tuple[Any, ...] | None:
+        """Return what light that is made of this one has of its noise."""
+        if is_traced(self.mantissa):
+            return None
+        return inheriting((self,), factor, power, part=part)
 
-    __hash__ = None  # type: ignore[assignment]
+    @property
+    def _numbers(self) -> Array:
+        """The mantissa, for NumPy unless JAX traces it."""
+        return known(self.mantissa)  # type: ignore[no-any-return]
+
+    def _component(self, place: int) -> Array:
+        component: Array = handed_out(known(self.stokes)[..., place])
+        return component
+
+    def _where_there(self, value: Any, *components: int) -> Array:
+        """Return a value, NaN where light is dark, or has none of some components, for noise."""
+        return where_there(value, self._numbers, self.noise_floor, *components)
+
+    @property
+    def _ellipse(self) -> tuple[Array, Array, Array]:
+        """S1, S2 and S3 over S0, 0 where they are no more than noise."""
+        return ellipse_of(self._numbers, self.noise_floor)

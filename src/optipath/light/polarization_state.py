@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.arrays.jax_values import is_traced, known, namespace
+from optipath.kernels.carriers.structures import turn_linear
+from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from optipath.values.roundings import Array
@@ -73,165 +75,97 @@ def direction(y: Any, x: Any) -> Any:
     return xp.where(angle <= -np.pi, -angle, angle)
 
 
-class PolarizationState:
-    """What can be read off a Stokes vector, whatever its frame is."""
+def shares(stokes: Array) -> Array:
+    """Return the Stokes vector over S0; 0 where that is 0.
 
-    mantissa: Array
+    Shapes: stokes (..., 4); returns (..., 4).
 
-    @property
-    def _numbers(self) -> Array:
-        """The mantissa, for NumPy unless JAX traces it."""
-        return known(self.mantissa)  # type: ignore[no-any-return]
-
-    @property
-    def noise_floor(self) -> Array:
-        """What of the mantissa is noise, of shape (...)."""
-        raise NotImplementedError
-
-    def _where_there(self, value: Any, *components: int) -> Array:
-        """Return a value, NaN where light is dark, or has none of some components, for noise."""
-        stokes, floor = self._numbers, self.noise_floor
-        there = stokes[..., 0] > floor
-        if components:
-            there = there & (length(*(stokes[..., i] for i in components)) > floor)
-        return _array(namespace(stokes).where(there, value, np.nan))
-
-    @property
-    def normalized(self) -> Array:
-        """The Stokes vector over S0, of shape (..., 4), however faint; NaN where it is dark."""
-        stokes = self._numbers
-        there = (stokes[..., 0] > self.noise_floor)[..., np.newaxis]
-        return namespace(stokes).where(there, self._shares, np.nan)  # type: ignore[no-any-return]
-
-    @property
-    def _shares(self) -> Array:
-        """The Stokes vector over S0; 0 where that is 0."""
-        stokes = self._numbers
-        return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
-
-    @property
-    def _polarised(self) -> tuple[Array, Array, Array]:
-        """S1, S2 and S3 over S0."""
-        stokes = self._shares
-        return stokes[..., 1], stokes[..., 2], stokes[..., 3]
-
-    @property
-    def _ellipse(self) -> tuple[Array, Array, Array]:
-        """The same, 0 where they are no more than noise: what has no sign has no angle."""
-        numbers, floor = self._numbers, self.noise_floor
-        if is_traced(numbers):  # A slope is there also at 0.
-            return self._polarised
-        seen = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, self._shares)
-        return seen[..., 1], seen[..., 2], seen[..., 3]
-
-    @property
-    def dop(self) -> Array:
-        """The degree of polarisation, of shape (...), however faint; NaN where it is dark."""
-        return self._where_there(length(*self._polarised))
-
-    @property
-    def dolp(self) -> Array:
-        """The degree of linear polarisation, hypot(S1, S2) / S0, shape (...); NaN where dark."""
-        return self._where_there(length(*self._polarised[:2]))
-
-    @property
-    def docp(self) -> Array:
-        """The signed degree of circular polarisation, S3 / S0, shape (...); NaN where dark."""
-        return self._where_there(self._shares[..., 3])
-
-    @property
-    def aop(self) -> Array:
-        """The angle of polarisation, of shape (...): of the major axis, from x towards y.
-
-        In radians, in (-pi/2, pi/2]; NaN where S1 and S2 are no more than noise, as in
-        circular and in unpolarised light.
-
-        Examples
-        --------
-        >>> from optipath import Light
-        >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
-        0.7854
-        """
-        s1, s2, _ = self._ellipse
-        return self._where_there(0.5 * direction(s2, s1), 1, 2)
-
-    @property
-    def ellipticity(self) -> Array:
-        """The minor axis over the major axis, in [-1, 1], with the sign of S3; shape (...).
-
-        Of the polarised part; 0 where the light is linear, NaN where it is unpolarised. It is
-        tan(asin(S3 / p) / 2) = S3 / (p + hypot(S1, S2)), p the length of (S1, S2, S3), with all
-        the digits that S3 has.
-
-        Examples
-        --------
-        >>> from optipath import Light
-        >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
-        -0.5
-        """
-        s1, s2, s3 = self._ellipse
-        xp, linear = namespace(s1), length(s1, s2)
-        # What is not physical may be infinite, and then is NaN here.
-        with np.errstate(over="ignore", invalid="ignore"):
-            axes = length(linear, s3) + linear
-            return self._where_there(s3 / xp.where(axes == 0.0, 1.0, axes), 1, 2, 3)
-
-    @property
-    def ellipticity_angle(self) -> Array:
-        """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
-        s1, s2, s3 = self._ellipse
-        return self._where_there(0.5 * direction(s3, length(s1, s2)), 1, 2, 3)
-
-    @property
-    def handedness(self) -> Array:
-        """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
-
-        The sign of S3; 0 where S3 is no more than noise, or not read. By IEEE and the IAU: 1 is
-        a field that turns counter-clockwise to who looks at the source, which Hecht, and
-        Born & Wolf (sec. 1.4.2), call left-handed.
-
-        Examples
-        --------
-        A quarter-wave plate whose fast axis is x makes light of +45 degrees right-handed:
-
-        >>> from optipath import Light
-        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
-        >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
-        1
-        """
-        s3, floor = self._numbers[..., 3], self.noise_floor
-        return _array((s3 > floor).astype(int) - (s3 < -floor).astype(int))
-
-    @property
-    def psi(self) -> Array:
-        """The ellipsometric psi of the polarised part, of shape (...), in [0, pi/2].
-
-        tan psi = abs(Ey) / abs(Ex), of partly polarised light those of its polarised part alone;
-        NaN where it has none. Behind a sample that light of +45 degrees has met, with
-        x along s and y along p, psi and `delta` are those of the sample.
-
-        Examples
-        --------
-        >>> from optipath import Light
-        >>> mirror = [[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, -0.8, 0], [0, 0, 0, -0.8]]
-        >>> stokes = np.array(mirror) @ [1.0, 0.0, 1.0, 0.0]
-        >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
-        0.5 3.1416
-        """
-        s1, s2, s3 = self._ellipse
-        return self._where_there(0.5 * direction(length(s2, s3), s1), 1, 2, 3)
-
-    @property
-    def delta(self) -> Array:
-        """The ellipsometric Delta of the polarised part, of shape (...), in (-pi, pi].
-
-        The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
-        field exp(-i w t) of this library has the opposite sign. NaN where Ex or Ey of the
-        polarised part is 0, in light along x, along y, or unpolarised.
-        """
-        _, s2, s3 = self._ellipse
-        return self._where_there(direction(0.0 - s3, s2), 2, 3)
+    Examples
+    --------
+    >>> shares(np.array([2.0, 1.0, 0.0, 0.0]))
+    array([1. , 0.5, 0. , 0. ])
+    """
+    return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
 
 
-def _array(value: Any) -> Array:
-    return namespace(value).asarray(value)  # type: ignore[no-any-return]
+def polarised(stokes: Array) -> tuple[Array, Array, Array]:
+    """Return S1, S2 and S3 over S0.
+
+    Shapes: stokes (..., 4); returns (...).
+
+    Examples
+    --------
+    >>> [part.item() for part in polarised(np.array([2.0, 1.0, 0.0, 0.5]))]
+    [0.5, 0.0, 0.25]
+    """
+    stokes = shares(stokes)
+    return stokes[..., 1], stokes[..., 2], stokes[..., 3]
+
+
+def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
+    """Return the same, 0 where they are no more than noise: what has no sign has no angle.
+
+    Shapes: numbers (..., 4); floor (...); returns (...).
+
+    Examples
+    --------
+    >>> [part.item() for part in ellipse_of(np.array([2.0, 1.0, 1e-9, 0.5]), np.array(1e-8))]
+    [0.5, 0.0, 0.25]
+    """
+    if is_traced(numbers):  # A slope is there also at 0.
+        return polarised(numbers)
+    seen = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, shares(numbers))
+    return seen[..., 1], seen[..., 2], seen[..., 3]
+
+
+def minor_over_major(s1: Array, s2: Array, s3: Array) -> Array:
+    """Return the minor axis over the major axis, S3 / (p + hypot(S1, S2)); 0 of no ellipse.
+
+    Shapes: s1, s2, s3 (...); returns (...).
+
+    Examples
+    --------
+    >>> print(minor_over_major(np.float64(0.3), np.float64(0.0), np.float64(-0.4)))
+    -0.5
+    """
+    xp, linear = namespace(s1), length(s1, s2)
+    # What is not physical may be infinite, and then is NaN here.
+    with np.errstate(over="ignore", invalid="ignore"):
+        axes = length(linear, s3) + linear
+        return s3 / xp.where(axes == 0.0, 1.0, axes)  # type: ignore[no-any-return]
+
+
+def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Array:
+    """Return a value, NaN where light is dark, or has none of some components, for noise.
+
+    Shapes: value (...); stokes (..., 4); floor (...); returns (...).
+
+    Examples
+    --------
+    >>> print(where_there(0.5, np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-16), 1, 2))
+    nan
+    """
+    there = stokes[..., 0] > floor
+    if components:
+        there = there & (length(*(stokes[..., i] for i in components)) > floor)
+    found = namespace(stokes).where(there, value, np.nan)
+    return namespace(found).asarray(found)  # type: ignore[no-any-return]
+
+
+def turned_stokes(stokes: Array, turn: Any) -> Array:
+    """Return Stokes vectors in a frame that is turned.
+
+    Shapes: stokes (..., 4); returns (..., 4).
+
+    Examples
+    --------
+    >>> from optipath.light.frames import Frame
+    >>> quarter = Frame().turn_to(Frame().turned(np.pi / 4))
+    >>> turned_stokes(np.array([1.0, 1.0, 0.0, 0.5]), quarter).round(12)
+    array([ 1. ,  0. , -1. ,  0.5])
+    """
+    xp, (s0, s1, s2, s3) = namespace(stokes), (stokes[..., i] for i in range(4))
+    with np.errstate(over="ignore", invalid="ignore"):
+        parts = (s0, *turn_linear(turn, s1, s2), s3)
+    turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
+    return turned.astype(coarser(turned, stokes), copy=False)  # type: ignore[no-any-return]

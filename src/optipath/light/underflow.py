@@ -6,6 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import ShapeError, shown
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import check_known
+from optipath.values.arrays.read_only import same
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -13,6 +18,8 @@ if TYPE_CHECKING:
 
 UNDERFLOW = 2.0**60
 """How many times the smallest normal number light must be, lest what underflows is seen in it."""
+
+_LARGEST = 2.0**40
 
 
 @np.errstate(under="ignore", over="ignore")
@@ -87,3 +94,37 @@ def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     array([ True, False])
     """
     return np.asarray(intensity < np.finfo(intensity.dtype).tiny * UNDERFLOW)
+
+
+def given_exponent(given: Any) -> Array:
+    """Return the exponent that somebody gives for light, of integers.
+
+    Examples
+    --------
+    >>> given_exponent([-5, 0])
+    array([-5,  0])
+    """
+    check_known("the exponent of a light", given)
+    exponent = as_given("the exponent of a light", given, ShapeError)
+    if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
+        raise ShapeError(
+            f"the exponent of a light must be an integer within -2^40 .. 2^40, not {shown(given)}"
+        )
+    return exponent
+
+
+def same_numbers(one: tuple[Any, Array], two: tuple[Any, Array]) -> bool:
+    """Tell whether two mantissas with their exponents are the same lights.
+
+    Examples
+    --------
+    >>> faint = np.array([0.5, 0.0, 0.0, 0.0])
+    >>> same_numbers((faint, np.array(1)), (2.0 * faint, np.array(0)))
+    True
+    """
+    mine, theirs = (
+        pair if same(one[1], two[1]) else normalise_exponent(*pair) for pair in (one, two)
+    )
+    # What a detector does not read is equal to itself.
+    numbers = np.array_equal(mine[0], theirs[0], equal_nan=True)
+    return numbers and same(mine[1], theirs[1])

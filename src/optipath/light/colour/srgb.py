@@ -15,7 +15,7 @@ from optipath.values.arrays.jax_values import check_known, is_traced, known, nam
 from optipath.values.arrays.read_only import Unchanging, locked, same
 
 if TYPE_CHECKING:
-    from optipath.light.wavelength_on_demand import WavelengthOnDemand
+    from optipath.light.light import Light
     from optipath.values.roundings import Array
 
 FROM_XYZ = np.array(
@@ -101,7 +101,7 @@ class Srgb(Unchanging):
 
 
 def srgb_of(
-    light: WavelengthOnDemand,
+    light: Light,
     white: Any,
     seen: tuple[str, str],
     *,

@@ -10,8 +10,8 @@ import numpy as np
 from optipath.errors import ColourWarning, LightError, ValueFault, shown, unknown
 from optipath.light.colour.observer import LUMENS_PER_WATT, Observer, observer_called
 from optipath.light.integration import spectral_axis, weighted_sum
+from optipath.light.light import Light
 from optipath.light.underflow import times_two_to
-from optipath.light.wavelength_on_demand import WavelengthOnDemand
 from optipath.values.arrays.jax_values import is_traced, known
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.calls_up import calls_up
@@ -29,7 +29,7 @@ _COARSE = 20.0
 _ROUNDING = 1e-6
 
 
-def tristimulus(light: WavelengthOnDemand, white: Any, observer: str, outside: str) -> Array:
+def tristimulus(light: Light, white: Any, observer: str, outside: str) -> Array:
     """Return X, Y and Z of spectral light; see `Light.to_xyz`.
 
     Shape: returns (..., 3).
@@ -52,14 +52,12 @@ def _plain(total: Any, power: Any) -> Any:
     return total if is_traced(total) else times_two_to(total, power)
 
 
-def white_sums(
-    light: WavelengthOnDemand, white: Any, observer: Observer, outside: str
-) -> tuple[Any, Any]:
+def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> tuple[Any, Any]:
     """Return X, Y and Z of what is white, as a mantissa and the exponent of its power of two.
 
     Shape: returns total (..., 3).
     """
-    if isinstance(white, WavelengthOnDemand):
+    if isinstance(white, Light):
         total, power = _sums(white, observer, outside)
     elif isinstance(white, (Spectrum, CurveValue)):
         grid, _ = spectral_axis(light)
@@ -76,7 +74,7 @@ def white_sums(
     return total, power
 
 
-def _sums(light: WavelengthOnDemand, observer: Observer, outside: str) -> tuple[Any, Any]:
+def _sums(light: Light, observer: Observer, outside: str) -> tuple[Any, Any]:
     """Return X, Y and Z as sums, and the exponent of the power of two times these."""
     grid, axis = spectral_axis(light)
     weights = _weights(grid, observer, outside)
@@ -93,7 +91,7 @@ def _weights(grid: Array, observer: Observer, outside: str) -> Array:
     return weights if rises else weights[::-1]
 
 
-def warn_of(light: WavelengthOnDemand, observer: Observer, outside: str) -> None:
+def warn_of(light: Light, observer: Observer, outside: str) -> None:
     """Say what colour loses by wavelengths that are few, or end within what is seen."""
     grid = np.sort(spectral_axis(light)[0]) * NANOMETRES
     first, last = grid[[0, -1]]
