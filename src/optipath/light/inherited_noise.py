@@ -12,12 +12,11 @@ from optipath.values.precision import at_least_single
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.light.light import Light
     from optipath.values.roundings import Array
 
 
 def inheriting(
-    lights: tuple[Light, ...],
+    lights: tuple[Any, ...],
     factor: Any = 1.0,
     power: Any = 0,
     *,
@@ -35,7 +34,7 @@ def inheriting(
 
 
 def inherited_noise(
-    lights: tuple[Light, ...],
+    lights: tuple[Any, ...],
     factor: Any,
     power: Any,
     mixed: bool,  # noqa: FBT001 - called by what is kept of it

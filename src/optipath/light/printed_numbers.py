@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    from optipath.light.light import Light
     from optipath.values.parameters import Parameter
 
 
@@ -34,7 +33,7 @@ class Numbers(NamedTuple):
             return parameter.text(value)
         return f"{in_unit(value, parameter.unit):.{self.digits}g} {parameter.unit}".strip()
 
-    def stokes(self, light: Light, index: tuple[int, ...] = ()) -> list[str]:
+    def stokes(self, light: Any, index: tuple[int, ...] = ()) -> list[str]:
         """Return the four components of a light."""
         noise = float(light.noise[index])
         return [self.text(component, noise) for component in light.stokes[index].tolist()]

@@ -15,14 +15,13 @@ from optipath.values.wavelength import Wavelength
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.light.light import Light
     from optipath.values.roundings import Array
 
 _ROUNDING = 2.0 * float(np.finfo(np.float32).eps)
 """By how much, as a share, wavelengths differ that are one, given in single precision."""
 
 
-def common_wavelength(light: Light, other: Light | None) -> Any:
+def common_wavelength(light: Any, other: Any) -> Any:
     """Return what light has that is made of this, and of another one if there is one."""
     mine = light.kept_wavelength
     if other is None or mine is None or mine is other.kept_wavelength:
@@ -40,7 +39,7 @@ def common_wavelength(light: Light, other: Light | None) -> Any:
     return light.wavelength
 
 
-def part_of_wavelength(light: Light, change: Callable[[Any], Any]) -> Any:
+def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
     """Return what returns the wavelengths of a part of the batch; None where there are none."""
     kept, batch = light.kept_wavelength, light.shape
     if kept is None or light.wavelengths_in_doubt:
