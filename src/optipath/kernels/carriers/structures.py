@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.carriers import jones_actions, powers_actions
 from optipath.kernels.carriers.carried import (
     Carried,
     all_four,
@@ -18,6 +17,20 @@ from optipath.kernels.carriers.carried import (
     carry,
     leaving,
     stokes_of,
+)
+from optipath.kernels.carriers.jones_actions import (
+    JonesAction,
+    block_jones,
+    rotation_jones,
+    scale_jones,
+)
+from optipath.kernels.carriers.powers_actions import (
+    PowersAction,
+    block_powers,
+    fraction_powers,
+    full_powers,
+    rotation_powers,
+    scale_powers,
 )
 from optipath.kernels.numbers.primitives import made
 from optipath.kernels.numbers.vanishing import not_below_rounding, products
@@ -38,8 +51,8 @@ class Structure:
     identity: tuple[float, ...]
     action: Callable[[Primitives], Action]
     rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
-    powers: Callable[[Primitives], powers_actions.PowersAction]
-    jones: Callable[[Primitives], jones_actions.JonesAction] | None = None
+    powers: Callable[[Primitives], PowersAction]
+    jones: Callable[[Primitives], JonesAction] | None = None
     unpolarising: Callable[[Numbers], Numbers] | None = None
 
     def made_for(self, primitives: Primitives) -> Action:
@@ -47,15 +60,15 @@ class Structure:
         action: Action = made(self.action, primitives)
         return action
 
-    def jones_for(self, primitives: Primitives) -> jones_actions.JonesAction:
+    def jones_for(self, primitives: Primitives) -> JonesAction:
         """Return the action on Jones columns, made once and kept."""
         assert self.jones is not None  # noqa: S101 - the composer refuses what may depolarise
-        action: jones_actions.JonesAction = made(self.jones, primitives)
+        action: JonesAction = made(self.jones, primitives)
         return action
 
-    def powers_for(self, primitives: Primitives) -> powers_actions.PowersAction:
+    def powers_for(self, primitives: Primitives) -> PowersAction:
         """Return the action on intensities along x and y, made once and kept."""
-        action: powers_actions.PowersAction = made(self.powers, primitives)
+        action: PowersAction = made(self.powers, primitives)
         return action
 
 
@@ -173,9 +186,7 @@ def _full_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     return m[0:4], m[4:8], m[8:12], m[12:16]
 
 
-SCALE = Structure(
-    "scale", (1.0,), _scale, _scale_rows, powers_actions.scale_powers, jones_actions.scale_jones
-)
+SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_powers, scale_jones)
 """One number t: t times the unit matrix."""
 
 ROTATION = Structure(
@@ -183,8 +194,8 @@ ROTATION = Structure(
     (1.0, 0.0),
     _rotation,
     _rotation_rows,
-    powers_actions.rotation_powers,
-    jones_actions.rotation_jones,
+    rotation_powers,
+    rotation_jones,
 )
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
@@ -193,8 +204,8 @@ BLOCK = Structure(
     (1.0, 1.0, 0.0, 1.0, 0.0),
     _block,
     _block_rows,
-    powers_actions.block_powers,
-    jones_actions.block_jones,
+    block_powers,
+    block_jones,
     grey_block,
 )
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
@@ -206,9 +217,7 @@ other two have lost.
 DEPOLARIZING_BLOCK = replace(BLOCK, name="depolarising diattenuator", jones=None)
 """The same with C and S of any size that light allows: incoherent sums of such matrices."""
 
-POWERS = Structure(
-    "powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, powers_actions.fraction_powers
-)
+POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, fraction_powers)
 """(Fs d, Fp d, d): what acts along x and y over one denominator, and nothing of the phase."""
 
 FULL = Structure(
@@ -216,7 +225,7 @@ FULL = Structure(
     tuple(float(i % 5 == 0) for i in range(16)),
     _full,
     _full_rows,
-    powers_actions.full_powers,
+    full_powers,
     unpolarising=_grey_full,
 )
 """Sixteen numbers, row by row."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from optipath.kernels.numbers import double_double_series as series
 from optipath.kernels.numbers.double_double import DoubleDouble, high_and_low
+from optipath.kernels.numbers.double_double_series import angle, cosine, exponential, sine
 from optipath.kernels.numbers.primitives import Primitives
 
 
@@ -44,10 +44,10 @@ def twice(xp: Primitives) -> Primitives:
         absolute=lambda number: where(number < 0.0, -number, number),
         maximum=lambda one, other: where(one < other, other, one),
         minimum=lambda one, other: where(other < one, other, one),
-        sin=lambda angle: series.sine(longer(angle)),
-        cos=lambda angle: series.cosine(longer(angle)),
-        exp=lambda number: series.exponential(longer(number)),
-        atan2=lambda y, x: series.angle(longer(y), longer(x)),
+        sin=lambda angle: sine(longer(angle)),
+        cos=lambda angle: cosine(longer(angle)),
+        exp=lambda number: exponential(longer(number)),
+        atan2=lambda y, x: angle(longer(y), longer(x)),
         scaling=lambda number: xp.scaling(number.high),
         ldexp=ldexp,
         two_product=two_product,
