@@ -13,8 +13,8 @@ import pytest
 
 OF_JAX = [
     "src/optipath/engines/jax_path.py",
-    "src/optipath/sweeps/uncertainty/slopes_by_jax.py",
-    "src/optipath/values/arrays/jax_primitives.py",
+    "src/optipath/sweeps/jax_slopes.py",
+    "src/optipath/values/jax_primitives.py",
 ]
 
 # User code that is type-checked, and run by a test: not by every worker that looks for examples.

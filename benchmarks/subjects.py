@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.automatic import is_installed
+from optipath.engines.choice import is_installed
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}
 ENGINES = tuple(engine for engine in ("numpy", "numba", "jax") if is_installed(engine))

@@ -13,10 +13,10 @@ import numpy as np
 from click import echo
 
 import optipath as op
-from optipath.sweeps.axes.read_axes import grid_of
-from optipath.sweeps.chunked.block_light import run_block
-from optipath.sweeps.chunked.plan_recipe import PlanRecipe
-from optipath.sweeps.labels.light_quantities import QUANTITIES
+from optipath.sweeps.axes import grid_of
+from optipath.sweeps.chunks import run_block
+from optipath.sweeps.labels import QUANTITIES
+from optipath.sweeps.plan_recipe import PlanRecipe
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -3,7 +3,7 @@
 import pytest
 
 import optipath as op
-from optipath.kernels.catalogue import METHODS
+from optipath.kernels.catalog import METHODS
 from subjects import ENGINES, METAL, angles, assignment, finished, long
 
 COUNT = 100_000

@@ -13,9 +13,9 @@ from threading import Thread
 
 from playwright.sync_api import sync_playwright
 
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
-from optipath.explorer.page_server import PageServer
+from optipath.explorer.answers import PageAnswers
+from optipath.explorer.paths import ExploredPresets
+from optipath.explorer.server import PageServer
 
 STATE = "preset=npgr026&case=8"
 SIZE = {"width": 1440, "height": 1500}

@@ -19,7 +19,7 @@ import numpy as np
 
 import optipath as op
 from optipath.surfaces import Sensor
-from optipath.values.written_files import write_file
+from optipath.values.files import write_file
 
 SAMPLE, WAVELENGTH = "wang-2017-figures-7-9", "670 nm"
 PHOTONS = 1 << 24

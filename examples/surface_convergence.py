@@ -21,8 +21,8 @@ import numpy as np
 
 import optipath as op
 from optipath.surfaces import HeightField, energy
-from optipath.surfaces.fields.random_waves import RandomWaves
-from optipath.values.written_files import write_file
+from optipath.surfaces.random_field import RandomWaves
+from optipath.values.files import write_file
 
 SHARES = "R_s", "R_m", "T_s", "T_m", "lost", "scalar.R_m", "scalar.T_m"
 PHOTONS = 3 * 16_384

@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import optipath as op
-from optipath.values.written_files import write_file
+from optipath.values.files import write_file
 
 # n and k at 582 nm: the metals by Johnson & Christy (Phys. Rev. B 6, 4370, 1972, and 9, 5056,
 # 1974), glass as N-BK7.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.automatic import is_installed
+from optipath.engines.choice import is_installed
 from tables import slow_except
 
 ENGINES = [engine for engine in ("numpy", "numba", "jax") if is_installed(engine)]

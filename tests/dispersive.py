@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 import optipath as op
-from optipath.values.curves.curve import Curve
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curve import Curve
+from optipath.values.curve_value import curve_values
 
 SHORT, LONG = 4e-7, 7e-7
 GRID = np.array([4e-7, 4.6e-7, 5.5e-7, 7e-7])

@@ -18,11 +18,10 @@ from pathlib import Path
 
 import optipath as op
 from optipath.cli import main
-from optipath.errors import OptipathError
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
-from optipath.explorer.page_server import PageServer
-from optipath.extras import EXTRAS
+from optipath.errors import EXTRAS, OptipathError
+from optipath.explorer.answers import PageAnswers
+from optipath.explorer.paths import ExploredPresets
+from optipath.explorer.server import PageServer
 
 COMMANDS = """
 --help

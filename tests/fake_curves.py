@@ -1,8 +1,8 @@
 """Curves with a closed form, for tests."""
 
-from optipath.values.curves.curve import Curve
-from optipath.values.curves.curve_value import curve_values
-from optipath.values.domains.quantities import REAL
+from optipath.materials.quantities import REAL
+from optipath.values.curve import Curve
+from optipath.values.curve_value import curve_values
 from optipath.values.wavelength import Wavelength
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from optipath.errors import ValueFault
-from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
+from optipath.sweeps.jobs import KeptArray, WholeArray
 
 ROWS, COLUMNS = 4, 3
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 import optipath as op
-from optipath.values.curves.curve import Curve
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curve import Curve
+from optipath.values.curve_value import curve_values
 from random_paths import Draw
 
 

@@ -14,8 +14,7 @@ import pytest
 import optipath as op
 from failing import fails
 from optipath import errors
-from optipath.errors import OptipathError, did_you_mean, printable, shown
-from optipath.spelling import closest, few_suggestions
+from optipath.errors import OptipathError, closest, did_you_mean, few_suggestions, printable, shown
 from tables import rows
 
 KINDS = [k for k in vars(errors).values() if inspect.isclass(k) and issubclass(k, BaseException)]

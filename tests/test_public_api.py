@@ -181,7 +181,7 @@ def test_names_have_the_homes_that_type_checkers_see():
     own = Parts.of(SOURCE / "__init__.py").own
     told = {node.module: [alias.name for alias in node.names] for node in own}
     homes = {f"optipath.{home}": list(names) for home, names in op._HOMES.items()}
-    at_once = ("optipath.errors", "optipath.lazy_names")
+    at_once = ("optipath.errors", "optipath.errors")
     assert told == homes | {module: told[module] for module in at_once}
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import contenders
 from exact import Exact
-from optipath.lab.bench.timing import race
+from optipath.lab.bench import race
 from work import MATERIALS, random_angles
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 import optipath as op
-from optipath.lab.accuracy.path_reference import exact_batch
+from optipath.lab.path_reference import exact_batch
 
 SAMPLES = 200
 

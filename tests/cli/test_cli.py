@@ -10,9 +10,9 @@ import pytest
 
 import optipath as op
 from optipath.cli import main
-from optipath.cli.plot_kinds import KINDS
-from optipath.lab.accuracy.regions import REGIONS
-from optipath.lab.accuracy.tables import SEARCHED
+from optipath.cli.plot_command import KINDS
+from optipath.lab.regions import REGIONS
+from optipath.lab.tables import SEARCHED
 from tables import rows
 
 
@@ -202,7 +202,7 @@ def test_accuracy_prints_its_tables_and_writes_them_into_their_place(run, tmp_pa
     assert "| exactly 90 deg | 0 | 0 | 0 |" in written("accuracy --samples 1", *places)
     assert "exactly 90 deg" in run("accuracy --samples 1")[1]
     # Worst cases that are searched for have a place of their own.
-    monkeypatch.setattr("optipath.lab.accuracy.tables.REGIONS", REGIONS[:1])
+    monkeypatch.setattr("optipath.lab.tables.REGIONS", REGIONS[:1])
     text = written("accuracy --search 1", *SEARCHED)
     assert "Worst cases found of compensated, float64" in text
     assert text.count("| generic |") == 3

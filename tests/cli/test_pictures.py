@@ -12,10 +12,9 @@ import pytest
 
 import optipath as op
 from optipath.cli.chosen import Chosen
-from optipath.cli.plot_kinds import KINDS, drawn
-from optipath.cli.plot_request import request_of
-from optipath.lab.accuracy import chart, critical_chart
-from optipath.values.axis_texts import AxisValues
+from optipath.cli.plot_command import KINDS, drawn, request_of
+from optipath.lab import chart, critical_chart
+from optipath.values.text import AxisValues
 from pictures import faults_of, texts_of
 from tables import slow
 

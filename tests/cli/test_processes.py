@@ -20,7 +20,7 @@ import pytest
 
 import optipath as op
 from optipath.cli import explore_command
-from optipath.explorer.page_server import PageServer
+from optipath.explorer.server import PageServer
 from tables import slow
 
 START = [sys.executable, "-m", "optipath"]
@@ -107,8 +107,8 @@ def test_a_script_keeps_its_own_way_with_interrupts_and_the_explorer_needs_no_ex
     code = "import pathlib, runpy; runpy.run_path(pathlib.Path('script.py'))"  # As argv has it.
     assert done([sys.executable, "-c", code]) == (0, "1.0\ndefault_int_handler\n", "")
     code = """import sys; from optipath.cli import explore_command
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
+from optipath.explorer.paths import ExploredPresets
+from optipath.explorer.answers import PageAnswers
 wanted = {"preset": "npgr026", "want": ["scene", "energy", "explanation"]}
 PageAnswers(ExploredPresets()).trace(wanted)
 print({"matplotlib", "xarray", "pandas", "numba", "jax", "scipy"} & {*sys.modules})

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.cli.printed_energy import measured
-from optipath.lab.published import reproduction
-from optipath.surfaces.energies.energy_run import EnergyRun
-from optipath.surfaces.walk import walk_code
+from optipath.cli.surface_output import measured
+from optipath.surfaces import reproduction
+from optipath.surfaces.energy_shares import EnergyRun
+from optipath.surfaces.walk import code as walk_code
 from tables import rows
 
 pytest.importorskip("numba")
@@ -168,7 +168,7 @@ def test_an_interrupt_tells_what_is_done_and_keeps_directions_and_measurements(r
         return out
 
     with monkeypatch.context() as patch:
-        patch.setattr("optipath.cli.photon_bar.photon_bar", bar)
+        patch.setattr("optipath.cli.progress.photon_bar", bar)
         out = interrupted("surface flat.toml --incidence 60")
         assert "32,768 photons on one surface" in out
         assert "; interrupted, 1,000,000 were wanted" in out

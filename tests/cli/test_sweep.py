@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.sweeps.labels.table_texts import regions
+from optipath.sweeps.labels import regions
 
 ZARR = "sweep malus --angle 0:90:10 --out a.zarr --scheduler synchronous --chunks"
 KEPT = "2 of 4 blocks are in a.zarr"
@@ -102,7 +102,7 @@ def test_blocks_of_a_store_that_are_whole_are_kept_and_damaged_ones_computed_ane
 
 def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(run, monkeypatch):
     pytest.importorskip("xarray")
-    from optipath.sweeps.kept.sweep_block import SweepBlock  # noqa: PLC0415 - an extra
+    from optipath.sweeps.stored import SweepBlock  # noqa: PLC0415 - an extra
 
     def interrupted_at(count):
         def computed(job, number):
@@ -132,7 +132,7 @@ def test_nothing_is_overwritten_and_no_table_there_in_part(run, refused, tmp_pat
         (tmp_path / name).unlink()
         assert not [*tmp_path.iterdir()]
     broken = Mock(side_effect=KeyboardInterrupt)
-    monkeypatch.setattr("optipath.cli.sweep_files.table_columns", broken)
+    monkeypatch.setattr("optipath.cli.sweep_command.table_columns", broken)
     assert run("sweep malus --angle 0:90:3 --out a.csv")[0] == 130
     assert not [*tmp_path.iterdir()]
 

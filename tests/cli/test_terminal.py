@@ -9,7 +9,7 @@ import pytest
 
 import optipath as op
 from optipath.engines.code_cache import CodeCache
-from optipath.lab.bench.timing import duration
+from optipath.lab.bench import duration
 from tables import rows, slow, slow_except
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.composer.travel import cycles, stretches
-from optipath.values.made import checked_later
+from optipath.composer.wiring import cycles, stretches
+from optipath.values.use import checked_later
 from paths import chain
 from tables import rows
 from wired import wired

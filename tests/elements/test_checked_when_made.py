@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.elements.vertices.vertex_domain import VerticesDomain
+from optipath.elements.vertex_chain import VerticesDomain
 from paths import chain
 from tables import rows
 from wired import read, read_back

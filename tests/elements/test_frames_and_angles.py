@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.elements.world_angle import world_angles
+from optipath.elements.boundary import world_angles
 from tables import rows
 from wired import read_back
 

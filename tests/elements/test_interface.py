@@ -8,7 +8,7 @@ from mpmath import mp
 
 import optipath as op
 from chains import by_engine
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.path_reference import exact_lights
 from tables import rows, slow
 from wired import read_back, wired
 

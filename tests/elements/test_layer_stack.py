@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
+from optipath.lab.path_reference import exact_lights, exact_stokes
 from tables import rows
 from wired import read_back, wired
 

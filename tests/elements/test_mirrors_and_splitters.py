@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 
 import optipath as op
 from chains import by_engine
-from optipath.kernels.numbers.double_double import DoubleDouble
-from optipath.kernels.numbers.primitives import NUMPY
-from optipath.kernels.numbers.twice import twice
+from optipath.kernels.double_double import DoubleDouble, twice
+from optipath.kernels.primitives import NUMPY
 from paths import chain
 from tables import rows
 from wired import read, wired

@@ -12,9 +12,9 @@ import pytest
 
 import chains
 import optipath as op
-from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import FULL
-from optipath.kernels.numbers.primitives import Primitives
+from optipath.kernels.kernel import Kernel
+from optipath.kernels.primitives import Primitives
 from paths import chain
 from tables import rows, slow_except
 

@@ -7,9 +7,9 @@ import pytest
 
 import optipath as op
 from chains import ENGINES
-from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.structures import SCALE
-from optipath.kernels.numbers.primitives import FLOAT
+from optipath.kernels.kernel import Kernel
+from optipath.kernels.primitives import FLOAT
 from tables import rows
 
 

@@ -13,8 +13,8 @@ from chains import ENGINES, by_engine
 from dispersive import GRID as PLACES
 from dispersive import line, on_line
 from optipath.elements.known_elements import STANDARD
-from optipath.lab.accuracy.path_reference import exact_stokes
-from optipath.values.spectra.grid_bins import grid_widths
+from optipath.lab.path_reference import exact_stokes
+from optipath.materials.illuminants import grid_widths
 from tables import rows, slow
 from wired import wired
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.elements.vertices.event_fits import EventFits
-from optipath.elements.vertices.vertex_domain import legs_fit
-from optipath.kernels.catalogue import EVENT_AT_VERTEX
-from optipath.kernels.geometry.events import Event
-from optipath.kernels.numbers.primitives import NUMPY
-from optipath.values.domains.indices import LIT_INDEX, OUTSIDE
-from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.elements.vertex_chain import legs_fit
+from optipath.elements.vertex_place import EventFits
+from optipath.kernels.catalog import EVENT_AT_VERTEX
+from optipath.kernels.primitives import NUMPY
+from optipath.kernels.vertex_chain import Event
+from optipath.materials.index_domains import LIT_INDEX, OUTSIDE
+from optipath.values.wavelength import WAVELENGTH
 from paths import chain
 from tables import rows
 from wired import wired

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.automatic import is_installed
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.engines.choice import is_installed
+from optipath.lab.path_reference import exact_lights
 from paths import chain
 from tables import rows, slow, slow_except
 

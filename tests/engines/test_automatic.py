@@ -4,17 +4,16 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath import extras
+from optipath import errors as extras
 from optipath.composer import composer
-from optipath.engines import automatic
-from optipath.engines.automatic import FLOATS, HANDFUL, NUMPY_STEPS, EngineChoice
+from optipath.engines import choice as automatic
+from optipath.engines.choice import FLOATS, HANDFUL, NUMPY_STEPS, REGISTRY, EngineChoice
 from optipath.engines.engine import Engine
 from optipath.engines.float_engine import FLOAT_ENGINE
-from optipath.engines.formulas.formula import Formula
-from optipath.engines.formulas.recorder import Recorder
-from optipath.engines.known_engines import REGISTRY
+from optipath.engines.formula import Formula
 from optipath.engines.numpy_engine import NumpyEngine
-from optipath.plan.running import shared
+from optipath.engines.symbols import Recorder
+from optipath.plan import runner as shared
 
 
 class Paths:

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from optipath.engines import cache_folder, code_cache, code_key
+from optipath.engines import code_cache
+from optipath.engines import code_cache as cache_folder
+from optipath.engines import code_cache as code_key
 from optipath.engines.code_cache import CodeCache
 from optipath.errors import CacheError
 from tables import rows

@@ -10,8 +10,8 @@ import pytest
 
 import optipath as op
 from optipath.engines.code_cache import CODE
-from optipath.lab.accuracy.path_reference import exact_lights
-from optipath.lab.bench.random_values import random_values
+from optipath.lab.bench import random_values
+from optipath.lab.path_reference import exact_lights
 from paths import chain
 from tables import rows, slow, slow_except
 

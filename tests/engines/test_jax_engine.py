@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.bench.random_values import random_values
+from optipath.lab.bench import random_values
 from paths import chain
 from slabs import slab
 from tables import slow, slow_except

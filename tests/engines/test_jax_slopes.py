@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.kernels.catalogue import METHODS, REFLECTION, TRANSMISSION
-from optipath.lab.accuracy.boundary_reference import boundary, mueller_numbers, powers, stack
-from optipath.lab.accuracy.many_digits import cos_sin, exact_angle
+from optipath.kernels.catalog import METHODS, REFLECTION, TRANSMISSION
+from optipath.lab.boundary_reference import boundary, mueller_numbers, powers, stack
+from optipath.lab.many_digits import cos_sin, exact_angle
 from tables import rows, slow_except
 
 jax = pytest.importorskip("jax")
-sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
+sloped = pytest.importorskip("optipath.values.jax_primitives").sloped
 
 pytestmark = pytest.mark.usefixtures("jax_once")
 LIGHT = (1.0, 0.3, 0.5, -0.4)

@@ -10,16 +10,17 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.formulas.path_formula import lights_formula
-from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.engines.path_formula import lights_formula
+from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.values.operands import MANY
 from paths import chain
 from tables import rows
 
 numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
-from optipath.engines import code_key, machine_code  # noqa: E402 - needs numba
-from optipath.engines.array_address import address  # noqa: E402
+from optipath.engines import code_cache as code_key  # noqa: E402 - needs numba
+from optipath.engines import machine_code  # noqa: E402
 from optipath.engines.code_cache import CodeCache  # noqa: E402
+from optipath.engines.engine import address  # noqa: E402
 from optipath.engines.machine_code import MachineCode, assembly, compiled  # noqa: E402
 from optipath.engines.numba_engine import source  # noqa: E402
 

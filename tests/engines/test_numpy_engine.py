@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.engines.step_by_step import StepByStep
-from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.engines.jax_path import StepByStep
+from optipath.kernels.carriers.carrier import MatrixCarrier
 from optipath.kernels.carriers.structures import BLOCK
-from optipath.kernels.numbers.primitives import FLOAT
+from optipath.kernels.primitives import FLOAT
 from paths import chain
 from tables import rows, slow
 

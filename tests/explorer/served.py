@@ -6,9 +6,9 @@ from contextlib import contextmanager, suppress
 from http.client import HTTPConnection
 from threading import Thread
 
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
-from optipath.explorer.page_server import PageServer
+from optipath.explorer.answers import PageAnswers
+from optipath.explorer.paths import ExploredPresets
+from optipath.explorer.server import PageServer
 
 
 @contextmanager

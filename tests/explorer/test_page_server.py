@@ -10,11 +10,10 @@ import pytest
 
 from explorer.served import asked, head_of, page_server, posted, raw
 from optipath.errors import OptipathError
-from optipath.explorer import page_handler
-from optipath.explorer import page_server as page_servers
-from optipath.explorer.asked_state import AskedCurve, asked_state
-from optipath.explorer.page_server import HOST
-from optipath.explorer.strict_json import read_json
+from optipath.explorer import server as page_handler
+from optipath.explorer import server as page_servers
+from optipath.explorer.server import HOST, read_json
+from optipath.explorer.state import AskedCurve, asked_state
 from tables import rows, slow
 
 ARABIC_TWO = "\u0662".encode().decode("latin-1")

@@ -12,10 +12,10 @@ import pytest
 import optipath as op
 from optipath.cli import main
 from optipath.errors import OptipathError
-from optipath.explorer.explored_presets import ExploredPresets
-from optipath.explorer.light_as_json import end_as_json
-from optipath.explorer.page_answers import PageAnswers
-from optipath.light.printed_numbers import Numbers
+from optipath.explorer.answers import PageAnswers
+from optipath.explorer.as_json import end_as_json
+from optipath.explorer.paths import ExploredPresets
+from optipath.light.printed import Numbers
 from tables import rows, slow
 
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"]}

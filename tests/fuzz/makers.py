@@ -12,7 +12,7 @@ from tests.random_paths import Draw
 
 import optipath as op
 from optipath.cli import main
-from optipath.elements.registry import KINDS
+from optipath.elements.coupling import KINDS
 
 _ELEMENTS = sorted(
     {made for made in KINDS.values() if made.__module__.startswith("optipath.")},

@@ -9,28 +9,29 @@ import pytest
 
 import optipath as op
 from charts import texts_over_marks
-from optipath.cli.chart_options import NEAR
+from optipath.cli.chart_command import NEAR
 from optipath.engines.numpy_engine import NumpyEngine
-from optipath.kernels.catalogue import METHODS, REFLECTION
-from optipath.lab.accuracy import chart as chart_module
-from optipath.lab.accuracy import critical_chart as module
-from optipath.lab.accuracy.chart import interface_chart, path_chart
-from optipath.lab.accuracy.chart_effort import FULL, QUICK, Effort, expected
-from optipath.lab.accuracy.chart_file import KINDS, chart_text, read_chart
-from optipath.lab.accuracy.contenders import contenders
-from optipath.lab.accuracy.critical_chart import critical_chart
-from optipath.lab.accuracy.critical_places import PLACES
-from optipath.lab.accuracy.error_measures import Errors
-from optipath.lab.accuracy.interface_errors import interface_errors
-from optipath.lab.accuracy.many_paths import many_paths
-from optipath.lab.accuracy.path_errors import AS_GIVEN, path_errors, trials
-from optipath.lab.accuracy.peer_times import peer_times
-from optipath.lab.accuracy.region_path import in_region
-from optipath.lab.accuracy.regions import REGIONS
-from optipath.lab.accuracy.slow_operations import kernel_operations, slow_operations
-from optipath.lab.bench import report
-from optipath.lab.bench.report import bench
-from optipath.lab.bench.timing import Timing
+from optipath.kernels.catalog import METHODS, REFLECTION
+from optipath.lab import bench as report
+from optipath.lab import chart as chart_module
+from optipath.lab import critical_chart as module
+from optipath.lab.bench import Timing, bench
+from optipath.lab.chart import (
+    FULL,
+    QUICK,
+    Effort,
+    expected,
+    interface_chart,
+    kernel_operations,
+    many_paths,
+    path_chart,
+    slow_operations,
+)
+from optipath.lab.chart_file import KINDS, chart_text, contenders, read_chart
+from optipath.lab.critical_chart import critical_chart
+from optipath.lab.errors import AS_GIVEN, Errors, interface_errors, path_errors, trials
+from optipath.lab.peer_times import peer_times
+from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
 from pictures import faults_of, texts_of
 from tables import rows, slow, slow_except

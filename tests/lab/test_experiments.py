@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.published.experiment import Experiment, Measurement, Walks
-from optipath.lab.published.experiment_files import experiment_names, load_experiment
-from optipath.lab.published.measured_quantities import MEASURES
-from optipath.lab.published.reproduction import reproduce
+from optipath.surfaces.experiment_files import experiment_names, load_experiment
+from optipath.surfaces.published_experiment import Experiment, Measurement, Walks
+from optipath.surfaces.reproduction import MEASURES, reproduce
 from tables import rows
 
 AT_60, AT_80 = Walks("60 deg", (), None), Walks("80 deg", (), None)

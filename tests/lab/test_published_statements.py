@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.published.facet_comparison import model_excess, model_of, model_off
+from optipath.surfaces.reproduction import model_excess, model_of, model_off
 from tables import rows, slow, slow_except
 
 LIGHT = "420 nm", "540 nm", "660 nm"

@@ -15,15 +15,14 @@ import pytest
 import optipath as op
 from chains import MATERIALS, random_chains
 from optipath.elements.coupling import Coupling
-from optipath.lab.accuracy.element_reference import mueller
-from optipath.lab.accuracy.error_measures import errors
-from optipath.lab.accuracy.exact_values import Reader
-from optipath.lab.accuracy.mueller_table import mueller_table
-from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
-from optipath.lab.accuracy.reference import reflection, transmission
-from optipath.lab.accuracy.regions import REGIONS
-from optipath.lab.accuracy.tables import BEGIN, END, SEARCHED, put_tables, tables
-from optipath.lab.accuracy.worst_cases import worst
+from optipath.lab.boundary_reference import reflection, transmission
+from optipath.lab.element_reference import mueller
+from optipath.lab.errors import errors
+from optipath.lab.many_digits import Reader
+from optipath.lab.path_reference import exact_batch, exact_lights, exact_stokes
+from optipath.lab.regions import REGIONS
+from optipath.lab.step_reference import mueller_table
+from optipath.lab.tables import BEGIN, END, SEARCHED, put_tables, tables, worst
 from optipath.light.conventions import CONVENTIONS
 from paths import chain
 from published import npgr026

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.path_reference import exact_lights
 from paths import chain
 from tables import rows
 

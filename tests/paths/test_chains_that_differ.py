@@ -7,7 +7,7 @@ import optipath as op
 from batches_of_chains import quickly, random_batch
 from chains import ENGINES, MATERIALS, by_engine, random_chains
 from histories import coherency, stokes_in
-from optipath.lab.accuracy.path_reference import exact_batch
+from optipath.lab.path_reference import exact_batch
 from tables import rows, slow
 from wired import read_back
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.paths.energy_along import energy_along
-from optipath.paths.lights_along import lights_along
+from optipath.paths.energy import energy_along, lights_along
 from random_paths import Draw
 from tables import rows, slow
 

@@ -10,7 +10,7 @@ import pytest
 import optipath as op
 from batches_of_chains import quickly
 from chains import ENGINES
-from optipath.lab.accuracy.path_reference import exact_stokes
+from optipath.lab.path_reference import exact_stokes
 from optipath.paths.drawing import draw
 from tables import rows, slow
 from wired import read_back, wired

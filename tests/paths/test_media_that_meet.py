@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from chains import ENGINES
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.path_reference import exact_lights
 from tables import rows, slow_except
 from wired import read_back, wired
 

@@ -13,7 +13,7 @@ import pytest
 
 import optipath as op
 from optipath.cli.command import main
-from optipath.paths.link_turns import are_alike
+from optipath.paths.joining import are_alike
 from tables import rows
 from wired import read, read_back, wired
 

@@ -26,9 +26,9 @@ from histories import (
     random_history,
     stokes_in,
 )
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.path_reference import exact_lights
 from optipath.paths.drawing import draw
-from optipath.values.made import checked_later
+from optipath.values.use import checked_later
 from tables import rows, slow
 from wired import read_back
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels.catalogue import METHODS
+from optipath.kernels.catalog import METHODS
 from paths import chain
 from tables import rows, slow_except
 from wired import wired

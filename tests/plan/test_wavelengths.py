@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curve_value import curve_values
 from spectral_paths import Ramps, wavelengths
 from tables import rows
 

@@ -6,10 +6,10 @@ import pytest
 import optipath as op
 from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve, quantity_map, reflection
-from optipath.plots.curves.drawn_quantity import drawn_quantities, drawn_quantity
-from optipath.plots.curves.marked_angles import marked_angles, reflected
-from optipath.plots.curves.open_at_jumps import open_at_jumps
+from optipath.plots.drawn_curves import open_at_jumps
 from optipath.plots.fine_steps import START, fine_steps
+from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
+from optipath.plots.reflection_curves import marked_angles, reflected
 from pictures import faults_of, texts_of
 from tables import rows
 
@@ -242,7 +242,7 @@ def test_places_without_the_quantity_or_that_the_path_refuses_are_grey(monkeypat
     assert image(ax).get_array().mask.any()
     (bar,) = [side for side in ax.figure.axes if side is not ax]
     assert bar.get_ylabel().endswith("(grey: none)")
-    monkeypatch.setattr("optipath.plots.curves.quantity_map._COUNT", 13)
+    monkeypatch.setattr("optipath.plots.parameter_curves._COUNT", 13)
     # No dye is stronger than the mean absorption.
     path = op.load_preset("dichroic-sheet")
     numbers = image(quantity_map(path, "absorption", "dichroism")).get_array()

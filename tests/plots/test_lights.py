@@ -9,9 +9,7 @@ from matplotlib.patheffects import Stroke
 
 import optipath as op
 from optipath.plots import ellipse, mueller, poincare, poincare_path, stokes
-from optipath.plots.states.named_points import name_points
-from optipath.plots.states.parameter_trail import parameter_trail
-from optipath.plots.states.poincare_sphere import is_near
+from optipath.plots.poincare_sphere import is_near, name_points, parameter_trail
 from pictures import faults_of, texts_of
 from tables import rows, slow
 

@@ -17,10 +17,10 @@ from matplotlib.patches import Polygon
 import optipath as op
 from charts import charts, texts_over_marks
 from measured_hemispheres import measured
-from optipath.lab.accuracy.chart_file import KINDS, read_chart
+from optipath.lab.chart_file import KINDS, read_chart
 from optipath.plots import energy
-from optipath.plots.own_axes import own_axes, own_panel
-from optipath.plots.states.poincare_sphere import sphere_axes
+from optipath.plots.axes import own_axes, own_panel
+from optipath.plots.poincare_sphere import sphere_axes
 from pictures import faults_of, texts_of
 from tables import rows, slow
 

@@ -11,12 +11,12 @@ from matplotlib.path import Path
 from matplotlib.transforms import Bbox
 
 import optipath as op
-from optipath.paths.presets.loader import preset_names
+from optipath.paths.files.presets import preset_names
 from optipath.plots import bench, geometry
-from optipath.plots.line_colours import FAINT
-from optipath.plots.space.bench_symbols import DIAL, ELLIPSE
-from optipath.plots.space.scene import SceneNode
-from optipath.plots.space.scene_of import scene_of
+from optipath.plots.colors import FAINT
+from optipath.plots.scene.bench import DIAL, ELLIPSE
+from optipath.plots.scene.layout import scene_of
+from optipath.plots.scene.scene import SceneNode
 from pictures import faults_of
 from tables import rows, slow
 

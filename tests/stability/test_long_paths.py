@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
+from optipath.lab.path_reference import exact_lights, exact_stokes
 from paths import chain
 from tables import rows, slow
 from wired import wired

@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.kernels.catalogue import REFLECTION
-from optipath.kernels.numbers.primitives import NUMPY
-from optipath.lab.accuracy import reference
-from optipath.lab.accuracy.error_measures import errors, in_ulp
-from optipath.lab.accuracy.interface_errors import interface_errors, matrix_numbers
-from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly
-from optipath.lab.accuracy.regions import REGIONS, Samples
-from optipath.lab.accuracy.worst_cases import COMPONENTS, is_near_double_zero, worst
+from optipath.kernels.catalog import REFLECTION
+from optipath.kernels.primitives import NUMPY
+from optipath.lab import boundary_reference as reference
+from optipath.lab.errors import errors, in_ulp, interface_errors, matrix_numbers
+from optipath.lab.many_digits import WORKING_DIGITS, exactly
+from optipath.lab.regions import REGIONS, Samples
+from optipath.lab.tables import COMPONENTS, is_near_double_zero, worst
 from tables import rows
 
 NAMES = {region.name: region for region in REGIONS}

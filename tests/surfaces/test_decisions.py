@@ -5,8 +5,8 @@ import pytest
 
 import optipath as op
 from optipath.surfaces import decide
-from optipath.surfaces.decisions.largest_of import LargestOf
-from optipath.surfaces.decisions.smooth_exit import smooth_exit
+from optipath.surfaces.model_choice import LargestOf
+from optipath.surfaces.smooth import smooth_exit
 from rough_samples import fresnel
 from tables import rows, slow
 

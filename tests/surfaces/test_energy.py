@@ -9,10 +9,8 @@ import pytest
 import optipath as op
 from optipath import surfaces
 from optipath.surfaces import HeightField
-from optipath.surfaces.energies.energy_run import EnergyRun
-from optipath.surfaces.energies.energy_shares import mean_and_error
-from optipath.surfaces.walk.given_beam import given_beam
-from optipath.surfaces.walk.photon_beam import TURN
+from optipath.surfaces.energy_shares import EnergyRun, mean_and_error
+from optipath.surfaces.walk.beam import TURN, given_beam
 from rough_samples import fresnel
 from tables import rows, slow
 

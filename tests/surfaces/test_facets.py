@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import optipath as op
 from exact_facets import exact_scattering
 from optipath.surfaces import single_scattering
-from optipath.surfaces.facets.directions import frame_along
+from optipath.surfaces.facet_model import frame_along
 from tables import rows
 
 INDICES = [1.5, 0.5 + 2.1j, 1j, 2.4]

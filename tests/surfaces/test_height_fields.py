@@ -17,9 +17,8 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.surfaces import HeightField
-from optipath.surfaces.fields.given_fields import period_faults
-from optipath.surfaces.fields.mesh_resolution import converged_cells
-from optipath.surfaces.fields.random_waves import RandomWaves
+from optipath.surfaces.field_arguments import converged_cells, period_faults
+from optipath.surfaces.random_field import RandomWaves
 from tables import rows, slow
 
 MAP = np.array([[0.0, 1.0, 4.0], [2.0, 7.0, 1.0], [5.0, 3.0, 8.0], [1.0, 1.0, 2.0]])
@@ -341,7 +340,7 @@ def test_heights_in_parts_of_rows_and_with_any_number_of_threads_are_the_same_bi
     parts = [waves.heights(x, part) for part in (y[:7], y[7:])]
     assert np.array_equal(np.concatenate(parts), waves.heights(x, y))
     code = (
-        "from optipath.surfaces.fields.random_waves import RandomWaves as R; import hashlib as h;"
+        "from optipath.surfaces.random_field import RandomWaves as R; import hashlib as h;"
         "import numpy as n; x = n.linspace(0, 60, 300); w = R.drawn((1., 1.), 1000, 0);"
         "print(h.sha256(w.heights(x, x).tobytes()).hexdigest())"
     )

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.surfaces import single_scattering
-from optipath.surfaces.decisions.smooth_exit import smooth_exit
+from optipath.surfaces.smooth import smooth_exit
 from tables import rows, slow
 
 pytest.importorskip("numba")

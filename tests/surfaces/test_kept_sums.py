@@ -21,10 +21,10 @@ import optipath as op
 from large_jobs import marked
 from optipath import surfaces
 from optipath.errors import JobError, MissingExtraError, StoreWarning
-from optipath.surfaces.energies.given_run import processors
-from optipath.surfaces.hemispheres import chunk_job as of_job
-from optipath.surfaces.hemispheres.chunk_job import ChunkJob
-from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
+from optipath.surfaces.energy_shares import processors
+from optipath.surfaces.hemisphere import chunks as of_job
+from optipath.surfaces.hemisphere.beam import SensedBeam
+from optipath.surfaces.hemisphere.chunks import ChunkJob
 from small_chunks import CHUNK, PLACES, SmallChunks
 from tables import rows, slow
 

@@ -10,10 +10,9 @@ import measured_tables
 import optipath as op
 from measured_tables import GOLD, by_formula, directions
 from optipath.surfaces import Hemisphere, single_scattering, write_measured_polarized
-from optipath.surfaces.hemispheres.part_sums import PartSums
-from optipath.surfaces.hemispheres.sensed_beam import STATES, SensedBeam
-from optipath.surfaces.hemispheres.sensor import Sensor
-from optipath.surfaces.walk.given_beam import given_beam
+from optipath.surfaces.hemisphere.beam import STATES, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.sensor import Sensor
+from optipath.surfaces.walk.beam import given_beam
 from tables import rows
 
 pytest.importorskip("numba")

@@ -13,15 +13,15 @@ pytest.importorskip("numba")
 
 from optipath.kernels.carriers.carried import carry
 from optipath.kernels.carriers.structures import BLOCK, ROTATION
+from optipath.kernels.facets import plane_at_facet, reflected_at_facet, refracted_at_facet
 from optipath.kernels.fresnel.stable import (
     lossless_reflection,
     lossless_transmission,
     stable_reflection,
 )
-from optipath.kernels.geometry.facet import plane_at_facet, reflected_at_facet, refracted_at_facet
-from optipath.kernels.numbers.primitives import FLOAT
-from optipath.surfaces.walk import walk_layout as layout
-from optipath.surfaces.walk.given_beam import given_beam
+from optipath.kernels.primitives import FLOAT
+from optipath.surfaces.walk import layout
+from optipath.surfaces.walk.beam import given_beam
 
 SIGMAS = 5.5
 

@@ -7,17 +7,15 @@ import pytest
 
 import optipath as op
 from optipath.surfaces import HeightField
-from optipath.surfaces.replay.event_path import event_path
-from optipath.surfaces.replay.event_table import event_table
-from optipath.surfaces.replay.photon_event import PhotonEvent
+from optipath.surfaces.photon import PhotonEvent, event_path, event_table
 from rough_samples import drawn_sample, fresnel, polarised, rough
 from tables import rows, slow
 
 pytest.importorskip("numba")
 
-from optipath.surfaces.ends.photon_ends import photon_ends
-from optipath.surfaces.energies.energy import energy
-from optipath.surfaces.walk.photon_beam import BLOCK, PORTION
+from optipath.surfaces.ends import photon_ends
+from optipath.surfaces.energy_shares import energy
+from optipath.surfaces.walk.beam import BLOCK, PORTION
 
 
 def events_of(sample, incidence=1.0):

@@ -9,12 +9,10 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath import surfaces
-from optipath.surfaces.hemispheres.chunk_identity import chunk_identity
-from optipath.surfaces.hemispheres.part_sums import PartSums
-from optipath.surfaces.hemispheres.pixel_mask import PixelMask
-from optipath.surfaces.hemispheres.pixel_points import pixel_points
-from optipath.surfaces.hemispheres.sensed_beam import STATES, SensedBeam
-from optipath.surfaces.walk.given_beam import given_beam
+from optipath.surfaces.hemisphere.beam import STATES, PartSums, PixelMask, SensedBeam
+from optipath.surfaces.hemisphere.chunks import chunk_identity
+from optipath.surfaces.hemisphere.sensor import pixel_points
+from optipath.surfaces.walk.beam import given_beam
 from tables import rows
 
 PROJECTIONS = ["equidistant", "equal-area"]

@@ -14,22 +14,20 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath import surfaces
-from optipath.surfaces.fields.height_field import HeightField
-from optipath.surfaces.walk import packed_meshes as packed
-from optipath.surfaces.walk.kept_meshes import kept_meshes
-from optipath.surfaces.walk.mesh_pyramid import SHIFT, levels_of, pyramid_of
+from optipath.surfaces.height_field import HeightField
+from optipath.surfaces.walk import meshes as packed
+from optipath.surfaces.walk.meshes import SHIFT, kept_meshes, levels_of, pyramid_of
 from tables import rows
 from uncompiled import uncompiled
 
 pytest.importorskip("numba")
 
-from optipath.surfaces.walk import mesh_entry as entry_walk
+from optipath.surfaces.walk import layout
+from optipath.surfaces.walk import mesh_hit as entry_walk
 from optipath.surfaces.walk import mesh_hit as walk
-from optipath.surfaces.walk import walk_layout as layout
-from optipath.surfaces.walk.facet_hit import LOWER, NO_FACET, UPPER
-from optipath.surfaces.walk.given_beam import given_beam
-from optipath.surfaces.walk.packed_meshes import packed_meshes
-from optipath.surfaces.walk.random_stream import uniform
+from optipath.surfaces.walk.beam import given_beam
+from optipath.surfaces.walk.facets import LOWER, NO_FACET, UPPER, uniform
+from optipath.surfaces.walk.meshes import packed_meshes
 
 
 def test_meshes_are_found_by_their_places_and_apart_by_two_deviations_of_the_rougher(rng):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from chains import ENGINES
-from optipath.sweeps.axes.read_axes import grid_of
+from optipath.sweeps.axes import grid_of
 from tables import rows
 
 xr = pytest.importorskip("xarray")

@@ -16,9 +16,9 @@ import zarr
 import optipath as op
 from large_jobs import Powers, computed, marked, powers
 from optipath.errors import JobError, StoreWarning
-from optipath.sweeps.blocks import block_store
-from optipath.sweeps.blocks.block_marks import clear, put_file
-from optipath.sweeps.blocks.keep_blocks import keep_blocks
+from optipath.sweeps import store as block_store
+from optipath.sweeps.blocks import keep_blocks
+from optipath.sweeps.jobs import clear, put_file
 from tables import rows, slow
 
 HUGE = 1 << 40

@@ -9,11 +9,10 @@ import pytest
 from numpy.testing import assert_array_equal
 
 import optipath as op
-import optipath.sweeps.sweep_pictures
+import optipath.sweeps.sweep
 from optipath.errors import OptipathError
 from optipath.light.light import Light
-from optipath.sweeps.whole.quick_dataset import quick_dataset
-from optipath.sweeps.whole.stacked_views import stacked
+from optipath.sweeps.memory import quick_dataset, stacked
 
 xr, pd = pytest.importorskip("xarray"), pytest.importorskip("pandas")
 NPGR, MALUS = op.load_preset("npgr026"), op.load_preset("malus")
@@ -122,7 +121,7 @@ def test_nothing_is_computed_before_somebody_asks_and_then_that_part_alone_and_o
     assert_array_equal(found.DoP.values, found.DoP.values)
     assert len(asked) == 1
     # A large part is computed piece by piece.
-    monkeypatch.setattr("optipath.sweeps.whole.swept_light._AT_ONCE", 6)
+    monkeypatch.setattr("optipath.sweeps.memory._AT_ONCE", 6)
     assert_array_equal(a_sweep().DoP.values, LIGHT.dop)
     assert_array_equal(a_sweep().AoP[::-2, 1:].values, LIGHT.aop[::-2, 1:])
     assert len(asked) > 3
@@ -210,7 +209,7 @@ def test_a_quick_dataset_is_that_of_xarray_and_rows_at_equal_distances_are_a_vie
     assert quick.sel(word="horizontal", x=X[2]).identical(usual.sel(word="horizontal", x=X[2]))
     assert np.shares_memory(quick.x.values, X)
     # An xarray without the short way goes the long one.
-    monkeypatch.setattr("optipath.sweeps.whole.quick_dataset._DIRECT", "_none")
+    monkeypatch.setattr("optipath.sweeps.memory._DIRECT", "_none")
     assert quick_dataset(*PARTS).identical(usual)
     values, table = np.random.default_rng(1).normal(size=(6, 4, 3)), np.arange(12.0).reshape(4, 3)
     for places in ([0], [0, 1], [1, 3, 5], [4, 2]):
@@ -248,7 +247,7 @@ def test_curves_go_over_one_dimension_maps_over_two_and_spheres_are_coloured(tmp
     np.testing.assert_allclose(x, np.linspace(0.0, 90.0, 7))
     np.testing.assert_allclose(y, np.cos(np.radians(x)) ** 2, atol=1e-12)
     assert ax.get_xlabel() == "angle: turn of the analyser against the polariser (°)"
-    reload(optipath.sweeps.sweep_pictures)  # To register twice is no warning.
+    reload(optipath.sweeps.sweep)  # To register twice is no warning.
     assert ALONE.optipath.curve().get_xlabel() == ax.get_xlabel()
     assert drawn(TOGETHER.optipath.curve("S0", "intensity"))[0].tolist() == [1.0, 2.0, 3.0]
     through = SHARES.optipath.curve(detector="transmitted")

@@ -21,12 +21,11 @@ import xarray as xr
 import optipath as op
 from large_jobs import Powers, WhoComputes, computed, marked, powers
 from optipath.errors import JobError
-from optipath.sweeps.blocks.block_store import BlockStore
-from optipath.sweeps.blocks.cluster import _interrupts_put_off
-from optipath.sweeps.blocks.executors import AtOnce
-from optipath.sweeps.blocks.keep_blocks import _handed_out, _keep_block, keep_blocks
-from optipath.sweeps.blocks.workers import Workers
-from optipath.sweeps.kept.sweep_block import SweepBlock
+from optipath.sweeps.blocks import _handed_out, _keep_block, keep_blocks
+from optipath.sweeps.cluster import _interrupts_put_off
+from optipath.sweeps.store import BlockStore
+from optipath.sweeps.stored import SweepBlock
+from optipath.sweeps.workers import AtOnce, Workers
 from tables import slow
 
 pytest.importorskip("zarr")
@@ -128,7 +127,7 @@ def test_not_too_much_is_handed_out_and_two_runs_come_to_the_same_bits(tmp_path,
 
 
 def test_what_is_no_scheduler_or_does_not_answer_is_told(store, monkeypatch):
-    monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
+    monkeypatch.setattr("optipath.sweeps.cluster._PATIENCE", 0.2)
     for scheduler, told in {
         "thread": "scheduler 'thread' is unknown; did you mean 'threads'",
         "10.0.0.1:8786": "the address of a cluster begins with 'tcp://'",
@@ -271,7 +270,7 @@ def test_processes_that_are_started_never_hear_ctrl_c(monkeypatch):
 RUN = """
 import sys
 from large_jobs import Powers
-from optipath.sweeps.blocks.keep_blocks import keep_blocks
+from optipath.sweeps.blocks import keep_blocks
 if __name__ == "__main__":
     keep_blocks(Powers(30, sys.argv[1], slow=0.05), sys.argv[2], sys.argv[3])
 """

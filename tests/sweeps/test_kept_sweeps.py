@@ -13,10 +13,9 @@ import xarray as xr
 
 import optipath as op
 from optipath.errors import JobError
-from optipath.sweeps.axes.read_axes import grid_of
-from optipath.sweeps.chunked.in_chunks import swept_in_chunks
-from optipath.sweeps.kept.sweep_block import SweepBlock
-from optipath.sweeps.kept.sweep_job import SweepJob
+from optipath.sweeps.axes import grid_of
+from optipath.sweeps.chunks import swept_in_chunks
+from optipath.sweeps.stored import SweepBlock, SweepJob
 from tables import slow
 
 pytest.importorskip("zarr")

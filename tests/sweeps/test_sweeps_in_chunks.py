@@ -12,12 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.sweeps.axes.read_axes import grid_of
-from optipath.sweeps.chunked import chunked_light, in_chunks
-from optipath.sweeps.chunked.block_light import run_block
-from optipath.sweeps.chunked.chunk_sizes import BLOCK, chunk_sizes
-from optipath.sweeps.chunked.own_class import OwnClass
-from optipath.sweeps.chunked.plan_recipe import PlanRecipe
+from optipath.sweeps import chunks as chunked_light
+from optipath.sweeps import chunks as in_chunks
+from optipath.sweeps.axes import grid_of
+from optipath.sweeps.chunks import BLOCK, chunk_sizes, run_block
+from optipath.sweeps.plan_recipe import OwnClass, PlanRecipe
 from random_paths import Draw
 from tables import slow
 
@@ -184,7 +183,7 @@ def test_a_path_through_toml_gives_the_same_bits_and_the_same_noise(seed):
 SCRIPT = """
 import pickle, sys
 import optipath as op
-from optipath.sweeps.chunked.plan_recipe import PlanRecipe
+from optipath.sweeps.plan_recipe import PlanRecipe
 
 class Half(op.Element, kind="half-of-a-script"):
     angle: op.Angle = 0.0

@@ -14,8 +14,8 @@ import optipath as op
 from chains import ENGINES
 from optipath.cli import main
 from optipath.plan.answers import Answers
-from optipath.sweeps.whole import free_memory as memory_of
-from optipath.values.axis_texts import IdleValues
+from optipath.sweeps import grid as memory_of
+from optipath.values.text import IdleValues
 from random_paths import Draw
 from tables import rows, slow, slow_except
 

@@ -12,12 +12,12 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import optipath as op
 from chains import ENGINES
-from optipath.sweeps.labels.light_quantities import QUANTITIES
-from optipath.sweeps.uncertainty import monte_carlo
-from optipath.sweeps.uncertainty.drawn_samples import DrawnSamples
-from optipath.sweeps.uncertainty.light_figures import difference, figures_of, gradients_of
-from optipath.sweeps.uncertainty.uncertain_value import UncertainValue
-from optipath.values.arrays import memory
+from optipath.sweeps import monte_carlo
+from optipath.sweeps.labels import QUANTITIES
+from optipath.sweeps.light_figures import difference, figures_of, gradients_of
+from optipath.sweeps.monte_carlo import DrawnSamples
+from optipath.sweeps.uncertain_value import UncertainValue
+from optipath.values import arrays as memory
 from tables import rows, slow_except
 
 METHODS = ["differences", *(["gradients"] if "jax" in ENGINES else [])]

@@ -11,7 +11,7 @@ import pytest
 
 import optipath as op
 from optipath.errors import MissingExtraError
-from optipath.values.arrays import memory
+from optipath.values import arrays as memory
 from tables import rows
 
 MALUS, NPGR = op.load_preset("malus"), op.load_preset("npgr026")
@@ -67,7 +67,7 @@ def test_a_path_that_jax_does_not_trace_or_takes_long_for_has_differences_and_it
 
 
 def test_what_propagates_and_what_reads_axes_bring_neither_jax_nor_xarray():
-    code = """import sys; import optipath as op; from optipath.sweeps.axes.read_axes import grid_of
+    code = """import sys; import optipath as op; from optipath.sweeps.axes import grid_of
 path = op.load_preset("malus"); path.propagate(angle=(0.5, 0.01), method="differences")
 grid_of(path.compose().inputs, {"angle": [0.1]}); print({"jax", "xarray", "dask"} & {*sys.modules})
 """

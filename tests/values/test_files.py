@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 
 import optipath as op
-from optipath.values.given_files import LARGEST
-from optipath.values.text_tables import columns_of
-from optipath.values.written_files import write_file
+from optipath.values.columns import columns_of
+from optipath.values.files import LARGEST, write_file
 from tables import rows
 
 

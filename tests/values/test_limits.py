@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.values.domains import indices, quantities, states
-from optipath.values.domains.domain import Domain
-from optipath.values.domains.quantities import INCIDENCE
+from optipath.materials import index_domains as indices
+from optipath.materials import quantities
+from optipath.materials.quantities import INCIDENCE
+from optipath.values import domains as states
+from optipath.values.domains import Domain
 from optipath.values.precision import precision, precision_name
 from optipath.values.units import UNITS, format_quantity, parse_quantity
 from tables import rows

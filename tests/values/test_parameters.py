@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.values.domains.quantities import YesOrNo
+from optipath.materials.quantities import YesOrNo
 from paths import chain
 from tables import rows
 from wired import read, read_back, wired

@@ -9,10 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.values.counted_ranges import texts_of_range
-from optipath.values.displayed import format_range
-from optipath.values.several_texts import several_texts
-from optipath.values.units import parse_quantity
+from optipath.values.text import several_texts, texts_of_range
+from optipath.values.units import format_range, parse_quantity
 from paths import chain
 from tables import rows
 from wired import read, read_back, wired

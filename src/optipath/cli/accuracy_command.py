@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from optipath.cli.console import PlainConsole, cell, headed, say
-from optipath.cli.misplaced import StrictCommand
+from optipath.cli.options import StrictCommand
 from optipath.cli.text_files import read_text, write
 
 SAMPLES = click.Option(
@@ -32,7 +32,7 @@ WRITE = click.Option(
 
 def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
     """Tell how far each method is from 50-digit references, region by region."""
-    from optipath.lab.accuracy import tables  # noqa: PLC0415 - an extra
+    from optipath.lab import tables  # noqa: PLC0415 - an extra
 
     if generations is None:
         measure, marks = partial(tables.tables, samples), tables.SAMPLED

@@ -11,15 +11,16 @@ from rich.table import Table
 
 from optipath.cli.console import JSON, PlainConsole, say_json
 from optipath.cli.preset_command import PresetGroup
-from optipath.cli.progress_bar import progress_bar
-from optipath.lab.bench.timing import duration
-from optipath.paths.presets.loader import beside, bound_preset, load_preset
+from optipath.cli.progress import progress_bar
+from optipath.lab.bench import duration
+from optipath.paths.files.presets import beside, bound_preset, load_preset
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
     from optipath.cli.chosen import Chosen
-    from optipath.lab.bench.report import Report
+    from optipath.lab.bench import Report
     from optipath.paths.path_graph import PathGraph
+
 
 ENGINES = ("numpy", "numba", "jax")
 LARGEST = click.Option(
@@ -48,7 +49,7 @@ THREADS = click.Option(
 
 def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
     """Time a preset or a TOML file: one run, and batches by every engine. Ends within 30 s."""
-    from optipath.lab.bench.report import bench  # noqa: PLC0415 - not for every command
+    from optipath.lab.bench import bench  # noqa: PLC0415 - not for every command
 
     def load() -> Any:
         return bound_preset(load_preset(chosen.preset), chosen.preset, chosen.case, chosen.values)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from optipath.cli.console import JSON, say_json
-from optipath.cli.misplaced import StrictCommand
+from optipath.cli.options import StrictCommand
 from optipath.engines.code_cache import CODE
 
 CLEAR = click.Option(["--clear"], is_flag=True, help="Remove all that is kept.")

@@ -2,33 +2,21 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
-from optipath.cli.changed_title import title_of
-from optipath.cli.chart_options import (
-    AT,
-    DATA,
-    ENGINE,
-    INTERFACE,
-    OUT,
-    PEERS,
-    QUICK,
-    REDRAW,
-    option_faults,
-    places_near,
-)
 from optipath.cli.console import say
-from optipath.cli.plain_progress import told_progress
+from optipath.cli.plot_command import title_of
 from optipath.cli.preset_command import PresetGroup
-from optipath.cli.text_files import check_place, read_text, told_of, write
-from optipath.paths.presets.loader import preset_names
-from optipath.values.picture_files import check_form
+from optipath.cli.progress import told_progress
+from optipath.cli.text_files import NewFile, check_place, read_text, told_of, write
+from optipath.paths.files.presets import preset_names
+from optipath.values.files import check_form
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
     from optipath.cli.chosen import Chosen
 
@@ -36,6 +24,71 @@ if TYPE_CHECKING:
     Tell: TypeAlias = Callable[[str, float], object]
     Keep: TypeAlias = Callable[[dict[str, Any]], object]
     Measure: TypeAlias = Callable[[Tell, Keep], Chart]
+
+
+EVERYWHERE = "all"
+NEAR = ("brewster", "critical", "grazing", "normal")
+"""The places of the lab, which is not imported for help; a test compares them."""
+
+OUT = click.Option(
+    ["--out"],
+    type=NewFile(),
+    default="chart.png",
+    help="Draw into this file; its ending says in which form (png, svg, pdf).",
+)
+DATA = click.Option(
+    ["--data"], type=NewFile(), help="Write what was measured into this file, as JSON."
+)
+ENGINE = click.Option(
+    ["--engine", "engines"],
+    type=click.Choice(["numpy", "numba"]),
+    multiple=True,
+    help="Measure this engine; may be given twice. By default all that are installed.",
+)
+QUICK = click.Option(
+    ["--quick"],
+    is_flag=True,
+    help="Measure fewer samples, and of engines that compile the default method alone.",
+)
+AT = click.Option(
+    ["--near"],
+    type=click.Choice([*NEAR, EVERYWHERE]),
+    multiple=True,
+    help="Measure errors against the distance from this place, and no times; may be given again.",
+)
+PEERS = click.Option(
+    ["--peers"],
+    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    help="Draw other software beside: what benchmarks/peers/race.py --json wrote.",
+)
+INTERFACE = click.Option(
+    ["--interface"], is_flag=True, help="Measure one interface instead of a path."
+)
+REDRAW = click.Option(
+    ["--from", "source"],
+    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    help="Draw what was measured before: a file that --data wrote.",
+)
+
+
+def places_near(near: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the places that are asked for."""
+    return NEAR if EVERYWHERE in near else near
+
+
+def option_faults(
+    *, near: tuple[str, ...], engines: tuple[str, ...] = (), quick: bool, peers: Path | None
+) -> list[str]:
+    """Return what does not go with ``--near``, a sentence each."""
+    if not near:
+        return []
+    given = {"--engine": bool(engines), "--quick": quick, "--peers": peers is not None}
+    return [
+        f"{name} is for times, and --near measures none; leave one of them out"
+        for name, is_given in given.items()
+        if is_given
+    ]
+
 
 _DOTS = 120.0
 
@@ -55,11 +108,14 @@ def _chart(
 
     def measure(tell: Tell, keep: Keep) -> Chart:
         # The extra 'chart'.
-        from optipath.lab.accuracy.chart import path_chart  # noqa: PLC0415
-        from optipath.lab.accuracy.chart_effort import FULL, expected  # noqa: PLC0415
-        from optipath.lab.accuracy.chart_effort import QUICK as LITTLE  # noqa: PLC0415
-        from optipath.lab.accuracy.critical_chart import critical_chart  # noqa: PLC0415
-        from optipath.lab.accuracy.peer_times import check_race  # noqa: PLC0415
+        from optipath.lab.chart import (  # noqa: PLC0415
+            FULL,
+            expected,
+            path_chart,
+        )
+        from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab.critical_chart import critical_chart  # noqa: PLC0415
+        from optipath.lab.peer_times import check_race  # noqa: PLC0415
 
         if near:
             return critical_chart(path, title, places_near(near), progress=tell, keep=keep)
@@ -111,13 +167,12 @@ def _without_preset(
 
     def measure(tell: Tell, keep: Keep) -> Chart:
         if source:
-            from optipath.lab.accuracy.chart_file import read_chart  # noqa: PLC0415
+            from optipath.lab.chart_file import read_chart  # noqa: PLC0415
 
             return read_chart(read_text(source), str(source))
-        from optipath.lab.accuracy.chart import interface_chart  # noqa: PLC0415 - an extra
-        from optipath.lab.accuracy.chart_effort import FULL  # noqa: PLC0415
-        from optipath.lab.accuracy.chart_effort import QUICK as LITTLE  # noqa: PLC0415
-        from optipath.lab.accuracy.critical_chart import critical_chart  # noqa: PLC0415 - ditto
+        from optipath.lab.chart import FULL, interface_chart  # noqa: PLC0415
+        from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab.critical_chart import critical_chart  # noqa: PLC0415 - ditto
 
         if near:
             return critical_chart(
@@ -136,7 +191,7 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
         if file is not None:
             check_place(file)
     from optipath import plots  # noqa: PLC0415 - an extra
-    from optipath.lab.accuracy.chart_file import chart_text  # noqa: PLC0415
+    from optipath.lab.chart_file import chart_text  # noqa: PLC0415
 
     draw, save, interrupted = plots.chart, plots.save, False
     kept: dict[str, Any] = {}

@@ -1,25 +1,27 @@
-"""What a command line is about: a preset, a case, and values by options."""
+"""Chosen path: the preset, case and values of a command line."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from optipath.cli.given_axes import axis_faults, axis_given
-from optipath.cli.given_light import take_wavelength
+import click
+
+from optipath.cli.ranges import axis_faults, axis_given
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError, listed, shown, there_are
-from optipath.paths.presets.loader import bound_preset
-from optipath.values.axis_texts import AxisValues
-from optipath.values.cases import ALL
-from optipath.values.named_materials import (
+from optipath.errors import OptipathError, ParameterError, listed, printable, shown, there_are
+from optipath.materials.material import Material
+from optipath.materials.named_materials import (
     WAVELENGTH,
     extinction_beside,
     is_material,
     material_named,
+    single_value,
     take_extinctions,
 )
-from optipath.values.single_texts import single_value
+from optipath.paths.files.presets import bound_preset
+from optipath.values.cases import ALL
+from optipath.values.text import AxisValues, IdleValues
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
 
     from optipath.paths.path_graph import PathGraph
     from optipath.values.use import Use
+
 
 T = TypeVar("T")
 
@@ -180,3 +183,29 @@ def _value(
 
 def _flag(name: str) -> str:
     return name.replace("_", "-")
+
+
+def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
+    """Say where nothing depends on a wavelength that is among some values.
+
+    A single one is taken out of them; of several, all is the same along them.
+    """
+    name = WAVELENGTH.name
+    if name not in values or name in path.parameters:
+        return
+    media = {given: value for given, value in values.items() if isinstance(value, Material)}
+    try:
+        needed = name in path.bind(**media).parameters
+    except OptipathError:
+        return  # Which is told of the material.
+    if not needed:
+        given = values[name]
+        several = isinstance(given, AxisValues)
+        WAVELENGTH.resolve(given.given if several else given)
+        if several:
+            values[name] = IdleValues(*given)
+        else:
+            del values[name]
+        told = "all is the same along it" if several else f"--{name} is not used"
+        told = f"optipath: nothing in '{preset}' depends on the wavelength; {told}"
+        click.echo(printable(told), err=True)

@@ -18,6 +18,7 @@ from optipath.errors import printable
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+
 JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
 DIGITS = click.Option(
     ["--digits"],

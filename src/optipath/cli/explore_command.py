@@ -8,10 +8,10 @@ from threading import Thread
 import click
 
 from optipath.cli.console import say
-from optipath.cli.misplaced import StrictCommand
-from optipath.explorer.explored_presets import FIRST, ExploredPresets
-from optipath.explorer.page_answers import PageAnswers
-from optipath.explorer.page_server import PageServer
+from optipath.cli.options import StrictCommand
+from optipath.explorer.answers import PageAnswers
+from optipath.explorer.paths import FIRST, ExploredPresets
+from optipath.explorer.server import PageServer
 
 PRESET = click.Argument(["preset"], required=False, metavar="[PRESET]")
 BROWSER = click.Option(

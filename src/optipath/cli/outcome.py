@@ -1,27 +1,35 @@
-"""What a run was given and has found, and the same as JSON."""
+"""Outcome of a run: as JSON, and printed as tables."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from rich.table import Table
 
-from optipath.paths.format.writer import complex_parts_of
-from optipath.sweeps.axes.sweep_grid import SweepGrid
-from optipath.sweeps.whole.free_memory import refuse_more_than_free
+from optipath.cli.console import PlainConsole, cell, headed, title
+from optipath.errors import listed
+from optipath.light.printed import Numbers
+from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
+from optipath.materials.quantities import AMPLITUDE, plain
+from optipath.paths.files.writer import complex_parts_of
+from optipath.sweeps.grid import SweepGrid, refuse_more_than_free
+from optipath.sweeps.labels import heading
 from optipath.values.cases import Case
-from optipath.values.domains.quantities import AMPLITUDE
-from optipath.values.named_materials import WAVELENGTH, material_as_json, materials_among
-from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
     from optipath.cli.chosen import Chosen
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
+    from optipath.sweeps.grid import SweepAxis
     from optipath.values.parameters import Parameter
+
 
 # What is told of light besides its Stokes vector, and in which unit.
 TOLD = {
@@ -177,3 +185,217 @@ def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
         found["log10_intensity"] = plain(light.log10_intensity)
         found["normalized"] = plain(light.normalized)
     return found | ({"published": list(published)} if published else {})
+
+
+_ROWS = 20
+_UNDEFINED = "-"
+_SMALL = 1e-9
+"""How far from 1 a degree of polarisation may be by rounding alone."""
+
+
+def print_outcome(outcome: Outcome, digits: int) -> None:
+    """Print what a run was given and has found."""
+    console, numbers = PlainConsole(), Numbers(digits)
+    print_given(console, outcome, numbers)
+    for name in outcome.lights:
+        console.print(_light_table(outcome, name, numbers))
+    if outcome.note:
+        console.print(cell(f"note: {outcome.note}"))
+    console.print(cell(ran([outcome])))
+
+
+def print_given(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> None:
+    """Print what a run was given."""
+    console.print(title(outcome.chosen.title, outcome.path.description))
+    table = Table(box=None, show_header=False)
+    given = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
+    for name, parameter in outcome.single.items():
+        if name in given:
+            continue
+        table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
+    for name, label in given.items():
+        table.add_row(*map(cell, (name, label, outcome.chosen.opened.parameters[name].help)))
+    for name, word in outcome.chosen.places.items():
+        table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))
+    for axis in outcome.grid.axes:
+        table.add_row(*map(cell, (axis.name, span_text(axis, numbers.digits), axis.help)))
+    console.print(table)
+
+
+def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
+    """Print a table of cases, with what was published under what is computed."""
+    console, numbers = PlainConsole(), Numbers(digits)
+    first = next(iter(outcomes.values()))
+    counted = f"{len(outcomes)} case{'s' * (len(outcomes) != 1)}"
+    console.print(title(f"{first.chosen.preset}, {counted}", first.path.description))
+    labels = {name: label for name, label, _ in materials_among(first.chosen.values)}
+    for name, value in {**first.chosen.values, **labels}.items():
+        parameter = None if name in labels else first.path.parameters.get(name)
+        text = value if parameter is None else numbers.value_of(parameter)
+        console.print(cell(f"{name} {text}"))
+    for axis in first.grid.axes:
+        console.print(cell(f"{axis.name} {span_text(axis, digits)}"))
+    table = headed("case", "at", "S0", "S1", "S2", "S3")
+    for case, outcome in outcomes.items():
+        for name, light in outcome.lights.items():
+            for row in _case_rows(light, numbers, outcome.grid):
+                table.add_row(*map(cell, [f"{case}{row[0]}", name, *row[1:]]))
+            if published := outcome.published(name):
+                texts = [f"{number:g}" for number in published]
+                table.add_row(*map(cell, [f"{case}, published", name, *texts]))
+    console.print(table)
+    notes: dict[str, list[str]] = {}
+    for case, outcome in outcomes.items():
+        if outcome.note:
+            notes.setdefault(outcome.note, []).append(case)
+    for note, cases in notes.items():
+        console.print(
+            cell(f"note on {'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {note}")
+        )
+    console.print(cell(ran([*outcomes.values()])))
+
+
+def _case_rows(light: Light, numbers: Numbers, grid: SweepGrid) -> Iterator[list[str]]:
+    """Yield what is told of each light of a batch: which it is, and its components."""
+    for index in islice(np.ndindex(light.intensity.shape), _ROWS):
+        values = ", ".join(point_texts(grid, index, numbers.digits))
+        place = values or (str(list(index)) if index else "")
+        yield [f" {place}".rstrip(), *numbers.stokes(light, index)]
+    if (more := light.intensity.size - _ROWS) > 0:
+        yield [f" {more} more", *[""] * 4]
+
+
+def ran(outcomes: Sequence[Outcome]) -> str:
+    """Say how some runs were computed."""
+    ways = {
+        "method": [outcome.plan.method for outcome in outcomes],
+        "model": [outcome.model for outcome in outcomes],
+        "engine": [outcome.engine for outcome in outcomes],
+    }
+    return ", ".join(f"{what} {' or '.join(dict.fromkeys(found))}" for what, found in ways.items())
+
+
+def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
+    light, published = outcome.lights[name], outcome.published(name)
+    if outcome.grid.axes:
+        return point_table(f"light at {name}", light, outcome.grid, numbers)
+    if light.stokes.ndim > 1:
+        return _batch_table(name, light, numbers, published)
+    table = headed(f"light at {name}", "computed")
+    if published:
+        table.add_column("published")
+    for position, component in enumerate(numbers.stokes(light)):
+        row = [f"S{position}", component]
+        table.add_row(*map(cell, [*row, *([f"{published[position]:g}"] if published else [])]))
+    for word, text in _state_rows(light, numbers):
+        table.add_row(cell(word), cell(text))
+    return table
+
+
+def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
+    """Yield what is told of light besides its components."""
+    unread = bool(np.isnan(light.stokes).any())
+    partly = " of the polarised part" if float(light.dop) < 1.0 - _SMALL else ""
+    for key, (word, unit) in TOLD.items():
+        number = plain(getattr(light, key.lower()), unit)
+        if number is not None:
+            behind = partly if "ellipsometry" in word else ""
+            yield word, f"{numbers.text(number)} {unit}".strip() + behind
+        elif not unread:
+            yield word, _UNDEFINED
+    if light.exponent:
+        yield "log10 S0", numbers.text(float(light.log10_intensity))
+        yield "over S0", ", ".join(map(numbers.text, light.normalized.tolist()))
+
+
+def _batch_table(
+    name: str, light: Light, numbers: Numbers, published: Sequence[float] | None
+) -> Table:
+    table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
+    for row in _case_rows(light, numbers, SweepGrid(())):
+        table.add_row(*(cell(text.strip()) for text in row))
+    if published:
+        table.add_row("published", *(f"{number:g}" for number in published))
+    return table
+
+
+MOST_ROWS = 200
+"""How many rows a table has; more are for a file."""
+
+_FEW = 5
+_STOKES = ("S0", "S1", "S2", "S3")
+
+
+def value_text(value: Any, digits: int) -> str:
+    """Return a value of an axis as it is printed.
+
+    Examples
+    --------
+    >>> value_text(400.0, 6), value_text("horizontal", 6)
+    ('400', 'horizontal')
+    """
+    return value if isinstance(value, str) else f"{value + 0.0:.{digits}g}"
+
+
+def span_text(axis: SweepAxis, digits: int) -> str:
+    """Return which values an axis has, in a few words."""
+    if len(axis) <= _FEW:
+        texts = [value_text(value, digits) for value in axis.shown.tolist()]
+        return f"{', '.join(texts)} {axis.unit}".rstrip()
+    ends = [value_text(axis.shown[place].item(), digits) for place in (0, -1)]
+    return f"{' .. '.join(ends)} {axis.unit}".rstrip() + f", {len(axis):,} values"
+
+
+def point_texts(grid: SweepGrid, index: Sequence[int], digits: int) -> Iterator[str]:
+    """Yield the value of each axis at a point of a grid, with its name and unit."""
+    for axis, text in zip(grid.axes, _values_at(grid, index, digits), strict=True):
+        yield f"{axis.name} {text} {axis.unit}".rstrip()
+
+
+def point_table(
+    title: str,
+    light: Light,
+    grid: SweepGrid,
+    numbers: Numbers,
+    told: Mapping[str, tuple[str, str]] | None = None,
+) -> Table:
+    """Return a table with a row for each point of a grid."""
+    told = told or {}
+    columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
+    columns += [heading(word, unit) for word, unit in told.values()]
+    table = headed(*columns, box=None, title=cell(title), title_justify="left", title_style="")
+    for column in table.columns:
+        column.justify = "right"
+    more = [_degrees(getattr(light, key.lower()), unit) for key, (_, unit) in told.items()]
+    for index in islice(np.ndindex(grid.shape), MOST_ROWS):
+        values = _values_at(grid, index, numbers.digits)
+        behind = (numbers.state(float(each[index])) for each in more)
+        table.add_row(*map(cell, (*values, *numbers.stokes(light, index), *behind)))
+    if (left := grid.points - MOST_ROWS) > 0:
+        table.add_row(cell(f"{left:,} more"))
+    return table
+
+
+def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> Table:
+    """Return S0 for a grid of two axes: a row for each value of the first."""
+    down, across = grid.axes
+    heads = [value_text(value, numbers.digits) for value in across.shown.tolist()]
+    corner = f"{heading(down.name, down.unit)} \\ {heading(across.name, across.unit)}"
+    table = headed(
+        corner, *heads, box=None, title=cell(title), title_justify="left", title_style=""
+    )
+    for column in table.columns:
+        column.justify = "right"
+    for row, value in enumerate(down.shown.tolist()):
+        texts = [numbers.stokes(light, (row, place))[0] for place in range(len(across))]
+        table.add_row(*map(cell, (value_text(value, numbers.digits), *texts)))
+    return table
+
+
+def _degrees(numbers: Any, unit: str) -> Any:
+    return np.degrees(numbers) if unit == "deg" else numbers
+
+
+def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:
+    places = dict(zip(grid.sizes, index, strict=False))  # A batch without names has no sizes.
+    return [value_text(axis.shown[places[axis.dimension]].item(), digits) for axis in grid.axes]

@@ -1,27 +1,441 @@
-"""A path drawn as a graph: boxes in the order of travel, arrows for links, a legend below."""
+"""A path drawn as a graph in SVG: layers, boxes, arrows and a legend."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+import re
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from xml.etree.ElementTree import Element as Tag
+from xml.etree.ElementTree import SubElement, indent, tostring
 
 import networkx as nx
+from rich.cells import cell_len, chop_cells
 
-from optipath.cli.graph_layers import graph_layers
-from optipath.cli.layer_places import Extent, layer_places
-from optipath.cli.node_box import SMALL, node_box
-from optipath.cli.picture_legend import legend_of
-from optipath.cli.svg_words import FACE, add_text, drawable, lines_of, text_width
 from optipath.composer.wiring import Wiring
-from optipath.paths.drawing import draw, value_text
+from optipath.errors import printable
+from optipath.paths.drawing import draw, element_values, value_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from optipath.cli.graph_layers import GraphLayers, Item
-    from optipath.cli.node_box import NodeBox
     from optipath.composer.wiring import Link
+    from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
+    from optipath.values.parameters import Parameter
+
+    Labels: TypeAlias = Sequence[tuple["Link", str]]
+
+
+Item: TypeAlias = "str | tuple[Link, int]"
+"""What takes a place in a layer: a node by its name, or a link that passes, with the layer."""
+
+_SWEEPS = 8
+
+
+@dataclass(frozen=True)
+class GraphLayers:
+    """Layers of nodes, from the first that light passes to the last."""
+
+    rows: list[list[Item]]
+    ways: dict[Link, list[Item]]
+    back: list[Link]
+
+    @property
+    def layer(self) -> dict[Item, int]:
+        """The number of the layer of each item."""
+        return {item: number for number, row in enumerate(self.rows) for item in row}
+
+
+def graph_layers(order: Sequence[str], links: Sequence[Link]) -> GraphLayers:
+    """Return the layers of a graph.
+
+    A node stands behind all that send light to it, and the items of a layer in such an order
+    that links cross seldom (barycentres: Sugiyama, Tagawa and Toda, IEEE Trans. SMC 11, 109, 1981).
+
+    Examples
+    --------
+    >>> links = [("a", "b", ("out", "in")), ("b", "c", ("out", "in")), ("a", "c", ("left", "in"))]
+    >>> graph_layers(["a", "b", "c"], links).rows
+    [['a'], ['b', (('a', 'c', ('left', 'in')), 1)], ['c']]
+    """
+    place = {name: number for number, name in enumerate(order)}
+    onwards = [link for link in links if place[link[0]] < place[link[1]]]
+    layer = _layer_of(order, onwards)
+    rows: list[list[Item]] = [[] for _ in range(1 + max(layer.values(), default=0))]
+    for name in order:
+        rows[layer[name]].append(name)
+    ways: dict[Link, list[Item]] = {}
+    for link in onwards:
+        passed: list[Item] = [
+            (link, number) for number in range(layer[link[0]] + 1, layer[link[1]])
+        ]
+        for number, item in enumerate(passed, layer[link[0]] + 1):
+            rows[number].append(item)
+        ways[link] = [link[0], *passed, link[1]]
+    back = [link for link in links if place[link[0]] >= place[link[1]]]
+    return GraphLayers(_in_order(rows, ways), ways, back)
+
+
+def _layer_of(order: Sequence[str], onwards: Sequence[Link]) -> dict[str, int]:
+    layer = dict.fromkeys(order, 0)
+    ends: dict[str, list[str]] = {name: [] for name in order}
+    for start, end, _ in onwards:
+        ends[start].append(end)
+    for name in order:
+        for end in ends[name]:
+            layer[end] = max(layer[end], layer[name] + 1)
+    # Where nothing comes from above, a node stands next to what it sends light to.
+    reached = {end for _, end, _ in onwards}
+    for name in order:
+        if name not in reached and ends[name]:
+            layer[name] = min(layer[end] for end in ends[name]) - 1
+    return layer
+
+
+def _neighbours(ways: Mapping[Link, Sequence[Item]], step: int) -> dict[Item, list[Item]]:
+    """Return what each item is linked with in the layer before (-1) or behind it (1)."""
+    found: dict[Item, list[Item]] = {}
+    for way in ways.values():
+        for one, next_one in pairwise(way):
+            here, there = (one, next_one) if step > 0 else (next_one, one)
+            found.setdefault(here, []).append(there)
+    return found
+
+
+def _in_order(rows: list[list[Item]], ways: Mapping[Link, Sequence[Item]]) -> list[list[Item]]:
+    for sweep in range(_SWEEPS):
+        down = sweep % 2 == 0
+        linked = _neighbours(ways, -1 if down else 1)
+        place: dict[Item, float] = {}
+        for row in rows if down else reversed(rows):
+            near = {item: [place[one] for one in linked.get(item, ())] for item in row}
+            here = {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
+            row.sort(key=lambda one: sum(near[one]) / len(near[one]) if near[one] else here[one])
+            place |= {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
+    return rows
+
+
+_PLACE_SWEEPS = 12
+
+
+class Extent(NamedTuple):
+    """How far something reaches from its middle."""
+
+    left: float
+    right: float
+
+
+def layer_places(
+    layers: GraphLayers,
+    extents: Mapping[Item, Extent],
+    gap: float,
+    ends: Mapping[Link, tuple[float, float]],
+) -> dict[Item, float]:
+    """Return the middle of each item: near those that it is linked with, and over none beside.
+
+    Examples
+    --------
+    >>> from optipath.cli.path_picture import graph_layers
+    >>> links = [("a", "b", ("out", "in")), ("a", "c", ("left", "in"))]
+    >>> extents = dict.fromkeys("abc", Extent(10, 10))
+    >>> layer_places(graph_layers("abc", links), extents, 4, dict.fromkeys(links, (0, 0)))
+    {'a': 22.0, 'b': 10.0, 'c': 34.0}
+    """
+    places: dict[Item, float] = {item: 0.0 for row in layers.rows for item in row}
+    linked = {step: _linked(layers, ends, step) for step in (-1, 1)}
+    for sweep in range(_PLACE_SWEEPS):
+        # At last downwards, so that a chain hangs straight from where it begins.
+        step = -1 if sweep % 2 else 1
+        for row in layers.rows if step < 0 else reversed(layers.rows):
+            near = [
+                [places[one] + shift for one, shift in linked[step].get(item, [(item, 0.0)])]
+                for item in row
+            ]
+            wanted = [_mean(each) for each in near]
+            places |= zip(row, _apart(wanted, [extents[item] for item in row], gap), strict=True)
+    left = min((place - extents[item].left for item, place in places.items()), default=0.0)
+    return {item: place - left for item, place in places.items()}
+
+
+def _linked(
+    layers: GraphLayers, ends: Mapping[Link, tuple[float, float]], step: int
+) -> dict[Item, list[tuple[Item, float]]]:
+    """Return what each item hangs on in the layer before (-1) or behind (1), and how far beside."""
+    found: dict[Item, list[tuple[Item, float]]] = {}
+    for link, way in layers.ways.items():
+        leaves, enters = ends[link]
+        offsets = [leaves, *[0.0] * (len(way) - 2), enters]
+        for (above, left), (below, right) in pairwise(zip(way, offsets, strict=True)):
+            if step < 0:
+                found.setdefault(below, []).append((above, left - right))
+            else:
+                found.setdefault(above, []).append((below, right - left))
+    return found
+
+
+def _apart(wanted: Sequence[float], extents: Sequence[Extent], gap: float) -> list[float]:
+    """Return the places nearest to those wanted (least squares) at which nothing overlaps.
+
+    Of places less the room that all before them take, the order is all that is asked:
+    isotonic regression by pooling adjacent violators.
+    """
+    room = [0.0]
+    for before, after in pairwise(extents):
+        room.append(room[-1] + before.right + gap + after.left)
+    pools: list[list[float]] = []
+    for place, taken in zip(wanted, room, strict=True):
+        pools.append([place - taken])
+        while len(pools) > 1 and _mean(pools[-2]) > _mean(pools[-1]):
+            last = pools.pop()
+            pools[-1] += last
+    level = [_mean(pool) for pool in pools for _ in pool]
+    return [one + taken for one, taken in zip(level, room, strict=True)]
+
+
+def _mean(numbers: Sequence[float]) -> float:
+    return sum(numbers) / len(numbers)
+
+
+NAME, SMALL = 14.0, 12.0
+"""The sizes of letters."""
+
+_CELLS = 36  # How many letters a line of a box has at most.
+_NARROWEST, _PADDING = 120.0, 10.0
+_NAME_STEP, _STEP = 18.0, 16.0
+_OUTLET, _ARROW = 18.0, 28.0  # How far outlets stand from one another, and how long they are.
+_BESIDE, _APART = 6.0, 14.0  # Between a link and its label, and between a label and a link.
+
+
+@dataclass(frozen=True)
+class NodeBox:
+    """What is drawn of a node."""
+
+    name: list[str]
+    kind: list[str]
+    values: list[str]
+    role: str
+    outlets: list[str]
+    leaving: dict[Link, float]
+    entering: dict[Link, float]
+    width: float
+    height: float
+    extent: Extent
+
+    def draw(self, parent: Tag, x: float, y: float) -> None:
+        """Add the texts to a drawing."""
+        below = y + _PADDING
+        for lines, size, step, kind in (
+            (self.name, NAME, _NAME_STEP, "name"),
+            (self.kind, SMALL, _STEP, "faint"),
+            (self.values, SMALL, _STEP, "ink"),
+        ):
+            for line in lines:
+                add_text(parent, line, x + _PADDING, below + size * 0.9, size, kind)
+                below += step
+
+    def outlet_places(self, y: float) -> list[tuple[str, float, float]]:
+        """Return each outlet with its height, and how long its arrow is."""
+        return [
+            (told, y + _OUTLET * (number + 1), _ARROW) for number, told in enumerate(self.outlets)
+        ]
+
+
+def node_box(
+    name: str, element: Element, outlets: Sequence[str], leaving: Labels, entering: Labels
+) -> NodeBox:
+    """Return the box of a node."""
+    texts = lines_of(name, _CELLS - 4), lines_of(element.kind, _CELLS)
+    values = [line for each in element_values(element) for line in lines_of(each, _CELLS)]
+    told = [f"{drawable(port)}: leaves the path" for port in outlets]
+    below, above = _slots(leaving), _slots(entering)
+    widths = [text_width(line, NAME) for line in texts[0]]
+    widths += [text_width(line, SMALL) for line in (*texts[1], *values)]
+    reach = max((abs(place) for place in (*below.values(), *above.values())), default=0.0)
+    width = max(_NARROWEST, *widths, 2 * reach) + 2 * _PADDING
+    height = 2 * _PADDING + _NAME_STEP * len(texts[0]) + _STEP * (len(texts[1]) + len(values))
+    labelled = [
+        place + _BESIDE + text_width(label, SMALL)
+        for slots, labels in ((below, leaving), (above, entering))
+        for (_, label), place in zip(labels, slots.values(), strict=True)
+    ]
+    beside = [_ARROW + _BESIDE + text_width(one, SMALL) for one in told]
+    return NodeBox(
+        *texts,
+        values,
+        "inner" if element.inputs and element.outputs else "end" if element.inputs else "source",
+        told,
+        below,
+        above,
+        width,
+        max(height, _OUTLET * (len(told) + 1)),
+        Extent(width / 2, max(width / 2 + max(beside, default=0.0), *labelled, 0.0)),
+    )
+
+
+def _slots(labels: Labels) -> dict[Link, float]:
+    """Return where links stand beside one another, with room for what is written at each."""
+    if len(labels) == 1:
+        return {labels[0][0]: 0.0}
+    rooms = [_BESIDE + text_width(label, SMALL) + _APART for _, label in labels]
+    begin = -sum(rooms) / 2
+    return {link: begin + sum(rooms[:number]) for number, (link, _) in enumerate(labels)}
+
+
+_WIDEST, _LAST, _LEGEND_CELLS, _BETWEEN = (22, 22, 24), 40, 98, 2  # In letters.
+_STEP, _APART = 16.0, 4.0
+
+
+@dataclass(frozen=True)
+class PictureLegend:
+    """Tables of texts, one under the other."""
+
+    tables: list[list[tuple[list[str], ...]]]
+    columns: list[list[int]]
+
+    @property
+    def width(self) -> float:
+        """How wide the widest table is."""
+        cells = (sum(columns) + _BETWEEN * (len(columns) - 1) for columns in self.columns)
+        return text_width(" ", SMALL) * max(cells, default=0)
+
+    def draw(self, parent: Tag, x: float, y: float) -> float:
+        """Add the tables to a drawing; return where they end."""
+        letter = text_width(" ", SMALL)
+        for rows, columns in zip(self.tables, self.columns, strict=True):
+            for number, row in enumerate(rows):
+                for place, cell in enumerate(row):
+                    left = x + letter * (sum(columns[:place]) + _BETWEEN * place)
+                    kind = "name" if number == 0 else "ink" if place else "name"
+                    for line, text in enumerate(cell):
+                        add_text(parent, text, left, y + SMALL + _STEP * line, SMALL, kind)
+                y += _STEP * max(map(len, row)) + _APART
+            y += _STEP
+        return y
+
+
+def legend_of(path: PathGraph, case: str | None = None) -> PictureLegend:
+    """Return the legend of a path."""
+    found = PictureLegend([], [])
+    if rows := parameter_rows(path):
+        _add(found, [headings(case), *rows], _WIDEST)
+    named: dict[str, list[str]] = {}
+    for name, each in path.cases.items():
+        named.setdefault(each.note, []).append(name)
+    if named:
+        alone = [*named] == [""]
+        notes = [(", ".join(names), note) for note, names in named.items()]
+        _add(found, [("cases", ""), *notes], [_LEGEND_CELLS if alone else _WIDEST[0]])
+    return found
+
+
+def _add(legend: PictureLegend, rows: Sequence[tuple[str, ...]], widest: Sequence[int]) -> None:
+    """Add a table whose last column takes the room that the others leave."""
+    others = [[lines_of(row[place], most) for row in rows] for place, most in enumerate(widest)]
+    columns = [max(cell_len(line) for cell in each for line in cell) for each in others]
+    rest = max(_LAST, _LEGEND_CELLS - sum(columns) - _BETWEEN * len(columns))
+    last = [lines_of(row[-1], rest) for row in rows]
+    legend.tables.append([*zip(*others, last, strict=True)])
+    widest_last = max((cell_len(line) for cell in last for line in cell), default=0)
+    legend.columns.append([*columns, widest_last])
+
+
+Row = tuple[str, str, str, str]
+"""The name, the default, the range, and what it is."""
+
+
+def headings(case: str | None) -> Row:
+    """Return what stands above the columns: of a path with the values of a case no defaults.
+
+    Examples
+    --------
+    >>> headings(None)[1], headings("8")[1]
+    ('default', 'value')
+    """
+    return "parameter", "default" if case is None else "value", "range", "what it is"
+
+
+def parameter_rows(path: PathGraph) -> list[Row]:
+    """Return the rows of a path.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> parameter_rows(op.load_preset("malus"))[0]
+    ('angle', '30 deg', '-360 deg .. 360 deg', 'turn of the analyser against the polariser')
+    """
+    rows = [_row(parameter) for parameter in path.parameters.values()]
+    for name, choice in path.choices.items():
+        described = "; ".join(filter(None, [choice.help, ", ".join(choice.behind)]))
+        rows.append((name, choice.place(path.graph), "", described))
+    return rows
+
+
+def _row(parameter: Parameter) -> Row:
+    described = "; ".join(filter(None, [parameter.help, ", ".join(parameter.all_words)]))
+    default = ("bound to " if parameter.bound else "") + parameter.default_text()
+    return parameter.name, default, parameter.range_text(), described
+
+
+FACE = "ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
+"""Typefaces whose letters have one width."""
+
+_CELL = 0.6  # The width of a letter, as a part of its height.
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def text_width(text: str, size: float) -> float:
+    """Return how wide a text is drawn."""
+    return cell_len(text) * _CELL * size
+
+
+def add_text(parent: Tag, text: str, x: float, y: float, size: float, kind: str) -> None:
+    """Add a text of one line, stretched or squeezed to the width that is reckoned with."""
+    if not text:
+        return
+    SubElement(
+        parent,
+        "text",
+        {
+            "x": f"{x:g}",
+            "y": f"{y:g}",
+            "class": kind,
+            "font-size": f"{size:g}",
+            "textLength": f"{text_width(text, size):g}",
+            "lengthAdjust": "spacingAndGlyphs",
+        },
+    ).text = text
+
+
+def drawable(text: str) -> str:
+    r"""Return a text on one line, with the codes of characters that XML has no place for.
+
+    Examples
+    --------
+    >>> print(drawable("a\n b"))
+    a b
+    """
+    tame = printable(" ".join(text.split()))
+    return _NO_XML.sub(lambda found: f"U+{ord(found[0]):04X}", tame)
+
+
+def lines_of(text: str, cells: int) -> list[str]:
+    """Return a text in lines of at most so many cells; words that are longer are broken.
+
+    Examples
+    --------
+    >>> lines_of("a polariser of reflected light", 12)
+    ['a polariser', 'of reflected', 'light']
+    """
+    lines: list[str] = []
+    for word in drawable(text).split():
+        joined = f"{lines[-1]} {word}" if lines else word
+        if lines and cell_len(joined) <= cells:
+            lines[-1] = joined
+        else:
+            lines += chop_cells(word, cells)
+    return lines
+
 
 _MARGIN, _NARROWEST, _GAP = 24.0, 760.0, 22.0
 _LABEL, _ROUTE, _LANE = 20.0, 34.0, 12.0  # The heights of labels, bends and lanes of the way back.
@@ -131,7 +545,7 @@ class _Drawn:
 
     def __init__(
         self,
-        page: Element,
+        page: Tag,
         layers: GraphLayers,
         boxes: Mapping[str, NodeBox],
         labels: Mapping[Link, _Labels],
@@ -220,9 +634,9 @@ class _Drawn:
             add_text(self.page, told, begin + length + 6, height + 4, SMALL, "faint")
 
 
-def _page(path: PathGraph, name: str) -> Element:
+def _page(path: PathGraph, name: str) -> Tag:
     labelled = {"role": "img", "aria-labelledby": "title description"}
-    page = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", "width": "0", "height": "0"})
+    page = Tag("svg", {"xmlns": "http://www.w3.org/2000/svg", "width": "0", "height": "0"})
     page.attrib |= labelled
     SubElement(page, "title", {"id": "title"}).text = f"The path {drawable(name)}"
     told = [drawable(line) for line in (path.description, *draw(path).splitlines())]
@@ -235,7 +649,7 @@ def _page(path: PathGraph, name: str) -> Element:
     return page
 
 
-def _heading(page: Element, name: str, description: str, width: float) -> float:
+def _heading(page: Tag, name: str, description: str, width: float) -> float:
     below = _MARGIN
     for text, size, kind in ((name, _TITLE, "title"), (description, SMALL + 1, "ink")):
         for line in lines_of(text, int((width - 2 * _MARGIN) / text_width("x", size))):

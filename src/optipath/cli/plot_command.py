@@ -2,23 +2,297 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from bisect import bisect
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+import numpy as np
 
 from optipath.cli.console import say
-from optipath.cli.plot_kinds import KINDS, drawn
-from optipath.cli.plot_request import request_of
 from optipath.cli.preset_command import READS, PresetGroup
+from optipath.cli.ranges import refuse_arrays
 from optipath.cli.text_files import NewFile, check_place
-from optipath.errors import OptipathError
-from optipath.values.picture_files import check_form
+from optipath.errors import OptipathError, ParameterError, listed, shown, unknown
+from optipath.materials.named_materials import WAVELENGTH, materials_among
+from optipath.paths.files.presets import preset_of_case
+from optipath.values.files import check_form
+from optipath.values.units import displayed
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Collection, Mapping, Sequence
     from pathlib import Path
 
+    from matplotlib.figure import Figure
+
     from optipath.cli.chosen import Chosen
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+    from optipath.values.text import AxisValues
+
+
+@dataclass(frozen=True)
+class PlotRequest:
+    """What is to be drawn."""
+
+    kind: str
+    title: str
+    path: PathGraph
+    axes: dict[str, AxisValues | None]
+    quantities: tuple[str, ...]
+    ends: tuple[str, ...]
+    published: Mapping[str, tuple[float, ...]]
+
+    @property
+    def end(self) -> str:
+        """The only end at which the light is looked at."""
+        if len(self.ends) > 1:
+            raise ParameterError(
+                f"the path has the detectors {listed(self.ends)}, of which this picture has one; "
+                f"add --detector {self.ends[0]}"
+            )
+        return self.ends[0]
+
+
+def request_of(
+    chosen: Chosen,
+    kind: str,
+    counts: range,
+    *,
+    x: Sequence[str],
+    y: str | None,
+    detector: str | None,
+    reads: str | None,
+) -> PlotRequest:
+    """Return what a command line asks for."""
+    names = [name.strip().lstrip("-").replace("-", "_") for name in x]
+    axes = {name: chosen.axes.get(name) for name in [*names, *chosen.axes]}
+    quantities = tuple(["S0"] if y is None else [name.strip() for name in y.split(",")])
+    path = _opened(chosen, reads)
+    refuse_arrays(path, axes)
+    plan = path.compose()
+    ends, faults = _ends(plan, detector)
+    faults += _array_faults(plan)
+    faults += _name_faults(chosen, names, [*plan.inputs.open])
+    faults += _count_faults(kind, counts, axes, [*plan.inputs.open])
+    if len(axes) > 1 and len(quantities) > 1:
+        faults.append(f"a map is of one quantity, and --y names {len(quantities)}; give one")
+    if detector is not None and kind == "poincare" and not axes:
+        faults.append(
+            "--detector is of a trail along --x, and without it the trail goes along the whole "
+            "path; add --x NAME, or leave --detector out"
+        )
+    if faults:
+        raise ParameterError(*faults)
+    changed = bool(chosen.values or chosen.axes or reads)
+    published = {} if changed or chosen.case is None else path.cases[chosen.case].published
+    title = title_of(chosen, reads=reads, at=detector)
+    return PlotRequest(kind, title, path, axes, quantities, ends, published)
+
+
+def _opened(chosen: Chosen, reads: str | None) -> PathGraph:
+    """Return the path, in which all that nobody has given stays open."""
+    opened = chosen.opened
+    if chosen.case is not None:
+        opened = preset_of_case(opened, chosen.preset, chosen.case)
+    return replace(chosen, opened=opened, case=None).path(reads)
+
+
+def _ends(plan: Plan, detector: str | None) -> tuple[tuple[str, ...], list[str]]:
+    detectors, dumps = ([*names] for names in (plan.program.detectors, plan.program.dumps))
+    if detector is None:
+        return (*(detectors or dumps),), []
+    return (detector,), unknown("detector", detector, [*detectors, *dumps])
+
+
+def _array_faults(plan: Plan) -> list[str]:
+    """Return which parameters have several values, of which a picture has one, a sentence each."""
+    inputs = plan.inputs
+    return [
+        f"parameter '{name}' has several values in the file, and a picture is of one; give one by "
+        f"--{name.replace('_', '-')}"
+        for name, parameter in {**inputs.open, **inputs.bound}.items()
+        if isinstance(parameter.default, np.ndarray)
+        and parameter.default.ndim > len(inputs.tails.get(name, ()))
+    ]
+
+
+def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
+    """Return what is wrong with the names of what varies, a sentence each."""
+    faults = []
+    for name in dict.fromkeys(names):
+        flag = f"--{name.replace('_', '-')}"
+        if names.count(name) > 1:
+            faults.append(f"--x {name} is given {names.count(name)} times; give it once")
+        if name in chosen.opened.choices:
+            faults.append(f"--x {name} is a place, of which no axis has several; give {flag} WORD")
+        elif name in chosen.values:
+            faults.append(f"--x {name} varies what {flag} gives one value; leave one of them out")
+        else:
+            faults += unknown("--x", name, known)
+    for name, values in chosen.axes.items():
+        flag = f"--{name.replace('_', '-')}"
+        if values.shown.dtype.kind == "U":
+            word = next(one for one in values.shown.tolist() if one[:1].isalpha())
+            faults.append(
+                f"{flag} has the word {shown(word)}, and an axis is of numbers; leave it out"
+            )
+        if name not in known:
+            faults.append(
+                f"{flag} is given several values, and nothing depends on it; leave it out"
+            )
+    return faults
+
+
+def _count_faults(
+    kind: str, counts: range, axes: Collection[str], known: Sequence[str]
+) -> list[str]:
+    """Return what is wrong with how many parameters vary, a sentence each."""
+    faults = []
+    flags = [f"--{name.replace('_', '-')}" for name in axes]
+    if len(axes) > counts[-1]:
+        if not counts[-1]:
+            faults.append(
+                f"{listed(flags)} {'is' if len(flags) == 1 else 'are'} given several values, and "
+                f"--kind {kind} is of one; give one, or write --kind curve or poincare"
+            )
+            return faults
+        most = "two parameters" if counts[-1] > 1 else "one parameter"
+        faults.append(
+            f"--kind {kind} is along {most} at most, and {listed(flags)} vary; give one value of "
+            f"the others"
+        )
+    if len(axes) < counts[0]:
+        example = next(iter(known), "NAME").replace("_", "-")
+        faults.append(
+            f"--kind {kind} is along a parameter; name it, --x {example}, or give it several "
+            f"values, --{example} START:STOP:COUNT"
+        )
+    return faults
+
+
+class PlotKind(NamedTuple):
+    """A kind of picture."""
+
+    draw: Callable[[PlotRequest], Any]
+    takes: tuple[str, ...] = ()
+    counts: range = range(1)
+
+
+def drawn(asked: PlotRequest) -> Any:
+    """Return the picture that is asked for, with its title."""
+    import numpy as np  # noqa: PLC0415 - the command line starts without
+
+    from optipath.plots.text import missing_letters_as_boxes  # noqa: PLC0415 - an extra
+
+    with missing_letters_as_boxes():
+        first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
+    figure = first.figure
+    draw_title(figure, asked.title)
+    return figure
+
+
+def _ellipse(asked: PlotRequest) -> Any:
+    from optipath.plots import ellipse  # noqa: PLC0415 - an extra
+    from optipath.plots.axes import own_panel  # noqa: PLC0415 - ditto
+
+    lights, count = asked.path.trace_all(), len(asked.ends)
+    if count == 1:
+        return ellipse({asked.end: lights[asked.end]})
+    panel = own_panel(None, (1, count), (5.0 * count, 5.8))
+    for name, ax in zip(asked.ends, panel.flat, strict=True):
+        ellipse(lights[name], ax, labels=name)
+    return panel
+
+
+def _poincare(asked: PlotRequest) -> Any:
+    if not asked.axes:
+        from optipath.plots import poincare_path  # noqa: PLC0415 - an extra
+
+        return poincare_path(asked.path)
+    from optipath.plots.poincare_sphere import parameter_trail  # noqa: PLC0415 - ditto
+
+    ((name, values),) = asked.axes.items()
+    return parameter_trail(asked.path, name, asked.end, _texts(values))
+
+
+def _stokes(asked: PlotRequest) -> Any:
+    from optipath.plots import stokes  # noqa: PLC0415 - an extra
+    from optipath.plots.light_texts import MOST  # noqa: PLC0415 - ditto
+
+    if len(asked.ends) > MOST:
+        raise ParameterError(
+            f"the path has {len(asked.ends)} detectors, and their bars are told apart up to "
+            f"{MOST}; add --detector {asked.ends[0]}"
+        )
+    lights = asked.path.trace_all()
+    published = {name: asked.published[name] for name in asked.ends if name in asked.published}
+    return stokes({name: lights[name] for name in asked.ends}, published=published or None)
+
+
+def _mueller(asked: PlotRequest) -> Any:
+    from optipath.plots import mueller  # noqa: PLC0415 - an extra
+    from optipath.plots.axes import own_panel  # noqa: PLC0415 - ditto
+
+    program = asked.path.compose().program
+    ways = [(source, end) for end in asked.ends for source in program.sources]
+    if len(ways) == 1:
+        return mueller(asked.path.mueller(*ways[0]))
+    panel = own_panel(None, (1, len(ways)), (5.6 * len(ways), 5.4))
+    for (source, end), ax in zip(ways, panel.flat, strict=True):
+        mueller(asked.path.mueller(source, end), ax)
+        ax.set_title(f"{source} to {end}\n{ax.get_title()}", parse_math=False)
+    return panel
+
+
+def _curve(asked: PlotRequest) -> Any:
+    from optipath.plots import curve, quantity_map  # noqa: PLC0415 - an extra
+
+    (x, values), *other = asked.axes.items()
+    if not other:
+        return curve(asked.path, x, asked.quantities, values=_texts(values), detector=asked.end)
+    ((y, y_values),) = other
+    (quantity,) = asked.quantities
+    given: Any = {"x_values": _texts(values), "y_values": _texts(y_values)}
+    return quantity_map(asked.path, x, y, quantity, detector=asked.end, **given)
+
+
+def _texts(values: AxisValues | None) -> Any:
+    """Return the values of an axis as they were given, with their unit."""
+    if values is None or not values.unit:
+        return None if values is None else values.given
+    return [f"{number} {values.unit}" for number in values.shown.tolist()]
+
+
+def _geometry(asked: PlotRequest) -> Any:
+    from optipath.plots import geometry  # noqa: PLC0415 - an extra
+
+    return geometry(asked.path)
+
+
+def _bench(asked: PlotRequest) -> Any:
+    from optipath.plots import bench  # noqa: PLC0415 - an extra
+
+    return bench(asked.path)
+
+
+def _energy(asked: PlotRequest) -> Any:
+    from optipath.plots import energy  # noqa: PLC0415 - an extra
+
+    return energy(asked.path)
+
+
+KINDS = {
+    "ellipse": PlotKind(_ellipse, ("detector",)),
+    "poincare": PlotKind(_poincare, ("x", "detector"), range(2)),
+    "stokes": PlotKind(_stokes, ("detector",)),
+    "geometry": PlotKind(_geometry),
+    "bench": PlotKind(_bench),
+    "curve": PlotKind(_curve, ("x", "y", "detector"), range(1, 3)),
+    "mueller": PlotKind(_mueller, ("detector",)),
+    "energy": PlotKind(_energy),
+}
+
 
 KIND = click.Option(["--kind"], type=click.Choice([*KINDS]), help="What is drawn; needed.")
 X = click.Option(
@@ -81,3 +355,62 @@ def _kind_faults(kind: str | None, asked: Mapping[str, Any]) -> list[str]:
 
 
 plot = PresetGroup("plot", _plot, (KIND, X, Y, DETECTOR, READS, OUT), ranges=True, faults=_faults)
+
+
+_POINTS, _LINE, _FILLED = 12.0, 0.26, 0.95
+"""The size of letters, how many inches a line takes, and the share of the width it fills."""
+
+
+def draw_title(figure: Figure, title: str) -> None:
+    """Write a title above a picture, which becomes so much higher."""
+    lines = _lines(title, _FILLED * figure.get_figwidth())
+    figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
+    figure.suptitle("\n".join(lines), fontsize=_POINTS, parse_math=False)
+
+
+def _lines(title: str, inches: float) -> list[str]:
+    """Return lines that hold each name with its value, unless these alone are wider."""
+    from optipath.plots.text import broken, width_of  # noqa: PLC0415 - an extra
+
+    *parts, last = title.split(", ")
+    words: list[str] = []
+    for part in [*(f"{part}," for part in parts), last]:
+        rest = part
+        while width_of(rest, _POINTS) > inches:
+            fits = _count(rest, inches)
+            words, rest = [*words, rest[:fits]], rest[fits:]
+        words.append(rest)
+    return broken(words, inches, _POINTS)
+
+
+def _count(text: str, inches: float) -> int:
+    """Return how many letters of a text that is too wide fit into a line, one at least."""
+    from optipath.plots.text import width_of  # noqa: PLC0415 - an extra
+
+    cuts = range(1, len(text))
+    return max(1, bisect(cuts, inches, key=lambda cut: width_of(text[:cut], _POINTS)))
+
+
+def title_of(chosen: Chosen, **others: str | None) -> str:
+    """Return the preset and the case, and each value that is given besides, with its name.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> from optipath.cli.chosen import Chosen
+    >>> path = op.load_preset("npgr026")
+    >>> title_of(Chosen("npgr026", path, "8", {"delta": 0.5235987755982988}), reads="intensity")
+    'npgr026, case 8, delta 30 deg, reads intensity'
+    """
+    labels = {name: label for name, label, _ in materials_among(chosen.values)}
+    told = [chosen.title]
+    for name, value in chosen.values.items():
+        parameter = chosen.opened.parameters.get(name, WAVELENGTH)
+        if isinstance(value, float):
+            text = displayed(value, parameter.unit)
+        elif name in labels or isinstance(value, str):
+            text = labels.get(name, value)
+        else:
+            text = parameter.text(value)
+        told.append(f"{name} {text}")
+    return ", ".join([*told, *(f"{name} {text}" for name, text in others.items() if text)])

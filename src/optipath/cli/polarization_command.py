@@ -10,8 +10,8 @@ from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_json, title
 from optipath.cli.preset_command import PresetGroup
 from optipath.errors import listed
-from optipath.paths.polarization_matters import polarization as found_for
-from optipath.values.plain_json import plain
+from optipath.materials.quantities import plain
+from optipath.paths.polarization import polarization as found_for
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
     from optipath.cli.chosen import Chosen
     from optipath.paths.path_graph import PathGraph
-    from optipath.paths.polarization_matters import Polarization
+    from optipath.paths.polarization import Polarization
+
 
 _PATHS = 5
 

@@ -8,17 +8,15 @@ import click
 
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
-from optipath.cli.given_axes import RANGES, refuse_axes
-from optipath.cli.misplaced import StrictCommand
-from optipath.cli.unknown_options import refuse_outer_options
-from optipath.cli.whole_help import WholeHelp
+from optipath.cli.options import StrictCommand, WholeHelp, refuse_outer_options
+from optipath.cli.ranges import RANGES, refuse_axes
 from optipath.composer.composer import CHOICES
 from optipath.errors import OptipathError, PresetError, printable
-from optipath.kernels.catalogue import METHODS
-from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.kernels.catalog import METHODS
+from optipath.materials.named_materials import WAVELENGTH
+from optipath.materials.quantities import READINGS
+from optipath.paths.files.presets import load_preset, preset_names
 from optipath.values.cases import ALL
-from optipath.values.domains.quantities import READINGS
-from optipath.values.named_materials import WAVELENGTH
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -27,6 +25,7 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.paths.place_choice import PlaceChoice
     from optipath.values.parameters import Parameter
+
 
 METHOD = click.Option(
     ["--method"],

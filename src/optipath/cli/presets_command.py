@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json
-from optipath.cli.misplaced import StrictCommand
-from optipath.paths.presets.loader import preset_descriptions
+from optipath.cli.options import StrictCommand
+from optipath.paths.files.presets import preset_descriptions
 
 
 @click.command(cls=StrictCommand, params=[JSON])

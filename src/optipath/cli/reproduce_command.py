@@ -5,17 +5,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import click
+import numpy as np
 
-from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json
-from optipath.cli.misplaced import StrictCommand
+from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json, title
+from optipath.cli.options import StrictCommand
 from optipath.cli.surface_options import SEED, THREADS, whole
+from optipath.cli.surface_output import measured
 from optipath.errors import SurfaceError
-from optipath.lab.published.experiment_files import experiment_names, load_experiment
-from optipath.paths.format.faults import Faults
+from optipath.materials.quantities import plain
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.experiment_files import experiment_names, load_experiment
+from optipath.surfaces.reproduction import MEASURES
 
 if TYPE_CHECKING:
-    from optipath.lab.published.experiment import Experiment
-    from optipath.lab.published.reproduction import Reproduced
+    from collections.abc import Iterator, Sequence
+
+    from rich.table import Table
+
+    from optipath.surfaces.published_experiment import Experiment
+    from optipath.surfaces.reproduction import Reproduced
 
 
 def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
@@ -50,10 +58,6 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
         _list(experiments, as_json=as_json)
         return
     # Neither a list nor a wrong name needs numbers.
-    from optipath.cli.printed_reproduction import (  # noqa: PLC0415
-        print_reproduced,
-        reproduced_as_json,
-    )
 
     done: list[tuple[Experiment, list[Reproduced]]] = []
     try:
@@ -75,8 +79,8 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
 
 def _run(experiment: Experiment, found: list[Reproduced], **options: Any) -> None:
     """Do an experiment again; what has been found stays where Ctrl-C comes."""
-    from optipath.cli.photon_bar import photon_bar  # noqa: PLC0415
-    from optipath.lab.published.reproduction import reproduce  # noqa: PLC0415
+    from optipath.cli.progress import photon_bar  # noqa: PLC0415
+    from optipath.surfaces.reproduction import reproduce  # noqa: PLC0415
 
     with photon_bar(experiment.name) as progress:
         for one in reproduce(experiment, progress=progress, **options):
@@ -96,3 +100,85 @@ def _list(experiments: list[Experiment], *, as_json: bool) -> None:
 reproduce = click.command(
     "reproduce", cls=StrictCommand, params=[NAMES, LISTED, PHOTONS, SEED, THREADS, JSON]
 )(_reproduce)
+
+
+_COLUMNS = "measured", "incidence", "published", "computed", "agrees", "pixel"
+_AGREES = {None: "", True: "yes", False: "no"}
+
+
+def print_reproduced(
+    experiment: Experiment, found: Sequence[Reproduced], *, first: bool = True
+) -> None:
+    """Print what is published of a sample, and what has been measured."""
+    console = PlainConsole()
+    if not first:
+        console.print()
+    console.print(title(experiment.name, experiment.description))
+    photons = f"{found[0].photons:,} photons a direction" if found else "nothing measured"
+    console.print(cell(f"{experiment.source}; {photons}"))
+    for text in dict.fromkeys(one.measurement.text for one in found):
+        console.print()
+        console.print(cell(f'"{text}"'))
+        several = [one for one in found if one.measurement.text == text]
+        for mask in dict.fromkeys(one.found.mask for one in several):
+            console.print(_table([one for one in several if one.found.mask == mask]))
+            if mask:
+                console.print(cell(f"of {mask}"))
+    console.print()
+    for measure in dict.fromkeys(one.measurement.measure for one in found):
+        console.print(cell(f"{measure}: {MEASURES[measure].told}"))
+
+
+def _table(several: Sequence[Reproduced]) -> Table:
+    rows = [[*_row(one)] for one in several]
+    # Columns without any entry tell nothing.
+    kept = [at for at in range(len(_COLUMNS)) if any(row[at] for row in rows)]
+    table = headed(*(_COLUMNS[at] for at in kept), box=None)
+    for row in rows:
+        table.add_row(*(cell(row[at]) for at in kept))
+    return table
+
+
+def _row(one: Reproduced) -> Iterator[str]:
+    asked = one.measurement
+    mesh = f", {asked.walks.cells} cells" if asked.walks.cells else ""
+    yield asked.measure
+    yield f"{asked.walks.incidence}{mesh}"
+    yield (
+        ""
+        if asked.published is None
+        else " to ".join(dict.fromkeys(f"{number:g}" for number in asked.published))
+    )
+    yield "none" if np.isnan(one.found.value) else measured(one.found.value, one.found.error)
+    yield _AGREES[one.agrees]
+    yield one.found.pixel
+
+
+def reproduced_as_json(experiment: Experiment, found: Sequence[Reproduced]) -> dict[str, Any]:
+    """Return what has been measured as JSON can hold it, with all digits."""
+    return {
+        "experiment": experiment.name,
+        "description": experiment.description,
+        "source": experiment.source,
+        "measurements": [_as_json(one) for one in found],
+    }
+
+
+def _as_json(one: Reproduced) -> dict[str, Any]:
+    asked = one.measurement
+    return {
+        "measure": asked.measure,
+        "text": asked.text,
+        "incidence": asked.walks.incidence,
+        "wavelengths": [*asked.walks.wavelengths],
+        "cells": asked.walks.cells,
+        "stokes": [*asked.stokes],
+        "published": None if asked.published is None else [*asked.published],
+        "within": asked.within,
+        "value": plain(np.asarray(one.found.value)),
+        "standard_error": plain(np.asarray(one.found.error)),
+        "agrees": one.agrees,
+        "mask": one.found.mask,
+        "pixel": one.found.pixel,
+        "photons": one.photons,
+    }

@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, say_json
-from optipath.cli.given_axes import grid_of_axes, refuse_arrays
-from optipath.cli.outcome import outcome_as_json, outcome_of
+from optipath.cli.outcome import outcome_as_json, outcome_of, print_cases, print_outcome
 from optipath.cli.preset_command import COMPOSING, PresetGroup
-from optipath.cli.printed_light import print_cases, print_outcome
+from optipath.cli.ranges import grid_of_axes, refuse_arrays
 from optipath.composer.composer import Composer
 
 if TYPE_CHECKING:

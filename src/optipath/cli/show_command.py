@@ -8,19 +8,19 @@ import click
 
 from optipath.cli.chosen import one_case
 from optipath.cli.console import PlainConsole, cell, headed, wrapped
-from optipath.cli.misplaced import StrictCommand
-from optipath.cli.path_picture import path_picture
-from optipath.cli.path_rows import headings, parameter_rows
+from optipath.cli.options import StrictCommand
+from optipath.cli.path_picture import headings, parameter_rows, path_picture
 from optipath.cli.preset_command import no_preset
 from optipath.cli.text_files import NewFile, check_place, write
 from optipath.errors import shown
 from optipath.paths.drawing import draw
-from optipath.paths.presets.loader import load_preset, preset_of_case
+from optipath.paths.files.presets import load_preset, preset_of_case
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from optipath.paths.path_graph import PathGraph
+
 
 CASE = click.Option(["--case", "cases"], metavar="NAME", multiple=True, help="Named set of values.")
 SVG = click.Option(

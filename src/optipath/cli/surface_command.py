@@ -8,16 +8,94 @@ import click
 from click.core import ParameterSource
 
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say, say_json, title
-from optipath.cli.drawn_map import DRAWING, draw_map
-from optipath.cli.misplaced import StrictCommand
+from optipath.cli.options import StrictCommand
+from optipath.cli.progress import photon_bar
 from optipath.cli.surface_options import DECIDE, REDRAWING, SAMPLE, WALKING
-from optipath.errors import listed
-from optipath.surfaces.samples.sample_files import load_sample, sample_descriptions
+from optipath.cli.text_files import NewFile, check_place
+from optipath.errors import SurfaceError, listed
+from optipath.surfaces.sample_files import load_sample, sample_descriptions
+from optipath.values.files import check_form
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from optipath.cli.energy_outcome import EnergyOutcome
+    from optipath.cli.surface_options import GivenWalk
+    from optipath.cli.surface_output import EnergyOutcome
+    from optipath.plots.hemisphere_side import PixelQuantity
+
+
+MAP = click.Option(
+    ["--map", "quantity"],
+    metavar="QUANTITY",
+    help="Draw a map of S0, S1, S2, S3, DoP, DoLP, AoP, difference, ADM or MDM; needs --out.",
+)
+SIDE = click.Option(
+    ["--side"],
+    type=click.Choice(["reflected", "transmitted"]),
+    default="reflected",
+    help="Of --map and --decide: above the sample, or below.",
+)
+OUT = click.Option(
+    ["--out"], type=NewFile(), help="Of --map: the file; its ending is .png, .svg or .pdf."
+)
+
+DRAWING = (MAP, SIDE, OUT)
+
+
+def draw_map(
+    sample: str, quantity: str, side: str, out: Path | None, *, as_json: bool, **options: Any
+) -> None:
+    """Walk photons from one direction, and draw what goes into each direction."""
+    if out is None:
+        raise click.UsageError("--map draws into a file; name it, --out map.png")
+    for name, given in (("--json", as_json), ("--tolerance", options["tolerance"])):
+        if given:
+            raise click.UsageError(f"{name} is of tables, and --map draws; leave one of them out")
+    check_form(out)
+    check_place(out)
+    # Before photons are walked: these tell whether what draws is there.
+    from optipath.cli.surface_options import given_walks  # noqa: PLC0415 - needs numbers
+    from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
+    from optipath.plots.hemisphere_side import QUANTITIES  # noqa: PLC0415 - ditto
+    from optipath.plots.light_quantities import named_quantity  # noqa: PLC0415 - ditto
+    from optipath.surfaces.hemisphere.measure import measure  # noqa: PLC0415 - needs numbers
+
+    walk = _only(
+        given_walks(load_sample(sample), **options), named_quantity(quantity, QUANTITIES), side
+    )
+    beam, source = walk.run.beam, walk.run.beam.states[0]
+    with photon_bar(walk.direction) as progress:
+        measured = measure(
+            beam.sample,
+            walk.incidence.given.item(),
+            walk.wanted,
+            None if walk.wavelengths is None else walk.wavelengths.given,
+            seed=beam.seed,
+            azimuth=beam.azimuth,
+            most_events=beam.most_events,
+            threads=walk.run.threads,
+            progress=progress,
+        )
+    drawn = hemisphere(measured, quantity, source=source, side=side)
+    save(drawn, out)
+    say(f"wrote {out}")
+
+
+def _only(walks: list[GivenWalk], drawn: PixelQuantity, side: str) -> GivenWalk:
+    """Return the walk of which a map can be drawn."""
+    if len(walks) > 1:
+        raise SurfaceError("--map is of one angle of incidence; give --incidence once")
+    walk, faults = walks[0], []
+    beam = walk.run.beam
+    if side == "transmitted" and beam.indices.opaque:
+        faults.append("nothing goes through an opaque sample; leave --side out")
+    if not drawn.over_wavelengths and beam.indices.n.size > 1:
+        faults.append(f"a map of {drawn.variable} is of one wavelength; give --wavelength one")
+    if drawn.masked and any(beam.states[0][1:]):
+        faults.append(f"{drawn.variable} is of unpolarised light; leave --stokes out")
+    if faults:
+        raise SurfaceError(*faults)
+    return walk
 
 
 def _surface(
@@ -48,7 +126,7 @@ def _surface(
         raise click.UsageError(f"{told} of a map; say of what, --map S0")
     elif decide:
         # Neither a list of samples nor an energy needs it.
-        from optipath.cli.printed_choice import print_choices  # noqa: PLC0415
+        from optipath.cli.surface_output import print_choices  # noqa: PLC0415
 
         print_choices(sample, side, as_json=as_json, **options)
     else:
@@ -79,10 +157,13 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     """Walk photons from each direction, and tell of them at once, or all in one JSON object."""
     loaded = load_sample(sample)
     # Neither a list of samples nor a wrong name needs numbers.
-    from optipath.cli.energy_outcome import energy_as_json, walked  # noqa: PLC0415
-    from optipath.cli.given_walk import given_walks  # noqa: PLC0415
-    from optipath.cli.photon_bar import photon_bar  # noqa: PLC0415
-    from optipath.cli.printed_energy import print_energy  # noqa: PLC0415
+    from optipath.cli.progress import photon_bar  # noqa: PLC0415
+    from optipath.cli.surface_options import given_walks  # noqa: PLC0415
+    from optipath.cli.surface_output import (  # noqa: PLC0415
+        energy_as_json,
+        print_energy,
+        walked,
+    )
 
     walks = given_walks(loaded, **options)
     found: list[EnergyOutcome] = []

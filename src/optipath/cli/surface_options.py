@@ -1,13 +1,29 @@
-"""Options of ``optipath surface``."""
+"""Options of ``optipath surface``, and the photons they ask for."""
 
 from __future__ import annotations
 
+import dataclasses
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.errors import shown
-from optipath.surfaces.samples.sample_files import sample_names
+from optipath.cli.ranges import axis_given
+from optipath.errors import SurfaceError, listed, shown
+from optipath.materials.named_materials import WAVELENGTH
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.energy_shares import given_run
+from optipath.surfaces.sample_files import sample_names
+from optipath.values.parameters import Parameter
+from optipath.values.text import AxisValues, read_entries
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.surfaces.energy_shares import EnergyRun
+    from optipath.surfaces.sample import Sample
 
 
 def whole(text: str) -> int:
@@ -95,3 +111,131 @@ SAMPLE_SEED = click.Option(
 
 WALKING = (INCIDENCE, PHOTONS, TOLERANCE, WAVELENGTHS, AZIMUTH, STOKES, SEED, EVENTS, THREADS)
 REDRAWING = (SURFACES, CELLS, SAMPLE_SEED)
+
+
+_MOST = 1000
+"""How many values there may be of which each has tables."""
+
+_INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "azimuth"))
+
+
+def incidences_of(texts: Sequence[str]) -> list[AxisValues]:
+    """Return the angles of incidence that options give, each alone.
+
+    Examples
+    --------
+    >>> [one.shown.item() for one in incidences_of(["0:60:3", "1 rad"])]
+    [0.0, 30.0, 60.0, 1.0]
+    """
+    if not texts:
+        raise SurfaceError("--incidence is missing; give the angle of incidence: --incidence 60")
+    several = [_values(text, _INCIDENCE, "deg") for text in texts]
+    _refuse_many("--incidence", sum([len(one.given) for one in several]))
+    return [
+        AxisValues(one.shown[at], one.unit, one.given[at])
+        for one in several
+        for at in range(len(one.given))
+    ]
+
+
+def wavelengths_of(text: str | None) -> AxisValues | None:
+    """Return the wavelengths that an option gives, without an axis where it is one."""
+    if text is None:
+        return None
+    found = _values(text, WAVELENGTH, "")
+    _refuse_many("--wavelength", len(found.given))
+    return found if axis_given(WAVELENGTH, text, ()) else found.reshaped(())
+
+
+def azimuth_of(text: str) -> float:
+    """Return an azimuth in radians."""
+    if axis_given(_AZIMUTH, text, ()) is not None:
+        raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
+    return float(_values(text, _AZIMUTH, "deg").given[0])
+
+
+def numbers_of(option: str, text: str, kind: Any, counts: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return numbers with commas between them.
+
+    Examples
+    --------
+    >>> numbers_of("--cells", "640, 320", int, (1, 2))
+    (640, 320)
+    """
+    try:
+        found = tuple([kind(part) for part in text.split(",")])
+    except ValueError:
+        found = ()
+    if len(found) not in counts:
+        several = listed([str(count) for count in counts]).replace(" and ", " or ")
+        usual = {int: "640", float: "1,0,0,0"}[kind]
+        raise SurfaceError(
+            f"{option} takes {several} numbers with commas between, such as {usual}, and not "
+            f"{shown(text)}"
+        )
+    return found
+
+
+def _refuse_many(option: str, count: int) -> None:
+    if count > _MOST:
+        raise SurfaceError(
+            f"{option} gives {count:,} values, of which each has tables of its own; give "
+            f"{_MOST:,} at most"
+        )
+
+
+def _values(text: str, parameter: Parameter, unit: str) -> AxisValues:
+    return axis_given(parameter, text, ()) or read_entries([text], parameter, unit)
+
+
+@dataclass(frozen=True)
+class GivenWalk:
+    """Photons that fall on a sample from one direction, to be walked."""
+
+    incidence: AxisValues
+    wavelengths: AxisValues | None
+    run: EnergyRun
+    wanted: int
+    tolerance: float | None
+
+    @property
+    def direction(self) -> str:
+        """The angle of incidence, as it was given, with its unit."""
+        return f"incidence {self.incidence.shown.item():g} {self.incidence.unit}"
+
+
+def given_walks(
+    sample: Sample,
+    *,
+    incidences: Sequence[str],
+    wavelength: str | None,
+    azimuth: str,
+    stokes: str,
+    surfaces: int | None,
+    cells: str | None,
+    sample_seed: int | None,
+    **options: Any,
+) -> list[GivenWalk]:
+    """Return the walks that options ask for, one for each angle of incidence."""
+    faults = Faults()
+    angles = faults.attempt("", incidences_of, incidences) or incidences_of(["0"])
+    lights = faults.attempt("", wavelengths_of, wavelength)
+    light: dict[str, Any] = {
+        "azimuth": faults.attempt("", azimuth_of, azimuth) or 0.0,
+        "stokes": faults.attempt("", numbers_of, "--stokes", stokes, float, (4,)) or (1, 0, 0, 0),
+        "wavelength": None if lights is None else lights.given,
+    }
+    mesh = faults.attempt("", numbers_of, "--cells", cells, int, (1, 2)) if cells else None
+    drawn = {"surfaces": surfaces, "cells": mesh and (*mesh, mesh[0])[:2], "seed": sample_seed}
+    changes = {name: value for name, value in drawn.items() if value is not None}
+    sample = faults.attempt("the sample", dataclasses.replace, sample, **changes) or sample
+    runs = [
+        faults.attempt("", partial(given_run, sample, angle.given, **light, **options))
+        for angle in angles
+    ]
+    if faults:
+        raise SurfaceError(*dict.fromkeys(faults))
+    return [
+        GivenWalk(angle, lights, *run, options["tolerance"])
+        for angle, run in zip(angles, filter(None, runs), strict=True)
+    ]

@@ -2,33 +2,201 @@
 
 from __future__ import annotations
 
+import json
+import os
+from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.cli.block_bar import block_bar
-from optipath.cli.console import DIGITS, say, say_json
-from optipath.cli.given_axes import refuse_arrays
-from optipath.cli.outcome import outcome_as_json, outcome_of
-from optipath.cli.preset_command import COMPOSING, PresetGroup
-from optipath.cli.printed_sweep import print_sweep, sizes_text
-from optipath.cli.sweep_files import write_csv, write_json
-from optipath.cli.sweep_options import (
-    SWEEPING,
-    chunks_of,
-    coords_names,
-    ending_of,
-    is_of_blocks,
-    option_faults,
-    zip_groups,
+import click
+import numpy as np
+
+from optipath.cli.console import DIGITS, PlainConsole, cell, headed, say, say_json
+from optipath.cli.outcome import (
+    MOST_ROWS,
+    TOLD,
+    outcome_as_json,
+    outcome_of,
+    plane_table,
+    point_table,
+    print_given,
+    ran,
 )
+from optipath.cli.preset_command import COMPOSING, PresetGroup
+from optipath.cli.progress import progress_bar
+from optipath.cli.ranges import refuse_arrays
+from optipath.cli.text_files import told_of, write
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError, listed
-from optipath.sweeps.axes.read_axes import grid_of
+from optipath.errors import OptipathError, ParameterError, listed, printable, shown
+from optipath.light.printed import Numbers
+from optipath.sweeps.axes import grid_of
+from optipath.sweeps.jobs import place_of_blocks
+from optipath.sweeps.labels import regions, table_columns, table_heads
+from optipath.values.columns import columns_of
+from optipath.values.files import written_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+    from rich.table import Table
 
     from optipath.cli.chosen import Chosen
+    from optipath.cli.outcome import Outcome
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.grid import SweepGrid
+
+
+ZIP = click.Option(
+    ["--zip"],
+    metavar="NAME,NAME",
+    multiple=True,
+    help="Parameters whose values vary together, along one axis. May be repeated.",
+)
+COORDS = click.Option(
+    ["--coords"],
+    metavar="FILE.csv",
+    help="Axes besides: a column for each parameter, its unit in the heading.",
+)
+CHUNKS = click.Option(
+    ["--chunks"],
+    metavar="N|auto",
+    help="How many values along each axis are computed at once for .zarr and .nc.",
+)
+SCHEDULER = click.Option(
+    ["--scheduler"],
+    metavar="WORD|ADDRESS",
+    help="What computes .zarr and .nc: threads, processes, synchronous, or tcp://... of a cluster.",
+)
+OUT = click.Option(
+    ["--out"],
+    metavar="FILE",
+    help="Write all into this file; its ending says in which form (csv, json, nc, zarr).",
+)
+SWEEPING = (ZIP, COORDS, CHUNKS, SCHEDULER, OUT)
+
+TEXTS, BLOCKS = (".csv", ".json"), (".nc", ".zarr")
+"""Endings of what the command writes itself, and of what is computed and written by blocks."""
+
+_SCHEDULERS = ("threads", "processes", "synchronous")
+
+
+def ending_of(out: str) -> str:
+    """Return the ending of a file, which says in which form it is written.
+
+    Examples
+    --------
+    >>> ending_of("result.csv"), ending_of("result.zarr/")
+    ('.csv', '.zarr')
+    """
+    return Path(out).suffix
+
+
+def is_of_blocks(out: str | None) -> bool:
+    """Tell whether a file is written block by block, by its ending."""
+    return out is not None and ending_of(out) in BLOCKS
+
+
+def chunks_of(chunks: str | None) -> int | str | None:
+    """Return what ``chunks=`` of a sweep is given for what stands behind the option."""
+    return int(chunks) if chunks and chunks.isdecimal() else chunks
+
+
+def zip_groups(
+    zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
+) -> dict[str, tuple[str, ...]]:
+    """Return the parameters of each group that varies together, by what was written.
+
+    Examples
+    --------
+    >>> zip_groups(["sky-angle, theta"])
+    {'sky-angle, theta': ('sky_angle', 'theta')}
+    """
+    return {names: tuple(filter(None, map(_parameter, names.split(",")))) for names in zip}
+
+
+def _parameter(option: str) -> str:
+    """Return the parameter of an option, with hyphens before and within it or without."""
+    return option.strip().lstrip("-").replace("-", "_")
+
+
+def coords_names(coords: str | None) -> list[str]:
+    """Return the parameters that a file has columns of."""
+    return [column.name for column in columns_of(coords)] if coords is not None else []
+
+
+def coords_faults(coords: str | None) -> list[str]:
+    """Return what is wrong with a file of axes, a sentence each."""
+    try:
+        coords_names(coords)
+    except OptipathError as error:
+        about = f"{error.about}: " if error.about else ""
+        return [f"{about}{fault}" for fault in error.faults]
+    return []
+
+
+def option_faults(
+    *,
+    as_json: bool,
+    out: str | None,
+    zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
+    coords: str | None,
+    chunks: str | None,
+    scheduler: str | None,
+    **_others: Any,
+) -> list[str]:
+    """Return what is wrong with the options of a sweep, a sentence each."""
+    faults = [] if out is None else out_faults(out)
+    if as_json and out is not None:
+        faults.append("--json prints what --out writes into a file; give one of them")
+    faults += [
+        f"--zip {shown(names)} names fewer than two parameters; write --zip NAME,NAME"
+        for names, group in zip_groups(zip).items()
+        if len(group) < 2
+    ]
+    faults += coords_faults(coords)
+    if chunks is not None and chunks != "auto" and not (chunks.isdecimal() and int(chunks)):
+        faults.append(
+            f"--chunks {shown(chunks)} is no size of a block; write 'auto', or how many values "
+            f"along each axis, such as 1000"
+        )
+    if scheduler is not None and scheduler not in _SCHEDULERS and "://" not in scheduler:
+        faults.append(
+            f"--scheduler {shown(scheduler)} is unknown; write {', '.join(_SCHEDULERS)}, or the "
+            f"address of a cluster, such as tcp://127.0.0.1:8786"
+        )
+    idle = {"--chunks": chunks, "--scheduler": scheduler}
+    if not is_of_blocks(out) and (given := [name for name, value in idle.items() if value]):
+        faults.append(
+            f"{listed(given)} belong{'s' * (len(given) == 1)} to a sweep that is written by "
+            f"blocks; add --out FILE.zarr or FILE.nc, or leave it out"
+        )
+    return faults
+
+
+def out_faults(out: str) -> list[str]:
+    """Return what is wrong with a file that a sweep is to be written to, a sentence each.
+
+    Examples
+    --------
+    >>> out_faults("result.txt")
+    ["--out 'result.txt' has no ending of a sweep; write 'result.csv', .json, .nc or .zarr"]
+    """
+    file = Path(out)
+    if not out or "\0" in out:
+        return [f"--out {shown(out)} is no name of a file; write one such as 'result.csv'"]
+    suffix = ending_of(out)
+    if suffix not in (*TEXTS, *BLOCKS):
+        meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
+        return [f"--out {shown(out)} has no ending of a sweep; write {meant}, .json, .nc or .zarr"]
+    folder = file.absolute().parent
+    if not folder.is_dir():
+        return [f"--out {shown(out)} cannot be written: there is no folder {shown(str(folder))}"]
+    if suffix in TEXTS and (file.exists() or file.is_symlink()):
+        return [f"--out {shown(out)} is there already, and stays; name another file, or remove it"]
+    if not os.access(folder, os.W_OK):
+        return [f"--out {shown(out)} cannot be written: permission denied"]
+    return []
 
 
 def _sweep(
@@ -92,3 +260,105 @@ def _no_axis(known: Iterable[str]) -> str:
 sweep = PresetGroup(
     "sweep", _sweep, (*COMPOSING, DIGITS, *SWEEPING), ranges=True, faults=option_faults
 )
+
+
+def write_json(file: Path, outcome: Outcome) -> None:
+    """Write all that a run has found as one JSON object."""
+    write(file, json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
+
+
+def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
+    """Write a line for each point of a grid, a part of them after the other."""
+    columns = table_heads(plan, grid)
+    with told_of(file), written_whole(file) as stream, progress_bar(grid.points) as tell:
+        stream.write(",".join(columns).encode() + b"\n")
+        for region in regions(grid.shape):
+            rows = list(zip(*table_columns(plan, grid, region), strict=True))
+            stream.write("".join(f"{','.join(row)}\n" for row in rows).encode())
+            tell(file.name, advance=len(rows))
+
+
+_MOST_COLUMNS = 12
+_WIDEST = 1000
+
+
+def print_sweep(outcome: Outcome, digits: int) -> None:
+    """Print the light of a sweep, as far as it fits; the rest is for a file."""
+    console, numbers = PlainConsole(), Numbers(digits)
+    print_given(console, outcome, numbers)
+    grid = outcome.grid
+    is_line = len(grid.shape) == 1
+    is_plane = len(grid.axes) == len(grid.shape) == 2
+    if is_plane and grid.shape[0] <= MOST_ROWS and grid.shape[1] <= _MOST_COLUMNS:
+        titles = {f"S0 at {name}": light for name, light in outcome.lights.items()}
+        tables = [plane_table(title, light, grid, numbers) for title, light in titles.items()]
+    elif is_line or grid.points <= MOST_ROWS:
+        tables = [_point_table(console, outcome, name, numbers) for name in outcome.lights]
+    else:
+        tables = [_summary(outcome, numbers)]
+    for table in tables:
+        console.print(table)
+    console.print(cell(ran([outcome])))
+    if not is_line or grid.points > MOST_ROWS:
+        console.print(cell("for all numbers add --out FILE (csv, json, nc, zarr), or --json"))
+
+
+def sizes_text(grid: SweepGrid) -> str:
+    """Return how many points a grid has, and how many along each dimension."""
+    sizes = ", ".join(f"{name} {size:,}" for name, size in grid.sizes.items())
+    return f"{grid.points:,} points ({sizes})"
+
+
+def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
+    """Return a row for each point, with as many quantities of light as the terminal is wide."""
+    given = f"light at {name}", outcome.lights[name], outcome.grid, numbers
+    for count in range(len(TOLD), 0, -1):
+        table = point_table(*given, dict(islice(TOLD.items(), count)))
+        if console.measure(table, options=console.options.update(width=_WIDEST)).maximum <= (
+            console.width
+        ):
+            return table
+    return point_table(*given)
+
+
+def _summary(outcome: Outcome, numbers: Numbers) -> Table:
+    """Return how many points there are, and between which values S0 lies."""
+    about = cell(sizes_text(outcome.grid))
+    table = headed("", "least S0", "largest S0", box=None, title=about, title_justify="left")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for name, light in outcome.lights.items():
+        known = light.intensity[np.isfinite(light.intensity)]
+        ends = [float(find(known)) if known.size else np.nan for find in (np.min, np.max)]
+        table.add_row(*map(cell, (f"light at {name}", *map(numbers.state, ends))))
+    return table
+
+
+@contextmanager
+def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
+    """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes."""
+    counts: list[tuple[int, int]] = []
+    # A file is written once all are there.
+    kept = place_of_blocks(store) if ending_of(store) == ".nc" else store
+    try:
+        with progress_bar(1.0) as show:
+
+            def tell(done: int, total: int) -> None:
+                if not counts and done:
+                    _say(f"{_counted(done, total)} in {kept} already")
+                counts.append((done, total))
+                show(f"{done} of {total} blocks", completed=done / total)
+
+            yield tell
+    except KeyboardInterrupt:
+        if counts and counts[-1][0]:
+            _say(f"{_counted(*counts[-1])} in {kept}; the same command goes on from there")
+        raise
+
+
+def _counted(done: int, total: int) -> str:
+    return f"{done:,} of {total:,} block{'s' * (total != 1)} {'is' if done == 1 else 'are'}"
+
+
+def _say(text: str) -> None:
+    click.echo(printable(f"optipath: {text}"), err=True)

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath.errors import shown
-from optipath.values.given_files import bytes_of
-from optipath.values.written_files import write_file
+from optipath.values.files import bytes_of, write_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

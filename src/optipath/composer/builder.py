@@ -1,21 +1,20 @@
-"""Builder: collects operands, evaluations and steps of a program; equal ones are entered once."""
+"""Builder: operands, evaluations and steps of a program, each entered once."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.composer.junctions import in_order_of_elimination
-from optipath.engines.program.program import Evaluation, Loop, Program, Reading, Result, Step
-from optipath.values.operation import ResultOf
+from optipath.engines.program import Evaluation, Loop, Program, Reading, Result, Step
+from optipath.values.operands import ResultOf
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
 
-    from optipath.elements.vertices.frame import VertexFrame
-    from optipath.light.frames import Frame
-    from optipath.values.operands import Operand
-    from optipath.values.operation import Operation
+    from optipath.elements.vertex_place import VertexFrame
+    from optipath.light.frame import Frame
+    from optipath.values.operands import Operand, Operation
 
 
 class Builder:
@@ -126,3 +125,130 @@ class Builder:
         if index == len(self.operands):
             self.operands.append(operand)
         return index
+
+
+_WORDS = 60
+"""How long the name of a step may become that is made of several."""
+
+
+class Item(NamedTuple):
+    """A step that does something to one light."""
+
+    label: str
+    operation: Operation
+    presence: Operand | None
+    light: int
+    once: bool
+
+
+def along_chains(program: Program, change: Callable[[list[Item]], list[Item]]) -> Program:
+    """Return a program in which each chain of steps is replaced by another one."""
+    return _Chains(program, change).program()
+
+
+class _Chains:
+    """Goes along a program; a light that is used once waits for what becomes of it."""
+
+    def __init__(self, program: Program, change: Callable[[list[Item]], list[Item]]) -> None:
+        self.old = program
+        self.change = change
+        self.builder = Builder()
+        self._once = True
+        self._waiting: dict[int, tuple[int, list[Item]]] = {}
+
+    def program(self) -> Program:
+        for lights, loop in self.old.stretches():
+            if loop is not None:
+                self._settle_before(loop)
+            self._once = loop is None
+            junctions = self.builder.junctions_of(self.old, loop)
+            self._waiting |= {junction: (light, []) for junction, light in junctions.items()}
+            for light in lights:
+                if light not in junctions:
+                    self._waiting[light] = self._of(light, self.old.steps[light])
+            self.builder.close_like(self.old, loop, self._settled)
+        return self.builder.instead_of(self.old, self._settled)
+
+    def _settle_before(self, loop: Loop) -> None:
+        """Settle what enters a loop, since its steps stand together."""
+        for light in range(loop.start, loop.stop):
+            for source in self.old.steps[light].inputs:
+                if source < loop.start:
+                    self._settled(source)
+
+    def _of(self, light: int, step: Step) -> tuple[int, list[Item]]:
+        if step.evaluation is None:
+            return self.builder.sum(step.label, [self._settled(i) for i in step.inputs]), []
+        operation = self.old.operations[step.evaluation]
+        if not step.inputs:
+            return self.builder.step(step.label, (), operation), []
+        there = self.old.presence(step.evaluation)
+        item = Item(step.label, operation, there, light, self._once)
+        (before,) = step.inputs
+        base, items = self._waiting[before]
+        if self.old.light_uses[before] > 1 or not items:
+            return self._settled(before), [item]
+        del self._waiting[before]
+        items.append(item)
+        return base, items
+
+    def _settled(self, light: int) -> int:
+        """Return the new light of an old one, its steps added."""
+        base, items = self._waiting[light]
+        if items:
+            for item in self.change(items):
+                base = self.builder.step(item.label, (base,), item.operation, item.presence)
+            self._waiting[light] = base, []
+        return base
+
+
+def label_of(items: Sequence[Item]) -> str:
+    """Return the names of steps as one, the first and the last where they would be too long."""
+    names = [name for item in items for name in item.label.split(", ")]
+    whole = ", ".join(dict.fromkeys(names))
+    if len(whole) <= _WORDS:
+        return whole
+    return f"{names[0].split(' .. ')[0]} .. {names[-1].split(' .. ')[-1]}"
+
+
+def in_order_of_elimination(
+    steps: Sequence[Step], start: int, junctions: tuple[int, ...]
+) -> dict[int, int]:
+    """Return the junctions of a loop in the order of their elimination.
+
+    A junction that is eliminated makes its neighbours neighbours of each other; taking the one
+    with the fewest each time, as Markowitz does (Management Science 3, 1957), keeps them few.
+    In a stack of parallel interfaces it adds layer after layer.
+    """
+    near = neighbours(steps, start, junctions)
+    waiting = [(len(others), junction) for junction, others in near.items()]
+    heapify(waiting)
+    order: dict[int, int] = {}
+    while waiting:
+        count, junction = heappop(waiting)
+        if junction not in near or count != len(near[junction]):
+            continue
+        order[junction] = count
+        others = near.pop(junction)
+        for other in others:
+            near[other] = (near[other] | others) - {other, junction}
+            heappush(waiting, (len(near[other]), other))
+    return order
+
+
+def neighbours(
+    steps: Sequence[Step], start: int, junctions: tuple[int, ...]
+) -> dict[int, set[int]]:
+    """Return which junctions of a loop light passes next to each other."""
+    behind = {junction: junction for junction in junctions}
+    for light in range(start, len(steps)):
+        if light not in behind:
+            # Between junctions, light has one way to come from.
+            behind[light] = behind[steps[light].inputs[0]]
+    found: dict[int, set[int]] = {junction: set() for junction in junctions}
+    for junction in junctions:
+        before = {behind[light] for light in steps[junction].inputs if light >= start}
+        for other in before - {junction}:
+            found[junction].add(other)
+            found[other].add(junction)
+    return found

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import gc
+from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Protocol
 
 import networkx as nx
 
-from optipath.composer.collection import put_off
 from optipath.composer.followed_values import with_followed
 from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
 from optipath.composer.media import Media
@@ -16,18 +17,18 @@ from optipath.composer.path_values import Values
 from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring, link_text
-from optipath.engines.automatic import ENGINES, is_installed
-from optipath.engines.known_engines import REGISTRY
-from optipath.engines.program.reduction import MODELS
+from optipath.engines.choice import ENGINES, REGISTRY, is_installed
+from optipath.engines.program import MODELS
 from optipath.errors import ComposerError, shown, unknown
-from optipath.kernels.catalogue import METHODS
+from optipath.kernels.catalog import METHODS
 from optipath.plan.plan import Plan
-from optipath.values.precision import precision_name
-from optipath.values.whole_numbers import whole_number
+from optipath.values.precision import precision_name, whole_number
 
 if TYPE_CHECKING:
-    from optipath.engines.program.program import Program
-    from optipath.engines.program.reduction import Reduction, Tolerance
+    from collections.abc import Iterator
+
+    from optipath.engines.program import Program, Reduction, Tolerance
+
 
 CHOICES = {
     "method": METHODS,
@@ -216,3 +217,23 @@ class Composer:
                 return exact, instead
         as_found = self.model == "auto" or exact.unreduced
         return exact if as_found else by_name(exact, self.model), None
+
+
+@contextmanager
+def put_off() -> Iterator[None]:
+    """Collect no garbage for a while: each time, all elements of a long path are looked at.
+
+    Examples
+    --------
+    >>> import gc
+    >>> with put_off():
+    ...     print(gc.isenabled())
+    False
+    """
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()

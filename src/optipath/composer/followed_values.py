@@ -6,15 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.media import FOLLOWING, absorption_of, are_same, parts_of
+from optipath.composer.media import FOLLOWING, SameMedium, absorption_of, are_same, parts_of
 from optipath.composer.meetings import Meetings
 from optipath.composer.path_values import TAKEN_OVER
-from optipath.composer.same_medium import SameMedium
 from optipath.composer.wiring import Wiring
-from optipath.elements.media_of_boundary import MediaOfBoundary
-from optipath.values.arrays.read_only import read_only
-from optipath.values.follows import FOLLOWS
-from optipath.values.materials import Material
+from optipath.elements.boundary_media import MediaOfBoundary
+from optipath.materials.index_domains import FOLLOWS
+from optipath.materials.material import Material
+from optipath.values.arrays import read_only
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

@@ -7,27 +7,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.builder import Builder
-from optipath.composer.placement import alignment, frame_at
-from optipath.composer.vertex_frames import vertex_frame
+from optipath.composer.placement import alignment, frame_at, vertex_frame
 from optipath.composer.wiring import link_text
-from optipath.engines.program.program import Reading
+from optipath.engines.program import Reading
 from optipath.errors import ComposerError, listed
-from optipath.kernels.catalogue import (
-    DICHROISM_AND_RETARDANCE_ALONG,
-    ELLIPTICAL_RETARDER,
-    RESPONSE,
-)
-from optipath.light.frames import Frame
-from optipath.values.operands import Operand, operand_of
-from optipath.values.operation import Operation, ResultOf
+from optipath.kernels.catalog import DICHROISM_AND_RETARDANCE_ALONG, ELLIPTICAL_RETARDER, RESPONSE
+from optipath.light.frame import Frame
+from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from optipath.composer.travel import Port, Stretch
-    from optipath.composer.wiring import Link, Wiring
+    from optipath.composer.wiring import Link, Port, Stretch, Wiring
     from optipath.elements.coupling import Coupling
-    from optipath.elements.vertices.frame import VertexFrame
-    from optipath.engines.program.program import Program
+    from optipath.elements.vertex_place import VertexFrame
+    from optipath.engines.program import Program
+
 
 _FEW = 8
 

@@ -1,34 +1,35 @@
-"""Media: what must fit where light goes from boundary to boundary, by structure or by value."""
+"""Media: what must agree between boundaries: medium, turn, Snell's law."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.meetings import Meetings, keys_of
-from optipath.composer.one_plane import OnePlane
-from optipath.composer.same_medium import SameMedium
-from optipath.composer.same_turn import SameTurn
-from optipath.composer.snells_law import SnellsLaw
-from optipath.elements.arriving_wave import arriving_waves
-from optipath.elements.boundary_frames import BoundaryElement
-from optipath.elements.world_angle import world_angles
-from optipath.values.agreement import first_faults
-from optipath.values.follows import FOLLOWS
-from optipath.values.materials import Material
+from optipath.composer.meetings import TURNED, Meetings, OnePlane, keys_of, turn_text, way_text
+from optipath.elements.boundary import BoundaryElement, world_angles
+from optipath.elements.boundary_media import arriving_waves
+from optipath.kernels.fresnel.boundary import phase_index
+from optipath.kernels.primitives import of_module
+from optipath.materials.index_domains import FOLLOWS
+from optipath.materials.material import Material
+from optipath.values.agreement import Agreement, first_faults, is_single, text_of
+from optipath.values.curve_value import CurveValue
+from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
+from optipath.values.units import digits_until
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
     from optipath.composer.meetings import Meeting
-    from optipath.composer.travel import Port
-    from optipath.composer.wiring import Wiring
-    from optipath.elements.world_angle import WorldAngle
-    from optipath.values.agreement import Agreement
+    from optipath.composer.wiring import Port, Wiring
+    from optipath.elements.boundary import WorldAngle
+
 
 FOLLOWING = "following"
 """By what a graph knows the boundaries that have taken something over, and of which fields."""
@@ -236,3 +237,244 @@ def are_same(first: Any, second: Any) -> bool:
         return first == second
     keys, others = ([part.key() for part in parts_of(index)] for index in (first, second))
     return None not in keys and keys == others
+
+
+_ROUNDING, _SINGLE_ROUNDING = 1e-9, 2.0**-23
+"""How far apart two indices may be, as a share of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class SameMedium(Agreement):
+    """The indices of refraction of two boundaries that face each other are the same.
+
+    The operands are n on both sides, and k on both where either may absorb; or k of the first
+    alone, where light must come to the second from a medium that does not absorb.
+    """
+
+    leaves: str
+    enters: str
+    field: str
+    measures: bool = False
+    follows: bool = False
+
+    @property
+    def spoils(self) -> tuple[str, ...]:
+        """The incidence that is measured in a medium that is wrong says nothing."""
+        return (self.enters, self.enters.rpartition(".")[0]) if self.measures else ()
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        n1, n2, *k = numbers
+        single = is_single(xp, n1) | is_single(xp, n2)
+        rounding = xp.where(single, _SINGLE_ROUNDING, _ROUNDING)
+        differs = abs(n1 - n2) > rounding * xp.maximum(n1, n2)
+        if len(k) == 1:
+            return ~(differs | (k[0] != 0.0))
+        if k:
+            differs = differs | (abs(k[0] - k[1]) > rounding * xp.maximum(k[0], k[1]))
+        return ~differs
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        before, behind, *k = (text_of(o, n) for o, n in zip(self.operands, numbers, strict=True))
+        name, _, port = self.leaves.rpartition(".")
+        side = "behind" if port == "transmitted" else "in front of"
+        if len(k) == 1 and numbers[2]:
+            return (
+                f"'{self.enters}' is lit from a medium that absorbs, with k = {k[0]} {side} "
+                f"'{name}' (by '{self.leaves}'); give '{name}' an index without k there, and link "
+                f"a Medium between, which absorbs on the way"
+            )
+        before = _called(before)
+        if any(numbers[2:]):
+            before, behind = f"{before} and k = {k[0]}", f"{behind} with k = {k[1]}"
+        is_lit = f"'{self.enters}' is lit from {before} {side} '{name}' (by '{self.leaves}')"
+        if self.follows:
+            return (
+                f"{is_lit}, but has taken its {self.field} over (FOLLOWS) from other light, in "
+                f"{_called(behind)}; light of several media merges there: give each light a face "
+                f"of its own"
+            )
+        fixed = self._is_one_parameter or isinstance(self.operands[1].value, CurveValue)
+        cures = [] if fixed or 0 in varying else [self._cure(*numbers[0::2])]
+        if not self.enters.endswith(".back"):
+            cures.append(f"{cure('op.FOLLOWS', FOLLOWS.in_file)} for {self.field}")
+        elif not cures:
+            cures.append(f"the same for {self.field} as there")
+        return f"{is_lit}, but its {self.field} is {behind}; give {', or '.join(cures)}"
+
+    @property
+    def _is_one_parameter(self) -> bool:
+        """Whether both are multiples of one parameter, so that no value of it is the cure."""
+        values = [operand.value for operand in self.operands[:2]]
+        both = all(isinstance(value, Parameter) for value in values)
+        return both and len({value.name for value in values}) == 1
+
+    def _cure(self, n: float, k: float = 0.0) -> str:
+        value: Any = self.operands[1].value
+        given = value.formula if isinstance(value, Parameter) else self.field
+        if not k:
+            return f"{given} = {n:.12g}"
+        return cure(f"{given} = {n:.12g}{k:+.12g}j", f"{given} = {{ n = {n:.12g}, k = {k:.12g} }}")
+
+
+def _called(number: str) -> str:
+    """Return how an index is called; a multiple of a parameter says it."""
+    return number if "=" in number else f"n = {number}"
+
+
+@dataclass(frozen=True, eq=False)
+class SameTurn(Agreement):
+    """The turns on one way between two faces come to those on another, there or back.
+
+    These are boundaries, or a boundary and a mirror. All ports of a face share x. A turn counts
+    about the direction in which its light travels, so that a way back undoes a way there by
+    turning as much again. The operands are the turns on both ways.
+    """
+
+    count: int
+    first: tuple[str, str]
+    second: tuple[str, str]
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """That neither way turns the plane of incidence, where there is one."""
+        return way_text(*self.first), way_text(*self.second)
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        return ~(abs(xp.sin(sum(numbers[: self.count]) - sum(numbers[self.count :]))) > TURNED)
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
+        name, own = (port.rpartition(".")[0] for port in self.first)
+        parts = slice(self.count), slice(self.count, None)
+        first, second = (turn_text(self.operands[part], numbers[part]) for part in parts)
+        return (
+            f"light goes to and fro between '{name}' and '{own}', but is turned by {first} on the "
+            f"way from {way_text(*self.first)}, and by {second} from {way_text(*self.second)}; "
+            f"let the azimuths on either way add up to the same, since each counts about the "
+            f"direction of its own light"
+        )
+
+
+_ROUNDING, _SINGLE_ROUNDING = 3e-8, 2.0**-22
+"""How far apart two angles may be, in radians."""
+
+_LAST_DIGITS, _LAST_SINGLE_DIGITS = 2.0**-50, 2.0**-22
+"""How far apart two values of sin(incidence) may be, where the sine hardly changes."""
+
+
+@dataclass(frozen=True, eq=False)
+class SnellsLaw(Agreement):
+    """An incidence at one boundary, and the medium where it is measured; the same at another.
+
+    The operands are angle, n and k of both, and the turns between the two planes of incidence:
+    boundaries whose planes differ are not parallel.
+    """
+
+    leaves: str
+    enters: str
+    ends: tuple[bool, bool] = (False, False)
+    may_be_told: bool = True
+    follows: bool = False
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """The incidence at the first, and the medium at the second."""
+        return self.leaves.rpartition(".")[0], self.enters
+
+    @property
+    def spoils(self) -> tuple[str, ...]:
+        """The incidence at the second."""
+        return (self.enters.rpartition(".")[0],)
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        angle1, n1, k1, angle2, n2, k2, *turns = numbers
+        n1, n2 = _index(xp, angle1, n1, k1), _index(xp, angle2, n2, k2)
+        single = is_single(xp, angle1) | is_single(xp, angle2)
+        rounding = xp.where(single, _SINGLE_ROUNDING, _ROUNDING)
+        single = single | is_single(xp, n1) | is_single(xp, n2)
+        last = xp.where(single, _LAST_SINGLE_DIGITS, _LAST_DIGITS)
+        normal = xp.minimum(abs(n1 * xp.cos(angle1)), abs(n2 * xp.cos(angle2)))
+        here, there = n1 * xp.sin(angle1), n2 * xp.sin(angle2)
+        apart = abs(here - there)
+        differs = apart > rounding * normal + last * xp.maximum(n1, n2)
+        if turns:
+            differs = differs & ~(abs(xp.sin(sum(turns))) > TURNED)
+        # Where all is reflected, the angle behind is a right one, and no light gets there.
+        first, second = self.ends
+        if first:
+            differs = differs & ~((abs(xp.cos(angle1)) <= rounding) & (here < there))
+        if second:
+            differs = differs & ~((abs(xp.cos(angle2)) <= rounding) & (there < here))
+        return ~differs
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        angle1, n1, k1, angle2, n2, k2, *turns = numbers
+        (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
+        pairs = ((angle1, n1, k1), (angle2, n2, k2))
+        here, there = (float(_index(np, a, n, k)) * math.sin(a) for a, n, k in pairs)
+        cures = [cure("op.FOLLOWS", FOLLOWS.in_file)]
+        if not {0, 1, 2, 4, 5}.intersection(varying) and not (k1 or k2):
+            cures = [*self._angles(angle1, n1, n2), *cures]
+        digits = digits_until(lambda d: f"{here:.{d}g}" != f"{there:.{d}g}")
+        sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
+        given = text_of(self.operands[3], math.degrees(angle2), " deg")
+        given += f" in n = {text_of(self.operands[4], n2)}"
+        if k2:
+            given += f" and k = {text_of(self.operands[5], k2)}"
+        if turns:
+            turned = turn_text(self.operands[6:], turns)
+            given += f"; their planes of incidence are one where azimuths come to {turned}"
+        if self.follows:
+            return (
+                f"light of '{self.leaves}' enters '{self.enters}', but '{own}' has taken its "
+                f"incidence over (FOLLOWS) from other light: n sin(incidence) is {sines} "
+                f"({given}); light of several directions merges there: give each light a face of "
+                f"its own"
+            )
+        if self.may_be_told:
+            why = (
+                f"faces are taken as parallel behind one that refracts; if '{own}' stands at an "
+                f"angle to '{name}', as those of a prism do, say "
+                f"{cure('parallel=False', 'parallel = false')}"
+            )
+        else:
+            why = "light goes to and fro between them, so they are parallel"
+        return (
+            f"light of '{self.leaves}' enters '{self.enters}', but n sin(incidence) is {sines} "
+            f"({given}); give '{own}' an incidence of {', or '.join(cures)} ({why})"
+        )
+
+    def _angles(self, angle: float, n: float, own_n: float) -> list[str]:
+        """Return what the second may say of its angle, with as many digits as it takes to pass."""
+        found = []
+        there = math.degrees(angle)
+        if (sine := n * math.sin(angle) / own_n) <= 1.0:
+            exact = math.degrees(math.asin(sine))
+            digits = digits_until(
+                lambda d: self.fits(
+                    np, angle, n, 0.0, math.radians(float(f"{exact:.{d}g}")), own_n, 0.0
+                )
+            )
+            found.append(f"{exact:.{digits}g} deg in n = {own_n:.12g}")
+        if n != own_n:
+            elsewhere = replace(self, ends=(self.ends[0], False))
+            digits = digits_until(
+                lambda d: elsewhere.fits(
+                    np,
+                    angle,
+                    n,
+                    0.0,
+                    math.radians(float(f"{there:.{d}g}")),
+                    float(f"{n:.{d + 2}g}"),
+                    0.0,
+                )
+            )
+            found.append(f"{there:.{digits}g} deg with incidence_in = {n:.{digits + 2}g}")
+        return found
+
+
+def _index(xp: Any, angle: Any, n: Any, k: Any) -> Any:
+    """Return the index by which Snell's law holds for a real angle in a medium."""
+    with np.errstate(all="ignore"):
+        (index,) = phase_index(of_module(xp))(n, k, xp.cos(angle), xp.sin(angle))
+    return xp.where(k > 0.0, index, n)

@@ -7,30 +7,27 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.known_ranges import range_faults
 from optipath.composer.wiring import link_text
-from optipath.elements.own_couplings import couplings_of
+from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
-from optipath.values.arrays.jax_values import is_traced
-from optipath.values.arrays.read_only import changed
-from optipath.values.arrays.shapes import broadcast_fault
-from optipath.values.curves.curve_value import CurveValue
-from optipath.values.curves.wavelength_range import WavelengthRange
-from optipath.values.domains.quantities import ANGLE
-from optipath.values.domains.spectral import SPECTRAL
-from optipath.values.inputs import Inputs
+from optipath.materials.quantities import ANGLE, SPECTRAL
+from optipath.plan.inputs import Inputs
+from optipath.values.arrays import broadcast_fault, changed
+from optipath.values.curve import WavelengthRange, is_within, span_text
+from optipath.values.curve_value import CurveValue
+from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
 from optipath.values.use import Use
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
     import networkx as nx
 
     from optipath.values.agreement import Agreement
-    from optipath.values.resolved import Resolved
+    from optipath.values.parameters import Resolved
 
 
 TAKEN_OVER = "taken over"
@@ -281,3 +278,24 @@ def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:
 def value_faults(graph: nx.MultiDiGraph) -> list[str]:
     """Return what is wrong with the values of a graph of elements, a sentence each."""
     return Values(graph).faults()
+
+
+def range_faults(uses: Iterable[Use]) -> Iterator[str]:
+    """Yield a sentence for each parameter at no value of which all curves are known."""
+    asked: dict[str, list[tuple[tuple[float, float], WavelengthRange]]] = {}
+    for use in uses:
+        if use.is_open and isinstance(use.domain, WavelengthRange):
+            span = use.value.span_for(*use.domain.interval)
+            asked.setdefault(use.value.name, []).append((span, use.domain))
+    for name, ranges in asked.items():
+        (least, above) = max(ranges, key=lambda one: one[0][0])
+        (most, below) = min(ranges, key=lambda one: one[0][1])
+        if is_within(least[0], (0.0, most[1])):
+            continue
+        beyond = dict.fromkeys(filter(None, [below.beyond, above.beyond]))
+        spans = [f"{one.label} is known within {span_text(one.interval)}" for one in (below, above)]
+        otherwise = "".join(f", or {each}" for each in beyond)
+        yield (
+            f"parameter '{name}' can have no value: {' and '.join(spans)}; take what is known at "
+            f"a common wavelength{otherwise}"
+        )

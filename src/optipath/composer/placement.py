@@ -1,4 +1,4 @@
-"""Placement: how the frames at the two ends of a link stand to each other."""
+"""Placement: how the frames at both ends of a link are aligned."""
 
 from __future__ import annotations
 
@@ -7,20 +7,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import link_text
-from optipath.elements.azimuths import azimuth_at
+from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, shown
-from optipath.kernels.catalogue import GIVEN_TURN, TURN
-from optipath.light.frames import Frame
+from optipath.kernels.catalog import GIVEN_TURN, TURN
+from optipath.light.frame import Frame
 from optipath.values.affine import Affine
-from optipath.values.arrays.shapes import broadcast_fault
-from optipath.values.operands import Operand
-from optipath.values.operation import Operation
+from optipath.values.arrays import broadcast_fault
+from optipath.values.operands import Operand, Operation, operand_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
-    from optipath.composer.wiring import Link, Wiring
+    from optipath.composer.wiring import Link, Port, Wiring
     from optipath.elements.element import Element
+    from optipath.elements.vertex_place import VertexFrame
+
 
 _ANY = Frame()
 
@@ -183,3 +184,70 @@ def turn_text(turn: Any) -> str:
     ('0.5', '-2 * rho')
     """
     return turn.formula if isinstance(turn, Affine) else shown(turn)
+
+
+def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
+    """Return the frame of light at a port that comes from a vertex, or else goes to one.
+
+    Directly, or through elements that let it go straight on, whose links may turn it. Of
+    light that several links bring, or may have brought, nothing is known.
+    """
+    if not wiring.self_placed:
+        return None
+    return _followed(wiring, (name, port), _before) or _followed(wiring, (name, port), _behind)
+
+
+def _followed(
+    wiring: Wiring,
+    port: Port,
+    following: Callable[[Wiring, Port], tuple[Port, list[Operand]] | None],
+) -> VertexFrame | None:
+    """Return the frame of the first vertex on the way from a port, with all turns between."""
+    turns: list[Operand] = []
+    passed: set[Port] = set()
+    while port not in passed:
+        own = wiring.elements[port[0]].own_frame(port[1])
+        if own is not None:
+            return own.turned(*turns)
+        passed.add(port)
+        found = following(wiring, port)
+        if found is None:
+            return None
+        port, more = found
+        turns += more
+    return None
+
+
+def _before(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
+    """Return the port that all light at a port comes from, and the turns since then."""
+    name, way = port
+    if way not in wiring.elements[name].inputs:
+        couplings = wiring.couplings[name]
+        ways = {c.enters for c in couplings if c.leaves == way}
+        fed = [enters for enters in ways if enters and (name, enters) in wiring.links_to]
+        straight = len(fed) == 1 and goes_straight(wiring.elements[name], fed[0], way)
+        return ((name, fed[0]), []) if straight else None
+    links = wiring.links_to.get(port, [])
+    if len(links) != 1:
+        return None
+    start, _, (leaves, _) = links[0]
+    return (start, leaves), _turns(wiring, links[0])
+
+
+def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
+    """Return the port that light at a port goes to, and the turns till then, taken back."""
+    name, way = port
+    if way in wiring.elements[name].inputs:
+        ways = {c.leaves for c in wiring.couplings[name] if c.enters == way}
+        straight = [leaves for leaves in ways if goes_straight(wiring.elements[name], way, leaves)]
+        return ((name, straight[0]), []) if len(straight) == 1 else None
+    links = wiring.links_from.get(port) or [t for t in wiring.taps if (t[0], t[2][0]) == port]
+    if len(links) != 1:
+        return None
+    _, end, (_, enters) = links[0]
+    return (end, enters), [turn.negated() for turn in _turns(wiring, links[0])]
+
+
+def _turns(wiring: Wiring, link: Link) -> list[Operand]:
+    azimuth = azimuth_of(wiring, link)
+    return [] if is_zero(azimuth) else [operand_of(azimuth)]

@@ -1,22 +1,36 @@
-"""Reducing: the smallest program that gives what the detectors read."""
+"""Reduction: the smallest program that gives what the detectors read."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING
+from math import inf
+from typing import TYPE_CHECKING, NamedTuple
 
-from optipath.composer.cheaper import cheaper_kernels
-from optipath.composer.live import Live, left_out
-from optipath.composer.multiply import multiplied_constants
-from optipath.composer.turns import joined_turns
-from optipath.engines.program.reduction import MODELS, Reduction, Tolerance
+from optipath.composer.builder import Item, along_chains, label_of
+from optipath.composer.live import Live, known_numbers, left_out, number_of, vanishes
+from optipath.engines.program import MODELS, Reduction, Tolerance
 from optipath.errors import ComposerError, listed
+from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, FULL, ROTATION, SCALE
+from optipath.kernels.catalog import (
+    ATTENUATOR,
+    CONSTANT_BLOCK,
+    CONSTANT_DEPOLARIZING_BLOCK,
+    GIVEN_TURN,
+    MATRIX,
+    TURN,
+    TURN_BACK,
+)
+from optipath.kernels.primitives import FLOAT
+from optipath.values.operands import Operand, Operation, ResultOf
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from optipath.engines.program.program import Program
+    from optipath.engines.program import Program
+    from optipath.kernels.carriers.structures import Structure
+    from optipath.kernels.kernel import Kernel
 
 
 @dataclass(frozen=True)
@@ -117,3 +131,257 @@ def _reason(program: Program, size: int) -> str:
     names = [f"S{i}" for i in range(4) if any(i in alive for alive in program.live)]
     dead = [f"S{i}" for i in range(4) if f"S{i}" not in names]
     return f"{listed(names)} are alive" + (f", {listed(dead)} nowhere" if dead else "")
+
+
+def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
+    """Return a program with the cheapest kernel for what is known of its arguments."""
+    cheaper: dict[int | None, Operation] = {}
+    for place, evaluation in enumerate(program.evaluations):
+        given = program.operations[place].arguments
+        kernel, arguments = evaluation.kernel.specialised(given, _vanishes)
+        kernel = kernel.never_less(arguments, _span)
+        if kernel is not evaluation.kernel:
+            cheaper[place] = Operation(kernel, arguments)
+    if not cheaper:
+        return program, []
+
+    def cheapest(item: Item) -> Item:
+        place = program.steps[item.light].evaluation
+        return item._replace(operation=cheaper.get(place, item.operation))
+
+    notes = [
+        f"cheaper at '{step.label}': {cheaper[step.evaluation].kernel.name}"
+        for step in program.steps
+        if step.evaluation in cheaper
+    ]
+    return along_chains(program, lambda items: list(map(cheapest, items))), notes
+
+
+def _vanishes(argument: Operand | ResultOf) -> bool:
+    return not isinstance(argument, ResultOf) and vanishes(argument)
+
+
+def _span(argument: Operand | ResultOf) -> tuple[float, float]:
+    return (-inf, inf) if isinstance(argument, ResultOf) else argument.span
+
+
+_KERNELS = {
+    "scale": ATTENUATOR,
+    "rotation": GIVEN_TURN,
+    "full": MATRIX,
+    BLOCK.name: CONSTANT_BLOCK,
+    DEPOLARIZING_BLOCK.name: CONSTANT_DEPOLARIZING_BLOCK,
+}
+_COSTS = {"scale": 4, "rotation": 16, BLOCK.name: 14, DEPOLARIZING_BLOCK.name: 14, "full": 34}
+_EXTINCT = 0.01
+"""Where less than this share of some light passes, a product of matrices may lose its digits."""
+
+_LEAST = 1e-60
+
+
+class Constant(NamedTuple):
+    """The numbers of a step, as its structure has them."""
+
+    structure: Structure
+    numbers: tuple[float, ...]
+
+    @property
+    def kernel(self) -> Kernel:
+        """The kernel that is given these numbers."""
+        return _KERNELS[self.structure.name]
+
+    @property
+    def cost(self) -> int:
+        """About how many operations it takes."""
+        return _COSTS[self.structure.name]
+
+    @property
+    def is_identity(self) -> bool:
+        """Whether it leaves every light as it is."""
+        return tuple(self.numbers) == self.structure.identity
+
+    @property
+    def lets_through(self) -> bool:
+        """Whether no light is nearly extinguished by it."""
+        first = self._rows()[0]
+        return first[0] - math.hypot(*first[1:]) > _EXTINCT * first[0]
+
+    def _rows(self) -> Sequence[tuple[float, ...]]:
+        return self.structure.rows(FLOAT, self.numbers)
+
+    def as_full(self) -> Constant:
+        """Return the same with all sixteen entries."""
+        return Constant(FULL, tuple(float(entry) for row in self._rows() for entry in row))
+
+    def then(self, later: Constant) -> Constant | None:
+        """Return both as one of the same sort, no digit lost; None where they have none.
+
+        Examples
+        --------
+        >>> Constant(SCALE, (0.5,)).then(Constant(SCALE, (0.5,))).numbers
+        (0.25,)
+        """
+        sorts = self.structure, later.structure
+        if sorts == (ROTATION, ROTATION):
+            (c1, s1), (c2, s2) = self.numbers, later.numbers
+            return Constant(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
+        if sorts == (BLOCK, BLOCK):
+            return _kept(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
+        for one, other in ((self, later), (later, self)):
+            if one.structure == SCALE and other.structure != ROTATION:
+                t = one.numbers[0]
+                product = tuple(t * number for number in other.numbers)
+                return _kept(Constant(other.structure, product))
+        return None
+
+
+def multiplied(first: Constant, second: Constant) -> Constant | None:
+    """Return two constants in the order of travel as one matrix; None if it is too faint."""
+    one, other = first.as_full().numbers, second.as_full().numbers
+    rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
+    product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)
+    found = _kept(Constant(FULL, product))
+    return found if found and found.lets_through else None
+
+
+def _kept(product: Constant) -> Constant | None:
+    """Return a product unless its intensity is so faint, or so large, that it might get lost."""
+    first = product.structure.rows(FLOAT, product.numbers)[0][0]
+    return product if _LEAST < first < 1.0 / _LEAST else None
+
+
+def _blocks(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, ...]:
+    Fs1, Fp1, B1, C1, S1 = first
+    Fs2, Fp2, B2, C2, S2 = second
+    B = 0.5 * (B1 * (Fs2 + Fp2) + B2 * (Fs1 + Fp1))
+    return Fs1 * Fs2, Fp1 * Fp2, B, C1 * C2 - S1 * S2, C1 * S2 + S1 * C2
+
+
+_MOST = 16
+"""How many constants are multiplied, lest their roundings gather."""
+
+
+def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, list[str]]:
+    """Return a program whose neighbouring constants are one, in float64."""
+    known: dict[int | None, Constant] = {
+        place: Constant(evaluation.kernel.structure, numbers)
+        for place, numbers in enumerate(known_numbers(program)[1])
+        if numbers is not None
+        and (evaluation := program.evaluations[place]).presence is None
+        and evaluation.kernel.structure is not None
+    }
+    if not known:
+        return program, []
+    multiplying = _Multiplying(
+        [known.get(step.evaluation) for step in program.steps], matrices=matrices
+    )
+    return along_chains(program, multiplying.done_to), multiplying.notes
+
+
+class _Multiplying:
+    """Multiplies the constants of chains, and notes which."""
+
+    def __init__(self, known: Sequence[Constant | None], *, matrices: bool) -> None:
+        self.known = known
+        self.matrices = matrices
+        self.notes: list[str] = []
+
+    def done_to(self, items: list[Item]) -> list[Item]:
+        found: list[Item] = []
+        run: list[tuple[Item, Constant]] = []
+        for item in items:
+            constant = self.known[item.light]
+            if constant is None:
+                found += self._as_one(run)
+                run = []
+                found.append(item)
+            elif constant.is_identity:
+                self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
+            elif run and (both := run[-1][1].then(constant)):
+                run[-1] = self._joined([run[-1][0], item], both), both
+            else:
+                run.append((item, constant))
+        return found + self._as_one(run)
+
+    def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
+        """Return neighbours as one matrix where that is less work and loses no digit."""
+        items, constants = [item for item, _ in run], [constant for _, constant in run]
+        if not (self.matrices and len(run) > 1):
+            return items
+        dear = sum(constant.cost for constant in constants) > Constant(FULL, ()).cost
+        if not (dear and all(constant.lets_through for constant in constants)):
+            return items
+        found: list[tuple[Item, Constant]] = []
+        for place, (item, constant) in enumerate(run):
+            both = multiplied(found[-1][1], constant) if place % _MOST else None
+            if both:
+                found[-1] = self._joined([found[-1][0], item], both), both
+            else:
+                found.append((item, constant))
+        return [item for item, _ in found]
+
+    def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
+        names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
+        self.notes.append(f"constant, and multiplied: {' and '.join(names)}")
+        operation = Operation(constant.kernel, tuple(map(Operand, constant.numbers)))
+        return items[-1]._replace(label=label_of(items), operation=operation)
+
+
+def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
+    """Return a program whose neighbouring turns are one."""
+    notes: list[str] = []
+
+    def joined(items: list[Item]) -> list[Item]:
+        found: list[Item] = []
+        for item in items:
+            turns = found and _is_turn(item) and _is_turn(found[-1])
+            if turns and len(found[-1].operation.arguments) < _MOST:
+                names = dict.fromkeys(f"'{turn.label}'" for turn in (found[-1], item))
+                notes.append(f"the turns at {' and '.join(names)} are one")
+                found[-1:] = _as_one(found[-1], item, sums=sums and item.once)
+            else:
+                found.append(item)
+        return found
+
+    return (along_chains(program, joined) if _has_neighbours(program) else program), notes
+
+
+def _has_neighbours(program: Program) -> bool:
+    turns = {place for place, e in enumerate(program.evaluations) if e.kernel in _TURNS}
+    steps = program.steps
+    second = [step for step in steps if step.evaluation in turns]
+    return not turns.isdisjoint([steps[step.inputs[0]].evaluation for step in second])
+
+
+_TURNS = (TURN, TURN_BACK)
+
+
+def _is_turn(item: Item) -> bool:
+    known = item.presence is None and item.operation.kernel in _TURNS
+    return known and {type(argument) for argument in item.operation.arguments} == {Operand}
+
+
+def _as_one(first: Item, second: Item, *, sums: bool) -> list[Item]:
+    """Return two turns as one, or as none if they undo each other."""
+    angles = [*_angles(first), *_angles(second)]
+    numbers = [number_of(angle) if sums else None for angle in angles]
+    known = sum(number for number in numbers if number is not None)
+    left: list[Operand] = []
+    for angle in (a for a, number in zip(angles, numbers, strict=True) if number is None):
+        opposite = angle.negated().key()
+        undone = [other for other in left if opposite is not None and other.key() == opposite]
+        if undone:
+            left.remove(undone[0])
+        else:
+            left.append(angle)
+    if known:
+        left.append(Operand(known))
+    whole = second._replace(label=label_of([first, second]), operation=Operation(TURN, tuple(left)))
+    return [whole] if left else []
+
+
+def _angles(item: Item) -> list[Operand]:
+    angles = item.operation.arguments
+    if item.operation.kernel is TURN_BACK:
+        return [angle.negated() for angle in angles]
+    return [*angles]

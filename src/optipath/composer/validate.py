@@ -10,18 +10,24 @@ from optipath.composer.followed_values import with_followed
 from optipath.composer.media import Media
 from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
-from optipath.composer.taps import sharing_faults, tap_faults
-from optipath.composer.travel import among, cycles
-from optipath.composer.wiring import LOOPS, Wiring, link_text
+from optipath.composer.wiring import (
+    LOOPS,
+    Wiring,
+    among,
+    cycles,
+    link_text,
+    sharing_faults,
+    tap_faults,
+)
 from optipath.errors import PathError, listed
-from optipath.values.cures import cure
-from optipath.values.made import remember_sound
+from optipath.values.messages import cure
 from optipath.values.operands import Operand
+from optipath.values.use import remember_sound
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from optipath.composer.travel import Ways
+    from optipath.composer.wiring import Ways
 
 
 def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:

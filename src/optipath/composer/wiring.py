@@ -1,20 +1,23 @@
-"""Wiring: the way light takes from port to port of a path."""
+"""Wiring: the way of light from port to port, its order, loops and taps."""
 
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from optipath.composer.travel import Port, Ways, among, backwards, reached, stretches
-from optipath.elements.own_couplings import couplings_of
-from optipath.elements.own_ways import OwnWays, own_ways
+import networkx as nx
+
+from optipath.elements.own_element import OwnWays, couplings_of, own_ways
+from optipath.errors import listed
+from optipath.values.messages import cure
 
 if TYPE_CHECKING:
-    import networkx as nx
+    from collections.abc import Iterable, Iterator, Sequence
 
-    from optipath.composer.travel import Stretch
     from optipath.elements.coupling import Coupling
     from optipath.elements.element import Element
+
 
 Link: TypeAlias = tuple[str, str, tuple[str, str]]
 """(start node, end node, (out-port, in-port)), as networkx keys the edges."""
@@ -189,3 +192,193 @@ class Wiring:
             if (name, port) not in taken
         )
         return tuple(sorted(found))
+
+
+Port: TypeAlias = tuple[str, str]
+"""(node, port)."""
+
+Ways: TypeAlias = dict[Port, list[Port]]
+"""To which ports light goes on from each."""
+
+
+class Stretch(NamedTuple):
+    """Ports that light passes one after the other: one port, or all those of a loop."""
+
+    ports: tuple[Port, ...]
+    junctions: tuple[Port, ...] = ()
+
+
+def stretches(ways: Ways) -> list[Stretch]:
+    """Return the ports in the order of travel, those of a loop together.
+
+    Where nothing else tells, ports come in the order of their names.
+    """
+    together = cycles(ways)
+    came_from = backwards(ways) if together else {}
+    loops = {min(ports): _loop(ways, ports, came_from) for ports in together}
+    stands_for = {port: first for first, loop in loops.items() for port in loop.ports}
+    before = dict.fromkeys(ways, 0)
+    for port, onwards in ways.items():
+        start = stands_for.get(port, port)
+        for later in onwards:
+            end = stands_for.get(later, later)
+            before[end] += end != start
+    ready = [p for p, count in before.items() if not count and stands_for.get(p, p) == p]
+    heapify(ready)
+    order: list[Stretch] = []
+    while ready:
+        port = heappop(ready)
+        stretch = loops.get(port) or Stretch((port,))
+        order.append(stretch)
+        for member in stretch.ports:
+            for later in ways[member]:
+                end = stands_for.get(later, later)
+                if end != port:
+                    before[end] -= 1
+                    if not before[end]:
+                        heappush(ready, end)
+    return order
+
+
+def cycles(ways: Ways) -> list[set[Port]]:
+    """Return the ports of each loop: those that light can reach from each other."""
+    core = among(ways, _going_round(ways))
+    core = among(core, _going_round(backwards(core)))
+    if not core:
+        return []
+    return [ports for ports in nx.strongly_connected_components(nx.DiGraph(core)) if len(ports) > 1]
+
+
+def backwards(ways: Ways) -> Ways:
+    """Return from which ports light comes to each."""
+    found: Ways = {port: [] for port in ways}
+    for port, onwards in ways.items():
+        for later in onwards:
+            found[later].append(port)
+    return found
+
+
+def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
+    """Return the ports that light reaches."""
+    found = set(starts)
+    waiting = list(found)
+    while waiting:
+        for later in ways[waiting.pop()]:
+            if later not in found:
+                found.add(later)
+                waiting.append(later)
+    return found
+
+
+def among(ways: Ways, kept: set[Port]) -> Ways:
+    """Return the ways between some ports alone."""
+    return {
+        port: [later for later in onwards if later in kept]
+        for port, onwards in ways.items()
+        if port in kept
+    }
+
+
+def _going_round(ways: Ways) -> set[Port]:
+    """Return the ports that are left when those to which no other leads are taken away."""
+    before = dict.fromkeys(ways, 0)
+    for onwards in ways.values():
+        for later in onwards:
+            before[later] += 1
+    gone = [port for port, count in before.items() if not count]
+    for port in gone:
+        for later in ways[port]:
+            before[later] -= 1
+            if not before[later]:
+                gone.append(later)
+    return ways.keys() - set(gone)
+
+
+def _loop(ways: Ways, together: set[Port], before: Ways) -> Stretch:
+    """Return the ports of a loop; where several lights arrive is a junction."""
+    junctions = {port for port in together if len(before[port]) > 1}
+    order = sorted(junctions)
+    # Between junctions, light has one way to come from.
+    for port in order:
+        order += sorted(p for p in ways[port] if p in together and p not in junctions)
+    return Stretch(tuple(order), tuple(sorted(junctions)))
+
+
+_OTHER = "other light"
+
+
+def sharing_faults(wiring: Wiring) -> Iterator[str]:
+    """Yield a sentence for each out-port whose whole light several links would take."""
+    tap = cure("connect(..., tap=True), in a file tap = true", "tap = true below its [[links]]")
+    for (name, port), links in wiring.links_from.items():
+        if len(links) > 1:
+            ends = listed([f"'{link[1]}.{link[2][1]}'" for link in links])
+            taken = f"take all but one out, by {taken_out(wiring, links)}, and put one behind the "
+            put = cure(f"{taken}other with path.insert(...)", "put one behind the other")
+            yield (
+                f"port '{name}.{port}' feeds {ends}, and each would get all of its light; {put}, "
+                f"share the light with a BeamSplitter, or read it with a tap, which takes nothing: "
+                f"{tap}"
+            )
+
+
+def taken_out(wiring: Wiring, links: Sequence[Link]) -> str:
+    """Write down the calls that take links of one port out, as far as others lead there too."""
+    ends = {link: (link[1], link[2][1]) for link in links}
+    # What a way by another link comes to is cut short by the link straight there.
+    short = [
+        link
+        for link in links
+        if any(
+            ends[link] in reached(wiring.ports, [ends[other]]) for other in links if other != link
+        )
+    ]
+    calls = [
+        f'path.disconnect("{start}.{leaves}", "{end}.{enters}")'
+        for start, end, (leaves, enters) in (short if 0 < len(short) < len(links) else links)
+    ]
+    return " or ".join(calls)
+
+
+def without_tap(wiring: Wiring, tap: Link) -> str:
+    """Write down the calls that take a tap out, and what is fed by nothing else."""
+    start, end, (leaves, enters) = tap
+    cut = f"path.disconnect('{start}.{leaves}', '{end}.{enters}')"
+    behind = wiring.graph.subgraph(fed_by(wiring, tap))
+    feeders = {link for link in wiring.graph.in_edges(behind, keys=True) if link[0] not in behind}
+    if feeders != {tap} or not nx.is_directed_acyclic_graph(behind):
+        return cut
+    # Once nothing feeds them, they are taken out one by one without a gap to close.
+    out = [f"path.remove('{name}')" for name in nx.lexicographical_topological_sort(behind)]
+    return out[0] if len(out) == 1 else " and ".join([cut, *out])
+
+
+def fed_by(wiring: Wiring, tap: Link) -> set[str]:
+    """Return the nodes that the light of a tap comes to, at whatever port of them."""
+    return {tap[1], *nx.descendants(wiring.graph, tap[1])}
+
+
+def tap_faults(wiring: Wiring) -> Iterator[str]:
+    """Yield a sentence for each tap whose light meets other light, and would count twice.
+
+    What a tap reads is still on its way elsewhere. So it may go to no place that light reaches
+    otherwise: no loop, no Combiner, and no end that is not its own.
+    """
+    if not wiring.taps:
+        return
+    onwards = wiring.untapped
+    light_of: dict[Port, str] = dict.fromkeys(reached(onwards, wiring.starts), _OTHER)
+    for tap in wiring.taps:
+        text = f"tap '{link_text(tap)}'"
+        waiting = [(tap[1], tap[2][1])]
+        while waiting:
+            port = waiting.pop()
+            met = light_of.setdefault(port, text)
+            if met is not text:
+                yield (
+                    f"the light of {text} meets {met} at '{'.'.join(port)}', where it "
+                    f"would be counted twice; let it end in a Detector of its own, or share "
+                    f"the light with a BeamSplitter"
+                )
+                break
+            waiting += [later for later in onwards[port] if light_of.get(later) is not text]

@@ -1,4 +1,4 @@
-"""What an element does to light by itself, without a path around it."""
+"""An element by itself: its Mueller matrix and its action on light, without a path."""
 
 from __future__ import annotations
 
@@ -7,29 +7,32 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.arriving_wave import arriving_waves
-from optipath.elements.azimuths import azimuth_at
-from optipath.elements.media_of_boundary import MediaOfBoundary
-from optipath.elements.own_couplings import couplings_of
-from optipath.elements.own_ways import own_ways
+from optipath.elements.boundary_media import MediaOfBoundary, arriving_waves
+from optipath.elements.frame_checks import azimuth_at
+from optipath.elements.own_element import couplings_of, own_ways
 from optipath.errors import PathError, shown
-from optipath.kernels.catalogue import REFLECTION
-from optipath.light.frames import Frame
-from optipath.light.mueller.matrix import Mueller
+from optipath.kernels.catalog import REFLECTION
+from optipath.kernels.primitives import NUMPY
+from optipath.light.frame import Frame
+from optipath.light.light import Light
+from optipath.light.mueller import Mueller
 from optipath.values.agreement import first_faults
-from optipath.values.arrays.memory import enough_for
-from optipath.values.arrays.shapes import broadcast_fault, joint_shape
-from optipath.values.curves.curve_value import CurveValue
-from optipath.values.made import faults_of
-from optipath.values.operands import Operand
-from optipath.values.written_units import units_are_written
+from optipath.values.arrays import broadcast_fault, check_broadcast, enough_for, joint_shape
+from optipath.values.curve_value import CurveValue
+from optipath.values.messages import units_are_written
+from optipath.values.operands import Operand, operand_of
+from optipath.values.use import faults_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import numpy.typing as npt
+
     from optipath.elements.coupling import Coupling
-    from optipath.elements.own_ways import OwnWays
+    from optipath.elements.own_element import OwnWays
+    from optipath.values.operands import Operation
     from optipath.values.use import Use
+
 
 NO_FRAMES: Mapping[str, Frame] = MappingProxyType({})
 """Of an element that does not stand in the world."""
@@ -146,3 +149,32 @@ def turned_alone(element: Any, enters: str, before: Frame | None = None) -> Fram
     frame, azimuth = before or Frame(), Operand(azimuth_at(element, enters)).numbers()
     with units_are_written():  # The angle was looked at when the element was made.
         return frame.turned(azimuth) if np.any(azimuth) else frame
+
+
+def absorbed_alone(
+    stack: Any, operation: Operation, light: Any, enters: str, method: str
+) -> npt.NDArray[np.float64]:
+    """Return the share of light that stays in each layer of a stack.
+
+    Shapes: light (..., 4); returns (..., layers).
+    """
+    if enters not in stack.inputs:
+        raise PathError(
+            f"{stack.kind} has no in-port {shown(enters)}; light arrives at 'in' or at 'back'"
+        )
+    batch = checked_alone(stack, enters)
+    with np.errstate(all="ignore"):
+        numbers = operation.numbers(NUMPY, lambda value: operand_of(value).numbers({}), method)
+        shares = [np.broadcast_to(number, batch) for number in numbers]
+        s, p = (
+            np.stack(part, axis=-1) if part else np.empty((*batch, 0))
+            for part in (shares[::2], shares[1::2])
+        )
+        along: Any = 0.0
+        if light is not None:
+            arriving = light if isinstance(light, Light) else Light(light)
+            check_broadcast({stack.kind: batch, "the light": arriving.stokes.shape[:-1]})
+            frame = turned_alone(stack, enters, arriving.frame)
+            stokes = (Mueller.of(np.eye(4), frame, Frame()) @ arriving).stokes
+            along = (stokes[..., 1] / stokes[..., 0])[..., np.newaxis]
+        return np.asarray(0.5 * ((1.0 + along) * s + (1.0 - along) * p))

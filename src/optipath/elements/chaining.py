@@ -1,21 +1,11 @@
-"""Chaining: ``a >> b`` of elements, out of which paths, which stand above, make a path."""
+"""Chaining: ``a >> b`` of elements, which make a path."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from optipath.errors import PathError, shown
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-_BEGINNINGS: list[Callable[[Any], Any]] = []
-
-
-def chains_begin_with(beginning: Callable[[Any], Any]) -> None:
-    """Enter what makes the path of one element, which a chain goes on from."""
-    _BEGINNINGS[:] = [beginning]
 
 
 class Chainable:
@@ -41,12 +31,9 @@ def begun(first: object) -> Any:
             f"a chain is made of elements, such as Source() >> Polarizer() >> Detector(), "
             f"and not of {shown(first)}"
         )
-    if not _BEGINNINGS:
-        raise PathError(
-            "a chain becomes a PathGraph, which nothing has asked for yet; import it first: "
-            "from optipath import PathGraph"
-        )
-    return _BEGINNINGS[0](first)
+    from optipath.paths.path_graph import path_of  # noqa: PLC0415 - paths stand above elements
+
+    return path_of(first)
 
 
 @dataclass(frozen=True)

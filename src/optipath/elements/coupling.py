@@ -1,4 +1,4 @@
-"""Couplings: which way light goes through an element, and what happens to it there."""
+"""Couplings: the ways of light through an element; the registry of element kinds."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.kernels.catalogue import TURN, TURN_BACK
-from optipath.kernels.numbers.primitives import NUMPY
-from optipath.light.mueller.stacking import stacked
-from optipath.values.arrays.read_only import read_only, same_fields
-from optipath.values.materials import Material
-from optipath.values.operands import Operand, operand_of
-from optipath.values.operation import Operation
+from optipath.errors import PathError
+from optipath.kernels.catalog import TURN, TURN_BACK
+from optipath.kernels.primitives import NUMPY
+from optipath.light.decompositions import stacked
+from optipath.materials.material import Material
+from optipath.values.arrays import read_only, same_fields
+from optipath.values.operands import Operand, Operation, operand_of
 
 if TYPE_CHECKING:
-    from optipath.values.domains.domain import Domain
+    from optipath.values.domains import Domain
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -83,7 +83,7 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
 
     Examples
     --------
-    >>> from optipath.values.domains.indices import IndexDomain
+    >>> from optipath.materials.index_domains import IndexDomain
     >>> numbers_of(1.5 + 2j, IndexDomain("index"))
     (1.5, 2.0)
     """
@@ -99,3 +99,21 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
     if isinstance(value, (int, float, complex, np.ndarray)):
         return read_only(np.real(value)), read_only(np.imag(value))
     return Operand(value, "real"), Operand(value, "imag")
+
+
+KINDS: dict[str, type[Any]] = {}
+"""The class of each kind that has been imported so far."""
+
+
+def register(kind: str, element_class: type[Any]) -> None:
+    """Enter a class under its kind; defining the same class again replaces it."""
+    known = KINDS.get(kind)
+    if known is not None and _identity(known) != _identity(element_class):
+        raise PathError(
+            f"element kind '{kind}' is taken by {'.'.join(_identity(known))}; choose another"
+        )
+    KINDS[kind] = element_class
+
+
+def _identity(element_class: type[Any]) -> tuple[str, str]:
+    return element_class.__module__, element_class.__qualname__

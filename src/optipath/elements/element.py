@@ -8,40 +8,45 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, dataclass_transf
 
 from optipath.elements.alone import mueller_alone
 from optipath.elements.chaining import Chainable, NamedElement
-from optipath.elements.class_faults import class_faults
-from optipath.elements.fields import domains_of, same_value
+from optipath.elements.coupling import register
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.known_sizes import vanishes
-from optipath.elements.own_couplings import is_own
-from optipath.elements.registry import register
-from optipath.elements.rows import coupling_by_rows, rows_kernel
+from optipath.elements.own_element import (
+    class_faults,
+    coupling_by_rows,
+    domains_of,
+    is_own,
+    rows_kernel,
+    same_value,
+)
 from optipath.errors import LightError, OptipathError, PathError, listed, unknown
-from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.kernels.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.light.array_axes import why_refused
 from optipath.light.light import Light
-from optipath.light.mueller.matrix import Mueller
-from optipath.light.refused_products import why_refused
-from optipath.values.arrays.read_only import changed, read_only
-from optipath.values.curves.computed_values import parameters_among
-from optipath.values.domains.axis import AxisDomain
-from optipath.values.made import (
+from optipath.light.mueller import Mueller
+from optipath.values.arrays import changed, read_only
+from optipath.values.curve_value import parameters_among
+from optipath.values.parameters import Parameter
+from optipath.values.use import (
+    AxisDomain,
+    Use,
     faults_of,
     is_known_sound,
     make_sound,
     not_known_sound,
     remember_sound,
 )
-from optipath.values.parameters import Parameter
-from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from optipath.elements.coupling import Coupling
-    from optipath.elements.vertices.frame import VertexFrame
-    from optipath.light.frames import Frame
+    from optipath.elements.vertex_place import VertexFrame
+    from optipath.light.frame import Frame
     from optipath.values.agreement import Agreement
-    from optipath.values.domains.domain import Domain
-    from optipath.values.operation import Operation
+    from optipath.values.domains import Domain
+    from optipath.values.operands import Operation
+
 
 E = TypeVar("E", bound="Element")
 
@@ -340,7 +345,7 @@ class Element(Chainable):
 
         Examples
         --------
-        >>> from optipath.elements.attenuator import Attenuator
+        >>> from optipath.elements.polarizers import Attenuator
         >>> Attenuator(0.5).mueller().matrix.diagonal()
         array([0.5, 0.5, 0.5, 0.5])
         """

@@ -1,15 +1,15 @@
-"""Checks of the world frames that are given for the ports of one element."""
+"""Checks of the world frames and azimuths of an element's ports."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.light.frames import Frame
+    from optipath.light.frame import Frame
 
 
 def same_frame(first: Frame, second: Frame) -> bool:
@@ -17,7 +17,7 @@ def same_frame(first: Frame, second: Frame) -> bool:
 
     Examples
     --------
-    >>> from optipath.light.frames import Frame
+    >>> from optipath.light.frame import Frame
     >>> same_frame(Frame(), Frame().turned(0.1))
     False
     """
@@ -31,7 +31,7 @@ def share_x(first: Frame, second: Frame) -> bool:
 
     Examples
     --------
-    >>> from optipath.light.frames import Frame
+    >>> from optipath.light.frame import Frame
     >>> share_x(Frame(), Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0)))
     True
     """
@@ -46,7 +46,7 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
 
     Examples
     --------
-    >>> from optipath.light.frames import Frame
+    >>> from optipath.light.frame import Frame
     >>> to_the_side = Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
     >>> float(np.degrees(incidence_between(Frame(), to_the_side)).round(9))
     45.0
@@ -63,10 +63,29 @@ def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
 
     Examples
     --------
-    >>> from optipath.light.frames import Frame
+    >>> from optipath.light.frame import Frame
     >>> aside = Frame.from_direction(z=(0, 1, 1), x=(1, 0, 0))
     >>> float(np.degrees(angle_between(Frame(), aside)).round(9))
     45.0
     """
     across = np.linalg.norm(np.cross(first.z, second.z), axis=-1)
     return np.asarray(np.arctan2(across, np.sum(first.z * second.z, axis=-1)))
+
+
+def azimuth_at(element: Any, port: str) -> Any:
+    """Return the azimuth by which a port is turned: that of an element is that of its ``in``.
+
+    Light that comes from behind is in the plane of the element already, or its link says how
+    it stands to it.
+
+    Units: the result in radians.
+
+    Examples
+    --------
+    >>> from optipath import Interface
+    >>> pane = Interface(1.5, 0.8, azimuth=0.3)
+    >>> azimuth_at(pane, "in"), azimuth_at(pane, "back")
+    (0.3, 0.0)
+    """
+    is_other = port != "in" and "in" in element.inputs
+    return 0.0 if is_other else getattr(element, "azimuth", 0.0)

@@ -1,33 +1,34 @@
-"""Fresnel reflection and transmission by themselves, for those who need no path."""
+"""Fresnel reflection, transmission and refraction of one boundary, as functions."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.elements.single_boundary import (
-    arriving_cosine,
-    given_cosine_and_sine,
-    given_incidence,
-    given_index,
-    parts_of,
-)
+from optipath.errors import ValueFault
 from optipath.kernels.carriers.structures import BLOCK
-from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
-from optipath.kernels.fresnel.inhomogeneous import phase_index
-from optipath.kernels.fresnel.refraction import refraction
-from optipath.kernels.numbers.primitives import NUMPY
-from optipath.values.arrays.jax_values import check_known
-from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains.indices import INDEX
+from optipath.kernels.catalog import REFLECTION, TRANSMISSION
+from optipath.kernels.fresnel import boundary as refraction_kernels
+from optipath.kernels.fresnel.boundary import phase_index, refraction
+from optipath.kernels.fresnel.textbook import single_amplitudes
+from optipath.kernels.primitives import NUMPY
+from optipath.kernels.trigonometry import cosine, sine
+from optipath.materials.index_domains import INDEX, LIT_INDEX
+from optipath.materials.quantities import INCIDENCE
+from optipath.values.angles import CosSin, is_angle, within_right_angle
+from optipath.values.arrays import as_given, check_broadcast, first_place
+from optipath.values.domains import Domain
+from optipath.values.jax_values import check_known, is_traced, namespace
+from optipath.values.kernel_values import kernel_values
 from optipath.values.precision import precision
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.kernels.carriers.kernel import KernelFamily
-    from optipath.values.angles import CosSin
+    from optipath.kernels.kernel import KernelFamily
+    from optipath.kernels.primitives import KernelFunction, Primitives
+    from optipath.materials.material import Material
 
 
 def fresnel_reflection(
@@ -188,3 +189,230 @@ def refraction_angle(
     with np.errstate(all="ignore"):
         c, s = refraction(NUMPY)(*phase_index(NUMPY)(n1, k1, cos, sin), n, k, cos, sin)
     return np.asarray(np.arctan2(s, c))
+
+
+class FresnelAmplitudes(NamedTuple):
+    """What becomes of a field of amplitude 1 at a boundary.
+
+    Attributes
+    ----------
+    r_s, r_p : ndarray of complex
+        Reflected along s and along p.
+    t_s, t_p : ndarray of complex
+        Let through, just behind the boundary.
+    """
+
+    r_s: npt.NDArray[np.complex128]
+    r_p: npt.NDArray[np.complex128]
+    t_s: npt.NDArray[np.complex128]
+    t_p: npt.NDArray[np.complex128]
+
+
+def fresnel_amplitudes(
+    index: npt.ArrayLike | Material,
+    cos_incidence: npt.ArrayLike,
+    sin_incidence: npt.ArrayLike,
+    outside: npt.ArrayLike | Material = 1.0,
+) -> FresnelAmplitudes:
+    """Return the complex amplitudes (r_s, r_p, t_s, t_p) of a boundary.
+
+    Each is the electric field over that which arrives, of fields exp(-i w t): along s, which is
+    the same before and behind, and along p = z cross s of each wave, so that r_p = -r_s at normal
+    incidence. In a wave that fades, p is a complex vector of square 1, and t_p is n1 / m2 times
+    the ratio of the magnetic fields. ``|r|**2`` is what is reflected, ``r_s * conj(r_p)`` the
+    C + iS of `fresnel_reflection`, and what is let through is ``|t_s|**2 Re(g2) / Re(g1)`` and
+    ``|t_p|**2 Re(m2 conj(g2 / m2)) / Re(m1 conj(g1 / m1))``, with g = sqrt(m^2 - y^2) along the
+    normal. Phases are those of the fields at the boundary; a field of positive phase lags (S. J.
+    Byrnes, arXiv:1603.02720, equations 6 and 21 to 23; Born & Wolf, Principles of Optics, sec.
+    1.5.2 and 14.2).
+
+    Parameters
+    ----------
+    index : array_like, real or complex, or Material
+        The index n + ik of the medium behind, n and k not negative.
+    cos_incidence, sin_incidence : array_like
+        Of the angle of incidence. Both are taken, so that grazing and normal incidence keep
+        their digits.
+    outside : array_like or Material, optional
+        The index n + ik of the medium in front, n above 0. Where it absorbs, the incidence is
+        the real angle of the planes of constant phase, as `Interface` takes it.
+
+    Returns
+    -------
+    FresnelAmplitudes
+        A tuple of four, of the broadcast shape. Where JAX traces a value they are JAX's, with
+        their slopes.
+
+    Raises
+    ------
+    ValueFault
+        If a value is not allowed, or light arrives at a right angle out of a medium that absorbs.
+    ShapeError
+        If the values do not broadcast.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> r_s, r_p, t_s, t_p = fresnel_amplitudes(1.5, 0.8, 0.6)
+    >>> print(r_s.real.round(6), r_p.real.round(6), t_s.real.round(6), t_p.real.round(6))
+    -0.264291 0.133939 0.735709 0.75596
+    >>> gold = fresnel_amplitudes(0.608 + 2.12j, 0.8, 0.6)
+    >>> print(np.degrees(np.angle(gold.r_s)).round(3), np.degrees(np.angle(gold.r_p)).round(3))
+    -142.201 59.497
+    """
+    m, front = given_index("index", index), given_index("outside", outside, lit=True)
+    c, s = given_cosine_and_sine(cos_incidence, sin_incidence)
+    check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
+    n1, k1 = parts_of(front)
+    numbers = kernel_values(
+        single_amplitudes, n1, k1, *parts_of(m), arriving_cosine(c, k1), s + 0.0
+    )
+    pairs = zip(numbers[::2], numbers[1::2], strict=True)
+    return FresnelAmplitudes(*(_complex(re, im) for re, im in pairs))
+
+
+def _complex(re: Any, im: Any) -> Any:
+    return re + 1j * im
+
+
+class EffectiveIndex(NamedTuple):
+    """The index of an absorbing medium at an angle.
+
+    Attributes
+    ----------
+    n : ndarray
+        By which Snell's law holds for the real angle: planes of constant phase travel on with
+        the speed of light over n, along the real direction.
+    k : ndarray
+        How the field fades along the normal, by exp(-2 pi k depth / wavelength).
+    """
+
+    n: npt.NDArray[np.float64]
+    k: npt.NDArray[np.float64]
+
+
+def effective_index(
+    index: npt.ArrayLike | Material,
+    incidence: npt.ArrayLike | CosSin,
+    outside: npt.ArrayLike | Material = 1.0,
+) -> EffectiveIndex:
+    """Return (n', k') of the inhomogeneous wave that light is behind a boundary.
+
+    Behind the boundary planes of constant phase travel on at the real angle of refraction theta'
+    (`refraction_angle`), with n' sin(theta') = n1 sin(incidence); planes of constant amplitude are
+    parallel to the boundary. n'^2 - k'^2 = n^2 - k^2 and n' k' cos(theta') = n k (Born & Wolf,
+    Principles of Optics, sec. 14.2; P. E. Ciddor, Am. J. Phys. 44, 786 (1976)). At normal
+    incidence they are n and k. Without absorption n' is n, and behind total reflection
+    n1 sin(incidence), with k' of the field that fades.
+
+    Parameters
+    ----------
+    index : array_like, real or complex, or Material
+        The index n + ik of the medium behind, n and k not negative.
+    incidence : array_like or CosSin
+        The angle of incidence in radians, 0 to pi/2.
+    outside : array_like or Material, optional
+        The index n + ik of the medium in front, n above 0. Where it absorbs, the incidence is
+        the real angle, too, between faces that are parallel.
+
+    Returns
+    -------
+    EffectiveIndex
+        A tuple of two, of the broadcast shape. Where JAX traces a value they are JAX's, with
+        their slopes.
+
+    Raises
+    ------
+    ValueFault
+        If a value is not allowed, or light arrives at a right angle out of a medium that absorbs.
+    ShapeError
+        If the values do not broadcast.
+
+    Examples
+    --------
+    >>> gold = effective_index(0.608 + 2.12j, "60 deg")
+    >>> print(gold.n.round(6), gold.k.round(6))
+    1.034329 2.279161
+    """
+    m, front = given_index("index", index), given_index("outside", outside, lit=True)
+    c, s = given_incidence(incidence)
+    check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
+    n1, k1 = parts_of(front)
+    numbers = n1, k1, *parts_of(m), arriving_cosine(c, k1), s + 0.0
+    return EffectiveIndex(*kernel_values(refraction_kernels.effective_index, *numbers))
+
+
+COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
+_APART, _GRAZING = 1e-6, 2.0**-60
+
+
+def given_index(name: str, value: Any, *, lit: bool = False) -> Any:
+    """Return an index of refraction n + ik; NaN where JAX traces what is none."""
+    return number_within(LIT_INDEX if lit else INDEX, name, value)
+
+
+def number_within(domain: Domain, name: str, value: Any) -> Any:
+    """Return a value that a domain allows; NaN where it does not and JAX traces the value."""
+    numbers = domain.check(name, value)
+    if not is_traced(numbers):
+        return numbers
+    return namespace(numbers).where(domain.allows(numbers), numbers, np.nan)
+
+
+def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
+    """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle."""
+    cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
+    check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
+    traced = is_traced(cos) or is_traced(sin)
+    c = number_within(COSINE, "cos_incidence", cos if traced else within_right_angle(cos, sin))
+    s = number_within(COSINE, "sin_incidence", sin)
+    if traced:
+        xp = namespace(c if is_traced(c) else s)
+        belong = xp.abs(xp.square(c) + xp.square(s) - 1.0) <= _APART
+        return xp.where(belong, c, xp.nan), s
+    if not is_angle(cos, sin):
+        raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
+    return c, s
+
+
+def given_incidence(value: Any) -> tuple[Any, Any]:
+    """Return the cosine and the sine of an incidence that is given as an angle, or a `CosSin`."""
+    if isinstance(value, CosSin):
+        return given_cosine_and_sine(value.cos, value.sin)
+    angle = number_within(INCIDENCE, "incidence", value)
+    check_broadcast({"incidence": angle.shape})
+    cos, sin = kernel_values(_cosine_and_sine, angle)
+    return cos, sin
+
+
+def arriving_cosine(cos: Any, k1: Any) -> Any:
+    """Return the cosine of the angle at which light arrives out of a medium with k = k1.
+
+    At a right angle light arrives out of media that do not absorb alone: the wave along the face
+    grows without limit next to it, and has none that they would share.
+    """
+    none = (k1 > 0.0) & (cos <= _GRAZING)
+    if is_traced(none):
+        return namespace(none).where(none, np.nan, cos)
+    if np.any(none):
+        raise ValueFault(
+            f"incidence{first_place(none)} is a right angle out of a medium that absorbs, where "
+            f"there is no such wave; give a smaller one, or an outside without k"
+        )
+    return cos
+
+
+def parts_of(index: Any) -> tuple[Any, Any]:
+    """Return n and k of indices, of which neither is -0."""
+    if index.dtype.kind != "c":
+        return index, np.zeros(())
+    return index.real + 0.0, index.imag + 0.0
+
+
+def _given(name: str, value: Any) -> Any:
+    return value if is_traced(value) else as_given(name, COSINE.read(name, value))
+
+
+def _cosine_and_sine(xp: Primitives) -> KernelFunction:
+    of_cos, of_sin = cosine(xp), sine(xp)
+    return lambda angle: (of_cos(angle), of_sin(angle))

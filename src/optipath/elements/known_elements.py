@@ -4,31 +4,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from optipath.elements.attenuator import Attenuator
-from optipath.elements.beam_splitter import BeamSplitter
-from optipath.elements.circular_diattenuator import CircularDiattenuator
-from optipath.elements.circular_polarizer import CircularPolarizer
-from optipath.elements.combiner import Combiner
-from optipath.elements.depolarizer import Depolarizer
-from optipath.elements.diattenuator import Diattenuator
-from optipath.elements.elliptical_retarder import EllipticalRetarder
-from optipath.elements.faraday_rotator import FaradayRotator
-from optipath.elements.interface import Interface
+from optipath.elements.coupling import KINDS
+from optipath.elements.detectors import Detector, Dump
+from optipath.elements.interface import Interface, Mirror
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
-from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
-from optipath.elements.polarizer import Polarizer
-from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
-from optipath.elements.refracting_vertex import RefractingVertex
-from optipath.elements.registry import KINDS
-from optipath.elements.retarder import Retarder
-from optipath.elements.rotator import Rotator
-from optipath.elements.source import Source
-from optipath.elements.specular_vertex import SpecularVertex
-from optipath.elements.terminal import Detector, Dump
-from optipath.elements.vertex import Vertex
-from optipath.elements.waveplate import Waveplate
+from optipath.elements.polarizers import (
+    Attenuator,
+    CircularDiattenuator,
+    CircularPolarizer,
+    Depolarizer,
+    Diattenuator,
+    Polarizer,
+)
+from optipath.elements.retarders import EllipticalRetarder, Retarder, Waveplate
+from optipath.elements.rotators import FaradayRotator, Rotator
+from optipath.elements.sources import Source
+from optipath.elements.splitters import BeamSplitter, Combiner, PolarizingBeamSplitter
+from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
 from optipath.errors import PathError, did_you_mean
 
 STANDARD = (

@@ -12,7 +12,7 @@ from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from optipath.values.domains.domain import Domain
+    from optipath.values.domains import Domain
 
 
 def bound_value(parameter: Parameter) -> Any:

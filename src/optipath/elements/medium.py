@@ -1,25 +1,33 @@
-"""Medium: a straight stretch of something that absorbs, turns or retards light."""
+"""Medium: a straight length of something that absorbs, rotates or retards light."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from optipath.elements.beside_rotation import ROTATION_BESIDE_DEXTROROTATION
-from optipath.elements.coupling import Coupling
+from optipath.elements.coupling import Coupling, turned
 from optipath.elements.element import Element
 from optipath.elements.known_sizes import largest, over_a_length, overflow, vanishes
-from optipath.elements.medium_limits import PassiveDichroism, WithinReach
-from optipath.elements.medium_operations import operations_along
+from optipath.elements.polarizers import along_circular_axes
 from optipath.errors import ValueFault, did_you_mean
-from optipath.values.agreement import first_faults
-from optipath.values.arrays.jax_values import is_traced
-from optipath.values.arrays.read_only import read_only
-from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains.domain import Domain
-from optipath.values.domains.quantities import (
+from optipath.kernels.catalog import (
+    ABSORPTION_ALONG,
+    ABSORPTION_BESIDE_DICHROISM,
+    DEPOLARIZATION_ALONG,
+    DEPOLARIZING_DICHROISM_ALONG,
+    DEXTROROTATION_ALONG,
+    DICHROISM_ALONG,
+    DICHROISM_AND_RETARDANCE_ALONG,
+    RETARDANCE_ALONG,
+    ROTATION_ALONG,
+    THIRD_BESIDE_DICHROISM,
+    THIRD_OF_ABSORPTION,
+)
+from optipath.kernels.medium import LARGEST, LARGEST_DICHROISM
+from optipath.materials.quantities import (
     WAVELENGTH,
     Absorption,
     Angle,
@@ -31,14 +39,18 @@ from optipath.values.domains.quantities import (
     OptionalAxis,
     RotatoryPower,
 )
-from optipath.values.made import refuse
-from optipath.values.operands import operand_of
+from optipath.values.agreement import Agreement, first_faults, text_of
+from optipath.values.arrays import check_broadcast, read_only, same
+from optipath.values.domains import Domain
+from optipath.values.jax_values import is_traced
+from optipath.values.operands import Operation, operand_of
 from optipath.values.parameters import Parameter
+from optipath.values.use import refuse
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
-    from optipath.values.agreement import Agreement
+    from optipath.kernels.kernel import Kernel
 
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
@@ -258,3 +270,172 @@ def _value_faults(name: str, value: Any, domain: Domain) -> tuple[str, ...]:
     except ValueFault as fault:
         return fault.faults
     return ()
+
+
+_ROUNDING = 1e-6
+"""By what share dichroism may exceed the absorption, values being rounded; nothing amplifies."""
+
+
+@dataclass(frozen=True, eq=False)
+class PassiveDichroism(Agreement):
+    """What absorbs one state of light more than the mean absorbs another less, but not below 0.
+
+    The operands are the absorption, the linear dichroism and the circular one, per metre.
+    """
+
+    owner: str
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        absorption, linear, circular = numbers
+        return ~(xp.hypot(linear, circular) > absorption * (1.0 + _ROUNDING))
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # The cure is said of each path.
+        absorption, linear, circular = (
+            text_of(operand, number / 100.0, " 1/cm")
+            for operand, number in zip(self.operands, numbers, strict=True)
+        )
+        least = float(abs(complex(*numbers[1:]))) / 100.0
+        return (
+            f"'{self.owner}' would amplify some light: its dichroism is {linear} and its "
+            f"circular_dichroism {circular}, but its absorption, the mean of all states, "
+            f"{absorption}; give an absorption of {least:.10g} 1/cm or more"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class WithinReach(Agreement):
+    """Dichroism and depolarisation at once are computed up to a limit.
+
+    The operands are the linear and the circular dichroism, the retardance, the rotation and the
+    depolarization, per metre, and the length.
+    """
+
+    owner: str
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        dichroism, whole = _products(xp, *numbers)
+        return ~((dichroism > LARGEST_DICHROISM) | (whole > LARGEST))
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        import numpy as np  # noqa: PLC0415
+
+        del varying
+        dichroism, whole = _products(np, *numbers)
+        return (
+            f"over the length of '{self.owner}', {text_of(self.operands[-1], numbers[-1], ' m')}, "
+            f"its dichroism comes to {dichroism:.3g}, and with its retardance, rotation and "
+            f"depolarization to {whole:.3g}; beside a depolarization, {LARGEST_DICHROISM:g} and "
+            f"{LARGEST:g} are the most: put several Media of a part of the length one after the "
+            f"other"
+        )
+
+
+def _products(xp: Any, *numbers: Any) -> tuple[Any, Any]:
+    """Return what dichroism comes to over a length, and all together."""
+    linear, circular, retardance, rotation, depolarization, length = numbers
+    dichroism = xp.hypot(linear, circular) * length
+    turning = xp.hypot(retardance, 2.0 * rotation) * length
+    return dichroism, dichroism + turning + depolarization * length
+
+
+_FAR = 50.0
+"""From what absorption times length on it is done in three steps, each within any precision."""
+
+
+def operations_along(medium: Any) -> tuple[Operation, ...]:
+    """Return what a `Medium` does along the way, but for what is known to be 0.
+
+    Where dichroism is, the absorption is that of the state that is absorbed least, and what
+    stands beside it takes nothing from that one: no exponential is too large.
+    """
+    linear, circular = not vanishes(medium.dichroism), not vanishes(medium.circular_dichroism)
+    rotates = not (vanishes(medium.rotation) and vanishes(medium.dextrorotation))
+    retards, depolarizes = not vanishes(medium.retardance), not vanishes(medium.depolarization)
+    absorbing = _absorbing(medium, dichroic=linear or circular)
+    if depolarizes and (linear or circular):
+        return *absorbing, *_together(medium, DEPOLARIZING_DICHROISM_ALONG, medium.depolarization)
+    depolarizing = _along(medium, DEPOLARIZATION_ALONG, medium.depolarization)
+    two_axes = linear and retards and not same(medium.angle, medium.dichroic_axis)
+    if two_axes or ((linear or retards) and (circular or rotates)):
+        at_once = _together(medium, DICHROISM_AND_RETARDANCE_ALONG)
+    elif linear:
+        at_once = _filtering_along_axis(medium)
+    elif circular:
+        at_once = (*_rotating(medium), *_filtering_circularly(medium))
+    else:
+        at_once = (*_rotating(medium), *_retarding(medium))
+    return *absorbing, *depolarizing, *at_once
+
+
+def _absorbing(medium: Any, *, dichroic: bool) -> tuple[Operation, ...]:
+    is_far = largest(medium.absorption) * largest(medium.length) > _FAR
+    count = 3 if is_far else 1
+    if dichroic:
+        kernel = THIRD_BESIDE_DICHROISM if is_far else ABSORPTION_BESIDE_DICHROISM
+        rates = medium.absorption, medium.dichroism, medium.circular_dichroism
+        return count * (Operation(kernel, (*rates, medium.length)),)
+    kernel = THIRD_OF_ABSORPTION if is_far else ABSORPTION_ALONG
+    return count * _along(medium, kernel, medium.absorption)
+
+
+def _rotating(medium: Any) -> tuple[Operation, ...]:
+    rotating = _along(medium, ROTATION_ALONG, medium.rotation)
+    return rotating + _along(medium, DEXTROROTATION_ALONG, medium.dextrorotation)
+
+
+def _retarding(medium: Any) -> tuple[Operation, ...]:
+    retarding = _along(medium, RETARDANCE_ALONG, medium.retardance)
+    return turned(medium.angle, *retarding) if retarding else ()
+
+
+def _filtering_along_axis(medium: Any) -> tuple[Operation, ...]:
+    """Return linear dichroism, and retardance along the same axis."""
+    rates = medium.dichroism, medium.retardance, medium.length
+    return turned(medium.dichroic_axis, Operation(DICHROISM_ALONG, rates))
+
+
+def _filtering_circularly(medium: Any) -> tuple[Operation, ...]:
+    rates = medium.circular_dichroism, 0.0, medium.length
+    return along_circular_axes(Operation(DICHROISM_ALONG, rates))
+
+
+def _together(medium: Any, kernel: Kernel, *first: Any) -> tuple[Operation, ...]:
+    """Return what is done at once, in the frame of the fast axis."""
+    axis = medium.dichroic_axis
+    angles = (0.0, 0.0) if same(axis, medium.angle) else (axis, medium.angle)
+    rates = medium.dichroism, medium.circular_dichroism, medium.retardance, medium.turning
+    return turned(medium.angle, Operation(kernel, (*first, *rates, *angles, medium.length)))
+
+
+def _along(medium: Any, kernel: Kernel, per_metre: Any) -> tuple[Operation, ...]:
+    return () if vanishes(per_metre) else (Operation(kernel, (per_metre, medium.length)),)
+
+
+@dataclass(frozen=True)
+class Beside(Domain):
+    """A quantity that may be nothing but 0 beside another."""
+
+    why: str = ""
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return f"0 beside {self.why}"
+
+    def check(self, owner: str, value: Any) -> Any:
+        if is_traced(value):
+            raise ValueFault(f"{owner} is traced by JAX; give {self.described()}")
+        return super().check(owner, value)
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        if not parameter.bound:
+            raise ValueFault(f"{owner} is parameter '{parameter.name}'; give {self.described()}")
+
+
+def _beside(name: str, why: str) -> Beside:
+    return Beside(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
+
+
+ROTATION_BESIDE_DEXTROROTATION = _beside(
+    "rotation", "a dextrorotation, which is the same rotation with the other sign"
+)

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Self
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
+
+import numpy as np
 
 from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element, with_values
 from optipath.elements.known_sizes import bound_value
-from optipath.elements.matrix_domain import ElementMatrix
-from optipath.errors import PathError
-from optipath.kernels.catalogue import MATRIX
-from optipath.light.mueller.reciprocity import reciprocal
-from optipath.values.domains.quantities import Angle, YesOrNo
-from optipath.values.operation import Operation
+from optipath.errors import PathError, ValueFault
+from optipath.kernels.catalog import MATRIX
+from optipath.light.decompositions import reciprocal, tolerance_for, tolerance_of
+from optipath.light.passive import are_passive, cure_of, problem_of
+from optipath.materials.quantities import Angle, Quantity, YesOrNo
+from optipath.values.arrays import read_only
+from optipath.values.domains import Domain
+from optipath.values.messages import cure
+from optipath.values.operands import Operation
 from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 
 class MuellerElement(Element, kind="mueller"):
@@ -71,3 +80,42 @@ class MuellerElement(Element, kind="mueller"):
                 )
             matrix = bound_value(matrix)
         return with_values(super().reversed(), matrix=reciprocal(matrix))
+
+
+@dataclass(frozen=True)
+class MatrixDomain(Domain):
+    """Mueller matrices of passive elements, beyond the rounding of their precision; or any."""
+
+    physical: bool = True
+
+    @property
+    def unphysical(self) -> Domain:
+        """The domain of matrices as they are measured, and of amplifiers."""
+        return replace(self, physical=False)
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change, in the precision by which it is judged."""
+        return read_only(value, widened=False)
+
+    def allows(self, numbers: Any) -> Any:
+        finite = super().allows(numbers).all(axis=(-1, -2))
+        spare = tolerance_for(numbers)
+        return finite & are_passive(numbers, spare) if self.physical else finite
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        super()._check_numbers(owner, array, rounding)
+        if not self.physical:
+            return
+        tolerance = tolerance_of(rounding)
+        bad = ~are_passive(array, tolerance)
+        if np.any(bad):
+            place = [*np.argwhere(bad)[0].tolist()]
+            free = cure("physical=False", "physical = false")
+            raise ValueFault(
+                f"{owner}{place or ''} {problem_of(array[bad][0], tolerance)}; give "
+                f"{cure_of(array, tolerance)}, or {free} for what is measured as it is, "
+                f"and for amplifiers"
+            )
+
+
+ElementMatrix: TypeAlias = Annotated[Quantity, MatrixDomain("Mueller matrix", tail=(4, 4))]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import ctypes
 import math
 from abc import ABC, abstractmethod
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
 
-from optipath.extras import missing_extra
+from optipath.errors import missing_extra
 
 if TYPE_CHECKING:
     from optipath.errors import MissingExtraError
+
 
 FormulaT = TypeVar("FormulaT")
 PathT = TypeVar("PathT")
@@ -50,3 +52,28 @@ class Engine(ABC, Generic[FormulaT, PathT]):
     def missing(self) -> MissingExtraError:
         """The error that it is not installed."""
         return missing_extra(f"plans of engine '{self.name}'", self.name)
+
+
+class ArrayPath(Protocol):
+    """A formula that can be done to arrays.
+
+    Called with a range of rows and of columns; what is given in the order of the formula's
+    inputs, each a number or an array along one axis: of all rows, of all columns, or of the
+    cells of the range (`Formula.place_of`); an array of shape (results, paths) to be filled;
+    and the column of it for the first cell. Returns whether the formula holds for all of the
+    range. Where the formula has no inner loop of its own, there is one row.
+    """
+
+    def __call__(
+        self, rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
+    ) -> bool:
+        """Fill a range of the results."""
+
+
+def address(array: Any) -> int:
+    """Return the address of the first number of an array."""
+    try:
+        return ctypes.addressof(ctypes.c_char.from_buffer(array))
+    except (TypeError, ValueError):  # The array is read-only, or empty.
+        found: int = array.__array_interface__["data"][0]
+        return found

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.engine import Engine
-from optipath.engines.formulas.operations import OPERATIONS
-from optipath.engines.formulas.symbol import Symbol
-from optipath.kernels.numbers.primitives import FLOAT
+from optipath.engines.symbols import OPERATIONS, Symbol
+from optipath.kernels.primitives import FLOAT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.engines.formulas.formula import Formula
+    from optipath.engines.formula import Formula
+
 
 _DEEPEST = 30
 _TWICE = ("maximum", "minimum")

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from optipath.engines.jax_path import JaxPath
-    from optipath.engines.program.program import Program
+    from optipath.engines.program import Program
     from optipath.kernels.carriers.carrier import Carrier
 
 

@@ -11,26 +11,24 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.engines.program.execute import execute
-from optipath.engines.step_by_step import StepByStep
+from optipath.engines.execute import execute
 from optipath.errors import ComposerError
-from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
-from optipath.kernels.numbers.primitives import NUMPY
+from optipath.kernels.carriers.carrier import Carrier, MatrixCarrier
+from optipath.kernels.primitives import NUMPY
 from optipath.values.angles import CosSin
-from optipath.values.arrays.jax_primitives import JAX, sloped, with_slopes
-from optipath.values.arrays.jax_values import is_jax, is_traced
+from optipath.values.jax_primitives import JAX, sloped, with_slopes
+from optipath.values.jax_values import is_jax, is_traced
 from optipath.values.operands import part_of
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from optipath.engines.program.loops import LoopSolver
-    from optipath.engines.program.program import Program, Reading
-    from optipath.kernels.carriers.carried import Components
-    from optipath.kernels.carriers.carrier import Carrier
+    from optipath.engines.program import LoopSolver, Program, Reading
+    from optipath.kernels.carriers.carried import Components, SolvedLoop
+    from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.values.operands import Operand
-    from optipath.values.resolved import Resolved
+    from optipath.values.parameters import Resolved
 
 
 class JaxPath:
@@ -245,3 +243,33 @@ def double_precision() -> Any:
 def _place(place: int) -> str:
     """Return what an operand is called that is computed before JAX is asked."""
     return f".{place}"
+
+
+class StepByStep(Carrier):
+    """Carries light as another carrier does, each element a piece of its own.
+
+    Each component of light enters all those behind an element: in one piece, XLA computes the
+    light in front again for each of them, which is 10^9 times for a filter of four plates.
+    """
+
+    def __init__(self, carrier: Carrier) -> None:
+        super().__init__(carrier.xp)
+        self._carrier = carrier
+
+    def emit(self, stokes: Components, count: int = 4) -> Any:
+        return self._carrier.emit(stokes, count)
+
+    def act(self, structure: Structure, numbers: Numbers, state: Any, count: int = 4) -> Any:
+        def through(numbers: Numbers, state: Any) -> Any:
+            return self._carrier.act(structure, numbers, state, count)
+
+        return self.xp.apart(through)(tuple(numbers), state)
+
+    def add(self, first: Any, second: Any) -> Any:
+        return self._carrier.add(first, second)
+
+    def meet(self, solver: SolvedLoop, arriving: Mapping[int, Any]) -> dict[int, Any]:
+        return self._carrier.meet(solver, arriving)
+
+    def read(self, state: Any, count: int = 4) -> tuple[Components, Any]:
+        return self._carrier.read(state, count)

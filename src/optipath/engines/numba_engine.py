@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.array_address import address
-from optipath.engines.engine import Engine
-from optipath.engines.formulas.left import left_formula
-from optipath.engines.formulas.python_text import assignments, indented
-from optipath.engines.formulas.symbol import Symbol
+from optipath.engines.engine import Engine, address
+from optipath.engines.formula import assignments, indented, left_formula
 from optipath.engines.numpy_engine import NumpyEngine
+from optipath.engines.symbols import Symbol
 
 if TYPE_CHECKING:
-    from optipath.engines.array_path import ArrayPath
     from optipath.engines.code_cache import CodeCache
-    from optipath.engines.formulas.formula import Formula
+    from optipath.engines.engine import ArrayPath
+    from optipath.engines.formula import Formula
+
 
 _BLOCK = 512
 _HEAD = """\

@@ -1,4 +1,4 @@
-"""What light and Mueller matrices have of an array: a shape, an index, numbers for NumPy."""
+"""Array axes: shape, index and NumPy conversion shared by light and Mueller matrices."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 import numpy as np
 
 from optipath.errors import IndexFault, LightError, ParameterError, ShapeError, shown
-from optipath.values.arrays.jax_values import is_traced, known, namespace
+from optipath.values.jax_values import is_traced, known, namespace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from optipath.values.roundings import Array
+    from optipath.values.precision import Array
 
 
 class ArrayAxes:
@@ -149,3 +149,28 @@ def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
     """
     parts = [change(numbers[..., place]) for place in range(numbers.shape[-1])]
     return namespace(parts[0]).stack(parts, axis=-1)
+
+
+def why_refused(factor: Any) -> str:
+    """Say why something is no factor of a product, and what to write in its place.
+
+    Examples
+    --------
+    >>> print(why_refused([1, 0, 0, 0]))  # doctest: +NORMALIZE_WHITESPACE
+    [1, 0, 0, 0] has no frames; write element @ light, optipath.Mueller(matrix) @ light,
+    and optipath.Light(numbers) for light
+    """
+    if isinstance(factor, type):
+        return f"{factor.__name__} is a class; write {factor.__name__}(...)"
+    if hasattr(factor, "mueller"):
+        kind = type(factor).__name__
+        return (
+            f"a {kind} begins with light of its own; write path.mueller() @ light for what is "
+            f"between its source and its detector, or give its Source these stokes"
+        )
+    if hasattr(factor, "element"):
+        return f"{shown(factor)} is of a path; write the element without a name"
+    return (
+        f"{shown(factor)} has no frames; write element @ light, optipath.Mueller(matrix) @ light, "
+        f"and optipath.Light(numbers) for light"
+    )

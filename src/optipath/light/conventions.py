@@ -1,4 +1,4 @@
-"""The conventions of other software and books, as signs of the four Stokes components.
+"""Conventions of other software and books: signs of Stokes components, psi and Delta.
 
 Each of them differs from ours in the hand of S3, in which axis is called x, or in the direction of
 y: all of these change signs, and nothing else, so that a map is its own inverse.
@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import ValueFault, did_you_mean, shown, unknown
-from optipath.values.arrays.jax_values import known, namespace
+from optipath.values.jax_values import known, namespace
 
 if TYPE_CHECKING:
-    from optipath.values.roundings import Array
+    from optipath.values.precision import Array
 
 
 class Convention(NamedTuple):
@@ -149,3 +149,44 @@ def _found(convention: Any) -> Convention:
     if faults := unknown("convention", convention, CONVENTIONS):
         raise ValueFault(*faults)
     return CONVENTIONS[convention]
+
+
+class EllipsometricAngles:
+    """What has an ellipsometric psi and Delta, in the conventions of others."""
+
+    psi: Any
+    delta: Any
+
+    def ellipsometric_angles(self, convention: str = "ellipsometry") -> tuple[Array, Array]:
+        """Return psi and Delta as other software counts them, each in radians, of shape (...).
+
+        Parameters
+        ----------
+        convention : str, optional
+            ``"ellipsometry"``, which `psi` and `delta` are in, ``"pypolar"``, ``"pyelli"``,
+            ``"scatmech"``, whose Delta is that of exp(-i w t), or ``"tmm"``, whose Delta is 180
+            degrees minus ours.
+
+        Returns
+        -------
+        psi : ndarray
+            In [0, pi/2].
+        delta : ndarray
+            In (-pi, pi].
+
+        Raises
+        ------
+        ValueFault
+            If there is no convention of that name, or it has no psi and Delta.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from optipath import Interface
+        >>> glass = Interface(index=1.5, incidence=np.pi / 6).mueller()
+        >>> print([angle.round(4).item() for angle in glass.ellipsometric_angles()])
+        [0.584, 3.1416]
+        >>> print([angle.round(4).item() for angle in glass.ellipsometric_angles("tmm")])
+        [0.584, 0.0]
+        """
+        return self.psi, changed_delta(convention, self.delta)

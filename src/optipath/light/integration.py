@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import LightError, ShapeError, ValueFault, listed, shown
-from optipath.light.inherited_noise import rounding
+from optipath.light.on_demand import rounding
 from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
-from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
+from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
+from optipath.materials.spectrum import check_response
+from optipath.values.arrays import as_given
+from optipath.values.jax_values import check_known, is_traced, known, namespace
 from optipath.values.precision import at_least_single, coarser
-from optipath.values.spectra.grid_bins import NANOMETRES, grid_fault, grid_widths
-from optipath.values.spectra.responses import check_response
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from optipath.light.light import Light
-    from optipath.values.roundings import Array
+    from optipath.values.precision import Array
 
 
 def spectral_axis(light: Light) -> tuple[Array, int]:

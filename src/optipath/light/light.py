@@ -8,42 +8,44 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 import numpy as np
 
 from optipath.errors import FrameError, LightError, ParameterError, shown, unknown
-from optipath.light.arithmetic import factor_of_light, product_of, refuse, sum_of
-from optipath.light.array_axes import ArrayAxes, each_number
-from optipath.light.array_of_light import (
+from optipath.light.arithmetic import (
     OPERATORS,
     TAKES_LIGHT,
+    factor_of_light,
     handed_out,
+    product_of,
+    refuse,
     refuse_call,
     stacked_components,
+    sum_of,
 )
-from optipath.light.conventions import changed_stokes
-from optipath.light.exchange import EllipsometricAngles
-from optipath.light.frames import Frame
-from optipath.light.frames_on_demand import FramesOnDemand
-from optipath.light.inherited_noise import inheriting, noise_in
-from optipath.light.light_text import text_of
-from optipath.light.physical_light import check_physical, nearest_light
+from optipath.light.array_axes import ArrayAxes, each_number, why_refused
+from optipath.light.conventions import EllipsometricAngles, changed_stokes
+from optipath.light.frame import Frame
+from optipath.light.on_demand import (
+    FramesOnDemand,
+    common_wavelength,
+    inheriting,
+    noise_in,
+    part_of_wavelength,
+    wavelengths_for,
+)
 from optipath.light.polarization_state import (
+    check_physical,
     direction,
     ellipse_of,
     length,
     minor_over_major,
+    nearest_light,
     polarised,
     shares,
     turned_stokes,
     where_there,
 )
-from optipath.light.refused_products import why_refused
+from optipath.light.printed import text_of
 from optipath.light.underflow import folded, given_exponent, same_numbers, times_two_to
-from optipath.light.wavelength_on_demand import (
-    common_wavelength,
-    part_of_wavelength,
-    wavelengths_for,
-)
-from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
-from optipath.values.arrays.read_only import Unchanging, locked, read_only
-from optipath.values.arrays.shapes import check_broadcast, real_array
+from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array
+from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.precision import at_least_single, coarser
 
 if TYPE_CHECKING:
@@ -51,8 +53,9 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.light.colour.srgb import Srgb
-    from optipath.values.roundings import Array
+    from optipath.light.color import Srgb
+    from optipath.values.precision import Array
+
 
 _KINDS = ("ellipse", "poincare", "stokes")
 
@@ -599,7 +602,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(round(X / (X + Y + Z), 5), round(Y / (X + Y + Z), 5))
         0.33331 0.33329
         """
-        from optipath.light.colour.tristimulus import tristimulus  # noqa: PLC0415 - hardly ever
+        from optipath.light.color import tristimulus  # noqa: PLC0415 - hardly ever
 
         return tristimulus(self, white, observer, outside)
 
@@ -647,7 +650,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> (0.2 * white).to_srgb(white, adapt=True).hex
         '#7c7c7c'
         """
-        from optipath.light.colour.srgb import srgb_of  # noqa: PLC0415 - hardly ever
+        from optipath.light.color import srgb_of  # noqa: PLC0415 - hardly ever
 
         return srgb_of(self, white, (observer, outside), adapt=adapt, out_of_gamut=out_of_gamut)
 

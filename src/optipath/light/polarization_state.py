@@ -1,4 +1,4 @@
-"""What the numbers of a Stokes vector say of its ellipse, each angle in its own branch.
+"""Polarization state: degrees and angles of Stokes vectors, and which are physical.
 
 They are read off the vector over S0, so that light of any faintness will do. What light does not
 have is NaN, as what is not known is: dark light has no degree of polarisation, unpolarised light no
@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import ValueFault, shown
 from optipath.kernels.carriers.structures import turn_linear
-from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.precision import coarser
+from optipath.values.domains import can_be_light
+from optipath.values.jax_values import is_traced, namespace
+from optipath.values.precision import coarser, rounding_of
 
 if TYPE_CHECKING:
-    from optipath.values.roundings import Array
+    from optipath.values.precision import Array
 
 
 def ratio(part: Any, whole: Any) -> Any:
@@ -159,7 +161,7 @@ def turned_stokes(stokes: Array, turn: Any) -> Array:
 
     Examples
     --------
-    >>> from optipath.light.frames import Frame
+    >>> from optipath.light.frame import Frame
     >>> quarter = Frame().turn_to(Frame().turned(np.pi / 4))
     >>> turned_stokes(np.array([1.0, 1.0, 0.0, 0.5]), quarter).round(12)
     array([ 1. ,  0. , -1. ,  0.5])
@@ -169,3 +171,70 @@ def turned_stokes(stokes: Array, turn: Any) -> Array:
         parts = (s0, *turn_linear(turn, s1, s2), s3)
     turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
     return turned.astype(coarser(turned, stokes), copy=False)  # type: ignore[no-any-return]
+
+
+_CURE = (
+    "give S0 >= 0 and S1^2 + S2^2 + S3^2 <= S0^2; or, for measured noise, "
+    "Light(..., physical=False), of which nearest_physical() makes light"
+)
+
+
+def check_physical(stokes: Array) -> None:
+    """Refuse Stokes vectors that no light has; NaN is what nobody has read.
+
+    Shape: stokes (..., 4).
+
+    Examples
+    --------
+    >>> check_physical(np.array([1.0, 0.6, 0.0, np.nan]))
+    """
+    endless = np.asarray(np.isinf(stokes).any(axis=-1))
+    told = np.where(np.isnan(stokes) | endless[..., np.newaxis], 0.0, stokes)
+    beyond = ~(can_be_light(told, rounding_of(stokes)) | np.isnan(stokes[..., 0]))
+    bad = endless | (told[..., 0] < 0.0) | beyond
+    if not bad.any():
+        return
+    place = tuple(int(i) for i in np.argwhere(bad)[0])
+    which = f"light {list(place)}" if place else "light"
+    more = f" (one of {bad.sum()} such)" if bad.sum() > 1 else ""
+    vector = stokes[place]
+    raise ValueFault(f"{which} is {shown(vector.tolist())}, {problem_of(vector)}{more}; {_CURE}")
+
+
+def problem_of(vector: Array) -> str:
+    """Say why a Stokes vector is no light.
+
+    Examples
+    --------
+    >>> problem_of(np.array([1.0, 3.0, 0.0, 4.0]))
+    'polarised by 500 %'
+    """
+    if np.isinf(vector).any():
+        return "which is not finite"
+    if vector[0] < 0.0:
+        return f"whose intensity {vector[0]!s} is negative"
+    if vector[0] == 0.0:
+        return "which is polarised, and dark"
+    share = 100.0 * float(length(*np.where(np.isnan(vector), 0.0, vector)[1:]) / vector[0])
+    text = f"polarised by {share:.6g} %"
+    return f"{text} and a little" if f"{share:.6g}" == "100" else text
+
+
+def nearest_light(stokes: Any) -> Any:
+    """Return Stokes vectors that light can have: S0 is kept, and S1, S2, S3 are scaled together.
+
+    Shapes: stokes (..., 4); returns (..., 4).
+
+    Examples
+    --------
+    >>> nearest_light(np.array([[1.0, 3.0, 0.0, 4.0], [-1.0, 0.5, 0.0, 0.0]]))
+    array([[1. , 0.6, 0. , 0.8],
+           [0. , 0. , 0. , 0. ]])
+    """
+    xp = namespace(stokes)
+    s0, rest = xp.maximum(stokes[..., :1], 0.0), stokes[..., 1:]
+    read = xp.where(xp.isnan(rest), 0.0, rest)
+    polarised = length(*(read[..., i] for i in range(3)))[..., np.newaxis]
+    beyond = polarised > s0
+    share = xp.where(beyond, s0 / xp.where(beyond, polarised, 1.0), 1.0)
+    return xp.concatenate([s0, rest * share], axis=-1)

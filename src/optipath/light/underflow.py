@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ShapeError, shown
-from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import check_known
-from optipath.values.arrays.read_only import same
+from optipath.values.arrays import as_given, same
+from optipath.values.jax_values import check_known
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.values.roundings import Array
+    from optipath.values.precision import Array
+
 
 UNDERFLOW = 2.0**60
 """How many times the smallest normal number light must be, lest what underflows is seen in it."""

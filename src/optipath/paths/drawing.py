@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import Wiring
-from optipath.elements.vertices.by_angles import VerticesByAngles
-from optipath.values.cures import cure
-from optipath.values.curves.curve_value import CurveValue
-from optipath.values.follows import FOLLOWS
-from optipath.values.materials import Material
+from optipath.elements.vertex_chain import VerticesByAngles
+from optipath.materials.index_domains import FOLLOWS
+from optipath.materials.material import Material
+from optipath.values.curve_value import CurveValue
+from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
+
 
 _FEW, _PLANE = 4, 2
 """As many numbers as light has, and as many directions as a matrix."""

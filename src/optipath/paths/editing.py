@@ -1,23 +1,31 @@
-"""Editing: nodes and links put into a graph of elements, and taken out of it."""
+"""Editing: nodes and links added, inserted, removed and replaced."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer.placement import placement_faults
-from optipath.composer.wiring import Wiring, link_text
+from optipath.composer.placement import (
+    azimuth_of,
+    frame_at,
+    goes_straight,
+    is_zero,
+    placement_faults,
+    turn_text,
+)
+from optipath.composer.wiring import Wiring, link_text, taken_out
 from optipath.elements.chaining import NamedElement
 from optipath.elements.element import Element
+from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import PathError, did_you_mean, listed, shown, there_are
-from optipath.light.frames import Frame
-from optipath.paths.joining import name_by_kind
-from optipath.paths.port_names import check_port, find_port
-from optipath.values.domains.quantities import ANGLE
-from optipath.values.made import kept_value
+from optipath.light.frame import Frame
+from optipath.materials.quantities import ANGLE
+from optipath.paths.joining import are_alike, name_by_kind, turn_more
+from optipath.paths.port_names import check_port, element_at, find_port, natural_port
+from optipath.values.use import kept_value
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     import networkx as nx
 
@@ -125,3 +133,165 @@ def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]
         raise PathError(*faults)
     (start, out_port), (end, in_port) = ends
     return start, end, (out_port, in_port)
+
+
+def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before: Any) -> None:
+    """Put an element into a link, as `PathGraph.insert` does."""
+    check_element(name, element)
+    enters, passes = (natural_port(element, name, out=out) for out in (False, True))
+    link = _link_for(graph, name, behind, before)
+    start, end, (leaves, arrives) = link
+    frame = frame_at(Wiring(graph), start, leaves) if element.straight else None
+    add(graph, name, element, None if frame is None else {enters: frame})
+    if element.straight and frame is None:
+        # What stands behind it stays as it was turned.
+        turn_more(graph, link, -_own_turn(element))
+    about = graph.edges[link]
+    azimuth, tap = about["azimuth"], about["tap"]
+    graph.remove_edge(*link)
+    graph.add_edge(start, name, key=(leaves, enters), azimuth=None, tap=tap)
+    graph.add_edge(name, end, key=(passes, arrives), azimuth=azimuth, tap=False)
+
+
+def remove(graph: nx.MultiDiGraph, name: Any) -> None:
+    """Take a node out, as `PathGraph.remove` does."""
+    element_at(graph, name)
+    before, behind = graph.in_edges(name, keys=True), graph.out_edges(name, keys=True)
+    if before and behind:
+        _close(graph, name, list(before), list(behind))
+    graph.remove_node(name)
+
+
+def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
+    """Put another element in the place of one, as `PathGraph.replace` does."""
+    element_at(graph, name)
+    check_element(name, element)
+    entered = {enters for *_, (_, enters) in graph.in_edges(name, keys=True)}
+    left = {leaves for *_, (leaves, _) in graph.out_edges(name, keys=True)}
+    placed = {*graph.nodes[name]["frames"]} - {*element.inputs, *element.outputs}
+    missing = (entered - {*element.inputs}) | (left - {*element.outputs}) | placed
+    if missing:
+        lost = listed([f"'{name}.{port}'" for port in sorted(missing)])
+        ports = [f"'{name}.{port}'" for port in (*element.inputs, *element.outputs)]
+        raise PathError(
+            f"the new element of '{name}' has no {lost}, which links or frames use; it has "
+            f"{listed(ports)}: disconnect the others first, or take '{name}' out and add it anew"
+        )
+    if said := _turned_by_links(graph, name, element):
+        for link in said:
+            graph.edges[link]["azimuth"] = None
+    elif graph.nodes[name]["element"].straight and element.straight:
+        _turn_back(graph, name, element)
+    else:
+        _check_turn(graph, name, element)
+    graph.nodes[name]["element"] = element
+
+
+def _turned_by_links(graph: nx.MultiDiGraph, name: str, element: Element) -> list[Link]:
+    """Return the links that turn a node if they say what another element says by itself."""
+    links = [
+        link
+        for link in graph.in_edges(name, keys=True)
+        if graph.edges[link]["azimuth"] is not None and not is_zero(azimuth_at(element, link[2][1]))
+    ]
+    for link in links:
+        turn = graph.edges[link]["azimuth"]
+        if not are_alike(turn, _own_turn(element)):
+            raise PathError(
+                f"link '{link_text(link)}' turns '{name}' by {turn_text(turn)}, and the new "
+                f"element is turned by {turn_text(_own_turn(element))}; leave the azimuth of the "
+                f"new element out to have it turned as the old one is"
+            )
+    return links
+
+
+def _turn_back(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
+    """Turn what stands behind a node by as much as another element turns it less."""
+    if graph.nodes[name]["frames"]:
+        return  # World frames say how it stands.
+    old = _own_turn(graph.nodes[name]["element"])
+    cure = f"take '{name}' out by path.remove('{name}'), and put the new one in by path.insert"
+    for link in [link for link in graph.out_edges(name, keys=True) if link[1] != name]:
+        turn_more(graph, link, old, cure)
+        turn_more(graph, link, -_own_turn(element), cure)
+
+
+def _link_for(graph: nx.MultiDiGraph, name: Any, behind: Any, before: Any) -> Link:
+    """Return the one link behind a port, before another, or both."""
+    if behind is None and before is None:
+        raise PathError(
+            f"path.insert('{name}', ...) is told no link; give it behind='node.port', where light "
+            f"leaves, or before='node.port', where light arrives"
+        )
+    if behind is not None and before is not None:
+        return find_link(graph, behind, before)
+    wiring, is_behind = Wiring(graph), behind is not None
+    port = find_port(graph, behind if is_behind else before, out=is_behind)
+    links = (wiring.links_from if is_behind else wiring.links_to).get(port, [])
+    if len(links) == 1:
+        return links[0]
+    text, feeds = ".".join(port), "feeds" if is_behind else "is fed by"
+    if not links:
+        ends = f"'{text}', '{name}'" if is_behind else f"'{name}', '{text}'"
+        cure = f"write path.add('{name}', ...) and path.connect({ends})"
+    elif is_behind:
+        cure = f"take all but one out first, by {taken_out(wiring, links)}"
+    else:
+        cure = f"say behind which port as well, such as behind='{links[0][0]}.{links[0][2][0]}'"
+    raise PathError(
+        f"'{text}' {feeds} {_listed(links)}, and not one link that '{name}' could be put into; "
+        f"{cure}"
+    )
+
+
+def _own_turn(element: Element) -> Any:
+    return getattr(element, "azimuth", 0.0)
+
+
+def _check_turn(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
+    """Raise if a node was turned by its azimuth, and would not be by that of another element."""
+    wiring, azimuth = Wiring(graph), _own_turn(graph.nodes[name]["element"])
+    links = [
+        link
+        for link in graph.in_edges(name, keys=True)
+        if graph.edges[link]["azimuth"] is None and not is_zero(azimuth_of(wiring, link))
+    ]
+    if not links or not is_zero(_own_turn(element)):
+        return
+    takes = f"give it azimuth=path.element('{name}').azimuth, or " * hasattr(element, "azimuth")
+    ports = f"'{links[0][0]}.{links[0][2][0]}', '{name}.{links[0][2][1]}'"
+    raise PathError(
+        f"'{name}' is turned by its azimuth {turn_text(azimuth)}, and the new element is not; "
+        f"{takes}give an azimuth, 0.0 for none, to the link: path.disconnect({ports}), then "
+        f"path.connect({ports}, azimuth=...)"
+    )
+
+
+def _close(graph: nx.MultiDiGraph, name: str, before: list[Link], behind: list[Link]) -> None:
+    """Link what stands before a node with what stands behind it."""
+    if len(before) > 1 or len(behind) > 1 or before[0][1] == before[0][0]:
+        raise PathError(
+            f"several links meet at '{name}', {_listed([*before, *behind])}, so nothing tells "
+            f"how to close the gap; disconnect those that are to go first"
+        )
+    wiring = Wiring(graph)
+    ((start, _, (leaves, enters)),), ((_, end, (passes, arrives)),) = before, behind
+    if not goes_straight(wiring.elements[name], enters, passes):
+        raise PathError(
+            f"light does not go straight through '{name}', so nothing tells how what stands "
+            f"before and behind it would stand to each other; disconnect "
+            f"{_listed([*before, *behind])} first"
+        )
+    if graph.has_edge(start, end, key=(leaves, arrives)):
+        raise PathError(
+            f"without '{name}' there would be two links '{start}.{leaves} -> {end}.{arrives}'; "
+            f"disconnect the one that there is first"
+        )
+    turn_more(graph, behind[0], azimuth_of(wiring, before[0]))
+    about = graph.edges[behind[0]]
+    tap = graph.edges[before[0]]["tap"] or about["tap"]
+    graph.add_edge(start, end, key=(leaves, arrives), azimuth=about["azimuth"], tap=tap)
+
+
+def _listed(links: Iterable[Link]) -> str:
+    return listed([f"'{link_text(link)}'" for link in links] or ["no link"])

@@ -13,33 +13,31 @@ from optipath.composer.composer import Composer
 from optipath.composer.path_values import parameters_of
 from optipath.composer.validate import validate
 from optipath.composer.wiring import KEPT, LOOPS
-from optipath.elements.chaining import Chainable, NamedElement, begun, chains_begin_with
+from optipath.elements.chaining import Chainable, NamedElement, begun
+from optipath.elements.detectors import Detector
 from optipath.elements.element import Element
-from optipath.elements.terminal import Detector
-from optipath.errors import ComposerError, ParameterError, PathError, shown, unknown
-from optipath.extras import needing
-from optipath.paths import splicing
-from optipath.paths.bound_materials import cases_left
+from optipath.errors import ComposerError, ParameterError, PathError, needing, shown, unknown
+from optipath.materials.named_materials import is_by_wavelength, is_curve
+from optipath.paths import editing as splicing
+from optipath.paths.binding import cases_left
 from optipath.paths.editing import add, connect, disconnect, edit
 from optipath.paths.joining import append, as_chain, join, name_by_kind
 from optipath.paths.place_choice import PlaceChoice, choice_faults, with_given
 from optipath.paths.port_names import check_port, element_at
-from optipath.paths.reversed_graph import reversed_graph
-from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import same
-from optipath.values.by_name import check_named
+from optipath.paths.reversed import reversed_graph
+from optipath.values.arrays import entries_of, same
 from optipath.values.cases import Case
-from optipath.values.open_materials import is_by_wavelength, is_curve
+from optipath.values.messages import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from os import PathLike
 
-    from optipath.elements.source import Source
-    from optipath.light.frames import Frame
+    from optipath.elements.sources import Source
+    from optipath.light.frame import Frame
     from optipath.light.light import Light
-    from optipath.light.mueller.matrix import Mueller
-    from optipath.plan.light_paths.light_path import LightPath
+    from optipath.light.mueller import Mueller
+    from optipath.plan.light_paths import LightPath
     from optipath.plan.plan import Plan
     from optipath.values.parameters import Parameter
 
@@ -504,7 +502,7 @@ class PathGraph(Chainable):
         PathError
             If an element has no kind, or a value has no form in TOML.
         """
-        from optipath.paths.format.writer import to_toml  # noqa: PLC0415 - not for every import
+        from optipath.paths.files.writer import to_toml  # noqa: PLC0415 - not for every import
 
         return to_toml(self._graph, self.description, self.cases)
 
@@ -781,8 +779,7 @@ class PathGraph(Chainable):
         {'angle': 0.504, 'intensity': 0.496}
         """
         # Sweeps stand above paths.
-        from optipath.sweeps.uncertainty.propagate import propagate  # noqa: PLC0415
-        from optipath.sweeps.uncertainty.propagate_options import PropagateOptions  # noqa: PLC0415
+        from optipath.sweeps.uncertainty import PropagateOptions, propagate  # noqa: PLC0415
 
         options = PropagateOptions(method, samples, seed, correlation, detector, composer)
         return propagate(self, unnamed, values, options)
@@ -865,7 +862,8 @@ class Node(Chainable):
         return f"Node '{self._text}'"
 
 
-def _beginning(first: Any) -> PathGraph:
+def path_of(first: Any) -> PathGraph:
+    """Return the path of one element, such as a chain begins with."""
     if isinstance(first, PathGraph):
         return first
     path = PathGraph()
@@ -879,9 +877,6 @@ def _beginning(first: Any) -> PathGraph:
             f"path.add(name, element) >> path['{first.name}']"
         )
     return path
-
-
-chains_begin_with(_beginning)
 
 
 def _check_named(unnamed: tuple[Any, ...], plan: Plan) -> None:

@@ -10,9 +10,9 @@ from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
 from optipath.errors import ParameterError, PathError, shown, unknown
 from optipath.paths.binding import bind
-from optipath.paths.link_turns import turn_to, turns_to
+from optipath.paths.editing import insert, remove
+from optipath.paths.joining import turn_to, turns_to
 from optipath.paths.port_names import element_at, find_port, natural_port
-from optipath.paths.splicing import insert, remove
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import PathError, did_you_mean, shown, there_are
-from optipath.spelling import closest
+from optipath.errors import PathError, closest, did_you_mean, shown, there_are
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,6 +12,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.elements.element import Element
+
 
 _REFRACTED = "refracted"
 """What is near ``reflected`` by its letters, and means ``transmitted``."""
@@ -23,7 +23,7 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
 
     Examples
     --------
-    >>> from optipath.elements.beam_splitter import BeamSplitter
+    >>> from optipath.elements.splitters import BeamSplitter
     >>> try:
     ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
     ... except PathError as error:
@@ -58,7 +58,7 @@ def natural_port(element: Element, owner: str, *, out: bool) -> str:
 
     Examples
     --------
-    >>> from optipath.elements.beam_splitter import BeamSplitter
+    >>> from optipath.elements.splitters import BeamSplitter
     >>> natural_port(BeamSplitter(), "bs", out=False)
     'in'
     >>> try:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.errors import ParameterError
-from optipath.values.domains.axis import AxisDomain, axes_for
 from optipath.values.units import dimension_of, in_unit, parse_quantity
+from optipath.values.use import AxisDomain, axes_for
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
+
 
 VISIBLE = 380e-9, 780e-9
 """The wavelengths that are seen, in metres."""

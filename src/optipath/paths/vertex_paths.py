@@ -7,20 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.vertices.by_angles import VerticesByAngles, counted
-from optipath.elements.vertices.vertex_domain import BAD, VERTICES, legs_fit
+from optipath.elements.vertex_chain import BAD, VERTICES, VerticesByAngles, counted, legs_fit
 from optipath.errors import OptipathError, PathError, ValueFault, shown, unknown
-from optipath.paths.histories.chain_histories import Histories, apart_where_absorbed, histories
-from optipath.paths.histories.grazing_or_through import doubtful_vertex
-from optipath.paths.histories.normals_of_chains import normals_checked
-from optipath.paths.histories.path_of_chains import path_of_chains
-from optipath.paths.histories.vertex_events import medium_faults, passable
+from optipath.materials.index_domains import OUTSIDE
+from optipath.paths.chain_events import medium_faults, passable
+from optipath.paths.chain_histories import Histories, apart_where_absorbed, histories
+from optipath.paths.chain_media import doubtful_vertex, normals_checked, path_of_chains
 from optipath.paths.path_graph import PathGraph
-from optipath.values.arrays.array_likes import as_given, entries_of
-from optipath.values.arrays.jax_values import is_traced
-from optipath.values.domains.indices import OUTSIDE
-from optipath.values.made import checked_later, kept_value
+from optipath.values.arrays import as_given, entries_of
+from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
+from optipath.values.use import checked_later, kept_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -1,34 +1,29 @@
-"""Answers: the runners of a plan, and what each of them is asked."""
+"""Answers: the runners of a plan, and which source or detector is meant."""
 
 from __future__ import annotations
 
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from optipath.light.frames import Frame
+from optipath.errors import ParameterError, did_you_mean, shown
+from optipath.light.frame import Frame
 from optipath.light.light import Light
-from optipath.plan.light_noise import noise_at
-from optipath.plan.running.options import RunOptions
-from optipath.plan.running.outlet_frames import LaterFrame
-from optipath.plan.running.outlet_wavelengths import LaterWavelength, wavelengths_among
-from optipath.plan.running.questions import (
-    BoundsQuestion,
-    ErrorsQuestion,
-    LightQuestion,
-    MatrixQuestion,
-)
-from optipath.plan.running.shared import runner_for
-from optipath.values.large_angles import LargeAngles
+from optipath.plan.inputs import LargeAngles
+from optipath.plan.interpreters import noise_at
+from optipath.plan.outlets import LaterFrame, LaterWavelength, wavelengths_among
+from optipath.plan.questions import BoundsQuestion, ErrorsQuestion, LightQuestion, MatrixQuestion
+from optipath.plan.reading import RunOptions
+from optipath.plan.runner import runner_for
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices.frame import VertexFrame
-    from optipath.engines.program.program import Program, Reading
+    from optipath.elements.vertex_place import VertexFrame
+    from optipath.engines.program import Program, Reading
     from optipath.plan.approximation import Approximation
     from optipath.plan.certificate import Certificate
-    from optipath.plan.running.noise_interpreter import NoiseInterpreter
-    from optipath.plan.running.runner import Runner
+    from optipath.plan.interpreters import NoiseInterpreter
+    from optipath.plan.runner import Runner
 
 
 class Answers:
@@ -49,7 +44,7 @@ class Answers:
     @cached_property
     def noise(self) -> NoiseInterpreter:
         """What finds the noise of light."""
-        from optipath.plan.running.noise_interpreter import NoiseInterpreter  # noqa: PLC0415 - hardly ever needed
+        from optipath.plan.interpreters import NoiseInterpreter  # noqa: PLC0415 - hardly ever needed
 
         return NoiseInterpreter(self.plan.whole, self.light.dtype)
 
@@ -132,3 +127,31 @@ class Answers:
         plan = self.plan
         options = RunOptions(plan.method, plan.composing, plan.dtype, plan.chosen, plan.threads)
         return runner_for(program, plan.inputs, options, plan.own_ways, unreduced=unreduced)
+
+
+def only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
+    """Return the name that is given, or the only one.
+
+    Examples
+    --------
+    >>> only("detector", ("eye",), "run_all()")
+    'eye'
+    """
+    if name is not None:
+        if isinstance(name, str) and name in names:
+            return name
+        raise ParameterError(f"{what} {shown(name)} does not exist{did_you_mean(name, names)}")
+    if len(names) != 1:
+        raise ParameterError(f"the path has {len(names)} {what}s ({', '.join(names)}); use {cure}")
+    return names[0]
+
+
+def by_place(ends: tuple[Any, ...], unnamed: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return what is given by its place, but for names of sources and detectors.
+
+    Examples
+    --------
+    >>> by_place(("lamp", None), ()), by_place((0.3, None), (0.2,))
+    ((), (0.3, 0.2))
+    """
+    return (*[end for end in ends if not isinstance(end, str | None)], *unnamed)

@@ -6,17 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.plan.running.answering import Answering
-from optipath.plan.running.pieces import pieces
+from optipath.plan.reading import pieces
+from optipath.plan.runner import Answering
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.plan.running.question import Question
-    from optipath.plan.running.reading import ResolvedInputs
-    from optipath.plan.running.runner import Runner
+    from optipath.plan.questions import Question
+    from optipath.plan.reading import ResolvedInputs
+    from optipath.plan.runner import Runner
 
     Array = np.ndarray[Any, Any]
+
 
 _MOST = 0.5
 """From which share of paths that need the exact model it is run for all."""

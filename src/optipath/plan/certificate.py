@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ParameterError, ValueFault
-from optipath.kernels.carriers.bounds_carrier import Boosts, boosted, largest_error, ratio_bounds
-from optipath.kernels.numbers.primitives import NUMPY
+from optipath.kernels.carriers.intensities import Boosts, boosted, largest_error, ratio_bounds
+from optipath.kernels.primitives import NUMPY
 from optipath.light.underflow import underflows
-from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import same_fields
-from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains.domain import Domain
+from optipath.values.arrays import check_broadcast, entries_of, same_fields
+from optipath.values.domains import Domain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
+from math import prod
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import listed
+import numpy as np
+
+from optipath.engines.choice import LARGE, batches
+from optipath.errors import ParameterError, listed
+from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
+from optipath.plan.questions import LONGEST
+from optipath.values.arrays import joint_shape
+from optipath.values.messages import cure, how_to_give
+from optipath.values.operands import MANY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from optipath.engines.program.program import Program
-    from optipath.engines.program.reduction import Reduction
-    from optipath.values.inputs import Inputs
+    from optipath.engines.program import Program, Reduction
+    from optipath.kernels.carriers.carrier import Carrier
+    from optipath.plan.certificate import Certificate
+    from optipath.plan.inputs import Inputs
+    from optipath.plan.runner import Runner
+
 
 _SHOWN = 40
 _FEW = 8
@@ -197,3 +209,169 @@ def _action(program: Program, light: int) -> str:
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}" + "s" * (number != 1)
+
+
+def explanation_of(plan: Any) -> Explanation:
+    """Return a `Plan` explained, part by part."""
+    ends = plan.program.readings
+    counts = {
+        "source": len(plan.program.sources),
+        "detector": len(plan.program.detectors),
+        "dump": len(plan.program.dumps),
+        "step": len(plan.program.steps),
+    }
+    return Explanation(
+        counts=counts,
+        manner={
+            "method": plan.method,
+            "model": plan.model,
+            "engine": plan.engine,
+            "dtype": plan.dtype,
+            "composing": plan.composing,
+        },
+        reason=_why(plan),
+        steps=steps_of(plan.reduction),
+        reads={n: tuple(f"S{i}" for i in range(end.components)) for n, end in ends.items()},
+        light_at={name: end.light for name, end in ends.items()},
+        folded=plan.reduction.folded,
+        operations=_operations_of(plan),
+        loops=tuple(explained_loops(plan.program)),
+        certificate=_certified(plan),
+        tolerance=_tolerated(plan),
+        notes=tuple(_notes(plan)),
+        parameters=parameter_lines(plan.inputs),
+    )
+
+
+def _operations_of(plan: Any) -> dict[str, dict[str, int]] | None:
+    own = operations(plan.answers.light, unreduced=plan.reduction.unreduced)
+    full = operations(plan.answers.whole, unreduced=True, carrier=StokesCarrier)
+    return None if own is None or full is None else {"plan": own, "full": full}
+
+
+def _why(plan: Any) -> str:
+    if plan.instead is None:
+        return str(plan.reduction.reason)
+    exact = plan.reduction
+    return f"where its certificate allows it; exact is '{exact.model}': {exact.reason}"
+
+
+def _tolerated(plan: Any) -> dict[str, Any] | None:
+    if plan.tolerance is None:
+        return None
+    exact = plan.reduction.model
+    if plan.instead is not None:
+        text = f"model {plan.instead.model} where its certificate is within it, {exact} elsewhere"
+    elif others := [n for n, end in plan.program.readings.items() if end.components > 1]:
+        ends = _first_few(others)
+        text = f"not used, since certificates are for intensities, and more is read by {ends}"
+    else:
+        text = f"not needed, since model {plan.model} is exact"
+    return {"most": plan.tolerance, "model": plan.model, "otherwise": exact, "text": text}
+
+
+def _certified(plan: Any) -> dict[str, Any] | None:
+    """Return the bounds for the values that are known, and defaults for others."""
+    opened = plan.inputs.open.values()
+    missing = [parameter.name for parameter in opened if parameter.default is None]
+    if missing:
+        see = cure(
+            "see plan.certificate(...)", f"give {' '.join(map(how_to_give, missing[:_FEW]))}"
+        )
+        return {"text": f"depends on {_first_few(missing)}; {see}"}
+    if plan.whole.loops:
+        return {"text": "none, since light goes round"}
+    if plan.answers.whole.for_jax.has_traced:
+        return {"text": "depends on values that JAX traces"}
+    try:
+        found = plan.answers.certificates({})
+    except ParameterError as fault:
+        return {"text": f"none, since {fault}"}
+    bounds = {name: _extremes(one) for name, one in found.items()}
+    if len(bounds) > _FEW:
+        see = cure("see plan.certificate(...)", "see --json")
+        return {"bounds": bounds, "text": f"for {len(bounds)} ends; {see}"}
+    texts = [
+        f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
+        if each
+        else f"the light at {name} cannot be bounded"
+        for name, each in bounds.items()
+    ]
+    stacks = any(evaluation.kernel.unpolarising for evaluation in plan.whole.evaluations)
+    at = ", which takes a stack as a whole" if stacks else ""
+    at += ", for the defaults" if plan.inputs.open else ""
+    return {"bounds": bounds, "text": "; ".join(texts) + at}
+
+
+def _first_few(names: Sequence[str]) -> str:
+    return ", ".join(names[:_FEW]) + (", ..." if len(names) > _FEW else "")
+
+
+def _extremes(certificate: Certificate) -> dict[str, float] | None:
+    """Return the widest bounds of a batch; None where there are none."""
+    lower = float(np.min(certificate.lower, initial=np.inf))
+    upper = float(np.max(certificate.upper, initial=-np.inf))
+    return {"lower": lower, "upper": upper} if np.isfinite([lower, upper]).all() else None
+
+
+def _notes(plan: Any) -> Iterator[str]:
+    yield from _each(plan.outlets, "has no link: its light leaves the path")
+    runner, engine = plan.answers.light, plan.chosen
+    if plan.engine_for(LARGE) != plan.engine:
+        yield (
+            f"all batches are run step by step: paths of at most {LONGEST} "
+            f"steps are compiled, in float64 and float32, if all elements compute with xp alone, "
+            f"in real numbers"
+        )
+    elif engine != "jax":
+        yield batches(engine, runner.formulas.length, runner.dtype.name)
+    yield from _each(
+        plan.taps, "is a tap, which takes nothing: leave its light out of sums of energy"
+    )
+
+
+def _each(ports: Sequence[str], what: str) -> Iterator[str]:
+    """Yield a sentence for each port, or for the first few of many."""
+    shown = ports if len(ports) <= _FEW else ports[: _FEW // 2]
+    yield from (f"{port} {what}" for port in shown)
+    if len(shown) < len(ports):
+        yield f"{len(ports) - len(shown)} more ports like these"
+
+
+def operations(
+    runner: Runner, *, unreduced: bool, carrier: type[Carrier] | None = None
+) -> dict[str, int] | None:
+    """Return how many operations a path takes in all, and of the dear sorts."""
+    formulas = runner.formulas
+    forms = formulas.all_given_as(MANY)
+    made = formulas.attempt(
+        lambda: formulas.lights(forms, carrier=carrier, counted=True, unreduced=unreduced)
+    )
+    return None if made is None else made.operations
+
+
+def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]:
+    """Return how often the numbers of each step are computed for a batch."""
+    runner.for_jax.refuse_traced(parameters, "evaluations are counted")
+    runner.inputs.resolve(parameters)
+    given, program = runner.reader.read(parameters), runner.program
+    found: dict[str, int] = {}
+    for step in program.steps:
+        if step.evaluation is None:
+            continue
+        shapes: list[tuple[int, ...]] = [given.batch] if runner.unreduced else []
+        for place in program.given_to[step.evaluation]:
+            operand = program.operands[place]
+            if operand.known:
+                array = runner.formulas.known_arrays.get(f".{place}")
+                shapes.append(() if array is None else array.shape)
+            else:
+                keys = (
+                    operand.input_key,
+                    *(operand.input_key._replace(part=part) for part in ("cos", "sin")),
+                )
+                shapes += [np.shape(given.numbers[key]) for key in keys if key in given.numbers]
+        count = prod(joint_shape(*shapes))
+        # What one element does in several steps goes by one name.
+        found[step.label] = max(count, found.get(step.label, 0))
+    return found

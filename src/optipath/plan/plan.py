@@ -5,32 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, Never
+from typing import TYPE_CHECKING, Any, NamedTuple, Never
 
-from optipath.engines.automatic import LARGE
+from optipath.engines.choice import LARGE
 from optipath.errors import ParameterError
-from optipath.light.frames import Frame
+from optipath.light.frame import Frame
 from optipath.light.light import Light
-from optipath.light.mueller.matrix import Mueller
-from optipath.plan.choosing import by_place, only
-from optipath.plan.light_noise import matrix_noise_at, noise_at
-from optipath.plan.part import Part
-from optipath.plan.running.outlet_wavelengths import LaterWavelength
-from optipath.values.arrays.shapes import MOST_PATHS
-from optipath.values.by_name import check_named
-from optipath.values.whole_numbers import whole_number
+from optipath.light.mueller import Mueller
+from optipath.plan.answers import by_place, only
+from optipath.plan.interpreters import matrix_noise_at, noise_at
+from optipath.plan.outlets import LaterWavelength
+from optipath.values.arrays import MOST_PATHS
+from optipath.values.messages import check_named
+from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.elements.own_ways import OwnWays
-    from optipath.engines.program.program import Program
-    from optipath.engines.program.reduction import Reduction, Tolerance
+    from optipath.elements.own_element import OwnWays
+    from optipath.engines.program import Program, Reduction, Tolerance
     from optipath.plan.answers import Answers
     from optipath.plan.certificate import Certificate
     from optipath.plan.explanation import Explanation
-    from optipath.plan.light_paths.light_path import LightPath
-    from optipath.values.inputs import Inputs
+    from optipath.plan.inputs import Inputs
+    from optipath.plan.light_paths import LightPath
 
 
 _MADE = ("_detector", "answers")
@@ -293,7 +291,7 @@ class Plan:
         0.539067  lamp.out -> surface.transmitted -> metal.reflected -> surface.reflected -> eye
         0.388729  lamp.out -> surface.transmitted -> metal.transmitted -> heat
         """
-        from optipath.plan.light_paths.listing import light_paths  # noqa: PLC0415 - not for every import
+        from optipath.plan.light_paths import light_paths  # noqa: PLC0415 - not for every import
 
         given = [value for value in (limit, bounces) if isinstance(value, Mapping)]
         check_named("paths", (*given, *unnamed), self.inputs.open)
@@ -370,7 +368,7 @@ class Plan:
     def explanation(self) -> Explanation:
         """Return the plan explained, part by part, as `explain` writes it down."""
         # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.explaining import explanation_of  # noqa: PLC0415
+        from optipath.plan.explanation import explanation_of  # noqa: PLC0415
 
         return explanation_of(self)
 
@@ -396,7 +394,7 @@ class Plan:
         >>> found["X1.reflected"], found["X2.reflected"]
         (1000, 1000)
         """
-        from optipath.plan.running.counts import evaluations  # noqa: PLC0415 - not for every import
+        from optipath.plan.explanation import evaluations  # noqa: PLC0415 - not for every import
 
         return evaluations(self.answers.light, parameters)
 
@@ -442,3 +440,10 @@ class Plan:
     def __getstate__(self) -> dict[str, Any]:
         # What has been compiled stays here.
         return {name: value for name, value in self.__dict__.items() if name not in _MADE}
+
+
+class Part(NamedTuple):
+    """A part of a batch, and its light."""
+
+    where: tuple[int | slice, ...]
+    light: Light

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     Numbers = npt.NDArray[np.float64]
 
+
 START = 721
 """How many values there are before steps are halved."""
 

@@ -1,22 +1,24 @@
-"""The sweep of a path: from what is given to a Dataset."""
+"""Sweep: the light of a path over a grid of values, as a Dataset with pictures."""
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-import optipath.sweeps.sweep_pictures  # noqa: F401 - a Dataset has pictures by it
+import xarray as xr
+
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEPT
 from optipath.errors import ParameterError, shown
-from optipath.sweeps.axes.read_axes import grid_of
-from optipath.sweeps.whole.in_memory import swept_in_memory
-from optipath.values.by_name import check_named
+from optipath.sweeps.axes import grid_of
+from optipath.sweeps.memory import swept_in_memory
+from optipath.values.messages import check_named
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    import xarray as xr
+    from matplotlib.axes import Axes
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
@@ -49,13 +51,12 @@ def sweep(
             told = fault
         grid_of(plan.inputs, given, zip, coords)
         raise told
-    from optipath.sweeps.chunked.in_chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
+    from optipath.sweeps.chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
 
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)
     if place is None:
         return chunked.dataset
-    from optipath.sweeps.kept.kept_sweep import kept_sweep  # noqa: PLC0415 - Zarr, too
-    from optipath.sweeps.kept.sweep_job import SweepJob  # noqa: PLC0415
+    from optipath.sweeps.stored import SweepJob, kept_sweep  # noqa: PLC0415 - Zarr takes its time
 
     return kept_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
 
@@ -79,7 +80,7 @@ def _plan(path: PathGraph, composer: Composer | None) -> Plan:
 def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
     """Return where a sweep is to be kept; None where it is not."""
     if store is not None:
-        from optipath.sweeps.kept.kept_sweep import place_of_store  # noqa: PLC0415
+        from optipath.sweeps.stored import place_of_store  # noqa: PLC0415
 
         return place_of_store(store)
     given = {"scheduler": scheduler is not None, "progress": bool(progress)}
@@ -90,3 +91,60 @@ def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
             f"gives: sweep.compute(scheduler=...)"
         )
     return None
+
+
+_PICTURES = "optipath.plots"  # Whose room is above.
+_OF_DATASETS = f"{_PICTURES}.curves.dataset_pictures"
+
+
+class SweepPictures:
+    """Pictures of the Dataset of a sweep, in memory, in chunks, or read from a file.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> sweep = op.load_preset("malus").sweep(angle="0 deg:90 deg:91")
+    >>> sweep.optipath.curve("S0").get_xlabel()
+    'angle: turn of the analyser against the polariser (°)'
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    def curve(
+        self,
+        y: str | Sequence[str] = ("S0",),
+        x: str | None = None,
+        ax: Axes | None = None,
+        *,
+        detector: str | None = None,
+    ) -> Axes:
+        """Draw quantities against one coordinate, as `optipath.plots.curve` draws them."""
+        drawn: Axes = _drawn("curve", self._dataset, y, x, ax, detector)
+        return drawn
+
+    def map(
+        self,
+        quantity: str = "S0",
+        x: str | None = None,
+        y: str | None = None,
+        ax: Axes | None = None,
+        *,
+        detector: str | None = None,
+    ) -> Axes:
+        """Draw a quantity over two coordinates, as `optipath.plots.quantity_map` draws it."""
+        drawn: Axes = _drawn("quantity_map", self._dataset, quantity, x, y, ax, detector)
+        return drawn
+
+    def poincare(self, x: str | None = None, ax: Any = None, *, detector: str | None = None) -> Any:
+        """Draw the light along one coordinate on the Poincaré sphere, coloured by it."""
+        return _drawn("poincare", self._dataset, x, ax, detector)
+
+
+def _drawn(picture: str, *given: Any) -> Any:
+    import_module(_PICTURES).check_matplotlib()
+    return getattr(import_module(_OF_DATASETS), picture)(*given)
+
+
+if not hasattr(xr.Dataset, "optipath"):  # Else xarray warns, where this is loaded anew.
+    xr.register_dataset_accessor("optipath")(SweepPictures)  # type: ignore[no-untyped-call]

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 import numpy as np
 
 from optipath.errors import ParameterError, UnitError, ValueFault, shown
-from optipath.values.arrays.jax_values import is_jax
-from optipath.values.arrays.read_only import changed
-from optipath.values.multiples import affine
-from optipath.values.roundings import ENDLESS
+from optipath.values.arrays import changed
+from optipath.values.jax_values import is_jax
+from optipath.values.precision import ENDLESS, affine
 from optipath.values.units import (
     USUAL_UNITS,
     dimension_of,

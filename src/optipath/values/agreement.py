@@ -9,18 +9,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError
-from optipath.kernels.numbers.primitives import NUMPY
+from optipath.kernels.primitives import NUMPY
 from optipath.values.angles import CosSin
-from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.shapes import broadcast_fault, place_text
-from optipath.values.curves.curve_value import CurveValue
+from optipath.values.arrays import broadcast_fault, place_text
+from optipath.values.curve_value import CurveValue
+from optipath.values.jax_values import is_traced, namespace
 from optipath.values.operands import NOTHING, Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Hashable, Iterable, Mapping
 
-    from optipath.values.resolved import Resolved
+    from optipath.values.parameters import Resolved
+
 
 _AT_ONCE = 8192
 """How many paths are looked at at once."""

@@ -1,20 +1,34 @@
-"""CosSin: an angle given by its cosine and its sine."""
+"""Angles: radians, cosine and sine pairs, and warnings of degrees given for radians."""
 
 from __future__ import annotations
 
-from typing import Any
+import math
+import sys
+import warnings
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError, shown
-from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import is_jax, is_traced, namespace
-from optipath.values.arrays.memory import refuse_too_large
-from optipath.values.arrays.read_only import Unchanging, same
-from optipath.values.arrays.shapes import broadcast_fault, joint_shape
-from optipath.values.roundings import doubles, rounding_of
-from optipath.values.texts import numbers_for
-from optipath.values.units import parse_quantity, unit_of
+from optipath.errors import AngleWarning, OptipathError, ParameterError, UnitError, shown
+from optipath.values.arrays import (
+    Unchanging,
+    as_given,
+    broadcast_fault,
+    joint_shape,
+    numbers_for,
+    refuse_too_large,
+    same,
+)
+from optipath.values.jax_values import is_jax, is_traced, namespace
+from optipath.values.messages import UNITS_ARE_WRITTEN
+from optipath.values.precision import doubles, rounding_of
+from optipath.values.units import UNITS, parse_quantity, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.values.affine import Affine
+
 
 _APART = 1e-6
 _ANGLE = 8
@@ -159,3 +173,201 @@ def _pure(text: str) -> Any:
             f"in place of a CosSin"
         )
     return parse_quantity(text, "")
+
+
+TURN = 2.0 * math.pi * (1.0 + 1e-6)
+"""Up to what size an angle is taken for one in radians: a whole turn, however it is rounded."""
+
+_MULTIPLES = 10.0
+"""Up to what factor of an angle one has to do with an angle still."""
+
+
+def is_within_a_turn(low: Any, high: Any) -> bool:
+    """Tell whether a range has no angle beyond a whole turn.
+
+    Units: low, high in radians.
+
+    Examples
+    --------
+    >>> is_within_a_turn(0.0, 1.6), is_within_a_turn(0.0, math.inf)
+    (True, False)
+    """
+    are_numbers = isinstance(low, (int, float)) and isinstance(high, (int, float))
+    return are_numbers and abs(low) <= TURN and abs(high) <= TURN
+
+
+def has_plain_degrees(low: float, high: float) -> bool:
+    """Tell whether a range of angles was given by plain numbers that were meant in degrees.
+
+    Units: low, high in radians.
+
+    Examples
+    --------
+    >>> has_plain_degrees(0.0, 80.0), has_plain_degrees(0.0, math.pi)
+    (True, False)
+    """
+    return any(TURN < abs(end) < math.inf for end in (low, high))
+
+
+def counts_degrees(scale: float) -> bool:
+    """Tell whether an angle is a number times pi/180, computed or typed."""
+    return math.isclose(abs(scale), math.pi / 180.0, rel_tol=1e-3)
+
+
+def is_of_an_angle(scale: float) -> bool:
+    """Tell whether a factor is one of angles, and not one that makes angles of pure numbers.
+
+    Examples
+    --------
+    >>> is_of_an_angle(-1.0), is_of_an_angle(2.5), is_of_an_angle(math.pi / 180.0)
+    (True, True, False)
+    """
+    return abs(scale) <= _MULTIPLES and (2.0 * scale).is_integer()
+
+
+def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
+    """Return what a number that is refused as an angle was meant to be, ready to be put behind.
+
+    Units: number, allows in radians.
+
+    Examples
+    --------
+    >>> meant_in_degrees(48.0, lambda angle: 0.0 <= angle <= 1.6)
+    "; did you mean '48 deg' or np.radians(48)?"
+    >>> meant_in_degrees(math.radians(100.0), lambda angle: 0.0 <= angle <= 1.6)
+    ''
+    """
+    # Up to a whole turn, what is no whole number may have been computed.
+    meant = abs(number) > TURN or (abs(number) >= 2.0 and float(number).is_integer())
+    if not meant or UNITS_ARE_WRITTEN.get() or not allows(math.radians(number)):
+        return ""
+    return f"; did you mean '{number:.6g} deg' or np.radians({number:.6g})?"
+
+
+def called(
+    number: float, text: str, dimension: str, limits: tuple[float, float]
+) -> tuple[str, str]:
+    """Return how a number beyond its limits is called, and what it was meant to be.
+
+    Units: number in radians.
+
+    Examples
+    --------
+    >>> called(5.0, "286 deg", "angle", (0.0, 1.6))
+    ('5 rad, which is 286.479 deg', "; did you mean '5 deg' or np.radians(5)?")
+    """
+    told = _in_few_digits(text, dimension, limits)
+    if dimension != "angle":
+        return told, ""
+    meant = meant_in_degrees(number, lambda angle: limits[0] <= angle <= limits[1])
+    return (_in_both(number) if meant else told), meant
+
+
+def _in_few_digits(text: str, dimension: str, limits: tuple[float, float]) -> str:
+    """Return a quantity with six digits, unless it would seem to be within its limits then."""
+    number, space, unit = text.partition(" ")
+    short = f"{float(number):.6g}{space}{unit}"
+    value = parse_quantity(short, dimension)
+    if len(short) >= len(text) or limits[0] <= value.real <= limits[1]:
+        return text
+    return short
+
+
+def _in_both(number: float) -> str:
+    """Write an angle in radians and in degrees.
+
+    Examples
+    --------
+    >>> _in_both(48.0)
+    '48 rad, which is 2750.2 deg'
+    """
+    return f"{number:.6g} rad, which is {math.degrees(number):.6g} deg"
+
+
+_MOST = 1 << 1000
+"""Beyond, whole numbers are no floats."""
+
+_LOOKED_AT = 1000
+"""At how many numbers of an array one looks; degrees are seen in any of them."""
+
+
+def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
+    """Warn of a plain number beyond a whole turn; texts with units are what they say.
+
+    The sentence is the same for all values, so that Python shows it once a place.
+
+    Examples
+    --------
+    >>> warn_of_degrees("a turn", 1.0)
+    >>> warn_of_degrees("a turn", "720 deg")
+    """
+    if place is not None and not is_of_an_angle(place.scale):
+        return
+    if TURN < abs(largest(value)) < math.inf and not UNITS_ARE_WRITTEN.get():
+        warnings.warn(
+            f"{what} is a plain number beyond 2 pi, in radians; write degrees as '48 deg', and "
+            f"radians as '48 rad'",
+            AngleWarning,
+            stacklevel=calls_up(),
+        )
+
+
+def warn_of_two_factors(name: str, value: Any) -> None:
+    """Warn of a text in degrees for a parameter of which pi/180 makes radians once more."""
+    try:
+        entries = as_given("", value).ravel().tolist()
+    except OptipathError:
+        return  # For validation to name.
+    units = (UNITS.get(unit_of(entry)) for entry in entries if isinstance(entry, str))
+    if any(unit is not None and unit.dimension == "angle" for unit in units):
+        warnings.warn(
+            f"parameter '{name}' has a unit, and the path multiplies it by pi / 180; give degrees "
+            f"as a plain number",
+            AngleWarning,
+            stacklevel=calls_up(),
+        )
+
+
+def largest(value: Any) -> float:
+    """Return the plain number of the largest size in a value, out of a thousand; 0 without any.
+
+    Examples
+    --------
+    >>> largest([0.5, -90.0]), largest(["720 deg", 0.5]), largest(None)
+    (-90.0, 0.5, 0.0)
+    """
+    if type(value) is float:
+        return value
+    if value is None or isinstance(value, str) or is_traced(value):
+        return 0.0
+    try:
+        array = as_given("", value)
+    except OptipathError:
+        return 0.0  # For validation to name.
+    if array.size > _LOOKED_AT:
+        flat = array.reshape(-1) if array.flags.c_contiguous else array.flat
+        array = flat[np.linspace(0, array.size - 1, _LOOKED_AT).astype(np.intp)]
+    if array.dtype.kind == "O":
+        numbers = [n for n in array.ravel().tolist() if isinstance(n, (float, np.floating))]
+        numbers += [float(n) for n in array.ravel().tolist() if type(n) is int and abs(n) < _MOST]
+        array = np.array(numbers, np.float64)
+    if array.dtype.kind not in "iuf" or not array.size:
+        return 0.0
+    at = np.argmax(np.abs(np.where(np.isfinite(array), array, 0.0)))
+    return float(array.reshape(-1)[at])
+
+
+_PASSED = ("optipath", "dataclasses", "functools")
+
+
+def calls_up() -> int:
+    """Return how many calls up from the one that warns the library was called."""
+    level = 2
+    frame: Any = sys._getframe(level)  # noqa: SLF001 - as warnings itself looks
+    while frame.f_back is not None and (
+        frame.f_globals.get("__name__", "").partition(".")[0] in _PASSED
+        # The makers of dataclasses and own elements are made of texts.
+        or frame.f_code.co_filename.startswith("<")
+    ):
+        frame, level = frame.f_back, level + 1
+    return level

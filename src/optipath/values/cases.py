@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from optipath.errors import ParameterError, shown
-from optipath.values.arrays.array_likes import array_of
-from optipath.values.arrays.read_only import read_only, same_fields
-from optipath.values.roundings import as_doubles
+from optipath.values.arrays import array_of, read_only, same_fields
+from optipath.values.precision import as_doubles
 
 ALL = "all"
 """Stands for every case of a preset at the command line, so that files name none so."""

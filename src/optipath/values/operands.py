@@ -1,27 +1,27 @@
-"""Operand: one number for each path, taken from a value that may have more."""
+"""Operands and operations: the numbers of each path, and kernels applied to them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from math import prod
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels.numbers.circular import cosine, sine
-from optipath.kernels.numbers.primitives import NUMPY, made
-from optipath.values.arrays.jax_values import check_known, is_traced
-from optipath.values.arrays.read_only import same
-from optipath.values.input_key import InputKey
+from optipath.kernels.primitives import NUMPY, made
+from optipath.kernels.trigonometry import cosine, sine
+from optipath.values.arrays import same, same_fields
+from optipath.values.jax_values import check_known, is_traced
 from optipath.values.parameters import Parameter
-from optipath.values.roundings import doubles
+from optipath.values.precision import affine, doubles
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Mapping
+    from collections.abc import Callable, Hashable, Iterator, Mapping
 
-    from optipath.kernels.numbers.primitives import Primitives
-    from optipath.values.resolved import Resolved
+    from optipath.kernels.kernel import Kernel, KernelFamily
+    from optipath.kernels.primitives import Primitives
+    from optipath.values.parameters import Resolved
 
 
 _DOUBLE = np.dtype(np.float64)
@@ -198,3 +198,137 @@ def _doubles(numbers: Any) -> Any:
 def operand_of(argument: Any) -> Operand:
     """Return the argument of an operation as an operand."""
     return argument if isinstance(argument, Operand) else Operand(argument)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Operation:
+    """A kernel and the values it is given.
+
+    Attributes
+    ----------
+    kernel : Kernel or KernelFamily
+        What is computed; of a family, the method that the composer is asked for.
+    arguments : tuple
+        Numbers, arrays, parameters, operands, and what other operations come to.
+
+    Examples
+    --------
+    An index of refraction n = 1.5 + 0.004 / wavelength^2 (in um), as a kernel is given it:
+
+    >>> from optipath.kernels.kernel import Kernel
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> cauchy = Kernel("Cauchy", None, lambda xp: lambda a, b, length: (a + b / length**2, 0.0))
+    >>> n, k = Operation(cauchy, (1.5, 0.004, 0.5)).results(2)
+    >>> n.operation.numbers(FLOAT, float)
+    (1.516, 0.0)
+    """
+
+    kernel: Kernel | KernelFamily
+    arguments: tuple[Any, ...]
+
+    def results(self, count: int) -> tuple[ResultOf, ...]:
+        """Return as many numbers as it comes to, as arguments of other operations."""
+        return tuple(ResultOf(self, place) for place in range(count))
+
+    def numbers(
+        self, xp: Primitives, read: Callable[[Any], Any], method: str = "stable"
+    ) -> tuple[Any, ...]:
+        """Return what it comes to.
+
+        Parameters
+        ----------
+        xp : Primitives
+            What is computed with.
+        read : callable
+            Gives the number of an argument that is no result of another operation.
+        method : str, optional
+            Of a family of kernels.
+
+        Returns
+        -------
+        tuple
+            The numbers of the kernel's structure.
+        """
+        known: dict[int, tuple[Any, ...]] = {}
+        given = []
+        for argument in self.arguments:
+            if isinstance(argument, ResultOf):
+                inner = argument.operation
+                if id(inner) not in known:
+                    known[id(inner)] = inner.numbers(xp, read, method)
+                given.append(known[id(inner)][argument.place])
+            else:
+                given.append(read(argument))
+        return self.kernel.by_method(method).made_for(xp)(*given)
+
+    def operands(self) -> Iterator[Operand]:
+        """Yield the operands that it is given, and those behind the results that it is given."""
+        inner = {id(a.operation): a.operation for a in self.arguments if isinstance(a, ResultOf)}
+        for operation in inner.values():
+            yield from operation.operands()
+        yield from (operand_of(a) for a in self.arguments if not isinstance(a, ResultOf))
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+
+@dataclass(frozen=True, slots=True)
+class ResultOf:
+    """One of the numbers that an operation comes to."""
+
+    operation: Operation
+    place: int
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class InputKey(NamedTuple):
+    """A number that is given for a parameter, before anything is done to it."""
+
+    name: str
+    part: str | int = "value"
+    scale: float = 1.0
+    offset: float = 0.0
+
+    def __str__(self) -> str:
+        plain = f"{self.name} {self.part}"
+        return f"{self.scale} * {plain} + {self.offset}" if self.is_affine else plain
+
+    @property
+    def is_affine(self) -> bool:
+        """Whether it is a multiple of what is given, or has an offset."""
+        return self.scale != 1.0 or self.offset != 0.0
+
+    @property
+    def quantity(self) -> Hashable:
+        """What it is a part of: the parameter by its name, or a multiple of it with an offset."""
+        return (self.name, self.scale, self.offset) if self.is_affine else self.name
+
+    def limits_in(self, ranges: Mapping[Hashable, tuple[float, float]]) -> tuple[float, float]:
+        """Return its least and its largest number, for the ranges of quantities."""
+        low, high = ranges[self.quantity]
+        # An index that is never 0 absorbs nothing all the same.
+        return (min(low, 0.0), high) if self.part == "imag" else (low, high)
+
+    def placed(self, numbers: Any, limits: tuple[float, float]) -> Any:
+        """Return numbers for it."""
+        return affine(self.scale, self.offset, numbers, limits) if self.is_affine else numbers
+
+
+class Ranges(dict["Hashable", "tuple[float, float]"]):
+    """The ranges of quantities, by what `InputKey.quantity` says.
+
+    A multiple that no element has as a value, as ``couplings()`` may make one of a field, has the
+    range that follows from that of its parameter.
+
+    Examples
+    --------
+    >>> Ranges({"f": (0.0, 1.0)})["f", -2.0, 1.0]
+    (-1.0, 1.0)
+    """
+
+    def __missing__(self, quantity: tuple[str, float, float]) -> tuple[float, float]:
+        name, scale, offset = quantity
+        low, high = sorted(affine(scale, offset, end) for end in self[name])
+        self[quantity] = low, high
+        return low, high

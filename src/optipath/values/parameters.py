@@ -1,32 +1,55 @@
-"""Parameter: a value that is given when a plan runs, not when a path is built."""
+"""Parameter: a value given when a plan runs, not when a path is built."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError, shown
+from optipath.errors import (
+    ParameterError,
+    UnitError,
+    ValueFault,
+    closest,
+    did_you_mean,
+    looks_left,
+    shown,
+    there_are,
+)
 from optipath.values.affine import Affine
-from optipath.values.angles import CosSin
-from optipath.values.arrays.array_likes import array_of, as_given
-from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.read_only import read_only, same
-from optipath.values.arrays.shapes import first_place
-from optipath.values.degrees import called, has_plain_degrees
-from optipath.values.displayed import displayed, format_range
-from optipath.values.ratios import INFINITE, finite_number
-from optipath.values.resolved import THERE, Resolved
-from optipath.values.roundings import doubles, traced_within, within
-from optipath.values.specification import check_types, checked_name, limit_of, read_specification
-from optipath.values.units import dimension_of, format_quantity, parse_quantity
-from optipath.values.unknown_parameter import unknown_word
+from optipath.values.angles import (
+    CosSin,
+    called,
+    has_plain_degrees,
+    is_within_a_turn,
+    warn_of_degrees,
+)
+from optipath.values.arrays import array_of, as_given, first_place, numbers_for, read_only, same
+from optipath.values.jax_values import is_traced, namespace
+from optipath.values.precision import doubles, traced_within, within
+from optipath.values.units import (
+    INFINITE,
+    USUAL_UNITS,
+    dimension_of,
+    displayed,
+    finite_number,
+    format_quantity,
+    format_range,
+    is_of_decibels,
+    parse_quantity,
+    unit_of,
+    with_article,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     import numpy.typing as npt
+
 
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
@@ -318,3 +341,211 @@ class Parameter(Affine):
             f"parameter '{self.name}' is {given}{first_place(bad)}, outside its range; give "
             f"{format_range(*limits, unit)}{meant}"
         )
+
+
+_KINDS: dict[str, tuple[type, str]] = {
+    **dict.fromkeys(("help", "offset_dimension"), (str, "a text")),
+    "words": (dict, "a dict from word to number"),
+    **dict.fromkeys(("optional", "bound"), (bool, "True or False")),
+}
+
+
+def check_types(parameter: Any) -> None:
+    """Check what a parameter is specified by that is no number."""
+    for name, (kind, described) in _KINDS.items():
+        if not isinstance(value := getattr(parameter, name), kind):
+            raise ParameterError(
+                f"{name} of parameter '{parameter.name}' must be {described}, not {shown(value)}"
+            )
+
+
+def checked_name(name: Any) -> str:
+    """Return the name of a parameter."""
+    if isinstance(name, str) and name.isidentifier():
+        return name
+    raise ParameterError(
+        f"parameter name {shown(name)} must be letters, digits and underscores, "
+        f"not starting with a digit"
+    )
+
+
+def limit_of(name: str, value: Any) -> float:
+    """Return an end of the range of a parameter as a number."""
+    if type(value) is float:
+        return value
+    what = f"the range of parameter '{name}'"
+    array = array_of(what, value, ParameterError)
+    if array.ndim or array.dtype.kind not in "iuf":
+        raise ParameterError(f"{what} must be numbers, not {shown(value)}")
+    return float(array)
+
+
+def read_specification(parameter: Any) -> dict[str, Any]:
+    """Return the unit, the limits and the words of a parameter, numbers in place of texts.
+
+    The unit is that of the first text that has one, where none is given. A default stays a text,
+    which may be a word.
+    """
+    name, words = parameter.name, parameter.words
+    named = words if isinstance(words, dict) else {}
+    limits = {"minimum": parameter.minimum, "maximum": parameter.maximum}
+    unit = parameter.unit
+    if isinstance(unit, str) and not unit:
+        unit = _first_unit([parameter.default, *limits.values(), *named.values()])
+    dimension = dimension_of(unit)
+    faults: list[str] = []
+    places: dict[str, tuple[Any, str]] = {
+        f"the {end} of parameter '{name}'": (limits, end)
+        for end, limit in limits.items()
+        if type(limit) is not float
+    }
+    if named:
+        places |= {f"the word '{word}' of parameter '{name}'": (words, word) for word in named}
+    found = {"unit": unit, **limits, "words": {**named} if named else words}
+    parse = partial(parse_quantity, dimension=dimension)
+    for what, (several, key) in places.items():
+        try:
+            number = numbers_for(what, several[key], parse, ParameterError)
+        except ParameterError as fault:
+            faults += fault.faults
+        else:
+            (found if several is limits else found["words"])[key] = number
+    if faults:
+        raise ParameterError(*faults)
+    # Whoever binds a value looks at it where it stands.
+    if dimension == "angle" and parameter.bound is not True:
+        _warn_of(name, limits | _by_phrase(named))
+        if not is_within_a_turn(found["minimum"], found["maximum"]):
+            warn_of_degrees(f"parameter '{name}'", parameter.default)
+    return found
+
+
+def warn_where_it_stands(parameter: Any) -> None:
+    """Warn of limits and words of a parameter that is an angle since it stands for one."""
+    limits = {end: getattr(parameter, end) for end in ("minimum", "maximum")}
+    _warn_of(parameter.name, limits | _by_phrase(parameter.words), parameter)
+
+
+def _warn_of(name: str, numbers: Mapping[str, Any], place: Affine | None = None) -> None:
+    """Warn of each number beyond a whole turn, by what it is of an angle of this name."""
+    for what, number in numbers.items():
+        warn_of_degrees(f"the {what} of parameter '{name}'", number, place)
+
+
+def _by_phrase(words: Mapping[str, Any]) -> dict[str, Any]:
+    return {f"word '{word}'": number for word, number in words.items()}
+
+
+def _first_unit(values: list[Any]) -> str:
+    """Return the unit of the first text that has one; none where there is none."""
+    for value in values:
+        several = value if isinstance(value, (list, tuple)) else [value]
+        for text in several:
+            unit = unit_of(text) if isinstance(text, str) else ""
+            if unit and not is_of_decibels(unit):
+                return unit
+    return ""
+
+
+_OF_A_COMPOSER = ("method", "model", "engine", "dtype", "tolerance", "composing", "loops")
+_CASE = "cas"
+"""What the word case begins with, however it goes on."""
+
+
+def unknown_parameter(name: str, known: Iterable[str]) -> str:
+    """Return the sentence for a parameter that there is not.
+
+    Examples
+    --------
+    >>> unknown_parameter("dtype", ["delta"])
+    "'dtype' is no parameter of the path; write Composer(dtype=...).compose(path)"
+    """
+    names = [*known]
+    if closest(name, names) is None:
+        if name in _OF_A_COMPOSER:
+            return f"'{name}' is no parameter of the path; write Composer({name}=...).compose(path)"
+        if name.lower().startswith(_CASE):
+            return f"'{name}' is no parameter of the path; write load_preset(..., case=...)"
+    return f"parameter '{name}' is unknown{did_you_mean(name, names)}"
+
+
+def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = "") -> str:
+    """Return the sentence for a word that a parameter does not know, or that is no number.
+
+    Examples
+    --------
+    >>> unknown_word("filter", "vertikal", ["horizontal", "vertical"])
+    "parameter 'filter' knows no word 'vertikal'; did you mean 'vertical'?"
+    >>> unknown_word("t", "half", [])
+    "parameter 't' knows no word 'half'; give a number"
+    """
+    if word.lower() == "nan":
+        wanted = _number(dimension)
+        return f"parameter '{name}' cannot be '{word}', which is not finite; give {wanted}"
+    return f"parameter '{name}' knows no word '{word}'{word_meant(word, known, dimension)}"
+
+
+def word_meant(word: str, known: Iterable[str], dimension: str) -> str:
+    """Return the cure for a word that is unknown where a number may stand, too.
+
+    Examples
+    --------
+    >>> word_meant("antidiagonal", ["diagonal"], "angle")
+    "; write '-45 deg' for the axis 'antidiagonal'"
+    >>> word_meant("off", ["none"], "angle")
+    "; there are: none, or give an angle such as '45 deg'"
+    """
+    if not looks_left():
+        return ""
+    words = [*known]
+    unit = USUAL_UNITS[dimension]
+    # By its letters alone, an axis is near the one at right angles to it.
+    near = closest(word, [*words, *AXES] if dimension == "angle" else words)
+    if near in words:
+        return f"; did you mean '{near}'?"
+    if near is not None:
+        return f"; write '{format_quantity(AXES[near], unit)}' for the axis '{near}'"
+    number = _number(dimension)
+    return f"{there_are(words)}, or give {number}" if words else f"; give {number}"
+
+
+def _number(dimension: str) -> str:
+    """Return what a number of a dimension is, with an example."""
+    unit = USUAL_UNITS[dimension]
+    return f"{with_article(dimension)} such as '45 {unit}'" if dimension else "a number"
+
+
+AXES: Mapping[str, float] = MappingProxyType(
+    {
+        "horizontal": 0.0,
+        "vertical": math.pi / 2.0,
+        "diagonal": math.pi / 4.0,
+        "antidiagonal": -math.pi / 4.0,
+    }
+)
+"""The angles of axes that have names, from x towards y."""
+
+
+def label_of(what: str, name: Any, usual: str) -> str:
+    """Return what sentences call a thing by.
+
+    Examples
+    --------
+    >>> label_of("a spectrum", "", "a histogram"), label_of("a spectrum", "LED", "a histogram")
+    ('a histogram', 'LED')
+    """
+    if not isinstance(name, str):
+        raise ValueFault(f"the name of {what} is {shown(name)}; give a text")
+    return name or usual
+
+
+THERE = np.ones((), dtype=bool)
+"""For a parameter that is there, on every path."""
+THERE.flags.writeable = False
+
+
+class Resolved(NamedTuple):
+    """Numbers for a parameter, and where an optional one is there at all."""
+
+    value: npt.NDArray[Any]
+    present: npt.NDArray[np.bool_]

@@ -1,30 +1,38 @@
-"""Use: a value where it stands, and the check of what it may be there."""
+"""Use: a value at its place in a path, and the check of what it may be there."""
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import reduce
+from itertools import chain
 from operator import and_
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ValueFault
-from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.curves.computed_check import check_computed
-from optipath.values.curves.curve_value import CurveValue
-from optipath.values.degrees import is_of_an_angle, meant_in_degrees
-from optipath.values.parameters import Parameter
-from optipath.values.resolved import THERE
+from optipath.errors import OptipathError, ParameterError, ValueFault
+from optipath.values.angles import is_of_an_angle, meant_in_degrees, warn_of_degrees
+from optipath.values.arrays import as_given
+from optipath.values.curve_value import CurveValue, check_computed
+from optipath.values.domains import Domain, in_unit_of
+from optipath.values.jax_values import is_traced, namespace
+from optipath.values.messages import units_are_written
+from optipath.values.parameters import (
+    AXES,
+    THERE,
+    Parameter,
+    unknown_word,
+    warn_where_it_stands,
+    word_meant,
+)
 from optipath.values.units import dimension_of
-from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
-    from optipath.values.domains.domain import Domain
-    from optipath.values.resolved import Resolved
+    from optipath.values.parameters import Resolved
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,3 +185,179 @@ class Use:
 
         refused = np.ravel(numbers)[~np.ravel(allows(np.asarray(numbers)))]
         return meant_in_degrees(float(refused[0]), allows) if refused.size else ""
+
+
+T = TypeVar("T")
+
+_EXACT = 1 << 53
+"""Up to what size a float is every whole number."""
+
+_is_checked_later: ContextVar[bool] = ContextVar("_is_checked_later", default=False)
+
+
+@contextmanager
+def checked_later() -> Iterator[None]:
+    """Leave the values of what is made inside to the check of the whole path, which names nodes.
+
+    Examples
+    --------
+    >>> from optipath.elements.polarizers import Attenuator
+    >>> with checked_later():
+    ...     Attenuator(1.5).faults("filter")
+    ['filter.transmittance is 1.5; give a real fraction within 0 .. 1']
+    """
+    token = _is_checked_later.set(True)
+    try:
+        yield
+    finally:
+        _is_checked_later.reset(token)
+
+
+def is_checked_later() -> bool:
+    """Tell whether values are left to the check of the whole path."""
+    return _is_checked_later.get()
+
+
+def make_sound(
+    whole: Any,
+    domains: Mapping[str, Domain],
+    quantities: Callable[[], Iterable[tuple[str, Any, Domain]]],
+    *,
+    of_fields: bool = True,
+) -> bool:
+    """Replace the values of something by what it keeps, and refuse what is not allowed."""
+    sound: dict[str, Domain] = {}
+    faults: dict[str, list[str]] = {}
+    for name, domain in domains.items():
+        value = getattr(whole, name)
+        number = float(value) if type(value) is int and abs(value) <= _EXACT else value
+        left_out = value is None and not domain.parts(name, value)
+        if left_out or domain.quickly_allows(number):
+            sound[name] = domain
+            continue
+        owner = f"{type(whole).__name__} {name}"
+        try:
+            object.__setattr__(whole, name, kept_value(owner, value, domain))
+        except ValueFault as fault:
+            faults[name] = list(fault.faults)
+    if _is_checked_later.get():
+        return False
+    if of_fields and len(sound) == len(domains):
+        return True
+    uses = [
+        Use(f"{type(whole).__name__} {name}", value, domain)
+        for name, value, domain in quantities()
+        if name not in faults and sound.get(name) is not domain
+    ]
+    refuse([*chain(*faults.values()), *faults_of(uses)])
+    return True
+
+
+def remember_sound(whole: Any) -> None:
+    """Remember that all values of something are allowed, so that nobody looks at them again."""
+    vars(whole)["_is_sound"] = True
+
+
+def is_known_sound(whole: Any) -> bool:
+    """Tell whether all values of something have been looked at, and are allowed."""
+    return "_is_sound" in vars(whole)
+
+
+def not_known_sound(whole: T) -> T:
+    """Return a copy of something in which other values stand than those that were looked at."""
+    vars(whole).pop("_is_sound", None)
+    return whole
+
+
+def kept_value(owner: str, value: Any, domain: Domain) -> Any:
+    """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
+    if domain.takes_large_angles and not _is_checked_later.get():
+        # Of a parameter with a unit, it has been told when it was made.
+        without = isinstance(value, Parameter) and (value.bound or not value.unit)
+        if without:
+            warn_of_degrees(owner, value.plain_numbers, value)
+        elif not isinstance(value, Parameter):
+            warn_of_degrees(owner, value)
+        if isinstance(value, Parameter) and not value.offset_dimension:
+            warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
+    if isinstance(value, Parameter):
+        if not value.unit and domain.dimension == "angle" and not _is_checked_later.get():
+            warn_where_it_stands(value)
+        return in_unit_of(value, domain)
+    return domain.kept(domain.read(owner, value))
+
+
+def refuse(faults: list[str]) -> None:
+    """Raise with what is wrong with something that has just been made, unless it is told later."""
+    if faults and not _is_checked_later.get():
+        raise ValueFault(*faults)
+
+
+def faults_of(uses: Iterable[Use]) -> list[str]:
+    """Return what is wrong with the values that are known already, a sentence each."""
+    found: list[str] = []
+    for use in uses:
+        try:
+            use.check()
+        except ValueFault as fault:
+            found += fault.faults
+    return found
+
+
+def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
+    """Return what is given for a parameter, with angles for names of axes if it stands as one.
+
+    It is the angle of the parameter itself that has the name, where its negative is the axis: on
+    the way back, an axis stands at ``-a``.
+    """
+    if not isinstance(value, (str, list, tuple)):
+        return value
+    for use in uses:
+        if not isinstance(use.domain, AxisDomain) or not isinstance(use.value, Parameter):
+            continue
+        if use.value.name == name and use.value.is_signed:
+            if isinstance(value, str):
+                return _angle_of(value, use.value)
+            # One row of them; a list of lists may be anything, even a part of itself.
+            return [_angle_of(one, use.value) for one in value]
+    return value
+
+
+def _angle_of(value: Any, parameter: Parameter) -> Any:
+    """Return the angle of an axis that has a name; the value itself where that is none."""
+    if not isinstance(value, str) or value in parameter.all_words:
+        return value
+    if value[:1].isalpha() and value not in AXES:
+        words = dict.fromkeys((*parameter.all_words, *AXES))
+        raise ParameterError(unknown_word(parameter.name, value, words, "angle"))
+    return AXES.get(value, value)
+
+
+class AxisDomain(Domain):
+    """Angles of an axis across the light; some have names.
+
+    Examples
+    --------
+    >>> AxisDomain("angle", "angle").parse("antidiagonal")
+    -0.7853981633974483
+    """
+
+    def parse(self, text: str) -> Any:
+        if (word := text.strip()) in AXES:
+            return AXES[word]
+        if word[:1].isalpha():
+            raise ValueFault(f"axis '{word}' is unknown{word_meant(word, AXES, self.dimension)}")
+        return super().parse(text)
+
+
+class OptionalAxisDomain(AxisDomain):
+    """The same, or none.
+
+    Examples
+    --------
+    >>> OptionalAxisDomain("angle", "angle").parts("dichroic_angle", None)
+    []
+    """
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        return [] if value is None else super().parts(name, value)

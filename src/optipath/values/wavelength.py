@@ -1,22 +1,63 @@
-"""Wavelength: the parameter by which light of a run has its colour."""
+"""Wavelength: the parameter for the wavelength of a run, and what else names it."""
 
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
 from optipath.errors import ParameterError, UnitError
-from optipath.values.cures import cure
-from optipath.values.domains.wavelengths import LONGEST
+from optipath.values.domains import Domain
+from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
-from optipath.values.spectral_units import (
-    falls_with_wavelength,
-    spectral_unit_meant,
-    wavelength_of,
-    with_other_units,
-)
-from optipath.values.units import format_quantity, unit_of
+from optipath.values.units import NUMBER, UNITS, format_quantity, unit_of
+
+LONGEST = 0.1
+"""Above this many metres, a number is no wavelength: materials are known up to microwaves."""
+
+LONGEST_FIRST = 0.01
+"""Above this many metres, the least wavelength of a table was most likely in another unit."""
+
+
+def too_long(wavelength: float) -> str:
+    """Say of a number that is too large that it is no wavelength, and what it may have been.
+
+    Examples
+    --------
+    >>> too_long(188.0).partition(";")[0]
+    '188 metres, which is no wavelength of light'
+    """
+    return (
+        f"{wavelength:g} metres, which is no wavelength of light; multiply those in nanometres by "
+        f"1e-9, and those in micrometres by 1e-6"
+    )
+
+
+class WavelengthDomain(Domain):
+    """Wavelengths in vacuum, above 0 and in metres.
+
+    Examples
+    --------
+    >>> WAVELENGTH.check("a line", "516 nm")
+    array(5.16e-07)
+    """
+
+    def parse(self, text: str) -> Any:
+        read = wavelength_of(text)
+        if read is not None:
+            return read
+        try:
+            return super().parse(text)
+        except UnitError as fault:
+            raise with_other_units(fault, text) from None
+
+    def described(self) -> str:
+        return "a wavelength above 0, in metres or as a text such as '516 nm'"
+
+
+WAVELENGTH = WavelengthDomain("wavelength", "length", minimum=5e-324)
+
 
 _MICROMETRES, _MILLIMETRES = 1e-5, 1e-3
 _MOST_NANOMETRES = 1e6
@@ -128,3 +169,76 @@ def _written(length: float) -> str:
     """Return a wavelength in the unit in which it is usually written."""
     unit = "nm" if length < _MICROMETRES else "um" if length < _MILLIMETRES else "mm"
     return format_quantity(length, unit)
+
+
+_SPEED = 299792458.0
+HC = 6.62607015e-34 * _SPEED / 1.602176634e-19
+"""h c / e, exact by the definitions of the SI (BIPM, 2019): electronvolts times metres."""
+
+_TIMES_WAVELENGTH = {
+    "meV": HC * 1e3,
+    "eV": HC,
+    "keV": HC / 1e3,
+    "1/um": 1e-6,
+    "1/mm": 1e-3,
+    "1/cm": 1e-2,
+    "cm^-1": 1e-2,
+    "cm-1": 1e-2,
+    "1/m": 1.0,
+    "GHz": _SPEED / 1e9,
+    "THz": _SPEED / 1e12,
+    "PHz": _SPEED / 1e15,
+    "Hz": _SPEED,
+}
+"""What a number in a unit and the wavelength in metres come to when they are multiplied."""
+
+_TEXT = re.compile(rf"([-+]?{NUMBER})\s*(\S+)", re.ASCII)
+
+
+def wavelength_of(text: str) -> float | None:
+    """Return the wavelength that a photon energy, a wave number or a frequency stands for.
+
+    Units: the result in metres.
+
+    Examples
+    --------
+    >>> round(wavelength_of("2.4 eV") * 1e9, 3), wavelength_of("20000 1/cm")
+    (516.601, 5e-07)
+    """
+    match = _TEXT.fullmatch(text.strip())
+    if match is None or match[2] not in _TIMES_WAVELENGTH:
+        return None
+    number = float(match[1])
+    if not 0.0 < number < math.inf:
+        raise UnitError(f"'{text}' stands for no wavelength; give a number above 0")
+    return _TIMES_WAVELENGTH[match[2]] / number
+
+
+def falls_with_wavelength(text: object) -> bool:
+    """Tell whether a text is a photon energy, a wave number or a frequency.
+
+    Examples
+    --------
+    >>> falls_with_wavelength("2.4 eV"), falls_with_wavelength("516 nm")
+    (True, False)
+    """
+    match = _TEXT.fullmatch(text.strip()) if isinstance(text, str) else None
+    return match is not None and match[2] in _TIMES_WAVELENGTH
+
+
+def with_other_units(fault: UnitError, text: str) -> UnitError:
+    """Return what is said of a text that is no length, with what else a wavelength may be in."""
+    if (unit := unit_of(text)) and unit not in UNITS:
+        return fault
+    return UnitError(*[f"{sentence}, or eV, 1/cm, THz" for sentence in fault.faults])
+
+
+def spectral_unit_meant(word: str) -> str | None:
+    """Return the unit of `wavelength_of` that differs in capital letters alone, if any.
+
+    Examples
+    --------
+    >>> spectral_unit_meant("ev"), spectral_unit_meant("nm")
+    ('eV', None)
+    """
+    return next((unit for unit in _TIMES_WAVELENGTH if unit.lower() == word.lower()), None)

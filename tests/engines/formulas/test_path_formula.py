@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.automatic import is_installed
-from optipath.engines.formulas.recorder import Recorder
-from optipath.engines.formulas.symbol import Symbol
-from optipath.engines.formulas.symbolic import SYMBOLIC
+from optipath.engines.choice import is_installed
+from optipath.engines.symbols import SYMBOLIC, Recorder, Symbol
 from paths import chain
 from tables import rows
 

@@ -6,7 +6,7 @@ from mpmath import mp
 
 import optipath as op
 from lossless import networks
-from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.path_reference import exact_lights
 from slabs import slab
 from tables import rows, slow
 

@@ -7,16 +7,14 @@ import pytest
 
 import optipath as op
 from optipath.elements.coupling import Coupling
-from optipath.engines.formulas.recorder import Recorder
-from optipath.engines.formulas.symbolic import SYMBOLIC
-from optipath.engines.program.execute import execute
-from optipath.engines.program.program import Evaluation, Program, Reading, Result, Step
-from optipath.kernels.carriers.kernel import Kernel
-from optipath.kernels.carriers.stokes_carrier import StokesCarrier
-from optipath.kernels.catalogue import REFLECTION, UNPOLARIZED
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
-from optipath.values.operands import Operand
-from optipath.values.operation import Operation
+from optipath.engines.execute import execute
+from optipath.engines.program import Evaluation, Program, Reading, Result, Step
+from optipath.engines.symbols import SYMBOLIC, Recorder
+from optipath.kernels.carriers.carrier import StokesCarrier
+from optipath.kernels.catalog import REFLECTION, UNPOLARIZED
+from optipath.kernels.kernel import Kernel
+from optipath.kernels.primitives import FLOAT, NUMPY
+from optipath.values.operands import Operand, Operation
 from tables import rows, slow
 
 CALLS = []

@@ -9,19 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.engines.program.execute import execute
-from optipath.kernels.carriers.bounds_carrier import BoundsCarrier
+from optipath.engines.execute import execute
 from optipath.kernels.carriers.carried import add, carry, stokes_of
-from optipath.kernels.carriers.carrier import Carrier
-from optipath.kernels.carriers.coherency import is_physical
-from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
-from optipath.kernels.carriers.jones_carrier import JonesCarrier
-from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
-from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
-from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.carriers.carrier import Carrier, MatrixCarrier, StokesCarrier
+from optipath.kernels.carriers.intensities import BoundsCarrier, IntensityCarrier
+from optipath.kernels.carriers.jones import JonesCarrier
+from optipath.kernels.carriers.scaled import ScaledCarrier
 from optipath.kernels.carriers.structures import BLOCK, ROTATION, SCALE
-from optipath.kernels.numbers.circular import cosine, sine
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.coherency import is_physical
+from optipath.kernels.primitives import FLOAT, NUMPY
+from optipath.kernels.trigonometry import cosine, sine
 from random_matrices import jones, of_jones, unit_vectors
 from tables import rows, slow, slow_except
 from wired import wired

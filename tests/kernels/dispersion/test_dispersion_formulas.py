@@ -6,11 +6,16 @@ Those of the database are written down from its document.
 import numpy as np
 import pytest
 
-from optipath.kernels.dispersion.database_formulas import DATABASE_FORMULAS, coefficients_fit
-from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
-from optipath.kernels.dispersion.permittivity import index_of_permittivity
-from optipath.kernels.dispersion.sellmeier import cauchy_index, index_of_square, sellmeier_square
-from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
+from optipath.kernels.dispersion import (
+    DATABASE_FORMULAS,
+    cauchy_index,
+    coefficients_fit,
+    drude_lorentz_permittivity,
+    index_of_permittivity,
+    index_of_square,
+    sellmeier_square,
+    tauc_lorentz_permittivity,
+)
 from tables import rows, slow_except
 
 mp = pytest.importorskip("mpmath")

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from exact_facets import exact_lambda
-from optipath.kernels.facets.half_vector import facet_between
-from optipath.kernels.facets.smith_masking import MASKINGS, masked_cosines, smith_cosine
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.facets import MASKINGS, facet_between, masked_cosines, smith_cosine
+from optipath.kernels.primitives import FLOAT, NUMPY
 from tables import rows, slow_except
 
 ACROSS = (0.0, 1.0, 0.0)

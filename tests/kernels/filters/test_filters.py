@@ -12,13 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels.filters.lorentz import lorentz, retardance
-from optipath.kernels.filters.lorentz_depolarizing import (
+from optipath.kernels.medium import (
     LARGEST,
     LARGEST_DICHROISM,
     depolarizing_lorentz,
+    lorentz,
+    retardance,
 )
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.primitives import FLOAT, NUMPY
 from tables import rows
 
 FIELDS = st.tuples(*[st.floats(-1.0, 1.0)] * 4).map(lambda p: np.array([p[0:2], p[2:4]]) @ [1, 1j])

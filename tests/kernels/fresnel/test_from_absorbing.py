@@ -12,7 +12,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from optipath.kernels.catalogue import (
+from optipath.kernels.catalog import (
     METHODS,
     PHASE_INDEX,
     REFLECTION,
@@ -21,7 +21,7 @@ from optipath.kernels.catalogue import (
     TRANSMISSION_FROM_ABSORBING,
     TRANSMISSION_FROM_BEHIND,
 )
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.primitives import FLOAT, NUMPY
 from tables import rows, slow, slow_except
 
 FAMILIES = REFLECTION_FROM_ABSORBING, TRANSMISSION_FROM_ABSORBING, TRANSMISSION_FROM_BEHIND
@@ -205,7 +205,7 @@ def test_the_index_of_the_phase_is_that_of_kettelers_equations_in_arrays_and_flo
     slow_except([(0.05, None)], [(k, n) for k in (0.0, 1e-9, 0.05) for n in (None, 1.3)]),
 )
 def test_slopes_are_those_of_50_digits(jax, k1, n0):
-    sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
+    sloped = pytest.importorskip("optipath.values.jax_primitives").sloped
     xp, at = sloped(np.dtype(np.float64)), (1.5, k1, 1.2, 0.1, 0.4)
     before = () if n0 is None else (n0,)
 

@@ -5,13 +5,13 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels.catalogue import (
+from optipath.kernels.catalog import (
     METHODS,
     REFLECTION,
     REFLECTION_FROM_ABSORBING,
     TRANSMISSION,
 )
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.primitives import FLOAT, NUMPY
 from tables import rows, slow_except
 
 INDICES = st.floats(0.1, 5.0)

@@ -8,7 +8,7 @@ import pytest
 import optipath as op
 from chains import random_rotation
 from histories import exact_coherency, exact_stokes_in
-from optipath.kernels.catalogue import (
+from optipath.kernels.catalog import (
     ARRIVING,
     EVENT_AT_VERTEX,
     INCIDENCE,
@@ -16,9 +16,8 @@ from optipath.kernels.catalogue import (
     REFRACTION,
     TURN_BETWEEN_PLANES,
 )
-from optipath.kernels.geometry.events import Event
-from optipath.kernels.geometry.points_by_angles import PointsByAngles
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.primitives import FLOAT, NUMPY
+from optipath.kernels.vertex_chain import Event, PointsByAngles
 from tables import rows
 
 ANGLES = [1e-9, 1e-6, 1e-3, 0.1, 0.7, np.arctan(1.5), np.arctan(1.5) + 1e-8, 1.3, 1.5]

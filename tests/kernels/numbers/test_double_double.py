@@ -7,10 +7,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from mpmath import mp
 
-from optipath.kernels.numbers.double_double import DoubleDouble
-from optipath.kernels.numbers.elimination import Elimination
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
-from optipath.kernels.numbers.twice import twice
+from optipath.kernels.double_double import DoubleDouble, twice
+from optipath.kernels.linear_solve import Elimination
+from optipath.kernels.primitives import FLOAT, NUMPY
 from tables import rows
 
 NUMBERS = st.floats(1e-20, 1e20)

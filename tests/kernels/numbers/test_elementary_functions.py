@@ -5,15 +5,13 @@ import math
 import mpmath
 import numpy as np
 
-from optipath.kernels.numbers import primitives
-from optipath.kernels.numbers.arc_tangent import arc_tangent
-from optipath.kernels.numbers.error_function import complementary_error
-from optipath.kernels.numbers.exponential import exponential
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
-from optipath.kernels.numbers.reproducible import reproducible_numpy
-from optipath.kernels.numbers.trigonometry import (
+from optipath.kernels import primitives
+from optipath.kernels.exponential import complementary_error, exponential, reproducible_numpy
+from optipath.kernels.primitives import FLOAT, NUMPY
+from optipath.kernels.trigonometry import (
     DIGITS,
     any_quadrant,
+    arc_tangent,
     first_quadrant,
     from_axes,
     from_nearer_axis,

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.light.colour.adaptation import DISPLAY_WHITE, adapted
-from optipath.light.colour.srgb import FROM_XYZ, encoded
-from optipath.light.colour.triples import times
+from optipath.light.color import DISPLAY_WHITE, FROM_XYZ, adapted, encoded, times
 from tables import rows
 
 FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour" / "colour_science.json"

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.light.mueller.reciprocity import reciprocal
+from optipath.light.decompositions import reciprocal
 from tables import rows
 
 TURNS = st.floats(-4.0, 4.0)

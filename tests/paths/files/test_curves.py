@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.paths.format.spectrum_tables import spectrum_of, spectrum_table
+from optipath.paths.files.spectrum_tables import spectrum_of, spectrum_table
 from tables import rows
 from wired import read as loaded
 from wired import read_back

@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 import optipath as op
-from optipath.paths.presets.reader.document import read
+from optipath.paths.files.reader import read
 from tables import rows
 from wired import read as loaded
 

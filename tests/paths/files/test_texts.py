@@ -9,8 +9,15 @@ from contextlib import suppress
 import pytest
 
 import optipath as op
-from optipath.paths.format.limits import DEEPEST, LONGEST_WORD, refuse_unwieldy
-from optipath.paths.presets.toml_files import file_of, names_in, presets_folder, text_of
+from optipath.paths.files.toml import (
+    DEEPEST,
+    LONGEST_WORD,
+    file_of,
+    names_in,
+    presets_folder,
+    refuse_unwieldy,
+    text_of,
+)
 from tables import rows, slow
 
 ENOUGH = 30_000

@@ -7,7 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.paths.drawing import draw
-from optipath.paths.presets.reader.document import read
+from optipath.paths.files.reader import read
 from paths import chain
 from tables import rows
 from wired import read as loaded

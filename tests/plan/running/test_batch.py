@@ -8,14 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.engines.formulas.path_formula import lights_formula
-from optipath.engines.formulas.stages import stages
-from optipath.engines.formulas.symbol import Symbol
-from optipath.kernels.carriers.stokes_carrier import StokesCarrier
-from optipath.plan.running.batch import Layout, sliced
-from optipath.plan.running.pieces import pieces
-from optipath.values.input_key import InputKey
-from optipath.values.operands import MANY
+from optipath.engines.formula import stages
+from optipath.engines.path_formula import lights_formula
+from optipath.engines.symbols import Symbol
+from optipath.kernels.carriers.carrier import StokesCarrier
+from optipath.plan.reading import Layout, pieces, sliced
+from optipath.values.operands import MANY, InputKey
 from paths import chain
 from tables import rows, slow
 

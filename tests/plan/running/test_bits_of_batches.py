@@ -7,7 +7,7 @@ import optipath as op
 from batch_paths import SEVERAL, BatchDraw, at, one_by_one
 from batches_of_chains import random_batch
 from chains import COMPILED, random_chains
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curve_value import curve_values
 from spectral_paths import Ramps, SpectralDraw, run_by_run, wavelengths
 from tables import rows, slow, slow_except
 from wired import wired

@@ -11,7 +11,7 @@ import nearly_closed
 import optipath as op
 from chains import COMPILED, by_engine
 from nearly_closed import PLATES, ring
-from optipath.lab.accuracy.path_reference import exact_stokes
+from optipath.lab.path_reference import exact_stokes
 from slabs import slab, stack
 from tables import rows, slow, slow_except
 

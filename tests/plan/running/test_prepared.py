@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.plan.running import batch_runner, formula_maker, runner, shared
-from optipath.plan.running import prepared as preparing
+from optipath.plan import batch_runner, runner
+from optipath.plan import prepared as preparing
+from optipath.plan import questions as formula_maker
+from optipath.plan import runner as shared
 from paths import chain
 from tables import rows
 from wired import wired

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.values.arrays import memory
-from optipath.values.arrays.read_only import same
+from optipath.values import arrays as memory
+from optipath.values.arrays import same
 from tables import rows
 
 CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]

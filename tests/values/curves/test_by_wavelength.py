@@ -12,8 +12,8 @@ import pytest
 import optipath as op
 from dispersive import line, on_line
 from fake_curves import Metal, metal
-from optipath.values.spectra.grid_bins import grid_edges, grid_fault, grid_widths
-from optipath.values.spectral_units import wavelength_of
+from optipath.materials.illuminants import grid_edges, grid_fault, grid_widths
+from optipath.values.wavelength import wavelength_of
 from tables import rows, slow
 
 P = op.Parameter

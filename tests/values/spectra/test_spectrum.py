@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.paths.format.spectrum_tables import spectrum_of, spectrum_table
-from optipath.values.spectra.grid_bins import grid_widths
+from optipath.materials.illuminants import grid_widths
+from optipath.paths.files.spectrum_tables import spectrum_of, spectrum_table
 from tables import rows
 from wired import read_back
 

@@ -1,4 +1,4 @@
-"""Light as the steps carry it along: (weak, S1, S2, S3).
+"""Stokes vectors as kernels carry them: (weak, S1, S2, S3), and in parts that add up.
 
 ``weak`` is the smaller of the intensities along x and along y. Behind a crossed filter
 or near Brewster's angle one of the two is tiny, and in S0 its digits would be lost;
@@ -7,16 +7,23 @@ pair (weak, S1) keeps both: S0 = 2 weak + |S1| is a sum of non-negative terms.
 
 Where a scene needs no more than the first one, two or three of the four, light is carried as
 these alone; with S1 left out, ``weak`` is half of S0.
+
+Carried light (weak, S1, S2, S3) keeps more digits, but the smaller of two intensities does
+not add up; systems of equations are written in these parts. Light that is carried by its
+intensity alone has one part, S0.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from optipath.kernels.numbers.vanishing import not_below_rounding, products, vanishes
+from optipath.kernels.vanishing import not_below_rounding, products, vanishes
 
 if TYPE_CHECKING:
-    from optipath.kernels.numbers.primitives import Primitives
+    from collections.abc import Mapping
+
+    from optipath.kernels.primitives import Primitives
+
 
 Components: TypeAlias = tuple[Any, Any, Any, Any]
 """(S0, S1, S2, S3), each by itself."""
@@ -33,7 +40,7 @@ def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels.numbers.primitives import FLOAT
+    >>> from optipath.kernels.primitives import FLOAT
     >>> carry(FLOAT, (1.0, -0.5, 0.0, 0.0)), carry(FLOAT, (1.0, 0.0, 0.0, 0.0), 1)
     ((0.25, -0.5, 0.0, 0.0), (0.5,))
     """
@@ -61,7 +68,7 @@ def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels.numbers.primitives import FLOAT
+    >>> from optipath.kernels.primitives import FLOAT
     >>> leaving(FLOAT, (0.25, -0.5, 0.1, 0.0), 2), leaving(FLOAT, (0.25, -0.5), 1)
     ((0.25, -0.5), (0.5,))
     """
@@ -77,7 +84,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels.numbers.primitives import FLOAT
+    >>> from optipath.kernels.primitives import FLOAT
     >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))
     (2.5000000000000003e-17, 1.0, 1e-08, 0.0)
     """
@@ -100,7 +107,7 @@ def stokes_of(xp: Primitives, carried: Carried) -> Components:
 
     Examples
     --------
-    >>> from optipath.kernels.numbers.primitives import FLOAT
+    >>> from optipath.kernels.primitives import FLOAT
     >>> stokes_of(FLOAT, (0.25, -0.5, 0.0, 0.0))
     (1.0, -0.5, 0.0, 0.0)
     """
@@ -121,7 +128,7 @@ def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels.numbers.primitives import FLOAT
+    >>> from optipath.kernels.primitives import FLOAT
     >>> add(FLOAT, (0.0, 1.0, 0.0, 0.0), (0.0, -1.0, 0.0, 0.5))
     (1.0, 0.0, 0.0, 0.5)
     """
@@ -133,3 +140,65 @@ def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
     count = max(len(first), len(second))
     both = zip(all_four(first)[1:count], all_four(second)[1:count], strict=True)
     return xp.minimum(x1 + x2, y1 + y2), *(one + other for one, other in both)
+
+
+Parts: TypeAlias = tuple[Any, ...]
+"""(S0,), (x, y), (x, y, S2) or (x, y, S2, S3)."""
+
+
+class SolvedLoop(Protocol):
+    """Where the lights of a loop meet, as ways of carrying light see it."""
+
+    def count(self, junction: int) -> int:
+        """Return by how many components the light at a junction is carried."""
+
+    def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
+        """Return the parts of the light at each junction, for those of what arrives at some."""
+
+
+_UNITS: tuple[Carried, ...] = (
+    (0.0, 1.0, 0.0, 0.0),
+    (0.0, -1.0, 0.0, 0.0),
+    (0.0, 0.0, 1.0, 0.0),
+    (0.0, 0.0, 0.0, 1.0),
+)
+
+
+def unit_light(part: int, count: int) -> Carried:
+    """Return carried light of which one part of some count is 1, and the others 0."""
+    return (0.5,) if count == 1 else _UNITS[part][:count]
+
+
+def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
+    """Return the parts of carried light, as many as a count of components has.
+
+    Examples
+    --------
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> parts_of(FLOAT, (0.25, -0.5, 0.1, 0.0), 3), parts_of(FLOAT, (0.25, -0.5), 1)
+    ((0.25, 0.75, 0.1), (1.0,))
+    """
+    if count == 1:
+        return (2.0 * leaving(xp, carried, 1)[0],)
+    return *along_axes(xp, carried), *all_four(carried)[2:count]
+
+
+def light_of(xp: Primitives, parts: Parts) -> Carried:
+    """Return carried light of these parts.
+
+    Examples
+    --------
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> light_of(FLOAT, (0.25, 0.75, 0.1))
+    (0.25, -0.5, 0.1)
+    """
+    if len(parts) == 1:
+        return (0.5 * parts[0],)
+    x, y = parts[:2]
+    size = xp.maximum(xp.absolute(x), xp.absolute(y))
+    return not_below_rounding(xp, xp.minimum(x, y), size), x - y, *parts[2:]
+
+
+def energy(xp: Primitives, carried: Carried) -> Any:
+    """Return the intensity S0 of carried light."""
+    return stokes_of(xp, carried)[0]

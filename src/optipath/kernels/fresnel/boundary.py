@@ -1,19 +1,21 @@
-"""The boundary of two media as light meets it: the wave in front and the wave behind."""
+"""The boundary of two media: incident and refracted wave, absorbing or not.
+
+Light that has come into an absorbing medium by a smooth face has its planes of constant
+amplitude parallel to that face, and the wave along the face is real (Born & Wolf, Principles of
+Optics, sec. 14.2). So it is at every face that is parallel to the first.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.numbers.complex_pairs import (
-    brought_near_one,
-    complex_root,
-    from_within,
-)
+from optipath.kernels.complex_pairs import brought_near_one, complex_root, from_within, hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
+    from optipath.kernels.primitives import Factory, KernelFunction, Primitives
 
 
 LOST = -1.0
@@ -179,3 +181,216 @@ def squared_along_normal(
         return xp.where(c0 < s0, (m - n0) * (m + n0) + p0 * p0, (m - y) * (m + y))
 
     return along, y
+
+
+_LEAST = 2.0**-60
+"""The cosine next to grazing incidence, where there is a limit in one medium, and none in all."""
+
+
+class InhomogeneousBoundary(NamedTuple):
+    """What reflection and transmission are made of where the medium in front absorbs.
+
+    Indices are divided by a power of two near the largest of them.
+    """
+
+    p: Any
+    fades: Any
+    c: Any
+    e: Any
+    s: Any
+    kappa: Any
+    a: Any
+    b: Any
+    squared: Any
+    D: Any
+    v: Any
+    n1: Any
+    n: Any
+    k: Any
+
+    @property
+    def squares(self) -> tuple[Any, Any]:
+        """|g1|^2 + |g2|^2 and 2 Re(g1 conj g2)."""
+        even = (self.p * self.p + self.fades * self.fades) + self.squared
+        return even, 2.0 * self.p * self.a + 2.0 * self.fades * self.b
+
+    def from_behind(self, where: Callable[..., Any]) -> InhomogeneousBoundary:
+        """Return the same boundary as light from the other side meets it."""
+        n = where(self.n > 0.0, self.n, 1.0)
+        return InhomogeneousBoundary(
+            self.a,
+            self.b,
+            self.a / n,
+            self.b / n,
+            self.n1 * self.s / n,
+            self.k / n,
+            self.p,
+            self.fades,
+            self.p * self.p + self.fades * self.fades,
+            -self.D,
+            -self.v,
+            self.n,
+            self.n1,
+            self.n1 * self.kappa,
+        )
+
+
+def inhomogeneous_boundary(xp: Primitives) -> Callable[..., InhomogeneousBoundary]:
+    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> InhomogeneousBoundary``.
+
+    The angle is the real one in the medium in front, that of the normal to the planes of
+    constant phase; or it is one in a medium n0 that does not absorb, from which parallel
+    boundaries have refracted the light.
+    """
+    divided, root, inside = brought_near_one(xp), complex_root(xp), from_within(xp, 6)
+    by_angle, refracted, absolute = inhomogeneous_wave(xp), _refracted(xp), xp.absolute
+    where = xp.where
+
+    def boundary(n1: Any, k1: Any, n: Any, k: Any, *angle: Any) -> InhomogeneousBoundary:
+        *n0, cos, sin = angle
+        # The absolute value makes -0 a 0.
+        k1, k = inside(absolute(k1)), inside(absolute(k))
+        n1, k1, n, k, *n0 = divided(n1, k1, n, k, *n0)
+        k2 = k * k
+        if n0:
+            p, fades, s, squared = refracted(n1, k1, n, *n0, cos, sin)
+            c, e, u = p / n1, fades / n1, squared - k2
+        else:
+            c, e, s = by_angle(n1, k1, cos, sin)
+            p, fades, y = n1 * c, n1 * e, n1 * s
+            # Re g2^2, from whichever of cos and sin is small: that one carries the digits.
+            by_cos = contrast(where, n1, n, k2) + p * p - (fades - k1) * (fades + k1)
+            u = where(c < s, by_cos, n * n - (y * y + k2))
+        a, b, size = root(u, n, k)
+        D = contrast(where, n1, n, (k - k1) * (k + k1))
+        # Without the difference that n k - n1 k1 is.
+        v = 2.0 * where(k1 > 0.0, (n - n1) * k + n1 * (k - k1), n * k)
+        return InhomogeneousBoundary(p, fades, c, e, s, k1 / n1, a, b, size, D, v, n1, n, k)
+
+    return boundary
+
+
+def inhomogeneous_wave(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, cos, sin) -> (c, e, s)``, for the real angle in an absorbing medium.
+
+    With the wave y = q sin along the face and g = q cos + ib along the normal, y^2 + g^2 =
+    (n1 + ik1)^2 gives b = n1 k1 / (q cos) and q^2 = ((n1^2 - k1^2) + sqrt((n1^2 - k1^2)^2 +
+    4 n1^2 k1^2 / cos^2)) / 2, which are Ketteler's equations (Born & Wolf, Principles of
+    Optics, sec. 14.2, with the angle within). Here (q / n1)^2 - 1 is computed, without a
+    difference: q is n1 where nothing absorbs. All three come out divided by n1: c + ie = g / n1,
+    s = y / n1.
+    """
+    sqrt, where, inside = xp.sqrt, xp.where, from_within(xp)
+
+    def wave(n1: Any, k1: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
+        kappa, c = k1 / n1, inside(c)
+        c = where((c > _LEAST) | (kappa == 0.0), c, _LEAST)
+        across, far = kappa * s, (1.0 + kappa * kappa) * c
+        size = sqrt(far * far + 4.0 * (across * across)) + far
+        safe = where(c > 0.0, c, 1.0)
+        rho = sqrt(1.0 + 2.0 * (across / safe) * (across / where(size > 0.0, size, 1.0)))
+        normal = rho * c
+        return normal, kappa / where(normal > 0.0, normal, 1.0), rho * s
+
+    return wave
+
+
+def phase_index(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, cos, sin) -> (q,)``: the index by which Snell's law holds for real angles.
+
+    A medium of index q without absorption, and the same angle in it, have the same wave along
+    the face, q sin.
+    """
+    wave = inhomogeneous_wave(xp)
+
+    def index(n1: Any, k1: Any, c: Any, s: Any) -> tuple[Any]:
+        normal, _, along = wave(n1, k1, c, s)
+        # Of the two ratios, that of the larger.
+        near = c > s
+        ratio = xp.where(near, normal, along) / xp.where(near, c, s)
+        return (n1 * ratio,)
+
+    return index
+
+
+def real_index(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, cos, sin) -> (n1,)``: the same where nothing absorbs."""
+    del xp
+    return lambda n1, *_: (n1,)
+
+
+def _refracted(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, n, n0, cos0, sin0) -> (p, fades, s, Re g2^2 + k2^2)``."""
+    where, minimum, root = xp.where, xp.minimum, complex_root(xp)
+    inside = from_within(xp)
+
+    def refracted(n1: Any, k1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
+        along, y = squared_along_normal(xp, n0, inside(c0), s0)
+        squared, absorbs = along(n1), k1 > 0.0
+        a, b, _ = root(squared - k1 * k1, n1, k1)
+        # Where nothing absorbs and all has been reflected before, there is no light, and any
+        # angle will do: the right one, as between media that do not absorb.
+        lost = (squared < 0.0) & (k1 <= 0.0)
+        s = y / n1
+        s = where(absorbs, s, minimum(s, 1.0))
+        return a, where(absorbs, b, 0.0), s, where(lost, LOST, along(n))
+
+    return refracted
+
+
+def refraction(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, n, k, cos, sin) -> (cos, sin)`` of the real angle of refraction.
+
+    That is the angle at which planes of constant phase travel on: its tangent is n1 sin over
+    the real part of g = sqrt(m2^2 - (n1 sin)^2) (Born & Wolf, Principles of Optics, sec. 14.2),
+    which is Snell's law where nothing absorbs. Where all is reflected, it is a right angle.
+    """
+    boundary, where, length = absorbing_boundary(xp), xp.where, hypotenuse(xp)
+
+    def refract(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any]:
+        at = boundary(n1, n, k, c, s)
+        along = at.n1 * at.s
+        size = length(along, at.a)
+        there = size > 0.0
+        size = where(there, size, 1.0)
+        return where(there, at.a / size, 1.0), along / size
+
+    return refract
+
+
+def effective_index(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, n, k, cos, sin) -> (n', k')`` of the wave behind a boundary.
+
+    Its real wave vector is as long as n' = sqrt(y^2 + (Re g)^2), with y along the face, so that
+    Snell's law holds with n' for the real angle; its imaginary one, along the normal, as long as
+    k' = Im g. So n'^2 - k'^2 = n^2 - k^2 and n' k' cos(theta') = n k (Born & Wolf, Principles of
+    Optics, sec. 14.2; P. E. Ciddor, Am. J. Phys. 44, 786 (1976)).
+    """
+    boundary, arriving, length = absorbing_boundary(xp), phase_index(xp), hypotenuse(xp)
+
+    def index(n1: Any, k1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any]:
+        (q,) = arriving(n1, k1, c, s)
+        at = boundary(q, n, k, c, s)
+        # The indices are divided by a power of two there.
+        divided = q / at.n1
+        return divided * length(at.n1 * at.s, at.a), divided * at.b
+
+    return index
+
+
+@dataclass(frozen=True)
+class Refracting:
+    """Makes a kernel that takes an angle before refraction, too, of one that does not."""
+
+    factory: Factory
+
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Make ``(n1, n, k, [n0,] cos, sin)``."""
+        kernel, refracted = self.factory(xp), refracted_wave(xp)
+
+        def refracting(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+            if len(angle) > 2:
+                angle = refracted(n1, n, *angle)[:2]
+            return kernel(n1, n, k, *angle)
+
+        return refracting

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.kernels.complex_pairs import hypotenuse
 from optipath.kernels.fresnel.boundary import (
     Boundary,
     absorbing_boundary,
     denser_boundary,
     lossless_boundary,
 )
-from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.fresnel.inhomogeneous import InhomogeneousBoundary
-    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
+    from optipath.kernels.fresnel.boundary import InhomogeneousBoundary
+    from optipath.kernels.primitives import KernelFunction, Primitives
 
 
 _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120

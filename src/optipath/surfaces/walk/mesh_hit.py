@@ -1,4 +1,4 @@
-"""Where a ray meets a mesh: over a pyramid of its lowest and highest points."""
+"""Compiled meshes: where a ray enters and meets one."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from typing import Any
 import numba as nb
 import numpy as np
 
-from optipath.surfaces.walk.facet_hit import NO_FACET, corners_of, facet_hit
-from optipath.surfaces.walk.mesh_pyramid import SHIFT
-from optipath.surfaces.walk.packed_meshes import (
+from optipath.surfaces.walk.facets import NO_FACET, corners_of, facet_hit
+from optipath.surfaces.walk.meshes import (
+    CELL_X,
+    CELL_Y,
     CELLS_X,
     CELLS_Y,
     HEIGHTS,
@@ -19,6 +20,7 @@ from optipath.surfaces.walk.packed_meshes import (
     NUMBERS,
     PERIODIC,
     PYRAMID,
+    SHIFT,
     WHOLES,
 )
 
@@ -123,3 +125,27 @@ def _wrapped(start: float, cell: int, cells: int) -> Any:
     if cell >= cells:
         return start - cells, cell - cells
     return start, cell
+
+
+@nb.njit(error_model="numpy")
+def mesh_entry(meshes: Any, layer: int, side: float, point: Any, k: Any, starts: Any) -> Any:
+    """Return where light gets to the height of a mesh's highest, or lowest, point."""
+    wholes, numbers = meshes[0], meshes[1]
+    about, sizes = layer * WHOLES, layer * NUMBERS
+    height = numbers[sizes + (HIGH if side > 0.0 else LOW)]
+    t = (height - point[2]) / k[2]
+    point = (point[0] + t * k[0], point[1] + t * k[1], height)
+    x = (point[0] + starts[2 * layer]) / numbers[sizes + CELL_X]
+    y = (point[1] + starts[2 * layer + 1]) / numbers[sizes + CELL_Y]
+    across, down = wholes[about + CELLS_X], wholes[about + CELLS_Y]
+    if wholes[about + PERIODIC] != 0:
+        return True, point, _in_period(x, across), _in_period(y, down)
+    inside = (x >= 0.0) & (x < across) & (y >= 0.0) & (y < down)
+    return inside, point, x, y
+
+
+@nb.njit(error_model="numpy")
+def _in_period(x: float, cells: int) -> float:
+    x -= np.floor(x / cells) * cells
+    # Light that goes along the mesh comes from too far away to say, even from infinity.
+    return x if 0.0 <= x < cells else 0.0

@@ -1,0 +1,285 @@
+"""Boundaries in space: frames of the four ports, directions by reflection and Snell's law."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from optipath.elements.boundary_media import MediaOfBoundary
+from optipath.elements.coupling import Coupling, numbers_of
+from optipath.elements.element import Element
+from optipath.elements.frame_checks import angle_between, incidence_between, share_x
+from optipath.kernels.fresnel.boundary import phase_index, refraction
+from optipath.kernels.primitives import of_module
+from optipath.light.frame import Frame
+from optipath.materials.index_domains import FOLLOWS, INDEX, LIT_BEHIND
+from optipath.values.agreement import Agreement, first_faults, is_single, text_of
+from optipath.values.arrays import broadcast_fault
+from optipath.values.operands import Operand, operand_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+
+    from optipath.values.domains import Domain
+    from optipath.values.operands import Operation
+
+
+class FourPort(Element):
+    """An element with two sides.
+
+    Light from the front enters at ``in``; what is reflected leaves at ``reflected``, and what
+    passes at ``transmitted``. Light from behind enters at ``back``; what is reflected leaves at
+    ``transmitted``, and what passes at ``reflected``.
+    """
+
+    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
+    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
+    natural: ClassVar[str] = "reflected"
+    entry: ClassVar[str] = "in"
+    straight: ClassVar[bool] = False
+    _ports_back: ClassVar[dict[str, str]] = {
+        "in": "reflected",
+        "reflected": "in",
+        "back": "transmitted",
+        "transmitted": "back",
+    }
+
+    def _ways(
+        self, front: tuple[Operation, Operation], behind: tuple[Operation, Operation]
+    ) -> tuple[Coupling, ...]:
+        """Return the couplings for what reflects, and what lets through, from either side."""
+        return (
+            Coupling("in", "reflected", front[:1], reflects=True),
+            Coupling("in", "transmitted", front[1:]),
+            Coupling("back", "transmitted", behind[:1], reflects=True),
+            Coupling("back", "reflected", behind[1:]),
+        )
+
+
+class BoundaryElement(MediaOfBoundary, FourPort):
+    """An element between the media in front, ``outside``, and behind, ``index``.
+
+    All its ports share x = s; directions obey the laws of reflection and of Snell.
+    """
+
+    may_follow: ClassVar[tuple[str, ...]] = ("outside", "incidence")
+
+    @property
+    def measured(self) -> tuple[Any, Any]:
+        """The angle of incidence, and the index of the medium in which it is measured."""
+        face: Any = self
+        before = getattr(face, "incidence_in", None)
+        return face.incidence, face.outside if before is None else before
+
+    def domains_entered(self, port: str) -> Mapping[str, Domain]:
+        """Return that the medium behind must not absorb where light comes from there."""
+        return {"index": LIT_BEHIND} if port == "back" else {}
+
+    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+        return frames.get(port) or _refracted_frame(self, port, frames)
+
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        placed = list(frames.items())
+        faulty = [port for port, frame in placed if not share_x(frame, placed[0][1])]
+        if faulty:
+            ports = " and ".join(f"'{owner}.{port}'" for port in (placed[0][0], *faulty))
+            problem = f"the frames of {ports} must share one x"
+            return [f"{problem}, perpendicular to the plane of incidence"]
+        return [*_open_incidence_faults(owner, self, frames), *_angle_faults(owner, self, frames)]
+
+
+def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+    """Return the frame of refracted light, of that of the other; None where it is not known."""
+    if port != "transmitted" or not {"in", "reflected"} <= frames.keys():
+        return None
+    angles = _known_angles(element)
+    if angles is None:
+        return None
+    arriving, reflected = frames["in"], frames["reflected"]
+    front, behind = (np.asarray(angle)[..., np.newaxis] for angle in angles)
+    # Along the surface, and out of it.
+    along, normal = arriving.z + reflected.z, reflected.z - arriving.z
+    along, normal = (_unit(vector) for vector in (along, normal))
+    z = np.where(front > 0.0, np.sin(behind) * along, 0.0) - np.cos(behind) * normal
+    frame = Frame.from_direction(z, arriving.x)
+    rounding = max(arriving.rounding, reflected.rounding)
+    return Frame.trusted(frame.x, frame.y, frame.z, rounding)
+
+
+def _unit(vector: Any) -> Any:
+    length = np.linalg.norm(vector, axis=-1, keepdims=True)
+    return vector / np.where(length > 0.0, length, 1.0)
+
+
+def _open_incidence_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[str]:
+    incidence = element.incidence
+    if {"in", "reflected"} <= frames.keys() and not Operand(incidence).known:
+        found = incidence_between(frames["in"], frames["reflected"])
+        yield (
+            f"the frames of '{owner}' meet at an incidence of "
+            f"{np.degrees(np.ravel(found)[0]):.9g} deg; give that, not the parameter "
+            f"'{incidence.name}'"
+        )
+
+
+def _angle_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> list[str]:
+    """Return where the angles between frames are not those of values that are known."""
+    laws = [law for law in world_angles(owner, element, frames) if not law.is_open]
+    return first_faults(laws) if laws and not element.faults(owner) else []
+
+
+def _known_angles(element: Any) -> tuple[Any, Any] | None:
+    """Return the angles in front and behind, if they are known and allowed."""
+    operands = operands_of(element)
+    if any(o.value is FOLLOWS or not o.known or o.traced for o in operands) or element.faults(""):
+        return None
+    numbers = [operand.numbers() for operand in operands]
+    if broadcast_fault({str(place): number.shape for place, number in enumerate(numbers)}):
+        return None  # Named with all other shapes.
+    return angles_of(np, *numbers)
+
+
+_ROUNDING = 1e-7
+"""How far apart two angles may be, in radians."""
+
+_LAST_DIGITS, _LAST_SINGLE_DIGITS = 2.0**-50, 2.0**-22
+"""How far apart two sines may be, of which one comes by Snell's law."""
+
+
+@dataclass(frozen=True, eq=False)
+class WorldAngle(Agreement):
+    """The angle between the directions of two frames of a boundary, and that of its light.
+
+    The operands are that of the frames, and what `angles_of` takes.
+    """
+
+    owner: str
+    enters: str
+    leaves: str
+    rounding: float
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """The incidence, which may be wrong itself."""
+        return (self.owner,)
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        found, *given = numbers
+        front, behind = angles_of(xp, *given)
+        single = [is_single(xp, number) for number in given]
+        last = xp.where(sum(single) > 0, _LAST_SINGLE_DIGITS, _LAST_DIGITS)
+        # An angle next to grazing has fewer digits than its sine.
+        cosine = xp.maximum(xp.minimum(xp.cos(front), xp.cos(behind)), xp.sqrt(last))
+        allowed = max(_ROUNDING, self.rounding) + last / cosine
+        differs = abs(found - self._expected(front, behind)) > allowed
+        return ~differs | xp.isnan(sum(given))
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
+        found, *given = numbers
+        front, behind = angles_of(np, *given)
+        there, expected = _degrees(found), _degrees(self._expected(front, behind))
+        incidence, *indices = self.operands[1:]
+        angle = text_of(incidence, math.degrees(given[0]), " deg")
+        open_ones = [] if incidence.known else [angle]
+        parts = zip(indices, given[1:], strict=True)
+        open_ones += [_index_text(o, number) for o, number in parts if _is_told(o, number)]
+        by = f" ({', '.join(open_ones)})" if open_ones else ""
+        if self._is_passing:
+            return (
+                f"light from '{self.owner}.{self.enters}' to '{self.owner}.{self.leaves}' is "
+                f"turned by {there} in the world, but by {expected} by Snell's law{by}; make them "
+                f"agree"
+            )
+        if self.enters == "in":
+            return (
+                f"the frames of '{self.owner}' meet at an incidence of {there}, but its incidence "
+                f"is {expected}{by}; make them agree"
+            )
+        return (
+            f"the frames of '{self.owner}.back' and '{self.owner}.transmitted' meet at an "
+            f"incidence of {there}, but behind '{self.owner}' it is {expected}{by}; make them agree"
+        )
+
+    @property
+    def _is_passing(self) -> bool:
+        return (self.enters == "in") == (self.leaves == "transmitted")
+
+    def _expected(self, front: Any, behind: Any) -> Any:
+        if self._is_passing:
+            return abs(front - behind)
+        return front if self.enters == "in" else behind
+
+
+def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[WorldAngle]:
+    """Yield what must hold between the frames of a boundary and its values."""
+    given = operands_of(element)
+    if any(operand.value is FOLLOWS for operand in given):
+        return  # What it takes over is looked at.
+    for enters, leaves in (
+        ("in", "reflected"),
+        ("back", "transmitted"),
+        ("in", "transmitted"),
+        ("back", "reflected"),
+    ):
+        if {enters, leaves} <= frames.keys():
+            first, second = frames[enters], frames[leaves]
+            bounces = (enters, leaves) in (("in", "reflected"), ("back", "transmitted"))
+            angle = (incidence_between if bounces else angle_between)(first, second)
+            needed = given
+            if (enters, leaves) == ("in", "reflected"):
+                # What is behind is of no account in front.
+                needed = (*given[:3], *map(operand_of, (1.0, 0.0)), *given[5:])
+                if len(given) == 5:
+                    needed = (given[0], *map(operand_of, (1.0, 0.0, 1.0, 0.0)))
+            yield WorldAngle(
+                (operand_of(angle), *needed), owner, enters, leaves, first.rounding_to(second)
+            )
+
+
+def operands_of(element: Any) -> tuple[Operand, ...]:
+    """Return what `angles_of` takes of a boundary."""
+    before = getattr(element, "incidence_in", None)
+    indices = numbers_of(element.index, INDEX)
+    front = numbers_of(element.outside, INDEX)
+    measured = () if before is None else numbers_of(before, INDEX)
+    return tuple(map(operand_of, (element.incidence, *front, *indices, *measured)))
+
+
+def angles_of(
+    xp: Any, incidence: Any, n1: Any, k1: Any, n: Any, k: Any, *before: Any
+) -> tuple[Any, Any]:
+    """Return the angles of light in front of a boundary and behind it.
+
+    Units: front, behind in radians.
+
+    Examples
+    --------
+    >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 0.0, 1.5, 0.0)
+    >>> print(np.degrees(behind).round(6))
+    25.373994
+    """
+    refract, phase = refraction(of_module(xp)), phase_index(of_module(xp))
+    c, s = xp.cos(incidence), xp.sin(incidence)
+    with np.errstate(all="ignore"):
+        if before:
+            c, s = refract(*phase(*before, c, s), n1, k1, c, s)
+        behind, across = refract(*phase(n1, k1, c, s), n, k, c, s)
+    return xp.arctan2(s, c), xp.arctan2(across, behind)
+
+
+def _is_told(operand: Operand, number: float) -> bool:
+    """Tell whether a number is given when the path runs; no absorption is none."""
+    return not operand.known and (operand.part != "imag" or number != 0.0)
+
+
+def _index_text(operand: Operand, number: float) -> str:
+    """Write a part of an index, and whose value it is."""
+    return f"{'k' if operand.part == 'imag' else 'n'} = {text_of(operand, number)}"
+
+
+def _degrees(angle: Any) -> str:
+    return f"{np.degrees(angle):.9g} deg"

@@ -1,0 +1,359 @@
+"""Retarders: wave plates by retardance or thickness, elliptical retarders."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from optipath.elements.coupling import Coupling, turned
+from optipath.elements.element import Element
+from optipath.elements.known_sizes import vanishes
+from optipath.errors import ValueFault, shown
+from optipath.kernels.catalog import ELLIPTICAL_RETARDER, RETARDER, ROTATION_ALONG, WAVEPLATE
+from optipath.materials.crystals import Crystal
+from optipath.materials.quantities import (
+    ANGLE,
+    FIRST_ROTATION_ANGLE,
+    ROTATION_ANGLE,
+    Angle,
+    Axis,
+    Birefringence,
+    FirstRotationAngle,
+    PartLength,
+    RotationAngle,
+    Wavelength,
+)
+from optipath.values.affine import real_number
+from optipath.values.curve_value import CurveValue
+from optipath.values.operands import Operation
+from optipath.values.wavelength import Wavelength as WavelengthParameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.values.domains import Domain
+    from optipath.values.parameters import Parameter
+
+
+class Retarder(Element, kind="retarder"):
+    """A linear retarder; pi/2 makes it a quarter-wave plate, pi a half-wave plate.
+
+    Parameters
+    ----------
+    retardance : float, array_like or Parameter
+        By how many radians the slow component falls behind the fast one.
+    angle : float, array_like or Parameter, optional
+        The fast axis, in radians from x towards y of the retarder's frame. A quarter-wave
+        plate at 0 turns light polarised at +45 degrees into S3 > 0.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame against the frame of the port before it.
+
+    Examples
+    --------
+    >>> Retarder(retardance=1.5708, angle=0.5).azimuth
+    0.0
+    """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
+
+    retardance: Angle
+    angle: Axis = 0.0
+    azimuth: Angle = 0.0
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the retarder, its axes turned by the angle."""
+        retarding = Operation(RETARDER, (self.retardance,))
+        return (Coupling("in", "out", turned(self.angle, retarding)),)
+
+
+class Waveplate(Element, kind="waveplate"):
+    """A plate of a birefringent crystal, of any order.
+
+    Its retardance is 2 pi thickness birefringence / wavelength (Born & Wolf, Principles of
+    Optics, sec. 15.4.2). Of a thick plate, which retards by thousands of radians, cosine and sine
+    of it have all digits that the numbers have that are given.
+
+    Parameters
+    ----------
+    thickness : float, array_like or Parameter
+        How far light goes through it, in metres, up to a kilometre.
+    birefringence : float, array_like or Parameter
+        The index of the slow axis minus that of the fast one, -10 to 10. Where it is negative,
+        `angle` is that of the slow axis: with n_e - n_o of a crystal (quartz +0.0091, calcite
+        -0.172) that of the ordinary ray, across the optic axis.
+    wavelength : float, array_like or Parameter
+        The wavelength in vacuum, in metres, 1e-12 to 1e-3.
+    angle : float, array_like or Parameter, optional
+        The fast axis, in radians from x towards y of the plate's frame.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame against the frame of the port before it, in radians.
+
+    Examples
+    --------
+    A quarter-wave plate of the tenth order, of quartz at 589 nm:
+
+    >>> plate = Waveplate(10.25 * 589e-9 / 0.0091, 0.0091, 589e-9)
+    >>> print(plate.mueller().matrix[2, 2:].round(12) + 0.0)
+    [ 0. -1.]
+
+    A plate of zero order at 550 nm, with the dispersion of quartz at other wavelengths:
+
+    >>> from optipath import Detector, Source
+    >>> plate = Waveplate.quarter(at="550 nm", crystal="quartz", angle="-45 deg")
+    >>> path = Source(stokes=[1, 1, 0, 0]) >> plate >> Detector()
+    >>> print(path.trace(wavelength=["450 nm", "550 nm", "650 nm"]).docp.round(3))
+    [0.923 1.    0.966]
+    """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
+
+    thickness: PartLength
+    birefringence: Birefringence
+    wavelength: Wavelength
+    angle: Axis = 0.0
+    azimuth: Angle = 0.0
+
+    @classmethod
+    def quarter(
+        cls,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
+    ) -> Self:
+        """Return a quarter-wave plate by the wavelength at which it is one.
+
+        Parameters
+        ----------
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal : str, Crystal, Parameter or float, optional
+            What it is made of: a name of `Crystal.named`, or the birefringence.
+        order : int, optional
+            How many whole waves it retards by besides.
+        angle, azimuth : float, array_like or Parameter, optional
+            Of the fast axis at that wavelength, and of the plate's frame.
+
+        Returns
+        -------
+        Waveplate
+            At the wavelength of the run, so that a path of it takes ``wavelength=``.
+
+        Raises
+        ------
+        ValueFault
+            If any is no such value.
+
+        Examples
+        --------
+        >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
+        615.5
+        """
+        return cls.retarding(math.pi / 2, at, crystal, order=order, angle=angle, azimuth=azimuth)
+
+    @classmethod
+    def half(
+        cls,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
+    ) -> Self:
+        """Return a half-wave plate by the wavelength at which it is one.
+
+        Parameters
+        ----------
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal, order, angle, azimuth
+            As in `quarter`.
+
+        Returns
+        -------
+        Waveplate
+
+        Raises
+        ------
+        ValueFault
+            If any is no such value.
+        """
+        return cls.retarding(math.pi, at, crystal, order=order, angle=angle, azimuth=azimuth)
+
+    @classmethod
+    def retarding(
+        cls,
+        retardance: Any,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
+    ) -> Self:
+        """Return a plate by its retardance at a wavelength.
+
+        Its thickness is (order + retardance / 2 pi) at / abs(n_e - n_o).
+
+        Parameters
+        ----------
+        retardance : float or str
+            Beyond whole waves, in radians, not negative; 0 with an order of 1 is a full-wave plate.
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal, order, angle, azimuth
+            As in `quarter`.
+
+        Returns
+        -------
+        Waveplate
+
+        Raises
+        ------
+        ValueFault
+            If any is no such value.
+        """
+        thickness, birefringence, wavelength = plate_for(retardance, at, crystal, order)
+        return cls(thickness, birefringence, wavelength, angle, azimuth)
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the retarder, its axes turned by the angle."""
+        retarding = Operation(WAVEPLATE, (self.thickness, self.birefringence, self.wavelength))
+        return (Coupling("in", "out", turned(self.angle, retarding)),)
+
+
+class EllipticalRetarder(Element, kind="elliptical-retarder"):
+    """A retarder whose fast state may be of any ellipticity, by its rotation vector.
+
+    The vector (s1, s2, s3) has the length of the retardance, and the direction of the Stokes
+    parameters of the state that is fast; it turns the sphere of polarisation about itself, by the
+    right-hand rule (Chipman, Lam & Young, Polarized Light and Optical Systems (2018), ch. 6).
+    ``Retarder(d, a)`` has (d cos 2a, d sin 2a, 0), ``Rotator(a)`` has (0, 0, 2a).
+
+    Where s2 and s3 are known to be 0, or s1 and s2, it is computed as those are; else it has no
+    Jones matrix here, and is refused where Jones columns are composed.
+
+    Parameters
+    ----------
+    s1, s2, s3 : float, array_like or Parameter, optional
+        By how many radians light along y falls behind that along x, light at -45 degrees behind
+        that at 45, and light of S3 < 0 behind that of S3 > 0; up to 1e15, beyond which floats
+        are more than an eighth of a radian apart.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame against the frame of the port before it, in radians.
+
+    Examples
+    --------
+    >>> from optipath.light.light import Light
+    >>> print(EllipticalRetarder(s2=0.6, s3=0.8) @ Light([1.0, 0.0, 0.6, 0.8]))
+    Light([1. , 0. , 0.6, 0.8])
+    """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("s2",)
+
+    s1: FirstRotationAngle = 0.0
+    s2: RotationAngle = 0.0
+    s3: RotationAngle = 0.0
+    azimuth: Angle = 0.0
+
+    def __post_init__(self) -> None:
+        """Ask besides whether three numbers are the vector."""
+        given = self.s1
+        super().__post_init__()
+        asked = FIRST_ROTATION_ANGLE.doubt("EllipticalRetarder s1", given)
+        if asked and self._is_of_one_component:
+            raise ValueFault(asked)
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every number; beside others, three of s1 are no vector."""
+        found = super().quantities()
+        if self._is_of_one_component:
+            return found
+        first = FIRST_ROTATION_ANGLE
+        return ((name, value, ROTATION_ANGLE if of is first else of) for name, value, of in found)
+
+    @property
+    def _is_of_one_component(self) -> bool:
+        return vanishes(self.s2) and vanishes(self.s3)
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the rotation, by the cheapest kernel that is right."""
+        return (Coupling("in", "out", (self._operation,)),)
+
+    @property
+    def _operation(self) -> Operation:
+        if vanishes(self.s2):
+            if vanishes(self.s3):
+                return Operation(RETARDER, (self.s1,))
+            if vanishes(self.s1):
+                return Operation(ROTATION_ALONG, (self.s3, 0.5))
+        return Operation(ELLIPTICAL_RETARDER, (self.s1, self.s2, self.s3))
+
+
+_TURN = 2.0 * math.pi
+
+
+def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float, Any, Any]:
+    """Return thickness, birefringence and wavelength of a plate.
+
+    Units: retardance in radians; at, thickness in metres.
+
+    Examples
+    --------
+    >>> thickness, _, _ = plate_for("90 deg", "589.3 nm", 0.0091, 0)
+    >>> round(thickness * 1e6, 3)
+    16.19
+    """
+    whole = real_number(order)
+    if whole is None or whole < 0.0 or not whole.is_integer():
+        raise ValueFault(
+            f"order is {shown(order)}; give how many whole waves there are, 0, 1, 2, ..."
+        )
+    phase = _one("retardance", ANGLE.check("retardance", retardance))
+    where = _one("at", WavelengthParameter("at").resolve(at).value)
+    if phase < 0.0:
+        raise ValueFault(
+            f"retardance is {phase:g}; give one of 0 or more, and turn the angle by 90 deg"
+        )
+    birefringence = _birefringence(crystal)
+    there = _at(birefringence, where)
+    if not np.isfinite(there) or there == 0.0:
+        raise ValueFault(
+            f"crystal has a birefringence of {there:g} at {where * 1e9:.10g} nm; give one that "
+            f"retards"
+        )
+    thickness = (whole + phase / _TURN) * where / abs(there)
+    when = (
+        birefringence.given_by[0]
+        if isinstance(birefringence, CurveValue)
+        else WavelengthParameter()
+    )
+    return thickness, -birefringence if there < 0.0 else birefringence, when
+
+
+def _birefringence(crystal: Any) -> Any:
+    if isinstance(crystal, str):
+        crystal = Crystal.named(crystal)
+    found = crystal.birefringence if isinstance(crystal, Crystal) else crystal
+    if isinstance(found, CurveValue) or real_number(found) is not None:
+        return found
+    raise ValueFault(
+        f"crystal is {shown(crystal)}; give a name such as 'quartz', a Crystal, or a birefringence "
+        f"as a number or by wavelength"
+    )
+
+
+def _at(birefringence: Any, wavelength: float) -> float:
+    known = isinstance(birefringence, CurveValue)
+    return float(birefringence.at(wavelength) if known else birefringence)
+
+
+def _one(name: str, number: Any) -> float:
+    if np.ndim(number):
+        raise ValueFault(f"{name} has shape {np.shape(number)}; give one number for one plate")
+    return float(number)

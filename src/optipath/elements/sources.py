@@ -1,0 +1,84 @@
+"""Source: where light begins."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from optipath.elements.coupling import Coupling, numbers_of
+from optipath.elements.element import Element
+from optipath.errors import ValueFault
+from optipath.kernels.catalog import POLARIZED, PRODUCT, UNPOLARIZED
+from optipath.materials.quantities import (
+    INTENSITY,
+    NON_NEGATIVE,
+    Intensity,
+    Spectral,
+    StokesState,
+    YesOrNo,
+)
+from optipath.values.operands import Operation
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Any
+
+    from optipath.values.domains import Domain
+
+
+class Source(Element, kind="source"):
+    """A source of light of any intensity and any state of polarisation.
+
+    Parameters
+    ----------
+    intensity : float, array_like or Parameter, optional
+        What the state is multiplied by; not negative.
+    stokes : array_like, shape (..., 4), or Parameter, optional
+        The state; unpolarised light ``(1, 0, 0, 0)`` by default. The light that
+        leaves is ``intensity * stokes``.
+    physical : bool, optional
+        Whether a state that is polarised by more than 100 % is refused; False for what has been
+        measured with noise.
+    spectrum : Spectrum or array_like, optional
+        What the light is multiplied by at each wavelength of a run: power per nanometre. A
+        `Spectrum` takes the wavelength from the parameter ``wavelength``; without one, light is
+        the same at each.
+
+    Examples
+    --------
+    >>> Source(intensity=100.0)
+    Source(intensity=100.0, stokes=None, physical=True, spectrum=None)
+    """
+
+    inputs: ClassVar[tuple[str, ...]] = ()
+    outputs: ClassVar[tuple[str, ...]] = ("out",)
+
+    intensity: Intensity = 1.0
+    stokes: StokesState | None = None
+    physical: YesOrNo = True  # type: ignore[misc] # each source says it for itself
+    spectrum: Spectral = None
+
+    def __post_init__(self) -> None:
+        """Ask besides whether four numbers are a state."""
+        given = self.intensity
+        super().__post_init__()
+        if self.stokes is None and (doubt := INTENSITY.doubt("Source intensity", given)):
+            raise ValueFault(doubt)
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every number; beside a state, four of an intensity are none."""
+        found = super().quantities()
+        if self.stokes is None:
+            return found
+        return ((name, value, NON_NEGATIVE if of is INTENSITY else of) for name, value, of in found)
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the emission into ``out``."""
+        intensity: Any = self.intensity
+        if self.spectrum is not None:
+            (intensity,) = Operation(PRODUCT, (intensity, self.spectrum)).results(1)
+        arguments: tuple[Any, ...] = (intensity,)
+        kernel = UNPOLARIZED
+        if self.stokes is not None:
+            kernel = POLARIZED
+            arguments += numbers_of(self.stokes, self.domains()["stokes"])
+        return (Coupling(None, "out", (Operation(kernel, arguments),)),)

@@ -1,0 +1,331 @@
+"""Chains of vertices: points in space or angles, checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+import numpy as np
+
+from optipath.elements.known_sizes import bound_value
+from optipath.errors import PathError, ValueFault, shown
+from optipath.kernels.primitives import NUMPY
+from optipath.kernels.trigonometry import cosine, sine
+from optipath.kernels.vertex_chain import LONGEST, SHORTEST, PointsByAngles
+from optipath.materials.quantities import ANGLE, INCIDENCE, Quantity
+from optipath.values.arrays import array_of, check_broadcast, entries_of, read_only, same_fields
+from optipath.values.domains import Choice, Domain
+from optipath.values.jax_values import is_traced, namespace
+from optipath.values.parameters import Parameter
+from optipath.values.precision import held
+from optipath.values.use import kept_value
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import numpy.typing as npt
+
+
+@dataclass(frozen=True, eq=False)
+class VerticesByAngles:
+    """The vertices of a chain of specular reflections, given by angles.
+
+    Legs are of length 1, and the middle one runs from the world's origin along its z. Next to
+    the normal and at grazing incidence, where points tell no plane of incidence, the angles do.
+
+    Parameters
+    ----------
+    incidences : sequence of float, array_like or Parameter
+        The angle of incidence at each reflection, in radians, in order from the light.
+    turns : sequence of float, array_like or Parameter, optional
+        The angle by which each next plane of incidence is turned about the direction of
+        travel against the one before, right-handed; one fewer than `incidences`.
+    backwards : bool, optional
+        Whether light goes the other way through the same points, from the last one to the first;
+        the angles are in the order from there to here then.
+
+    Raises
+    ------
+    PathError
+        If there is no incidence, the numbers of angles do not fit, or `backwards` is neither
+        True nor False.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(0.5,))
+    >>> path = op.path_from_vertices(chain, materials=(1.5, 1.5))
+    >>> list(path.parameters)
+    ['delta']
+    """
+
+    incidences: tuple[Any, ...]
+    turns: tuple[Any, ...] = ()
+    backwards: bool = False
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.backwards, bool):
+            raise PathError(f"backwards must be True or False, not {shown(self.backwards)}")
+        for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
+            several = entries_of(name, "angles", getattr(self, name), PathError)
+            each = tuple(
+                kept_value(f"{name}[{place}]", angle, domain) for place, angle in enumerate(several)
+            )
+            object.__setattr__(self, name, each)
+        count, turns = len(self.incidences), len(self.turns)
+        if not count:
+            raise PathError("vertices by angles need an incidence for each reflection; give one")
+        if turns != count - 1:
+            raise PathError(
+                f"{counted(count, 'incidence')} take{'s' * (count == 1)} "
+                f"{counted(count - 1, 'turn')}, one from each plane of incidence to the next, not "
+                f"{turns}"
+            )
+
+    def parts(self, name: str) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield the angles: their names, values and domains."""
+        for field, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
+            for place, angle in enumerate(getattr(self, field)):
+                yield f"{name}.{field}[{place}]", angle, domain
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+
+def vertices_from_angles(
+    incidences: Sequence[npt.ArrayLike], turns: Sequence[npt.ArrayLike] = ()
+) -> npt.NDArray[np.float64]:
+    """Return the points of a chain of m specular reflections with given angles.
+
+    Parameters
+    ----------
+    incidences : sequence of m array_like
+        The angles of incidence in radians, 0 to pi/2, in order from the light.
+    turns : sequence of m - 1 array_like, optional
+        The turns from each plane of incidence to the next, as `VerticesByAngles` has them.
+
+    Returns
+    -------
+    ndarray, shape (..., m + 2, 3)
+        From the light to the eye; legs are of length 1, the middle one along z.
+
+    Raises
+    ------
+    PathError
+        If the numbers of angles do not fit.
+    ValueFault
+        If an angle is out of its range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> vertices_from_angles([np.pi / 4]).round(12) + 0.0
+    array([[0., 0., 0.],
+           [0., 0., 1.],
+           [0., 1., 1.]])
+    """
+    chain = VerticesByAngles(incidences, turns)  # type: ignore[arg-type]
+    given = {name: domain.check(name, angle) for name, angle, domain in chain.parts("vertices")}
+    batch = check_broadcast({name: angle.shape for name, angle in given.items()})
+    count, cos, sin = len(chain.incidences), cosine(NUMPY), sine(NUMPY)
+    pairs = [part for angle in given.values() for part in (cos(angle), sin(angle))]
+    numbers = PointsByAngles(count, 0, count + 1)(NUMPY)(*pairs)
+    points = np.stack([np.broadcast_to(number, batch) for number in numbers], axis=-1)
+    return points.reshape(*batch, count + 2, 3)
+
+
+def counted(count: int, what: str) -> str:
+    """Return how many there are of something.
+
+    Examples
+    --------
+    >>> counted(1, "turn"), counted(2, "turn")
+    ('1 turn', '2 turns')
+    """
+    return f"{count} {what}{'s' * (count != 1)}"
+
+
+_LEAST, _MOST = SHORTEST**2, LONGEST**2
+
+
+@dataclass(frozen=True)
+class VerticesDomain(Domain):
+    """Points from the light to the eye, in the unit of any length."""
+
+    masks: bool = False
+    ends: bool = False
+
+    @property
+    def takes_any(self) -> bool:
+        """Whether any numbers are let in, which others look at."""
+        return self.masks or self.ends
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        if isinstance(value, VerticesByAngles):
+            return list(value.parts(name))
+        return super().parts(name, value)
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return "the points of a chain, without a unit"
+
+    @property
+    def shows_in_light(self) -> bool:
+        """Two vertices in one point have no direction, and light along none is not finite."""
+        return True
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change; whole numbers, whose differences wrap, as floats.
+
+        Examples
+        --------
+        >>> VERTICES.kept(np.eye(3, dtype=np.uint8)).dtype
+        dtype('float64')
+        """
+        kept = read_only(value)
+        whole = isinstance(kept, np.ndarray) and kept.dtype.kind in "iu"
+        return read_only(kept.astype(np.float64)) if whole else kept
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        if self.takes_any and not is_traced(value):
+            points = array_of(owner, value)
+            if points.dtype.kind in "iuf":
+                self._check_shape(owner, points.shape)
+                return points
+        try:
+            return super().check(owner, value)
+        except ValueFault:
+            # Where all is well, nobody needs to know where.
+            if fault := self._not_finite(owner, value):
+                raise ValueFault(fault) from None
+            raise
+
+    def _not_finite(self, owner: str, value: Any) -> str:
+        try:
+            array = array_of(owner, value)
+        except ValueFault:
+            return ""
+        if array.dtype.kind not in "fc" or array.shape[-2:] != self.tail[-2:] or array.ndim < 2:
+            return ""
+        chains = array.reshape(-1, *array.shape[-2:])
+        bad = np.argwhere(~np.isfinite(chains))
+        if not len(bad):
+            return ""
+        chain, vertex = int(bad[0, 0]), int(bad[0, 1])
+        where, given = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
+        return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {given}; give finite coordinates"
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which chains of an array are allowed."""
+        if self.takes_any:
+            return namespace(numbers).ones(numbers.shape[:-2], bool)
+        return super().allows(numbers).all(axis=(-2, -1)) & legs_fit(numbers).all(axis=-1)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        super()._check_numbers(owner, array, rounding)
+        chains = array.reshape(-1, *array.shape[-2:])
+        for piece in pieces_of(len(chains)):
+            some = chains[piece]
+            if _are_surely_apart(some):
+                continue
+            with np.errstate(over="ignore"):
+                bad = ~legs_fit(some)
+            if bad.any():
+                chain, place = (int(found[0]) for found in np.nonzero(bad))
+                where = of_chain(piece.start + chain, array.shape[:-2])
+                raise ValueFault(_leg_fault(owner, some[chain], place, where))
+
+
+def legs_fit(chains: Any) -> Any:
+    """Return which legs of chains are within the limits, shape (..., m + 1)."""
+    legs = chains[..., 1:, :] - chains[..., :-1, :]
+    squares = namespace(chains).einsum("...i,...i", legs, legs)
+    least, most = held(squares, (_LEAST, _MOST))
+    return (squares >= least) & (squares <= most)
+
+
+def _are_surely_apart(chains: npt.NDArray[Any]) -> bool:
+    """Tell, quickly, whether all legs are within the limits; those from chain to chain as well."""
+    flat = chains.reshape(-1)
+    with np.errstate(over="ignore"):
+        squares = flat[3:] - flat[:-3]
+        squares *= squares
+        lengths = squares[:-2] + squares[1:-1]
+        lengths += squares[2:]
+    of_legs = lengths[::3]
+    return bool(of_legs.min() >= _LEAST and of_legs.max() <= _MOST)
+
+
+def _leg_fault(owner: str, chain: npt.NDArray[Any], place: int, where: str) -> str:
+    both = f"{owner}: vertices {place} and {place + 1}{where}{_COUNTED},"
+    start, end = chain[place], chain[place + 1]
+    if np.array_equal(start, end):
+        return f"{both} are one point, {start.tolist()}; move one, or leave it out"
+    with np.errstate(over="ignore"):
+        length = float(np.max(np.abs(end - start)))
+    return (
+        f"{both} are about {length:.2g} apart; legs are within {SHORTEST:g} .. {LONGEST:g}: give "
+        f"the points in another unit"
+    )
+
+
+_COUNTED = ", counted from the light as 0"
+VERTICES = VerticesDomain("coordinate")
+BAD = ("refuse", "mask")
+"""What becomes of chains that cannot be: an error, or light that is NaN."""
+Vertices: TypeAlias = Annotated[Quantity | VerticesByAngles, VERTICES]
+Bad: TypeAlias = Annotated[str, Choice("what becomes of chains that cannot be", words=BAD)]
+
+
+_AT_ONCE = 1 << 11
+"""How many chains are looked at together, so that they stay in the cache."""
+
+
+def of_chain(chain: int, batch: tuple[int, ...]) -> str:
+    """Return which chain of a batch is meant, ready to be put behind what is in it.
+
+    Examples
+    --------
+    >>> of_chain(0, ()), of_chain(7, (10,)), of_chain(7, (2, 5))
+    ('', ' of chain 7', ' of chain (1, 2)')
+    """
+    if not batch:
+        return ""
+    found = tuple(int(place) for place in np.unravel_index(chain, batch))
+    return f" of chain {found if len(found) > 1 else found[0]}"
+
+
+def pieces_of(count: int) -> Iterator[slice]:
+    """Yield slices of so many chains.
+
+    Examples
+    --------
+    >>> list(pieces_of(3000))
+    [slice(0, 2048, None), slice(2048, 3000, None)]
+    """
+    for start in range(0, count, _AT_ONCE):
+        yield slice(start, min(start + _AT_ONCE, count))
+
+
+def vertices_back(owner: str, vertices: Any) -> Any:
+    """Return the points of a chain from its end to its start.
+
+    Shapes: vertices (..., m + 2, 3); returns (..., m + 2, 3).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> vertices_back("vertex", np.array([[0, 0, 0], [0, 0, 1], [0, 1, 1]])).tolist()
+    [[0, 1, 1], [0, 0, 1], [0, 0, 0]]
+    """
+    if isinstance(vertices, VerticesByAngles):
+        return replace(vertices, backwards=not vertices.backwards)
+    if isinstance(vertices, Parameter):
+        if not vertices.bound:
+            raise PathError(
+                f"the vertices of {owner} are parameter '{vertices.name}', whose points come in "
+                f"the other order on the way back; give the points, or bind them first, "
+                f"path.bind({vertices.name}=...)"
+            )
+        vertices = bound_value(vertices)
+    return vertices[..., ::-1, :]

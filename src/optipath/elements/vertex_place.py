@@ -1,0 +1,587 @@
+"""A vertex in its chain: its place, frames, normals, and whether Snell's law holds there."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from optipath.elements.vertex_chain import VerticesByAngles, of_chain, pieces_of
+from optipath.errors import FrameError, ShapeError, ValueFault, shown
+from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED, REFRACTION
+from optipath.kernels.kernel import Kernel
+from optipath.kernels.primitives import NUMPY, of_module
+from optipath.kernels.vectors import dot, minus
+from optipath.kernels.vertex_chain import LONGEST, SHORTEST, Event, PointsByAngles, points_of
+from optipath.light.frame import Frame
+from optipath.materials.quantities import Quantity
+from optipath.values.agreement import Agreement, text_of
+from optipath.values.arrays import (
+    as_given,
+    check_broadcast,
+    enough_for,
+    first_place,
+    joint_shape,
+    same,
+)
+from optipath.values.domains import Domain
+from optipath.values.jax_values import is_traced
+from optipath.values.messages import cure
+from optipath.values.operands import Operand, Operation
+from optipath.values.parameters import Parameter
+from optipath.values.precision import as_doubles, is_whole, rounding_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Mapping
+
+    import numpy.typing as npt
+
+    from optipath.values.operands import ResultOf
+    from optipath.values.parameters import Resolved
+
+    Floats = npt.NDArray[np.float64]
+
+
+_MOST = (1 << 31) - 1
+_DOUBLE = np.dtype(np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class PlaceInChain:
+    """Which vertex of a chain, as somebody says it; it may be none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> PlaceInChain(np.eye(3), 2, None).faults("mirror")
+    ['mirror.place must be a whole number of 1 .. 1, not 2']
+    """
+
+    vertices: Any
+    number: Any
+    told: Any
+    counted_by: str = "reflections"
+
+    @property
+    def count(self) -> int:
+        """How many vertices there are; 0 where nothing says so."""
+        if isinstance(self.vertices, VerticesByAngles):
+            return len(self.vertices.incidences)
+        if is_whole(self.told, most=_MOST):
+            return int(self.told)
+        value = self.vertices
+        value = value.default if isinstance(value, Parameter) else value
+        shape: tuple[int, ...] = getattr(value, "shape", ())
+        return max(shape[-2] - 2, 0) if len(shape) > 1 else 0
+
+    @property
+    def tail(self) -> tuple[int, int]:
+        """The axes of the points of one chain."""
+        return max(self.count, 1) + 2, 3
+
+    def points_around(self) -> Coordinates:
+        """Return the vertex between its neighbours."""
+        return self._points(self._number - 1)
+
+    def points_from_start(self) -> Coordinates:
+        """Return all points up to the one behind the vertex."""
+        return self._points(0)
+
+    def faults(self, owner: str) -> list[str]:
+        """Return what is wrong with the numbers, a sentence each."""
+        found, name = [], self.counted_by
+        if self.told is not None and not is_whole(self.told, most=_MOST):
+            found.append(f"{owner}.{name} must be a whole number above 0, not {shown(self.told)}")
+        elif not self.count and isinstance(self.vertices, Parameter):
+            found.append(
+                f"{owner}.vertices is a parameter without a default; tell the number of "
+                f"{'vertices' if name == 'count' else name} of the chain, {name}=..."
+            )
+        if not is_whole(self.number, most=self.count or _MOST):
+            up_to = f" of 1 .. {self.count}" if self.count else " above 0"
+            given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
+            found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
+        return found
+
+    @property
+    def _number(self) -> int:
+        # What is no place is told as a fault, and must not be in the way until then.
+        number = self.number if is_whole(self.number) else 1
+        return min(number, max(self.count, 1))
+
+    def _points(self, first: int) -> Coordinates:
+        return coordinates(self.vertices, self.tail[0], first, self._number + 1)
+
+
+def same_points(first: Any, second: Any) -> bool:
+    """Tell whether two chains are equal; points that are not finite are, where they stand alike.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> same_points(np.full((3, 3), np.nan), np.full((3, 3), np.nan))
+    True
+    """
+    if same(first, second):
+        return True
+    kinds = {getattr(chain, "dtype", None) for chain in (first, second)}
+    return kinds == {_DOUBLE} and np.array_equal(first, second, equal_nan=True)
+
+
+class Coordinates(NamedTuple):
+    """Points of a chain: what is given of them, and what makes coordinates of it."""
+
+    arguments: tuple[Operand, ...]
+    points: PointsByAngles | None
+    events: tuple[Operand, ...] = ()
+
+    @property
+    def operands(self) -> tuple[Operand, ...]:
+        """All that is given of them."""
+        return *self.events, *self.arguments
+
+    def given_to(self, kernel: Kernel, *before: Any) -> Operation:
+        """Return the operation of a kernel of coordinates."""
+        return Operation(kernel, (*before, *self._coordinates(self.points)))
+
+    def planes(self, kernel: Kernel) -> Operation:
+        """Return the operation of a kernel of planes of incidence, by `OfPlanes`.
+
+        Angles tell a plane where points do not; the points are to be all from the start.
+        """
+        if self.points is None:
+            factory: Any = replace(kernel.factory, events=len(self.events))  # type: ignore[type-var]
+            return Operation(replace(kernel, factory=factory), self.operands)
+        known: Any = replace(kernel.factory, known=True)  # type: ignore[type-var]
+        points = replace(self.points, axes=True)
+        return Operation(replace(kernel, factory=known), self._coordinates(points))
+
+    def _coordinates(self, points: PointsByAngles | None) -> tuple[Operand | ResultOf, ...]:
+        if points is None:
+            return self.arguments
+        return Operation(Kernel("points", None, points), self.arguments).results(points.gives)
+
+
+def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates:
+    """Return the coordinates of some points of a chain.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> found = coordinates(np.eye(3), 3, 1, 2)
+    >>> [float(view.numbers({})) for view in found.arguments]
+    [0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+    """
+    if isinstance(vertices, VerticesByAngles):
+        angles = [angle for _, angle, _ in vertices.parts("")]
+        operands = tuple(Operand(angle, part) for angle in angles for part in ("cos", "sin"))
+        count, backwards = len(vertices.incidences), vertices.backwards
+        return Coordinates(operands, PointsByAngles(count, first, last, backwards=backwards))
+    places = range(3 * first, 3 * last + 3)
+    return Coordinates(tuple(Operand(vertices, place, (count, 3)) for place in places), None)
+
+
+@dataclass(frozen=True)
+class EventsDomain(Domain):
+    """A number of an `Event` for each vertex of a chain."""
+
+    def described(self) -> str:
+        return (
+            "0 where light is reflected, 1 where it is refracted, 2 behind the end of a chain, or "
+            "3 where there is no such chain"
+        )
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        del parameter
+        raise ValueFault(f"{owner} cannot be a parameter; give {self.described()}")
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        if np.all(_are_events(array)):
+            return  # As quickly as that; the rest is for words.
+        super()._check_numbers(owner, array, rounding)
+        bad = array != np.rint(array)
+        if np.any(bad):
+            number = array[bad].ravel()[0]
+            raise ValueFault(f"{owner} is {number}{first_place(bad)}; give {self.described()}")
+
+
+def _are_events(array: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
+    events = Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT
+    return reduce(np.logical_or, (array == event for event in events))
+
+
+EVENTS = EventsDomain("event", minimum=Event.REFLECTS, maximum=Event.CANNOT)
+Events: TypeAlias = Annotated[Quantity, EVENTS]
+
+
+_MORE = 1.0 + 2.0**-20
+_LEAST, _MOST_SINGLE = _MORE * SHORTEST**2, LONGEST**2 / _MORE
+
+
+@dataclass(frozen=True, eq=False)
+class EventFits(Agreement):
+    """Light can go from point to point as the event at a vertex says.
+
+    The operands are the event, n in front, n and k behind, and the coordinates of three points.
+    """
+
+    owner: str
+
+    @property
+    def shows_in_light(self) -> bool:
+        """Light that cannot go so is not finite."""
+        return True
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        if xp is not np:
+            return _fits(xp, *numbers)
+        found = _surely_fits(*numbers)
+        if not np.all(found):
+            left = ~found
+            several = (np.broadcast_to(number, left.shape)[left] for number in numbers)
+            found[left] = _fits(np, *several)
+        return found
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
+        event, _, _, k, *points = numbers
+        others = "give others, or bad='mask', by which the light of such chains is NaN"
+        if event == Event.CANNOT:
+            return f"there is no such chain, says the event at '{self.owner}'; {others}"
+        three = np.reshape(points, (3, 3))
+        if not np.all(np.isfinite(three)):
+            return f"the points around '{self.owner}' are {three.tolist()}, not finite; {others}"
+        with np.errstate(over="ignore"):
+            lengths = np.max(np.abs(np.diff(three, axis=0)), axis=-1)
+        if not np.all((lengths > SHORTEST) & (lengths < LONGEST)):
+            about = " and ".join(f"{length:.2g}" for length in lengths)
+            return (
+                f"the legs before and behind '{self.owner}' are about {about} long; legs are "
+                f"within {SHORTEST:g} .. {LONGEST:g}: {others}"
+            )
+        if k > 0.0:
+            return (
+                f"light is refracted at '{self.owner}' into a medium that absorbs, k = {k:g}, in "
+                f"which no light goes on to the next point; let it be reflected there (R for T), "
+                f"{others}"
+            )
+        snell = SnellAtVertex((self.operands[1], self.operands[2], *self.operands[4:]), self.owner)
+        return f"{snell.sentence(*numbers[1:3], *points)}; or give bad='mask'"
+
+
+def _fits(xp: Any, *numbers: Any) -> Any:
+    event, n1, n2, k, *points = numbers
+    *_, cos, _ = EVENT_AT_VERTEX.made_for(of_module(xp))(n1, n2, k, event, *points)
+    return ~xp.isnan(cos) | (event == Event.BEHIND)
+
+
+def _surely_fits(event: Any, n1: Any, n2: Any, k: Any, *points: Any) -> Any:
+    """Return where light can go so by a margin, as nearly all does: by products alone."""
+    start, here, end = points_of(points)
+    before, behind = minus(here, start), minus(end, here)
+    with np.errstate(over="ignore", invalid="ignore"):
+        squares = dot(before, before), dot(behind, behind)
+        product = squares[0] * squares[1]
+        along = dot(before, behind)
+        # Light may be turned by arccos(rarer / denser) at most.
+        is_turned_less = np.maximum(n1, n2) * along > _MORE * np.minimum(n1, n2) * np.sqrt(product)
+    fits = (event == Event.REFLECTS) | ((event == Event.REFRACTS) & (k == 0.0) & is_turned_less)
+    for square in squares:
+        fits &= (square > _LEAST) & (square < _MOST_SINGLE)
+    return np.atleast_1d(fits | (event == Event.BEHIND))
+
+
+@dataclass(frozen=True, eq=False)
+class SnellAtVertex(Agreement):
+    """A surface between two media can turn light so far by refraction.
+
+    The operands are the indices in front and behind, and the coordinates of three points.
+    """
+
+    owner: str
+
+    @property
+    def shows_in_light(self) -> bool:
+        """Light that no surface refracts so is not finite."""
+        return True
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        n1, n2, *points = numbers
+        primitives = of_module(xp)
+        half, _ = INCIDENCE.made_for(primitives)(*points)
+        # Short of the most that light may be turned by, as nearly all is, nothing else is asked.
+        larger = xp.maximum(n1, n2)
+        surely = 2.0 * half * half * larger < larger - xp.minimum(n1, n2)
+        if xp is np and np.all(surely):
+            return surely
+        *_, cos, _ = REFRACTION.made_for(primitives)(n1, n2, *points)
+        # Faulty indices and points are told elsewhere.
+        sound = (n1 > 0.0) & (n2 > 0.0) & xp.isfinite(larger) & ~xp.isnan(half)
+        return ~xp.isnan(cos) | ~sound
+
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
+        n1, n2, *points = numbers
+        media = [text_of(operand, n) for operand, n in zip(self.operands, (n1, n2), strict=False)]
+        turned = deviation(points)
+        most = math.degrees(math.acos(min(n1, n2) / max(n1, n2)))
+        between = f"from n = {media[0]} into n = {media[1]}"
+        allowed = f"turns it by {most:.9g} deg at most" if most else "lets it go straight on"
+        instead = cure("SpecularVertex", 'kind = "specular-vertex"')
+        return (
+            f"light is turned by {turned:.9g} deg at '{self.owner}', but a refraction {between} "
+            f"{allowed}; move the points, give other media, or let it be reflected there "
+            f"(events with R for T, or {instead})"
+        )
+
+
+def deviation(points: Any) -> float:
+    """Return by how many degrees light is turned at the middle of three points.
+
+    Examples
+    --------
+    >>> round(deviation([0, 0, 0, 0, 0, 1, 0, 5, 1]), 9)
+    90.0
+    """
+    half, across = INCIDENCE.made_for(of_module(np))(*map(np.float64, points))
+    return 2.0 * math.degrees(math.atan2(half, across))
+
+
+_TOLERANCE = 1e-6
+_SURELY = 0.5
+"""The part of the square of the tolerance that the rounding of a quick look leaves."""
+
+_STRAIGHT = 1e-7
+"""A bisector shorter than this is known to fewer digits than normals are checked to."""
+
+
+def normal_faults(
+    chains: Floats | None, normals: Any, count: int, sides: Floats | None = None
+) -> list[str]:
+    """Return which normals are not along those of their vertices, and by how much.
+
+    That of a reflection is along the bisector k_out - k_in, and that of a refraction along
+    n2 k_out - n1 k_in; between equal media any will do.
+
+    Shapes: chains (..., count + 2, 3); normals (..., count, 3); sides (..., count, 2).
+
+    Examples
+    --------
+    >>> chain = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> normal_faults(chain, [[0.0, -2.0, -2.0]], 1)
+    []
+    >>> normal_faults(chain, [[0.0, 0.0, 0.0]], 1)
+    ['the normal of vertex 1 has no length; give one with a direction of its own']
+    """
+    try:
+        given = as_given("the array of normals", normals)
+    except ValueFault as fault:
+        return list(fault.faults)
+    if given.dtype.kind not in "iuf":
+        return [f"normals must be real numbers, not {shown(normals)}"]
+    if given.shape[-2:] != (count, 3):
+        return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(given))
+    given = as_doubles(given)
+    if chains is None:
+        return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
+    sides = np.ones((count, 2)) if sides is None else sides
+    shapes = {
+        "vertices": chains.shape[:-2],
+        "normals": given.shape[:-2],
+        "materials": sides.shape[:-2],
+    }
+    try:
+        batch = check_broadcast(shapes)
+    except ShapeError as fault:
+        return list(fault.faults)
+    chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
+    given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
+    sides = np.broadcast_to(sides, (*batch, count, 2)).reshape(-1, count, 2)
+    doubted = [
+        piece
+        for piece in pieces_of(len(given))
+        if not _surely_along(chains[piece], given[piece], sides[piece])
+    ]
+    if not doubted:
+        return []
+    whole = chains, given, sides
+    return _own_faults(given, batch) or _off_faults(whole, batch, doubted, tolerance)
+
+
+def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_]:
+    """Return which chains have a normal that is not along that of its vertex.
+
+    Shape: returns (...).
+    """
+    count = normals.shape[-2]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(normals))
+    batch = np.broadcast_shapes(chains.shape[:-2], normals.shape[:-2], sides.shape[:-2])
+    ends = (count + 2, 3), (count, 3), (count, 2)
+    several = (chains, as_doubles(normals), sides)
+    whole = [
+        np.broadcast_to(each, (*batch, *end)).reshape(-1, *end)
+        for each, end in zip(several, ends, strict=True)
+    ]
+    with np.errstate(all="ignore"):
+        off = [
+            np.any(_off(*(e[piece] for e in whole)) > tolerance, -1)
+            for piece in pieces_of(len(whole[0]))
+        ]
+    return np.concatenate(off).reshape(batch)
+
+
+def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
+    """Return which normals are none, whatever the chain."""
+    found = []
+    for bad, problem in (
+        (~np.isfinite(normals).all(axis=-1), "is not finite; give numbers"),
+        (~normals.any(axis=-1), "has no length; give one with a direction of its own"),
+    ):
+        if bad.any():
+            chain, place = (int(index[0]) for index in np.nonzero(bad))
+            found.append(f"{_normal_of(place, chain, batch)} {problem}")
+    return found
+
+
+def _off_faults(
+    whole: tuple[Floats, Floats, Floats],
+    batch: tuple[int, ...],
+    doubted: list[slice],
+    tolerance: float,
+) -> list[str]:
+    """Return the vertex whose normal is furthest off what it must be, if any is too far."""
+    worst, where, wanted = tolerance, "", ""
+    for piece in doubted:
+        part = [each[piece] for each in whole]
+        off = _off(*part)
+        chain, place = map(int, np.unravel_index(np.argmax(off), off.shape))
+        if off[chain, place] > worst:
+            worst = float(off[chain, place])
+            where = _normal_of(place, piece.start + chain, batch)
+            n1, n2 = part[2][chain, place]
+            wanted = "the bisector of its legs" if n1 == n2 else "the one that refracts light so"
+    sentence = (
+        f"{where} is off {wanted} by {np.degrees(worst):.3g} deg; it must be "
+        f"along it to within {tolerance:.2g} rad, or be left out"
+    )
+    return [sentence] if where else []
+
+
+def _normal_of(place: int, chain: int, batch: tuple[int, ...]) -> str:
+    return f"the normal of vertex {place + 1}{of_chain(chain, batch)}"
+
+
+def _surely_along(chains: Floats, normals: Floats, sides: Floats) -> bool:
+    """Tell, quickly, whether all normals are along those of their vertices beyond any doubt.
+
+    By sin^2 = 1 - cos^2, whose rounding is far below the square of the tolerance.
+    """
+    # Component by component, each for all chains: sums of rows, and no short last axis.
+    points, n, n12 = (
+        np.ascontiguousarray(np.moveaxis(each, 0, -1)) for each in (chains, normals, sides)
+    )
+    with np.errstate(all="ignore"):
+        legs = points[1:] - points[:-1]
+        legs /= np.sqrt(_dot(legs, legs))[:, np.newaxis]
+        b = legs[1:] * n12[:, 1, np.newaxis] - legs[:-1] * n12[:, 0, np.newaxis]
+        bb, nb, nn = _dot(b, b), _dot(n, b), _dot(n, n)
+        nb *= nb
+        bent = bb >= _STRAIGHT * _STRAIGHT
+        return bool(np.all((nn * bb - nb <= _SURELY * _TOLERANCE**2 * nb) & bent & (nb > 0.0)))
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    product = a * b
+    found: Floats = product[:, 0] + product[:, 1]
+    found += product[:, 2]
+    return found
+
+
+def _off(chains: Floats, normals: Floats, sides: Floats) -> Floats:
+    """Return the angles between normals and those of the vertices.
+
+    Light that goes straight on has none: surfaces that reflect are all those along it, and
+    those that refract may stand anyhow.
+    """
+    unit = _units(np.diff(chains, axis=-2))
+    normal, (n1, n2) = _units(normals), np.moveaxis(sides, -1, 0)
+    bisector = n2[..., np.newaxis] * unit[..., 1:, :] - n1[..., np.newaxis] * unit[..., :-1, :]
+    along = np.abs(np.sum(normal * bisector, axis=-1))
+    angle = np.arctan2(np.linalg.norm(np.cross(normal, bisector), axis=-1), along)
+    straight = np.linalg.norm(bisector, axis=-1) < _STRAIGHT
+    through = np.arcsin(np.minimum(np.abs(np.sum(normal * unit[..., 1:, :], axis=-1)), 1.0))
+    grazes = np.where((n1 == n2) & (n1 > 0.0), through, 0.0)
+    return np.asarray(np.where(straight, grazes, angle))
+
+
+def _units(several: Floats) -> Floats:
+    scaled = several / np.max(np.abs(several), axis=-1, keepdims=True)
+    return np.asarray(scaled / np.linalg.norm(scaled, axis=-1, keepdims=True))
+
+
+_THREE_AXES = 72
+"""How many bytes the axes of a frame have."""
+
+
+@dataclass(frozen=True)
+class VertexFrame:
+    """How light arrives at the last of some vertices, or how it leaves there.
+
+    On its way from there it may be told in a frame that is turned about its direction.
+    """
+
+    points: Coordinates
+    leaves: bool
+    turns: tuple[Operand, ...] = ()
+
+    def turned(self, *turns: Operand) -> VertexFrame:
+        """Return the frame turned by more angles."""
+        return replace(self, turns=(*self.turns, *turns))
+
+    @property
+    def names(self) -> set[str]:
+        """The open parameters that it depends on."""
+        values = (operand.value for operand in self._views)
+        return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
+
+    def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
+        """Return the frame: x across the plane of incidence, and turned from there.
+
+        Shape: returns (..., 3).
+        """
+        if any(operand.traced for operand in self._views) or any(
+            is_traced(given[name].value) for name in self.names
+        ):
+            raise FrameError(
+                "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
+                "jit and grad"
+            )
+        points = {id(o): cut(_doubles(o, given)) for o in self.points.operands}
+        turns = [cut(_doubles(operand, given)) for operand in self.turns]
+        shape = joint_shape(*(number.shape for number in (*points.values(), *turns)))
+        with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
+            planes = self.points.planes(REFLECTED if self.leaves else ARRIVING)
+            axes = planes.numbers(NUMPY, lambda operand: points[id(operand)])
+            x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
+            y = np.cross(z, x)
+            if turns:
+                angle = np.asarray(sum(turns))[..., np.newaxis]
+                c, s = np.cos(angle), np.sin(angle)
+                x, y = c * x + s * y, c * y - s * x
+        return Frame.trusted(x, y, z)
+
+    @property
+    def _views(self) -> tuple[Operand, ...]:
+        return *self.points.operands, *self.turns
+
+
+def _doubles(operand: Operand, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
+    return operand.numbers(given).astype(np.float64, copy=False)
+
+
+def _vectors(components: Any, shape: tuple[int, ...]) -> Any:
+    return np.stack([np.broadcast_to(part, shape) for part in components], axis=-1)

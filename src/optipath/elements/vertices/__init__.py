@@ -1,1 +1,0 @@
-"""Chains of vertices that light goes along: as points, or by angles."""

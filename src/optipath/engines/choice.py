@@ -1,0 +1,199 @@
+"""Which engine runs a batch: the one that is asked for, or the one that costs least.
+
+What it costs is counted, not timed, so that the same runs are done by the same engines. One
+operation of one path takes so many seconds as floats, by NumPy, and by Numba; NumPy takes more
+for each operation of a batch, however small, and Numba for compiling it.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any, Protocol
+
+from optipath.engines.float_engine import FloatEngine
+from optipath.engines.jax_engine import JaxEngine
+from optipath.engines.numba_engine import NumbaEngine
+from optipath.engines.numpy_engine import NumpyEngine
+
+if TYPE_CHECKING:
+    from optipath.engines.engine import Engine
+
+
+REGISTRY: dict[str, Engine[Any, Any]] = {
+    engine.name: engine for engine in (NumpyEngine(), NumbaEngine(), JaxEngine())
+}
+
+
+ENGINES = ("auto", *REGISTRY)
+
+FLOATS = FloatEngine.name
+"""What runs one path, and a handful one by one: functions of plain Python floats."""
+
+NUMPY_STEPS = "numpy, step by step"
+"""What runs batches that are too small, or paths that are too long, to be compiled for."""
+
+COMPILER = "numba"
+"""The engine that compiles for "auto", where that pays."""
+
+LARGE = 1 << 30
+"""A batch for which any engine is worth its while."""
+
+FEW, SEVERAL = 1 << 10, 3
+"""From how many paths, or after how many runs, a formula is worth its while."""
+
+# Measured on one core at 3 GHz, with formulas of 20 to 1,500 operations.
+_BY_FLOATS, _BY_NUMPY = 9e-9, 0.3e-9
+_CALL = 0.5e-6
+_LOOKING, _LOOKING_AGAIN = 0.15, 0.02
+_BEGINNING, _COMPILING = 0.6, 7e-3
+
+HANDFUL = int(_CALL / (_BY_FLOATS - _BY_NUMPY)) + 1
+"""From how many paths NumPy takes less time than floats one by one, of formulas of any length."""
+
+FORESIGHT = 8.0
+"""A plan that has been given many paths is taken to be given so many times as many in all."""
+
+
+class Work(Protocol):
+    """What a batch may be run by."""
+
+    @property
+    def has_floats(self) -> bool:
+        """Whether a function of floats has been made."""
+
+    def operations(self, *, floats: bool) -> int | None:
+        """Return how many operations a path takes; None where no formula can be made."""
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the compiler's code of it is on disk."""
+
+
+class EngineChoice:
+    """Chooses an engine for each batch of one kind, and keeps count of what others have cost.
+
+    Examples
+    --------
+    >>> EngineChoice("numpy", floats=True).of(10, ...)
+    'numpy, step by step'
+    """
+
+    def __init__(self, engine: str, *, floats: bool, dtype: str = "float64", runs: int = 0) -> None:
+        self.engine = engine
+        self.compiler = COMPILER if engine == "auto" else engine
+        self.most = most_operations(engine, dtype) if is_installed(self.compiler) else -1
+        self.floats = floats
+        self.settled = NUMPY_STEPS if engine == "jax" else ""
+        # For how many paths something is made, be it never asked for again.
+        self._least = FEW if engine in ("auto", "numpy") else 0
+        self._runs = runs
+        self._cost = 0.0
+        self._looked = False
+
+    def of(self, count: int, work: Work, ahead: int = 0) -> str:
+        """Return what runs so many paths."""
+        if self.settled:
+            return self.settled
+        self._runs += 1
+        few = self.engine == "auto" and self.floats and count < HANDFUL
+        if self._runs > SEVERAL and self.engine == "auto":
+            self._least = 0 if self.floats else HANDFUL
+        if count < self._least and not (few and work.has_floats):
+            return NUMPY_STEPS
+        operations = work.operations(floats=few)
+        if operations is None:
+            self.settled = NUMPY_STEPS
+        elif operations <= self.most and self._pays(operations, count, ahead, work):
+            self.settled = self.compiler
+        elif self.engine not in ("auto", "numpy"):
+            self.settled = "numpy"
+        return self.settled or (FLOATS if few else "numpy")
+
+    def _pays(self, operations: int, count: int, ahead: int, work: Work) -> bool:
+        """Tell whether the compiler is worth its while; one that is asked for by name is."""
+        if self.engine != "auto":
+            return True
+        self._cost += cost(operations, count)
+        earned = FORESIGHT * (self._cost + cost(operations, max(0, ahead - count)))
+        if not self._looked:
+            loaded = "llvmlite" in sys.modules
+            self._looked = earned > (_LOOKING_AGAIN if loaded else _LOOKING)
+            if self._looked and work.is_kept:
+                return True
+        return earned > _BEGINNING + _COMPILING * operations
+
+
+class _Unseen:
+    """Paths of which nothing is known but how many operations each takes."""
+
+    has_floats = is_kept = False
+
+    def __init__(self, length: int | None) -> None:
+        self.length = length
+
+    def operations(self, *, floats: bool) -> int | None:
+        del floats
+        return self.length
+
+
+def default_engine(
+    engine: str, count: int, operations: int | None, *, floats: bool, dtype: str = "float64"
+) -> str:
+    """Return what runs so many paths once that has been done several times.
+
+    Examples
+    --------
+    >>> default_engine("auto", 10, 300, floats=True)
+    'floats'
+    >>> default_engine("numba", 10, 300, floats=True)
+    'numba'
+    """
+    choice = EngineChoice(engine, floats=floats, dtype=dtype, runs=SEVERAL)
+    return choice.of(count, _Unseen(operations))
+
+
+def cost(operations: int, count: int) -> float:
+    """Return how many seconds so many paths take without Numba."""
+    return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
+
+
+def most_operations(engine: str, dtype: str) -> float:
+    """Return how many operations are compiled: as many as the engine can take."""
+    limits = REGISTRY[COMPILER if engine == "auto" else engine]
+    if engine == "numpy" or dtype not in limits.precisions:
+        return -1
+    return limits.longest
+
+
+def batches(engine: str, operations: int | None, dtype: str) -> str:
+    """Return in words what runs batches of which size."""
+    most = most_operations(engine, dtype)
+    if 0 <= most < (operations or 0):
+        compiler = (COMPILER if engine == "auto" else engine).capitalize()
+        return (
+            f"large batches are run by numpy: formulas of more than {most:,} operations take "
+            f"{compiler} too long to compile"
+        )
+    if engine == "numpy":
+        return f"fewer than {FEW:,} paths are run step by step, from {FEW:,} by numpy"
+    floats = dtype == "float64"
+    if engine != "auto":
+        runs = engine if most >= 0 else f"numpy, since {engine} does not take {dtype}"
+        if floats:
+            return f"one path of floats is run as Python, every array by {runs}"
+        return f"all paths are run by {runs}"
+    how = "as floats one by one" if floats else "step by step"
+    runs = f"fewer than {HANDFUL} paths are run {how}, more by numpy"
+    if not operations or not is_installed(COMPILER):
+        return runs
+    price = _BEGINNING + _COMPILING * operations
+    paths = price / (FORESIGHT * _BY_NUMPY * operations)
+    return (
+        f"{runs}, and all by {COMPILER} where it has compiled the path before, or after some "
+        f"{float(f'{paths:.2g}'):,.0f} paths, when compiling takes less time than it saves"
+    )
+
+
+def is_installed(engine: str) -> bool:
+    """Tell whether what an engine needs is installed, without importing it."""
+    return engine == "auto" or REGISTRY[engine].is_installed

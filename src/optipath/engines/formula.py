@@ -1,0 +1,255 @@
+"""Formula: the numbers of a run as one list of operations, staged, as Python text.
+
+Next to a right angle that is all there is of its cosine; a formula of fewer digits is given
+both, the angle rounded and what is left of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property, reduce
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.engines.symbols import ONE_AXIS, OPERATIONS, SYMBOLIC, Recorder, Symbol
+from optipath.kernels.trigonometry import (
+    DIGITS,
+    any_quadrant,
+    first_quadrant,
+    from_axes,
+    from_nearer_axis,
+    without_rounding,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from optipath.kernels.primitives import Primitives
+    from optipath.kernels.trigonometry import Digits
+    from optipath.values.operands import Operand
+
+
+@dataclass(frozen=True, eq=False)
+class Formula:
+    """Operations in the order in which they can be done; only those that are needed."""
+
+    dtype: np.dtype[Any]
+    results: tuple[Any, ...]
+    conditions: tuple[Any, ...] = ()
+    wide: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    constants: Mapping[str, Any] = field(default_factory=dict)
+    axes: frozenset[int] = ONE_AXIS
+    last: int | None = None
+    earlier: frozenset[int] = frozenset()
+
+    @cached_property
+    def holds(self) -> Any:
+        """Whether the results are what the path gives."""
+        return reduce(lambda one, other: one & other, self.conditions, np.True_)
+
+    @cached_property
+    def needed(self) -> tuple[Symbol, ...]:
+        """What the results need, in the order in which it can be done."""
+        found: dict[int, Symbol] = {}
+        waiting = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
+        while waiting:
+            symbol = waiting.pop()
+            if symbol.index not in found:
+                found[symbol.index] = symbol
+                if symbol.index not in self.earlier:
+                    waiting += [o for o in symbol.operands if isinstance(o, Symbol)]
+        return tuple(found[index] for index in sorted(found))
+
+    @cached_property
+    def inputs(self) -> tuple[Symbol, ...]:
+        """The numbers that are given, or computed before."""
+        return tuple(s for s in self.needed if s.operation == "input" or s.index in self.earlier)
+
+    @cached_property
+    def lefts(self) -> tuple[Symbol, ...]:
+        """What is left, beside right angles, of angles that are given in more digits."""
+        return tuple(symbol for symbol in self.needed if symbol.operation.startswith("left"))
+
+    @cached_property
+    def unread(self) -> frozenset[str]:
+        """The inputs of more digits that nothing reads, so that nothing checks their ranges."""
+        return frozenset(self.wide) - {self.name_of(symbol) for symbol in self.inputs}
+
+    def name_of(self, symbol: Symbol) -> str:
+        """Return what an input is called."""
+        return f"#{symbol.index}" if symbol.index in self.earlier else str(symbol.operands[0])
+
+    def place_of(self, symbol: Symbol) -> str:
+        """Return where an input differs.
+
+        ``"one"`` for one number, ``"row"`` and ``"column"`` for an array along all but the
+        inner loop, or along that alone, and ``"cell"`` for one along all axes.
+        """
+        if symbol.uniform:
+            return "one"
+        if self.last is None or self.name_of(symbol) in self.wide:
+            return "cell"
+        if self.last not in symbol.axes:
+            return "row"
+        return "column" if len(symbol.axes) == 1 else "cell"
+
+    def whole_of(self, left: Symbol) -> Symbol:
+        """Return the input of which something is left."""
+        # Symbols of earlier stages are no texts, and record what they are compared with.
+        given = (symbol for symbol in self.inputs if symbol.operation == "input")
+        return next(symbol for symbol in given if symbol.operands == left.operands)
+
+    @cached_property
+    def steps(self) -> tuple[Symbol, ...]:
+        """The operations on what is given."""
+        given = {symbol.index for symbol in (*self.inputs, *self.lefts)}
+        return tuple(symbol for symbol in self.needed if symbol.index not in given)
+
+    @cached_property
+    def computed(self) -> tuple[Symbol, ...]:
+        """The results that are not known, in order."""
+        return tuple(result for result in self.results if isinstance(result, Symbol))
+
+    @cached_property
+    def uses(self) -> dict[int, int]:
+        """How often each symbol is an operand or an output."""
+        counts: dict[int, int] = {}
+        operands = [o for step in self.steps for o in step.operands]
+        for operand in (*operands, *self.results, self.holds):
+            if isinstance(operand, Symbol):
+                counts[operand.index] = counts.get(operand.index, 0) + 1
+        return counts
+
+    @cached_property
+    def prologue(self) -> tuple[Symbol, ...]:
+        """The operations on what is one number for the whole batch."""
+        return tuple(step for step in self.steps if step.uniform)
+
+    @cached_property
+    def body(self) -> tuple[Symbol, ...]:
+        """The operations on what differs from path to path."""
+        return tuple(step for step in self.steps if not step.uniform)
+
+    @cached_property
+    def operations(self) -> dict[str, int]:
+        """How many operations there are, in all and of the dear sorts."""
+        counts = {"all": 0, "sqrt": 0, "divide": 0, "sin and cos": 0, "others": 0}
+        for step in self.steps:
+            name = step.operation
+            name = "sin and cos" if name in ("sin", "cos", "arctan2", "exp") else name
+            counts[name if name in counts else "others"] += 1
+        counts["all"] = sum(counts.values())
+        del counts["others"]
+        return counts
+
+
+def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Formula, ...]:
+    """Return formulas to be done one after the other; the last gives the results.
+
+    What depends on a few axes of the batch only is computed along these alone, by a stage
+    whose results are given to later ones.
+    """
+    known: list[Symbol] = []
+    found: list[Formula] = []
+    for own in sorted({s.axes for s in whole.steps if s.axes < axes and s.axes}, key=_order):
+        later = _later(whole, own)
+        results = tuple(s for s in whole.steps if s.axes == own and s.index in later)
+        found.append(_stage(whole, results, own, last, known))
+        known += results
+    done = {symbol.index for symbol in known}
+    results = tuple(
+        result
+        for result in whole.results
+        if not (isinstance(result, Symbol) and result.index in done)
+    )
+    return (*found, _stage(whole, results, axes, last, known, frozenset()))
+
+
+def _later(whole: Formula, own: frozenset[int]) -> set[int]:
+    """Return what is needed of a stage once it is done."""
+    operands = (o for step in whole.steps if step.axes > own for o in step.operands)
+    return {o.index for o in (*operands, *whole.computed) if isinstance(o, Symbol)}
+
+
+def _stage(
+    whole: Formula,
+    results: tuple[object, ...],
+    own: frozenset[int],
+    last: int | None,
+    known: Sequence[Symbol],
+    *others: frozenset[int],
+) -> Formula:
+    """Return what is to be done along some axes; conditions along others may be looked at too."""
+    conditions = tuple(
+        condition
+        for condition in whole.conditions
+        if (condition.axes if isinstance(condition, Symbol) else frozenset()) in (own, *others)
+    )
+    return replace(
+        whole,
+        results=results,
+        conditions=conditions,
+        axes=own,
+        last=last if last in own and len(own) > 1 else None,
+        earlier=frozenset(symbol.index for symbol in known if symbol.axes < own),
+    )
+
+
+def _order(axes: frozenset[int]) -> tuple[int, list[int]]:
+    return len(axes), sorted(axes)
+
+
+FROM_NEARER, FROM_ANY = "left from the nearer axis", "left from axes"
+"""Operations on an angle that is given: within 0 .. pi/2, or any."""
+
+LEFT = {FROM_NEARER: from_nearer_axis, FROM_ANY: from_axes}
+DOUBLE = DIGITS["float64"]
+
+
+@cache
+def left_formula(operation: str) -> Formula:
+    """Return what is left of an angle as a formula of double precision, for engines that compile.
+
+    Examples
+    --------
+    >>> [step.operation for step in left_formula(FROM_NEARER).steps]
+    ['subtract', 'minimum', 'add', 'maximum', 'minimum']
+    """
+    recorder = Recorder(np.dtype(np.float64))
+    left = LEFT[operation](SYMBOLIC, DOUBLE)(recorder.input("angle"))
+    return Formula(recorder.dtype, (left,))
+
+
+def is_in_first_quadrant(operand: Operand, limits: tuple[float, float]) -> bool:
+    """Tell whether the angle of an operand is known to be within 0 .. pi/2."""
+    low, high = limits
+    return not operand.value.is_negative and low >= 0.0 and high <= np.pi / 2
+
+
+def of_angle(
+    xp: Primitives, digits: Digits, operand: Operand, angle: Any, left: Any, *, first: bool
+) -> Any:
+    """Return the cosine or the sine that an operand is."""
+    if first:
+        return first_quadrant(xp, digits)(angle, left)[operand.part == "cos"]
+    value = any_quadrant(xp, digits)(angle, left)[operand.part == "cos"]
+    return without_rounding(xp, lambda _: value)(angle) if left is None else value
+
+
+def indented(*lines: str) -> list[str]:
+    """Return lines one level deeper."""
+    return ["    " + line for line in lines]
+
+
+def assignments(
+    steps: Iterable[Symbol], written: Callable[[Any], str], *, branchless: bool = False
+) -> list[str]:
+    """Return a line for each operation."""
+    found = []
+    for step in steps:
+        text = OPERATIONS[step.operation].text
+        if branchless and step.operation == "where":
+            text = "chosen({0}, {1}, {2})"
+        found.append(f"{written(step)} = {text.format(*map(written, step.operands))}")
+    return found

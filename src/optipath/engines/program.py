@@ -1,0 +1,431 @@
+"""Program: a path as an ordered list of steps, with its loops, ready for an engine.
+
+Nothing here knows a graph or an element. Lights are numbered by the step that
+makes them, evaluations and operands by their place in their lists.
+
+Every way round a loop passes a junction, where lights add up. What light at one brings to
+others is found by sending unit lights along the steps between; a system of equations in the
+intensities along x and y, S2 and S3 of all junctions then gives the light at each.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import cached_property, reduce
+from math import inf
+from operator import and_
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.kernels.carriers.carried import energy, parts_of, unit_light
+from optipath.kernels.carriers.carrier import StokesCarrier
+from optipath.kernels.carriers.intensities import IntensityCarrier
+from optipath.kernels.carriers.structures import FULL, SCALE
+from optipath.kernels.linear_solve import Elimination, is_zero
+from optipath.kernels.vanishing import not_above_rounding
+from optipath.values.operands import Operation, ResultOf
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from optipath.kernels.carriers.carried import Carried, Parts
+    from optipath.kernels.carriers.carrier import Carrier
+    from optipath.kernels.carriers.structures import Numbers
+    from optipath.kernels.kernel import Kernel
+    from optipath.kernels.primitives import Primitives
+    from optipath.values.operands import Operand
+
+
+class Result(NamedTuple):
+    """One of the numbers that an earlier evaluation comes to."""
+
+    evaluation: int
+    place: int
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """A kernel called on operands, and on what other evaluations come to."""
+
+    kernel: Kernel
+    arguments: tuple[int | Result, ...]
+    presence: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Makes one light: the sum of its inputs, changed by an evaluation."""
+
+    label: str
+    inputs: tuple[int, ...]
+    evaluation: int | None = None
+    port: bool = False
+    bounces: int = 0
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A light that a detector or a dump takes.
+
+    Its frame is a `Frame`, or what gives one by the values of a run (`elements`' `VertexFrame`).
+    """
+
+    light: int
+    frame: Any
+    components: int = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """Neighbouring steps whose lights depend on each other: a strongly connected component."""
+
+    junctions: tuple[int, ...]
+    stop: int
+    layered: bool = False
+
+    @property
+    def start(self) -> int:
+        """The first step."""
+        return min(self.junctions)
+
+
+@dataclass(frozen=True)
+class Program:
+    """Everything an engine needs."""
+
+    operands: tuple[Operand, ...]
+    evaluations: tuple[Evaluation, ...]
+    steps: tuple[Step, ...]
+    sources: Mapping[str, tuple[int, Any]]
+    detectors: Mapping[str, Reading]
+    dumps: Mapping[str, Reading]
+    counts: tuple[int, ...] = ()
+    loops: tuple[Loop, ...] = ()
+    links: Mapping[str, Reading] = field(default_factory=dict)
+    live: tuple[tuple[int, ...], ...] = ()
+
+    def count(self, light: int) -> int:
+        """Return by how many components a light is carried."""
+        return self.counts[light] if self.counts else 4
+
+    @cached_property
+    def operations(self) -> tuple[Operation, ...]:
+        """The evaluations as operations of operands."""
+        found: list[Operation] = []
+        for evaluation in self.evaluations:
+            arguments = [
+                ResultOf(found[argument.evaluation], argument.place)
+                if type(argument) is Result
+                else self.operands[argument]  # type: ignore[index]
+                for argument in evaluation.arguments
+            ]
+            found.append(Operation(evaluation.kernel, tuple(arguments)))
+        return tuple(found)
+
+    def presence(self, evaluation: int) -> Operand | None:
+        """Return the operand that says where the element of an evaluation is there at all."""
+        place = self.evaluations[evaluation].presence
+        return None if place is None else self.operands[place]
+
+    @cached_property
+    def takes(self) -> tuple[tuple[int, ...], ...]:
+        """The evaluations whose results each evaluation is given."""
+        results = ([a for a in e.arguments if type(a) is Result] for e in self.evaluations)
+        return tuple([tuple(dict.fromkeys([r.evaluation for r in several])) for several in results])
+
+    @cached_property
+    def given_to(self) -> tuple[tuple[int, ...], ...]:
+        """The operands of each evaluation, and of those whose results it is given."""
+        found: list[tuple[int, ...]] = []
+        for evaluation, takes in zip(self.evaluations, self.takes, strict=True):
+            own = [argument for argument in evaluation.arguments if type(argument) is int]
+            behind = [operand for taken in takes for operand in found[taken]]
+            found.append(tuple(dict.fromkeys([*own, *behind])))
+        return tuple(found)
+
+    @cached_property
+    def taken_by_several(self) -> frozenset[int]:
+        """The evaluations whose results several others are given."""
+        uses = Counter(taken for takes in self.takes for taken in takes)
+        return frozenset(taken for taken, count in uses.items() if count > 1)
+
+    @cached_property
+    def for_powers(self) -> Program | None:
+        """The same for intensities alone, or None where more is carried or read."""
+        reads = {reading.components for reading in self.readings.values()}
+        if self.loops or not self.counts or max(self.counts) > 2 or reads != {1}:
+            return None
+        kernels = [evaluation.kernel.powers or evaluation.kernel for evaluation in self.evaluations]
+        evaluations = (
+            replace(evaluation, kernel=kernel)
+            for evaluation, kernel in zip(self.evaluations, kernels, strict=True)
+        )
+        return replace(self, evaluations=tuple(evaluations))
+
+    @cached_property
+    def light_uses(self) -> tuple[int, ...]:
+        """How often each light is read, by a later step or by a detector."""
+        uses = Counter(light for step in self.steps for light in step.inputs)
+        uses.update(self.times_read)
+        return tuple(uses[light] for light in range(len(self.steps)))
+
+    @cached_property
+    def times_read(self) -> Mapping[int, int]:
+        """How often each light is read at an end, or kept."""
+        return Counter(reading.light for reading in self.readings.values())
+
+    @cached_property
+    def evaluation_uses(self) -> tuple[int, ...]:
+        """How many steps need each evaluation."""
+        uses = Counter(step.evaluation for step in self.steps)
+        return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
+
+    @cached_property
+    def matrices(self) -> Mapping[int, tuple[str, ...]]:
+        """The evaluations that are whole Mueller matrices, and the elements that they are of."""
+        found: dict[int, tuple[str, ...]] = {}
+        for step in self.steps:
+            index = step.evaluation
+            if index is not None and self.evaluations[index].kernel.structure == FULL:
+                found[index] = (*found.get(index, ()), step.label.rpartition(".")[0])
+        return found
+
+    def stretches(self) -> Iterator[tuple[range, Loop | None]]:
+        """Yield the steps in order, those of a loop together and with it."""
+        done = 0
+        for loop in self.loops:
+            yield range(done, loop.start), None
+            yield range(loop.start, loop.stop), loop
+            done = loop.stop
+        yield range(done, len(self.steps)), None
+
+    @cached_property
+    def used_by(self) -> tuple[tuple[int, ...], ...]:
+        """Which steps read each light."""
+        found: list[list[int]] = [[] for _ in self.steps]
+        for light, step in enumerate(self.steps):
+            for source in step.inputs:
+                found[source].append(light)
+        return tuple(map(tuple, found))
+
+    @cached_property
+    def readings(self) -> Mapping[str, Reading]:
+        """All light that is read: by detectors, by dumps, and on links."""
+        return {**self.detectors, **self.dumps, **self.links}
+
+
+LITTLE = 1e-2
+"""What of an unknown does not come back where its sum takes a closer look, as a share."""
+
+_ROUNDING = 1e-9
+"""How much light may gain by roundings of what leaves."""
+
+
+class Column(NamedTuple):
+    """What becomes of one unit of light at a junction until it meets other light again."""
+
+    back: dict[int, Parts]
+    leaves: Any
+
+
+class LoopSolver:
+    """The lights at the junctions of a loop, for any light that arrives there."""
+
+    def __init__(
+        self,
+        program: Program,
+        loop: Loop,
+        numbers: Callable[[int], Numbers],
+        xp: Primitives,
+        number: Callable[[Any], Any],
+        rounded: Callable[[Any], Any] | None = None,
+    ) -> None:
+        self.number = number
+        self.rounded = rounded or number
+        self.program = program
+        self.loop = loop
+        self.numbers = numbers
+        self.carrier = StokesCarrier(xp)
+        self.unknowns = [
+            (junction, part) for junction in loop.junctions for part in range(self.count(junction))
+        ]
+        self._junctions = frozenset(loop.junctions)
+        self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
+        self.columns = [self._column(*unknown) for unknown in self.unknowns]
+        self.leaves = [self._settled(column.leaves) for column in self.columns]
+        self._system = Elimination(
+            xp,
+            [self.scattered(column.back) for column in self.columns],
+            self.leaves,
+            [part < 2 for _, part in self.unknowns],
+            None if rounded is None else reduce(and_, self.fading(), True),  # noqa: FBT003
+        )
+        self.pivots = self._system.pivots
+        self.found: list[Any] = []
+
+    def count(self, junction: int) -> int:
+        """Return by how many components the light at a junction is carried."""
+        return self.program.count(junction)
+
+    def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
+        """Return the parts of the light at each junction, for those of what arrives at some."""
+        given = self.scattered(arriving)
+        found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
+        self.found = [found if is_zero(found) else self.rounded(found) for found in found]
+        lights: dict[int, Parts] = dict.fromkeys(self.loop.junctions, ())
+        for (junction, _), number in zip(self.unknowns, self.found, strict=True):
+            lights[junction] = (*lights[junction], self.rounded(number))
+        return lights
+
+    @property
+    def conditions(self) -> list[Any]:
+        """Whether so much of each unknown leaves that nobody needs to look at it."""
+        enough = [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+        return [*enough, *self.fading(self.pivots)]
+
+    def adds_up(self, slack: float) -> Any:
+        """Return whether what has been found is light that can be, but for roundings.
+
+        Where light gains on each round, its rounds have no sum, and what solves the system is no
+        light: a solution x = b + M x that is one is never less than b + M b + ... + M^n b.
+        """
+        xp, holds = self.carrier.xp, True
+        for junction in self.loop.junctions:
+            parts = [
+                self.found[self._place[junction, part]] for part in range(self.count(junction))
+            ]
+            total = sum(parts[:2])
+            size = xp.where(total > 0.0, total, 1.0)
+            x, *others = (part / size for part in parts)
+            y, *across = others or (x,)
+            squares = sum(part * part for part in across)
+            bright = (x >= -slack) & (y >= -slack) & (squares <= 4.0 * x * y + slack)
+            holds = holds & bright & (total < inf)
+        return holds
+
+    def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:
+        """Return whether no light at any junction, however polarised, gains on its way to others.
+
+        Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
+        where l3^2 + l4^2 <= l1 l2. Numbers that are looked at in any case are left out.
+        """
+        found = []
+        for junction in self.loop.junctions:
+            places = [self._place[junction, part] for part in range(self.count(junction))]
+            along, across = places[:2], [self.leaves[place] for place in places[2:]]
+            found += [
+                self.leaves[place] > -_ROUNDING
+                for place in along
+                if not any(self.leaves[place] is number for number in looked_at)
+            ]
+            squares = [leaves * leaves for leaves in across if not is_zero(leaves)]
+            if squares:
+                most = self.leaves[along[0]] * self.leaves[along[1]] + _ROUNDING
+                found.append(sum(squares) <= most)
+        return found
+
+    def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
+        """Return the parts of the lights at some junctions by their place among the unknowns."""
+        return {
+            self._place[junction, part]: self._settled(number)
+            for junction, parts in lights.items()
+            for part, number in enumerate(parts)
+        }
+
+    def _settled(self, number: Any) -> Any:
+        return 0.0 if is_zero(number) else self.number(number)
+
+    def _column(self, junction: int, part: int) -> Column:
+        """Follow a unit of light at a junction to the next ones."""
+        column, xp = Column({}, 0.0), self.carrier.xp
+        waiting = [(junction, unit_light(part, self.program.count(junction)))]
+        while waiting:
+            light, state = waiting.pop()
+            there = energy(xp, state)
+            passed = [there] * self.program.times_read[light]
+            leaves = sum(passed, start=column.leaves)
+            for user in self.program.used_by[light]:
+                after = self._behind(user, state)
+                passed.append(energy(xp, after))
+                if user in self._junctions:
+                    parts = parts_of(xp, after, self.count(user))
+                    before = column.back.get(user, (0.0,) * len(parts))
+                    sums = (one + other for one, other in zip(before, parts, strict=True))
+                    column.back[user] = tuple(sums)
+                elif self.loop.start <= user < self.loop.stop:
+                    waiting.append((user, after))
+                else:
+                    leaves = leaves + passed[-1]
+            absorbed = there - sum(passed)
+            if not self._only_dims(light):
+                # What a lossless element seems to absorb is its rounding.
+                size = sum(map(xp.absolute, passed), start=xp.absolute(there))
+                absorbed = not_above_rounding(xp, absorbed, size)
+            column = Column(column.back, leaves + absorbed)
+        return column
+
+    def _only_dims(self, light: int) -> bool:
+        """Tell whether light goes one way only, and is dimmed there: the difference is exact."""
+        users = self.program.used_by[light]
+        if len(users) != 1 or self.program.times_read[light]:
+            return False
+        evaluation = self.program.steps[users[0]].evaluation
+        if evaluation is None:
+            return False
+        return self.program.evaluations[evaluation].kernel.structure is SCALE
+
+    def _behind(self, user: int, state: Carried) -> Carried:
+        step, count = self.program.steps[user], self.count(user)
+        if step.evaluation is None:
+            return state
+        structure = self.program.evaluations[step.evaluation].kernel.structure
+        assert structure is not None  # noqa: S101 - sources take no light
+        return self.carrier.act(structure, self.numbers(step.evaluation), state, count)
+
+
+MODELS = ("scalar", "sp", "linear", "full")
+"""What is carried, the smallest first: S0; S0 and S1; S0, S1 and S2; all four."""
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """The program that is run, and how it came out of the path as it stands."""
+
+    program: Program
+    model: str
+    reason: str
+    folded: tuple[str, ...] = ()
+    unreduced: bool = False
+
+    @property
+    def live(self) -> tuple[tuple[int, ...], ...]:
+        """For each light of the program, the components that are alive."""
+        return self.program.live
+
+    def by(self, model: str) -> Reduction:
+        """Return the same carried by another model, exact or not."""
+        counts = (MODELS.index(model) + 1,) * len(self.program.steps)
+        return replace(self, program=replace(self.program, counts=counts), model=model)
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """What is taken in place of an exact model where a certificate allows it."""
+
+    model: str
+    most: float
+
+
+_SPARE = 2.0**60
+"""How far the numbers of a quotient keep from where they lose digits."""
+
+
+def carrying(
+    program: Program, carrier: type[Carrier], xp: Primitives, dtype: str
+) -> tuple[Program, Carrier]:
+    """Return what is done to light, and its carrier: intensities alone where that will do."""
+    if carrier is StokesCarrier and program.for_powers is not None:
+        return program.for_powers, IntensityCarrier(xp, float(np.finfo(dtype).tiny) * _SPARE)
+    return program, carrier(xp)

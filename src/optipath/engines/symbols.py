@@ -1,0 +1,456 @@
+"""Symbols: numbers not known yet, and the operations recorded of them."""
+
+from __future__ import annotations
+
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+from optipath.kernels.exponential import reproducible
+from optipath.kernels.primitives import NUMPY, Primitives, is_below_rounding, product_rest
+from optipath.kernels.trigonometry import DIGITS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class Record(Protocol):
+    """What symbols ask of whoever keeps what is done to them."""
+
+    def record(self, operation: str, *operands: Any) -> Any:
+        """Return what an operation comes to: a symbol, or a number where that is known."""
+
+    def require(self, condition: Any) -> None:
+        """Note what must be true for the formula to hold."""
+
+
+def _operator(operation: str, *, reflected: bool = False) -> Callable[..., Any]:
+    """Return the method of an operator; reflected, of one whose second operand is the symbol."""
+
+    def method(self: Symbol, *others: Any) -> Any:
+        operands = (*others, self) if reflected else (self, *others)
+        return self.recorder.record(operation, *operands)
+
+    return method
+
+
+class Symbol:
+    """An elementwise operation on other symbols and on numbers, recorded and not done.
+
+    Kernels that are given symbols in place of numbers leave a record of what they compute;
+    engines make code of it.
+    """
+
+    __slots__ = ("axes", "index", "kind", "operands", "operation", "positive", "recorder")
+    __array_ufunc__ = None  # So that NumPy's scalars leave operators to this class.
+    __hash__ = None  # type: ignore[assignment] # Nor is it looked up in place of a number.
+
+    def __init__(
+        self,
+        recorder: Record,
+        operation: str,
+        operands: tuple[Any, ...],
+        kind: str,
+        *,
+        axes: frozenset[int],
+        index: int,
+        positive: bool = False,
+    ) -> None:
+        self.recorder = recorder
+        self.operation = operation
+        self.operands = operands
+        self.kind = kind
+        self.axes = axes
+        self.index = index
+        self.positive = positive
+
+    @property
+    def uniform(self) -> bool:
+        """Whether it is one number for the whole batch."""
+        return not self.axes
+
+    def __bool__(self) -> bool:
+        raise TypeError("a number that is not known yet is neither true nor false; use xp.where")
+
+    def __str__(self) -> str:
+        raise TypeError("a number that is not known yet has no digits; use xp.where")
+
+    def __repr__(self) -> str:
+        return f"<Symbol {self.index}: {self.operation}>"
+
+    def __pos__(self) -> Any:
+        return self
+
+    __add__, __radd__ = _operator("add"), _operator("add", reflected=True)
+    __sub__, __rsub__ = _operator("subtract"), _operator("subtract", reflected=True)
+    __mul__, __rmul__ = _operator("multiply"), _operator("multiply", reflected=True)
+    __truediv__, __rtruediv__ = _operator("divide"), _operator("divide", reflected=True)
+    __floordiv__ = _operator("floor_divide")
+    __mod__ = _operator("remainder")
+    __pow__, __rpow__ = _operator("power"), _operator("power", reflected=True)
+    __and__, __rand__ = _operator("logical_and"), _operator("logical_and", reflected=True)
+    __or__, __ror__ = _operator("logical_or"), _operator("logical_or", reflected=True)
+    __neg__ = _operator("negative")
+    __abs__ = _operator("absolute")
+    __invert__ = _operator("logical_not")
+    __lt__ = _operator("less")
+    __le__ = _operator("less_equal")
+    __gt__ = _operator("greater")
+    __ge__ = _operator("greater_equal")
+    __eq__ = _operator("equal")
+    __ne__ = _operator("not_equal")
+
+
+class About(NamedTuple):
+    """What is known of an operation."""
+
+    ufunc: Callable[..., Any]
+    kind: str
+    text: str
+    commutes: bool = False
+
+
+OPERATIONS = {
+    "absolute": About(np.absolute, "same", "abs({0})"),
+    "add": About(np.add, "same", "{0} + {1}", commutes=True),
+    "arctan2": About(np.arctan2, "float", "atan2({0}, {1})"),
+    "cos": About(np.cos, "float", "cos({0})"),
+    "divide": About(np.divide, "float", "{0} / {1}"),
+    "equal": About(np.equal, "bool", "{0} == {1}", commutes=True),
+    "exp": About(np.exp, "float", "exp({0})"),
+    "exponent": About(NUMPY.scaling, "int", "exponent({0})"),
+    "fixed": About(lambda number: number, "same", "{0}"),
+    "floor_divide": About(np.floor_divide, "same", "{0} // {1}"),
+    "greater": About(np.greater, "bool", "{0} > {1}"),
+    "greater_equal": About(np.greater_equal, "bool", "{0} >= {1}"),
+    "integer": About(NUMPY.integer, "int", "int({0})"),
+    "ldexp": About(np.ldexp, "float", "ldexp({0}, {1})"),
+    "less": About(np.less, "bool", "{0} < {1}"),
+    "less_equal": About(np.less_equal, "bool", "{0} <= {1}"),
+    "logical_and": About(np.logical_and, "bool", "{0} & {1}", commutes=True),
+    "logical_not": About(np.logical_not, "bool", "not {0}"),
+    "logical_or": About(np.logical_or, "bool", "{0} | {1}", commutes=True),
+    "maximum": About(np.maximum, "same", "{0} if {0} >= {1} else {1}", commutes=True),
+    "minimum": About(np.minimum, "same", "{0} if {0} <= {1} else {1}", commutes=True),
+    "multiply": About(np.multiply, "same", "{0} * {1}", commutes=True),
+    "negative": About(np.negative, "same", "-{0}"),
+    "not_equal": About(np.not_equal, "bool", "{0} != {1}", commutes=True),
+    "power": About(np.power, "float", "{0} ** {1}"),
+    "product_rest": About(product_rest, "float", "product_rest({0}, {1})", commutes=True),
+    "remainder": About(np.remainder, "same", "{0} % {1}"),
+    "sin": About(np.sin, "float", "sin({0})"),
+    "sqrt": About(np.sqrt, "float", "sqrt({0})"),
+    "subtract": About(np.subtract, "same", "{0} - {1}"),
+    "where": About(np.where, "same", "{1} if {0} else {2}"),
+}
+
+
+ONE_AXIS = frozenset({0})
+"""What differs from path to path, where paths have no order of their own."""
+
+
+class Recorder:
+    """A record of operations in the order in which they can be done.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> recorder = Recorder(np.dtype("float64"))
+    >>> x = recorder.input("x")
+    >>> (x + 1.0) is (1.0 + x), x * 0.0, x * 1.0 is x
+    (True, np.float64(0.0), True)
+    """
+
+    def __init__(self, dtype: np.dtype[Any]) -> None:
+        self.dtype = dtype
+        self.symbols: list[Symbol] = []
+        self.requirements: list[Any] = []
+        self.wide: dict[str, tuple[float, float]] = {}
+        self.constants: dict[str, Any] = {}
+        self._known: dict[Any, Symbol] = {}
+
+    def opaque(self, number: Any) -> Any:
+        """Return a symbol for a number that is known, so that nothing comes of knowing it."""
+        if isinstance(number, Symbol):
+            return number
+        name = f"={number!r}"
+        self.constants[name] = number
+        return self.input(name, axes=frozenset())
+
+    def input(
+        self,
+        name: str,
+        kind: str = "float",
+        *,
+        axes: frozenset[int] = ONE_AXIS,
+        left: str = "",
+    ) -> Symbol:
+        """Return the symbol of a number that is given, or of what is left of an angle."""
+        operation = left or "input"
+        return self._entered((operation, name), operation, (name,), kind, axes)
+
+    def record(self, operation: str, *operands: Any) -> Any:
+        """Return what an operation comes to: a symbol, or a number where that is known."""
+        about = OPERATIONS[operation]
+        operands = self._alike(operation, operands)
+        symbols = [operand for operand in operands if isinstance(operand, Symbol)]
+        if not symbols:
+            with np.errstate(all="ignore"):
+                return about.ufunc(*operands)[()]
+        found = simplified(operation, operands)
+        if found is not UNKNOWN:
+            return found
+        names = [o.index if isinstance(o, Symbol) else repr(o) for o in operands]
+        if about.commutes:
+            names.sort(key=str)
+        kind = _kind(operands[-1]) if about.kind == "same" else about.kind
+        axes = frozenset().union(*[symbol.axes for symbol in symbols])
+        symbol = self._entered((operation, *names), operation, operands, kind, axes)
+        symbol.positive = kind == "float" and stays_positive(operation, operands)
+        return symbol
+
+    def require(self, condition: Any) -> None:
+        """Note what must be true for the formula to hold."""
+        if not any(condition is known for known in self.requirements):
+            self.requirements.append(condition)
+
+    def _alike(self, operation: str, operands: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return the operands, whole numbers beside others made like them."""
+        if operation == "ldexp":
+            return self._number(operands[0], "float"), self._number(operands[1], "int")
+        if operation == "where":
+            return self._number(operands[0], "bool"), *self._alike("", operands[1:])
+        kinds = {_kind(operand) for operand in operands}
+        kind = "float" if OPERATIONS.get(operation, _SAME).kind == "float" else ""
+        kind = kind or next(name for name in ("float", "int", "bool") if name in kinds)
+        return tuple([self._number(operand, kind) for operand in operands])
+
+    def _number(self, value: Any, kind: str) -> Any:
+        if isinstance(value, Symbol):
+            return value
+        return {"bool": np.bool_, "int": np.int64, "float": self.dtype.type}[kind](value)
+
+    def _entered(
+        self, key: Any, operation: str, operands: tuple[Any, ...], kind: str, axes: frozenset[int]
+    ) -> Symbol:
+        if key not in self._known:
+            symbol = Symbol(self, operation, operands, kind, axes=axes, index=len(self.symbols))
+            self._known[key] = symbol
+            self.symbols.append(symbol)
+        return self._known[key]
+
+
+_SAME = OPERATIONS["add"]
+
+
+def _kind(operand: Any) -> str:
+    if isinstance(operand, Symbol):
+        return operand.kind
+    if isinstance(operand, (bool, np.bool_)):
+        return "bool"
+    return "int" if isinstance(operand, (int, np.integer)) else "float"
+
+
+UNKNOWN = object()
+"""What `simplified` returns where nothing is simpler."""
+
+
+def simplified(operation: str, operands: tuple[Any, ...]) -> Any:
+    """Return the operand or number that an operation comes to, or `UNKNOWN`.
+
+    A product with 0 is 0: a number that is not finite is found out elsewhere, since it
+    reaches the intensity.
+    """
+    rule = _RULES.get(operation)
+    return UNKNOWN if rule is None else rule(*operands)
+
+
+def is_number(operand: Any, value: float) -> bool:
+    """Tell whether an operand is known, and this number."""
+    return not isinstance(operand, Symbol) and bool(operand == value)
+
+
+def is_positive(operand: Any) -> bool:
+    """Tell whether an operand is known not to be negative."""
+    return operand.positive if isinstance(operand, Symbol) else bool(operand >= 0.0)
+
+
+def stays_positive(operation: str, operands: tuple[Any, ...]) -> bool:
+    """Tell whether a result is known not to be negative."""
+    match operation:
+        case "absolute" | "sqrt" | "exp":
+            return True
+        case "multiply" if operands[0] is operands[1]:
+            return True
+        case "add" | "multiply" | "divide" | "minimum":
+            return all(map(is_positive, operands))
+        case "maximum":
+            return any(map(is_positive, operands))
+        case "where":
+            return all(map(is_positive, operands[1:]))
+        case "ldexp":
+            return is_positive(operands[0])
+    return False
+
+
+def _add(a: Any, b: Any) -> Any:
+    if is_number(a, 0.0):
+        return b
+    return a if is_number(b, 0.0) else UNKNOWN
+
+
+def _subtract(a: Any, b: Any) -> Any:
+    if is_number(b, 0.0):
+        return a
+    if is_number(a, 0.0):
+        return -b
+    if isinstance(b, Symbol) and b.operation == "where" and is_number(b.operands[2], 0.0):
+        condition, yes, no = b.operands
+        if yes is a:
+            return b.recorder.record("where", condition, no, a)
+    return UNKNOWN
+
+
+def _multiply(a: Any, b: Any) -> Any:
+    for one, other in ((a, b), (b, a)):
+        if is_number(one, 0.0):
+            return one * 0.0 if one.dtype.kind == "i" else abs(one)
+        if is_number(one, 1.0):
+            return other
+    return UNKNOWN
+
+
+def _divide(a: Any, b: Any) -> Any:
+    if is_number(a, 0.0):
+        return abs(a)
+    return a if is_number(b, 1.0) else UNKNOWN
+
+
+def _negative(a: Any) -> Any:
+    return a.operands[0] if a.operation == "negative" else UNKNOWN
+
+
+def _absolute(a: Any) -> Any:
+    return a if a.positive else UNKNOWN
+
+
+def _where(condition: Any, yes: Any, no: Any) -> Any:
+    if not isinstance(condition, Symbol):
+        return yes if condition else no
+    alike = yes is no or (
+        not isinstance(yes, Symbol) and not isinstance(no, Symbol) and bool(yes == no)
+    )
+    return yes if alike else UNKNOWN
+
+
+def _and(a: Any, b: Any) -> Any:
+    for one, other in ((a, b), (b, a)):
+        if not isinstance(one, Symbol):
+            return other if one else np.False_
+    return a if a is b else UNKNOWN
+
+
+def _or(a: Any, b: Any) -> Any:
+    for one, other in ((a, b), (b, a)):
+        if not isinstance(one, Symbol):
+            return np.True_ if one else other
+    return a if a is b else UNKNOWN
+
+
+def _less(a: Any, b: Any) -> Any:
+    """Nothing that is not negative is less than 0."""
+    return np.False_ if is_number(b, 0.0) and is_positive(a) else UNKNOWN
+
+
+def _greater_equal(a: Any, b: Any) -> Any:
+    return np.True_ if is_number(b, 0.0) and is_positive(a) else UNKNOWN
+
+
+def _equal(a: Any, b: Any) -> Any:
+    return np.True_ if a is b and a.kind == "bool" else UNKNOWN
+
+
+def _maximum(a: Any, b: Any) -> Any:
+    for one, other in ((a, b), (b, a)):
+        if is_number(other, 0.0):
+            if is_positive(one):
+                return one
+            if one.operation == "negative" and is_positive(one.operands[0]):
+                return other
+    return a if a is b else UNKNOWN
+
+
+def _minimum(a: Any, b: Any) -> Any:
+    for one, other in ((a, b), (b, a)):
+        if is_number(other, 0.0) and is_positive(one):
+            return other
+    return a if a is b else UNKNOWN
+
+
+def _fixed(a: Any) -> Any:
+    return a
+
+
+def _power(a: Any, b: Any) -> Any:
+    if is_number(b, 1.0):
+        return a
+    return a * a if is_number(b, 2.0) else UNKNOWN
+
+
+_RULES: dict[str, Callable[..., Any]] = {
+    "absolute": _absolute,
+    "add": _add,
+    "divide": _divide,
+    "equal": _equal,
+    "fixed": _fixed,
+    "greater_equal": _greater_equal,
+    "less": _less,
+    "logical_and": _and,
+    "logical_or": _or,
+    "maximum": _maximum,
+    "minimum": _minimum,
+    "multiply": _multiply,
+    "negative": _negative,
+    "power": _power,
+    "subtract": _subtract,
+    "where": _where,
+}
+
+
+def record(operation: str, *operands: Any) -> Any:
+    """Return what an operation on symbols comes to, or on numbers if all are known."""
+    for operand in operands:
+        if isinstance(operand, Symbol):
+            return operand.recorder.record(operation, *operands)
+    return OPERATIONS[operation].ufunc(*operands)[()]
+
+
+def _recording(*names: str, **others: str) -> dict[str, Any]:
+    operations = {**{name: name for name in names}, **others}
+    return {name: partial(record, operation) for name, operation in operations.items()}
+
+
+SYMBOLIC = Primitives(
+    **_recording("where", "sqrt", "absolute", "maximum", "minimum", "sin", "cos", "exp"),
+    **_recording("ldexp", "fixed", "integer", atan2="arctan2", scaling="exponent"),
+    two_product=lambda a, b: (record("multiply", a, b), record("product_rest", a, b)),
+    below_rounding=is_below_rounding,
+)
+"""Primitives that record what kernels do with them, each function as one operation."""
+
+
+@cache
+def reproducible_symbolic(dtype: str) -> Primitives:
+    """Return primitives that record elementary functions as every engine does them alike.
+
+    Angles that are too large for them become a requirement of the record.
+    """
+
+    def small_enough(angle: Any) -> Any:
+        if isinstance(angle, Symbol):
+            angle.recorder.require(abs(angle) <= DIGITS[dtype].most)
+            return True
+        return abs(angle) <= DIGITS[dtype].most
+
+    return reproducible(SYMBOLIC, dtype, small_enough)

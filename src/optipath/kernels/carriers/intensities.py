@@ -1,0 +1,238 @@
+"""Light carried as intensities alone, and bounds of the intensity without polarization.
+
+With u = artanh(DoP of the source) and d_i = artanh(diattenuation of element i), the intensity
+behind a chain of elements that do not depolarise is that without polarisation, times
+cosh(eta) / (cosh u prod cosh d_i), where max(0, 2 max - sum) <= eta <= sum over {u, d_i}: each
+element is a boost of the Stokes vector (Barakat, J. Opt. Soc. Am. 53, 1963), and boosts of
+unknown directions add up like hyperbolic lengths. The products below are these terms without
+the artanh, so that a perfect polariser is a number like any other.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import reduce
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.kernels.carriers.carrier import Carrier
+from optipath.kernels.carriers.structures import Intensities, along_x_and_y, in_all
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.kernels.carriers.carried import Components
+    from optipath.kernels.carriers.structures import Numbers, Structure
+    from optipath.kernels.primitives import Primitives
+
+
+class IntensityCarrier(Carrier):
+    """Carries intensities over one denominator, which is divided by at the very end.
+
+    Examples
+    --------
+    >>> from optipath.kernels.carriers.structures import BLOCK
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> carrier = IntensityCarrier(FLOAT)
+    >>> light = carrier.emit((1.0, 0.0, 0.0, 0.0), 1)
+    >>> carrier.read(carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), light, 1), 1)
+    ((0.375, 0.0, 0.0, 0.0), 0)
+    """
+
+    def __init__(self, xp: Primitives, least: float = 0.0) -> None:
+        super().__init__(xp)
+        self.least = least
+
+    def emit(self, stokes: Components, count: int = 2) -> Intensities:
+        s0, s1 = stokes[:2]
+        if count == 1:
+            return s0, 1.0
+        return 0.5 * (s0 + s1), 0.5 * (s0 - s1), 1.0
+
+    def act(
+        self, structure: Structure, numbers: Numbers, state: Intensities, count: int = 2
+    ) -> Intensities:
+        return structure.powers_for(self.xp)(numbers, state, count)
+
+    def add(self, first: Intensities, second: Intensities) -> Intensities:
+        if len(first) == len(second) == 2:
+            return first[0] * second[1] + second[0] * first[1], first[1] * second[1]
+        x1, y1, over1 = along_x_and_y(first)
+        x2, y2, over2 = along_x_and_y(second)
+        return x1 * over2 + x2 * over1, y1 * over2 + y2 * over1, over1 * over2
+
+    def read(self, state: Intensities, count: int = 1) -> tuple[Components, Any]:
+        del count
+        total, over = in_all(state)
+        kept = (total >= self.least) & (over >= self.least)
+        return (self.xp.where(kept, total / over, 0.0), 0.0, 0.0, 0.0), 0
+
+
+class Boosts(NamedTuple):
+    """What is known of several boosts of the tangents hyperbolic t_i."""
+
+    most: Any
+    more: Any = 1.0
+    less: Any = 1.0
+
+
+def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
+    """Return the boosts with one more.
+
+    Examples
+    --------
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> boosted(FLOAT, Boosts(0.5), 0.25)
+    Boosts(most=0.5, more=1.25, less=0.75)
+    """
+    most, other = xp.maximum(boosts.most, t), xp.minimum(boosts.most, t)
+    return Boosts(most, boosts.more * (1.0 + other), boosts.less * (1.0 - other))
+
+
+def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
+    """Return the least and the largest ratio of the true intensity to that of no polarisation.
+
+    Examples
+    --------
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> ratio_bounds(FLOAT, Boosts(0.5, 1.5, 0.5))
+    (0.75, 1.25)
+    """
+    most, more, less = boosts
+    upper = 0.5 * ((1.0 + most) * more + (1.0 - most) * less)
+    opposed = 0.5 * ((1.0 + most) * less + (1.0 - most) * more)
+    # All others together may undo the largest, unless it is more than they are.
+    undone = xp.sqrt((1.0 - most) * (1.0 + most) * more * less)
+    return xp.where(most * (more + less) >= more - less, opposed, undone), upper
+
+
+def dop_bound(boosts: Boosts) -> Any:
+    """Return the largest degree of polarisation that boosts can give, or add up to.
+
+    Examples
+    --------
+    >>> dop_bound(Boosts(0.5, 1.5, 0.5))
+    0.8
+    """
+    more, less = (1.0 + boosts.most) * boosts.more, (1.0 - boosts.most) * boosts.less
+    return (more - less) / (more + less)
+
+
+def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
+    """Return the largest error of a model of the intensity, from the bounds of the scalar one.
+
+    As a share of the true intensity, or of that of the model, whichever is larger. What any
+    model gives that drops components lies between the bounds, too.
+
+    Examples
+    --------
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> largest_error(FLOAT, 0.5, 1.25, "scalar"), largest_error(FLOAT, 0.5, 1.25, "sp")
+    (1.0, 1.5)
+    """
+    there = lower > 0.0
+    lower = xp.where(there, lower, 1.0)
+    error = xp.maximum(1.0 / lower - 1.0, upper - 1.0) if model == "scalar" else upper / lower - 1.0
+    return xp.where(there, error, math.inf)
+
+
+class Bounded(NamedTuple):
+    """Light of which nothing is known but its intensity without polarisation, and bounds."""
+
+    total: Any
+    lower: Any
+    upper: Any
+    boosts: Boosts
+    excess: Any = 0.0
+
+
+class BoundsCarrier(Carrier):
+    """Carries intensities without polarisation, with bounds of what polarisation does.
+
+    What is read is the intensity without polarisation, the least and the largest ratio of the true
+    one to it, and the largest degree of polarisation. The bounds hold for
+    physical matrices, which `is_physical` tells.
+
+    Examples
+    --------
+    >>> from optipath.kernels.carriers.structures import BLOCK
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> carrier, half = BoundsCarrier(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)
+    >>> light = carrier.act(BLOCK, half, carrier.emit((1.0, 0.0, 0.0, 0.0)))
+    >>> carrier.read(carrier.act(BLOCK, half, light))
+    ((0.25, 0.75, 1.25, 0.8), 0)
+    """
+
+    def __init__(self, xp: Primitives, slack: Any = 2.0**-44) -> None:
+        super().__init__(xp)
+        self.slack = slack
+
+    def emit(self, stokes: Components, count: int = 1) -> Bounded:
+        del count
+        s0, *rest = stokes
+        dop = self._ratio(rest, s0)
+        excess = self.xp.maximum(dop - 1.0, 0.0)
+        return Bounded(s0, 1.0, 1.0, Boosts(self.xp.minimum(dop, 1.0)), excess)
+
+    def act(
+        self, structure: Structure, numbers: Numbers, state: Bounded, count: int = 1
+    ) -> Bounded:
+        del count
+        rows = structure.rows(self.xp, numbers)
+        mean, *first = rows[0]
+        diattenuation = self._share(first, mean)
+        total, lower, upper, boosts, excess = state
+        after = boosted(self.xp, boosts, diattenuation)
+        if structure.jones is not None:
+            return Bounded(mean * total, lower, upper, after, excess)
+        # What may depolarise is no boost. The intensity behind it is bounded as if it were, and
+        # its light by what the matrix can do at most.
+        least, most = ratio_bounds(self.xp, after)
+        before = dop_bound(boosts)
+        polarizance = self._share([row[0] for row in rows[1:]], mean)
+        kept = self._share([entry for row in rows[1:] for entry in row[1:]], mean)
+        left = 1.0 - diattenuation * before
+        dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
+        dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
+        return Bounded(mean * total, lower * least, upper * most, Boosts(dop), excess)
+
+    def add(self, first: Bounded, second: Bounded) -> Bounded:
+        # Of the degrees of polarisation the larger one is counted.
+        xp, sums, dop = self.xp, [0.0, 0.0, 0.0], []
+        for light in (first, second):
+            least, most = ratio_bounds(xp, light.boosts)
+            shares = 1.0, light.lower * least, light.upper * most
+            sums = [one + light.total * share for one, share in zip(sums, shares, strict=True)]
+            dop.append(dop_bound(light.boosts))
+        total, lower, upper = sums
+        lit = xp.where(total > 0.0, total, 1.0)
+        lower, upper = (xp.where(total > 0.0, part / lit, 1.0) for part in (lower, upper))
+        excess = xp.maximum(first.excess, second.excess)
+        return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)), excess)
+
+    def read(self, state: Bounded, count: int = 1) -> tuple[Components, Any]:
+        del count
+        least, most = ratio_bounds(self.xp, state.boosts)
+        # Light (1, d, 0, 0) is d times (1, 1, 0, 0) less d - 1 of unpolarised light.
+        slack = self.slack + 2.0 * state.excess
+        upper = state.upper * most * (1.0 + slack)
+        # What all but cancels is as sure as what it is left of.
+        lower = self.xp.maximum(state.lower * least - slack * upper, 0.0)
+        return (state.total, lower, upper, dop_bound(state.boosts)), 0
+
+    def _share(self, parts: Sequence[Any], whole: Any) -> Any:
+        """Return the length of a vector over a number, at most 1; 0 where the number is 0."""
+        return self.xp.minimum(self._ratio(parts, whole), 1.0)
+
+    def _ratio(self, parts: Sequence[Any], whole: Any) -> Any:
+        """Return the length of a vector over a number; 0 where the number is 0."""
+        xp = self.xp
+        parts = [part for part in parts if not (isinstance(part, float) and part == 0.0)]
+        if not parts:
+            return 0.0
+        length = xp.absolute(parts[0])
+        if len(parts) > 1:
+            largest = reduce(xp.maximum, map(xp.absolute, parts))
+            unit = xp.where(largest > 0.0, largest, 1.0)
+            length = largest * xp.sqrt(sum((part / unit) * (part / unit) for part in parts))
+        there = whole > 0.0
+        return xp.where(there, length / xp.where(there, whole, 1.0), 0.0)

@@ -1,0 +1,265 @@
+"""Every kernel by name: a factory over `Primitives`, bound to the structure of what it returns."""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import TypeAlias
+
+from optipath.kernels import filters, vertex_chain
+from optipath.kernels import filters as bench
+from optipath.kernels import filters as emission
+from optipath.kernels import filters as rotation
+from optipath.kernels import medium as lorentz
+from optipath.kernels import medium as stretch
+from optipath.kernels.carriers.structures import (
+    BLOCK,
+    DEPOLARIZING_BLOCK,
+    FULL,
+    POWERS,
+    ROTATION,
+    SCALE,
+)
+from optipath.kernels.fresnel import absorbing as from_absorbing
+from optipath.kernels.fresnel import boundary as inhomogeneous
+from optipath.kernels.fresnel import stable, textbook
+from optipath.kernels.fresnel import textbook as amplitude
+from optipath.kernels.fresnel import textbook as amplitude_from_absorbing
+from optipath.kernels.fresnel import variants as powers
+from optipath.kernels.fresnel.boundary import Refracting
+from optipath.kernels.fresnel.layers import Stack
+from optipath.kernels.fresnel.variants import AtAngle, AtEvent, Compensated
+from optipath.kernels.kernel import Kernel, KernelFamily, Sloped
+from optipath.kernels.primitives import Factory, WithZero
+from optipath.kernels.vertex_chain import (
+    AxesAtVertex,
+    TurnBetweenPlanes,
+    event_at_vertex,
+    refraction_at_vertex,
+)
+
+Factories: TypeAlias = tuple[Factory, ...]
+"""One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
+
+
+def _fresnel(
+    what: str, of_stable: Factories, intensities: Factories, **others: Factories
+) -> KernelFamily:
+    """Return the kernels of all methods; each has the slopes of the stable one."""
+    methods = {"stable": _cheaper_within(f"{what} (stable", of_stable, intensities)}
+    for method, factories in others.items():
+        sloped = tuple(map(Sloped, factories, of_stable))
+        methods[method] = _cheaper_within(f"{what} ({method}", sloped)
+    return KernelFamily(what, methods)
+
+
+def _cheaper_within(name: str, factories: Factories, intensities: Factories = ()) -> Kernel:
+    """Return the kernel of the first factory, which knows the cheaper ones of the others."""
+    found: Kernel | None = None
+    words = (")", ", lossless)", ", lossless, from the rarer side)")
+    for place, made_by in reversed(list(enumerate(factories))):
+        # Of (n1, n, k, cos, sin), k is the third; of (n1, n, cos, sin), n is to be n1 or more.
+        without = (2, found) if place == 0 and found else None
+        denser = (1, 0, found) if place == 1 and found else None
+        alone = None
+        if intensities:
+            cheap = (2, found.powers) if place == 0 and found and found.powers else None
+            alone = Kernel(f"{name}{words[place]}, powers", POWERS, intensities[place], cheap)
+        found = Kernel(name + words[place], BLOCK, made_by, without, denser, alone)
+    assert found is not None  # noqa: S101 - there is one factory at least
+    return found
+
+
+REFLECTION = _fresnel(
+    "Fresnel reflection",
+    (stable.stable_reflection, stable.lossless_reflection, stable.denser_reflection),
+    (powers.reflected_powers, powers.lossless_powers, powers.denser_powers),
+    compensated=(Compensated(stable.stable_reflection), Compensated(stable.lossless_reflection)),
+    amplitude=(Refracting(amplitude.amplitude_reflection),),
+    textbook=(Refracting(textbook.textbook_reflection),),
+)
+TRANSMISSION = _fresnel(
+    "Fresnel transmission",
+    (stable.stable_transmission, stable.lossless_transmission),
+    (),
+    compensated=(
+        Compensated(stable.stable_transmission),
+        Compensated(stable.lossless_transmission),
+    ),
+    amplitude=(Refracting(amplitude.amplitude_transmission),),
+    textbook=(Refracting(textbook.textbook_transmission),),
+)
+METHODS = tuple(REFLECTION.methods)
+
+_OF_STACK = {"reflected": "reflection", "transmitted": "transmission", "absorbed": "absorption"}
+
+
+def _at_event(method: str) -> Kernel:
+    """Return the kernel of a method for what is reflected on some paths, let through on others."""
+    both = REFLECTION.methods[method], TRANSMISSION.methods[method]
+    name, cheaper = f"Fresnel reflection or transmission ({method}", None
+    without = [kernel.without[1] for kernel in both if kernel.without]
+    if len(without) == len(both):
+        lossless = AtEvent(*without)
+        # Of (event, n1, n, k, cos, sin), k is the fourth.
+        cheaper = 3, Kernel(f"{name}, lossless)", BLOCK, lossless)
+    return Kernel(f"{name})", BLOCK, AtEvent(*both), cheaper)
+
+
+def _at_angle(kernel: Kernel) -> Kernel:
+    """Return a kernel whose numbers are NaN where its angle is none."""
+    without = kernel.without and (kernel.without[0], _at_angle(kernel.without[1]))
+    return Kernel(f"{kernel.name} at a vertex", kernel.structure, AtAngle(kernel.factory), without)
+
+
+TRANSMISSION_AT_VERTEX = KernelFamily(
+    "Fresnel transmission at a vertex",
+    {method: _at_angle(kernel) for method, kernel in TRANSMISSION.methods.items()},
+)
+AT_EVENT = KernelFamily(
+    "Fresnel reflection or transmission", {method: _at_event(method) for method in METHODS}
+)
+
+
+def _from_absorbing(stable: Factory, amplitude: Factory) -> dict[str, Factory]:
+    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)`` of all methods.
+
+    Textbooks print no form by angles: by that method, too, it is the amplitudes.
+    """
+    by_amplitudes = Sloped(amplitude, stable)
+    return {
+        "stable": stable,
+        "compensated": Sloped(Compensated(stable), stable),
+        "amplitude": by_amplitudes,
+        "textbook": by_amplitudes,
+    }
+
+
+def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for a medium in front that absorbs, and where it does not, the other."""
+    what, methods = f"{family.name} out of an absorbing medium", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        usual, name = family.methods[method], f"{what} ({method})"
+        alone = None
+        if usual.powers:
+            intensities = powers.inhomogeneous_powers
+            alone = Kernel(f"{name}, powers", POWERS, intensities, (1, usual.powers))
+        methods[method] = Kernel(name, BLOCK, factory, (1, usual), powers=alone)
+    return KernelFamily(what, methods)
+
+
+def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for light from behind; where nothing absorbs, it is the other."""
+    what, methods = f"{family.name} from behind", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        usual = family.methods[method]
+        name = f"{what} ({method}, lossless)"
+        lossless = (
+            usual.without[1] if usual.without else Kernel(name, BLOCK, WithZero(usual.factory, 2))
+        )
+        name = f"{what} ({method}, lossless in front)"
+        rarer = Kernel(name, BLOCK, WithZero(factory, 1), (2, lossless))
+        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, rarer))
+    return KernelFamily(what, methods)
+
+
+REFLECTION_FROM_ABSORBING = _from_front(
+    REFLECTION,
+    from_absorbing.inhomogeneous_reflection,
+    amplitude_from_absorbing.amplitude_inhomogeneous_reflection,
+)
+TRANSMISSION_FROM_ABSORBING = _from_front(
+    TRANSMISSION,
+    from_absorbing.inhomogeneous_transmission,
+    amplitude_from_absorbing.amplitude_inhomogeneous_transmission,
+)
+TRANSMISSION_FROM_BEHIND = _from_behind(
+    TRANSMISSION,
+    from_absorbing.transmission_from_behind,
+    amplitude_from_absorbing.amplitude_transmission_from_behind,
+)
+PHASE_INDEX = Kernel(
+    "index of planes of constant phase",
+    None,
+    inhomogeneous.phase_index,
+    without=(1, Kernel("index without absorption", None, inhomogeneous.real_index)),
+)
+"""The index by which Snell's law holds for the real angle in an absorbing medium."""
+
+
+@lru_cache(256)
+def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> KernelFamily:
+    """Return the kernels of what a stack of layers lets through, sends back, or absorbs."""
+    what = f"stack {_OF_STACK[wanted]}"
+    lossy = ", absorbing" if absorbing else ""
+    structure = None if wanted == "absorbed" else DEPOLARIZING_BLOCK
+    methods = {}
+    for method in METHODS:
+        made_by = Stack(
+            REFLECTION_FROM_ABSORBING.methods[method],
+            TRANSMISSION_FROM_ABSORBING.methods[method],
+            TRANSMISSION_FROM_BEHIND.methods[method],
+            wanted,
+            measured,
+            absorbing,
+        )
+        name, grey = f"{what} ({method}{lossy})", replace(made_by, unpolarising=True)
+        by_means = Kernel(f"{name} by means", structure, grey)
+        methods[method] = Kernel(name, structure, made_by, unpolarising=by_means)
+    return KernelFamily(what, methods)
+
+
+TURN = Kernel("turn", ROTATION, rotation.turn)
+TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
+GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
+ALIGN = Kernel("align", ROTATION, rotation.align)
+TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
+TURN_BESIDE_REFRACTION = Kernel(
+    "turn between planes beside a refraction", ROTATION, TurnBetweenPlanes(across=True)
+)
+INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
+REFRACTION = Kernel("refraction at a vertex", None, refraction_at_vertex)
+EVENT_AT_VERTEX = Kernel("event at a vertex", None, event_at_vertex)
+ARRIVING = Kernel("arriving axes", None, AxesAtVertex())
+REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
+"""What the points of a chain say: angles of incidence, and the axes at the last vertex."""
+
+POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
+RETARDER = Kernel("retarder", BLOCK, filters.retarder)
+ELLIPTICAL_RETARDER = Kernel("elliptical retarder", FULL, lorentz.retardance)
+ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
+RESPONSE = Kernel("response", SCALE, filters.given)
+COMPLEMENT = Kernel("complement", SCALE, filters.complement)
+DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
+MIRROR = Kernel("mirror", BLOCK, filters.mirror)
+GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, amplitude.given_amplitudes)
+ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, stretch.absorption_along)
+THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, stretch.third_of_absorption)
+ROTATION_ALONG = Kernel("rotation along the way", ROTATION, stretch.rotation_along)
+DEXTROROTATION_ALONG = Kernel(
+    "dextrorotation along the way", ROTATION, stretch.dextrorotation_along
+)
+RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, stretch.retardance_along)
+FARADAY_ROTATION = Kernel("Faraday rotation", ROTATION, bench.faraday_rotation)
+WAVEPLATE = Kernel("wave plate", BLOCK, bench.waveplate)
+POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, bench.polarizing_reflection)
+POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, bench.polarizing_transmission)
+ABSORPTION_BESIDE_DICHROISM = Kernel(
+    "absorption beside dichroism", SCALE, stretch.absorption_beside_dichroism
+)
+THIRD_BESIDE_DICHROISM = Kernel(
+    "a third of absorption beside dichroism", SCALE, stretch.third_of_absorption_beside_dichroism
+)
+DICHROISM_ALONG = Kernel("dichroism along the way", BLOCK, stretch.dichroism_along)
+DEPOLARIZATION_ALONG = Kernel("depolarisation along the way", FULL, stretch.depolarization_along)
+DICHROISM_AND_RETARDANCE_ALONG = Kernel(
+    "dichroism and retardance along the way", FULL, stretch.dichroism_and_retardance_along
+)
+DEPOLARIZING_DICHROISM_ALONG = Kernel(
+    "dichroism and depolarisation along the way", FULL, stretch.depolarizing_dichroism_along
+)
+CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
+CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
+MATRIX = Kernel("matrix", FULL, filters.given)
+
+PRODUCT = Kernel("intensity at a wavelength", None, emission.product)
+UNPOLARIZED = Kernel("unpolarized light", None, emission.unpolarized)
+POLARIZED = Kernel("polarized light", None, emission.polarized)

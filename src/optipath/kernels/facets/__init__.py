@@ -1,1 +1,0 @@
-"""Facets of rough surfaces: how they stand, how many there are, and which see the light."""

@@ -1,1 +1,0 @@
-"""What sources emit, and what filters, stretches of a medium and turns of frames do to light."""

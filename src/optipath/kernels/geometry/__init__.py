@@ -1,1 +1,0 @@
-"""Light along a chain of vertices: vectors, planes of incidence, angles."""

@@ -1,0 +1,228 @@
+"""Kernel: one piece of the physics, its structure and its methods; kernels of a user's own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from optipath.errors import ComposerError, OptipathError, PathError, did_you_mean, unknown
+from optipath.kernels.primitives import FLOAT, NUMPY, Factory, KernelFunction, Primitives, made
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from optipath.kernels.carriers.structures import Structure
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A pure elementwise function, made for any set of primitives."""
+
+    name: str
+    structure: Structure | None
+    factory: Factory
+    without: tuple[int, Kernel] | None = None
+    denser: tuple[int, int, Kernel] | None = None
+    powers: Kernel | None = None
+    unpolarising: Kernel | None = None
+
+    def __hash__(self) -> int:
+        # Asked for once a step; what else belongs to a name is compared where names are equal.
+        return hash(self.name)
+
+    def made_for(self, primitives: Primitives) -> KernelFunction:
+        """Return the function in terms of these primitives, made once and kept."""
+        factory = self.factory if self.of_library else GuardedFactory(self.name, self.factory)
+        function: KernelFunction = made(factory, primitives)
+        return function
+
+    @cached_property
+    def of_library(self) -> bool:
+        """Whether it comes with the library, so that nothing it raises is a user's doing."""
+        return is_defined_in("optipath.", self.factory)
+
+    def specialised(
+        self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
+    ) -> tuple[Kernel, tuple[Any, ...]]:
+        """Return the cheapest kernel for these arguments, and those that it takes."""
+        if self.without is None or not vanishes(arguments[self.without[0]]):
+            return self, tuple(arguments)
+        position, cheaper = self.without
+        left = (*arguments[:position], *arguments[position + 1 :])
+        return cheaper.specialised(left, vanishes)
+
+    def never_less(
+        self, arguments: Sequence[Any], ranges: Callable[[Any], tuple[float, float]]
+    ) -> Kernel:
+        """Return the cheapest kernel for the ranges that the arguments are known to be in."""
+        if self.denser is None:
+            return self
+        larger, smaller, cheaper = self.denser
+        known = ranges(arguments[larger])[0] >= ranges(arguments[smaller])[1]
+        return cheaper if known else self
+
+    def by_method(self, method: str) -> Kernel:
+        """Return the kernel itself: it has one method only."""
+        del method
+        return self
+
+
+@dataclass(frozen=True)
+class KernelFamily:
+    """One piece of the physics that several methods compute."""
+
+    name: str
+    methods: Mapping[str, Kernel]
+
+    def by_method(self, method: str) -> Kernel:
+        """Return the kernel of a method."""
+        if faults := unknown("method", method, self.methods):
+            raise ComposerError(*faults)
+        return self.methods[method]
+
+
+@dataclass(frozen=True)
+class Sloped:
+    """A factory with the slopes of another, which is the same function.
+
+    What loses digits loses those of its slopes, too, and has none where its roots and angles
+    have none. A class, so that plans can be pickled.
+    """
+
+    values: Factory
+    slopes: Factory
+
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Return the function in terms of these primitives."""
+        return (self.slopes if xp.within else self.values)(xp)
+
+
+T = TypeVar("T")
+
+FUNCTIONS = tuple(f.name for f in fields(Primitives))
+"""What ``xp`` has."""
+
+_LONGEST = 200
+
+_OTHERWISE = {
+    "abs": "xp.absolute(x)",
+    "fabs": "xp.absolute(x)",
+    "arctan2": "xp.atan2(y, x)",
+    "arctan": "xp.atan2(x, 1.0)",
+    "atan": "xp.atan2(x, 1.0)",
+    "arcsin": "xp.atan2(x, xp.sqrt(1.0 - x * x))",
+    "asin": "xp.atan2(x, xp.sqrt(1.0 - x * x))",
+    "arccos": "xp.atan2(xp.sqrt(1.0 - x * x), x)",
+    "acos": "xp.atan2(xp.sqrt(1.0 - x * x), x)",
+    "tan": "xp.sin(x) / xp.cos(x)",
+    "sinh": "(xp.exp(x) - xp.exp(-x)) / 2",
+    "cosh": "(xp.exp(x) + xp.exp(-x)) / 2",
+    "tanh": "1.0 - 2.0 / (xp.exp(2.0 * x) + 1.0)",
+    "hypot": "xp.sqrt(x * x + y * y)",
+    "square": "x * x",
+    "power": "x**y",
+    "pow": "x**y",
+    "max": "xp.maximum(x, y)",
+    "min": "xp.minimum(x, y)",
+    "pi": "math.pi",
+    "frexp": "xp.scaling(x) for numbers that are scaled by xp.ldexp and scaled back",
+    "array": "the rows as tuples of four entries each",
+}
+"""How what other libraries have is written by what ``xp`` has."""
+
+_CURES = (
+    ("truth value", "choose by xp.where(condition, yes, no) in place of 'if', 'and', 'min', 'max'"),
+    ("boolean conversion of traced", "choose by xp.where(condition, yes, no) in place of 'if'"),
+    ("true nor false", "choose by xp.where(condition, yes, no) in place of 'if'"),
+    ("only length-1 arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("only 0-dimensional arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("only scalar arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("must be real number, not", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("unhashable", "choose by xp.where(condition, yes, no) in place of a look-up of the value"),
+    ("no attribute 'conj'", "write z.conjugate(), which numbers and arrays have"),
+    ("tracer", "call the functions of xp in place of those of numpy and math"),
+    ("inhomogeneous", "return four rows, tuples of four entries each, and no array of them"),
+    ("could not be broadcast", "compute each entry by itself: numbers may be arrays over paths"),
+    ("read-only", "make a new number, a = a + 1, in place of a += 1: arguments are the caller's"),
+    ("division by zero", "let xp.where choose another divisor there"),
+)
+
+
+def in_words(what: str, error: BaseException) -> OptipathError:
+    """Return an error of the library for what code of a user's own has raised.
+
+    Examples
+    --------
+    >>> print(in_words("it", ZeroDivisionError("division by zero")))
+    it raises ZeroDivisionError: division by zero; let xp.where choose another divisor there
+    """
+    if isinstance(error, AttributeError) and isinstance(error.obj, Primitives):
+        known = _OTHERWISE.get(str(error.name))
+        cure = f"; write {known}" if known else did_you_mean(error.name, FUNCTIONS)
+        return PathError(f"{what} calls xp.{error.name}, which does not exist{cure}")
+    text = " ".join(str(error).split())
+    lower = text.lower()
+    cure = next((cure for sign, cure in _CURES if sign in lower), "")
+    text = text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+    return PathError(f"{what} raises {type(error).__name__}: {text}{cure and '; ' + cure}")
+
+
+def called(
+    what: str,
+    function: Callable[..., T],
+    *given: Any,
+    left: tuple[type[Exception], ...] = (),
+) -> T:
+    """Return what code of a user's own gives, which raises errors of the library alone."""
+    kept: tuple[type[Exception], ...] = (MemoryError, OptipathError, Warning, *left)
+    try:
+        return function(*given)
+    except kept:
+        raise
+    except (Exception, SystemExit) as error:
+        raise in_words(what, error) from error
+
+
+def is_defined_in(package: str, factory: Any) -> bool:
+    """Tell whether what makes a kernel is defined in a package, or its class is."""
+    maker = factory if hasattr(factory, "__name__") else type(factory)
+    return str(getattr(maker, "__module__", "")).startswith(package)
+
+
+def guarded(what: str, xp: Primitives, factory: Factory) -> KernelFunction:
+    """Return a function of a user's own that raises errors of the library alone."""
+    if xp is not FLOAT:
+        function = called(what, factory, xp)
+        return lambda *values: called(what, function, *_of_one_path(values))
+    of_numbers = called(what, factory, NUMPY)
+
+    def of_floats(*values: float) -> tuple[float, ...]:
+        return tuple(map(float, of_numbers(*map(np.float64, values))))
+
+    def single(*values: float) -> tuple[float, ...]:
+        with np.errstate(all="raise", under="ignore"):
+            return called(what, of_floats, *values, left=(ArithmeticError, ValueError))
+
+    return single
+
+
+def _of_one_path(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return arrays of one number each as numbers; where one has more, all as they are."""
+    if any(isinstance(value, np.ndarray) and value.shape != (1,) for value in values):
+        return values
+    return tuple(value[0] if isinstance(value, np.ndarray) else value for value in values)
+
+
+@dataclass(frozen=True)
+class GuardedFactory:
+    """Makes the function of a kernel of a user's own."""
+
+    name: str
+    factory: Factory
+
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Return what the factory makes, guarded."""
+        return guarded(f"kernel '{self.name}'", xp, self.factory)

@@ -1,1 +1,0 @@
-"""Numbers that kernels compute with: primitives, trigonometry, twice the digits, elimination."""

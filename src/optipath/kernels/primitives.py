@@ -1,0 +1,171 @@
+"""Primitives: the handful of elementwise functions that every kernel is written in.
+
+A kernel is made by a factory that takes one of these records, so that one text
+of the physics serves plain floats, NumPy blocks, and engines to come.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, TypeAlias, TypeVar
+
+import numpy as np
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Primitives:
+    """The functions a kernel may call, which ``mueller_rows`` is given as ``xp``.
+
+    All are elementwise, and broadcast: numbers may be floats, arrays over paths, values that JAX
+    traces, or symbols that a formula is made of. `docs/own-elements.md` has them as a table.
+    """
+
+    where: Callable[[Any, Any, Any], Any]
+    sqrt: Callable[[Any], Any]
+    absolute: Callable[[Any], Any]
+    maximum: Callable[[Any, Any], Any]
+    minimum: Callable[[Any, Any], Any]
+    sin: Callable[[Any], Any]
+    cos: Callable[[Any], Any]
+    exp: Callable[[Any], Any]
+    atan2: Callable[[Any, Any], Any]
+    scaling: Callable[[Any], Any]
+    ldexp: Callable[[Any, Any], Any]
+    two_product: Callable[[Any, Any], tuple[Any, Any]]
+    below_rounding: Callable[[Any, Any], Any]
+    fixed: Callable[[Any], Any]
+    multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
+    integer: Callable[[Any], Any] = int
+    apart: Callable[[Any], Any] = lambda function: function
+    within: float = 0.0
+
+
+KernelFunction: TypeAlias = Callable[..., tuple[Any, ...]]
+"""What a kernel is for some primitives: numbers in, numbers out."""
+
+Factory: TypeAlias = Callable[[Primitives], KernelFunction]
+"""What makes a kernel for any primitives."""
+
+
+@lru_cache(4096)
+def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
+    """Return what a factory makes of primitives, made once and kept."""
+    return factory(primitives)
+
+
+def _itself(value: Any) -> Any:
+    return value
+
+
+def is_below_rounding(larger: Any, number: Any) -> Any:
+    """Tell whether a number is no more than the rounding of a larger one, its square of 1.
+
+    A sine that is taken as 0 so takes no energy from cos^2 + sin^2.
+    """
+    return (larger + number == larger) & (1.0 + number * number == 1.0)
+
+
+def _below_rounding_in_arrays(larger: Any, number: Any) -> Any:
+    if np.result_type(larger) == np.longdouble:
+        # Angles come as doubles, whatever they are computed with.
+        return is_below_rounding(larger.astype(np.float64), number.astype(np.float64))
+    return is_below_rounding(larger, number)
+
+
+def product_rest(a: Any, b: Any) -> Any:
+    """Return what the rounding of a b has lost, without a fused multiply-add."""
+    return product_and_rest(a, b)[1]
+
+
+def product_and_rest(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return a product and what its rounding has lost (Dekker, Numer. Math. 18, 1971)."""
+    product = a * b
+    a_high, a_low = _halves(a)
+    b_high, b_low = _halves(b)
+    rest = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+    return product, rest
+
+
+def _halves(a: Any) -> tuple[Any, Any]:
+    kind = getattr(a, "dtype", None)
+    high = (_PLAIN_SPLITTER if kind is None else _SPLITTERS[np.dtype(kind).char]) * a
+    high = high - (high - a)
+    return high, a - high
+
+
+def _splitter(kind: str) -> Any:
+    digits = np.finfo(kind).nmant + 1
+    return np.dtype(kind).type(2) ** (digits - digits // 2) + np.dtype(kind).type(1)
+
+
+_PLAIN_SPLITTER = 2.0**27 + 1.0
+_SPLITTERS = {kind: _splitter(kind) for kind in "fdg"}
+
+
+def _fused_two_product(a: float, b: float) -> tuple[float, float]:
+    product = a * b
+    return product, math.fma(a, b, -product)  # type: ignore[attr-defined,unused-ignore] # Python 3.13
+
+
+def of_module(xp: Any) -> Primitives:
+    """Return the primitives of a module with NumPy's functions, ``numpy`` or ``jax.numpy``."""
+    return Primitives(
+        where=xp.where,
+        sqrt=xp.sqrt,
+        absolute=xp.absolute,
+        maximum=xp.maximum,
+        minimum=xp.minimum,
+        sin=xp.sin,
+        cos=xp.cos,
+        exp=xp.exp,
+        atan2=xp.arctan2,
+        scaling=lambda number: xp.frexp(number)[1],
+        ldexp=xp.ldexp,
+        two_product=product_and_rest,
+        below_rounding=is_below_rounding,
+        fixed=_itself,
+        integer=lambda number: xp.asarray(number).astype(int),
+    )
+
+
+NUMPY = replace(of_module(np), below_rounding=_below_rounding_in_arrays)
+
+FLOAT = Primitives(
+    where=lambda condition, yes, no: yes if condition else no,
+    sqrt=math.sqrt,
+    absolute=abs,
+    maximum=max,
+    minimum=min,
+    sin=math.sin,
+    cos=math.cos,
+    exp=math.exp,
+    atan2=math.atan2,
+    scaling=lambda number: math.frexp(number)[1],
+    ldexp=math.ldexp,
+    two_product=_fused_two_product if hasattr(math, "fma") else product_and_rest,
+    below_rounding=is_below_rounding,
+    fixed=_itself,
+)
+
+
+@dataclass(frozen=True)
+class WithZero:
+    """Makes a kernel without the argument at one place; a class, so that plans can be pickled."""
+
+    factory: Factory
+    place: int
+
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Make the kernel in terms of these primitives."""
+        kernel, place = self.factory(xp), self.place
+
+        def with_zero(*given: Any) -> tuple[Any, ...]:
+            # Not a plain 0: its precision is that of the others.
+            return kernel(*given[:place], 0.0 * given[0], *given[place:])
+
+        return with_zero

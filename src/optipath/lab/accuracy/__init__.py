@@ -1,1 +1,0 @@
-"""Accuracy: 50-digit references, the regions where methods fail, errors, tables, the chart."""

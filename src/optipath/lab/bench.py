@@ -1,0 +1,238 @@
+"""Bench: the report on a path's speed, timings of contenders that take turns."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from functools import cache, partial
+from importlib.metadata import PackageNotFoundError, version
+from itertools import product
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.composer.composer import Composer
+from optipath.engines.choice import ENGINES, REGISTRY, is_installed
+from optipath.errors import ParameterError
+from optipath.kernels.catalog import METHODS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+
+
+_DTYPES = ("float64", "float32")
+_OUTPUTS = ("stokes", "mueller")
+_BATCH = ("engine", "dtype", "output", "paths")
+_COMPARED = 100_000
+_FIRST_PATH = "from optipath import Detector, Source; (Source() >> Detector()).trace()"
+
+
+@dataclass(frozen=True)
+class Report:
+    """How long a path takes."""
+
+    single: dict[str, float] = field(default_factory=dict)
+    batches: list[dict[str, Any]] = field(default_factory=list)
+    methods: list[dict[str, Any]] = field(default_factory=list)
+    software: dict[str, str] = field(default_factory=dict)
+
+
+def bench(
+    path: PathGraph,
+    load: Callable[[], object],
+    *,
+    largest: int = _COMPARED,
+    long: bool = False,
+    engines: Iterable[str] = (),
+    threads: int = 1,
+    progress: Callable[[str], object] = lambda _: None,
+) -> Report:
+    """Measure a path."""
+    found = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
+    for engine in found:
+        if not is_installed(engine):
+            raise REGISTRY[engine].missing
+
+    @cache
+    def plan_of(engine: str, dtype: str, method: str) -> Plan:
+        # Kept, so that nothing is compiled for one batch after the other.
+        return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
+
+    report = Report(software=software(("numpy", "networkx", *found)))
+    plan = Composer().compose(path)
+    one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
+    single: dict[str, Callable[[], object]] = {
+        "load": load,
+        "compose": partial(Composer().compose, path),
+        "one run of plain floats": partial(plan.run_all, **one),
+        # What is imported is loaded as it is asked for first, so that an import alone says little.
+        "import optipath, run a path": _import(_FIRST_PATH),
+        "import numpy, networkx": _import("import numpy, networkx"),
+    }
+    timings = race(single, tick=progress)
+    report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
+    kinds = slice(None if long else 1)
+    # First, since their first calls tell how long they take to be compiled.
+    methods = product(found, METHODS[kinds], [min(_COMPARED, largest)])
+    report.methods.extend(_timed(plan_of, ("engine", "method", "paths"), methods, progress))
+    tens = [10**power for power in range(len(str(largest)))]
+    for size in tens if long else sorted({max(1, largest // 100), largest}):
+        batches = product(found, _DTYPES[kinds], _OUTPUTS[kinds], [size])
+        report.batches.extend(_timed(plan_of, _BATCH, batches, progress))
+    return report
+
+
+def software(names: Iterable[str]) -> dict[str, str]:
+    """Return the versions of Python, the library, and packages."""
+    found = {"python": platform.python_version()}
+    for name in ("optipath", *names):
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _timed(
+    plan_of: Callable[..., Plan],
+    labels: tuple[str, ...],
+    choices: Iterable[tuple[Any, ...]],
+    progress: Callable[[str], object],
+) -> list[dict[str, Any]]:
+    runs = {", ".join(map(str, each)): dict(zip(labels, each, strict=True)) for each in choices}
+    contenders: dict[str, Callable[[], object]] = {}
+    for name, run in runs.items():
+        plan = plan_of(run["engine"], run.get("dtype", "float64"), run.get("method", "stable"))
+        values = random_values(plan, run["paths"])
+        values = {name: value.astype(plan.dtype) for name, value in values.items()}
+        action: Callable[..., object] = plan.run_all
+        if run.get("output") == "mueller":
+            ends = next(iter(plan.whole.sources)), next(iter(plan.whole.readings))
+            action = partial(plan.mueller, *ends)
+        contenders[name] = partial(_finished, action, values)
+    return [
+        {
+            **runs[name],
+            "ns_least": 1e9 * timing.least / runs[name]["paths"],
+            "ns_median": 1e9 * timing.middle / runs[name]["paths"],
+            "first_s": timing.first,
+        }
+        for name, timing in race(contenders, tick=progress).items()
+    ]
+
+
+def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
+    """Run, and wait for engines that answer before they are done."""
+    found = run(**values)
+    for light in found.values() if isinstance(found, dict) else [found]:
+        numbers = light.matrix if hasattr(light, "matrix") else light.stokes
+        getattr(numbers, "block_until_ready", bool)()
+
+
+def _import(statement: str) -> Callable[[], object]:
+    return partial(subprocess.run, [sys.executable, "-c", statement], check=True)
+
+
+def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
+    """Return arrays for the parameters of a plan that are open.
+
+    Angles are drawn from their range, at most a whole turn; where there are none, the
+    other numbers within 10 % of their defaults. What is optional stays as it is by default.
+
+    Shape: returns (count,).
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> values = random_values(op.load_preset("npgr026").compose(), 5)
+    >>> sorted(values), values["phi"].shape
+    (['delta', 'phi', 'rho'], (5,))
+    """
+    draw = np.random.default_rng(seed).uniform
+    angles, others = {}, {}
+    for name, parameter in plan.inputs.open.items():
+        low, high = plan.inputs.limits[name]
+        default = parameter.default
+        if parameter.optional or plan.inputs.tails[name]:
+            continue
+        if plan.inputs.dimensions[name] == "angle":
+            angles[name] = draw(max(low, -np.pi), min(high, np.pi), count)
+        elif isinstance(default, (int, float)):
+            others[name] = np.clip(default * draw(0.9, 1.1, count), low, high)
+    if not angles and not others:
+        raise ParameterError(
+            "the path has no open parameter that can be varied; leave an angle open to time it"
+        )
+    return angles or others
+
+
+_UNITS = {1.0: "s", 1e-3: "ms", 1e-6: "us", 1e-9: "ns"}
+
+
+class Timing(NamedTuple):
+    """Seconds of one call."""
+
+    first: float
+    least: float
+    middle: float
+
+
+def race(
+    contenders: Mapping[str, Callable[[], object]],
+    seconds: float = 0.2,
+    tick: Callable[[str], object] = lambda _: None,
+) -> dict[str, Timing]:
+    """Return the timing of each contender.
+
+    Examples
+    --------
+    >>> timings = race({"nothing": lambda: None}, seconds=0.001)
+    >>> timings["nothing"].least <= timings["nothing"].middle
+    True
+    """
+    first: dict[str, float] = {}
+    calls: dict[str, int] = {}
+    for name, action in contenders.items():
+        tick(name)
+        first[name] = seconds_of(action)
+        # Calls that are too short for the clock are timed several at a time.
+        calls[name] = max(1, int(seconds / 20 / max(seconds_of(action), 1e-9)))
+    taken: dict[str, list[float]] = {name: [] for name in contenders}
+    for turn in range(20):
+        for name, action in contenders.items():
+            if turn < 3 or sum(taken[name]) * calls[name] < seconds:
+                taken[name].append(seconds_of(action, calls[name]))
+    return {name: Timing(first[name], min(found), median(found)) for name, found in taken.items()}
+
+
+def seconds_of(action: Callable[[], object], calls: int = 1) -> float:
+    """Return the time of one call of an action, the mean of several.
+
+    Units: the result in seconds.
+    """
+    begin = perf_counter()
+    for _ in range(calls):
+        action()
+    return (perf_counter() - begin) / calls
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the unit that suits it, with three digits.
+
+    Examples
+    --------
+    >>> [duration(seconds) for seconds in (1.05e-6, 2.3e-3, 0.99999, 0.0, 3e-10, 5000)]
+    ['1.05 us', '2.3 ms', '1 s', '0 s', '0.3 ns', '5,000 s']
+    """
+    rounded = float(f"{seconds:.3g}")
+    if rounded == 0.0 or rounded >= 1000.0:
+        return f"{rounded:,.0f} s"
+    sizes = [size for size in _UNITS if rounded >= size] or [min(_UNITS)]
+    return f"{rounded / sizes[0]:.3g} {_UNITS[sizes[0]]}"

@@ -1,1 +1,0 @@
-"""How fast a path is: the measurements behind ``optipath bench``."""

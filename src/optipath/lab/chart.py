@@ -1,0 +1,377 @@
+"""Chart of speed against accuracy, measured."""
+
+from __future__ import annotations
+
+import platform
+from collections import Counter
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.composer.composer import Composer
+from optipath.composer.path_values import Values
+from optipath.elements.sources import Source
+from optipath.errors import ComposerError, ParameterError
+from optipath.kernels.catalog import REFLECTION
+from optipath.kernels.primitives import Primitives
+from optipath.lab.bench import seconds_of, software
+from optipath.lab.chart_file import FORMAT, KINDS, WORDS, contenders
+from optipath.lab.errors import (
+    LIMIT,
+    Errors,
+    interface_errors,
+    matrix_numbers,
+    path_errors,
+    trials,
+    worst_and_median,
+)
+from optipath.lab.regions import REGIONS, in_region, interfaces
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+    from typing import TypeAlias
+
+    import networkx as nx
+
+    from optipath.engines.program import Program
+    from optipath.kernels.kernel import Kernel
+    from optipath.paths.path_graph import PathGraph
+
+    Progress: TypeAlias = Callable[[str, float], object]
+    Keep: TypeAlias = Callable[[dict[str, Any]], object]
+
+
+class Effort(NamedTuple):
+    """How much is measured."""
+
+    samples: int = 24
+    rounds: int = 7
+    engines: tuple[str, ...] = ("numpy", "numba")
+    compiles_all: bool = True
+
+    def measures(self, runner: Composer) -> bool:
+        """Tell whether a contender is measured."""
+        default = runner.method == "stable" and runner.composing == "stokes"
+        return (
+            runner.engine == "numpy" or self.compiles_all or (default and runner.dtype == "float64")
+        )
+
+    def told(self) -> dict[str, Any]:
+        """Return what a chart says of it: the numbers, and a sentence of what is left out."""
+        left_out = ""
+        if not self.compiles_all and "numba" in self.engines:
+            left_out = "of Numba only stable in float64 with Stokes vectors"
+        return {"samples": self.samples, "rounds": self.rounds, "left_out": left_out}
+
+
+FULL = Effort()
+QUICK = Effort(samples=3, rounds=3, compiles_all=False)
+"""Less than a minute for a path of some elements."""
+
+_COMPILED = 40.0
+"""About how many seconds a contender of Numba takes to be compiled for all regions."""
+
+
+def expected(effort: Effort) -> str:
+    """Return about how long a chart of a path of some elements takes, before it is measured.
+
+    Examples
+    --------
+    >>> expected(QUICK)
+    'this takes less than a minute, more on a busy machine'
+    >>> print(expected(FULL._replace(engines=("numpy",))))
+    this takes about 2 minutes; --quick takes less than one
+    """
+    compiled = [
+        runner
+        for runner in contenders(engines=effort.engines)
+        if runner.engine != "numpy" and effort.measures(runner)
+    ]
+    seconds = 20.0 + 4.0 * effort.samples + _COMPILED * len(compiled)
+    minutes = round(seconds / 60)
+    if not effort.compiles_all:
+        return "this takes less than a minute, more on a busy machine"
+    wait = " where Numba must compile (what it compiles is kept)" if compiled else ""
+    return f"this takes about {minutes} minutes{wait}; --quick takes less than one"
+
+
+PATHS = 4096
+
+_TIMED = 0.3
+"""The share of the progress that times are; what is left are errors."""
+
+
+def path_chart(
+    path: PathGraph,
+    title: str,
+    effort: Effort = FULL,
+    progress: Progress = lambda *_: None,
+    keep: Keep = lambda _: None,
+) -> dict[str, Any]:
+    """Measure every way to compute a path: first the times, then region after region."""
+    _refuse_batches(path)
+    runners = _different(path, effort)
+    graph, values = many_paths(path, PATHS)
+    found = [_entry(runner) for runner in runners]
+    progress("composing and compiling", 0.0)
+    plans = [runner.compose(graph) for runner in runners]
+    _time(found, [partial(plan.run_all, **values) for plan in plans], effort, progress)
+    program = Composer(engine="numpy").compose(graph).program
+    given, _ = plans[0].inputs.resolve(values)
+    arrays = sum(operand.numbers(given).size > 1 for operand in program.operands)
+    least = limits(arrays + 4 * len(program.readings), slow_operations(program))
+    words = {name: p.text(p.default) for name, p in path.parameters.items()}
+    made = {"parameters": words, **_chart(title, found, least, effort)}
+    # Longdouble is given the numbers of float64, and so has its references.
+    rounded = {"float64": "float64", "float32": "float32", "longdouble": "float64"}
+    dtypes = dict.fromkeys(rounded[runner.dtype] for runner in runners)
+    count = 1 + len(REGIONS) * bool(interfaces(path))
+    drawn = [trials(path, REGIONS, dtype, effort.samples) for dtype in dtypes]
+    for number in range(count):
+        name = "the path as given" if number == 0 else REGIONS[number - 1].name
+        progress(f"errors, {name}", _TIMED + (1 - _TIMED) * number / count)
+        tests = dict(zip(dtypes, map(next, drawn), strict=True))
+        for runner, entry in zip(runners, found, strict=True):
+            trial = tests[rounded[runner.dtype]]
+            _add(entry, trial.region, path_errors(runner, trial, runner.dtype))
+        keep({**made, "regions": {"measured": number + 1, "of": count}})
+    return {**made, "regions": {"measured": count, "of": count}}
+
+
+def interface_chart(
+    effort: Effort = FULL, progress: Progress = lambda *_: None, keep: Keep = lambda _: None
+) -> dict[str, Any]:
+    """Measure every way to compute (A, B, C, S) of one interface."""
+    runners = contenders(("stokes",), ("numpy",))
+    found, actions = [_entry(runner) for runner in runners], []
+    for runner in runners:
+        samples = REGIONS[0].samples(PATHS, runner.dtype)
+        actions.append(partial(matrix_numbers, REFLECTION.by_method(runner.method), samples))
+    _time(found, actions, effort, progress)
+    least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
+    made = _chart("one interface", found, least, effort)
+    count = len(REGIONS)
+    for number, region in enumerate(REGIONS):
+        progress(f"errors, {region.name}", _TIMED + (1 - _TIMED) * number / count)
+        for runner, entry in zip(runners, found, strict=True):
+            off = interface_errors(runner.method, region, runner.dtype, effort.samples)
+            _add(entry, region.name, off)
+        keep({**made, "regions": {"measured": number + 1, "of": count}})
+    return {**made, "regions": {"measured": count, "of": count}}
+
+
+def _refuse_batches(path: PathGraph) -> None:
+    _, batch = path.compose().inputs.resolve({})
+    if batch:
+        raise ParameterError(
+            f"a chart is of one path, and this is a batch of shape {batch}; give single values"
+        )
+
+
+def _different(path: PathGraph, effort: Effort) -> list[Composer]:
+    """Return the contenders that can compute a path, and each computation once."""
+    found: dict[Any, Composer] = {}
+    for runner in filter(effort.measures, contenders(engines=effort.engines)):
+        try:
+            runner.compose(path)
+            # Whether it can run is told without waiting for what compiles.
+            plan = replace(runner, engine="numpy").compose(path)
+            plan.run_all()
+        except (ComposerError, ParameterError):
+            continue
+        kernels = tuple(evaluation.kernel for evaluation in plan.program.evaluations)
+        found.setdefault((kernels, runner.dtype, runner.engine, runner.composing), runner)
+    return list(found.values())
+
+
+def _entry(runner: Composer) -> dict[str, Any]:
+    return {
+        **{word: getattr(runner, word) for word in WORDS},
+        "eps": float(np.finfo(runner.dtype).eps),
+        "errors": {kind: {} for kind in KINDS},
+    }
+
+
+def _add(entry: dict[str, Any], region: str, off: Errors) -> None:
+    for kind in KINDS:
+        entry["errors"][kind][region] = worst_and_median(getattr(off, kind))
+
+
+def _time(
+    entries: list[dict[str, Any]],
+    actions: Sequence[Callable[[], Any]],
+    effort: Effort,
+    progress: Progress,
+) -> None:
+    """Time the actions in turn, so that what disturbs one disturbs all."""
+    for number, action in enumerate(actions):
+        progress("composing and compiling", 0.9 * _TIMED * number / len(actions))
+        action()
+    turns = []
+    for turn in range(effort.rounds):
+        progress("times", _TIMED * (0.9 + 0.1 * turn / effort.rounds))
+        turns.append([seconds_of(action) * 1e9 / PATHS for action in actions])
+    for entry, taken in zip(entries, zip(*turns, strict=True), strict=True):
+        entry["ns"] = {"least": min(taken), "median": float(np.median(taken))}
+
+
+def _chart(
+    title: str, found: list[dict[str, Any]], least: Mapping[str, float], effort: Effort
+) -> dict[str, Any]:
+    return {
+        "format": FORMAT,
+        "title": title,
+        "contenders": found,
+        "limits_ns": dict(least),
+        "fails_above": LIMIT,
+        "paths": PATHS,
+        "effort": effort.told(),
+        "machine": {
+            "system": platform.system(),
+            "processor": platform.machine(),
+            "model": processor(),
+        },
+        "versions": software(["numpy"]),
+    }
+
+
+def many_paths(path: PathGraph, count: int) -> tuple[nx.MultiDiGraph, dict[str, Any]]:
+    """Return a graph, and values of its parameters, that make a batch of a path.
+
+    Interfaces are drawn from the generic region, each path its own; open parameters that
+    are left are repeated, and so are the intensities of sources.
+
+    Shape: returns (count,).
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> graph, values = many_paths(op.load_preset("malus"), 7)
+    >>> values["angle"].shape
+    (7,)
+    """
+    graph = in_region(path, REGIONS[0], count, "float64")
+    for _, node in graph.nodes(data=True):
+        element = node["element"]
+        if isinstance(element, Source) and isinstance(element.intensity, (int, float)):
+            node["element"] = replace(element, intensity=np.full(count, float(element.intensity)))
+    values = {}
+    for name, parameter in Values(graph).inputs().open.items():
+        resolved = parameter.resolve(parameter.default)
+        if np.all(resolved.present) and resolved.value.ndim == 0:
+            values[name] = np.full(count, resolved.value)
+    return graph, values
+
+
+@dataclass(frozen=True, eq=False)
+class _Counted:
+    """A number that nobody knows; what is done to it is counted."""
+
+    counts: Counter[str]
+
+    def _same(self, *_: object) -> _Counted:
+        return self
+
+    def _divided(self, *_: object) -> _Counted:
+        self.counts["div"] += 1
+        return self
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _same
+    __neg__ = __pos__ = __abs__ = __pow__ = __rpow__ = __and__ = __rand__ = __or__ = __ror__ = _same
+    __lt__ = __le__ = __gt__ = __ge__ = __eq__ = __ne__ = _same  # type: ignore[assignment]
+    __truediv__ = __rtruediv__ = _divided
+    __hash__ = None  # type: ignore[assignment]
+
+
+def slow_operations(program: Program) -> dict[str, int]:
+    """Return the number of square roots ("sqrt") and divisions ("div") for one path.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> slow_operations(op.load_preset("malus").compose().program)["sqrt"]
+    2
+    """
+    counts: Counter[str] = Counter(sqrt=0, div=0)
+    for evaluation in program.evaluations:
+        counts += kernel_operations(evaluation.kernel, len(evaluation.arguments))
+    xp, number = _counting(counts)
+    for step in program.steps:
+        if step.evaluation is None:
+            continue
+        structure = program.evaluations[step.evaluation].kernel.structure
+        if structure is not None:
+            structure.action(xp)([number] * len(structure.identity), (number,) * 4, 4)
+    return {"sqrt": counts["sqrt"], "div": counts["div"]}
+
+
+def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
+    """Return the number of square roots and divisions of one evaluation of a kernel."""
+    counts: Counter[str] = Counter()
+    xp, number = _counting(counts)
+    # Not made_for, which would keep what is made for these primitives, used once.
+    kernel.factory(xp)(*[number] * arguments)
+    return counts
+
+
+def _counting(counts: Counter[str]) -> tuple[Primitives, _Counted]:
+    number = _Counted(counts)
+
+    def root(_: object) -> _Counted:
+        counts["sqrt"] += 1
+        return number
+
+    one: Callable[..., Any] = lambda *_: number  # noqa: E731 - a def would need a name for each
+    pair: Callable[..., Any] = lambda *_: (number, number)  # noqa: E731
+    names = ("where", "absolute", "maximum", "minimum", "sin", "cos", "exp", "atan2")
+    others = ("scaling", "ldexp", "below_rounding", "fixed")
+    functions: dict[str, Any] = dict.fromkeys((*names, *others), one)
+    return Primitives(sqrt=root, two_product=pair, **functions), number
+
+
+_INNER, _OUTER = 2048, 4_000_000
+
+
+def processor() -> str:
+    """Return what the processor calls itself."""
+    told = Path("/proc/cpuinfo")
+    lines = told.read_text(encoding="utf-8").splitlines() if told.exists() else []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, platform.processor() or platform.machine())
+
+
+def throughput() -> dict[str, float]:
+    """Return the ns of a square root and a division in cache, and the ns a byte from memory.
+
+    float64, one thread, through NumPy's compiled loops.
+
+    Examples
+    --------
+    >>> sorted(throughput())
+    ['byte', 'div', 'sqrt']
+    """
+    x, y = np.full(_INNER, 1.5), np.empty(_INNER)
+    many, copy = np.ones(_OUTER), np.ones(_OUTER)
+    return {
+        "sqrt": _least_ns(partial(np.sqrt, x, out=y), 200) / _INNER,
+        "div": _least_ns(partial(np.divide, x, x, out=y), 200) / _INNER,
+        # A copy reads and writes every byte once.
+        "byte": _least_ns(partial(np.copyto, copy, many)) / (2 * many.nbytes),
+    }
+
+
+def _least_ns(action: Callable[[], Any], calls: int = 1) -> float:
+    return 1e9 * min(seconds_of(action, calls) for _ in range(9))
+
+
+def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
+    """Return the least ns a path: its roots and divisions, and its numbers in and out."""
+    unit = throughput()
+    found = {
+        "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],
+        "memory": 8 * numbers * unit["byte"],
+    }
+    return {name: ns for name, ns in found.items() if ns > 0.0}

@@ -1,0 +1,346 @@
+"""Reference for elements: Jones matrices in many digits.
+
+Written as matrices that mpmath exponentiates, in place of the closed forms of the kernels.
+"""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any
+
+from optipath.elements.coupling import Coupling
+from optipath.elements.interface import Interface, Mirror
+from optipath.elements.known_sizes import vanishes
+from optipath.elements.layer_stack import LayerStack
+from optipath.elements.medium import Medium
+from optipath.elements.mueller_element import MuellerElement
+from optipath.elements.polarizers import (
+    Attenuator,
+    CircularDiattenuator,
+    CircularPolarizer,
+    Depolarizer,
+    Diattenuator,
+    Polarizer,
+)
+from optipath.elements.retarders import EllipticalRetarder, Retarder, Waveplate
+from optipath.elements.rotators import FaradayRotator, Rotator
+from optipath.elements.splitters import BeamSplitter, Combiner, PolarizingBeamSplitter
+from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
+from optipath.errors import PathError
+from optipath.kernels.catalog import INCIDENCE
+from optipath.kernels.vertex_chain import Event
+from optipath.lab.boundary_reference import (
+    Jones,
+    absorbing_stack,
+    along_face,
+    between,
+    boundary,
+    refracted,
+    stack,
+)
+from optipath.lab.many_digits import MANY_DIGITS, Reader, cos_sin, mpmath
+from optipath.values.use import checked_later
+
+if TYPE_CHECKING:
+    from optipath.elements.element import Element
+
+
+@singledispatch
+def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
+    """Return the Jones matrix of a way through; None where only Mueller's will do."""
+    del element, way, read
+    return None
+
+
+@jones.register
+def _(element: Interface, way: Coupling, read: Reader) -> Jones:
+    before, behind = read.index(element.outside), read.index(element.index)
+    angle = read.angle(element.incidence)
+    c, s = cos_sin(angle)
+    elsewhere = element.incidence_in is not None
+    measured = read.index(element.incidence_in) if elsewhere else before
+    if measured.imag:
+        # The index by which Snell's law holds for real angles.
+        measured = along_face(measured, angle) / s if s else measured
+    # What is reflected is the same from either side, r' = -r.
+    turned = way.enters == "back" and (elsewhere or not way.reflects)
+    first, second = (behind, before) if turned else (before, behind)
+    if first.imag:
+        found = between(first, second, measured.real * s)
+    elif elsewhere or measured is not before:
+        found = boundary(second / first.real, *refracted(measured.real / first.real, s))
+    else:
+        found = boundary(behind / before.real, c, s)
+    return found.reflected if way.reflects else found.transmitted
+
+
+@jones.register
+def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
+    points = element.in_chain.points_around()
+    cos, sin = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
+    m = read.index(element.index) / read.index(element.outside).real
+    return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
+
+
+@jones.register
+def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
+    points = element.in_chain.points_around()
+    half, across = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
+    c, s = cos_sin(read.move(2 * mpmath.atan2(half, across), 1))
+    before, behind = read.index(element.outside).real, read.index(element.index).real
+    if before == behind:
+        return diagonal(1, 1)
+    # By n1 sin t = n2 sin(t -+ turned), which is Snell's law.
+    side = 1 if behind > before else -1
+    incidence = mpmath.atan2(behind * s, side * (behind * c - before))
+    return boundary(behind / before, *cos_sin(incidence)).transmitted
+
+
+@jones.register
+def _(element: Vertex, way: Coupling, read: Reader) -> Jones:
+    event = float(read.exact(element.event_here))
+    if event == Event.BEHIND:
+        return diagonal(1, 1)
+    kind = SpecularVertex if event == Event.REFLECTS else RefractingVertex
+    at = element.vertices, element.place, element.outside, element.in_chain.count
+    with checked_later():  # Other chains have other events.
+        alike = kind(element.index, *at, "mask")
+    return jones(alike, way, read)  # type: ignore[return-value]
+
+
+@jones.register
+def _(element: Polarizer, _: Coupling, read: Reader) -> Jones:
+    return filtering(read, element.transmittance, element.leakage, element.angle)
+
+
+@jones.register
+def _(element: Diattenuator, _: Coupling, read: Reader) -> Jones:
+    return filtering(read, element.maximum, element.minimum, element.angle)
+
+
+@jones.register
+def _(element: Retarder, _: Coupling, read: Reader) -> Jones:
+    return retarding(read, read.angle(element.retardance), element.angle)
+
+
+@jones.register
+def _(element: Rotator, _: Coupling, read: Reader) -> Jones:
+    return turn(-read.angle(element.angle, 2))
+
+
+@jones.register
+def _(element: FaradayRotator, _: Coupling, read: Reader) -> Jones:
+    if element.angle is not None:
+        return turn(-read.angle(element.angle, 2))
+    factors = (read.real(factor) for factor in (element.verdet, element.field, element.length))
+    return turn(-read.near_multiple(mpmath.fprod(factors), 2))
+
+
+@jones.register
+def _(element: Waveplate, _: Coupling, read: Reader) -> Jones:
+    path = read.real(element.thickness) * read.real(element.birefringence)
+    retardance = 2 * mpmath.pi * path / read.real(element.wavelength)
+    return retarding(read, read.move(retardance, 1), element.angle)
+
+
+@jones.register
+def _(element: CircularPolarizer, _: Coupling, read: Reader) -> Jones:
+    kept, lost = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
+    # The field (1, i) has S3 > 0.
+    i = mpmath.mpc(0, 1 if element.handedness == "right" else -1)
+    both, apart = (kept + lost) / 2, i * (kept - lost) / 2
+    return (both, -apart), (apart, both)
+
+
+@jones.register
+def _(element: PolarizingBeamSplitter, way: Coupling, read: Reader) -> Jones:
+    ratios = element.extinction_transmitted, element.extinction_reflected
+    u, v = (1 / read.real(ratio) for ratio in ratios)
+    if way.reflects:
+        s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
+        return diagonal(mpmath.sqrt(s), -mpmath.sqrt(p))
+    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
+    return diagonal(mpmath.sqrt(s), mpmath.sqrt(p))
+
+
+@jones.register
+def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
+    root = mpmath.sqrt(read.real(element.transmittance))
+    return diagonal(root, root)
+
+
+@jones.register
+def _(element: CircularDiattenuator, _: Coupling, read: Reader) -> Jones:
+    right, left = (mpmath.sqrt(read.real(share)) for share in (element.right, element.left))
+    # The field of S3 > 0 is (1, i).
+    even, odd = (right + left) / 2, 1j * (left - right) / 2
+    return (even, odd), (-odd, even)
+
+
+@jones.register
+def _(element: Medium, _: Coupling, read: Reader) -> Jones | None:
+    if _is_general(element):
+        return None
+    depth = read.real(element.absorption) * read.real(element.length)
+    left = mpmath.exp(-depth / 2)
+    rotation = read.angle_along(element.rotation, element.length, 2)
+    dextrorotation = read.angle_along(element.dextrorotation, element.length, 2)
+    retardance = read.angle_along(element.retardance, element.length)
+    # Only one of the three is not 0.
+    turned = turn(dextrorotation - rotation)
+    passed = times(retarding(read, retardance, element.angle), turned)
+    return times(diagonal(left, left), passed)
+
+
+@jones.register
+def _(element: Mirror, _: Coupling, read: Reader) -> Jones:
+    return diagonal(read.complex(element.r_s), read.complex(element.r_p))
+
+
+@jones.register
+def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
+    reflectance = read.real(element.reflectance)
+    root = mpmath.sqrt(reflectance if way.reflects else 1 - reflectance)
+    return diagonal(root, -root if way.reflects else root)
+
+
+@jones.register
+def _(_element: Combiner, _way: Coupling, _read: Reader) -> Jones:
+    return diagonal(1, 1)
+
+
+@singledispatch
+def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of a way through what has no Jones matrix."""
+    del way, read
+    raise PathError(
+        f"elements of class {type(element).__name__} have no reference in many digits: register "
+        f"what computes their matrix with {__name__}.jones.register or .mueller.register, "
+        "or leave them out"
+    )
+
+
+@mueller.register
+def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
+    angle = cos_sin(read.angle(element.incidence))
+    indices = [read.index(index) for index in element.indices]
+    before = indices[0] if element.incidence_in is None else read.index(element.incidence_in)
+    if way.enters == "back":
+        indices.reverse()
+    if any(index.imag for index in indices[1:-1]):
+        return absorbing_stack(
+            indices, _depths(element, way, read), before.real * angle[1], way=way.reflects
+        )
+    if indices[0] is not before:
+        angle = refracted(before.real / indices[0].real, angle[1])
+    return stack(indices, *angle, back=False, way=way.reflects)
+
+
+def _depths(stack: LayerStack, way: Coupling, read: Reader) -> list[Any]:
+    wavelength = read.real(stack.wavelength)
+    depths = [4 * mpmath.pi * read.real(length) / wavelength for length in stack.lengths or ()]
+    return depths[::-1] if way.enters == "back" else depths
+
+
+@mueller.register
+def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
+    return medium(element, read)
+
+
+@mueller.register
+def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]:
+    return elliptical_retarder(element, read)
+
+
+@mueller.register
+def _(element: Depolarizer, _: Coupling, read: Reader) -> list[list[Any]]:
+    kept = 1 - read.real(element.depolarization)
+    return mpmath.diag([1, kept, kept, kept]).tolist()  # type: ignore[no-any-return]
+
+
+@mueller.register
+def _(_: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
+    numbers = [read.real(number) for number in way.operations[0].arguments]
+    return [numbers[row : row + 4] for row in range(0, 16, 4)]
+
+
+def _is_general(element: Medium) -> bool:
+    """Tell whether a medium does more than absorb, and one more thing."""
+    rotates = not (vanishes(element.rotation) and vanishes(element.dextrorotation))
+    others = element.dichroism, element.circular_dichroism, element.depolarization
+    return not all(map(vanishes, others)) or (rotates and not vanishes(element.retardance))
+
+
+def exponential(dichroism: Any, retardance: Any, depth: Any = 0, depolarization: Any = 0) -> Any:
+    """Return the Mueller matrix of a generator."""
+    (p1, p2, p3), (q1, q2, q3), d = dichroism, retardance, depth + depolarization
+    generator = mpmath.matrix(
+        [[-depth, p1, p2, p3], [p1, -d, -q3, q2], [p2, q3, -d, -q1], [p3, -q2, q1, -d]]
+    )
+    return mpmath.expm(generator, method="taylor").tolist()
+
+
+def medium(element: Medium, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of a medium."""
+    length = read.real(element.length)
+    depth = length * read.real(element.absorption)
+    rotation = read.angle_along(element.rotation, element.length, 2)
+    rotation -= read.angle_along(element.dextrorotation, element.length, 2)
+    retardance = read.angle_along(element.retardance, element.length)
+    linear, circular = (
+        length * read.real(rate) for rate in (element.dichroism, element.circular_dichroism)
+    )
+    fast = cos_sin(2 * read.angle(element.angle, 2))
+    dichroic = fast
+    if element.dichroic_angle is not None:
+        dichroic = cos_sin(2 * read.angle(element.dichroic_angle, 2))
+    return exponential(  # type: ignore[no-any-return]
+        (*(linear * part for part in dichroic), circular),
+        (*(retardance * part for part in fast), 2 * rotation),
+        depth,
+        length * read.real(element.depolarization),
+    )
+
+
+def elliptical_retarder(element: EllipticalRetarder, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of an elliptical retarder."""
+    turns = tuple(read.angle(part) for part in (element.s1, element.s2, element.s3))
+    return exponential((0, 0, 0), turns)  # type: ignore[no-any-return]
+
+
+def turn(angle: Any) -> Jones:
+    """Return what a turn of the frame does to the field."""
+    c, s = cos_sin(angle)
+    return (c, s), (-s, c)
+
+
+def filtering(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
+    """Return what a filter does."""
+    roots = (mpmath.sqrt(read.real(transmittance)) for transmittance in (along, across))
+    return _turned(diagonal(*roots), read.angle(angle, 2))
+
+
+def retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
+    """Return what a retarder does.
+
+    Units: retardance in radians.
+    """
+    # The field is exp(-iwt): what falls behind gains a positive phase.
+    slow = mpmath.mpc(*cos_sin(retardance))
+    return _turned(diagonal(1, slow), read.angle(angle, 2))
+
+
+def diagonal(x: Any, y: Any) -> Jones:
+    """Return a diagonal matrix."""
+    return (x, 0), (0, y)
+
+
+def _turned(matrix: Jones, angle: Any) -> Jones:
+    return times(turn(-angle), times(matrix, turn(angle)))
+
+
+def times(first: Jones, second: Jones) -> Jones:
+    """Return the product of two matrices."""
+    (a, b), (c, d) = first
+    (e, f), (g, h) = second
+    return (a * e + b * g, a * f + b * h), (c * e + d * g, c * f + d * h)

@@ -1,1 +1,0 @@
-"""Published experiments on rough surfaces, done again."""

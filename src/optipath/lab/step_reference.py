@@ -1,0 +1,344 @@
+"""Reference for single elements of exact decimals, and its table of Mueller matrices.
+
+A step is a word with values by name, as texts: `("reflection", {"n": "1.5", "incidence": "30"})`.
+Angles are in degrees. No kernel and no element of the library is used.
+
+``python -m optipath.lab.accuracy.mueller_table > docs/reference-mueller-matrices.json`` writes it.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from optipath.lab.boundary_reference import boundary, stack
+from optipath.lab.element_reference import times, turn
+from optipath.lab.many_digits import DIGITS, WORKING_DIGITS, cos_sin, mpmath
+from optipath.lab.path_reference import coherency, passed, stokes_of
+from optipath.light.conventions import CONVENTIONS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from optipath.lab.boundary_reference import Jones
+
+    Values: TypeAlias = Mapping[str, Any]
+    Step: TypeAlias = tuple[str, Values]
+
+
+def mueller_of(steps: Iterable[Step]) -> list[list[Any]]:
+    """Return the Mueller matrix of steps in the order in which light meets them.
+
+    Examples
+    --------
+    >>> rows = mueller_of([("reflection", {"n": "1.5", "incidence": "0"})])
+    >>> [float(entry) for entry in rows[0]]
+    [0.04, 0.0, 0.0, 0.0]
+    """
+    with mpmath.workdps(WORKING_DIGITS):
+        total = mpmath.eye(4)
+        for does, values in steps:
+            total = mpmath.matrix(STEPS[does](values)) * total
+        least = mpmath.mpf(10) ** -DIGITS * (total[0, 0] or 1)
+        rows = total.tolist()
+        return [[x if abs(x) > least else mpmath.mpf(0) for x in row] for row in rows]
+
+
+def _reflection(values: Values) -> list[list[Any]]:
+    return _of_jones(boundary(_index(values), *_incidence(values)).reflected)
+
+
+def _transmission(values: Values) -> list[list[Any]]:
+    return _of_jones(boundary(_index(values), *_incidence(values)).transmitted)
+
+
+def _layers(values: Values, *, reflected: bool) -> list[list[Any]]:
+    indices = [mpmath.mpc(*map(mpmath.mpf, pair)) for pair in values["indices"]]
+    return stack(indices, *_incidence(values), back=False, way=reflected)
+
+
+def _reflecting_layers(values: Values) -> list[list[Any]]:
+    return _layers(values, reflected=True)
+
+
+def _transmitting_layers(values: Values) -> list[list[Any]]:
+    return _layers(values, reflected=False)
+
+
+def _polarizer(values: Values) -> list[list[Any]]:
+    through = values.get("transmittance", "1"), values.get("leakage", "0")
+    x, y = (mpmath.sqrt(mpmath.mpf(part)) for part in through)
+    return _at_angle(((x, 0), (0, y)), values)
+
+
+def _retarder(values: Values) -> list[list[Any]]:
+    # The field is exp(-iwt): the slow component gains a positive phase.
+    slow = mpmath.mpc(*cos_sin(_degrees(values["retardance"])))
+    return _at_angle(((1, 0), (0, slow)), values)
+
+
+def _rotator(values: Values) -> list[list[Any]]:
+    return _of_jones(turn(-_degrees(values["angle"])))
+
+
+def _faraday_rotator(values: Values) -> list[list[Any]]:
+    factors = (mpmath.mpf(values[name]) for name in ("verdet", "field", "length"))
+    return _of_jones(turn(-mpmath.fprod(factors)))
+
+
+def _waveplate(values: Values) -> list[list[Any]]:
+    names = "thickness", "birefringence", "wavelength"
+    thickness, birefringence, wavelength = (mpmath.mpf(values[name]) for name in names)
+    retardance = 360 * thickness * birefringence / wavelength
+    return _retarder({**values, "retardance": retardance})
+
+
+def _circular_polarizer(values: Values) -> list[list[Any]]:
+    through = values.get("transmittance", "1"), values.get("leakage", "0")
+    t, leakage = (mpmath.mpf(part) for part in through)
+    sign = mpmath.mpf(values["handedness"])
+    mean, half, across = (t + leakage) / 2, sign * (t - leakage) / 2, mpmath.sqrt(t * leakage)
+    return [[mean, 0, 0, half], [0, across, 0, 0], [0, 0, across, 0], [half, 0, 0, mean]]
+
+
+def _polarizing_reflection(values: Values) -> list[list[Any]]:
+    u, v = _leaks(values)
+    s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
+    return _of_jones(((mpmath.sqrt(s), 0), (0, -mpmath.sqrt(p))))
+
+
+def _polarizing_transmission(values: Values) -> list[list[Any]]:
+    u, v = _leaks(values)
+    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
+    return _of_jones(((mpmath.sqrt(s), 0), (0, mpmath.sqrt(p))))
+
+
+def _leaks(values: Values) -> tuple[Any, Any]:
+    names = "extinction_transmitted", "extinction_reflected"
+    u, v = (1 / mpmath.mpf(values[name]) for name in names)
+    return u, v
+
+
+def _turned_frame(values: Values) -> list[list[Any]]:
+    return _of_jones(turn(_degrees(values["angle"])))
+
+
+STEPS = {
+    "reflection": _reflection,
+    "transmission": _transmission,
+    "reflection by layers": _reflecting_layers,
+    "transmission by layers": _transmitting_layers,
+    "polarizer": _polarizer,
+    "retarder": _retarder,
+    "rotator": _rotator,
+    "turned frame": _turned_frame,
+    "faraday rotator": _faraday_rotator,
+    "waveplate": _waveplate,
+    "circular polarizer": _circular_polarizer,
+    "reflection by a polarizing beam splitter": _polarizing_reflection,
+    "transmission by a polarizing beam splitter": _polarizing_transmission,
+}
+"""What there is by its word: a function of the values, which returns the rows of a matrix."""
+
+
+def _degrees(text: str) -> Any:
+    return mpmath.radians(mpmath.mpf(text))
+
+
+def _incidence(values: Values) -> tuple[Any, Any]:
+    if "tan_incidence" in values:
+        tangent = mpmath.mpf(values["tan_incidence"])
+        cosine = 1 / mpmath.sqrt(1 + tangent * tangent)
+        return cosine, tangent * cosine
+    return cos_sin(_degrees(values["incidence"]))
+
+
+def _index(values: Values) -> Any:
+    behind = mpmath.mpc(mpmath.mpf(values["n"]), mpmath.mpf(values.get("k", "0")))
+    return behind / mpmath.mpf(values.get("outside", "1"))
+
+
+def _at_angle(matrix: Jones, values: Values) -> list[list[Any]]:
+    angle = _degrees(values["angle"])
+    return _of_jones(times(turn(-angle), times(matrix, turn(angle))))
+
+
+def _of_jones(matrix: Jones) -> list[list[Any]]:
+    units: Sequence[Any] = mpmath.eye(4).tolist()
+    columns = [stokes_of(passed(matrix, coherency(unit))) for unit in units]
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
+TABLE_DIGITS = 20
+
+CONVENTION = {
+    "field": "exp(-i w t); an index n + i k with k > 0 absorbs",
+    "frame": "right-handed x, y, z; z is the direction of travel, and y = z cross x",
+    "stokes": "S1 = |Ex|^2 - |Ey|^2, S2 = 2 Re(conj(Ex) Ey), S3 = 2 Im(conj(Ex) Ey): S3 > 0 is "
+    "counter-clockwise to who looks at the source",
+    "angles": "in degrees, exact decimals; azimuths from x towards y; tan_incidence is the tangent "
+    "of the angle of incidence",
+    "reflection, transmission": "x along s, perpendicular to the plane of incidence and the same "
+    "before and behind; r_s = (c-g)/(c+g), r_p = (m^2 c-g)/(m^2 c+g), C + i S = r_s conj(r_p); "
+    "what is let through is power carried, not radiance; outside is the index in front, 1 if not "
+    "given",
+    "layers": "indices [n, k] from the medium in front to the substrate; intensities add up, "
+    "without interference",
+    "polarizer": "angle is its axis; transmittance along it, 1 by default, leakage across it, 0 by "
+    "default",
+    "retarder": "angle is its fast axis; the slow component gains exp(+i retardance)",
+    "rotator": "turns light from x towards y by angle",
+    "faraday rotator": "turns light from x towards y by verdet * field * length radians; verdet "
+    "in rad/(T m), field in T along the light, length in m",
+    "waveplate": "a retarder of 360 * thickness * birefringence / wavelength degrees, both lengths "
+    "in um",
+    "circular polarizer": "handedness 1 lets S3 > 0 through, -1 S3 < 0; transmittance of it, 1 by "
+    "default, leakage of the other, 0 by default",
+    "polarizing beam splitter": "without loss, x = s; extinction_transmitted is Tp / Ts, "
+    "extinction_reflected Rs / Rp; r_p and r_s of unlike sign, t_p and t_s of like sign",
+    "turned frame": "the same light in a frame turned from x towards y by angle",
+    "steps": "in the order in which light meets them; frame_in is that of the first step, and "
+    "frame_out that of the last",
+}
+
+_GLASS, _OUT = {"n": "1.5"}, {"n": "1", "outside": "1.5"}
+_SILVER, _STEEL = {"n": "0.2", "k": "3.4"}, {"n": "1.12", "k": "2.16"}
+_BREWSTER = {"tan_incidence": "1.5"}
+_MEDIA = {
+    "glass": (_GLASS, ("0", "30", _BREWSTER, "75", "89.99", "90")),
+    "from glass": (_OUT, ("0", "20", "41", "42", "60", "89.99")),
+    "from water into glass": ({"n": "1.5", "outside": "1.33"}, ("50",)),
+    "metal, n 0.2": (_SILVER, ("0", "50", "75", "89.99", "90")),
+    "metal, n 1.12": (_STEEL, ("48", "85")),
+    "weak absorber": ({"n": "1.5", "k": "0.001"}, (_BREWSTER,)),
+    "absorber less dense than air": ({"n": "0.9", "k": "0.05"}, ("70",)),
+}
+_TRANSPARENT = {
+    "glass": ("0", "30", _BREWSTER, "75", "89.99"),
+    "from glass": ("0", "20", "41", "60"),
+}
+_CUBE = {"extinction_transmitted": "1000", "extinction_reflected": "20"}
+_FILTERS: tuple[Step, ...] = (
+    *(("polarizer", {"angle": angle}) for angle in ("0", "30", "45", "90", "-70")),
+    ("polarizer", {"angle": "20", "transmittance": "0.9", "leakage": "0.2"}),
+    *(("retarder", {"retardance": "90", "angle": angle}) for angle in ("0", "20", "45")),
+    ("retarder", {"retardance": "180", "angle": "22.5"}),
+    ("retarder", {"retardance": "35", "angle": "-50"}),
+    *(("rotator", {"angle": angle}) for angle in ("30", "-12.5")),
+    ("turned frame", {"angle": "30"}),
+    ("faraday rotator", {"verdet": "-134", "field": "0.25", "length": "0.02"}),
+    (
+        "waveplate",
+        {"thickness": "17.5", "birefringence": "0.0091", "wavelength": "0.55", "angle": "20"},
+    ),
+    (
+        "waveplate",
+        {"thickness": "2.5", "birefringence": "-0.172", "wavelength": "0.59", "angle": "0"},
+    ),
+    ("circular polarizer", {"handedness": "1"}),
+    ("circular polarizer", {"handedness": "-1", "transmittance": "0.9", "leakage": "0.2"}),
+    *((f"{way} by a polarizing beam splitter", _CUBE) for way in ("reflection", "transmission")),
+)
+_AIR, _PANE = ("1", "0"), ("1.5", "0")
+_STACKS = {
+    "pane": (_AIR, _PANE, _AIR),
+    "two layers on glass": (_AIR, ("1.38", "0"), ("2.1", "0"), ("1.52", "0")),
+    "varnish on metal": (_AIR, _PANE, ("0.2", "3.4")),
+}
+_SET_UPS = (
+    ({"n": "1.33"}, {"n": "1.5"}, ("53", "0", "56"), ("none", "0", "90")),
+    (
+        {"n": "1", "outside": "1.5105"},
+        {"n": "1", "outside": "1.5105"},
+        ("48", "0", "54.6"),
+        ("0", "90", "45"),
+    ),
+    (_STEEL, {"n": "0.608", "k": "2.12"}, ("48", "34", "20"), ("none", "0", "90")),
+)
+
+
+def entries() -> Iterator[tuple[str, list[Step]]]:
+    """Yield every matrix of the table: its name, and the steps that it is of."""
+    for name, (medium, angles) in _MEDIA.items():
+        for angle in angles:
+            yield _at(name, "reflection", medium, angle)
+    for name, angles in _TRANSPARENT.items():
+        for angle in angles:
+            yield _at(name, "transmission", _MEDIA[name][0], angle)
+    for does, values in _FILTERS:
+        said = ", ".join(f"{key} {value}" for key, value in values.items())
+        yield f"{does}, {said}", [(does, values)]
+    for name, indices in _STACKS.items():
+        for angle in ("0", "50"):
+            yield _at(name, "reflection by layers", {"indices": indices}, angle)
+            if indices[-1][1] == "0":
+                yield _at(name, "transmission by layers", {"indices": indices}, angle)
+    yield from _set_ups()
+
+
+def mueller_table() -> str:
+    """Return the table as JSON, one row of a matrix in a line."""
+    made = f"python -m {__spec__.name} > docs/reference-mueller-matrices.json"
+    signs = {name: _row(f"{sign:g}" for sign in c.signs) for name, c in CONVENTIONS.items()}
+    content = {
+        "description": "Mueller matrices from 50-digit arithmetic, rounded to 20 digits",
+        "made by": made,
+        "conventions": CONVENTION,
+        "signs": {
+            "description": "in another convention, entry [i][j] is multiplied by sign i and sign j",
+            **signs,
+        },
+        "matrices": [_written(name, steps) for name, steps in entries()],
+    }
+    text = json.dumps(content, indent=1)
+    # Python would round numbers to its floats: they are written as marked texts.
+    return re.sub(r'"#([^"]*)"', r"\1", text) + "\n"
+
+
+def _set_ups() -> Iterator[tuple[str, list[Step]]]:
+    number = 0
+    for x1, x2, (delta, rho, phi), filters in _SET_UPS:
+        for axis in filters:
+            number += 1
+            first: list[Step] = [] if axis == "none" else [("polarizer", {"angle": axis})]
+            # Along the light, the next plane of incidence is turned by -rho.
+            turned = ("turned frame", {"angle": rho if rho == "0" else f"-{rho}"})
+            behind = [
+                ("reflection", {**x2, "incidence": phi}),
+                turned,
+                ("reflection", {**x1, "incidence": delta}),
+            ]
+            yield f"npgr026, case {number}", [*first, *behind]
+
+
+def _at(name: str, does: str, values: dict[str, Any], angle: Any) -> tuple[str, list[Step]]:
+    by_tangent = isinstance(angle, dict)
+    said = "Brewster's angle" if by_tangent else f"{angle} deg"
+    where = angle if by_tangent else {"incidence": angle}
+    return f"{name}, {does}, {said}", [(does, {**values, **where})]
+
+
+def _written(name: str, steps: list[Step]) -> dict[str, Any]:
+    rows = mueller_of(steps)
+    return {
+        "name": name,
+        "steps": [{"does": does, **_numbers(values)} for does, values in steps],
+        "mueller": [_row(mpmath.nstr(entry, TABLE_DIGITS) for entry in row) for row in rows],
+    }
+
+
+def _numbers(values: Any) -> dict[str, Any]:
+    return {
+        name: f"#{value}" if isinstance(value, str) else [_row(pair) for pair in value]
+        for name, value in values.items()
+    }
+
+
+def _row(numbers: Any) -> str:
+    return f"#[{', '.join(numbers)}]"
+
+
+if __name__ == "__main__":
+    sys.stdout.write(mueller_table())

@@ -1,1 +1,0 @@
-"""Mueller matrices between reference frames, and what can be read off them."""

@@ -1,0 +1,225 @@
+"""Frames, noise and wavelengths of light, computed when they are first needed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import FrameError, LightError, ShapeError
+from optipath.light.array_axes import each_number
+from optipath.light.frame import Frame
+from optipath.values.arrays import locked
+from optipath.values.jax_values import is_traced, known, namespace
+from optipath.values.precision import at_least_single
+from optipath.values.units import displayed
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.values.precision import Array
+
+
+class FramesOnDemand:
+    """What has frames, each a `Frame`, or what returns it when somebody asks."""
+
+    def _keep_frames(self, **frames: Frame | Callable[[], Frame]) -> None:
+        """Keep each by its name; one that is not made yet with an underscore before it."""
+        for name, frame in frames.items():
+            self.__dict__[name if type(frame) is Frame else f"_{name}"] = frame
+
+    def _kept_frame(self, name: str) -> Any:
+        """Return a frame as it is kept, which nobody has to make for it."""
+        own = self.__dict__
+        return own[name] if name in own else own[f"_{name}"]
+
+    def _part_of_frame(
+        self, name: str, batch: tuple[int, ...], change: Callable[[Any], Any]
+    ) -> Frame | Callable[[], Frame]:
+        """Return what `indexed_frame` does, or what returns it where nobody has to make it."""
+        kept = self._kept_frame(name)
+        if type(kept) is Frame and (
+            kept.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
+        ):
+            return indexed_frame(kept, batch, change)
+        return lambda: indexed_frame(getattr(self, name), batch, change)
+
+    if not TYPE_CHECKING:  # Else any name would do for who checks types.
+
+        def __getattr__(self, name: str) -> Any:
+            own = self.__dict__
+            if not name.startswith("frame") or f"_{name}" not in own:
+                kind = type(self).__name__
+                raise AttributeError(f"a {kind} has no attribute '{name}'", name=name, obj=self)
+            own[name] = own[f"_{name}"]()
+            return own[name]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What makes frames stays here.
+        own = dict(self.__dict__)
+        for later in [name for name in own if name.startswith("_frame")]:
+            del own[later]
+            own[later[1:]] = getattr(self, later[1:])
+        return own
+
+
+def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
+    """Return the frames that belong to a part of a batch.
+
+    Examples
+    --------
+    >>> frames = Frame().turned([0.0, 0.5, 1.0])
+    >>> indexed_frame(frames, (3,), lambda numbers: numbers[1]) == Frame().turned(0.5)
+    True
+    """
+    if frame.z.ndim == 1:
+        return frame
+    axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]
+    x, y, z = [each_number(axis, change) for axis in axes]
+    if is_traced(z):
+        raise FrameError(
+            "a frame is of numbers, not of an index that JAX traces; bring light to one frame "
+            "before, light.in_frame(frame)[i], or look at it outside of jit and grad"
+        )
+    return Frame.trusted(x, y, z, frame.rounding)
+
+
+def inheriting(
+    lights: tuple[Any, ...],
+    factor: Any = 1.0,
+    power: Any = 0,
+    *,
+    mixed: bool = False,
+    part: Any = None,
+    added: Any = 0.0,
+) -> tuple[Any, ...]:
+    """Return what light keeps that is made of others, for its noise to be found by."""
+    for light in lights:
+        # What is inherited twice is found now, lest sums of many lights keep all of them.
+        noise = vars(light).get("_noise")
+        if isinstance(noise, tuple) and noise[0] is inherited_noise:
+            vars(light)["_noise"] = light.noise_floor
+    return inherited_noise, lights, factor, power, mixed, part, added
+
+
+def inherited_noise(
+    lights: tuple[Any, ...],
+    factor: Any,
+    power: Any,
+    mixed: bool,  # noqa: FBT001 - called by what is kept of it
+    part: Callable[[Any], Any] | None,
+    added: Any,
+    stokes: Array,
+    exponent: Array,
+) -> Array:
+    """Return the noise in a mantissa, of shape (...).
+
+    Shapes: stokes (..., 4); exponent (...); returns (...).
+    """
+    total = np.zeros(exponent.shape, stokes.dtype)
+    for light in lights:
+        floor, own = light.noise_floor, light.exponent
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            if mixed:
+                floor = floor + rounding(known(light.mantissa))
+            floor = floor * np.abs(factor) + added * np.abs(known(light.mantissa)[..., 0])
+        if part is not None:
+            floor, own = part(floor), part(own)
+        with np.errstate(over="ignore", under="ignore"):
+            total = total + np.ldexp(floor, own + power - exponent)
+    return total
+
+
+def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
+    """Return the noise in a mantissa: the rounding of S0 at least.
+
+    Shapes: stokes (..., 4); exponent (...); returns (...).
+
+    Examples
+    --------
+    >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9), np.array(0)))
+    1e-09
+    """
+    least = rounding(stokes)
+    if noise is None or is_traced(stokes):
+        return least
+    if isinstance(noise, tuple):
+        found, *given = noise
+        noise = found(*given, stokes, exponent)
+    return np.maximum(least, noise)
+
+
+def rounding(stokes: Any) -> Any:
+    """Return by how much sums of numbers as large as S0 are rounded, of shape (...).
+
+    Examples
+    --------
+    >>> print(rounding(np.array([2.0, 0.0, 0.0, 0.0], np.float32)))
+    2.3841858e-07
+    """
+    xp = namespace(stokes)
+    with np.errstate(under="ignore", over="ignore"):
+        return abs(at_least_single(stokes[..., 0])) * float(xp.finfo(stokes.dtype).eps)
+
+
+_ROUNDING = 2.0 * float(np.finfo(np.float32).eps)
+"""By how much, as a share, wavelengths differ that are one, given in single precision."""
+
+
+def common_wavelength(light: Any, other: Any) -> Any:
+    """Return what light has that is made of this, and of another one if there is one."""
+    mine = light.kept_wavelength
+    if other is None or mine is None or mine is other.kept_wavelength:
+        return mine
+    # Found now, lest sums of many lights keep what finds those of each.
+    one, two = light.wavelength, other.wavelength
+    if one is None or two is None or is_traced(one) or is_traced(two):
+        return None
+    if (apart := np.abs(one - two) > _ROUNDING * one).any():
+        pair = [displayed(np.broadcast_to(w, apart.shape)[apart][0], "nm") for w in (one, two)]
+        raise LightError(
+            f"lights of different wavelengths, {pair[0]} and {pair[1]}, have no sum; "
+            f"add light.integrate() of each, or, of powers, op.Light(light.stokes, light.frame)"
+        )
+    return light.wavelength
+
+
+def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
+    """Return what returns the wavelengths of a part of the batch; None where there are none."""
+    kept, batch = light.kept_wavelength, light.shape
+    if kept is None or light.wavelengths_in_doubt:
+        return kept
+
+    def part() -> Any:
+        found = kept() if callable(kept) else kept
+        if found is None:
+            return None
+        xp = namespace(found)
+        found = change(xp.broadcast_to(found, batch))
+        return namespace(found).asarray(found)
+
+    return part
+
+
+def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
+    """Return wavelengths that somebody gives for light.
+
+    Units: given, the result in metres.
+
+    Examples
+    --------
+    >>> wavelengths_for((2,), ["500 nm", "2.4 eV"]).round(9)
+    array([5.00e-07, 5.17e-07])
+    """
+    found = Wavelength().resolve(given).value
+    shape = tuple(found.shape)
+    if len(shape) > len(batch) or any(
+        own not in (1, whole) for own, whole in zip(shape[::-1], batch[::-1], strict=False)
+    ):
+        raise ShapeError(
+            f"wavelengths of shape {shape} do not fit light of shape {batch}; give one for each "
+            f"light, or an array that broadcasts to them, such as wavelengths[:, None]"
+        )
+    wavelengths: Array = found if is_traced(found) else locked(np.array(found, np.float64))
+    return wavelengths

@@ -1,0 +1,220 @@
+"""Physical Mueller matrices: what passive elements can do, and measured matrices that do not."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import LightError, shown
+from optipath.kernels.coherency import is_physical
+from optipath.kernels.primitives import FLOAT, NUMPY
+from optipath.light import decompositions as cloude
+from optipath.light.decompositions import rounding_of as spacing_of
+from optipath.light.decompositions import tolerance_for
+from optipath.light.polarization_state import length
+from optipath.light.polarization_state import problem_of as problem_of_light
+from optipath.values.domains import can_be_light, surely_light
+from optipath.values.jax_values import is_traced, namespace
+from optipath.values.precision import rounding_of
+
+if TYPE_CHECKING:
+    from optipath.values.precision import Array
+
+
+_AT_ONCE = 4096
+"""How many matrices are looked at together: they stay in the cache, and in memory that is there."""
+
+_FEW = 4
+"""How many are quicker looked at one after the other."""
+
+
+def gain(matrix: Array) -> Array:
+    """Return by how much the light that is let through best is brighter behind, shape (...).
+
+    M00 + abs((M01, M02, M03)), the intensity of what fully polarised light becomes (Gil and
+    Ossikovski, Polarized Light and the Mueller Matrix Approach, sec. 5.4).
+
+    Examples
+    --------
+    >>> print(gain(np.array([[0.5, 0.5, 0, 0], [0.5, 0.5, 0, 0], [0] * 4, [0] * 4])))
+    1.0
+    """
+    # No squares, which of what is far too much would overflow.
+    length = namespace(matrix).hypot
+    across = length(length(matrix[..., 0, 1], matrix[..., 0, 2]), matrix[..., 0, 3])
+    return matrix[..., 0, 0] + across  # type: ignore[no-any-return]
+
+
+def are_passive(matrix: Array, tolerance: float) -> Array:
+    """Tell which matrices a passive element can have, as far as their rounding lets one say.
+
+    Shapes: matrix (..., 4, 4); returns (...).
+
+    Examples
+    --------
+    >>> one, flipped = np.eye(4), np.diag([1.0, 1.0, 1.0, -1.0])
+    >>> print(are_passive(np.array([one, 2.0 * one, flipped]), 1e-9))
+    [ True False False]
+    """
+    if is_traced(matrix):
+        xp: Any = namespace(matrix)
+        numbers = [matrix[..., row, column] for row in range(4) for column in range(4)]
+        return is_physical(xp, numbers, 0.25 * tolerance) & (gain(matrix) <= 1.0 + tolerance)  # type: ignore[no-any-return]
+    flat = np.asarray(matrix).reshape(-1, 4, 4)
+    if len(flat) <= _FEW and all(
+        _is_passive(one, tolerance) for one in flat.reshape(-1, 16).tolist()
+    ):
+        return np.ones(matrix.shape[:-2], bool)
+    found = np.empty(len(flat), bool)
+    for start in range(0, len(flat), _AT_ONCE):
+        some = slice(start, start + _AT_ONCE)
+        found[some] = _surely_passive(flat[some], tolerance)
+    doubtful = ~found
+    if doubtful.any():
+        left = flat[doubtful]
+        found[doubtful] = (cloude.lack(left) <= tolerance) & (gain(left) <= 1.0 + tolerance)
+    return found.reshape(matrix.shape[:-2])
+
+
+def problem_of(matrix: Array, tolerance: float) -> str:
+    """Return why no passive element has a matrix, as a sentence goes on with it.
+
+    Shape: matrix (4, 4).
+
+    Examples
+    --------
+    >>> problem_of(2.0 * np.eye(4), 1e-9)[:37]
+    'makes light up to 2 times as bright ('
+    """
+    lacks = cloude.lack(matrix)
+    if lacks <= tolerance:
+        times = _text(float(gain(matrix)))
+        return (
+            f"makes light up to {times} times as bright (M00 + |(M01, M02, M03)|), as no passive "
+            f"element does"
+        )
+    return (
+        f"is unphysical, having a coherency eigenvalue of {-lacks:.3g} times the largest (Cloude's "
+        f"criterion), so that light could be polarised by more than 100 %"
+    )
+
+
+def cure_of(matrices: Array, tolerance: float) -> str:
+    """Return what is to be given in place of matrices, so that all `are_passive`.
+
+    Shape: matrices (..., 4, 4).
+
+    Examples
+    --------
+    >>> cure_of(2.0 * np.eye(4), 1e-9)
+    'matrix / 2'
+    """
+    found = "matrix"
+    if np.any(cloude.lack(matrices) > tolerance):
+        found = "op.Mueller(matrix).nearest_physical().matrix"
+        matrices = cloude.nearest_physical(matrices)
+    most = np.max(gain(matrices))
+    return f"{found} / {_rounded_up(most)}" if most > 1.0 else found
+
+
+def _text(number: float) -> str:
+    """Write a number with six digits, or ten where it is 1 otherwise."""
+    text = f"{number:.6g}"
+    return text if float(text) > 1.0 else _rounded_up(number)
+
+
+def _rounded_up(number: float) -> str:
+    """Write a number with ten digits, or somewhat more than it."""
+    text = f"{number:.10g}"
+    return text if float(text) >= number else f"{number * (1.0 + 1e-9):.10g}"
+
+
+def _is_passive(numbers: list[float], tolerance: float) -> bool:
+    """Tell of one matrix what `_surely_passive` tells of many."""
+    dim = numbers[0] + hypot(*numbers[1:4]) <= 1.0 + tolerance
+    return dim and bool(is_physical(FLOAT, numbers, 0.25 * tolerance))
+
+
+def _surely_passive(matrices: Array, spare: float) -> Array:
+    """Tell of which matrices elimination says so, which is quick."""
+    numbers = np.ascontiguousarray(matrices.reshape(-1, 16).T)
+    m00, m01, m02, m03 = numbers[:4]
+    with np.errstate(all="ignore"):
+        room = 1.0 + spare - m00
+        dim = (room >= 0.0) & (m01 * m01 + m02 * m02 + m03 * m03 <= room * room)
+        # No eigenvalue is less than a quarter of their sum M00 where it is the largest.
+        return np.asarray(is_physical(NUMPY, [*numbers], 0.25 * spare) & dim)
+
+
+_CURE = (
+    "act with matrix.nearest_physical(); or, for measured noise, on Light(..., physical=False), "
+    "which may be what no light is"
+)
+
+_BEYOND = 12.0
+"""By how many times what its coherency lacks, over M00, a matrix takes light beyond 100 %, at most.
+
+Three eigenvalues are negative at most; a Jones matrix of the size of one lets twice as much
+through, and light that it takes away shortens S0 and lengthens (S1, S2, S3) by as much.
+"""
+
+_LEFT = 16.0
+"""How many roundings of 1 are left where matrices that let nothing through were multiplied."""
+
+
+def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
+    """Tell of which light a matrix makes what no light is, beyond the rounding of all three.
+
+    A matrix that is physical by the default of `Mueller.is_physical` does so of none, nor does one
+    whose entries may be no more than what is left of roundings of 1, as of crossed polarisers.
+
+    Shapes: matrix (..., 4, 4); noise (...); arriving, made (..., 4); returns (...).
+
+    Examples
+    --------
+    >>> light = np.array([1.0, 0.0, 0.0, 1.0])
+    >>> print(becomes_no_light(np.eye(4), 0.0, light, np.array([1.0, 0.0, 0.0, 1.7])))
+    True
+    """
+    xp = namespace(made)
+    tolerance = max(tolerance_for(matrix), tolerance_for(arriving))
+    rounding = _BEYOND * tolerance * abs(matrix[..., 0, 0]) + _LEFT * spacing_of(matrix) + noise
+    is_light = can_be_light(arriving, rounding_of(arriving)) & (arriving[..., 0] >= 0.0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        beyond = length(made[..., 1], made[..., 2], made[..., 3]) - made[..., 0]
+    # Numbers below the smallest normal one have lost digits; of infinite ones nothing is said.
+    least = float(np.finfo(made.dtype).tiny)
+    return is_light & (beyond > xp.maximum(rounding * arriving[..., 0], least)) & (beyond < np.inf)
+
+
+def check_becomes_light(matrix: Array, noise: Array, arriving: Array, made: Array) -> None:
+    """Refuse a matrix that makes of light what no light is."""
+    if surely_light(made):
+        return
+    bad = np.asarray(becomes_no_light(matrix, noise, arriving, made))
+    if not bad.any():
+        return
+    place = tuple(int(i) for i in np.argwhere(bad)[0])
+    intensity = arriving[..., :1]
+    before, behind = (
+        np.broadcast_to(stokes / np.where(intensity > 0.0, intensity, 1.0), made.shape)[place]
+        for stokes in (arriving, made)
+    )
+    more = f" (one of {bad.sum()} such)" if bad.sum() > 1 else ""
+    raise LightError(
+        f"light like {shown(before.tolist())} becomes {shown(behind.tolist())}, "
+        f"{problem_of_light(behind)}{more}, by a Mueller matrix that is unphysical; {_CURE}"
+    )
+
+
+def nan_where_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
+    """Return light that JAX traces, NaN where it is none, with its slopes.
+
+    Shape: returns (..., 4).
+    """
+    xp = namespace(made)
+    # A product, since a choice would have slopes of 0.
+    share = xp.where(becomes_no_light(matrix, noise, arriving, made), np.nan, 1.0)
+    return made * share[..., np.newaxis].astype(made.dtype)

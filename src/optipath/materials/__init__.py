@@ -1,0 +1,1 @@
+"""Materials and spectra: what depends on the wavelength."""

@@ -1,0 +1,163 @@
+"""Numbers of a user's own by wavelength: samples of a table, Drude's rotation formula."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault, shown
+from optipath.materials.formulas import EVERYWHERE, DrudeRotation, several
+from optipath.materials.tables import Tabulated
+from optipath.values.arrays import as_given, numbers_for
+from optipath.values.curve_value import curve_at
+from optipath.values.parameters import label_of
+from optipath.values.units import dimension_of, parse_quantity, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+def tabulated(
+    wavelengths: Any,
+    values: Any,
+    unit: str = "",
+    *,
+    label: str = "the table",
+    interpolation: str = "linear",
+    extrapolate: str = "",
+    wavelength: Any = None,
+) -> Any:
+    """Return a number that follows from the wavelength by samples.
+
+    It stands wherever a `Parameter` does: a transmittance, a retardance, a birefringence, a
+    rotatory power, a Verdet constant, an absorption coefficient.
+
+    Parameters
+    ----------
+    wavelengths : array_like, shape (n,)
+        In vacuum, in metres, or texts with a unit; rising or falling.
+    values : array_like, shape (n,)
+        The samples.
+    unit : str, optional
+        That of the samples; by default texts have one each, and numbers are in radians, metres
+        and teslas.
+    label : str, optional
+        What sentences call it.
+    interpolation : {"linear", "monotone"}, optional
+        By straight lines, or by cubics that overshoot no sample.
+    extrapolate : {"", "nearest", "linear"}, optional
+        What it is beyond its samples: an error, the last sample, or the straight line on.
+    wavelength : Parameter, float, str or array_like, optional
+        The wavelength of the run; ``Wavelength()`` by default.
+
+    Returns
+    -------
+    CurveValue, or float or ndarray where the wavelength is known
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the samples.
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    >>> green = tabulated(["500 nm", "550 nm", "600 nm"], [0.0, 0.8, 0.1], label="green glass")
+    >>> round(green.at("525 nm"), 12)
+    0.4
+    """
+    label = label_of("a table", label, "the table")
+    samples = as_given(f"values of {label}", values)
+    texts = [entry for entry in samples.ravel().tolist() if isinstance(entry, str)]
+    if not dimension_of(unit):
+        unit = next(map(unit_of, texts), "")
+    dimension = dimension_of(unit)
+    numbers = numbers_for(
+        f"values of {label}", values, lambda text: parse_quantity(text, dimension, unit)
+    )
+    if unit and not texts:
+        numbers = [_in_base_units(label, one, unit) for one in samples.ravel().tolist()]
+        numbers = np.reshape(numbers, samples.shape)
+    curve = Tabulated(
+        label,
+        ("value",),
+        wavelengths,
+        (numbers,),
+        interpolation=interpolation,
+        extrapolate=extrapolate,
+        unit=unit,
+    )
+    return curve_at(curve, wavelength)[0]
+
+
+def drude_rotation(
+    strengths: Sequence[float],
+    poles: Sequence[float],
+    constant: float = 0.0,
+    unit: str = "rad/m",
+    *,
+    label: str = "the rotation",
+    span: tuple[Any, Any] = EVERYWHERE,
+    wavelength: Any = None,
+) -> Any:
+    """Return a rotation that follows from the wavelength by the formula of Drude.
+
+    It is constant + the sum of A / (w^2 - C): rotatory power (P. Drude, Lehrbuch der Optik (1900),
+    part II, ch. VI), and Verdet constants of what has paramagnetic ions, K / (w^2 - w0^2).
+
+    Parameters
+    ----------
+    strengths : sequence of float
+        A, in the unit times square micrometres.
+    poles : sequence of float
+        C, in square micrometres: the square of the wavelength of a resonance.
+    constant : float, optional
+        What is added, in the unit.
+    unit : str, optional
+        Such as ``"deg/mm"``, or ``"rad/(T m)"``.
+    label : str, optional
+        What sentences call it.
+    span : pair of float or str, optional
+        The wavelengths for which it holds.
+    wavelength : Parameter, float, str or array_like, optional
+        The wavelength of the run; ``Wavelength()`` by default.
+
+    Returns
+    -------
+    CurveValue, or float or ndarray where the wavelength is known
+
+    Raises
+    ------
+    ValueFault
+        If there are not as many strengths as poles, or one is no finite number.
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    Quartz, by Lowry and Coode-Adams (`Crystal.named` has it):
+
+    >>> import math
+    >>> quartz = drude_rotation([9.5639, -2.3113], [0.0127493, 0.000974], -0.1905, "deg/mm")
+    >>> round(math.degrees(quartz.at("589.3 nm")) / 1000, 3)
+    21.725
+    """
+    label = label_of("a rotation", label, "the rotation")
+    curve = DrudeRotation(
+        label,
+        several(f"strengths of {label}", strengths),
+        several(f"poles of {label}", poles),
+        constant,
+        unit,
+        span,
+    )
+    return curve_at(curve, wavelength)[0]
+
+
+def _in_base_units(label: str, number: Any, unit: str) -> float:
+    try:
+        return float(parse_quantity(f"{float(number)} {unit}", dimension_of(unit)).real)
+    except (OverflowError, TypeError, ValueError):
+        raise ValueFault(f"values of {label} must be real numbers, not {shown(number)}") from None

@@ -1,0 +1,418 @@
+"""Pages of the refractiveindex.info database, read as n and k, and searched."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal, InvalidOperation
+from html import unescape
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.errors import MaterialError, OptipathError, ValueFault, shown, unknown
+from optipath.materials.database_names import (
+    CURATED,
+    VACUUM,
+    CatalogPage,
+    NamedPage,
+    alike,
+    catalog_pages,
+    named_page,
+    read_yaml,
+)
+from optipath.materials.formulas import DispersionFormula, nearest_asked_for
+from optipath.materials.tables import EXTRAPOLATIONS, INTERPOLATIONS, PageCurve, Tabulated
+from optipath.values.curve import span_text
+from optipath.values.curve_value import curve_at
+from optipath.values.files import given_file
+from optipath.values.messages import argument
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from os import PathLike
+
+    from optipath.materials.database_names import CuratedName
+    from optipath.values.curve import Curve
+
+
+def parts_by_name(
+    name: str,
+    page: str,
+    own: Mapping[str, Any],
+    wavelength: Any,
+    *,
+    interpolation: str,
+    extrapolate: str,
+) -> dict[str, Any]:
+    """Return n and k of a material by its name.
+
+    Units: wavelength in metres.
+    """
+    given = {part: value for part, value in own.items() if value is not None}
+    if isinstance(name, str) and alike(name) == VACUUM and not page:
+        return {"n": 1.0, "k": 0.0, **given}
+    found = named_page(name, page)
+    if found.clear and "k" not in given:
+        given["k"] = 0.0
+    else:
+        found = found._replace(clear=None)
+    curve = curve_of(found, own=given, interpolation=interpolation, extrapolate=extrapolate)
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
+
+
+def parts_of_file(
+    path: str | PathLike[str],
+    own: Mapping[str, Any],
+    wavelength: Any,
+    *,
+    interpolation: str,
+    extrapolate: str,
+) -> dict[str, Any]:
+    """Return n and k of a material from a YAML file of refractiveindex.info.
+
+    Units: wavelength in metres.
+    """
+    given = {part: value for part, value in own.items() if value is not None}
+    file = given_file(path, MaterialError)
+    curve = page_curve(
+        read_yaml(file, str(file), installed=False),
+        file.name,
+        str(file),
+        wanted=_wanted(file.name, given),
+        interpolation=interpolation,
+        extrapolate=extrapolate,
+    )
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
+
+
+def curve_of(
+    found: NamedPage,
+    *,
+    own: Mapping[str, Any],
+    interpolation: str = "linear",
+    extrapolate: str = "",
+) -> PageCurve:
+    """Return the curve of a page of the database, without the parts that are given apart."""
+    how = {"interpolation": interpolation, "extrapolate": extrapolate}
+    usual = {"interpolation": "linear", "extrapolate": ""}
+    about = found.page.place
+    return page_curve(
+        read_yaml(found.page.file, about, installed=True),
+        found.label,
+        about,
+        wanted=_wanted(found.name, own),
+        within=found.clear,
+        asked={"name": found.name, **{k: v for k, v in how.items() if v != usual[k]}},
+        remedy=f"name another page, or mend a copy of {found.page.file} for Material.from_yaml",
+        **how,
+    )
+
+
+def _wanted(name: str, own: Mapping[str, Any]) -> list[str]:
+    wanted = [part for part in ("n", "k") if part not in own]
+    if not wanted:
+        raise MaterialError(
+            f"'{name}' is asked for with an n and a k of its own; op.Material(n, k) needs no name"
+        )
+    return wanted
+
+
+_ADJECTIVES = {"n": "index of refraction", "k": "extinction coefficient"}
+
+
+def page_curve(
+    contents: Any,
+    label: str,
+    about: str,
+    *,
+    wanted: Collection[str] = ("n", "k"),
+    interpolation: str = "linear",
+    extrapolate: str = "",
+    within: tuple[float, float] | None = None,
+    asked: Mapping[str, str] | None = None,
+    remedy: str = "",
+) -> PageCurve:
+    """Return the curve of a page."""
+    faults: list[str] = []
+    entries = entries_of(contents, faults)
+    if faults:
+        raise MaterialError(*_cured(faults, remedy), about=about)
+    # Of two entries that give one part, the later one counts, as the database's reader has it.
+    giving = {part: entry for entry in entries for part in entry.parts}
+    if lacking := [part for part in wanted if part not in giving]:
+        raise MaterialError(*[_lacking(label, part, giving) for part in lacking])
+    chosen = {part: entry for part, entry in giving.items() if part in wanted}
+    _check_asked(label, chosen.values(), interpolation, extrapolate)
+    try:
+        curves = [
+            entry.curve(label, parts, interpolation, extrapolate)
+            for entry in entries
+            if (parts := [part for part in entry.parts if chosen.get(part) is entry])
+        ]
+        clear = None if extrapolate else within
+        source = source_of(contents)
+        return PageCurve(label, curves, within=clear, place=about, source=source, asked=asked)
+    except OptipathError as error:
+        raise MaterialError(*_cured(error.faults, remedy)) from None
+
+
+def source_of(contents: Any) -> str:
+    """Return the references of a page as plain text.
+
+    Examples
+    --------
+    >>> source_of({"REFERENCES": "A. Author.<br> <i>J. Opt.</i> <b>1</b>, 2 (1990)"})
+    'A. Author. J. Opt. 1, 2 (1990)'
+    """
+    text = contents.get("REFERENCES", "") if isinstance(contents, dict) else ""
+    words = unescape(re.sub(r"<[^>]*>", " ", text)).split() if isinstance(text, str) else []
+    return " ".join(words).replace(" ,", ",")
+
+
+def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:
+    has = "".join(f", only {one} within {span_text(entry.span)}" for one, entry in giving.items())
+    if not argument(part):
+        wanted = "name another page"
+    elif part == "k":
+        wanted = f"where the material is transparent, ask for {argument('k', '0.0')}, or give its k"
+    else:
+        wanted = f"give it, as {argument('n', '1.5')}"
+    return f"{label} has no {part} ({_ADJECTIVES[part]}){has}; {wanted}"
+
+
+def _cured(faults: Iterable[str], remedy: str) -> list[str]:
+    return [f"{fault}; {remedy}" if remedy else fault for fault in faults]
+
+
+def _check_asked(
+    label: str, entries: Collection[PageEntry], interpolation: str, extrapolate: str
+) -> None:
+    """Refuse what is asked for in vain, or cannot be had."""
+    faults = [
+        *unknown("interpolation", interpolation, INTERPOLATIONS),
+        *unknown("extrapolate", extrapolate, EXTRAPOLATIONS),
+    ]
+    by_formula = [not entry.columns for entry in entries]
+    if not faults and interpolation != "linear" and all(by_formula):
+        faults.append(
+            f"{label} is by a formula, of which nothing is interpolated; leave interpolation = "
+            f"{shown(interpolation)} out"
+        )
+    if extrapolate == "linear" and any(by_formula):
+        faults.append(
+            f"{label} is by a formula, which has no straight line beyond its range; "
+            f"{nearest_asked_for()}, or stay within it"
+        )
+    if faults:
+        raise MaterialError(*faults)
+
+
+_POWERS = 300
+"""Up to which power of ten a number is a double in any case."""
+
+_TYPE = re.compile(r"tabulated (nk|n|k)|formula (\d{1,3})")
+
+
+class PageEntry(NamedTuple):
+    """One entry under ``DATA``.
+
+    Units: span, columns in metres.
+    """
+
+    kind: str
+    parts: tuple[str, ...]
+    span: tuple[float, float]
+    columns: tuple[tuple[float, ...], ...] = ()
+    coefficients: tuple[float, ...] = ()
+    rows: tuple[int, ...] = ()
+
+    def curve(
+        self, label: str, parts: Sequence[str], interpolation: str, extrapolate: str
+    ) -> Curve:
+        """Return the curve of some of its parts."""
+        if not self.columns:
+            number = int(self.kind.split()[1])
+            return DispersionFormula(
+                label, number, self.coefficients, self.span, extrapolate=extrapolate
+            )
+        if faults := self._faults_of_rows(label):
+            raise ValueFault(*faults)
+        wanted = [self.columns[1 + self.parts.index(part)] for part in parts]
+        how = {"interpolation": interpolation, "extrapolate": extrapolate}
+        return Tabulated(label, tuple(parts), self.columns[0], wanted, **how)
+
+    def _faults_of_rows(self, label: str) -> list[str]:
+        """Return what is wrong with the wavelengths of a table."""
+        places = self.columns[0]
+        faults = [
+            f"row {row} of {label} has the wavelength {place * 1e6:.10g}; give lengths above 0"
+            for row, place in zip(self.rows, places, strict=True)
+            if place <= 0.0
+        ]
+        same = [at for at in range(1, len(places)) if places[at] == places[at - 1] > 0.0]
+        return faults + [
+            f"{label} has the wavelength {places[at] * 1e9:.10g} nm twice, in the rows "
+            f"{min(self.rows[at - 1 : at + 1])} and {max(self.rows[at - 1 : at + 1])}; give each "
+            f"once"
+            for at in same
+        ]
+
+
+def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
+    """Return the entries of a page, and tell what is wrong with others."""
+    data = contents.get("DATA") if isinstance(contents, dict) else None
+    if not isinstance(data, list) or not data:
+        faults.append("it has no list DATA of tables and formulas, as refractiveindex.info has")
+        return []
+    found = []
+    for at, entry in enumerate(data, 1):
+        try:
+            found.append(_entry(entry))
+        except OptipathError as error:
+            faults += [f"entry {at} of DATA {fault}" for fault in error.faults]
+    return found
+
+
+def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
+    """Return the wavelengths of each part of a page, of whose tables only these are read."""
+    found: dict[str, tuple[float, float]] = {}
+    for entry in contents["DATA"]:
+        [(parts, _)] = _TYPE.findall(entry["type"])
+        if parts:
+            words = sorted(entry["data"].split()[:: 1 + len(parts)], key=float)
+            span = _metres_of([Decimal(words[0]), Decimal(words[-1])])
+        else:
+            parts, span = "n", _entry(entry).span
+        found |= dict.fromkeys(parts, span)
+    return found
+
+
+def _entry(entry: Any) -> PageEntry:
+    kind = entry.get("type") if isinstance(entry, dict) else None
+    match = _TYPE.fullmatch(kind) if isinstance(kind, str) else None
+    if not isinstance(kind, str) or match is None:
+        raise OptipathError(
+            f"is of type {shown(kind)}; give 'tabulated nk', 'tabulated n', 'tabulated k' or "
+            f"'formula 1' to 'formula 9'"
+        )
+    if match[1]:
+        return _table(kind, tuple(match[1]), entry.get("data"))
+    low_high = _numbers(entry, "range" if "range" in entry else "wavelength_range")
+    if len(low_high) != 2 or not 0.0 < float(low_high[0]) < float(low_high[1]):
+        raise OptipathError("has no 'wavelength_range' of two rising numbers, in micrometres")
+    coefficients = tuple(map(float, _numbers(entry, "coefficients")))
+    return PageEntry(kind, ("n",), _metres_of(low_high), coefficients=coefficients)
+
+
+def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
+    """Return the entry of a table, its rows by wavelength, and each once of those that repeat."""
+    if not isinstance(data, str) or not data.strip():
+        raise OptipathError(f"('{kind}') has no 'data'; give rows of wavelength and {kind[10:]}")
+    lines = [(at, line.split()) for at, line in enumerate(data.splitlines(), 1) if line.strip()]
+    rows: dict[tuple[float, ...], int] = {}
+    faults = []
+    for at, words in lines:
+        numbers = _decimals(words)
+        if not numbers:
+            faults.append(f"('{kind}') has no numbers in row {at}, {shown(' '.join(words))}")
+            continue
+        wavelength, *values = numbers
+        if len(values) != len(parts):
+            faults.append(
+                f"('{kind}') has {len(words)} numbers in row {at}, {shown(' '.join(words))}; give "
+                f"{1 + len(parts)}"
+            )
+            continue
+        rows.setdefault((_metres(wavelength), *map(float, values)), at)
+    if faults:
+        raise OptipathError(*faults)
+    ordered = sorted(rows)
+    columns = tuple(zip(*ordered, strict=True))
+    span = columns[0][0], columns[0][-1]
+    found = tuple([rows[row] for row in ordered])
+    return PageEntry(kind, parts, span, columns=columns, rows=found)
+
+
+def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:
+    text = entry.get(key)
+    found = _decimals(text.split()) if isinstance(text, str) else []
+    if not found:
+        raise OptipathError(f"has no numbers under '{key}', but {shown(text)}")
+    return found
+
+
+def _decimals(words: Sequence[str]) -> list[Decimal]:
+    """Return numbers, none of them rounded; nothing where one is no finite number."""
+    if not all(word.isascii() and "_" not in word for word in words):
+        return []  # Python reads 15 into 1_5.
+    try:
+        found = [Decimal(word) for word in words]
+    except InvalidOperation:
+        return []
+    return found if all(n.is_finite() and n.adjusted() < _POWERS for n in found) else []
+
+
+def _metres_of(span: Sequence[Decimal]) -> tuple[float, float]:
+    low, high = map(_metres, span)
+    return low, high
+
+
+def _metres(micrometres: Decimal) -> float:
+    """Return a wavelength in metres, rounded once, so that ``"187.9 nm"`` is the same number."""
+    return float(micrometres.scaleb(-6))
+
+
+_RANGE = re.compile(
+    r"(?:[:;,] *)?\b(?:n,k|n|k)(?:\(\w\))?[;,]? [\d.e-]+ *[\u2013-] *[\d.e]+ +\u00b5m"
+)
+"""The range in the title of a page: "n,k 0.188-1.937 um", with a dash."""
+
+
+class FoundPage(NamedTuple):
+    """A page that a search has found."""
+
+    name: str
+    page: CatalogPage
+    curated: CuratedName | None = None
+
+    @property
+    def described(self) -> str:
+        """Where its numbers are from: the page of a short name and why, else what it is of."""
+        if self.curated:
+            return "; ".join([self.page.place, self.curated.reference, self.curated.why])
+        told = (self.page.about_book, _RANGE.sub("", self.page.about_page), self.page.divider)
+        return "; ".join(filter(None, told))
+
+    def spans(self) -> dict[str, tuple[float, float]]:
+        """Return the wavelengths of n and of k, in metres; nothing if a page cannot be read."""
+        try:
+            found = spans_of(read_yaml(self.page.file, self.page.place, installed=True))
+        except (OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
+            return {}
+        if self.curated and self.curated.clear:
+            low, high = self.curated.clear
+            found["n"] = max(low, found["n"][0]), min(high, found["n"][1])
+        return {part: found[part] for part in ("n", "k") if part in found}
+
+
+def pages_with(words: Sequence[str]) -> list[FoundPage]:
+    """Return the pages in which all of some words occur; those with short names for none."""
+    pages = {page.place: page for page in catalog_pages()}
+    short = [FoundPage(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
+    if not words:
+        return short
+    asked = [word.casefold() for word in words]
+    first = [one for one in short if _has(_text(one.page, one.curated), asked)]
+    others = [
+        FoundPage(page.place, page)
+        for place, page in pages.items()
+        if place not in {one.page.place for one in first} and _has(_text(page), asked)
+    ]
+    return first + sorted(others, key=lambda one: one.page.book.casefold() not in asked)
+
+
+def _has(text: str, words: list[str]) -> bool:
+    return all(word in text for word in words)
+
+
+def _text(page: CatalogPage, curated: CuratedName | None = None) -> str:
+    names = (*curated.names, *map(alike, curated.names), curated.why) if curated else ()
+    return " ".join([page.place, page.about_book, page.about_page, page.divider, *names]).casefold()

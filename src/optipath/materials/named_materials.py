@@ -1,0 +1,212 @@
+"""Materials by name, or known later, where an index of refraction is given."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, UnitError, listed, shown
+from optipath.materials.database_names import VACUUM
+from optipath.materials.material import Material
+from optipath.materials.quantities import plain
+from optipath.values.curve import Curve
+from optipath.values.curve_value import CurveValue, curve_values, parameters_among
+from optipath.values.messages import of_options
+from optipath.values.parameters import Parameter
+from optipath.values.units import parse_quantity
+from optipath.values.use import axes_for
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+
+    from optipath.values.use import Use
+
+
+WAVELENGTH = Wavelength(help="wavelength in vacuum, by which materials that have a name are taken")
+"""What is offered where a preset has no parameter of this name."""
+
+
+def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
+    """Tell whether a text is the name of a material for the index of refraction there."""
+    is_range = ":" in text  # Of which an end may be no number.
+    if not text[:1].isalpha() or is_range or text in (*parameter.all_words, "inf", "nan"):
+        return False
+    return stands_for_index(uses, parameter.name)
+
+
+def stands_for_index(uses: Sequence[Use], name: str) -> bool:
+    """Tell whether a parameter stands as an index of refraction, wherever it stands."""
+    places = places_of(uses, name)
+    return bool(places) and all(use.domain.takes_materials for use in places)
+
+
+def extinction_beside(uses: Sequence[Use], name: str) -> str:
+    """Return the parameter that is the k of an index of which another is n; nothing without one."""
+    found = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
+    return found.pop() if len(found) == 1 else ""
+
+
+def material_named(option: str, text: str, beside: str = "", k: Any = None) -> Material:
+    """Return the material of a name."""
+    if "," in text:
+        raise ParameterError(
+            f"{option} takes one material, and {shown(text)} names several; give one, and write a "
+            f"command for each"
+        )
+    options = {"page": f"{option} '{text}/PAGE'"} | ({"k": beside} if beside else {})
+    try:
+        with of_options(options):
+            return Material.named(text, k=k)
+    except OptipathError as error:
+        raise ParameterError(*(f"{option}: {fault}" for fault in error.faults)) from None
+
+
+def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
+    """Take each k out of some values that a material beside it has in place of its own."""
+    for name, value in list(values.items()):
+        if isinstance(value, Material):
+            values.pop(extinction_beside(uses, name), None)
+
+
+def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Material]]:
+    """Yield what is a material among some values: its parameter, what it is called, and itself."""
+    for name, value in values.items():
+        if isinstance(value, Material):
+            curves = [v.curve for v in (value.n, value.k) if isinstance(v, CurveValue)]
+            yield name, curves[0].label if curves else VACUUM, value
+
+
+def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:
+    """Return what a material is called and comes to, as JSON can hold it.
+
+    Units: wavelength in metres.
+    """
+    parts = {part: getattr(material, part) for part in ("n", "k")}
+    return {"name": label} | {
+        part: plain(value.at(wavelength) if isinstance(value, CurveValue) else value)
+        for part, value in parts.items()
+    }
+
+
+def is_curve(given: Any) -> bool:
+    """Return whether something is one curve, or what it comes to at a wavelength."""
+    return isinstance(given, CurveValue) or (isinstance(given, Curve) and len(given.parts) == 1)
+
+
+def is_by_wavelength(given: Any) -> bool:
+    """Return whether something is put in place of a parameter: a material, or one curve.
+
+    Examples
+    --------
+    >>> is_by_wavelength(Material(1.5)), is_by_wavelength(1.5)
+    (True, False)
+    """
+    return isinstance(given, Material) or is_curve(given)
+
+
+def waits_for(given: Any) -> Sequence[str]:
+    """Return the names of the parameters that a material or curve depends on; else none.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> waits_for(Material(1.5, Parameter("k"))), waits_for(Material(1.5))
+    (['k'], [])
+    """
+    if not is_by_wavelength(given):
+        return []
+    if isinstance(given, Curve):
+        given = curve_values(given, Wavelength())[0]
+    found = parameters_among([given.n, given.k] if isinstance(given, Material) else [given])
+    return [*dict.fromkeys(p.name for p in found if not isinstance(p, CurveValue))]
+
+
+def given_too_late(name: str, given: Any) -> str:
+    """Return the fault of a material or curve that is given while a path runs; mostly none."""
+    if not (names := waits_for(given)):
+        return ""
+    return (
+        f"parameter '{name}' depends on {listed(names)}, and is put in place "
+        f"before a path runs; write path.bind({name}=...), or load_preset(..., {name}=...)"
+    )
+
+
+_OTHER = {"n": "k", "k": "n"}
+
+
+def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) -> str:
+    """Say how the other part of a complex index is given; nothing where there is none."""
+    values = {use.owner: use.value for use in uses}
+    for owner, value in values.items():
+        place, _, part = owner.rpartition(".")
+        if isinstance(value, Parameter) and value.name == name and part in _OTHER:
+            other = _OTHER[part]
+            found = values.get(f"{place}.{other}")
+            if isinstance(found, CurveValue):
+                return f"{other} is that of {found.curve.label}; give {part} alone, a real number"
+            if isinstance(found, Parameter):
+                return f"give {other} by {how(found.name)}"
+            if isinstance(found, (int, float)):
+                return f"{other} is {found:g} where the path is built; make it a parameter there"
+    return ""
+
+
+def places_of(uses: Iterable[Use], name: str) -> list[Use]:
+    """Return where a parameter stands."""
+    return [u for u in uses if isinstance(u.value, Parameter) and u.value.name == name]
+
+
+def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
+    """Return what k is wherever a parameter stands as the n of an index."""
+    values = {use.owner: use.value for use in uses}
+    found: dict[str, Any] = {}
+    for owner, value in values.items():
+        place, _, part = owner.rpartition(".")
+        if isinstance(value, Parameter) and value.name == name and part == "n":
+            k = f"{place}.k"
+            found |= {k: values[k]} if k in values else {}
+    return found
+
+
+def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any) -> list[str]:
+    """Return sentences on a value; those on a complex one with how its other part is given."""
+    cure = other_part(uses, name) if _is_complex(value) else ""
+    return [f"{fault}; {cure}" if cure else fault for fault in faults]
+
+
+def _is_complex(value: Any) -> bool:
+    if isinstance(value, Material):
+        return not waits_for(value) and not (isinstance(value.k, (int, float)) and value.k == 0.0)
+    if isinstance(value, str):
+        try:
+            value = parse_quantity(value, "")
+        except UnitError:
+            return False
+    several = isinstance(value, np.ndarray) and value.dtype.kind == "c"
+    return several or isinstance(value, (complex, np.complexfloating))
+
+
+def single_value(
+    parameter: Parameter,
+    text: str,
+    uses: Sequence[Use],
+    unit: str = "",
+    called: Callable[[str], str] = str,
+) -> Any:
+    """Return what a text stands for: a number, a word of the parameter, or an axis.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> single_value(Parameter("delta", unit="deg"), "180", (), "deg")
+    3.141592653589793
+    """
+    value = axes_for(parameter.name, text, uses)
+    if isinstance(value, str):
+        value = parameter.parse(value, unit)
+    if isinstance(value, complex) and (other := other_part(uses, parameter.name, called)):
+        name = called(parameter.name)
+        raise ParameterError(f"'{text}' is complex, but {name} takes a real number; {other}")
+    return value

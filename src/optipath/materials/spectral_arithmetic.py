@@ -1,0 +1,328 @@
+"""Arithmetic with spectra: sums, products, integrals and resampling."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault, shown, unknown
+from optipath.materials.illuminants import NANOMETRES
+from optipath.materials.spectrum_kinds import (
+    EvenSpectrum,
+    GaussianLine,
+    Histogram,
+    Lines,
+    Sampled,
+    SumOfKinds,
+    called,
+    check_known_at,
+    one_wavelength,
+    rising_edges,
+    some_wavelengths,
+    values_at,
+)
+from optipath.values.curve import is_within
+from optipath.values.units import displayed
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.materials.illuminants import SpectrumKind
+
+    Array = np.ndarray[Any, Any]
+
+
+_AROUND = np.arange(-3.0, 3.01, 0.125)
+"""Samples of a diode, in widths from its peak, between which straight lines keep its power."""
+_ROUNDING = 4.0 * np.finfo(float).eps
+_RESAMPLE = "spectrum.resample(op.wavelengths('380 nm', '700 nm', '5 nm'))"
+
+
+def sum_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
+    """Return the sum of two spectra: one of their kind where both are of one, else of both."""
+    terms: list[SpectrumKind] = []
+    for term in (*first.terms, *second.terms):
+        joined = [_joined(other, term) for other in terms]
+        place = next((i for i, one in enumerate(joined) if one is not None), None)
+        if place is None:
+            terms.append(term)
+        else:
+            terms[place] = joined[place]  # type: ignore[assignment]
+    return _total(terms)
+
+
+def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
+    """Return the product of two spectra, sample by sample."""
+    for one, other in ((first, second), (second, first)):
+        if isinstance(one, SumOfKinds):
+            return _total([product_of(term, other) for term in one.terms])
+    for one, other in ((first, second), (second, first)):
+        if isinstance(one, Lines) and other.is_pointwise:
+            return _lines_through(one, other)
+    for one, other in ((first, second), (second, first)):
+        if isinstance(one, Sampled) and isinstance(other, EvenSpectrum):
+            return one.times(other.value)
+    places = _sampled_at(first, second, "multiplied")
+    if not places.size:
+        return EvenSpectrum(0.0)
+    values = values_at(first, places) * values_at(second, places)
+    endless = first.span[1] == second.span[1] == np.inf
+    return Sampled(places, values, _outside(first, second, endless), _label(first, second))
+
+
+def quotient_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
+    """Return the quotient of two spectra, such as of what is measured by that of the lamp."""
+    places = _sampled_at(first, second, "divided")
+    above, below = values_at(first, places), values_at(second, places)
+    if np.any(dark := below == 0.0):
+        place = displayed(float(places[dark][0]), "nm")
+        raise ValueFault(
+            f"{second.label} is 0 at {place}, where nothing can be divided by it; resample both "
+            f"to wavelengths at which it is above 0"
+        )
+    endless = second.span[1] == np.inf and getattr(second, "outside", None) != 0.0
+    return Sampled(places, above / below, _outside(first, second, endless), _label(first, second))
+
+
+def _total(terms: Sequence[SpectrumKind]) -> SpectrumKind:
+    return terms[0] if len(terms) == 1 else SumOfKinds(terms)
+
+
+def _joined(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind | None:
+    """Return the sum of two spectra of one kind that is of this kind again; else None."""
+    if isinstance(first, Lines) and isinstance(second, Lines):
+        return Lines([*first.lines, *second.lines])
+    if isinstance(first, Sampled) and isinstance(second, Sampled):
+        alike = np.array_equal(first.wavelengths, second.wavelengths)
+        if alike and first.outside == second.outside != "linear":
+            return first.with_values(first.values + second.values)
+    if isinstance(first, Histogram) and isinstance(second, Histogram):
+        alike = np.array_equal(first.edges, second.edges)
+        if alike and first.outside == second.outside:
+            return Histogram(first.edges, first.powers + second.powers, first.outside, first.label)
+    return None
+
+
+def _lines_through(lines: Lines, other: SpectrumKind) -> Lines:
+    shares = values_at(other, np.array([line.wavelength for line in lines.lines]))
+    pairs = zip(lines.lines, shares.tolist(), strict=True)
+    return Lines([line._replace(power=line.power * share) for line, share in pairs])
+
+
+def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
+    """Return the wavelengths at which two spectra can be multiplied or divided."""
+    both = f"{first.label} and {second.label}"
+    for kind in (*first.terms, *second.terms):
+        if not kind.is_pointwise:
+            lines = isinstance(kind, Lines)
+            cure = "spectrum.rebin(edges) and then " if lines else ""
+            raise ValueFault(
+                f"{both} cannot be {done} wavelength by wavelength, since {kind.label} is power "
+                f"{'at single wavelengths' if lines else 'in bins'}; make samples of it, "
+                f"{cure}{_RESAMPLE}"
+            )
+    sampled = [kind for kind in (first, second) if isinstance(kind, Sampled)]
+    if not sampled:
+        raise ValueFault(
+            f"{both} have no samples at which they could be {done}; resample one of them, "
+            f"{_RESAMPLE}"
+        )
+    narrow = [kind for kind in (*first.terms, *second.terms) if isinstance(kind, GaussianLine)]
+    places = np.unique(
+        np.concatenate(
+            [kind.wavelengths for kind in sampled]
+            + [kind.peak + kind.width * _AROUND for kind in narrow if _is_lost(kind, sampled[0])]
+        )
+    )
+    places = places[np.diff(places, prepend=0.0) > _ROUNDING * places]
+    for kind in sampled:
+        places = places[is_within(places, kind.extent)]
+    if not places.size and not first.span[1] == second.span[1] == np.inf:
+        raise ValueFault(f"{both} have no wavelength in common; give outside=0.0 to one of them")
+    return places
+
+
+def _is_lost(line: GaussianLine, sampled: Sampled) -> bool:
+    """Return whether straight lines between samples would not keep the power of a diode."""
+    places = sampled.wavelengths[np.abs(sampled.wavelengths - line.peak) < 2.0 * line.width]
+    steps = np.diff(
+        places, prepend=line.peak - 2.0 * line.width, append=line.peak + 2.0 * line.width
+    )
+    return bool(np.max(steps) > 0.5 * line.width)
+
+
+def _outside(first: SpectrumKind, second: SpectrumKind, endless: Any) -> float | str | None:
+    """Return what a product or quotient is beyond its samples, None where that is not known."""
+    outside = [getattr(kind, "outside", None) for kind in (first, second)]
+    if endless and 0.0 in outside:
+        return 0.0
+    return "nearest" if outside == ["nearest", "nearest"] else None
+
+
+def _label(first: SpectrumKind, second: SpectrumKind) -> str:
+    return first.label if isinstance(first, Sampled) else second.label
+
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_ROUNDS = 40
+_AGREES = 4e-15
+
+
+def powers_between(kind: SpectrumKind, edges: Array) -> Array:
+    """Return the power of a spectrum in bins, its lines included.
+
+    By Gauss and Legendre with 16 nodes on pieces that are halved until halves come to what the
+    whole did; exact, but for rounding, where densities are straight lines.
+
+    Shapes: edges (n + 1,); returns (n,). Units: edges in metres.
+    """
+    found = smooth_powers(kind, edges)
+    for line in kind.lines:
+        if edges[0] <= line.wavelength <= edges[-1]:
+            place = int(np.searchsorted(edges, line.wavelength, side="right")) - 1
+            found[min(place, found.size - 1)] += line.power
+    return found
+
+
+def smooth_powers(kind: SpectrumKind, edges: Array) -> Array:
+    """Return what `powers_between` does, lines aside.
+
+    Shape: returns (n,).
+    """
+    breaks = kind.breaks
+    inner = breaks[(breaks > edges[0]) & (breaks < edges[-1])]
+    ends = np.union1d(edges, inner)
+    low, high = ends[:-1], ends[1:]
+    whole = _by_gauss(kind, low, high)
+    found, least = np.zeros(edges.size - 1), 1e-17 * float(whole.sum())
+    for _ in range(_ROUNDS):
+        middle = 0.5 * (low + high)
+        halves = _by_gauss(kind, low, middle), _by_gauss(kind, middle, high)
+        finer = halves[0] + halves[1]
+        good = np.abs(finer - whole) <= np.maximum(_AGREES * finer, least)
+        np.add.at(found, np.searchsorted(edges, low[good], side="right") - 1, finer[good])
+        if good.all():
+            return found
+        rough = ~good
+        whole = np.concatenate([half[rough] for half in halves])
+        low = np.concatenate([low[rough], middle[rough]])
+        high = np.concatenate([middle[rough], high[rough]])
+    np.add.at(found, np.searchsorted(edges, low, side="right") - 1, whole)
+    return found
+
+
+def _by_gauss(kind: SpectrumKind, low: Array, high: Array) -> Array:
+    half = 0.5 * (high - low)
+    places = 0.5 * (low + high)[:, None] + half[:, None] * _NODES
+    density = kind.density(np, places.ravel()).reshape(places.shape)
+    return np.asarray(half * NANOMETRES * (density @ _WEIGHTS))
+
+
+def power_within(kind: SpectrumKind, low: Any = None, high: Any = None) -> float:
+    """Return the power of a spectrum between two wavelengths.
+
+    Units: low, high in metres.
+    """
+    if low is None and high is None and (whole := _whole(kind)) is not None:
+        return whole
+    least, most = kind.extent
+    ends = np.array(
+        [
+            least if low is None else one_wavelength("low", low),
+            most if high is None else one_wavelength("high", high),
+        ]
+    )
+    if not 0.0 < ends[0] <= ends[1] < np.inf:
+        fault = "does not end there" if ends[0] <= ends[1] else "are no range"
+        raise ValueFault(
+            f"power of {kind.label} from {displayed(float(ends[0]), 'nm')} to "
+            f"{displayed(float(ends[1]), 'nm')}: {fault}; give two ends, the lower one first, as "
+            f"in spectrum.power('380 nm', '700 nm')"
+        )
+    check_known_at(kind, ends)
+    above = np.inf if high is None else ends[1]
+    of_lines = sum(line.power for line in kind.lines if ends[0] <= line.wavelength < above)
+    return of_lines + (float(smooth_powers(kind, ends)[0]) if ends[0] < ends[1] else 0.0)
+
+
+def _whole(kind: SpectrumKind) -> float | None:
+    """Return the power at all wavelengths together, of what is known at all of them.
+
+    None where a term has no end, and no integral either.
+    """
+    if kind.span != (0.0, np.inf):
+        return None
+    powers = [_power_of(term) for term in kind.terms]
+    return None if None in powers else sum(powers)  # type: ignore[arg-type]
+
+
+def _power_of(term: SpectrumKind) -> float | None:
+    """Return the power of a spectrum of one kind at all wavelengths together."""
+    if term.integral is not None:
+        return term.integral
+    low, high = term.extent
+    if not high < np.inf:
+        return None
+    smooth = float(smooth_powers(term, np.array([low, high]))[0]) if low < high else 0.0
+    return smooth + sum(line.power for line in term.lines)
+
+
+_LOST = 1e-14
+"""The share of the power below which none is said to be lost."""
+_CHOICES = ("refuse", "drop")
+
+
+def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
+    """Return the samples of a spectrum at wavelengths."""
+    if kind.lines:
+        raise ValueFault(
+            f"{called(kind.lines)} has no value at a wavelength, so that it cannot be resampled; "
+            f"keep its power in bins, spectrum.rebin(edges)"
+        )
+    places = some_wavelengths("wavelengths", wavelengths)
+    try:
+        values = values_at(kind, places)
+    except ValueFault as fault:
+        if outside is None:
+            raise
+        beside = f"outside={shown(outside)} of resample is for what is beyond the new samples"
+        raise ValueFault(*[f"{sentence} ({beside})" for sentence in fault.faults]) from None
+    return Sampled(places, values, outside, kind.label)
+
+
+def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
+    """Return the power of a spectrum in bins.
+
+    Shape: edges (n + 1,). Units: edges in metres.
+    """
+    if faults := unknown("outside", outside, _CHOICES):
+        raise ValueFault(*faults)
+    ends, _ = rising_edges("edges", edges)
+    check_known_at(kind, ends[[0, -1]])
+    powers = powers_between(kind, ends)
+    if outside == "refuse":
+        lost = _power_beyond(kind, ends)
+        if lost > _LOST * (lost + float(powers.sum())):
+            raise ValueFault(
+                f"{kind.label} has a power of {lost:.6g} beyond the bins, which reach from "
+                f"{displayed(float(ends[0]), 'nm')} to {displayed(float(ends[-1]), 'nm')}; give "
+                f"edges around all of it, or outside='drop' to leave that out"
+            )
+    low, high = kind.extent
+    whole = ends[0] <= low and high <= ends[-1] and kind.span[1] == np.inf
+    return Histogram(ends, powers, 0.0 if whole else None, kind.label)
+
+
+def _power_beyond(kind: SpectrumKind, ends: np.ndarray[Any, Any]) -> float:
+    """Return the power beyond the ends of bins, of what of a spectrum ends somewhere."""
+    lost = 0.0
+    for term in kind.terms:
+        low, high = term.extent
+        if high < np.inf:
+            sides = [(low, min(high, ends[0])), (max(low, ends[-1]), high)]
+            rising = [np.array(side) for side in sides if side[0] < side[1]]
+            lost += sum(float(smooth_powers(term, side)[0]) for side in rising)
+            places = [line for line in term.lines if not ends[0] <= line.wavelength <= ends[-1]]
+            lost += sum(line.power for line in places)
+    return lost

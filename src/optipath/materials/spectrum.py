@@ -1,0 +1,630 @@
+"""Spectrum: power by wavelength of lamps, lines and bins, and responses of detectors."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+
+from optipath.errors import ValueFault, listed, shown
+from optipath.materials.illuminants import EmissionLine, Illuminant, SpectrumKind
+from optipath.materials.quantities import NON_NEGATIVE
+from optipath.materials.spectral_arithmetic import (
+    power_within,
+    product_of,
+    quotient_of,
+    rebinned,
+    resampled,
+    sum_of,
+)
+from optipath.materials.spectrum_kinds import (
+    BlackBody,
+    EvenSpectrum,
+    GaussianLine,
+    Histogram,
+    Lines,
+    Sampled,
+    check_known_at,
+    density_of_lines,
+    one_number,
+    one_wavelength,
+    refuse_longest,
+    some_wavelengths,
+    value_outside,
+)
+from optipath.values.columns import read_columns
+from optipath.values.curve import Curve
+from optipath.values.curve_value import curve_values
+from optipath.values.domains import Domain
+from optipath.values.jax_values import is_traced, known, namespace
+from optipath.values.parameters import Parameter, label_of
+from optipath.values.units import displayed
+from optipath.values.wavelength import wavelength_of
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+    from os import PathLike
+    from typing import Self
+
+
+_ABOVE = Domain("number above 0", minimum=1e-300)
+_TEMPERATURE = Domain("temperature in kelvins", minimum=1e-3, maximum=1e9)
+_MAKERS = (
+    "sampled(wavelengths, values), histogram, line, led, black_body, illuminant, constant or "
+    "from_csv, as in Spectrum.line('633 nm')"
+)
+
+
+class Spectrum(Curve):
+    """Power per nanometre by wavelength, or a relative value such as a response.
+
+    ``Spectrum(wavelengths, values)`` goes through samples, as `sampled` does. Others are made by
+    `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant` and `from_csv`, and by
+    arithmetic: a sum, a product with a number, a product or a quotient sample by sample, of two
+    sampled spectra at the wavelengths of both. Between these the product of two straight lines is
+    a parabola, and is taken as a straight line; so integrals are those of the trapezoids at the
+    wavelengths of both, and finer samples, `resample`, bring them closer.
+
+    Shapes: wavelengths (n,); values (n,). Units: wavelengths in metres.
+
+    Attributes
+    ----------
+    kind : SpectrumKind
+        In which way the power is spread.
+
+    Raises
+    ------
+    ValueFault
+        If it is made of anything but samples or a kind.
+
+    Examples
+    --------
+    >>> lamp = Spectrum.sampled(["400 nm", "600 nm"], [1.0, 3.0])
+    >>> float(lamp.at("500 nm").round(12)), round(lamp.power(), 9)
+    (2.0, 400.0)
+    >>> lamp + Spectrum.line("532 nm", power=50.0)
+    <Spectrum: a sampled spectrum + the line at 532 nm>
+    """
+
+    __array_ufunc__ = None  # NumPy's arrays leave products to it.
+
+    kind: SpectrumKind
+
+    def __init__(
+        self, wavelengths: Any, values: Any = None, *, outside: Any = None, name: str = ""
+    ) -> None:
+        kind = wavelengths
+        if values is not None:
+            label = label_of("a spectrum", name, "a sampled spectrum")
+            kind = Sampled(wavelengths, values, outside, label)
+        if not isinstance(kind, SpectrumKind):
+            raise ValueFault(f"a Spectrum is not made of {shown(kind)}; use Spectrum.{_MAKERS}")
+        vars(self).update(
+            kind=kind,
+            label=kind.label,
+            span=kind.span,
+            beyond=kind.beyond,
+            takes_grid=bool(kind.lines),
+        )
+
+    @classmethod
+    def sampled(cls, wavelengths: Any, values: Any, *, outside: Any = None, name: str = "") -> Self:
+        """Return the spectrum through samples, linear between them.
+
+        Parameters
+        ----------
+        wavelengths : array_like, shape (n,)
+            In metres, or texts such as ``"516 nm"``; rising or falling.
+        values : array_like, shape (n,)
+            Power per nanometre, or relative values; not negative.
+        outside : {0.0, "nearest", "linear"}, optional
+            What is beyond the samples: nothing, as much as at the last one, or the last straight
+            line on, as far as it is above 0; without it, to ask there is an error.
+        name : str, optional
+            What sentences call it.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            With all that is wrong with the samples.
+        """
+        return cls(wavelengths, () if values is None else values, outside=outside, name=name)
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: str | PathLike[str],
+        column: str = "power",
+        *,
+        unit: str = "",
+        outside: Any = None,
+        name: str = "",
+    ) -> Self:
+        """Return the spectrum through the samples of a file, as `sampled` does.
+
+        Parameters
+        ----------
+        path : str or PathLike
+            A file of separated values, whose first line has names: ``wavelength (nm), power``, or
+            the unit stands behind each wavelength.
+        column : str, optional
+            The name of the column of values.
+        unit : str, optional
+            Of the wavelengths, where the first line has none.
+        outside, name
+            As `sampled` takes them; the name is that of the file by default.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            With all that is wrong, and the lines.
+        """
+        signs = {str(column): "such as 0 for what is noise"}
+        found = read_columns(path, [column], unit=unit, signs=signs)
+        values = found.columns[column]
+        return cls.sampled(found.wavelengths, values, outside=outside, name=name or found.title)
+
+    @classmethod
+    def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
+        """Return the spectrum of bins; its density is the power of a bin by its width in nm.
+
+        Parameters
+        ----------
+        edges : array_like, shape (n + 1,)
+            In metres, or texts; rising or falling. An edge is of the bin above it.
+        powers : array_like, shape (n,)
+            The power in each bin; not negative.
+        outside : 0.0, optional
+            Where nothing is beyond the bins; without it, to ask there is an error.
+        name : str, optional
+            What sentences call it.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If these are no bins.
+        """
+        return cls(Histogram(edges, powers, outside, label_of("a spectrum", name, "a histogram")))
+
+    @classmethod
+    def line(cls, wavelength: Any, power: Any = 1.0, *, outside: Any = None) -> Self:
+        """Return the spectrum of a line, such as that of a laser: all power at one wavelength.
+
+        In a run, all of it stands in the bin of the grid of wavelengths that holds the line,
+        however wide that is.
+
+        Parameters
+        ----------
+        wavelength : float or str
+            In metres, or a text such as ``"633 nm"``.
+        power : float, optional
+            All of it; not negative.
+        outside : 0.0, optional
+            Where a grid may leave the line out; without it, that is an error.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If the wavelength or the power is none.
+
+        Examples
+        --------
+        >>> from optipath import Spectrum
+        >>> Spectrum.line("500 nm").at(["400 nm", "500 nm", "600 nm"])
+        array([0.  , 0.01, 0.  ])
+        """
+        place = one_wavelength("wavelength of a line", wavelength)
+        all_of_it = one_number("power of a line", power)
+        return cls(Lines([EmissionLine(place, all_of_it, value_outside("a line", outside))]))
+
+    @classmethod
+    def led(cls, peak: Any, width: Any, power: Any = 1.0) -> Self:
+        """Return the spectrum of a light-emitting diode: a Gaussian along the wavelength.
+
+        Parameters
+        ----------
+        peak, width : float or str
+            The wavelength of the maximum and the full width at half maximum, in metres or texts.
+            A width in eV, 1/cm or THz is the distance between the wavelengths half of it above
+            and half of it below the peak.
+        power : float, optional
+            The integral over all wavelengths.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If one of them is none.
+        """
+        place = one_wavelength("peak of a diode", peak)
+        domain = WidthAtPeak("width", "length", minimum=5e-324, peak=place)
+        wide = one_number("width of a diode", width, domain)
+        refuse_longest("width of a diode", wide)
+        return cls(GaussianLine(place, wide, one_number("power of a diode", power)))
+
+    @classmethod
+    def black_body(cls, temperature: Any) -> Self:
+        """Return the spectral radiance of a black body, in W/(m2 sr nm), by Planck's law.
+
+        Parameters
+        ----------
+        temperature : float
+            In kelvins.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If it is none.
+
+        Examples
+        --------
+        >>> from optipath import Spectrum
+        >>> float(Spectrum.black_body(5772).at("502 nm").round(3))
+        26239.591
+        """
+        return cls(BlackBody(one_number("temperature of a black body", temperature, _TEMPERATURE)))
+
+    @classmethod
+    def illuminant(cls, name: str) -> Self:
+        """Return a standard illuminant of the CIE: relative powers, 100 at 560 nm.
+
+        Parameters
+        ----------
+        name : {"A", "D65", "E"}
+            Incandescent light, daylight, or the same everywhere; 300 to 830 nm (CIE 15:2018).
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If there is none of that name.
+        """
+        return cls(Illuminant(name))
+
+    @classmethod
+    def constant(cls, value: Any = 1.0) -> Self:
+        """Return the spectrum that is the same at each wavelength.
+
+        Parameters
+        ----------
+        value : float, optional
+            Power per nanometre, or a relative value; not negative.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If it is none.
+        """
+        return cls(EvenSpectrum(one_number("value of a constant spectrum", value)))
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        return self.kind.content
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        del arguments
+        found = self.kind.density(xp, wavelength)
+        if self.kind.lines:
+            found = found + density_of_lines(self.kind.lines, wavelength)
+        return (found,)
+
+    def at(self, wavelength: Any) -> Any:
+        """Return what it is at wavelengths, or what stands for it where these are a parameter.
+
+        Parameters
+        ----------
+        wavelength : float, str, array_like or Parameter
+            In metres or as texts. A line needs all wavelengths of a grid at once.
+
+        Returns
+        -------
+        ndarray or CurveValue
+            Power per nanometre.
+
+        Raises
+        ------
+        OptipathError
+            If a wavelength is none, or beyond those for which the spectrum is known.
+        """
+        if isinstance(wavelength, Parameter):
+            return curve_values(self, wavelength)[0]
+        given = known(wavelength)
+        if is_traced(given):
+            return self.numbers(namespace(given), given)[0]
+        places = some_wavelengths("a wavelength", given)
+        check_known_at(self, places)
+        return self.evaluated(places)[0]
+
+    def power(self, low: Any = None, high: Any = None) -> float:
+        """Return the power between two wavelengths: the integral, and that of lines there.
+
+        Parameters
+        ----------
+        low, high : float or str, optional
+            In metres or as texts; by default, where the spectrum ends, and without both the whole
+            power, that of a diode and a black body as well. A line at `low` counts, and one at a
+            `high` that is given does not, so that parts sum up to the whole. (The last bin of
+            `rebin` has the line at its end.)
+
+        Returns
+        -------
+        float
+            To about 1e-14.
+
+        Raises
+        ------
+        ValueFault
+            If it is not known there, or does not end and no end is given.
+
+        Examples
+        --------
+        >>> laser = Spectrum.line("500 nm", power=2.0)
+        >>> laser.power("400 nm", "500 nm"), laser.power("500 nm", "600 nm"), laser.power()
+        (0.0, 2.0, 2.0)
+        """
+        return power_within(self.kind, low, high)
+
+    def resample(self, wavelengths: Any, *, outside: Any = None) -> Spectrum:
+        """Return the sampled spectrum of the same values at other wavelengths.
+
+        Values are kept, and the power is that of straight lines between them; `rebin` keeps the
+        power.
+
+        Parameters
+        ----------
+        wavelengths : array_like, shape (n,)
+            In metres or as texts.
+        outside : {0.0, "nearest", "linear"}, optional
+            What is beyond the new samples, as in `sampled`. Where this spectrum is not known it has
+            no value in any case, unless it was itself made with an ``outside``.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If it is not known there, or has lines, which have no value at a wavelength.
+        """
+        return Spectrum(resampled(self.kind, wavelengths, outside))
+
+    def rebin(self, edges: Any, *, outside: str = "refuse") -> Spectrum:
+        """Return the histogram of the same power in other bins.
+
+        Power is kept, in each bin and in all of them to about 1e-14; `resample` keeps values. A
+        line is in one bin, on an edge in the one above it.
+
+        Parameters
+        ----------
+        edges : array_like, shape (n + 1,)
+            In metres or as texts.
+        outside : {"refuse", "drop"}, optional
+            What becomes of power beyond the edges, of a spectrum that ends somewhere; one that
+            does not is cut off.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            If the spectrum is not known in all bins, or power would be lost.
+        """
+        return Spectrum(rebinned(self.kind, edges, outside))
+
+    @property
+    def wavelengths(self) -> np.ndarray[Any, Any]:
+        """The wavelengths of the samples, in metres and rising."""
+        return self._of(Sampled, "wavelengths", "resample(wavelengths)")
+
+    @property
+    def values(self) -> np.ndarray[Any, Any]:
+        """The values of the samples."""
+        return self._of(Sampled, "values", "resample(wavelengths)")
+
+    @property
+    def edges(self) -> np.ndarray[Any, Any]:
+        """The edges of the bins, in metres and rising."""
+        return self._of(Histogram, "edges", "rebin(edges)")
+
+    @property
+    def powers(self) -> np.ndarray[Any, Any]:
+        """The powers in the bins."""
+        return self._of(Histogram, "powers", "rebin(edges)")
+
+    def __add__(self, other: Any) -> Spectrum:
+        if isinstance(other, Spectrum):
+            return Spectrum(sum_of(self.kind, other.kind))
+        if isinstance(other, (int, float)) and other == 0:
+            return self  # With which Python's own sum begins.
+        raise self._no_sum(other)
+
+    __radd__ = __add__
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Spectrum):
+            return Spectrum(product_of(self.kind, other.kind))
+        return self._by_number(other, "a factor")
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Any:
+        if isinstance(other, Spectrum):
+            return Spectrum(quotient_of(self.kind, other.kind))
+        return self._by_number(other, "a divisor", above=True)
+
+    def __rtruediv__(self, other: Any) -> Spectrum:
+        whole: Spectrum = Spectrum.constant(other) / self
+        return whole
+
+    def _refused(self, *_: Any) -> NoReturn:
+        raise ValueFault(
+            f"a difference or power of {self.label} is no spectrum, which is nowhere below 0; "
+            f"compute with its numbers, spectrum.at(wavelengths), and make one of what comes of "
+            f"it, Spectrum(wavelengths, numbers)"
+        )
+
+    __neg__ = __sub__ = __rsub__ = __pow__ = __rpow__ = _refused
+
+    def _no_sum(self, other: Any) -> ValueFault:
+        """Return why a spectrum and something else have no sum."""
+        same = float(other) if type(other) in (int, float) and 0.0 < other < math.inf else 1.0
+        return ValueFault(
+            f"{self.label} + {shown(other)} is no spectrum; add a spectrum, such as "
+            f"Spectrum.constant({shown(same)}), which is the same at each wavelength"
+        )
+
+    def _by_number(self, other: Any, what: str, *, above: bool = False) -> Spectrum:
+        number = one_number(f"{what} of {self.label}", other, _ABOVE if above else NON_NEGATIVE)
+        with np.errstate(over="ignore"):  # Samples that are not finite are refused.
+            return Spectrum(self.kind.times(1.0 / number if above else number))
+
+    def _of(self, kind: type[SpectrumKind], name: str, cure: str) -> np.ndarray[Any, Any]:
+        if not isinstance(self.kind, kind):
+            raise ValueFault(f"{self.label} has no {name}; ask for those of spectrum.{cure}")
+        found: np.ndarray[Any, Any] = getattr(self.kind, name)
+        return found
+
+    def __repr__(self) -> str:
+        return f"<Spectrum: {self.label}>"
+
+
+def check_response(owner: str, response: Any) -> None:
+    """Raise where a response is a spectrum with power in bins or lines.
+
+    Examples
+    --------
+    >>> check_response("the response", Spectrum.constant(0.5))
+    """
+    curve = getattr(response, "curve", response)
+    terms = curve.kind.terms if isinstance(curve, Spectrum) else ()
+    if powers := [term.label for term in terms if not term.is_pointwise]:
+        raise ValueFault(
+            f"{owner} has {listed(powers)}, which is power and no response; give relative values "
+            f"at wavelengths, Spectrum.sampled(wavelengths, values)"
+        )
+
+
+_STEP = Domain("step of wavelengths", "length", minimum=1e-18)
+_MOST = 10_000_000
+_ROUNDING = 1e-9
+
+
+def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
+    """Return wavelengths in equal steps, both ends included.
+
+    Each is the very number that its text stands for, ``"420 nm"``.
+
+    Parameters
+    ----------
+    low, high : float or str
+        The ends, in metres or as texts such as ``"380 nm"``.
+    step : float or str
+        In metres or as a text; the range is a whole number of steps.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        In metres, rising.
+
+    Raises
+    ------
+    ValueFault
+        If these are no lengths, or the steps do not fit.
+
+    Examples
+    --------
+    >>> (wavelengths("380 nm", "700 nm", "40 nm") * 1e9).round().astype(int)
+    array([380, 420, 460, 500, 540, 580, 620, 660, 700])
+    """
+    start, stop = one_wavelength("low", low), one_wavelength("high", high)
+    along = one_number("step", step, _STEP)
+    given = f"{displayed(start, 'nm')} .. {displayed(stop, 'nm')}"
+    if not start < stop:
+        raise ValueFault(
+            f"wavelengths {given} do not rise; give the lower end first, and turn what comes of "
+            f"it, [::-1]"
+        )
+    steps = (stop - start) / along
+    count = round(steps)
+    if count > _MOST:
+        raise ValueFault(f"wavelengths {given} are {count:.3g} steps; give a larger step")
+    if count < 1 or abs(steps - count) > _ROUNDING * max(1, count):
+        nearest = displayed(start + max(1, int(steps)) * along, "nm")
+        raise ValueFault(
+            f"wavelengths {given} are {steps:.6g} steps of {displayed(along, 'nm')}; give a whole "
+            f"number of steps, as up to {nearest}"
+        )
+    first, each = Decimal(repr(start)), Decimal(repr(along))
+    found = [float(first + place * each) for place in range(count)]
+    return np.array([*found, stop])
+
+
+@dataclass(frozen=True)
+class WidthAtPeak(Domain):
+    """Full widths around a peak, in metres.
+
+    A width in photon energy, wave number or frequency is the distance between the wavelengths
+    half of it above and half of it below the peak: for a width d and a peak p, both per metre,
+    d / (p^2 - d^2 / 4).
+
+    Units: peak in metres.
+
+    Examples
+    --------
+    >>> round(WidthAtPeak("width", "length", peak=620e-9).parse("0.1 eV") * 1e9, 3)
+    31.023
+    """
+
+    peak: float = 0.0
+
+    def parse(self, text: str) -> Any:
+        as_wavelength = wavelength_of(text)
+        if as_wavelength is None:
+            return super().parse(text)
+        # Of the peak: half of the width, as a share of what the peak is in its unit.
+        half = 0.5 * self.peak / as_wavelength
+        if half >= 1.0:
+            raise ValueFault(
+                f"'{text}' around a peak at {1e9 * self.peak:.10g} nm reaches down to 0, where "
+                f"there is no wavelength; give a width below twice the peak, or one in nanometres"
+            )
+        return 2.0 * self.peak * half / (1.0 - half * half)
+
+    def described(self) -> str:
+        return "a width above 0, in metres or as a text such as '30 nm'"

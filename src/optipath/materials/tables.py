@@ -1,0 +1,316 @@
+"""Tabulated curves: measured n and k, interpolated without overshoot."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ValueFault, shown, unknown
+from optipath.values.arrays import as_given, first_place, locked, numbers_for
+from optipath.values.curve import Curve, span_text
+from optipath.values.messages import argument, cure
+from optipath.values.units import parse_quantity
+from optipath.values.wavelength import LONGEST_FIRST, WAVELENGTH, too_long
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Mapping, Sequence
+
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
+
+
+INTERPOLATIONS = ("linear", "monotone")
+EXTRAPOLATIONS = ("", "nearest", "linear")
+
+
+class Tabulated(Curve):
+    """Numbers between samples, at which they are exact.
+
+    Shapes: wavelengths (n,); columns (n,). Units: wavelengths in metres; unit in radians.
+
+    Examples
+    --------
+    >>> gold = Tabulated("gold", ("n",), ["500 nm", "600 nm"], [[0.9, 0.3]])
+    >>> gold.evaluated(5.5e-7)[0].round(12).item()
+    0.6
+    """
+
+    def __init__(
+        self,
+        label: str,
+        parts: tuple[str, ...],
+        wavelengths: Any,
+        columns: Sequence[Any],
+        *,
+        interpolation: str = "linear",
+        extrapolate: str = "",
+        unit: str = "",
+    ) -> None:
+        faults = [
+            *unknown("interpolation", interpolation, INTERPOLATIONS),
+            *unknown("extrapolate", extrapolate, EXTRAPOLATIONS),
+        ]
+        places = _samples(label, "wavelengths", wavelengths, faults)
+        values = [
+            _samples(label, part, column, faults)
+            for part, column in zip(parts, columns, strict=True)
+        ]
+        if not faults:
+            faults += filter(None, [_wavelength_fault(label, places)])
+            faults += [
+                f"{label} has {len(places)} wavelengths and {len(column)} of {part}; give one "
+                f"of each for each sample"
+                for part, column in zip(parts, values, strict=True)
+                if len(column) != len(places)
+            ]
+        if faults:
+            raise ValueFault(*faults)
+        if places[0] > places[-1]:
+            places, values = places[::-1].copy(), [column[::-1].copy() for column in values]
+        vars(self).update(
+            label=label,
+            parts=tuple(parts),
+            wavelengths=locked(places),
+            columns=tuple([locked(column) for column in values]),
+            interpolation=interpolation,
+            extrapolate=extrapolate,
+            unit=unit,
+            span=(0.0, np.inf) if extrapolate else (float(places[0]), float(places[-1])),
+            beyond=_beyond(),
+            unreal="beyond its samples a straight line goes on" * (extrapolate == "linear"),
+            _nodes=locked(np.repeat(places, 2)),
+            _edges=locked(_edges(places)),
+            _cubics=tuple([_cubics(places, v, interpolation, extrapolate) for v in values]),
+        )
+
+    wavelengths: np.ndarray[Any, Any]
+    columns: tuple[np.ndarray[Any, Any], ...]
+    interpolation: str
+    extrapolate: str
+    _nodes: np.ndarray[Any, Any]
+    _edges: np.ndarray[Any, Any]
+    _cubics: tuple[tuple[np.ndarray[Any, Any], ...], ...]
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        numbers = (self.wavelengths, *self.columns)
+        told = (self.label, self.parts, self.interpolation, self.extrapolate)
+        return (*told, *[column.tobytes() for column in numbers])
+
+    @property
+    def known_span(self) -> tuple[float, float]:
+        """The wavelengths of the first and the last sample, in metres."""
+        return float(self.wavelengths[0]), float(self.wavelengths[-1])
+
+    def samples(self, place: int) -> Any:
+        return self.columns[place]
+
+    def is_nowhere_0(self, place: int) -> bool:
+        return self.extrapolate != "linear" and bool(np.all(self.columns[place] > 0.0))
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        del arguments
+        # Each sample reaches halfway to its neighbours, so that it is exact on either side.
+        piece = xp.searchsorted(xp.asarray(self._edges), wavelength, side="right")
+        step = wavelength - xp.asarray(self._nodes)[piece]
+        found = []
+        for cubic in self._cubics:
+            value, slope, second, third = [xp.asarray(each)[piece] for each in cubic]
+            found.append(value + step * (slope + step * (second + step * third)))
+        return tuple(found)
+
+
+def _beyond() -> str:
+    asked = ("extrapolate='nearest' or 'linear'", 'extrapolate = "nearest" or "linear"')
+    return f"ask for {cure(*asked)}" if argument("extrapolate") else "name another page"
+
+
+def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray[Any, Any]:
+    """Return samples as a copy of their numbers, and tell what is wrong with them."""
+    owner = f"{name} of {label}"
+    of_wavelengths = name == "wavelengths"
+    try:
+        parse = WAVELENGTH.parse if of_wavelengths else lambda text: parse_quantity(text, "")
+        array = _real(owner, numbers_for(owner, given, parse))
+    except OptipathError as fault:
+        faults += fault.faults
+    except Exception:  # noqa: BLE001 - what is given may raise anything
+        faults.append(f"{owner} must be a row of real numbers, not {shown(given)}")
+    else:
+        if array.ndim == 1 and array.size:
+            if np.any(bad := ~np.isfinite(array)):
+                found = f"{array[bad][0]}{first_place(bad)}"
+                faults.append(f"{owner}: {found} is no number; give one, or leave the sample out")
+            return array
+        faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")
+    return np.zeros(1)
+
+
+def _real(owner: str, given: Any) -> np.ndarray[Any, Any]:
+    array = as_given(owner, given)
+    if array.dtype.kind not in "iufO":
+        raise TypeError
+    return array.astype(np.float64)
+
+
+def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
+    """Return what is wrong with the wavelengths of samples, or nothing."""
+    steps = np.diff(places)
+    if (least := float(places.min())) <= 0.0:
+        return f"a wavelength of {label} is {least:g}; give lengths above 0"
+    if least > LONGEST_FIRST:
+        return f"the least wavelength of {label} is {too_long(least)}"
+    if np.any(same := steps == 0.0):
+        twice = float(places[:-1][same][0]) * 1e9
+        return f"{label} has the wavelength {twice:.10g} nm twice; give each once"
+    turns = np.sign(steps) != np.sign(steps[:1])
+    if not np.any(turns):
+        return ""
+    first, other = places[int(np.argmax(turns)) :][:2] * 1e9
+    return (
+        f"the wavelengths of {label} neither rise nor fall throughout: {other:.10g} nm stands "
+        f"behind {first:.10g} nm; sort them, with all that belongs to each"
+    )
+
+
+def _edges(places: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Return where the pieces meet: at each sample, and halfway to the next one."""
+    edges = np.empty(2 * len(places) - 1)
+    edges[::2] = places
+    edges[1::2] = places[:-1] + 0.5 * np.diff(places)
+    return edges
+
+
+def _cubics(
+    places: np.ndarray[Any, Any], values: np.ndarray[Any, Any], by: str, beyond: str
+) -> tuple[np.ndarray[Any, Any], ...]:
+    """Return the coefficients of each piece, in steps from its sample: one before, one behind."""
+    steps, count = np.diff(places), len(places)
+    slopes, second, third = np.zeros((3, 2 * count))
+    before, behind = slice(2, None, 2), slice(1, -1, 2)
+    if count > 1:
+        chords = np.diff(values) / steps
+        slopes[before] = slopes[behind] = chords
+        if by == "monotone":
+            at = monotone_slopes(places, values)
+            slopes[:] = np.repeat(at, 2)
+            second[behind] = (3.0 * chords - 2.0 * at[:-1] - at[1:]) / steps
+            second[before] = (2.0 * at[1:] + at[:-1] - 3.0 * chords) / steps
+            third[before] = third[behind] = (at[:-1] + at[1:] - 2.0 * chords) / steps**2
+        outside = 0.0 if beyond == "nearest" else 1.0
+        slopes[0], slopes[-1] = outside * slopes[1], outside * slopes[-2]
+    return tuple([locked(each) for each in (np.repeat(values, 2), slopes, second, third)])
+
+
+def monotone_slopes(places: Array, values: Array) -> Array:
+    """Return the slopes of a piecewise cubic through samples that overshoots none of them.
+
+    Between two chords it is their weighted harmonic mean, or 0 where one rises and the other
+    falls; at the ends that of a parabola, no more than 3 times the chord (F. N. Fritsch and
+    R. E. Carlson, SIAM J. Numer. Anal. 17, 238, 1980; F. N. Fritsch and J. Butland, SIAM J. Sci.
+    Stat. Comput. 5, 300, 1984).
+
+    Shapes: places (n,); values (n,); returns (n,).
+
+    Examples
+    --------
+    >>> monotone_slopes(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 1.0]))
+    array([1.5, 0. , 0. ])
+    """
+    steps = np.diff(places)
+    chords = np.diff(values) / steps
+    if len(chords) == 1:
+        return np.repeat(chords, 2)
+    before, after = chords[:-1], chords[1:]
+    first, second = 2.0 * steps[1:] + steps[:-1], steps[1:] + 2.0 * steps[:-1]
+    turns = ~(np.sign(before) * np.sign(after) > 0.0)
+    one, other = np.where(turns, 1.0, before), np.where(turns, 1.0, after)
+    inner = np.where(turns, 0.0, (first + second) / (first / one + second / other))
+    begin = _at_end(steps[0], steps[1], chords[0], chords[1])
+    end = _at_end(steps[-1], steps[-2], chords[-1], chords[-2])
+    return np.concatenate([[begin], inner, [end]])
+
+
+def _at_end(step: Any, next_step: Any, chord: Any, next_chord: Any) -> float:
+    slope = ((2.0 * step + next_step) * chord - step * next_chord) / (step + next_step)
+    if np.sign(slope) != np.sign(chord):
+        return 0.0
+    if np.sign(chord) != np.sign(next_chord) and abs(slope) > 3.0 * abs(chord):
+        return 3.0 * float(chord)
+    return float(slope)
+
+
+class PageCurve(Curve):
+    """Several curves as one, at the wavelengths at which all of them are known.
+
+    Units: within in metres.
+
+    Examples
+    --------
+    >>> from optipath.materials.tables import Tabulated
+    >>> n = Tabulated("n", ("n",), [4e-7, 8e-7], [[1.5, 1.3]])
+    >>> k = Tabulated("k", ("k",), [5e-7, 9e-7], [[0.0, 0.4]])
+    >>> PageCurve("paint", [n, k]).span
+    (5e-07, 8e-07)
+    """
+
+    curves: tuple[Curve, ...]
+    place: str
+    source: str
+    asked: Mapping[str, str]
+
+    def __init__(
+        self,
+        label: str,
+        curves: Sequence[Curve],
+        *,
+        within: tuple[float, float] | None = None,
+        place: str = "",
+        source: str = "",
+        asked: Mapping[str, str] | None = None,
+    ) -> None:
+        lows, highs = zip(*[curve.span for curve in curves], strict=True)
+        low, high = max(lows), min(highs)
+        if low > high:
+            spans = [f"{' and '.join(c.parts)} within {span_text(c.span)}" for c in curves]
+            raise ValueFault(f"{label} has {', and '.join(spans)}, where no wavelength is in both")
+        vars(self).update(
+            label=label,
+            curves=tuple(curves),
+            parts=tuple([part for curve in curves for part in curve.parts]),
+            place=place,
+            source=source,
+            asked=dict(asked or {}),
+            span=(low, high),
+            # The one with fewer ways to leave its range has the shorter sentence.
+            beyond=min([curve.beyond for curve in curves], key=len),
+        )
+        if within is not None:
+            clear = max(low, within[0]), min(high, within[1])
+            own_k = argument("k", "1e-4")
+            vars(self).update(
+                span=clear, beyond=f"give k, as {own_k}" if own_k else "name another page"
+            )
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        return (self.label, self.span, *[(type(one).__name__, one.content) for one in self.curves])
+
+    def unreal_of(self, place: int) -> str:
+        curve, part = self._placed[place]
+        return curve.unreal_of(part)
+
+    def is_nowhere_0(self, place: int) -> bool:
+        curve, part = self._placed[place]
+        return curve.is_nowhere_0(part)
+
+    @property
+    def _placed(self) -> list[tuple[Curve, int]]:
+        """The curve that has each part, and which of its own that is."""
+        return [(curve, part) for curve in self.curves for part in range(len(curve.parts))]
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        del arguments
+        return tuple([part for curve in self.curves for part in curve.numbers(xp, wavelength)])

@@ -1,0 +1,1 @@
+"""Preset files: paths read from TOML and written as it."""

@@ -1,0 +1,360 @@
+"""Materials, crystals and formulas in preset files."""
+
+from __future__ import annotations
+
+from functools import reduce
+from inspect import Parameter as Argument
+from inspect import signature
+from operator import add, sub
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import OptipathError, PresetError, shown
+from optipath.materials.crystals import CRYSTALS, Crystal
+from optipath.materials.formulas import EVERYWHERE, REAL, Cauchy, Sellmeier
+from optipath.materials.index_domains import IndexDomain, OutsideDomain
+from optipath.materials.material import K, Material, N
+from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
+from optipath.paths.files.schema import Faults, as_meant, unknown_keys
+from optipath.paths.files.spectrum_tables import sampled_curve
+from optipath.values.curve import WavelengthRange
+from optipath.values.curve_value import CurveValue, curve_values
+from optipath.values.domains import Domain
+from optipath.values.parameters import Parameter
+from optipath.values.wavelength import WAVELENGTH, Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.materials.formulas import FormulaCurve
+    from optipath.materials.tables import PageCurve
+    from optipath.values.curve import Curve
+
+    Decode = Callable[[Any, Domain], Any]
+    Encode = Callable[[Any, str], Any]
+
+
+CRYSTAL = "crystal"
+"""The key by which such a table is known."""
+
+_QUANTITIES = {"": "birefringence", "angle per length": "rotatory_power"}
+"""What a crystal gives for a dimension."""
+
+
+def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
+    """Return what a crystal gives where one number stands.
+
+    Examples
+    --------
+    >>> from optipath.values.domains import Domain
+    >>> round(number_of_crystal("quartz", Domain("birefringence"), 5.893e-7), 5)
+    0.0091
+    """
+    crystal = Crystal.named(raw, wavelength)
+    of_index = isinstance(domain, (IndexDomain, OutsideDomain))
+    asked = "" if of_index else _QUANTITIES.get(domain.dimension, "")
+    found = getattr(crystal, asked, None)
+    if found is None:
+        raise PresetError(
+            f"{crystal.label} gives no {domain.name}; it stands for a birefringence, and quartz "
+            f"for a rotatory power"
+        )
+    return found
+
+
+def crystal_of(curve: Curve) -> str:
+    """Return the name of the crystal that a curve is of; ``""`` for any other.
+
+    Examples
+    --------
+    >>> crystal_of(Crystal.named("calcite").birefringence.curve)
+    'calcite'
+    """
+    for name in CRYSTALS:
+        crystal = Crystal.named(name)
+        for quantity in _QUANTITIES.values():
+            if getattr(getattr(crystal, quantity), "curve", None) == curve:
+                return name
+    return ""
+
+
+FORMULAS: dict[str, type[FormulaCurve]] = {
+    "sellmeier": Sellmeier,
+    "cauchy": Cauchy,
+    "drude_lorentz": DrudeLorentz,
+    "tauc_lorentz": TaucLorentz,
+}
+"""The formulas by the keys under which their coefficients stand."""
+
+BESIDE = ("name", "span")
+"""The keys that stand beside that of the formula."""
+
+
+def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
+    """Return the curve of a table with a formula."""
+    known = _coefficients_of(form)
+    table = raw[form]
+    if not isinstance(table, dict):
+        raise PresetError(
+            f"'{form}' must be a table of its coefficients ({', '.join(known)}), not {shown(table)}"
+        )
+    faults = Faults(f".{form}: {fault}" for fault in unknown_keys(table, [*known]))
+    table = as_meant(table, known)
+    faults += [
+        f".{form}: '{name}' is missing"
+        for name, usual in known.items()
+        if usual is Argument.empty and name not in table
+    ]
+    given = {
+        name: faults.attempt(f".{form}.{name}", _nested, value, decode)
+        for name, value in table.items()
+    }
+    if "span" in raw:
+        given["span"] = faults.attempt(".span", _span, raw["span"], decode)
+    if faults:
+        raise PresetError(*faults)
+    return FORMULAS[form](raw.get("name", f"the formula '{form}'"), **given)
+
+
+def formula_table(curve: Curve, encode: Encode) -> dict[str, Any] | None:
+    """Return the table of a formula; None for another curve."""
+    form = next((form for form, of in FORMULAS.items() if type(curve) is of), None)
+    if form is None:
+        return None
+    given = {name: getattr(curve, name) for name in _coefficients_of(form)}
+    table = {name: encode(value, "") for name, value in given.items() if value is not None}
+    found: dict[str, Any] = {form: table, "name": curve.label}
+    if curve.span != EVERYWHERE:
+        found["span"] = [encode(end, WAVELENGTH.unit) for end in curve.span]
+    return found
+
+
+def _coefficients_of(form: str) -> dict[str, Any]:
+    """Return the names of the coefficients of a formula, with what they are by default."""
+    arguments = signature(FORMULAS[form]).parameters.values()
+    return {a.name: a.default for a in arguments if a.name not in ("label", "span")}
+
+
+def _nested(raw: Any, decode: Decode) -> Any:
+    """Return a coefficient, or a list of such, or of lists of them."""
+    if not isinstance(raw, list):
+        return decode(raw, REAL)
+    faults = Faults()
+    found = [faults.attempt(f"[{i}]", _nested, entry, decode) for i, entry in enumerate(raw)]
+    if faults:
+        raise PresetError(*faults)
+    return found
+
+
+def _span(raw: Any, decode: Decode) -> tuple[Any, ...]:
+    if not isinstance(raw, list):
+        raise PresetError(f'must be two wavelengths, ["400 nm", "700 nm"], not {shown(raw)}')
+    faults = Faults()
+    ends = [faults.attempt(f"[{i}]", decode, end, WAVELENGTH) for i, end in enumerate(raw)]
+    if faults:
+        raise PresetError(*faults)
+    return tuple(ends)
+
+
+NAMED = "material"
+"""The key by which such a table is known."""
+
+_TEXTS = ("page", "interpolation", "extrapolate")
+_NUMBERS = {"n": N, "k": K}
+OF_PAGES = (*_TEXTS, *_NUMBERS)
+"""The other keys that it may have; n and k in place of what a page has."""
+
+
+def material_by_name(
+    raw: Mapping[str, Any], wavelength: Any, decode: Callable[[Any, Domain], Any]
+) -> dict[str, Any]:
+    """Return n and k of a material of the database."""
+    faults = Faults()
+    numbers: dict[str, Any] = {
+        key: faults.attempt(f".{key}", decode, raw[key], of)
+        for key, of in _NUMBERS.items()
+        if key in raw
+    }
+    if faults:
+        raise PresetError(*faults)
+    texts: dict[str, Any] = {key: raw[key] for key in _TEXTS if key in raw}
+    found = Material.named(raw[NAMED], wavelength=wavelength, **texts, **numbers)
+    return {"n": found.n, "k": found.k}
+
+
+def page_table(curve: PageCurve) -> dict[str, Any] | None:
+    """Return the table of a material by name; None for what is read from a file."""
+    if not curve.asked:
+        return None
+    return {NAMED if key == "name" else key: text for key, text in curve.asked.items()}
+
+
+def own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
+    """Return which of n and k a table has to say beside the name of a material."""
+    given = {"n": n, "k": k}
+    own = {part: given[part] for part in given if part not in curve.parts}
+    try:
+        usual = Material.named(**curve.asked)
+    except OptipathError:
+        return own  # Without them, it is no material.
+    same = isinstance(usual.n, CurveValue) and usual.n.curve.span == curve.span
+    return {} if same and own == {"k": 0.0} == {"k": usual.k} else own
+
+
+def is_usual_part(curve: PageCurve, part: str) -> bool:
+    """Tell whether a name by itself gives a curve, with no other part beside it.
+
+    The index of a page without k reaches further, or is had at all, where a k is given.
+    """
+    try:
+        usual = getattr(Material.named(**curve.asked), part)
+    except OptipathError:
+        return False
+    return isinstance(usual, CurveValue) and usual.curve == curve
+
+
+SAMPLES, SUM, DIFFERENCE = "wavelengths", "sum", "difference"
+FORMS = (NAMED, SAMPLES, *FORMULAS, CRYSTAL, SUM, DIFFERENCE)
+"""The keys by which a table is known for one of these."""
+
+WHEN = "wavelength"
+"""The key, and the name of the parameter that is taken where it is left out."""
+
+_OF_SAMPLES = ("unit", "interpolation", "extrapolate", "name")
+_OF_NUMBER = ("part", "scale", "offset")
+
+
+def is_curve(raw: Mapping[str, Any]) -> bool:
+    """Tell whether a table is one of what depends on the wavelength.
+
+    Examples
+    --------
+    >>> is_curve({"material": "gold"}), is_curve({"n": 1.5})
+    (True, False)
+    """
+    return not raw.keys().isdisjoint(FORMS)
+
+
+def decode_curve(
+    raw: Mapping[str, Any], domain: Domain, parameters: Mapping[str, Parameter], decode: Decode
+) -> Any:
+    """Return what stands for a table of what depends on the wavelength."""
+    form, *others = [key for key in FORMS if key in raw]
+    if others:
+        raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")
+    for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED, CRYSTAL):
+        if key in raw and not isinstance(raw[key], str):
+            raise PresetError(f"'{key}' must be a text, not {shown(raw[key])}")
+    if domain.tail:
+        raise PresetError(
+            f"'{form}' gives one number, but several are asked for that belong together; give "
+            f"them for each wavelength, as a parameter"
+        )
+    of_index = isinstance(domain, (IndexDomain, OutsideDomain))
+    if form in (SUM, DIFFERENCE) and not of_index:
+        return _together(raw, form, domain, decode)
+    if form in (SUM, DIFFERENCE):
+        one = f"{{ n = {{ {form} = ... }} }}"
+        raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
+    whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
+    found = _parts(whole, form, domain, of_index, parameters, decode)
+    if of_index and _has_k_beside(raw, form):
+        return _with_k(found, raw, form, decode)
+    if of_index:
+        return Material(**found)
+    return _placed(_chosen(found, raw, domain), raw, domain, decode)
+
+
+def _parts(
+    raw: Mapping[str, Any],
+    form: str,
+    domain: Domain,
+    of_index: bool,  # noqa: FBT001 - it goes no further
+    parameters: Mapping[str, Parameter],
+    decode: Decode,
+) -> dict[str, Any]:
+    """Return the numbers that a table gives, by the names of the parts of its curve."""
+    columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
+    own = {NAMED: OF_PAGES, SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
+    keys = own.get(form, (*BESIDE, "k") if of_index else BESIDE)
+    faults = unknown_keys(raw, (form, *keys, WHEN))
+    raw = as_meant(raw, (form, *keys, WHEN))
+    if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
+        faults.append(f"a table of {SAMPLES} needs 'n', a list with a number for each")
+    if WHEN in raw:
+        when = faults.attempt(f".{WHEN}", decode, raw[WHEN], WAVELENGTH)
+    else:
+        when = parameters.get(WHEN) or Wavelength()
+    if faults:
+        raise PresetError(*faults)
+    if form == NAMED:
+        return material_by_name(raw, when, decode)
+    if form == CRYSTAL:
+        return {CRYSTAL: number_of_crystal(raw[CRYSTAL], domain, when)}
+    if of_index and form == SAMPLES and _has_k_beside(raw, form):
+        columns = ("n",)
+    curve = (
+        sampled_curve(raw, columns, domain) if form == SAMPLES else formula_of(raw, form, decode)
+    )
+    return _at(curve, when)
+
+
+def _has_k_beside(raw: Mapping[str, Any], form: str) -> bool:
+    """Tell whether the k of a material stands beside a formula or samples, and is none of it."""
+    sampled = form == SAMPLES and isinstance(raw.get("k"), list)
+    return form in (SAMPLES, *FORMULAS) and "k" in raw and not sampled
+
+
+def _with_k(
+    found: Mapping[str, Any], raw: Mapping[str, Any], form: str, decode: Decode
+) -> Material:
+    """Return the material of a formula or of samples of n, with the k that stands beside it."""
+    if "k" in found:
+        raise PresetError(f"'{form}' gives k as well; leave k out")
+    faults = Faults()
+    k = faults.attempt(".k", decode, raw["k"], K)
+    if faults:
+        raise PresetError(*faults)
+    return Material(found["n"], k)
+
+
+def _at(curve: Curve, when: Any) -> dict[str, Any]:
+    if not isinstance(when, Parameter):
+        WavelengthRange.of(curve).check(WHEN, when)
+    return dict(zip(curve.parts, curve_values(curve, when), strict=True))
+
+
+def _chosen(found: Mapping[str, Any], raw: Mapping[str, Any], domain: Domain) -> Any:
+    """Return the number of a table where one is asked for: of n and k the k for a k, else n."""
+    usual = "k" if domain is K and "k" in found else next(iter(found))
+    part = raw.get("part", usual)
+    if part not in found:
+        raise PresetError(f"'part' is '{part}', but the table has {' and '.join(found)}")
+    return found[part]
+
+
+def _together(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode) -> Any:
+    """Return a sum or a difference of numbers by wavelength."""
+    faults = unknown_keys(raw, (form, *_OF_NUMBER[1:]))
+    terms = raw[form]
+    if not isinstance(terms, list) or len(terms) < 2 or (form == DIFFERENCE and len(terms) > 2):
+        many = "two tables" if form == DIFFERENCE else "two tables or more"
+        faults.append(f"'{form}' must be a list of {many}, not {shown(terms)}")
+        raise PresetError(*faults)
+    found = [faults.attempt(f".{form}[{i}]", decode, term, domain) for i, term in enumerate(terms)]
+    if faults:
+        raise PresetError(*faults)
+    return _placed(reduce(sub if form == DIFFERENCE else add, found), raw, domain, decode)
+
+
+def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, decode: Decode) -> Any:
+    """Return a multiple of a value with an offset, where the table says so."""
+    faults = Faults()
+    if "scale" in raw:
+        scale = faults.attempt(".scale", decode, raw["scale"], Domain("scale"))
+        value = value if scale is None else scale * value
+    if "offset" in raw:
+        offset = faults.attempt(".offset", decode, raw["offset"], domain)
+        value = value if offset is None else value + offset
+    if faults:
+        raise PresetError(*faults)
+    return value

@@ -1,0 +1,169 @@
+"""Presets: optical set-ups by name, and files of a user's own by path."""
+
+from __future__ import annotations
+
+from numbers import Integral
+from typing import TYPE_CHECKING, Any, Never
+
+from optipath.errors import OptipathError, ParameterError, PresetError, closest, shown, there_are
+from optipath.paths.files.toml import file_of, names_in, presets_folder, text_of
+from optipath.values.messages import check_named
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+    from os import PathLike
+    from pathlib import Path
+
+    from optipath.paths.path_graph import PathGraph
+
+
+def preset_names() -> list[str]:
+    """Return the names of the presets that come with the library, sorted.
+
+    Examples
+    --------
+    >>> "npgr026" in preset_names()
+    True
+    """
+    return names_in(presets_folder())
+
+
+def preset_descriptions() -> dict[str, str]:
+    """Return what each preset is, by name, without making its path.
+
+    Examples
+    --------
+    >>> preset_descriptions()["glass-slab"][:15]
+    'A slab of glass'
+    """
+    from optipath.paths.files.toml import parsed  # noqa: PLC0415 - not for every import
+
+    files = {name: locate(name) for name in preset_names()}
+    return {name: parsed(text_of(f, "preset"), str(f))["description"] for name, f in files.items()}
+
+
+def load_preset(
+    preset: str | PathLike[str],
+    /,
+    *unnamed: Never,
+    case: str | int | None = None,
+    **values: Any,
+) -> PathGraph:
+    """Return the path of a preset.
+
+    Parameters
+    ----------
+    preset : str or path
+        A name out of `preset_names`, or the path of a TOML file of one's own.
+    *unnamed
+        None: a case and values are given by name.
+    case : str or int, optional
+        A named set of values of the preset, which become the defaults of its parameters.
+    **values : float, str or array_like
+        Parameters that are bound to these values, in radians and metres; they take
+        precedence over the case. The others stay open, with their defaults.
+
+    Returns
+    -------
+    PathGraph
+        Elements, links and cases, as the file has them.
+
+    Raises
+    ------
+    PresetError
+        If there is no such preset or case, or its file cannot be read.
+    PathError
+        With every fault of the file.
+    ParameterError
+        With every parameter that is unknown or has a value that is not allowed.
+
+    Examples
+    --------
+    >>> path = load_preset("npgr026", case="8")
+    >>> path.trace().stokes.round(4)
+    array([ 19.1245,  10.9873, -13.0076,  -8.7079])
+    >>> path.trace(delta=["30 deg", "48 deg"]).intensity.round(4)
+    array([17.9613, 19.1245])
+    """
+    path = read_preset(locate(preset))
+    if unnamed and _number_of(unnamed[0]).strip("'") in path.cases:
+        raise ParameterError(
+            f"a case is given by name: load_preset({shown(preset)}, case={shown(unnamed[0])})"
+        )
+    if unnamed:
+        opened = [name for name, parameter in path.parameters.items() if not parameter.bound]
+        check_named("load_preset", unnamed, opened, first=shown(preset))
+    known, faults = _of_case(path, preset, case)
+    path = path.with_defaults(**known) if known else path
+    return _bound(path, values, faults)
+
+
+def preset_of_case(path: PathGraph, preset: str | PathLike[str], case: str | int) -> PathGraph:
+    """Return the path of a preset with the values of a case as its defaults."""
+    known, faults = _of_case(path, preset, case)
+    return _bound(path.with_defaults(**known), {}, faults)
+
+
+def bound_preset(
+    path: PathGraph,
+    preset: str | PathLike[str],
+    case: str | int | None,
+    values: Mapping[str, Any],
+    varied: Collection[str] = (),
+) -> PathGraph:
+    """Return the path of a preset, bound to the values of a case and to others."""
+    known, faults = _of_case(path, preset, case)
+    known = {name: value for name, value in known.items() if name not in varied}
+    return _bound(path, beside(path, known, values), faults)
+
+
+def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values of a case and others, which take precedence: of a `Material`, its k as well."""
+    # Not for every import of the library.
+    from optipath.paths.binding import given_by_materials  # noqa: PLC0415
+
+    gone = given_by_materials(path.graph, values)
+    return {name: value for name, value in known.items() if name not in gone} | {**values}
+
+
+def _of_case(
+    path: PathGraph, preset: str | PathLike[str], case: str | int | None
+) -> tuple[Mapping[str, Any], list[str]]:
+    """Return the values of a case, and what is wrong with its name, a sentence."""
+    if isinstance(case, bool):
+        return {}, [f"case must be a name or a number, not {case}{there_are([*path.cases])}"]
+    name = case if isinstance(case, str) else _number_of(case)
+    if case is None or name in path.cases:
+        return {} if case is None else path.cases[name].values, []
+    near = closest(name, path.cases)
+    cure = there_are([*path.cases]) + (f"; did you mean '{near}'?" if near else "")
+    return {}, [f"case '{name}' is unknown in preset '{preset}'{cure}"]
+
+
+def _bound(path: PathGraph, values: Mapping[str, Any], faults: list[str]) -> PathGraph:
+    """Return a path bound to values; what is wrong with them comes behind other faults."""
+    try:
+        path = path.bind(**values) if values else path
+    except OptipathError as error:
+        if not faults:
+            raise
+        faults += error.faults
+    if faults:
+        raise PresetError(*faults)
+    return path
+
+
+def locate(preset: str | PathLike[str]) -> Path:
+    """Return the file of a preset, which need not exist if a path is given."""
+    return file_of(preset, "preset", presets_folder(), "`optipath presets`")
+
+
+def read_preset(path: Path) -> PathGraph:
+    """Return the path that a file describes."""
+    from optipath.paths.files.reader import path_of_text  # noqa: PLC0415 - not for all
+
+    return path_of_text(text_of(path, "preset"), str(path), path.name)
+
+
+def _number_of(case: object) -> str:
+    return shown(int(case) if isinstance(case, Integral) else case)

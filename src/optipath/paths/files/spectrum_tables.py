@@ -1,0 +1,310 @@
+"""Spectra and sampled curves in preset files."""
+
+from __future__ import annotations
+
+import json
+from functools import reduce
+from operator import add
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import PresetError, UnitError, closest, shown
+from optipath.materials.illuminants import Illuminant
+from optipath.materials.material import K, N
+from optipath.materials.quantities import spectrum_meant
+from optipath.materials.spectrum import Spectrum
+from optipath.materials.spectrum_kinds import (
+    BlackBody,
+    EvenSpectrum,
+    GaussianLine,
+    Histogram,
+    Lines,
+    Sampled,
+    SumOfKinds,
+)
+from optipath.materials.tables import Tabulated
+from optipath.paths.files.schema import Faults, as_meant, unknown_keys
+from optipath.values.columns import unit_doubted
+from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
+from optipath.values.wavelength import WAVELENGTH, Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.materials.illuminants import EmissionLine, SpectrumKind
+    from optipath.values.domains import Domain
+    from optipath.values.parameters import Parameter
+
+    Decode = Callable[[Any, Domain], Any]
+
+
+_FORMS = {
+    "wavelengths": ("values", "unit", "outside", "name"),
+    "edges": ("powers", "unit", "outside", "name"),
+    "line": ("power", "outside"),
+    "led": ("width", "power"),
+    "black_body": (),
+    "illuminant": (),
+    "constant": (),
+    "sum": (),
+}
+"""The keys by which the kinds are known, and those that stand beside them."""
+_NEEDED = {"wavelengths": "values", "edges": "powers", "led": "width"}
+_WHEN, _SCALE, _OFFSET = "wavelength", "scale", "offset"
+
+
+def decode_spectrum(
+    raw: Mapping[str, Any], parameters: Mapping[str, Parameter], decode: Decode
+) -> Any:
+    """Return what stands for a spectrum at the wavelength of a run."""
+    faults = Faults()
+    when: Any = parameters.get(_WHEN) or Wavelength()
+    if _WHEN in raw:
+        when = faults.attempt(f".{_WHEN}", decode, raw[_WHEN], WAVELENGTH)
+    whole = {key: value for key, value in raw.items() if key != _WHEN}
+    found = faults.attempt("", spectrum_of, whole)
+    if faults or found is None:
+        raise PresetError(*[fault.removeprefix(": ") for fault in faults])
+    return found.at(when)
+
+
+def spectrum_of(raw: Any) -> Spectrum:
+    """Return the spectrum of a table.
+
+    Examples
+    --------
+    >>> spectrum_of({"line": "633 nm", "power": 2.0})
+    <Spectrum: the line at 633 nm>
+    """
+    if isinstance(raw, str) and (sentence := spectrum_meant(raw)):
+        raise PresetError(sentence)
+    if not isinstance(raw, dict):
+        raise PresetError(f"must be a table of a spectrum, {_known()}, not {shown(raw)}")
+    meant = [form for form in _FORMS if form in raw] or [
+        form for key in raw if (form := closest(key, _FORMS))
+    ]
+    if not meant:
+        raise PresetError(f"a table of a spectrum needs one of the keys {_known()}")
+    form, *others = meant
+    if others:
+        raise PresetError(f"'{form}' and '{others[0]}' are two spectra; write {{ sum = [...] }}")
+    keys = (form, *_FORMS[form], _SCALE, _OFFSET)
+    faults = unknown_keys(raw, keys)
+    raw = as_meant(raw, keys)
+    needed = _NEEDED.get(form)
+    if needed and needed not in raw:
+        faults.append(f"a table with '{form}' needs '{needed}'")
+    if faults:
+        raise PresetError(*faults)
+    found = _terms(raw) if form == "sum" else _single(raw, form)
+    if _SCALE in raw:
+        found = found * raw[_SCALE]
+    return found + Spectrum.constant(raw[_OFFSET]) if _OFFSET in raw else found
+
+
+def spectrum_table(spectrum: Spectrum) -> dict[str, Any]:
+    """Return the table of a spectrum, of which the same one is read.
+
+    Examples
+    --------
+    >>> spectrum_table(Spectrum.line("633 nm", power=2.0) * 3)
+    {'line': '633 nm', 'power': 6.0}
+    """
+    return _table(spectrum.kind)
+
+
+def _known() -> str:
+    return ", ".join([f"'{form}'" for form in _FORMS])
+
+
+def _terms(raw: Mapping[str, Any]) -> Spectrum:
+    terms = raw["sum"]
+    if not isinstance(terms, list) or not terms:
+        raise PresetError(f"'sum' must be a list of tables, not {shown(terms)}")
+    faults = Faults()
+    found = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
+    if faults:
+        raise PresetError(*faults)
+    return reduce(add, found)  # type: ignore[return-value]
+
+
+def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
+    if form not in ("wavelengths", "edges") and isinstance(raw[form], list) and raw[form]:
+        raise PresetError(
+            f"'{form}' is {shown(raw[form])}, but one is asked for; write a table for each, "
+            f"{{ sum = [{{ {form} = {json.dumps(raw[form][0])} }}, ...] }}"
+        )
+    for key in ("line", "led", "width", "illuminant", "name", "unit"):
+        if key in raw and not isinstance(raw[key], str):
+            example = f"{raw[key]} nm" if key in ("line", "led", "width") else "..."
+            wrong = f"'{key}' is {shown(raw[key])}, but a text is asked for"
+            raise PresetError(f'{wrong}; write {key} = "{example}"')
+    given = {key: raw[key] for key in ("power", "outside", "name") if key in raw}
+    if form in ("wavelengths", "edges"):
+        column = _NEEDED[form]
+        faults = Faults()
+        places = faults.attempt(f".{form}", wavelengths_of, raw[form], raw.get("unit"))
+        numbers = faults.attempt(f".{column}", samples_of, raw[column], "")
+        if faults:
+            raise PresetError(*faults)
+        make = Spectrum.sampled if form == "wavelengths" else Spectrum.histogram
+        return make(places, numbers, **given)
+    if form == "led":
+        return Spectrum.led(raw["led"], raw["width"], **given)
+    made: Spectrum = getattr(Spectrum, form)(raw[form], **given)
+    return made
+
+
+def _table(kind: SpectrumKind) -> dict[str, Any]:
+    if isinstance(kind, SumOfKinds):
+        return {"sum": [_table(term) for term in kind.terms]}
+    if isinstance(kind, Lines):
+        tables = [_line(line) for line in kind.lines]
+        return tables[0] if len(tables) == 1 else {"sum": tables}
+    if isinstance(kind, (Sampled, Histogram)):
+        return _columns(kind)
+    if isinstance(kind, GaussianLine):
+        return {"led": _nm(kind.peak), "width": _nm(kind.width), "power": kind.power}
+    if isinstance(kind, EvenSpectrum):
+        return {"constant": kind.value}
+    if isinstance(kind, BlackBody):
+        return {"black_body": kind.temperature} | _scale(kind.factor)
+    assert isinstance(kind, Illuminant)  # noqa: S101 - there are no others
+    return {"illuminant": kind.name} | _scale(kind.factor)
+
+
+def _columns(kind: Sampled | Histogram) -> dict[str, Any]:
+    if isinstance(kind, Sampled):
+        table = written_wavelengths(kind.wavelengths) | {"values": kind.values.tolist()}
+    else:
+        written = written_wavelengths(kind.edges)
+        table = {"edges": written.pop("wavelengths"), **written, "powers": kind.powers.tolist()}
+    outside = {} if kind.outside is None else {"outside": kind.outside}
+    return table | outside | {"name": kind.label}
+
+
+def _line(line: EmissionLine) -> dict[str, Any]:
+    outside = {} if line.outside is None else {"outside": line.outside}
+    return {"line": _nm(line.wavelength), "power": line.power} | outside
+
+
+def _nm(metres: float) -> str:
+    return format_quantity(metres, "nm")
+
+
+def _scale(factor: float) -> dict[str, Any]:
+    return {} if factor == 1.0 else {_SCALE: factor}
+
+
+_NM = "nm"
+
+
+def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Domain) -> Tabulated:
+    """Return the curve through the samples of a table."""
+    faults, domains = Faults(), {"n": N, "k": K, "values": domain}
+    of_numbers = columns == ("values",)
+    given = [key for key in columns if key in raw or of_numbers]
+    axis = faults.attempt(".wavelengths", wavelengths_of, raw["wavelengths"], raw.get("unit"))
+    samples = []
+    for key in given:
+        read = faults.attempt(f".{key}", samples_of, raw.get(key), domains[key].unit)
+        samples.append(read)
+        if read is not None and not of_numbers:
+            faults.attempt(f".{key}", domains[key].check, key, read)
+    if faults:
+        raise PresetError(*faults)
+    how = {key: raw[key] for key in ("interpolation", "extrapolate") if key in raw}
+    usual = f"{domain.name} by wavelength" if of_numbers else "the table"
+    parts = tuple(key.removesuffix("s") for key in given)
+    return Tabulated(raw.get("name", usual), parts, axis, samples, **how)
+
+
+def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
+    """Return wavelengths in metres.
+
+    Examples
+    --------
+    >>> wavelengths_of([500, 520], "nm"), wavelengths_of(["0.5 um"])
+    ([5e-07, 5.2e-07], [5e-07])
+    """
+    entries = _list(raw)
+    found = [_wavelength(entry, place, unit) for place, entry in enumerate(entries)]
+    if not any(isinstance(entry, str) for entry in entries) and (
+        doubt := unit_doubted(found, unit)
+    ):
+        raise PresetError(doubt)
+    return found
+
+
+def _wavelength(entry: Any, place: int, unit: Any) -> float:
+    if unit is not None and not isinstance(unit, str):
+        raise PresetError(f'the unit must be a text, such as "nm", not {shown(unit)}')
+    if isinstance(entry, str):
+        return float(WAVELENGTH.parse(entry))
+    number = _real(entry, place)
+    if unit is None:
+        raise UnitError(
+            f'{shown(entry)} has no unit, but a wavelength is asked for; add unit = "nm" to the '
+            f'table, or write "{entry} nm"'
+        )
+    return float(WAVELENGTH.parse(f"{number} {unit}"))
+
+
+def samples_of(raw: Any, unit: str) -> list[float]:
+    """Return the samples of one quantity in base units.
+
+    Examples
+    --------
+    >>> samples_of([1.5, 1.6], ""), samples_of(["1 mm"], "mm")
+    ([1.5, 1.6], [0.001])
+    """
+    return [
+        _sample(entry, place, unit)
+        for place, entry in enumerate(_list(raw, "with a number for each wavelength or bin"))
+    ]
+
+
+def _sample(entry: Any, place: int, unit: str) -> float:
+    if isinstance(entry, str):
+        number = parse_quantity(entry, dimension_of(unit))
+        if isinstance(number, complex):
+            raise PresetError(f"[{place}] is {shown(entry)}, but a real number is asked for")
+        return number
+    number = _real(entry, place)
+    if unit:
+        asked = with_article(dimension_of(unit))
+        raise UnitError(
+            f'{shown(entry)} has no unit, but {asked} is asked for; write "{entry} {unit}"'
+        )
+    return number
+
+
+def _list(raw: Any, of: str = "of one wavelength or more") -> list[Any]:
+    if isinstance(raw, list) and raw:
+        return raw
+    raise PresetError(f"must be a list {of}, not {shown(raw)}")
+
+
+def _real(entry: Any, place: int) -> float:
+    if isinstance(entry, bool) or not isinstance(entry, (int, float)) or not np.isfinite(entry):
+        raise PresetError(f"[{place}] is {shown(entry)}, but a finite number is asked for")
+    return float(entry)
+
+
+def written_wavelengths(metres: Any) -> dict[str, Any]:
+    """Return wavelengths as a table has them, from which the same numbers are read.
+
+    Shape: metres (n,). Units: metres in metres.
+
+    Examples
+    --------
+    >>> written_wavelengths([5e-07, 5.2e-07])
+    {'wavelengths': [500.0, 520.0], 'unit': 'nm'}
+    """
+    metres = np.asarray(metres).tolist()
+    texts = [format_quantity(one, _NM) for one in metres]
+    numbers = [float(text.split()[0]) for text in texts]
+    if not unit_doubted(metres, _NM) and wavelengths_of(numbers, _NM) == metres:
+        return {"wavelengths": numbers, "unit": _NM}
+    return {"wavelengths": texts}

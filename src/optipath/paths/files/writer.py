@@ -1,0 +1,207 @@
+"""Writing a path as the text of a preset file."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer.path_values import parameters_of
+from optipath.composer.wiring import LOOPS
+from optipath.errors import PathError, did_you_mean
+from optipath.materials.index_domains import INDEX
+from optipath.materials.quantities import ANGLE
+from optipath.paths.files.schema import FORMAT, Faults
+from optipath.paths.files.values import encode, entry_domain, wavelength_names
+from optipath.paths.place_choice import choice_faults
+from optipath.values.cases import name_faults
+from optipath.values.domains import Choice, is_pair
+from optipath.values.parameters import Parameter
+from optipath.values.units import dimension_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import networkx as nx
+
+    from optipath.elements.element import Element
+    from optipath.light.frame import Frame
+    from optipath.values.cases import Case
+    from optipath.values.domains import Domain
+
+
+def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
+    """Return the text of a preset file."""
+    faults = Faults()
+    parameters = parameters_of(graph)
+    top: dict[str, Any] = {"format": FORMAT, "description": description}
+    loops = graph.graph.get("loops", LOOPS[0])
+    if loops != LOOPS[0]:
+        top["loops"] = loops
+    tables: list[str] = [toml_lines("", top)]
+    parts = complex_parts_of(graph)
+    elements = {
+        name: faults.attempt(name, _element, node["element"], node["frames"])
+        for name, node in graph.nodes.items()
+    }
+    wavelengths = wavelength_names([*elements.values()])
+    for name, parameter in parameters.items():
+        row = _parameter(parameter, parts.get(name))
+        if name in wavelengths and dimension_of(parameter.unit) == "length":
+            row.setdefault("range", [-np.inf, np.inf])  # Without it, it has that of wavelengths.
+        tables.append(toml_lines(f"[parameters.{_key(name)}]", row))
+    for name, described in elements.items():
+        if described is not None:
+            tables.append(toml_lines(f"[elements.{_key(name)}]", described))
+    for (start, end, (leaves, enters)), about in graph.edges.items():
+        link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
+        if about["azimuth"] is not None:
+            link["azimuth"] = encode(about["azimuth"], ANGLE.unit)
+        if about["tap"]:
+            link["tap"] = True
+        tables.append(toml_lines("[[links]]", link))
+    for name, choice in graph.graph.get("choices", {}).items():
+        faults += [f"choice '{name}': {fault}" for fault in choice_faults(graph, choice)]
+        row = {"element": choice.node, "behind": dict(choice.behind)}
+        row |= {"help": choice.help} if choice.help else {}
+        tables.append(toml_lines(f"[choices.{_key(name)}]", row))
+    for name, case in cases.items():
+        faults += name_faults(name)
+        faults += [
+            f"case '{name}' gives parameter '{given}', which is unknown"
+            f"{did_you_mean(given, parameters)}"
+            for given in case.values
+            if given not in parameters
+        ]
+        tables.append(toml_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
+    if faults:
+        raise PathError(*faults)
+    return "\n".join(tables)
+
+
+def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
+    """Return what the parts of complex numbers are called, for each parameter of such."""
+    return {name: domain.complex_parts for name, domain in complex_domains(graph).items()}
+
+
+def complex_domains(graph: nx.MultiDiGraph) -> dict[str, Domain]:
+    """Return the domain of each parameter that is a complex number."""
+    quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
+    return {
+        value.name: domain
+        for _, value, domain in quantities
+        if isinstance(value, Parameter) and domain.complex_parts
+    }
+
+
+def _parameter(parameter: Parameter, complex_parts: tuple[str, ...] | None) -> dict[str, Any]:
+    unit, default = parameter.unit, parameter.default
+    limits = parameter.minimum, parameter.maximum
+    row = {} if default is None else {"default": _number(default, unit, complex_parts)}
+    others = {
+        "unit": unit,
+        "range": [encode(end, unit) for end in limits] if np.isfinite(limits).any() else None,
+        "help": parameter.help,
+        "words": {word: encode(value, unit) for word, value in parameter.words.items()},
+        "optional": parameter.optional,
+        "bound": parameter.bound,
+    }
+    return row | {key: value for key, value in others.items() if value}
+
+
+def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
+    if not element.kind:
+        raise PathError(
+            f"class {type(element).__name__} has no kind; define it as "
+            f'class {type(element).__name__}(Element, kind="...")'
+        )
+    row: dict[str, Any] = {"kind": element.kind}
+    for f in fields(element):  # type: ignore[arg-type]
+        value = getattr(element, f.name)
+        if value is not None:
+            domain = element.domains()[f.name]
+            if isinstance(domain, Choice):
+                row[f.name] = domain.check(f.name, value)
+                continue
+            row[f.name] = _field(value, domain)
+    if frames:
+        row["frames"] = {port: _frame(frame) for port, frame in frames.items()}
+    return row
+
+
+def _frame(frame: Frame) -> dict[str, Any]:
+    axes = {axis: getattr(frame, axis).tolist() for axis in "xyz"}
+    return axes | ({"rounding": frame.rounding} if frame.rounding else {})
+
+
+def _field(value: Any, domain: Domain) -> Any:
+    """Write a value of an element's field so that decoding gives it back."""
+    each = entry_domain(domain)
+    if each is not None and isinstance(value, tuple):
+        return [_field(one, each) for one in value]
+    return _number(value, domain.unit, domain.complex_parts)
+
+
+def _number(value: Any, unit: str, complex_parts: tuple[str, ...] | None) -> Any:
+    """Write a value; numbers of two paths as first parts, if they might be one complex number."""
+    if complex_parts and isinstance(value, np.ndarray) and is_pair(value.tolist()):
+        return {complex_parts[0]: encode(value, unit)}
+    return encode(value, unit, complex_parts or INDEX.complex_parts)
+
+
+def _case(
+    case: Case, parameters: Mapping[str, Parameter], parts: Mapping[str, tuple[str, ...]]
+) -> dict[str, Any]:
+    values = {}
+    for name, value in case.values.items():
+        unit = parameters[name].unit if name in parameters else ""
+        values[name] = _number(value, unit, parts.get(name))
+    published = {name: list(stokes) for name, stokes in case.published.items()}
+    others = {"published": published, "note": case.note}
+    return {"values": values} | {key: value for key, value in others.items() if value}
+
+
+def toml_lines(header: str, row: Mapping[str, Any]) -> str:
+    """Return a table of a file, with a line for each of its keys.
+
+    Examples
+    --------
+    >>> print(toml_lines("[elements.eye]", {"kind": "detector"}), end="")
+    [elements.eye]
+    kind = "detector"
+    """
+    pairs = [f"{_key(key)} = {as_toml(value)}\n" for key, value in row.items()]
+    return "".join([f"{header}\n" if header else "", *pairs])
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _string(key)
+
+
+def as_toml(value: Any) -> str:
+    """Write a text, a number, or a list or a table of such, on one line.
+
+    Examples
+    --------
+    >>> as_toml({"light": "L.out", "tap": True})
+    '{ light = "L.out", tap = true }'
+    """
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _string(value)
+    if isinstance(value, dict) and not value:
+        return "{}"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{_key(k)} = {as_toml(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(as_toml, value)) + "]"
+    return repr(value)
+
+
+def _string(text: str) -> str:
+    # JSON's escapes are TOML's, but for the delete character, which TOML forbids unescaped.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,1 +1,0 @@
-"""The form of preset files: keys, values, and the writing of a path."""

@@ -1,1 +1,0 @@
-"""What is told of chains of points: media, lengths, and what happens at each vertex."""

@@ -1,1 +1,0 @@
-"""Presets: set-ups that stand ready, and files of one's own."""

@@ -1,0 +1,322 @@
+"""Reversal: a graph of elements run the other way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import networkx as nx
+import numpy as np
+
+from optipath.composer.followed_values import with_followed
+from optipath.composer.meetings import Meetings
+from optipath.composer.placement import azimuth_of, frame_at, is_zero
+from optipath.composer.wiring import Wiring, fed_by, link_text, without_tap
+from optipath.elements.boundary import BoundaryElement
+from optipath.elements.detectors import Detector, Dump
+from optipath.elements.element import Element
+from optipath.elements.known_sizes import vanishes
+from optipath.elements.sources import Source
+from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
+from optipath.kernels.kernel import called
+from optipath.paths.port_names import find_port
+from optipath.values.arrays import changed, same
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterator
+
+    from optipath.composer.wiring import Link, Port
+    from optipath.light.frame import Frame
+    from optipath.paths.place_choice import PlaceChoice
+
+
+_SAME = 1e-9
+"""Up to what angle two frames of a vertex are one."""
+
+
+def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGraph:
+    """Return a graph of elements in which light goes the other way."""
+    filled, faults = with_followed(graph)
+    if faults:
+        raise PathError(*faults)
+    turning = _Turning(Wiring(filled))
+    sources, faults = sources_by_name(source, turning.before)
+    turning.reverse_elements(sources)
+    if faults := [*faults, *turning.faults, *turning.link_faults()]:
+        raise PathError(*faults)
+    choices = reversed_choices(turning.wiring, turning.port)
+    found = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
+    for name in [*graph][::-1]:
+        found.add_node(name, element=turning.elements[name], frames=turning.frames(name))
+    for link in [*graph.edges(keys=True)][::-1]:
+        start, end, (leaves, enters) = link
+        key = turning.port(end, enters), turning.port(start, leaves)
+        found.add_edge(end, start, key=key, azimuth=turning.azimuth(link), tap=False)
+    return found
+
+
+class _Turning:
+    """Turns round what stands at the nodes of a graph, and the links between them."""
+
+    def __init__(self, wiring: Wiring) -> None:
+        self.wiring = wiring
+        self.before = wiring.elements
+        self.elements: dict[str, Element] = {}
+        self.faults: list[str] = []
+
+    def reverse_elements(self, sources: dict[str, Element]) -> None:
+        """Reverse the element of each node; light begins at the ends as it is told."""
+        at_angle = self._at_angle()
+        known: dict[int, Element] = {}
+        for name, element in self.before.items():
+            if not element.inputs or not element.outputs:
+                self.elements[name] = reversed_end(element, sources.get(name))
+                continue
+            try:
+                if id(element) not in known:
+                    known[id(element)] = _reversed(element)
+            except OptipathError as fault:
+                self.faults += [f"'{name}': {text}" for text in fault.faults]
+                continue
+            back = known[id(element)]
+            is_parallel = name not in at_angle
+            if isinstance(back, BoundaryElement) and vars(back)["parallel"] is not is_parallel:
+                back = changed(back, parallel=is_parallel)
+            self.elements[name] = back
+        self._share_arrays()
+
+    def _at_angle(self) -> set[str]:
+        """Return the boundaries that are not parallel to the one that sends them light back."""
+        meetings = Meetings(self.wiring)
+        return {
+            meeting.leaves[0]
+            for meeting in meetings.all
+            if getattr(self.before[meeting.enters[0]], "parallel", True) is False
+            and meetings.may_be_told(meeting)
+        }
+
+    def _share_arrays(self) -> None:
+        """Let elements that share an array share its reverse: the vertices of one chain do."""
+        made: dict[tuple[int, str], Any] = {}
+        for name, back in self.elements.items():
+            for field in back.domains():
+                value, there = getattr(back, field), getattr(self.before[name], field, None)
+                if isinstance(there, np.ndarray) and value is not there:
+                    shared = made.setdefault((id(there), field), value)
+                    if shared is not value and same(shared, value):
+                        self.elements[name] = changed(self.elements[name], **{field: shared})
+
+    def port(self, name: str, port: str) -> str:
+        """Return the port by which light leaves a node, on its way back, where it came in; or so.
+
+        It is empty where the element does not say.
+        """
+        element = self.before[name]
+        if not element.inputs:
+            return "in"
+        if not element.outputs:
+            return self.elements[name].outputs[0]
+        return str(called(f"port_back of element class {_named(element)}", element.port_back, port))
+
+    def link_faults(self) -> Iterator[str]:
+        """Yield what has no way back of the links, a sentence each."""
+        taps = {*self.wiring.taps}
+        fed = {tap: fed_by(self.wiring, tap) for tap in taps}
+        for link in self.wiring.taps:
+            # A tap behind another goes with what that one feeds.
+            if any(link[0] in fed[tap] and tap[0] not in fed[link] for tap in taps):
+                continue
+            yield (
+                f"link '{link_text(link)}' is a tap, which takes nothing of the light, and gives "
+                f"none on the way back; take it out, {without_tap(self.wiring, link)}"
+            )
+        if taps:
+            yield from self._unread(set().union(*fed.values()))
+        for (name, port), several in self.wiring.links_to.items():
+            links = [link for link in several if link not in taps]
+            # What adds up inside of an element has been told.
+            if len(links) > 1 and not (self.before[name].merges and self.before[name].outputs):
+                feeders = listed([f"'{start}.{leaves}'" for start, _, (leaves, _) in links])
+                yield (
+                    f"light of {feeders} adds up at '{name}.{port}', which has no way back; give "
+                    f"each a detector of its own, or put a BeamSplitter where they meet"
+                )
+        used = {end for link in self.wiring.graph.edges(keys=True) for end in _ends(link)}
+        for name in sorted({name for name, port in used if not self._has_back(name, port)}):
+            yield (
+                f"'{name}': element class {_named(self.before[name])} does not say by "
+                f"which port light goes back; give it a class method port_back(port), which "
+                f"returns an out-port for an in-port, and the other way"
+            )
+
+    def _unread(self, tapped: set[str]) -> Iterator[str]:
+        """Yield a sentence if there is no detector but those of taps, which are to go."""
+        ends = {name: end for name, end in self.before.items() if name not in tapped}
+        dumps = [f"'{name}'" for name, end in ends.items() if isinstance(end, Dump)]
+        if dumps and not any(end.detects for end in ends.values()):
+            yield (
+                f"without what its taps feed, the path has no detector; put one in the place of "
+                f"{listed(dumps)}, path.replace({dumps[0]}, op.Detector())"
+            )
+
+    def _has_back(self, name: str, port: str) -> bool:
+        """Tell whether light may go back by a port of a node."""
+        element = self.before[name]
+        if not element.inputs or not element.outputs:
+            return True
+        back = self.elements.get(name, element)
+        return self.port(name, port) in (back.outputs if port in element.inputs else back.inputs)
+
+    def frames(self, name: str) -> dict[str, Frame]:
+        """Return the world frames of a node: those of light that goes back."""
+        given = self.wiring.graph.nodes[name]["frames"]
+        found = {self.port(name, port): frame.reversed() for port, frame in given.items()}
+        if found or self.before[name].outputs:
+            return found
+        # A detector reads light in the frame that it arrives in; a source has one of its own.
+        for start, _, (leaves, enters) in self.wiring.graph.in_edges(name, keys=True):
+            if (frame := frame_at(self.wiring, start, leaves)) is not None:
+                found[self.port(name, enters)] = frame.reversed()
+        return found
+
+    def azimuth(self, link: Link) -> Any:
+        """Return the azimuth of a link on the way back, which is that on the way there."""
+        azimuth = azimuth_of(self.wiring, link)
+        own = self.wiring.graph.edges[link]["azimuth"]
+        twist = self._twist(link)
+        if np.any(twist):
+            return azimuth + twist
+        return None if own is None and is_zero(azimuth) else azimuth
+
+    def _twist(self, link: Link) -> Any:
+        """Return by what a link turns besides, where a vertex has no plane of incidence.
+
+        Such a one has the x of the light that comes to it, which is another on the way back.
+        """
+        ends = _ends(link)
+        placed = [name in self.wiring.self_placed for name, _ in ends]
+        others = [self.before[name] for name, _ in ends if name not in self.wiring.self_placed]
+        if placed[0] == placed[1] or not (others[0].inputs and others[0].outputs):
+            return 0.0
+        name, port = ends[placed.index(True)]
+        there = self.before[name].own_frame(port)
+        back = self.elements[name].own_frame(self.port(name, port))
+        if there is None or back is None or there.names:
+            return 0.0  # What is open are angles, which tell the plane.
+        c, s = there.frame({}).reversed().turn_to(back.frame({}))
+        turn = 0.5 * np.arctan2(s, c)
+        turn = np.where(np.abs(turn) > _SAME, turn, 0.0)[()]
+        return turn if placed[0] else -turn
+
+
+def _ends(link: Link) -> tuple[Port, Port]:
+    start, end, (leaves, enters) = link
+    return (start, leaves), (end, enters)
+
+
+def _named(element: Element) -> str:
+    return type(element).__name__
+
+
+def _reversed(element: Element) -> Element:
+    """Return an element on the way back, which links turn in place of its azimuth."""
+    if not is_zero(getattr(element, "azimuth", 0.0)):
+        element = changed(element, azimuth=0.0)
+    what = f"reversed() of element class {_named(element)}"
+    back = called(what, element.reversed)
+    if not isinstance(back, Element):
+        raise PathError(f"{what} gives {shown(back)}; return an element")
+    return back
+
+
+def reversed_choices(
+    wiring: Wiring, port_back: Callable[[str, str], str]
+) -> dict[str, PlaceChoice]:
+    """Return the choices of a path that stay the same choices on the way back.
+
+    They do where nothing is turned between the ports beside each place: a node stands in the
+    frame of the light that comes to it, which is that of the other port on the way back.
+    """
+    choices: dict[str, PlaceChoice] = wiring.graph.graph.get("choices", {})
+    movable = {choice.node for choice in choices.values()}
+    found = {}
+    for name, choice in choices.items():
+        next_ports = {
+            word: _next_port(wiring, choice.node, port) for word, port in choice.behind.items()
+        }
+        if all(port is not None and port[0] not in movable for port in next_ports.values()):
+            behind = {
+                word: f"{port[0]}.{port_back(*port)}"
+                for word, port in next_ports.items()
+                if port is not None
+            }
+            found[name] = replace(choice, behind=behind)
+    return found
+
+
+def _next_port(wiring: Wiring, node: str, behind: str) -> Port | None:
+    """Return the port that comes behind a place of a node; None where something is turned."""
+    try:
+        port = find_port(wiring.graph, behind, out=True)
+    except PathError:
+        return None
+    if frame_at(wiring, *port) is not None:
+        return None
+    while len(links := wiring.links_from.get(port, [])) == 1:
+        (link,) = links
+        if not is_zero(azimuth_of(wiring, link)):
+            return None
+        _, end, (_, enters) = link
+        if end != node:
+            return end, enters
+        port = node, wiring.elements[node].natural
+    return None
+
+
+def reversed_end(element: Element, source: Element | None = None) -> Element:
+    """Return what stands on the way back where light began or ended.
+
+    Examples
+    --------
+    >>> reversed_end(Source(100.0)), reversed_end(Dump()).intensity
+    (Detector(reads='stokes', response=None), 0.0)
+    """
+    if not element.inputs:
+        return Dump() if vanishes(getattr(element, "intensity", 1.0)) else Detector()
+    return source or Source(1.0 if element.detects else 0.0)
+
+
+def sources_by_name(
+    given: Any, elements: Mapping[str, Element]
+) -> tuple[dict[str, Element], list[str]]:
+    """Return the light that begins at each node, and what is wrong with it, a sentence each."""
+    ends = [name for name, element in elements.items() if not element.outputs]
+    if given is None:
+        return {}, []
+    if not isinstance(given, Mapping):
+        detectors = [name for name in ends if elements[name].detects]
+        if len(detectors) == 1:
+            given = {detectors[0]: given}
+        else:
+            which = f", source={{'{detectors[0]}': ...}}" if detectors else ""
+            fault = (
+                f"source is the light that begins at the only detector, and there are "
+                f"{len(detectors)}; give it by name{which}{there_are(ends)}"
+            )
+            return {}, [fault]
+    strange = [name for name in given if name not in ends]
+    faults = [f"source['{name}']: no light ends there{_near(name, ends)}" for name in strange]
+    wrong = {name: one for name, one in given.items() if not _emits(one)}
+    faults += [
+        f"source['{name}'] must be a Source, not {shown(one)}" for name, one in wrong.items()
+    ]
+    return {name: one for name, one in given.items() if name not in wrong}, faults
+
+
+def _emits(one: Any) -> bool:
+    return isinstance(one, Element) and not one.inputs and len(one.outputs) == 1
+
+
+def _near(name: Any, ends: Collection[str]) -> str:
+    return did_you_mean(name, ends) if isinstance(name, str) else there_are([*ends])

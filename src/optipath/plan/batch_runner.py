@@ -1,0 +1,264 @@
+"""Batches: a formula run piece by piece over a grid of many paths."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from math import prod
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.engines.choice import REGISTRY
+from optipath.engines.formula import stages
+from optipath.engines.symbols import Symbol
+from optipath.plan.reading import pieces
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.engines.engine import ArrayPath
+    from optipath.engines.formula import Formula
+    from optipath.plan.reading import Layout, Piece
+
+    Array = np.ndarray[Any, Any]
+
+
+_AT_ONCE = 1 << 16
+"""How many paths are done before it is looked whether the formula holds for them."""
+
+
+class Results(NamedTuple):
+    """What a formula has come to: for each result a number, or an array over paths.
+
+    Shape: out (rows, paths).
+    """
+
+    each: list[Any]
+    out: Array
+    rows: list[int | None]
+
+    @classmethod
+    def of(cls, rows: Array, read: int, dtype: np.dtype[Any]) -> Results:
+        """Return results that stand in rows, so many of them read in the precision of a plan.
+
+        Shape: rows (results, paths).
+        """
+        out = rows if rows.dtype == dtype else rows[:read].astype(dtype)
+        return cls([*out[:read], *rows[read:]], out, [*range(read), *[None] * (len(rows) - read)])
+
+    def together(self, start: int, stop: int) -> Array | None:
+        """Return some results as rows of one array, if they stand there one after the other.
+
+        Shape: returns (stop - start, paths).
+        """
+        first = self.rows[start]
+        if first is None or self.rows[start:stop] != list(range(first, first + stop - start)):
+            return None
+        return self.out[first : first + stop - start]
+
+    def block(self, start: int, stop: int) -> Array:
+        """Return some results as rows of one array, copied if need be.
+
+        Shape: returns (stop - start, paths).
+        """
+        together = self.together(start, stop)
+        if together is not None:
+            return together
+        rows = np.empty((stop - start, self.out.shape[1]), self.out.dtype)
+        for row, result in zip(rows, self.each[start:stop], strict=True):
+            row[...] = result
+        return rows
+
+    def array(self, place: int) -> Array:
+        """Return one result as an array over paths."""
+        found = self.each[place]
+        if isinstance(found, np.ndarray):
+            return found
+        return np.full(self.out.shape[1], found, self.out.dtype)
+
+
+class BatchRunner:
+    """Does a formula to batches of any shape whose arrays differ along the same axes."""
+
+    def __init__(
+        self, formula: Formula, layout: Layout, *, threads: int, read: int, staged: bool
+    ) -> None:
+        self.formula = formula
+        self.threads = threads
+        self.read = read
+        self.parts = stages(formula, layout.all_axes, layout.last) if staged else (formula,)
+        self._compiled: dict[Any, _Compiled] = {}
+
+    def results(
+        self,
+        engine: str,
+        numbers: Mapping[str, Any],
+        layout: Layout,
+        refused: Callable[[], object],
+        fallback: Callable[[Piece], Array],
+    ) -> Results:
+        """Return the results, an array over paths or a number each."""
+        if self.formula.unread:
+            refused()
+        found, failed = self._found(self._stages(engine), numbers, layout)
+        if failed and len(self.parts) > 1:
+            found, failed = self._found(self._stages(engine, in_one=True), numbers, layout)
+        if failed:
+            refused()
+            out = np.empty((len(found.each), found.out.shape[1]), self.formula.dtype)
+            for row, result in zip(out, found.each, strict=True):
+                row[...] = result
+            for piece in failed:
+                out[:, piece.start : piece.stop] = fallback(piece)
+            found = Results([*out], out, [*range(len(out))])
+        return found
+
+    def _stages(self, engine: str, *, in_one: bool = False) -> _Compiled:
+        """Return the formula compiled; in one stage, it tells in which part of a batch it fails."""
+        key = engine, in_one
+        if key not in self._compiled:
+            parts = (replace(self.formula, last=None),) if in_one else self.parts
+            several = [Stage.of(engine, part) for part in parts]
+            self._compiled[key] = _Compiled.of(several, self.formula.results, self.read)
+        return self._compiled[key]
+
+    def _found(
+        self, compiled: _Compiled, numbers: Mapping[str, Any], layout: Layout
+    ) -> tuple[Results, list[Piece]]:
+        """Return the results, and the pieces for which they do not hold."""
+        axes = layout.axes
+        for stage in compiled.stages[:-1]:
+            formula, shape = stage.formula, layout.lengths(stage.formula.axes)
+            out = np.empty((len(formula.computed), prod(shape)), formula.dtype)
+            failed = self._failures(Grid(stage, layout, numbers, axes, last=False), out)
+            if failed:
+                return Results([], out, []), failed
+            names = [f"#{symbol.index}" for symbol in formula.computed]
+            kept = (
+                (row if symbol.kind == "float" else row.astype(symbol.kind)).reshape(shape)
+                for symbol, row in zip(formula.computed, out, strict=True)
+            )
+            numbers = {**numbers, **dict(zip(names, kept, strict=True))}
+            axes = {**axes, **dict.fromkeys(names, formula.axes)}
+        stage, rows = compiled.stages[-1], compiled.rows
+        out = np.empty((compiled.room, layout.paths), stage.formula.dtype)
+        failed = self._failures(Grid(stage, layout, numbers, axes, last=True), out)
+        for at, number in compiled.known:
+            out[at] = number
+        each = list(compiled.results)
+        for place, row in enumerate(rows):
+            if row is not None:
+                each[place] = out[row]
+            elif isinstance(each[place], Symbol):
+                name = f"#{each[place].index}"
+                cells = layout.in_batch(numbers[name], axes[name])
+                each[place] = np.broadcast_to(cells, layout.batch).reshape(-1)
+        return Results(each, out, rows), failed
+
+    def _failures(self, grid: Grid, out: Array) -> list[Piece]:
+        """Fill the results; return the pieces for which the formula does not hold."""
+        several = [*pieces(grid.batch, _AT_ONCE)]
+        if self.threads == 1 or len(several) == 1:
+            return [piece for piece in several if not grid.fill(piece, out)]
+        with ThreadPoolExecutor(self.threads) as pool:
+            held = pool.map(lambda piece: grid.fill(piece, out), several)
+            return [piece for piece, holds in zip(several, held, strict=True) if not holds]
+
+
+class _Compiled(NamedTuple):
+    """A formula compiled, stage after stage, and where its results are written."""
+
+    stages: list[Stage]
+    results: tuple[Any, ...]
+    rows: list[int | None]
+    known: list[tuple[int, Any]]
+    room: int
+
+    @classmethod
+    def of(cls, several: list[Stage], results: tuple[Any, ...], read: int) -> _Compiled:
+        """Return what has been compiled, with rows for its results, so many of them read."""
+        computed = several[-1].formula.computed
+        place = {symbol.index: row for row, symbol in reversed([*enumerate(computed)])}
+        rows = [place.get(r.index) if isinstance(r, Symbol) else None for r in results]
+        # Numbers that are known follow, so that all of a light may stand together.
+        known: list[tuple[int, Any]] = []
+        for at, result in enumerate(results[:read]):
+            if not (isinstance(result, Symbol) or np.isnan(result)):
+                known.append((len(computed) + len(known), result))
+                rows[at] = known[-1][0]
+        return cls(several, results, rows, known, len(computed) + len(known))
+
+
+class Stage(NamedTuple):
+    """A formula, compiled."""
+
+    formula: Formula
+    path: ArrayPath
+    inputs: tuple[tuple[str, str], ...]
+
+    @classmethod
+    def of(cls, engine: str, formula: Formula) -> Stage:
+        """Return a formula compiled by an engine."""
+        inputs = tuple((formula.name_of(s), formula.place_of(s)) for s in formula.inputs)
+        return cls(formula, REGISTRY[engine].compiled(formula), inputs)
+
+
+class Grid:
+    """Gives a compiled formula what it needs for each piece of a batch."""
+
+    def __init__(
+        self,
+        stage: Stage,
+        layout: Layout,
+        numbers: Mapping[str, Any],
+        axes: Mapping[str, frozenset[int]],
+        *,
+        last: bool,
+    ) -> None:
+        formula, own = stage.formula, stage.formula.axes
+        self.path = stage.path
+        shape = layout.shape if last else layout.lengths(own)
+        self.batch = layout.batch if last else shape
+        self.width = shape[-1] if formula.last is not None else 0
+        self.given: list[Any] = []
+        self.cells: list[int] = []
+        for name, place in stage.inputs:
+            number = numbers[name] if name in numbers else formula.constants[name]
+            if not isinstance(number, np.ndarray):
+                pass
+            elif place == "one":
+                number = number.item()
+            elif place == "cell":
+                self.cells.append(len(self.given))
+                if number.shape != self.batch:
+                    laid = (
+                        layout.in_batch(number, axes[name])
+                        if last
+                        else layout.among(number, axes[name], own)
+                    )
+                    number = np.broadcast_to(laid, self.batch)
+            else:
+                number = layout.among(number, axes[name], own)
+                if place == "row":
+                    number = np.broadcast_to(number, (*shape[:-1], 1))
+                number = np.ascontiguousarray(number).reshape(-1)
+            self.given.append(number)
+
+    def fill(self, piece: Piece, out: Array) -> bool:
+        """Fill a piece of the results; return whether the formula holds for all of it.
+
+        Shape: out (results, paths).
+        """
+        given, count = list(self.given), piece.stop - piece.start
+        for place in self.cells:
+            # One number after the other.
+            given[place] = np.ascontiguousarray(given[place][piece.where]).reshape(-1)
+        if not self.width:
+            rows, columns = (0, 1), (0, count)
+        elif count < self.width:
+            row, first = divmod(piece.start, self.width)
+            rows, columns = (row, row + 1), (first, first + count)
+        else:
+            rows, columns = (piece.start // self.width, piece.stop // self.width), (0, self.width)
+        return self.path(rows, columns, given, out, piece.start)

@@ -1,0 +1,285 @@
+"""Inputs: what may be given to a plan, and the check of what is given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, reduce
+from operator import and_
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError
+from optipath.materials.named_materials import given_too_late, of_complex
+from optipath.values.agreement import first_faults
+from optipath.values.angles import (
+    TURN,
+    counts_degrees,
+    is_of_an_angle,
+    is_within_a_turn,
+    warn_of_degrees,
+    warn_of_two_factors,
+)
+from optipath.values.arrays import array_of, broadcast_fault, joint_shape, may_hold_texts
+from optipath.values.curve import WavelengthRange
+from optipath.values.curve_value import computed_values, with_bounds_hint
+from optipath.values.jax_values import is_traced
+from optipath.values.messages import no_value
+from optipath.values.operands import Ranges
+from optipath.values.parameters import THERE, Resolved, unknown_parameter
+from optipath.values.use import axes_for
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from optipath.values.agreement import Agreement
+    from optipath.values.curve_value import CurveValue
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """The open parameters of a path, where they are used, and the shapes already known."""
+
+    open: Mapping[str, Parameter]
+    bound: Mapping[str, Parameter]
+    uses: tuple[Use, ...]
+    shapes: Mapping[str, tuple[int, ...]]
+    known: tuple[Use, ...] = ()
+    choices: tuple[str, ...] = ()
+    agreements: tuple[Agreement, ...] = ()
+    masks: bool = False
+    for_complex: tuple[Agreement, ...] = ()
+    computed: tuple[CurveValue, ...] = ()
+    per_nanometre: tuple[str, ...] = ()
+
+    def resolve(
+        self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
+    ) -> tuple[dict[str, Resolved], tuple[int, ...]]:
+        """Return the numbers of every open parameter, and the shape of the batch."""
+        faults = [self.unknown(name) for name in given if name not in self.open]
+        resolved: dict[str, Resolved] = {}
+        unchecked = set()
+        for name, parameter in self.open.items():
+            value = given.get(name, parameter.default)
+            if value is None:
+                faults.append(no_value(name))
+            elif plain is not None and plain(name, value):
+                resolved[name] = Resolved(value, THERE)
+                unchecked.add(name)
+            else:
+                try:
+                    self.ask_in_doubt(name, value)
+                    value = axes_for(name, value, self.uses)
+                    resolved[name] = self.numbers_for(name, value)
+                except OptipathError as fault:
+                    faults += self._of_a_fit(fault.faults, name, value)
+        resolved |= computed_values(self.computed, resolved)
+        found: dict[str, tuple[int, ...]] = {}
+        refused: set[str] = set()
+        for use in self.distinct_uses:
+            name = use.value.name
+            # What is wrong in one place is mostly wrong in others, for the same reason; but each
+            # curve has a range of its own.
+            again = refused and use.rests_on(refused) and type(use.domain) is not WavelengthRange
+            if name not in resolved or again:
+                continue
+            numbers, present = resolved[name]
+            try:
+                if name not in unchecked:
+                    use.check_given(numbers, present, resolved)
+            except OptipathError as fault:
+                value = given.get(name, use.value.default)
+                told = self._of_a_fit(fault.faults, name, value)
+                # n and k of a material may have one fault.
+                faults += [sentence for sentence in told if sentence not in faults]
+                refused.add(name)
+            else:
+                shape = getattr(numbers, "shape", ())
+                found[name] = shape[: len(shape) - len(use.domain.tail)]
+        # As they are given, so that a sentence names them in the order of whoever reads it; what
+        # is computed of them has their shapes.
+        shapes = {name: found[name] for name in (*given, *self.open) if name in found}
+        shapes = {**self.shapes, **shapes}
+        faults += broadcast_fault(shapes)
+        laws = self._agreements_of(resolved, seen=plain is None)
+        faults = faults or first_faults(laws, resolved)
+        if faults and unchecked:
+            return self.resolve(given)  # Tells of ranges, too.
+        if faults:
+            raise ParameterError(*faults)
+        return resolved, joint_shape(*shapes.values())
+
+    def numbers_for(self, name: str, value: Any) -> Resolved:
+        """Return the numbers that are given for an open parameter."""
+        parameter, limits = self.open[name], self.limits[name]
+        if name not in self._taken or is_traced(value):
+            return parameter.resolve(value, limits)
+        numbers = array_of(f"parameter '{name}'", value, ParameterError)
+        there = np.isfinite(numbers) if numbers.dtype.kind == "f" else True
+        if np.all(there):
+            return parameter.resolve(value, limits)
+        parameter.resolve(np.where(there, numbers, 0.0), limits)
+        return Resolved(numbers, THERE)
+
+    @cached_property
+    def _taken(self) -> frozenset[str]:
+        return frozenset(use.value.name for use in self.uses if use.domain.takes_any)
+
+    def unsound(self, light: Any) -> Any:
+        """Return which numbers of light nobody may get; NaN may say that it cannot be."""
+        return np.isinf(light) if self.masks else ~np.isfinite(light)
+
+    @cached_property
+    def hidden(self) -> tuple[Agreement, ...]:
+        """What must fit together, but where light itself shows that it does not."""
+        return tuple([law for law in self.agreements if not law.shows_in_light])
+
+    @cached_property
+    def distinct_uses(self) -> tuple[Use, ...]:
+        """The uses that ask different things of a parameter."""
+        found: dict[Any, Use] = {}
+        for use in self.uses:
+            found.setdefault((use.value, use.domain), use)
+        return tuple(found.values())
+
+    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
+        """Return for which paths all values that JAX traces are allowed; True where it has none."""
+        asked: tuple[Use | Agreement, ...] = (
+            *self.uses,
+            *self.known,
+            *self._agreements_of(resolved),
+        )
+        return reduce(and_, (each.inside(resolved) for each in asked), True)  # noqa: FBT003
+
+    def _agreements_of(
+        self, resolved: Mapping[str, Resolved], *, seen: bool = True
+    ) -> tuple[Agreement, ...]:
+        """Return what must fit together of these values, and what light itself shows if seen."""
+        laws = self.agreements if seen else self.hidden
+        if not self.for_complex or not any(map(_is_complex, resolved.values())):
+            return laws
+        return *laws, *self.for_complex
+
+    @cached_property
+    def limits(self) -> Ranges:
+        """The range of each open parameter, wherever it stands; its own range included.
+
+        That of a multiple with an offset stands beside it, by what `InputKey.quantity` says.
+        """
+        known = (*self.open.values(), *self.computed)
+        found = Ranges({p.name: (p.minimum, p.maximum) for p in known})
+        for use in self.uses:
+            name = use.value.name
+            low, high = use.value.span_for(*use.domain.interval)
+            found[name] = max(found[name][0], low), min(found[name][1], high)
+        for use in self.uses:
+            if not use.value.is_signed:
+                value, (low, high) = use.value, use.domain.interval
+                least, most = value.span_of(*found[value.name])
+                low, high = max(least, low), min(most, high)
+                # A turn back is by the negative.
+                found.update({value.quantity: (low, high), (-value).quantity: (-high, -low)})
+        return found
+
+    @cached_property
+    def dimensions(self) -> dict[str, str]:
+        """The dimension of each open parameter."""
+        return {use.value.name: use.domain.dimension for use in self.uses}
+
+    @cached_property
+    def tails(self) -> dict[str, tuple[int, ...]]:
+        """The axes of one value of each open parameter, behind the batch."""
+        return {use.value.name: use.domain.tail for use in self.uses}
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Inputs):
+            return NotImplemented
+        return dict(self.open) == dict(other.open) and self._batch() == other._batch()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def ask_in_doubt(self, name: str, value: Any) -> None:
+        """Raise at the first place where a value may be one or several, or is not known yet."""
+        if late := given_too_late(name, value):
+            raise ParameterError(late)
+        for use in self.uses:
+            if use.value.name == name and (doubt := use.doubt(value)):
+                raise ParameterError(doubt)
+
+    def _of_a_fit(self, faults: Sequence[str], name: str, value: Any) -> list[str]:
+        domains = [use.domain for use in self.uses if use.value.name == name]
+        faults = with_bounds_hint(faults, value, self.limits[name], domains)
+        return of_complex(faults, self.uses, name, value)
+
+    def _batch(self) -> tuple[int, ...]:
+        return joint_shape(*self.shapes.values())
+
+    def unknown(self, name: str) -> str:
+        """Return the sentence for a name that is no open parameter's."""
+        if name in self.bound:
+            value = self.bound[name]
+            return (
+                f"parameter '{name}' is bound to {value.text(value.default)}; to vary it, leave "
+                f"it out of load_preset(...) or path.bind(...), where a case or a default "
+                f"leaves it open"
+            )
+        if name in self.choices:
+            return (
+                f"'{name}' is chosen before a path runs, not while it does; write "
+                f"path.bind({name}=...) or load_preset(..., {name}=...)"
+            )
+        return unknown_parameter(name, self.open)
+
+
+def _is_complex(given: Resolved) -> bool:
+    kind = getattr(given.value, "dtype", None)
+    return isinstance(given.value, complex) if kind is None else kind.kind == "c"
+
+
+class LargeAngles:
+    """The open parameters of a path that may be angles beyond a whole turn.
+
+    Of the first array for a parameter, a thousand numbers are looked at; of those that follow,
+    which may be many and short, the first, the last, and one between.
+    """
+
+    def __init__(self, inputs: Inputs) -> None:
+        self.names: list[str] = []
+        self._turned: set[str] = set()
+        for use in inputs.uses:
+            name = use.value.name
+            if use.domain.dimension == "angle" and counts_degrees(use.value.scale):
+                self._turned.add(name)
+            of_angle = use.domain.dimension == "angle" and is_of_an_angle(use.value.scale)
+            if of_angle and name not in self.names and not is_within_a_turn(*inputs.limits[name]):
+                self.names.append(name)
+        self.looks = bool(self.names or self._turned)
+        self._looked_at: set[str] = set()
+
+    def look(self, given: Mapping[str, Any]) -> None:
+        """Warn of plain numbers that come to angles beyond a whole turn."""
+        for name in self._turned & given.keys():
+            if may_hold_texts(given[name]):
+                warn_of_two_factors(name, given[name])
+        for name in self.names:
+            value = given.get(name)
+            if value is None or (type(value) is float and -TURN <= value <= TURN):
+                continue
+            if type(value) is np.ndarray and value.size and value.dtype.kind == "f":
+                if name in self._looked_at and _looks_small(value):
+                    continue
+                self._looked_at.add(name)
+            warn_of_degrees(f"parameter '{name}'", value)
+
+    def look_at_uncertainties(self, given: Mapping[str, Any]) -> None:
+        """Warn of standard uncertainties that come to angles beyond a whole turn."""
+        for name in [name for name in given if name in self.names]:
+            warn_of_degrees(f"the standard uncertainty of parameter '{name}'", given[name])
+
+
+def _looks_small(numbers: np.ndarray[Any, Any]) -> bool:
+    """Tell whether three numbers of an array are within a whole turn; this takes no time."""
+    first, last, between = numbers.item(0), numbers.item(-1), numbers.item(numbers.size // 2)
+    return bool(abs(first) <= TURN and abs(last) <= TURN and abs(between) <= TURN)

@@ -1,0 +1,295 @@
+"""Interpreters with the bits of formulas, and with bounds of rounding noise."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.engines.execute import evaluated, execute
+from optipath.engines.formula import (
+    DOUBLE,
+    FROM_ANY,
+    FROM_NEARER,
+    LEFT,
+    is_in_first_quadrant,
+    of_angle,
+)
+from optipath.engines.program import carrying
+from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
+from optipath.kernels.carriers.noise import NoiseCarrier
+from optipath.kernels.carriers.scaled import ScaledCarrier
+from optipath.kernels.exponential import reproducible_numpy
+from optipath.kernels.primitives import NUMPY
+from optipath.kernels.trigonometry import DIGITS
+from optipath.light.underflow import folded, underflows
+from optipath.plan.interpreter import Interpreter
+from optipath.plan.reading import pieces
+from optipath.values.jax_values import is_traced
+from optipath.values.parameters import THERE, Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.engines.program import Program, Reading
+    from optipath.kernels.carriers.carrier import Carrier
+    from optipath.plan.inputs import Inputs
+    from optipath.plan.interpreter import Shared
+    from optipath.plan.reading import ResolvedInputs, RunOptions
+    from optipath.values.operands import Operand
+    from optipath.values.precision import Array
+
+
+def interpreter_for(
+    program: Program, inputs: Inputs, carrier: type[Carrier], options: RunOptions
+) -> Interpreter:
+    """Return what runs a program step by step."""
+    dtype = np.dtype(options.dtype)
+    if options.reproducible:
+        return ReproducibleInterpreter(program, carrier, dtype, inputs)
+    return Interpreter(program, carrier, dtype)
+
+
+class ReproducibleInterpreter(Interpreter):
+    """Runs a program so that a path comes to the same bits alone and in any batch.
+
+    Kernels choose what is cheaper where a number is a plain 0. A number that is given is an array
+    here, be it one alone, so that a path whose index has no absorption at its own wavelength is
+    computed as its neighbours are.
+    """
+
+    def __init__(
+        self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any], inputs: Inputs
+    ) -> None:
+        super().__init__(program, carrier, dtype)
+        self.limits = inputs.limits
+        self.xp = reproducible_numpy(dtype.name)
+        self._carriers = {kind: kind(self.xp) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
+        self._carrying = carrying(program, carrier, self.xp, dtype.name)
+
+    def lights(
+        self, given: ResolvedInputs, shared: Shared | None = None
+    ) -> list[tuple[np.ndarray[Any, Any], Any]]:
+        own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
+        found = self._found(_as_batch(given), own)
+        return [
+            folded(stokes.reshape(*given.batch, 4), np.reshape(exponent, given.batch))
+            for stokes, exponent in found
+        ]
+
+    def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+        program, carrier = self._carrying
+        if program is self.program:
+            found = self._stacked(given, carrier, shared)
+        else:
+            with np.errstate(all="ignore"):
+                lights = execute(program, self.operands(given), carrier, number=self.number)
+            found = self._read(given, lights)
+        if self.carrier is not StokesCarrier:
+            return found
+        faint = np.any([underflows(stokes[..., 0]) for stokes, _ in found], axis=0)
+        if not np.any(faint):
+            return found
+        again = self._stacked(given, self._carriers[ScaledCarrier], shared)
+        return [
+            (np.where(faint[..., np.newaxis], one, other), np.where(faint, power, 0))
+            for (other, _), (one, power) in zip(found, again, strict=True)
+        ]
+
+    def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
+        return super().matrix(_as_batch(given), source, reading).reshape(*given.batch, 4, 4)
+
+    def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+        return [found.reshape(4, *given.batch) for found in super().bounds(_as_batch(given))]
+
+    def operands(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+        # Numbers that are known are no arrays, so that kernels see which of them are 0.
+        return [
+            number[()] if operand.known else number
+            for operand, number in zip(self.program.operands, super().operands(given), strict=True)
+        ]
+
+    def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
+        key, numbers = operand.input_key, given.numbers
+        if operand.part == "present" or numbers.get(key) is False:
+            return super()._given(operand, given)
+        if key not in numbers:
+            raw = operand.given_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
+            return self._cast(operand.evaluated(self.xp, raw))
+        number = np.atleast_1d(numbers[key])
+        if operand.part in ("cos", "sin"):
+            return self._circular(operand, number)
+        return self._cast(operand.evaluated(self.xp, number))
+
+    def _circular(self, operand: Operand, angle: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        """Return the cosines or sines of angles, as formulas have them."""
+        digits, negative = DIGITS[self.dtype.name], operand.value.is_negative
+        first = is_in_first_quadrant(operand, self.limits[operand.input_key.quantity])
+        left: Any = None
+        if self.dtype != np.float64:
+            left = LEFT[FROM_NEARER if first else FROM_ANY](NUMPY, DOUBLE)(angle)
+            left = self._cast(-left if negative else left)
+        signed = self._cast(-angle if negative else angle)
+        small = np.abs(signed) <= digits.most
+        if first or np.all(small):
+            return of_angle(self.xp, digits, operand, signed, left, first=first)  # type: ignore[no-any-return]
+        left = None if left is None else np.where(small, left, 0.0).astype(self.dtype)
+        near = np.where(small, signed, 0.0).astype(self.dtype)
+        near = of_angle(self.xp, digits, operand, near, left, first=False)
+        far = operand.evaluated(reproducible_numpy("float64"), angle)
+        return np.where(small, near, self._cast(far))
+
+
+def _as_batch(given: ResolvedInputs) -> ResolvedInputs:
+    """Return what is given, one path as a batch of one."""
+    return given if given.batch else given._replace(batch=(1,))
+
+
+_AT_ONCE = 8192
+"""How many paths are taken at once."""
+
+
+class NoiseInterpreter(Interpreter):
+    """Finds the noise of light by every element that stands in its way, none of them merged."""
+
+    def __init__(self, program: Program, dtype: np.dtype[Any]) -> None:
+        super().__init__(program, ScaledCarrier, dtype)
+
+    def noise(self, given: ResolvedInputs, reading: Reading, exponent: Array) -> tuple[Any, Any]:
+        """Return the intensity at an end, and its noise, over two to a power."""
+        carrier = NoiseCarrier(NUMPY, self.eps)
+        found = np.zeros((2, *given.batch), self.dtype)
+        for piece in pieces(given.batch, _AT_ONCE):
+            part = given.part(piece.where)
+            lights = self._execute(part, carrier)
+            (intensity, noise, _, _), power = lights[reading.light]
+            for row, number in enumerate((intensity, noise)):
+                with np.errstate(over="ignore", under="ignore"):
+                    found[(row, *piece.where)] = np.ldexp(number, power - exponent[piece.where])
+        return found[0], found[1]
+
+    def emitted(self, given: ResolvedInputs, source: str) -> Array:
+        """Return the light that a source emits, as Stokes vectors, in its own shape.
+
+        Shape: returns (..., 4).
+        """
+        evaluation = self.program.steps[self.program.sources[source][0]].evaluation
+        operands, carrier = self.operands(given), self._carriers[self.carrier]
+        if evaluation is None:
+            return np.zeros(4)
+        numbers = evaluated(self.program, evaluation, operands, carrier)
+        parts = np.broadcast_arrays(*numbers, *[0.0] * (4 - len(numbers)))
+        return np.stack(parts, axis=-1)
+
+    def most(self, given: ResolvedInputs) -> Any:
+        """Return more than the noise at any end can be: roundings of all that is emitted.
+
+        Each step hands on those of its light and adds its own, as `NoiseCarrier` does; at a
+        junction of a loop there are those of all others besides.
+        """
+        return self._most(self.operands(given))
+
+    def most_of_one(self, parameters: Mapping[str, Any]) -> float | None:
+        """Return the same where sources emit one number each, plain as it is given; else None."""
+        found = {}
+        for place, operand in self._emitted.items():
+            given = {}
+            if not operand.known:
+                name = operand.value.name
+                number = parameters.get(name, operand.value.default)
+                if type(number) is not float:
+                    return None
+                given[name] = Resolved(np.array(number), THERE)
+            found[place] = operand.numbers(given)
+        most = self._most(found)
+        return None if np.ndim(most) else float(most)
+
+    @cached_property
+    def _emissions(self) -> list[int]:
+        """The evaluations by which sources emit."""
+        steps = (self.program.steps[step] for step, _ in self.program.sources.values())
+        return [step.evaluation for step in steps if step.evaluation is not None]
+
+    @cached_property
+    def _emitted(self) -> dict[int, Operand]:
+        """The operands of these, by place."""
+        program = self.program
+        places = [place for emission in self._emissions for place in program.given_to[emission]]
+        return {place: program.operands[place] for place in places}
+
+    def _most(self, operands: Any) -> Any:
+        carrier = self._carriers[self.carrier]
+        emitted = sum(evaluated(self.program, e, operands, carrier)[0] for e in self._emissions)
+        junctions = sum(len(loop.junctions) for loop in self.program.loops)
+        return 2.0 * (len(self.program.steps) + 2) * (1 + 4 * junctions) * self.eps * emitted
+
+    @property
+    def eps(self) -> float:
+        """The rounding of 1."""
+        return float(np.finfo(self.dtype).eps)
+
+
+_SAME = 1e-3
+"""How far light may be from what it is when it is computed again."""
+
+
+def noise_at(
+    answers: Any,
+    end: str,
+    parameters: Mapping[str, Any],
+    where: Any,
+    stokes: Array,
+    exponent: Array,
+) -> Array:
+    """Return what is noise in light, wherever a component of it is small enough for that.
+
+    Shapes: stokes (..., 4); exponent (...); returns (...).
+    """
+    found = np.zeros(exponent.shape, stokes.dtype)
+    interpreter = answers.noise
+    readings = interpreter.program.readings
+    if end not in readings or any(map(is_traced, parameters.values())):
+        return found
+    most = interpreter.most_of_one(parameters)
+    if most is not None and not _as_little(stokes, exponent, most).any():
+        return found
+    given = answers.whole.reader.read(parameters)
+    given = given.part(where) if where else given
+    doubtful = _as_little(stokes, exponent, interpreter.most(given)).any(axis=-1)
+    if not doubtful.any():
+        return found
+    part = given.part((doubtful,)) if given.batch else given
+    again, noise = interpreter.noise(part, readings[end], exponent[doubtful].reshape(part.batch))
+    intensity = stokes[doubtful][..., 0].reshape(part.batch)
+    with np.errstate(over="ignore", invalid="ignore"):
+        same = np.abs(again - intensity) <= 4.0 * noise + _SAME * np.abs(intensity)
+    found[doubtful] = np.where(same, noise, 0.0)
+    return found
+
+
+def matrix_noise_at(
+    answers: Any, source: str, end: str, parameters: Mapping[str, Any], matrix: Array
+) -> Array:
+    """Return the noise in the matrix of a path: that in what a source's light becomes, as a share.
+
+    Shapes: matrix (..., 4, 4); returns (...).
+    """
+    interpreter = answers.noise
+    traced = is_traced(matrix) or any(map(is_traced, parameters.values()))
+    if traced or len(interpreter.program.sources) > 1:
+        return np.zeros(matrix.shape[:-2])
+    emitted = interpreter.emitted(answers.whole.reader.read(parameters), source)
+    stokes = (np.asarray(matrix) @ emitted[..., np.newaxis])[..., 0]
+    exponent = np.zeros(stokes.shape[:-1], dtype=np.int64)
+    noise = noise_at(answers, end, parameters, (), stokes, exponent)
+    lit = emitted[..., 0] > 0.0
+    return np.where(lit, noise / np.where(lit, emitted[..., 0], 1.0), 0.0)
+
+
+def _as_little(stokes: Array, exponent: Array, most: Any) -> Array:
+    """Return which components, other than 0, are no larger than noise can be at most."""
+    with np.errstate(over="ignore"):
+        least = np.ldexp(most, -exponent)
+    sizes = np.abs(stokes)
+    return (sizes > 0.0) & (sizes <= least[..., np.newaxis])  # type: ignore[no-any-return]

@@ -1,0 +1,409 @@
+"""Runner: answers questions about a program, for one path or millions."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from contextlib import nullcontext
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.engines.choice import FLOATS, NUMPY_STEPS, default_engine
+from optipath.errors import ParameterError, listed
+from optipath.kernels.kernel import is_defined_in
+from optipath.kernels.primitives import NUMPY
+from optipath.plan.batch_runner import Results
+from optipath.plan.for_jax import ForJax
+from optipath.plan.interpreter import carrier_of
+from optipath.plan.interpreters import interpreter_for
+from optipath.plan.prepared import BatchKind, Prepared, Recipe, keep
+from optipath.plan.questions import FormulaMaker
+from optipath.plan.reading import InputReader, Layout, pieces
+from optipath.plan.scalar_runner import ScalarRunner
+from optipath.values.arrays import CURE, enough_for
+from optipath.values.jax_values import is_traced
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Iterator, Mapping
+    from contextlib import AbstractContextManager
+
+    from optipath.elements.own_element import OwnWays
+    from optipath.engines.program import Program
+    from optipath.plan.inputs import Inputs
+    from optipath.plan.questions import Question
+    from optipath.plan.reading import ResolvedInputs, RunOptions
+    from optipath.values.operands import InputKey, Operand
+
+    Array = np.ndarray[Any, Any]
+
+
+class Answering(ABC):
+    """What answers questions about a path."""
+
+    @property
+    @abstractmethod
+    def ran_by(self) -> tuple[str, ...]:
+        """The engines that have answered the last question; none before the first."""
+
+    @abstractmethod
+    def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        """Return what is asked for."""
+
+    @abstractmethod
+    def stream(
+        self, question: Question, size: int, parameters: Mapping[str, Any]
+    ) -> Iterator[tuple[Any, Any]]:
+        """Yield what is asked for, part by part."""
+
+
+CACHED = 8192
+"""How many paths are taken at once, step after step."""
+
+_LITTLE = 1 << 20
+"""How many bytes every machine has memory for."""
+
+
+class Runner(Answering):
+    """Runs one program, and keeps what has been prepared."""
+
+    def __init__(
+        self,
+        program: Program,
+        inputs: Inputs,
+        options: RunOptions,
+        own_ways: tuple[OwnWays, ...] = (),
+        *,
+        unreduced: bool = False,
+    ) -> None:
+        self.program = program
+        self.inputs = inputs
+        self.options = options
+        self.unreduced = unreduced
+        self.first_values = FirstValues(own_ways)
+        self.dtype = np.dtype(options.dtype)
+        self.carrier = carrier_of(program, options.composing)
+        self.for_jax = ForJax(program, inputs, self.carrier, options)
+        self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
+        self.interpreter = interpreter_for(program, inputs, self.carrier, options)
+        self.formulas = FormulaMaker(program, inputs, self.carrier, options, unreduced=unreduced)
+        self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas, own_ways)
+        self._ran = ""
+        self._kinds: dict[Any, BatchKind] = {}
+        self._recipes: dict[Any, Recipe] = {}
+
+    @property
+    def ran_by(self) -> tuple[str, ...]:
+        return (self._ran,) if self._ran else ()
+
+    def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        key = self.reader.key(parameters)
+        recipe = None if key is None else self._recipes.get((question.key, key))
+        numbers = None if recipe is None else recipe.numbers(parameters)
+        if recipe is not None and numbers is not None:
+            return self._run(question, recipe.prepared, numbers, parameters)
+        if self.for_jax.is_asked(parameters):
+            return self._by_jax(question, parameters)
+        return self.answer_for(question, self.reader.read(parameters), parameters, key=key)
+
+    def stream(
+        self, question: Question, size: int, parameters: Mapping[str, Any]
+    ) -> Iterator[tuple[Any, Any]]:
+        if self.for_jax.is_asked(parameters):
+            raise ParameterError(
+                "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
+            )
+        given = self.reader.read(parameters)
+        for piece in pieces(given.batch, size):
+            part = given.part(piece.where)
+            yield piece.where, self.answer_for(question, part, parameters, ahead=given.paths)
+
+    def answer_for(
+        self,
+        question: Question,
+        given: ResolvedInputs,
+        parameters: Mapping[str, Any],
+        *,
+        key: Any = None,
+        ahead: int = 0,
+    ) -> Any:
+        """Return what is asked for numbers that have been read."""
+        if self.first_values.ways:
+            kind = (given.forms(self.dtype), given.batch, *parameters)
+            self.first_values.check(kind, lambda: given)
+        floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
+        if floats and not given.batch:
+            lights = self.single.lights(given)
+            if lights is not None:
+                self._ran = FLOATS
+                ends = zip(self.program.readings, lights, strict=True)
+                return {name: (light[:4], light[4]) for name, light in ends}
+        known = {name: given.cut(array) for name, array in self.formulas.known_arrays.items()}
+        arrays = {str(key): n for key, n in given.numbers.items() if isinstance(n, np.ndarray)}
+        layout = Layout(given.batch, arrays | known)
+        prepared = Prepared(self._kind(question, given, layout, floats=floats), layout, known)
+        if not given.within(self.inputs.limits):
+            self.inputs.resolve(parameters)
+        elif key is not None and Recipe.holds(self.reader, given, parameters):
+            recipe = Recipe(prepared, self.reader, given, parameters)
+            keep(self._recipes, (question.key, key), recipe)
+        numbers = {str(key): number for key, number in given.numbers.items()} | known
+        return self._run(question, prepared, numbers, parameters, given, ahead)
+
+    def read_for_bounds(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
+        """Return what is given, for both the bounds of light and the light."""
+        if self.program.loops:
+            raise ParameterError(
+                "there are no certificates for light that goes round in a loop; run the path, "
+                "which is exact"
+            )
+        self.for_jax.refuse_traced(parameters, "certificates are made")
+        return self.reader.read(parameters)
+
+    def _kind(
+        self, question: Question, given: ResolvedInputs, layout: Layout, *, floats: bool
+    ) -> BatchKind:
+        """Return what this batch has in common with others."""
+        forms = given.forms(self.dtype)
+        key = question.key, forms, layout.key, floats
+        found = self._kinds.get(key)
+        if found is None:
+            own = self.formulas, self.single, self.options
+            found = BatchKind(question, dict(forms), layout, *own, floats=floats)
+            keep(self._kinds, key, found)
+        return found
+
+    def _run(
+        self,
+        question: Question,
+        prepared: Prepared,
+        numbers: Mapping[str, Any],
+        parameters: Mapping[str, Any],
+        given: ResolvedInputs | None = None,
+        ahead: int = 0,
+    ) -> Any:
+        kind, layout = prepared.kind, prepared.layout
+        engine = kind.choice.of(layout.paths, kind, ahead)
+        stepped = engine == NUMPY_STEPS
+
+        def part(piece: Any) -> Array:
+            whole = given or self.reader.read(parameters)
+            return question.rows(self, whole.part(piece.where), {})
+
+        each = question.numbers(stepped=stepped)
+        little = layout.paths * each * self.dtype.itemsize <= _LITTLE
+        with nullcontext() if little else self.enough_for(layout.batch, each, question.cure):
+            rows = None
+            if engine == FLOATS and kind.function is not None:
+                rows = kind.function.rows(numbers, layout)
+            self._ran = NUMPY_STEPS if engine == FLOATS and rows is None else engine
+            if rows is not None:
+                results = Results.of(rows, question.read, self.dtype)
+            elif stepped or engine == FLOATS:
+                self.inputs.resolve(parameters)
+                return self._stepped(question, given or self.reader.read(parameters))
+            else:
+                assert kind.batches is not None  # noqa: S101 - or it would not be chosen
+                results = kind.batches.results(
+                    engine, numbers, layout, lambda: self.inputs.resolve(parameters), part
+                )
+            return question.answer(results, layout.batch)
+
+    def _stepped(self, question: Question, given: ResolvedInputs) -> Any:
+        """Return what is asked for, step by step."""
+        several = given.paths > CACHED and not self.unreduced
+        shared = self.interpreter.shared(given) if several and question.is_light else {}
+        parts = [question.rows(self, part, shared) for part in self.parts(given)]
+        rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+        return question.answer(Results.of(rows, question.read, self.dtype), given.batch)
+
+    def _by_jax(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        resolved, batch = self.inputs.resolve(parameters)
+        if not self.for_jax.traces(parameters):
+            self.first_values.check((*parameters, batch), lambda: self.reader.read(parameters))
+        with self.enough_for(batch, 2 * question.read):
+            found = question.by_jax(self, resolved, batch, parameters)
+        self._ran = NUMPY_STEPS if found is None else "jax"
+        if found is None:
+            # Loops that need a closer look get the same one by every engine.
+            return self._stepped(question, self.reader.read(parameters))
+        return found
+
+    def engine_for(self, count: int) -> str:
+        """Return what runs a batch of so many paths, once that has been done several times."""
+        engine, floats = self.options.engine, self.dtype == np.float64
+        if engine == "jax":
+            return engine
+        if count == 1 and floats:
+            return FLOATS
+        for kind in self._kinds.values():
+            if kind.choice.settled == kind.choice.compiler:
+                return kind.choice.compiler
+        length, dtype = self.formulas.length, self.dtype.name
+        return default_engine(engine, count, length, floats=floats, dtype=dtype)
+
+    def enough_for(
+        self, batch: tuple[int, ...], numbers: int, cure: str = CURE
+    ) -> AbstractContextManager[None]:
+        """Return a context for so many numbers a path."""
+        return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
+
+    def parts(self, given: ResolvedInputs) -> Iterator[ResolvedInputs]:
+        """Return what is given in parts that stay in the cache, step after step."""
+        if given.paths <= CACHED:
+            return iter([given])
+        return (given.part(piece.where) for piece in pieces(given.batch, CACHED))
+
+    def refuse_infinite(self, numbers: Array) -> None:
+        """Refuse light that is not finite, but for NaN where that says what cannot be."""
+        method = self.options.method
+        if not is_traced(numbers) and np.any(self.inputs.unsound(numbers)):
+            raise ParameterError(
+                f"the light is not finite in {self.dtype} by method '{method}': a value is "
+                f"too extreme{self.first_values.doubt}; give values nearer to 1"
+                + ("" if method == "stable" else ", or use method 'stable'")
+            )
+
+
+_MOST_RUNNERS = 32
+"""How many runners are kept; that which was asked for longest ago goes first."""
+
+_LARGEST = 1 << 16
+"""How many bytes the arrays of a program have at most that is kept."""
+
+_RUNNERS: dict[Hashable, Runner] = {}
+_LOCK = Lock()
+
+
+def runner_for(
+    program: Program,
+    inputs: Inputs,
+    options: RunOptions,
+    own_ways: tuple[OwnWays, ...] = (),
+    *,
+    unreduced: bool = False,
+) -> Runner:
+    """Return what runs a program: what ran an equal one before, if that is still kept."""
+    key = _key(program, inputs)
+    if key is None or own_ways:
+        return Runner(program, inputs, options, own_ways, unreduced=unreduced)
+    key = key, options, unreduced
+    with _LOCK:
+        # Taken out and put back, it stands last; an OrderedDict compares keys three times for that.
+        runner = _RUNNERS.pop(key, None)
+        if runner is None:
+            runner = Runner(program, inputs, options, unreduced=unreduced)
+        _RUNNERS[key] = runner
+        while len(_RUNNERS) > _MOST_RUNNERS:
+            del _RUNNERS[next(iter(_RUNNERS))]
+        return runner
+
+
+def _key(program: Program, inputs: Inputs) -> Hashable:
+    """Return what equal programs share, names included; None for what is not kept."""
+    operands = [operand.key() for operand in program.operands]
+    size = sum([getattr(operand.value, "nbytes", 0) for operand in program.operands])
+    agreements = [agreement.key() for agreement in (*inputs.agreements, *inputs.for_complex)]
+    if None in (*operands, *agreements) or size > _LARGEST or inputs.known:
+        return None
+    parameters = (*inputs.open.values(), *inputs.bound.values())
+    if any(is_traced(parameter.default) for parameter in parameters):
+        return None
+    if not all(_is_pure(evaluation.kernel.factory) for evaluation in program.evaluations):
+        return None
+    return (
+        tuple(operands),
+        program.evaluations,
+        program.steps,
+        program.counts,
+        program.loops,
+        tuple([(name, step) for name, (step, _) in program.sources.items()]),
+        tuple([(name, end.light, end.components) for name, end in program.readings.items()]),
+        tuple(inputs.open.values()),
+        tuple(inputs.bound.values()),
+        # A default of -0.0 equals 0.0, but is another number.
+        tuple([np.asarray(p.default).tobytes() for p in parameters if p.default is not None]),
+        tuple(
+            [(u.owner, u.value.name, u.value.scale, u.value.offset, u.domain) for u in inputs.uses]
+        ),
+        tuple(inputs.shapes.items()),
+        tuple(agreements),
+    )
+
+
+def _is_pure(factory: Any) -> bool:
+    """Tell whether a kernel is of the library; one of a user's own may read what changes."""
+    return is_defined_in("optipath.kernels.", factory)
+
+
+_LOOKED_AT = 16
+"""How many paths of a batch."""
+
+_MOST_VALUES = 64
+"""How many kinds are remembered."""
+
+
+class FirstValues:
+    """Looks at ways through elements of a user's own, once for each kind of values."""
+
+    def __init__(self, ways: tuple[OwnWays, ...]) -> None:
+        self.ways = ways
+        self._seen: set[Hashable] = set()
+
+    @property
+    def doubt(self) -> str:
+        """What else may be wrong with light that is not finite, as a sentence goes on with it."""
+        owners = dict.fromkeys(f"'{way.owner}'" for way in self.ways)
+        return f", or the rows of {listed([*owners])} are not finite there" if owners else ""
+
+    def check(self, kind: Hashable, read: Callable[[], ResolvedInputs]) -> None:
+        """Refuse what no light can do, found with some of the values that are given."""
+        if not self.ways or kind in self._seen:
+            return
+        given = read()
+        faults = [fault for way in self.ways for fault in _faults(way, given)]
+        if faults:
+            raise ParameterError(*faults)
+        if len(self._seen) >= _MOST_VALUES:
+            self._seen.clear()
+        self._seen.add(kind)
+
+
+def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
+    """Return what is wrong with a way for a few of the paths, the first and the last among them."""
+    units = way.units
+    some = np.unique(np.linspace(0.0, given.paths - 1.0, min(_LOOKED_AT, given.paths)).astype(int))
+    where = np.unravel_index(some, given.batch) if given.batch else ()
+
+    def few(number: Any) -> Any:
+        several = np.asarray(number)
+        if several.ndim:  # One number for all stays one, as elements are given it.
+            several = np.broadcast_to(several, given.batch)[where]
+        return several if several.dtype == bool else several.astype(np.float64)
+
+    mine = {key: few(n) for key, n in given.numbers.items() if key.name in units}
+    if any(key.part == "present" and not np.all(number) for key, number in mine.items()):
+        return []  # The element is not everywhere there.
+
+    def read(operand: Operand) -> Any:
+        if operand.known:
+            return few(given.cut(operand.numbers()))
+        return operand.evaluated(NUMPY, operand.given_in(mine, np.asarray))
+
+    try:
+        found = way.faults(read)
+    except KeyError:
+        return []  # Not all of its values are of use to what is read.
+    return [f"at {_values(mine, place, units)}: {fault}" for place, fault in found]
+
+
+def _values(numbers: dict[InputKey, Any], place: int, units: Mapping[str, str]) -> str:
+    """Write the numbers of one path."""
+    written = []
+    for key, several in numbers.items():
+        number, (name, unit) = np.ravel(several)[place if np.ndim(several) else 0], (str(key), "")
+        if key.part == "value":
+            name, unit = key.name, units[key.name]
+        written.append(f"{name} = {in_unit(number, unit):.6g} {unit}".strip())
+    return ", ".join(written)

@@ -1,0 +1,223 @@
+"""Scalar runs: one path by plain floats, after a few runs as one function."""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import islice, repeat
+from types import NoneType
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from optipath.engines.float_engine import FLOAT_ENGINE
+from optipath.values.curve_value import computed_values
+from optipath.values.operands import ABSENT, ONE
+from optipath.values.parameters import ABSENT as WORD
+from optipath.values.parameters import THERE, Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.elements.own_element import OwnWays
+    from optipath.engines.program import Program
+    from optipath.plan.inputs import Inputs
+    from optipath.plan.interpreter import Interpreter
+    from optipath.plan.questions import FormulaMaker
+    from optipath.plan.reading import Layout, ResolvedInputs
+    from optipath.values.operands import InputKey
+
+
+Lights: TypeAlias = list[tuple[Any, ...]]
+
+_SEVERAL, _SHORT = 3, 64
+"""After how many runs a function is worth its while, and up to how many steps."""
+
+_REAL = (float, int, NoneType)
+"""The sorts of defaults that floats may stand for."""
+
+_REFUSED = (ArithmeticError, TypeError, ValueError)
+
+
+class FloatFunction(NamedTuple):
+    """A function of floats."""
+
+    path: Callable[..., tuple[Any, ...] | None]
+    names: tuple[str, ...]
+    keys: list[InputKey]
+    operations: int
+
+    def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
+        """Return the results of a few paths, shape (results, paths); None where it takes care."""
+        columns: list[Any] = []
+        for name in self.names:
+            number = numbers[name]
+            if isinstance(number, np.ndarray):
+                if number.shape != layout.batch:
+                    number = np.broadcast_to(number, layout.batch)
+                columns.append(number.ravel().tolist())
+            else:
+                columns.append(repeat(number))
+        try:
+            found = [self.path(*row) for row in islice(zip(*columns), layout.paths)]  # noqa: B905
+        except _REFUSED:
+            return None
+        if None in found or not found or len(found) < layout.paths:
+            return None
+        return np.array(found).T
+
+
+class ScalarRunner:
+    """Runs a program on plain floats."""
+
+    def __init__(
+        self,
+        program: Program,
+        inputs: Inputs,
+        interpreter: Interpreter,
+        formulas: FormulaMaker,
+        own_ways: tuple[OwnWays, ...] = (),
+    ) -> None:
+        self.program = program
+        self.inputs = inputs
+        self.interpreter = interpreter
+        self.formulas = formulas
+        self.own_ways = own_ways
+        self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
+        self._looked_at: set[frozenset[InputKey]] = set()
+        self._runs = 0
+        self.following = FollowingFloats(inputs) if inputs.computed else None
+        self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
+
+    def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
+        """Return what `lights` gives for plain floats beside defaults, without reading them.
+
+        None where no function has been made, or where it takes more care.
+        """
+        if self._default_call is None:
+            return None
+        path, order, names = self._default_call
+        for name, value in parameters.items():
+            if type(value) is not float or name not in names:
+                return None
+        numbers = parameters if self.following is None else self.following.beside(parameters)
+        if numbers is None:
+            return None
+        get = numbers.get
+        return _called(path, [get(name, default) for name, default in order])
+
+    def lights(self, given: ResolvedInputs) -> Lights | None:
+        """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
+        nothing = given.nothing
+        if nothing not in self.functions:
+            self._runs += 1
+            if self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT):
+                return self._stepped(given)
+        function = self.function(nothing)
+        if function is None:
+            return self._stepped(given)
+        if nothing not in self._looked_at:
+            self._looked_at.add(nothing)
+            if self._is_default(given) and not self.inputs.agreements and self._defaults_hold():
+                self._default_call = self._unread(given, function)
+        return _called(function.path, [given.numbers[key] for key in function.keys])
+
+    def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
+        """Return the function for what is not there, as `ResolvedInputs.nothing`, if it can be."""
+        if nothing not in self.functions:
+            self.functions[nothing] = self._made(nothing)
+        return self.functions[nothing]
+
+    def _stepped(self, given: ResolvedInputs) -> Lights | None:
+        if not given.within(self.inputs.limits):
+            return None
+        return self.interpreter.single(given.numbers)
+
+    def _made(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
+        keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
+        absent = {key.name for key in nothing if key.part == "present"}
+        forms = {k: ABSENT if k in nothing or k.name in absent else ONE for k in keys}
+        formula = self.formulas.of_floats(forms)
+        if formula is None:
+            return None
+        names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)
+        named = {str(key): key for key in keys}
+        own = [named[name] for name in names if name in named]
+        return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, len(formula.steps))
+
+    def _is_default(self, given: ResolvedInputs) -> bool:
+        """Tell whether the optional elements are there as they are by default."""
+        there = {key.name: n for key, n in given.numbers.items() if key.part == "present"}
+        opened = self.inputs.open
+        return all(n is (opened[name].default != WORD) for name, n in there.items())
+
+    def _defaults_hold(self) -> bool:
+        """Tell whether elements of a user's own can be what they are by default."""
+        opened = self.inputs.open.items()
+        defaults = {name: p.resolve(p.default) for name, p in opened if p.default is not None}
+        known = [way for way in self.own_ways if way.are_known(defaults)]
+        return not any(way.faults(lambda operand: operand.numbers(defaults)) for way in known)
+
+    def _unread(self, given: ResolvedInputs, function: FloatFunction) -> Any:
+        """Return what `fast_path` needs: the function, and the default of each that it takes."""
+        keys = {str(key): key for key in given.numbers}
+        optional = {key.name for key in given.numbers if key.part == "present"}
+        # A plain float has no imaginary part, and the function has been made for none.
+        parts = Counter(key.name for key in given.numbers if key.part not in ("present", "imag"))
+        opened = self.inputs.open
+        real = {name for name, p in opened.items() if type(p.default) in _REAL}
+        following = self.following.defaults if self.following else {}
+        real |= {value.name for value in self.inputs.computed}
+        if any(key.part == "imag" and key.name not in real for key in given.numbers):
+            return None
+        order = []
+        for key in map(keys.__getitem__, function.names):
+            # One number may be given to several kernels.
+            if key.part not in ("value", "real") or key.is_affine or key.name not in real:
+                return None
+            order.append((key.name, opened[key.name].default if key.name in opened else None))
+        asked = {name for name, _ in order} | following.keys()
+        if any(p.default is None for name, p in opened.items() if name not in asked):
+            return None  # What nothing needs must be given all the same.
+        return (
+            function.path,
+            order,
+            frozenset(n for n in asked & opened.keys() if n not in optional and parts[n] <= 1),
+        )
+
+
+def _called(path: Any, numbers: list[Any]) -> Lights | None:
+    """Return the lights that a function gives."""
+    try:
+        found = path(*numbers)
+    except _REFUSED:
+        return None
+    if found is None or len(found) == 5:
+        return found and [found]
+    ends = len(found) // 5
+    return [(*found[4 * end : 4 * end + 4], found[4 * ends + end]) for end in range(ends)]
+
+
+class FollowingFloats:
+    """Puts numbers that follow from the wavelength beside those that are given."""
+
+    def __init__(self, inputs: Inputs) -> None:
+        self.computed = inputs.computed
+        arguments = {one.name: one for value in self.computed for one in value.arguments}
+        self.defaults = {n: inputs.open[n].default for n in arguments if n in inputs.open}
+        self._ranges = [inputs.limits[name] for name in self.defaults]
+        self._last: tuple[tuple[Any, ...], dict[str, float]] = (), {}
+
+    def beside(self, given: Mapping[str, float]) -> Mapping[str, float] | None:
+        """Return what is given and what follows from it; None where that is to be looked at."""
+        numbers = tuple([given.get(name, default) for name, default in self.defaults.items()])
+        last, found = self._last
+        if numbers != last:
+            for number, (low, high) in zip(numbers, self._ranges, strict=True):
+                if type(number) is not float or not low <= number <= high:
+                    return None
+            pairs = zip(self.defaults, numbers, strict=True)
+            resolved = {name: Resolved(number, THERE) for name, number in pairs}
+            computed = computed_values(self.computed, resolved)
+            found = {name: of_it.value.item() for name, of_it in computed.items()}
+            self._last = numbers, found
+        return {**given, **found}

@@ -1,0 +1,184 @@
+"""Axes to draw into: given or new; their labels and legends; saved pictures."""
+
+from __future__ import annotations
+
+from itertools import product
+from math import ceil
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from optipath.errors import OptipathError, shown
+from optipath.plots.colors import LINES, positive
+from optipath.plots.text import missing_letters_as_boxes
+from optipath.surfaces.formats.hemisphere_files import told_of
+from optipath.values.files import given_file, write_picture
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Sequence
+
+    from matplotlib.text import Text
+
+    Panel: TypeAlias = np.ndarray[Any, Any]
+
+
+Drawn = TypeVar("Drawn", bound=Axes)
+
+
+def own_axes(given: Any, size: tuple[float, float]) -> Axes:
+    """Return the axes that are given, or those of a new figure that no window belongs to."""
+    if given is None:
+        return own_lines(Figure(figsize=size, layout="constrained").add_subplot())
+    if not isinstance(given, Axes):
+        raise OptipathError(f"ax is {shown(given)}; give Axes of Matplotlib, or leave it out")
+    if not _is_flat(given):
+        raise OptipathError(
+            f"ax has the projection '{given.name}', and the picture is a flat one; give plain "
+            f"Axes, as figure.add_subplot() makes them, or leave it out"
+        )
+    return given
+
+
+def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> Panel:
+    """Return the axes that are given, or those of a new figure, row by row."""
+    if given is None:
+        panel = Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
+        for ax in panel.flat:
+            own_lines(ax)
+        return panel
+    panel = np.array(given, object)
+    if panel.size != shape[0] * shape[1] or not all(map(_is_flat, panel.flat)):
+        rows, columns = shape
+        raise OptipathError(
+            f"axes are {shown(given)}; give {rows} x {columns} Axes of Matplotlib, as "
+            f"figure.subplots({rows}, {columns}) makes them, or leave them out"
+        )
+    return panel.reshape(shape)
+
+
+def own_lines(ax: Drawn) -> Drawn:
+    """Return axes whose lines are solid by default, whatever Matplotlib's settings are."""
+    ax.set_prop_cycle(color=LINES)
+    return ax
+
+
+def _is_flat(ax: Any) -> bool:
+    return isinstance(ax, Axes) and ax.name == "rectilinear"
+
+
+_TICKS = 7, 6, 5, 4, 3, 2
+_FILLED = 0.75
+"""The share of an axis that its numbers take at most."""
+
+
+def fitting_text(text: Text, texts: Sequence[str], room: float) -> None:
+    """Give a text the first of several wordings that is no longer than there is room."""
+    for each in texts:
+        text.set_text(each)
+        box = text.get_window_extent()
+        if max(box.width, box.height) <= room:
+            return
+
+
+def label_axes(ax: Axes, along: Sequence[str], up: Sequence[str]) -> None:
+    """Label axes by the longest of several wordings that fit."""
+    ax.set(xlabel=along[-1], ylabel=up[-1])
+    figure: Any = ax.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    box = ax.get_window_extent()
+    _thin(ax, box.width)
+    fitting_text(ax.xaxis.label, along, box.width)
+    fitting_text(ax.yaxis.label, up, box.height)
+
+
+def _thin(ax: Axes, room: float) -> None:
+    """Name fewer numbers along x, as long as they would stand one over another."""
+    low, high = ax.get_xlim()
+    for most in _TICKS:
+        within = [
+            label.get_window_extent().width
+            for place, label in zip(ax.get_xticks(), ax.get_xticklabels(), strict=True)
+            if low <= place <= high
+        ]
+        if sum(within) <= _FILLED * room:
+            return
+        ax.xaxis.set_major_locator(MaxNLocator(most))
+
+
+_APART = 1.6
+"""How far ticks are apart at least, of the height of a line of the legend."""
+
+_SIZES = 8.5, 7.5, 6.5, 5.5
+"""Of letters in points, from which the first is taken that leaves curves enough room."""
+
+_ENOUGH = 0.36
+"""The share of the axes that a legend takes at most, if a smaller one can help it."""
+
+
+def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
+    """Draw a legend in a strip at the top, for which the axes are made higher."""
+    on_top = sides[-1]
+    figure: Any = on_top.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    whole = on_top.get_window_extent()
+    for size, columns in product(_SIZES, range(len(lines), 0, -1)):
+        legend = on_top.legend(
+            handles=[*lines],
+            ncols=columns,
+            loc="upper center",
+            facecolor="white",
+            edgecolor="none",
+            framealpha=1.0,
+            borderaxespad=0.2,
+            columnspacing=1.2,
+            handlelength=2.6,
+            fontsize=size,
+        )
+        legend.set_in_layout(False)  # It is within the axes, which need no more room for it.
+        box = legend.get_window_extent()
+        if box.width <= 0.96 * whole.width and box.height <= _ENOUGH * whole.height:
+            break
+    line = legend.get_texts()[0].get_window_extent().height
+    share = min(1.04 * box.height / whole.height, 0.8)
+    for side in sides:
+        low, high = side.get_ylim()
+        ticks = [tick for tick in side.get_yticks() if low <= tick <= high]
+        room = whole.height * (1.0 - share) / max(len(ticks), 1)
+        side.set_yticks(ticks[:: ceil(_APART * line / room)])
+        side.set_ylim(low, low + (high - low) / (1.0 - share))
+
+
+def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0) -> None:
+    """Save a picture in a file whose ending says the form: ``.png``, ``.svg`` or ``.pdf``.
+
+    Texts of ``.svg`` and ``.pdf`` are texts, which can be searched; a file is there whole or not
+    at all, and that of a picture which is drawn anew has the same bits.
+
+    Parameters
+    ----------
+    drawn : Axes, array_like of Axes, or Figure
+        What a function of `optipath.plots` returned.
+    file : str or path
+        Where; what is there is replaced.
+    dots_per_inch : float, optional
+        Of ``.png``, and of the pixels of maps in the other forms.
+
+    Raises
+    ------
+    OptipathError
+        If nothing was drawn, nothing can be drawn in the form that the ending says, or the file
+        cannot be written.
+    """
+    first = np.array(drawn, object).ravel()[:1]
+    if not (first.size and isinstance(first[0], Axes | Figure)):
+        raise OptipathError(f"{shown(drawn)} is no picture; give what a function of plots returned")
+    if faults := positive("dots_per_inch", dots_per_inch):
+        raise OptipathError(*faults)
+    figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
+    place = given_file(file, OptipathError)
+    with told_of(place, OptipathError), missing_letters_as_boxes():
+        write_picture(figure, place, dots_per_inch)

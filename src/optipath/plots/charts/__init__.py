@@ -1,1 +1,0 @@
-"""Charts of what the lab has measured: speed against accuracy, and where methods fail."""

@@ -1,1 +1,0 @@
-"""Pictures of quantities against parameters, and of what a boundary reflects."""

@@ -1,0 +1,176 @@
+"""Pictures of the Dataset of a sweep."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed, unknown
+from optipath.light.light import Light
+from optipath.plots.axes import own_axes
+from optipath.plots.drawn_curves import draw_curves, units_of
+from optipath.plots.light_at_detector import AlongAxis
+from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
+from optipath.plots.parameter_curves import draw_map
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.plots.light_quantities import DrawnQuantity
+
+
+_CURVE, _MAP = (6.4, 4.2), (6.4, 4.8)
+
+
+def curve(dataset: Any, y: Any, x: str | None, ax: Axes | None, detector: str | None) -> Axes:
+    """Draw quantities against a coordinate; see `SweepPictures.curve`."""
+    quantities = drawn_quantities(y)
+    units_of(quantities)
+    there = at_detector(dataset, detector)
+    (along,) = axes_of(there, [x])
+    curves = [(each, numbers_of(there, each, [along])) for each in quantities]
+    ax = own_axes(ax, _CURVE)
+    draw_curves(ax, along, curves)
+    return ax
+
+
+def quantity_map(
+    dataset: Any,
+    quantity: Any,
+    x: str | None,
+    y: str | None,
+    ax: Axes | None,
+    detector: str | None,
+) -> Axes:
+    """Draw a quantity over two coordinates; see `SweepPictures.map`."""
+    drawn = drawn_quantity(quantity)
+    there = at_detector(dataset, detector)
+    along, up = axes_of(there, [x, y])
+    numbers = numbers_of(there, drawn, [along, up])
+    ax = own_axes(ax, _MAP)
+    draw_map(ax, along, up, drawn, numbers)
+    return ax
+
+
+def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
+    """Draw light on the Poincaré sphere, coloured by a coordinate; see `SweepPictures.poincare`."""
+    there = at_detector(dataset, detector)
+    (along,) = axes_of(there, [x])
+    components = drawn_quantities(("S0", "S1", "S2", "S3"))
+    stokes = np.stack([numbers_of(there, each, [along]) for each in components], axis=-1)
+    if np.isnan(stokes).any():
+        raise OptipathError(
+            "the light has components that are not read, and a sphere shows all; sweep "
+            "path.reading('stokes')"
+        )
+    sphere = import_module("optipath.plots").poincare
+    return sphere(Light(stokes), ax, by=along.numbers, label=along.labels[-1])
+
+
+_DETECTOR = "detector"
+_BESIDE = {"psi": "Psi", "delta": "Delta"}
+"""What a sweep calls quantities where a parameter has their name."""
+
+_SHORT = (("nm", 1e-5), ("um", 1e-3), ("mm", np.inf))
+"""The units in which lengths in metres are shown, each up to some length."""
+
+
+def at_detector(dataset: Any, detector: str | None) -> Any:
+    """Return what a Dataset has at one detector."""
+    known = [str(name) for name in np.atleast_1d(dataset.get(_DETECTOR, ()))]
+    if detector is None:
+        if _DETECTOR in dataset.dims and len(known) > 1:
+            raise OptipathError(
+                f"the Dataset has the detectors {listed(known)}; say which, by "
+                f"detector='{known[0]}'"
+            )
+        return dataset.squeeze(_DETECTOR) if _DETECTOR in dataset.dims else dataset
+    if not known:
+        raise OptipathError("the Dataset is of one detector, which it does not name; leave it out")
+    if faults := unknown("detector", detector, known):
+        raise OptipathError(*faults)
+    return dataset.sel(detector=detector) if _DETECTOR in dataset.dims else dataset
+
+
+def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
+    """Return coordinates along as many dimensions, the only ones with several values."""
+    along = {
+        str(dimension): [
+            str(name) for name, each in dataset.coords.items() if each.dims == (dimension,)
+        ]
+        for dimension, size in dataset.sizes.items()
+        if size > 1
+    }
+    known = [name for each in along.values() for name in each]
+    given = [name for name in names if name is not None]
+    if faults := [one for name in given for one in unknown("coordinate", name, known)]:
+        raise OptipathError(*faults)
+    of = {name: dimension for dimension, each in along.items() for name in each}
+    if len({of[name] for name in given}) < len(given):
+        raise OptipathError(f"{listed(given)} are along one dimension; give one of each")
+    rest = [dimension for dimension in along if dimension not in {of[name] for name in given}]
+    free = names.count(None)
+    if len(rest) != free:
+        raise OptipathError(_wrong_count(dataset, along, rest, len(names)))
+    found = [name if name is not None else _only(rest.pop(0), along) for name in names]
+    return [_axis(dataset, name) for name in found]
+
+
+def _wrong_count(dataset: Any, along: dict[str, list[str]], rest: list[str], count: int) -> str:
+    wanted = "one dimension" if count == 1 else f"{count} dimensions"
+    if len(along) < count:
+        has = listed([f"'{each}'" for each in along]) if along else "no dimension"
+        return f"a picture goes over {wanted}, and the Dataset has {has} with several values"
+    named = next((name for name in rest if name in dataset.coords), rest[0])
+    how = f".sel({named}=...)" if named in dataset.coords else f".isel({named}=0)"
+    several = listed([f"'{each}'" for each in along])
+    return (
+        f"a picture goes over {wanted}, and the Dataset has {several}; choose a value of what is "
+        f"too much, dataset{how}, and say what goes along the axes"
+    )
+
+
+def _only(dimension: str, along: dict[str, list[str]]) -> str:
+    names = along[dimension]
+    if len(names) != 1:
+        has = f"the coordinates {listed(names)}; say which" if names else "no coordinate; give one"
+        raise OptipathError(f"dimension '{dimension}' has {has}")
+    return names[0]
+
+
+def _axis(dataset: Any, name: str) -> AlongAxis:
+    coordinate = dataset.coords[name]
+    numbers = np.asarray(coordinate.values)
+    if numbers.dtype.kind not in "fiu":
+        raise OptipathError(
+            f"coordinate '{name}' has words among its values, and an axis is of numbers; choose "
+            f"one, dataset.isel({coordinate.dims[0]}=0)"
+        )
+    unit = str(coordinate.attrs.get("units", ""))
+    help_text = str(coordinate.attrs.get("long_name", ""))
+    numbers = numbers.astype(np.float64)
+    if unit == "rad":
+        unit, numbers = "deg", np.degrees(numbers)
+    if unit == "m":
+        unit = next(short for short, most in _SHORT if np.abs(numbers).max() < most)
+        numbers = numbers * in_unit(1.0, unit)
+    return AlongAxis(name, unit, numbers, help_text)
+
+
+def numbers_of(
+    dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
+) -> npt.NDArray[np.float64]:
+    """Return a quantity as it is drawn."""
+    beside = _BESIDE.get(quantity.name, quantity.name)
+    name = beside if beside in dataset.data_vars else quantity.name
+    if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):
+        raise OptipathError(*faults)
+    dimensions = [dataset.coords[axis.name].dims[0] for axis in axes]
+    numbers = dataset[name].squeeze().transpose(*dimensions).values
+    return quantity.of(numbers)

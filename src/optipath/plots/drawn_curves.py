@@ -1,0 +1,181 @@
+"""Curves drawn into axes, left and right, open at jumps of angles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed
+from optipath.plots.axes import label_axes, legend_above
+from optipath.plots.colors import DASHES, FAINT, INK, LINES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.plots.light_at_detector import AlongAxis
+    from optipath.plots.light_quantities import DrawnQuantity
+
+    Drawn = tuple[DrawnQuantity, npt.NDArray[np.float64]]
+    Numbers = npt.NDArray[np.float64]
+
+
+_MARGIN = 0.04
+"""The share of an axis that is left free above and below."""
+
+
+_FEW = 12
+"""As many points are each marked."""
+
+_MARKS = "o", "s", "D", "^", "v"
+
+
+def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
+    """Return quantities by their units: the left axis, and the right one."""
+    groups: dict[str, list[DrawnQuantity]] = {}
+    for each in quantities:
+        groups.setdefault(each.unit, []).append(each)
+    if len(groups) > 2:
+        kinds = [" and ".join(each.name for each in group) for group in groups.values()]
+        raise OptipathError(
+            f"{listed(kinds)} have {len(groups)} units, and a picture has two axes, left and "
+            f"right; draw those of one or two units, and the others in another picture"
+        )
+    return [*groups.values()]
+
+
+def draw_curves(
+    ax: Axes, along: AlongAxis, curves: Sequence[Drawn], *, reads: str = "stokes"
+) -> None:
+    """Draw curves, their axes, and a legend where there are several.
+
+    Points are marked where they are few, or stand alone between gaps.
+    """
+    groups = units_of([quantity for quantity, _ in curves])
+    order = np.argsort(along.numbers, kind="stable")
+    numbers = along.numbers[order]
+    colours = dict(zip((q.name for q, _ in curves), range(len(curves)), strict=True))
+    sides = [ax, *(ax.twinx() for _ in groups[1:])]
+    lines: list[Any] = []
+    ax.set_xlim(numbers[0], numbers[-1])
+    for side, group in zip(sides, groups, strict=True):
+        members = [(q, values[order]) for q, values in curves if q in group]
+        for quantity, values in members:
+            lines += _draw(side, numbers, quantity, values, colours[quantity.name])
+        _limit(side, members)
+        texts = [", ".join(q.short for q in group)]
+        if len(group) == 1:
+            texts.insert(0, group[0].label)
+        label_axes(side, along.labels, texts)
+    ax.grid(visible=True, alpha=0.3)
+    mark_default(ax, along)
+    tell_missing(ax, curves, reads)
+    if len(curves) > 1:
+        legend_above(sides, lines)
+
+
+def _draw(
+    ax: Axes,
+    along: npt.NDArray[np.float64],
+    quantity: DrawnQuantity,
+    values: npt.NDArray[np.float64],
+    place: int,
+) -> list[Any]:
+    given = along
+    if quantity.period:
+        along, values = open_at_jumps(along, values, quantity.period)
+    marked = np.isfinite(values)
+    if len(given) > _FEW:
+        marked &= _is_alone(values)
+    dash, colour = (place + place // len(LINES)) % len(DASHES), LINES[place % len(LINES)]
+    if (marked := marked & np.isin(along, given)).any():
+        mark: dict[str, Any] = {"marker": _MARKS[place % len(_MARKS)], "markersize": 4.0}
+        ax.plot(along[marked], values[marked], color=colour, linestyle="none", **mark)
+    style: dict[str, Any] = {"color": colour, "linestyle": DASHES[dash]}
+    return ax.plot(along, values, label=quantity.short, gid=quantity.name, **style)
+
+
+def _is_alone(values: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    """Return which points have none beside them that a line would lead to."""
+    gaps: npt.NDArray[np.bool_] = np.pad(~np.isfinite(values), 1, constant_values=True)
+    return gaps[:-2] & gaps[2:]
+
+
+def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
+    """Let an axis reach from end to end where its quantities have ends, and else from 0."""
+    ends = [quantity.limits for quantity, _ in members]
+    finite = [values[np.isfinite(values)] for _, values in members]
+    if all(ends):
+        low, high = min(each[0] for each in ends if each), max(each[1] for each in ends if each)
+    else:
+        together = np.concatenate([*finite, np.zeros(1)])
+        low, high = float(together.min()), float(together.max())
+        if low == high:
+            high = 1.0
+    room = _MARGIN * (high - low)
+    ax.set_ylim(low - room, high + room)
+    if members[0][0].unit == "°":
+        step = 30.0 if high - low <= 180.0 else 90.0
+        ax.set_yticks(np.arange(low, high + 1.0, step))
+
+
+def mark_default(ax: Axes, along: AlongAxis) -> None:
+    """Mark the value by default by a thin vertical line, with its text above."""
+    if along.default is None:
+        return
+    ax.axvline(along.default, color=FAINT, linewidth=0.8, zorder=0.5, gid="default")
+    top = ax.secondary_xaxis("top")
+    top.set_xticks([along.default], labels=[along.default_text])
+    top.tick_params(length=3.0, color=FAINT, labelcolor=INK, labelsize="small")
+
+
+def tell_missing(ax: Axes, curves: Sequence[Drawn], reads: str) -> None:
+    """Say which quantities have no value anywhere, or are not read, where curves are missing."""
+    missing = [quantity for quantity, values in curves if not np.isfinite(values).any()]
+    if not missing:
+        return
+    read = [each.name for each in missing if each.is_read(reads)]
+    unread = [each.name for each in missing if not each.is_read(reads)]
+    lines = [f"{listed(unread)}: not read"] if unread else []
+    told = "\n".join([f"{listed(read)}: the light has none", *lines] if read else lines)
+    ax.text(0.5, 0.5, told, transform=ax.transAxes, ha="center", va="center", color=INK, fontsize=9)
+
+
+_FLIP = 0.05
+"""How near to half a period a step is a flip, which is drawn neither up nor down."""
+
+
+def open_at_jumps(along: Numbers, angles: Numbers, period: float) -> tuple[Numbers, Numbers]:
+    """Return a curve that goes out at one end and comes in at the other, with a gap between.
+
+    Shape: along, angles (count,).
+
+    Examples
+    --------
+    >>> along, angles = np.array([0.0, 1.0]), np.array([80.0, -80.0])
+    >>> [each.tolist() for each in open_at_jumps(along, angles, 180.0)]
+    [[0.0, 0.5, 0.5, 0.5, 1.0], [80.0, 90.0, nan, -90.0, -80.0]]
+    """
+    step = np.diff(angles)
+    with np.errstate(invalid="ignore"):
+        flips = np.abs(np.abs(step) / period - 0.5) < _FLIP
+        jumps = (np.abs(step) > period / 2) & ~flips
+    end = np.sign(angles[:-1]) * period / 2
+    rest = step + 2 * end
+    places: list[int] = []
+    more: list[tuple[float, float]] = []
+    for at in np.flatnonzero(flips | jumps).tolist():
+        places += [at + 1] * (1 if flips[at] else 3)
+        if flips[at]:
+            more.append((along[at], np.nan))
+            continue
+        share = (end[at] - angles[at]) / rest[at] if rest[at] else 0.5
+        meets = along[at] + share * (along[at + 1] - along[at])
+        more += [(meets, end[at]), (meets, np.nan), (meets, -end[at])]
+    if not places:
+        return along, angles
+    x, y = np.array(more).T
+    return np.insert(along, places, x), np.insert(angles, places, y)

@@ -1,1 +1,0 @@
-"""Pictures of the power along a path: what each element takes."""

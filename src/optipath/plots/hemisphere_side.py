@@ -1,0 +1,318 @@
+"""One side of measured samples, and the quantities of their pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError, SurfaceError, listed, shown, unknown
+from optipath.paths.files.schema import Faults, joined
+from optipath.plots.color_scale import ColourScale
+from optipath.surfaces.hemisphere.beam import SIDES
+from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+from optipath.surfaces.hemisphere.sensor import PROJECTIONS
+from optipath.surfaces.walk.beam import given_state
+from optipath.values.units import displayed
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Sequence
+
+    import numpy.typing as npt
+
+    Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SeenSide:
+    """One side of a measured sample, at one wavelength, for light of one state."""
+
+    measured: Hemisphere
+    side: str
+    place: int | None
+    source: tuple[float, ...]
+
+    @classmethod
+    def of(
+        cls, measured: Any, side: Any, wavelength: Any, source: Any, *, every: bool = False
+    ) -> SeenSide:
+        """Return the side that pictures are asked for.
+
+        Shape: source (4,).
+        """
+        if not isinstance(measured, Hemisphere):
+            raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
+        faults = Faults()
+        faults.attempt("", measured.side, side)
+        place = None if every else faults.attempt("", _place, measured.wavelengths, wavelength)
+        state = faults.attempt("", given_state, "source", source)
+        if faults:
+            raise SurfaceError(*faults)
+        assert state is not None  # noqa: S101 - or a fault has been raised
+        return cls(measured, side, place, state)
+
+    def pixels(self, numbers: Numbers) -> Numbers:
+        """Return what is known of the pixels of this side, NaN beyond the horizon.
+
+        Shapes: numbers (sides, rows, columns, wavelengths, ...); returns (rows, columns, ...).
+        """
+        found = numbers[self.measured.side(self.side), :, :, self.place].copy()
+        found[self.measured.sensor.solid_angle == 0.0] = np.nan
+        return found
+
+    def radius(self, theta: float) -> float:
+        """Return how far from the centre of the disc light falls, 1 at the horizon.
+
+        Units: theta in radians.
+        """
+        projection = PROJECTIONS[self.measured.sensor.projection]
+        return float(projection.radius(np.sin(theta), np.cos(theta)))
+
+    @property
+    def mirrored(self) -> float:
+        """The angle to the normal of light that a smooth sample reflects or lets through, in rad.
+
+        NaN where all of it is totally reflected.
+        """
+        beam = self.measured.seen.beam
+        if self.side == "reflected":
+            return float(np.arctan2(beam.sin, beam.cos))
+        sin = beam.smooth_sine(SIDES[self.side])
+        return float(np.arcsin(sin)) if sin <= 1.0 else np.nan
+
+    @property
+    def colour(self) -> str:
+        """The wavelength, as titles have it; nothing where there is none, or they are several."""
+        if self.place is None or np.isnan(when := self.measured.wavelengths[self.place]):
+            return ""
+        return f"{when * 1e9:.5g} nm"
+
+    @property
+    def source_line(self) -> str:
+        """A last line of titles, which tells the light that comes in; nothing if unpolarised."""
+        if not any(self.source[1:]):
+            return ""
+        return "\nsource ({:g}, {:g}, {:g}, {:g})".format(*self.source)
+
+    def titled(self, what: str) -> str:
+        """Return the title of a picture of this side."""
+        seen, when = self.measured.seen, self.measured.wavelengths
+        parts = [what, self.side, f"incidence {degrees(np.arctan2(seen.beam.sin, seen.beam.cos))}"]
+        if self.colour:
+            parts.append(self.colour)
+        elif self.place is None and len(when) > 1:
+            parts.append(f"{len(when)} wavelengths")
+        parts += {None: [], 1: ["one event"]}.get(seen.events, [f"{seen.events} events"])
+        return ", ".join(parts) + self.source_line
+
+
+def degrees(angle: float) -> str:
+    """Return an angle in radians, as titles have it."""
+    return f"{np.degrees(angle):.4g}°"
+
+
+def _place(wavelengths: Numbers, wanted: Any) -> int:
+    """Return which of some wavelengths is wanted."""
+    if wanted is None and len(wavelengths) == 1:
+        return 0
+    if np.isnan(wavelengths).any():
+        raise SurfaceError("wavelength is given, but nothing depends on it; leave it out")
+    there = listed([displayed(each, "nm") for each in wavelengths])
+    if wanted is None:
+        raise SurfaceError(f"wavelength is missing; give one of {there}")
+    try:
+        when = np.asarray(Wavelength().resolve(wanted).value, float)
+    except OptipathError as fault:
+        raise SurfaceError(*fault.faults) from None
+    if when.size != 1:
+        raise SurfaceError(f"wavelength is {shown(wanted)}; give one of {there}")
+    near = np.isclose(wavelengths, when.item(), rtol=1e-9, atol=0.0)
+    if not near.any():
+        cure = f"give a wavelength of {there}"
+        if len(wavelengths) == 1:
+            cure += ", or leave it out"
+        raise SurfaceError(f"{displayed(when.item(), 'nm')} has not been measured; {cure}")
+    return int(np.argmax(near))
+
+
+def seen_sides(
+    several: Mapping[str, Any],
+    side: Any,
+    wavelength: Any,
+    source: Any,
+    *,
+    beside: Sequence[str] = (),
+) -> dict[str, SeenSide]:
+    """Return the sides that a picture of several samples is asked for.
+
+    The wavelength is for those that were measured at several; where none was, for those at one.
+    """
+    most = max(map(_choices, several.values()))
+    faults = Faults(beside)
+    found = {
+        name: faults.attempt(
+            name,
+            SeenSide.of,
+            each,
+            side,
+            wavelength if _choices(each) == most else None,
+            source,
+        )
+        for name, each in several.items()
+    }
+    if faults:
+        raise SurfaceError(*joined(faults))
+    return {name: seen for name, seen in found.items() if seen}
+
+
+def titled(what: str, several: Collection[SeenSide]) -> str:
+    """Return the title of a picture of several samples, of what is the same of all."""
+    first = next(iter(several))
+    parts = [what, first.side, "in the plane of incidence"]
+    colours = {each.colour for each in several} - {""}
+    parts += colours if len(colours) == 1 else []
+    return ", ".join(parts) + first.source_line
+
+
+def labels(several: Mapping[str, SeenSide]) -> dict[str, str]:
+    """Return what curves are called: their names, with wavelengths where these differ."""
+    differ = len({each.colour for each in several.values()} - {""}) > 1
+    return {
+        name: f"{name}, {seen.colour}" if differ and seen.colour else name
+        for name, seen in several.items()
+    }
+
+
+def _choices(measured: Any) -> int:
+    """Return whether something was measured at no wavelength, at one, or at several, 2."""
+    if not isinstance(measured, Hemisphere):
+        return 0
+    return min(int(np.isfinite(measured.wavelengths).sum()), 2)
+
+
+class KnownPixels(NamedTuple):
+    """What is known of the pixels of a side.
+
+    Shape: values, errors (rows, columns).
+    """
+
+    values: Numbers
+    errors: Numbers
+    unknown: str = "no light"
+
+    @property
+    def largest(self) -> float:
+        """The largest size among the values, 1 where all are 0 or NaN."""
+        return largest_of(self.values)
+
+
+class PixelQuantity(NamedTuple):
+    """What pictures show of each pixel of a hemisphere."""
+
+    variable: str
+    name: str
+    unit: str
+    of: Callable[[SeenSide, Mapping[str, Any]], KnownPixels]
+    scale: Callable[[float], ColourScale]
+    known_to: float = np.inf
+    masked: tuple[str, ...] = ()
+    over_wavelengths: bool = False
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether its colours are those of all values that it can have."""
+        return self.scale in (_share, _axis)
+
+    def faults_of(self, mask: Any) -> list[str]:
+        """Return sentences for what is no mask of it.
+
+        Examples
+        --------
+        >>> QUANTITIES[0].faults_of({"noise": None})
+        ['mask is given, but S0 has none; leave it out']
+        """
+        if not self.masked and (not isinstance(mask, Mapping | None) or mask):
+            return [f"mask is given, but {self.variable} has none; leave it out"]
+        if not isinstance(mask, Mapping | None):
+            return [f"mask is {shown(mask)}; give a mapping, such as {{'brighter_than': 0.5}}"]
+        return [fault for key in mask or {} for fault in unknown("mask", key, self.masked)]
+
+    @property
+    def label(self) -> str:
+        """What it is, with its unit."""
+        return f"{self.name} ({self.unit})" if self.unit else self.name
+
+    def known(
+        self, seen: SeenSide, known_to: float | None, mask: Mapping[str, Any] | None
+    ) -> KnownPixels:
+        """Return what is known of the pixels of a side."""
+        limit = self.known_to if known_to is None else known_to
+        found = self.of(seen, mask or {})
+        if np.isinf(limit):
+            return found
+        # An error that is not known is one of too little light.
+        values = np.where(found.errors <= limit, found.values, np.nan)
+        return found._replace(
+            values=values, unknown=f"{found.unknown}, or not known to {limit:g}{self.unit}"
+        )
+
+
+def _component(number: int, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
+    found, area = seen.measured.stokes(seen.source), seen.measured.sensor.solid_angle
+    value, error = (seen.pixels(each[..., number]) for each in (found.values, found.se.values))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return KnownPixels(value / area, error / area)
+
+
+def _state(name: str, unit: float, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
+    found = getattr(seen.measured, name)(seen.source)
+    return KnownPixels(unit * seen.pixels(found.values), unit * seen.pixels(found.se.values))
+
+
+def _effect(name: str, seen: SeenSide, mask: Mapping[str, Any]) -> KnownPixels:
+    found = getattr(seen.measured, name)(seen.side, **mask)
+    place = (..., seen.place) if "wavelength" in found.dims else ...
+    value, error = (100.0 * each.values[place] for each in (found, found.se))
+    return KnownPixels(value, error, f"masked; seen are pixels of {found.attrs['mask']}")
+
+
+def _share(_largest: float) -> ColourScale:
+    return ColourScale.share()
+
+
+def _axis(_largest: float) -> ColourScale:
+    return ColourScale.axis()
+
+
+_light, _signed = ColourScale.light, ColourScale.signed_light
+_dop, _dolp = partial(_state, "dop", 1.0), partial(_state, "dolp", 1.0)
+_aop = partial(_state, "aop", float(np.degrees(1.0)))
+_difference = partial(_effect, "relative_difference")
+_adm, _mdm = partial(_effect, "adm"), partial(_effect, "mdm")
+
+_MASK = "brighter_than", "noise", "known_to"
+_OVER_ALL: dict[str, Any] = {"masked": _MASK, "over_wavelengths": True}
+
+QUANTITIES = (
+    PixelQuantity("S0", "S0", "1/sr", partial(_component, 0), _light),
+    PixelQuantity("S1", "S1", "1/sr", partial(_component, 1), _signed),
+    PixelQuantity("S2", "S2", "1/sr", partial(_component, 2), _signed),
+    PixelQuantity("S3", "S3", "1/sr", partial(_component, 3), _signed),
+    PixelQuantity("DoP", "degree of polarisation", "", _dop, _share, 0.1),
+    PixelQuantity("DoLP", "degree of linear polarisation", "", _dolp, _share, 0.1),
+    PixelQuantity("AoP", "angle of polarisation", "°", _aop, _axis, 10.0),
+    PixelQuantity(
+        "difference", "S0 / U - 1", "%", _difference, ColourScale.signed, masked=_MASK[:1]
+    ),
+    PixelQuantity("ADM", "mean of |S0 - U| / U", "%", _adm, ColourScale.share, **_OVER_ALL),
+    PixelQuantity("MDM", "largest |S0 - U| / U", "%", _mdm, ColourScale.share, **_OVER_ALL),
+)
+
+
+def largest_of(values: Numbers) -> float:
+    """Return the largest size among values, 1 where all are 0 or NaN."""
+    return float(np.nanmax(np.abs(values), initial=0.0)) or 1.0

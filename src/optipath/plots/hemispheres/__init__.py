@@ -1,1 +1,0 @@
-"""Pictures of what rough samples send into all directions."""

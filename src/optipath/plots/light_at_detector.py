@@ -1,0 +1,247 @@
+"""The light at a detector over one or two parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, listed, shown, unknown
+from optipath.paths.path_graph import PathGraph
+from optipath.paths.usual_range import usual_range
+from optipath.sweeps.axes import read_values
+from optipath.sweeps.checked_axes import unnamed_arrays
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from optipath.plan.inputs import Inputs
+    from optipath.plots.light_quantities import DrawnQuantity
+    from optipath.values.parameters import Parameter
+
+    Numbers = npt.NDArray[np.float64]
+
+
+def varied(
+    path: PathGraph, names: Sequence[Any], fixed: Mapping[str, Any]
+) -> tuple[Parameter, ...]:
+    """Return the open parameters that go along axes, once all that is given for a path fits."""
+    if not isinstance(path, PathGraph):
+        raise OptipathError(f"a curve is of a path, not of {shown(path)}; give a PathGraph")
+    inputs = path.compose().inputs
+    faults: list[str] = []
+    for name in names:
+        known = isinstance(name, str) and name in {*inputs.open, *inputs.bound, *inputs.choices}
+        if not known:
+            faults += unknown("parameter", name, inputs.open)
+        elif name not in inputs.open:
+            faults.append(inputs.unknown(name))
+        elif name in fixed:
+            faults.append(f"parameter '{name}' goes along an axis; leave out {name}=...")
+    if len({*map(str, names)}) < len(names):
+        faults.append(f"both axes are '{names[0]}'; give two parameters")
+    for name, value in fixed.items():
+        if name not in inputs.open:
+            faults.append(inputs.unknown(name))
+        elif not isinstance(value, str) and np.ndim(value) > len(inputs.tails.get(name, ())):
+            faults.append(f"parameter '{name}' is {shown(value)}; a picture is of one value")
+    faults += unnamed_arrays(inputs, {*names, *fixed} & inputs.open.keys()) if not faults else []
+    if faults:
+        raise ParameterError(*faults)
+    return tuple(inputs.open[name] for name in names)
+
+
+def axis_of(
+    path: PathGraph, parameter: Parameter, values: Any, count: int
+) -> tuple[AlongAxis, npt.NDArray[Any]]:
+    """Return what goes along an axis: as it is drawn, and as a path takes it.
+
+    Shape: returns given (count,). Units: given in radians.
+    """
+    name, inputs = parameter.name, path.compose().inputs
+    if values is None:
+        given = np.linspace(*usual_range(path, name), count)
+        unit, numbers = parameter.unit, given * _size(parameter.unit)
+    else:
+        read = read_values(inputs, name, values)
+        _check_numbers(name, read.shown, read.given, read.unit)
+        given, unit, numbers = read.given, read.unit, np.asarray(read.shown, np.float64)
+        if unit != parameter.unit and unit in {"rad", "m", "1/m", "rad/m"}:
+            unit, numbers = parameter.unit, given * _size(parameter.unit)
+    default = _default(inputs, parameter, given, numbers)
+    return AlongAxis(name, unit, numbers, parameter.help, default), given
+
+
+def _size(unit: str) -> float:
+    """Return what one radian or metre is in a unit."""
+    return in_unit(1.0, unit)
+
+
+def _check_numbers(
+    name: str, numbers: npt.NDArray[Any], given: npt.NDArray[Any], unit: str
+) -> None:
+    if numbers.dtype.kind in "USO" or given.dtype.kind == "O":
+        words = [each for each in numbers.ravel().tolist() if str(each)[:1].isalpha()]
+        raise ParameterError(
+            f"parameter '{name}' has the word {shown(words[0] if words else 'none')} among its "
+            f"values, and an axis is of numbers; give it by itself, {name}=..., in a picture of "
+            f"another parameter"
+        )
+    if numbers.dtype.kind == "c":
+        raise ParameterError(
+            f"parameter '{name}' is complex, and an axis is of real numbers; let n and k be "
+            f"parameters of their own, as op.Material(op.Parameter('n'), op.Parameter('k'))"
+        )
+    if (different := np.unique(numbers)).size < 2:
+        one = f"{different[0]:.15g} {unit}".rstrip() if different.size else "none"
+        raise ParameterError(
+            f"values of '{name}' are {one} alone; give two or more, such as '0 deg:90 deg:91', or "
+            f"leave them out"
+        )
+
+
+def _default(inputs: Inputs, parameter: Parameter, given: Any, numbers: Numbers) -> float | None:
+    """Return where the value by default lies among those that are drawn."""
+    default = parameter.default
+    if default is None or isinstance(default, str):
+        return None
+    value = inputs.open[parameter.name].resolve(default).value
+    if np.ndim(value) or np.iscomplexobj(value):
+        return None
+    if not np.min(given) <= value <= np.max(given):
+        return None
+    order = np.argsort(given)
+    return float(np.interp(float(value), given[order], numbers[order]))
+
+
+def quantities_at(
+    path: PathGraph,
+    detector: Any,
+    quantities: Sequence[DrawnQuantity],
+    given: Mapping[str, npt.NDArray[Any]],
+    fixed: Mapping[str, Any],
+    *,
+    chosen: bool,
+) -> tuple[str, list[Numbers]]:
+    """Return quantities of the light at a detector, as they are drawn.
+
+    Shape: given (count,).
+    """
+    end = _end(path, detector)
+    shape = tuple(map(len, given.values()))
+    spread = dict(zip(given, np.ix_(*given.values()), strict=True))
+    try:
+        light = path.trace_all(**spread, **fixed)[end]
+        return end, [np.broadcast_to(q.of(q.light.of(light)), shape) for q in quantities]
+    except ParameterError:
+        if not chosen:
+            raise
+        found = np.full((len(quantities), *shape), np.nan)
+        _fill(found, path, end, quantities, given, fixed)
+        if np.isnan(found).all():
+            raise
+    return end, [*found]
+
+
+def _fill(
+    found: Numbers,
+    path: PathGraph,
+    end: str,
+    quantities: Sequence[DrawnQuantity],
+    given: Mapping[str, npt.NDArray[Any]],
+    fixed: Mapping[str, Any],
+) -> None:
+    """Fill in quantities; halves, and halves of these, where the path refuses some values."""
+    try:
+        spread = dict(zip(given, np.ix_(*given.values()), strict=True))
+        light = path.trace_all(**spread, **fixed)[end]
+    except ParameterError:
+        count, axis = max((count, axis) for axis, count in enumerate(found.shape[1:]))
+        if count == 1:
+            return
+        name = [*given][axis]
+        parts = np.array_split(found, 2, axis + 1)
+        for part, values in zip(parts, np.array_split(given[name], 2), strict=True):
+            _fill(part, path, end, quantities, {**given, name: values}, fixed)
+    else:
+        for place, quantity in enumerate(quantities):
+            found[place] = quantity.of(quantity.light.of(light))
+
+
+def reads_of(path: PathGraph, end: str) -> str:
+    """Return what an end of a path reads.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> reads_of(op.Source() >> op.Detector(reads="linear"), "detector")
+    'linear'
+    """
+    return str(path.graph.nodes[end]["element"].reads)
+
+
+def _end(path: PathGraph, detector: Any) -> str:
+    """Return the detector that is meant."""
+    ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]
+    if detector is not None:
+        if faults := unknown("detector", detector, ends):
+            raise ParameterError(*faults)
+        return str(detector)
+    detectors = [*path.compose().program.detectors]
+    if len(detectors) > 1:
+        raise ParameterError(
+            f"the path has the detectors {listed(detectors)}; say which, by "
+            f"detector='{detectors[0]}'"
+        )
+    return detectors[0]
+
+
+_SIGNS = {"deg": "°", "um": "µm"}
+_LONGEST = 60
+
+
+class AlongAxis(NamedTuple):
+    """What goes along an axis.
+
+    Shape: numbers (count,).
+    """
+
+    name: str
+    unit: str
+    numbers: npt.NDArray[np.float64]
+    help: str = ""
+    default: float | None = None
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """What it is called, the longest wording first.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> AlongAxis("theta", "deg", np.zeros(2), "angle of incidence, inside").labels
+        ('theta: angle of incidence, inside (°)', 'theta: angle of incidence (°)', 'theta (°)')
+        """
+        unit = "" if self.unit in {"", "1"} else f" ({_SIGNS.get(self.unit, self.unit)})"
+        whats = [self.help, self.help.partition(";")[0], self.help.partition(",")[0]]
+        kept = [what for what in dict.fromkeys(whats) if 0 < len(what) <= _LONGEST]
+        said = [what if what.startswith(self.name) else f"{self.name}: {what}" for what in kept]
+        return (*(f"{each}{unit}" for each in said), f"{self.name}{unit}")
+
+    @property
+    def default_text(self) -> str:
+        """The value by default with its unit, to four digits; empty where there is none.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> AlongAxis("theta", "deg", np.zeros(2), default=56.30993).default_text
+        '56.31°'
+        """
+        if self.default is None:
+            return ""
+        sign = _SIGNS.get(self.unit, self.unit)
+        return f"{self.default:.4g}{'' if sign == '°' else ' '}{sign}".rstrip()

@@ -1,0 +1,161 @@
+"""Quantities of light in pictures: degrees, limits and labels."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
+
+import numpy as np
+
+from optipath.errors import OptipathError, SurfaceError, shown, unknown
+from optipath.plots.color_scale import ColourScale
+from optipath.sweeps.labels import FAINT, QUANTITIES, LightQuantity
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+
+_ALL = (*QUANTITIES, FAINT)
+
+_LIMITS = {
+    "DoP": (0.0, 1.0),
+    "DoLP": (0.0, 1.0),
+    "ellipticity": (-1.0, 1.0),
+    "AoP": (-90.0, 90.0),
+    "psi": (0.0, 90.0),
+    "delta": (-180.0, 180.0),
+}
+"""Of quantities that have ends; angles in degrees."""
+
+_PERIODS = {"AoP": 180.0, "delta": 360.0}
+"""Of angles whose ends are one."""
+
+
+_READ = {"intensity": {"S0", "log10_intensity"}}
+_READ["linear"] = {*_READ["intensity"], "S1", "S2", "DoLP", "AoP"}
+"""What there is of light of which a detector does not read all."""
+
+
+class DrawnQuantity(NamedTuple):
+    """A quantity of light as it is drawn."""
+
+    light: LightQuantity
+
+    @property
+    def name(self) -> str:
+        """What it is called, such as ``"DoLP"``."""
+        return self.light.variable
+
+    @property
+    def unit(self) -> str:
+        """The unit in which it is drawn; quantities of one share an axis."""
+        if self.light is FAINT:
+            return "log10"
+        return {"rad": "°"}.get(self.light.unit, self.light.unit)
+
+    @property
+    def label(self) -> str:
+        """Its name, what it is, and its unit."""
+        what = self.light.name.partition(",")[0]
+        return f"{self.name}: {what}{' (°)' if self.unit == '°' else ''}"
+
+    @property
+    def short(self) -> str:
+        """Its name and its unit."""
+        return f"{self.name} (°)" if self.unit == "°" else self.name
+
+    @property
+    def limits(self) -> tuple[float, float] | None:
+        """Its ends, where it has some."""
+        return _LIMITS.get(self.name)
+
+    @property
+    def period(self) -> float | None:
+        """After how many degrees an angle is the same again."""
+        return _PERIODS.get(self.name)
+
+    def is_read(self, reads: str) -> bool:
+        """Return whether a detector reads enough, ``"stokes"``, ``"linear"`` or ``"intensity"``."""
+        return self.name in _READ.get(reads, {self.name})
+
+    def of(self, numbers: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return numbers of the light, in radians where they are angles, as they are drawn."""
+        plain = np.asarray(numbers, np.float64)
+        return np.degrees(plain) if self.unit == "°" else plain
+
+    def colours(self, numbers: npt.NDArray[np.float64]) -> ColourScale:
+        """Return the colours of some numbers: in order, apart from 0, or round in a circle."""
+        if self.period:
+            return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()
+        low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, np.nan)
+        if self.light is FAINT:
+            return ColourScale.between(*_ends(numbers))
+        largest = high if np.isfinite(high) else max(np.abs(_ends(numbers)))
+        return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
+
+
+def _ends(numbers: npt.NDArray[np.float64]) -> tuple[float, float]:
+    """Return the least and the largest number that is finite, apart."""
+    finite = numbers[np.isfinite(numbers)]
+    if not finite.size or not finite.any():
+        return 0.0, 1.0
+    low, high = float(finite.min()), float(finite.max())
+    return (low, high) if low < high else (low - abs(low) / 2, high + abs(high) / 2)
+
+
+def drawn_quantities(names: Any) -> list[DrawnQuantity]:
+    """Return the quantities of some names, which may be written in small letters.
+
+    Examples
+    --------
+    >>> [each.label for each in drawn_quantities(("s0", "AoP"))]
+    ['S0: intensity', 'AoP: angle of polarisation (°)']
+    """
+    given = [names] if isinstance(names, str) else names
+    if not isinstance(given, (list, tuple)) or not given:
+        raise OptipathError(
+            f"quantities are {shown(names)}; give a name such as 'S0', or several: ('S0', 'DoLP')"
+        )
+    known = {each.variable: each for each in _ALL}
+    small = {name.lower(): name for name in known}
+    read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in given]
+    faults = [sentence for name in read for sentence in unknown("quantity", name, known)]
+    if not faults and len({*read}) < len(read):
+        faults = [f"quantities are {shown([*given])}; give each of them once"]
+    if faults:
+        raise OptipathError(*faults)
+    return [DrawnQuantity(known[name]) for name in read]
+
+
+def drawn_quantity(name: Any) -> DrawnQuantity:
+    """Return the quantity of one name."""
+    if not isinstance(name, str):
+        raise OptipathError(f"quantity is {shown(name)}; give one name, such as 'S0'")
+    return drawn_quantities(name)[0]
+
+
+class Named(Protocol):
+    """A quantity."""
+
+    @property
+    def variable(self) -> str:
+        """What it is called."""
+
+
+Quantity = TypeVar("Quantity", bound=Named)
+
+
+def named_quantity(name: Any, quantities: Sequence[Quantity]) -> Quantity:
+    """Return the quantity of a name.
+
+    Examples
+    --------
+    >>> from optipath.plots.hemisphere_side import QUANTITIES
+    >>> named_quantity("AoP", QUANTITIES).label
+    'angle of polarisation (°)'
+    """
+    names = [each.variable for each in quantities]
+    if faults := unknown("quantity", name, names):
+        raise SurfaceError(*faults)
+    return quantities[names.index(name)]

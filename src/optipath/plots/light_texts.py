@@ -1,0 +1,235 @@
+"""The lights of a picture: names, states in words, points of ellipses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed, shown
+from optipath.light.light import Light
+from optipath.plots.colors import LINES
+from optipath.values.jax_values import check_known
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+
+MOST = len(LINES)
+"""How many lights are told apart beside one another."""
+
+
+def known_light(light: Any) -> Light:
+    """Return what is a light, with numbers that are known.
+
+    Examples
+    --------
+    >>> known_light(Light([1.0, 0.0, 0.0, 1.0])).shape
+    ()
+    """
+    if not isinstance(light, Light):
+        raise OptipathError(
+            f"{shown(light)} is no light; give a Light, as path.trace() returns it or "
+            "op.Light([S0, S1, S2, S3]) makes it"
+        )
+    check_known("a picture of light", light.mantissa)
+    return light
+
+
+def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
+    """Return one or several lights by their names.
+
+    Shape: light (n,).
+
+    Examples
+    --------
+    >>> [*lights_to_draw(Light([[1.0, 0.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]]))]
+    ['light[0]', 'light[1]']
+    """
+    if isinstance(light, Mapping):
+        several = _by_name(light, labels)
+    elif known_light(light).shape == ():
+        several = {_names(labels, 1, [""])[0]: light}
+    elif light.ndim > 1:
+        raise OptipathError(
+            f"light of shape {light.shape} is more than a row; give one row of it, "
+            f"light[{', '.join('0' for _ in light.shape[1:])}], or light.reshape(n)"
+        )
+    else:
+        _check_count(light.size, "light[:6], or every so many, light[::step]")
+        names = _names(labels, light.size, [f"light[{place}]" for place in range(light.size)])
+        several = dict(zip(names, light, strict=True))
+    return several
+
+
+def _by_name(light: Mapping[Any, Any], labels: Any) -> dict[str, Light]:
+    _check_count(len(light), "a mapping of fewer")
+    faults = [] if labels is None else ["labels are for a batch; a mapping has names already"]
+    several = {str(name): known_light(each) for name, each in light.items()}
+    faults += [
+        f"light {shown(name)} is a batch of shape {each.shape}; give one of it by its index"
+        for name, each in several.items()
+        if each.shape
+    ]
+    if faults:
+        raise OptipathError(*faults)
+    return several
+
+
+def _check_count(count: int, cure: str) -> None:
+    if count == 0:
+        raise OptipathError("there is no light to draw; give one at least")
+    if count > MOST:
+        raise OptipathError(
+            f"{count} lights are too many to tell apart in one picture, which has {MOST} at most; "
+            f"give {cure}"
+        )
+
+
+def _names(labels: Any, count: int, otherwise: list[str]) -> list[str]:
+    """Return the names that are given, or others."""
+    if labels is None:
+        return otherwise
+    if isinstance(labels, str):
+        given = [labels]
+    elif isinstance(labels, Sequence) and all(isinstance(each, str) for each in labels):
+        given = list(labels)
+    else:
+        raise OptipathError(f"labels are {shown(labels)}; give a text for each light")
+    if len(given) != count:
+        raise OptipathError(f"there are {len(given)} labels for {count} lights; give one for each")
+    if len({*given}) < count:
+        raise OptipathError(f"labels {shown(given)} name two lights alike; give each its own")
+    return given
+
+
+_MINUS = "\N{MINUS SIGN}"
+
+
+def digits(value: float, count: int = 4) -> str:
+    """Return a number as a picture shows it.
+
+    Examples
+    --------
+    >>> digits(0.25), digits(2e200), digits(0.1 + 0.2), digits(-0.0)
+    ('0.25', '2e200', '0.3', '0')
+    """
+    text = f"{value + 0.0:.{count}g}"
+    mantissa, mark, power = text.partition("e")
+    return (mantissa + (f"e{int(power)}" if mark else "")).replace("-", _MINUS)
+
+
+def intensity_text(light: Light) -> str:
+    """Return the intensity of one light, however faint.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> intensity_text(op.Light([0.5, 0.0, 0.0, 0.0]))
+    'S0 = 0.5'
+    >>> intensity_text(op.Light([1.0, 0.0, 0.0, 0.0], exponent=33219281))
+    'S0 = 10^1e7'
+    """
+    plain, power = float(light.intensity), float(light.log10_intensity)
+    # An exponent says that a float is no measure of it.
+    if light.exponent and np.isfinite(power):
+        return f"S0 = 10^{digits(power, 7)}"
+    return f"S0 = {digits(plain)}" if not np.isnan(plain) else "S0 is not read"
+
+
+def no_ellipse(light: Light) -> str:
+    """Return why one light has no ellipse; nothing where it has one.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> no_ellipse(op.Light([1.0, 0.0, 0.0, 0.0])), no_ellipse(op.Light([0.0, 0.0, 0.0, 0.0]))
+    ('unpolarised', 'dark')
+    >>> no_ellipse(op.Light([1.0, np.nan, np.nan, np.nan]))
+    'S1, S2 and S3 are not read'
+    """
+    numbers = np.asarray(light.mantissa, float)
+    if unread := [f"S{place}" for place in range(4) if np.isnan(numbers[place])]:
+        return f"{listed(unread)} {'is' if len(unread) == 1 else 'are'} not read"
+    if not np.isfinite(numbers).all():
+        return "not finite"
+    if numbers[0] < 0.0:
+        return "no light: S0 is negative"
+    if np.isnan(light.dop):
+        return "dark" if numbers[0] == 0.0 else "dark: S0 is no more than rounding"
+    return "unpolarised" if np.isnan(light.ellipticity_angle) else ""
+
+
+def state_text(light: Light) -> str:
+    """Return the state of polarisation of one light, its hand as `Light.handedness` has it.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> state_text(op.Light([1.0, 0.0, 0.6, 0.8])), state_text(op.Light([1.0, 0.0, 0.0, -1.0]))
+    ('right-handed elliptical', 'left-handed circular')
+    >>> state_text(op.Light([1.0, 0.5, 0.0, 0.0])), state_text(op.Light([1.0, 0.0, 0.0, 0.0]))
+    ('linear', 'unpolarised')
+    """
+    if why := no_ellipse(light):
+        return why
+    if not light.handedness:
+        return "linear"
+    hand = "right" if light.handedness > 0 else "left"
+    return f"{hand}-handed {'circular' if np.isnan(light.aop) else 'elliptical'}"
+
+
+def figures_text(light: Light) -> str:
+    """Return the figures that one light has: intensity, DoP, AoP and the ratio of its axes.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> figures_text(op.Light([2.0, 0.0, 0.6, 0.8]))
+    'S0 = 2, DoP = 0.5, AoP = 45°, b/a = 0.5'
+    """
+    told = [intensity_text(light)]
+    if not np.isnan(light.dop):
+        told.append(f"DoP = {digits(float(light.dop))}")
+    if not np.isnan(light.aop):
+        told.append(f"AoP = {angle_text(light)}")
+    if light.handedness and not no_ellipse(light):
+        told.append(f"b/a = {digits(abs(float(light.ellipticity)), 3)}")
+    return ", ".join(told)
+
+
+def angle_text(light: Light) -> str:
+    """Return the angle of polarisation of one light in degrees.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> angle_text(op.Light([1.0, 0.0, 1.0, 0.0]))
+    '45°'
+    """
+    return f"{digits(np.degrees(float(light.aop)))}°"
+
+
+def ellipse_points(light: Light, count: int = 73) -> npt.NDArray[np.float64]:
+    """Return points of the ellipse of the polarised part of light, in the order of time.
+
+    Shapes: light (...); returns (..., count, 2).
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> ellipse_points(op.Light([1.0, 0.0, 0.0, 1.0]), 5).round(4) + 0.0
+    array([[ 0.7071,  0.    ],
+           [ 0.    ,  0.7071],
+           [-0.7071,  0.    ],
+           [ 0.    , -0.7071],
+           [ 0.7071,  0.    ]])
+    """
+    time = np.linspace(0.0, 2.0 * np.pi, count)
+    open_angle = np.asarray(light.ellipticity_angle, float)[..., np.newaxis]
+    # Circular light has no axis; any will do.
+    angle = np.nan_to_num(np.asarray(light.aop, float))[..., np.newaxis]
+    along, across = np.cos(open_angle) * np.cos(time), np.sin(open_angle) * np.sin(time)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.stack([along * cosine - across * sine, along * sine + across * cosine], axis=-1)

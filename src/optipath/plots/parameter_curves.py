@@ -1,0 +1,294 @@
+"""Curves and maps of the light of a path over its parameters."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+
+from optipath.errors import ParameterError
+from optipath.plots.axes import fitting_text, label_axes, own_axes
+from optipath.plots.colors import INK
+from optipath.plots.drawn_curves import draw_curves, tell_missing, units_of
+from optipath.plots.fine_steps import START, fine_steps
+from optipath.plots.light_at_detector import axis_of, quantities_at, reads_of, varied
+from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
+from optipath.plots.text import head
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plots.light_at_detector import AlongAxis
+    from optipath.plots.light_quantities import DrawnQuantity
+
+    Numbers = npt.NDArray[np.float64]
+
+
+_SIZE = 6.4, 4.2
+
+_DARK = 1e-9
+"""Which share of the intensity is next to nothing."""
+
+
+def curve(
+    path: PathGraph,
+    x: str,
+    y: str | Sequence[str] = ("S0",),
+    ax: Axes | None = None,
+    *,
+    values: Any = None,
+    detector: str | None = None,
+    **parameters: Any,
+) -> Axes:
+    """Draw quantities of the light at a detector against one parameter.
+
+    Quantities of one unit share an axis, those of a second one have the axis on the right. Curves
+    are open where light does not have a quantity, as the angle of unpolarised light, and where an
+    angle goes out at one end and comes in at the other. A thin line marks the value by default.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    x : str
+        The parameter that goes along x, in its unit.
+    y : str or sequence of str, optional
+        What goes up, in capitals or not: ``"S0"`` to ``"S3"``, ``"DoP"``, ``"DoLP"``, ``"AoP"``,
+        ``"ellipticity"``, ``"psi"``, ``"delta"``, ``"log10_intensity"``.
+    ax : Axes, optional
+        Where; a figure of its own by default, ``.figure`` of what is returned.
+    values : array_like or str, optional
+        Those of `x`, as a sweep takes them: ``"0 deg:90 deg:91"``, texts with units, or numbers in
+        radians and metres. By default 721 over its usual range, up to 23041 where it changes
+        fast, and a title where that does not do; the curve is open where the path does not take
+        them.
+    detector : str, optional
+        A detector or a dump; needed only where there are several detectors.
+    **parameters : float or str
+        The other values, as in `PathGraph.trace`, one each.
+
+    Returns
+    -------
+    Axes
+        That on the left.
+
+    Raises
+    ------
+    OptipathError
+        With what is wrong with names, values and units.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> ax = curve(op.load_preset("malus"), "angle", values="0 deg:90 deg:91")
+    >>> ax.get_xlabel(), ax.get_ylabel()
+    ('angle: turn of the analyser against the polariser (°)', 'S0: intensity')
+    """
+    quantities = drawn_quantities(y)
+    units_of(quantities)
+    (parameter,) = varied(path, [x], parameters)
+    along, given = axis_of(path, parameter, values, START)
+    told, chosen = "", values is None
+    asked = [*quantities, *drawn_quantities("S0")]
+    end, found = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
+    numbers = found[:-1]
+    if chosen:
+        at = partial(_at, path, detector, x, parameters, quantities)
+        fine = fine_steps(given, np.stack(numbers, axis=1), at, _on_picture(quantities, found))
+        told, numbers = fine.told(x), [*fine.numbers.T]
+        along = along._replace(numbers=np.interp(fine.values, given, along.numbers))
+    ax = own_axes(ax, _SIZE)
+    if told:
+        head(ax, told)
+    drawn = [*zip(quantities, numbers, strict=True)]
+    draw_curves(ax, along, drawn, reads=reads_of(path, end))
+    return ax
+
+
+def _at(
+    path: PathGraph,
+    detector: str | None,
+    x: str,
+    parameters: dict[str, Any],
+    quantities: Sequence[DrawnQuantity],
+    values: Numbers,
+) -> Numbers:
+    """Return quantities at values of x, NaN where the path takes none of these."""
+    try:
+        given = {x: values}
+        found = quantities_at(path, detector, quantities, given, parameters, chosen=True)[1]
+    except ParameterError:
+        return np.full((len(values), len(quantities)), np.nan)
+    return np.stack(found, axis=1)
+
+
+def _on_picture(
+    quantities: Sequence[DrawnQuantity], first: Sequence[Numbers]
+) -> Callable[[Numbers], Numbers]:
+    """Return what makes of quantities where they are on a picture, by the first, S0 behind them."""
+    *shown, power = first
+    dark = _DARK * float(np.max(power, where=np.isfinite(power), initial=0.0))
+    heights = [_height(each, its, dark) for each, its in zip(quantities, shown, strict=True)]
+
+    def on_picture(numbers: Numbers) -> Numbers:
+        each = zip(quantities, numbers.T, heights, strict=True)
+        return np.concatenate([_place(*one) for one in each], axis=1)
+
+    return on_picture
+
+
+def _height(quantity: DrawnQuantity, numbers: Numbers, dark: float) -> float:
+    """Return how high the axis of a quantity is, in its unit."""
+    if quantity.limits:
+        return quantity.limits[1] - quantity.limits[0]
+    finite = np.append(numbers[np.isfinite(numbers)], 0.0)
+    least = dark if quantity.name.startswith("S") else 0.0
+    return max(float(np.ptp(finite)), least) or 1.0
+
+
+def _place(quantity: DrawnQuantity, numbers: Numbers, height: float) -> Numbers:
+    """Return numbers over the height of their axis; of an angle that comes round, where it is."""
+    if quantity.period is None:
+        return numbers[:, np.newaxis] / height
+    turn = 2.0 * np.pi / quantity.period * numbers
+    return np.stack([np.cos(turn), np.sin(turn)], axis=1)
+
+
+_MAP_SIZE = 6.4, 4.8
+_COUNT = 121
+
+
+def quantity_map(
+    path: PathGraph,
+    x: str,
+    y: str,
+    quantity: str = "S0",
+    ax: Axes | None = None,
+    *,
+    x_values: Any = None,
+    y_values: Any = None,
+    detector: str | None = None,
+    **parameters: Any,
+) -> Axes:
+    """Draw a quantity of the light at a detector in colours, over two parameters.
+
+    Colours of S0 and of degrees of polarisation are in order from 0, those of S1 to S3 and of the
+    ellipticity go apart from white at 0, and those of angles come round. Places at which light
+    does not have the quantity are grey; a cross marks the values by default.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    x, y : str
+        The parameters along the axes, each in its unit.
+    quantity : str, optional
+        What the colours show; the names are those of `curve`.
+    ax : Axes, optional
+        Where; a figure of its own by default, ``.figure`` of what is returned.
+    x_values, y_values : array_like or str, optional
+        As `curve` takes values; by default 121 each over the usual range, and the map is grey
+        where the path does not take them.
+    detector : str, optional
+        A detector or a dump; needed only where there are several detectors.
+    **parameters : float or str
+        The other values, as in `PathGraph.trace`, one each.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    OptipathError
+        With what is wrong with names and values.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> path = op.load_preset("malus")
+    >>> ax = quantity_map(path, "angle", "intensity", y_values=[0.0, 1.0, 2.0])
+    >>> ax.get_title()
+    '+ by default: angle 30°, intensity 1'
+    """
+    drawn = drawn_quantity(quantity)
+    one, other = varied(path, [x, y], parameters)
+    along, first = axis_of(path, one, x_values, _COUNT)
+    up, second = axis_of(path, other, y_values, _COUNT)
+    given = {x: first, y: second}
+    chosen = x_values is None and y_values is None
+    end, (numbers,) = quantities_at(path, detector, [drawn], given, parameters, chosen=chosen)
+    ax = own_axes(ax, _MAP_SIZE)
+    draw_map(ax, along, up, drawn, numbers, reads=reads_of(path, end))
+    return ax
+
+
+_NONE = "#9c9c9c"
+"""Of places where light does not have the quantity; no colour of a scale."""
+
+
+def draw_map(
+    ax: Axes,
+    along: AlongAxis,
+    up: AlongAxis,
+    quantity: DrawnQuantity,
+    numbers: npt.NDArray[np.float64],
+    *,
+    reads: str = "stokes",
+) -> None:
+    """Draw a map, its colour bar, and a cross where both values are those by default.
+
+    Shape: numbers (along, up).
+    """
+    columns, rows = np.argsort(along.numbers), np.argsort(up.numbers)
+    sorted_numbers = numbers[np.ix_(columns, rows)].T
+    scale = quantity.colours(numbers)
+    colours = mpl.colormaps[scale.colours].with_extremes(bad=_NONE)
+    x, y = along.numbers[columns], up.numbers[rows]
+    image: Any = ax.pcolormesh(
+        x,
+        y,
+        np.ma.masked_invalid(sorted_numbers),
+        cmap=colours,
+        norm=scale.norm,
+        shading="nearest",
+        rasterized=True,
+    )
+    # The outer cells reach beyond the values, where there may be none.
+    ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+    bar = scale.bar(image, ax, "")
+    label_axes(ax, along.labels, up.labels)
+    room = bar.ax.get_window_extent().height
+    texts = [quantity.label, quantity.short]
+    if np.isnan(numbers).any():
+        texts = [f"{text} (grey: none)" for text in texts] + texts[1:]
+    fitting_text(bar.ax.yaxis.label, texts, room)
+    tell_missing(ax, [(quantity, numbers)], reads)
+    _mark_default(ax, along, up)
+
+
+def _mark_default(ax: Axes, along: AlongAxis, up: AlongAxis) -> None:
+    """Mark where both parameters have the values by default, and say which above."""
+    if along.default is None or up.default is None:
+        return
+    for colour, width in (("white", 3.0), (INK, 1.2)):
+        ax.plot(
+            along.default,
+            up.default,
+            marker="+",
+            markersize=9,
+            markeredgewidth=width,
+            color=colour,
+            clip_on=False,
+            linestyle="none",
+        )
+    told = [f"{each.name} {each.default_text}" for each in (along, up)]
+    title = ax.set_title("", fontsize="small", color=INK)
+    wordings = [f"+ by default: {', '.join(told)}", f"+ {', '.join(told)}", "+ by default"]
+    fitting_text(title, wordings, ax.get_window_extent().width * 1.1)

@@ -1,0 +1,480 @@
+"""Light on the Poincaré sphere: states, and trails of batches."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+from matplotlib.transforms import Bbox
+from mpl_toolkits.mplot3d import Axes3D, proj3d
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+
+from optipath.errors import OptipathError, shown
+from optipath.plots.axes import own_lines
+from optipath.plots.color_scale import ColourScale
+from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.fine_steps import START, fine_steps
+from optipath.plots.light_at_detector import axis_of, varied
+from optipath.plots.light_texts import figures_text, known_light, state_text
+from optipath.plots.text import head, key_below
+from optipath.values.arrays import array_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+
+
+_MOST = 25_000
+"""How many points a trail may have."""
+
+_FEW = 12
+"""Of how many each is numbered."""
+
+
+def poincare(
+    light: Light,
+    ax: Axes3D | None = None,
+    *,
+    by: npt.ArrayLike | None = None,
+    label: str = "",
+) -> Axes3D:
+    """Draw light as a point of the Poincaré sphere, or a batch as a trail.
+
+    The axes are S1, S2 and S3 over S0: H, D, V and A (0, 45, 90 and -45 deg) are on the equator,
+    R (S3 > 0, `Light.handedness` 1) is above and L below. Light that is partly polarised is within
+    the sphere, as far from its centre as its DoP; what is hollow, or faint, is on the far half.
+    Neighbours in a batch are joined by straight lines.
+
+    Parameters
+    ----------
+    light : Light
+        One, or a batch of shape (n,) in its order, of 25000 at most.
+    ax : Axes3D, optional
+        Where, of three dimensions; a figure of its own by default. What another picture of this
+        kind has drawn there stays.
+    by : array_like, shape (n,), optional
+        Numbers that colour the trail, in the unit that `label` says; in an order from dark to
+        light, and not round in a circle.
+    label : str, optional
+        Of the colour bar: ``"delta (deg)"``; needed with `by`.
+
+    Returns
+    -------
+    Axes3D
+
+    Raises
+    ------
+    OptipathError
+        If the axes are flat, the light is no row, or `by` does not fit.
+    ParameterError
+        If JAX traces the light.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> ax = poincare(op.Light([2.0, 0.0, 0.6, 0.8]))
+    >>> print(ax.get_title())
+    right-handed elliptical
+    S0 = 2, DoP = 0.5, AoP = 45°, b/a = 0.5
+    """
+    light = known_light(light)
+    if light.ndim > 1 or not 0 < light.size <= _MOST:
+        raise OptipathError(
+            f"light of shape {light.shape} is no trail; give one, or 1 to {_MOST} in a row, "
+            "as light[0] or light[::10] picks them"
+        )
+    values = None if by is None else _values(by, light)
+    if (values is None) != (label == ""):
+        raise OptipathError(
+            "by and label belong together: give both, as by=angles, label='delta (deg)', or none"
+        )
+    ax = sphere_axes(ax, (5.4, 5.6) if values is None else (6.4, 5.6))
+    points = np.atleast_2d(sphere_point(light))
+    colours, middles = _coloured(ax, values, label, len(points))
+    draw_steps(ax, points[:-1], points[1:], middles, linewidths=1.4)
+    there = np.asarray(np.isfinite(points).all(axis=1))
+    size = 5.5 if len(points) <= _FEW else 3.5
+    draw_points(ax, points[there], colours[there], size)
+    _head(ax, light, there)
+    key_below(ax, side_keys(points[there]))
+    if values is None and light.ndim:
+        _name_ends(ax, points, there)
+    return ax
+
+
+def _values(by: Any, light: Light) -> npt.NDArray[np.float64]:
+    values = array_of("by", by, OptipathError)
+    if not light.ndim:
+        raise OptipathError("by colours a trail, and one light has none; leave it out")
+    if values.dtype.kind not in "iuf" or values.shape != light.shape:
+        raise OptipathError(
+            f"by is {shown(by)}; give a number for each of the {light.size} lights, "
+            "in the unit that label says"
+        )
+    if not np.isfinite(values).all():
+        place = int(np.flatnonzero(~np.isfinite(values))[0])
+        raise OptipathError(f"by[{place}] is {values[place]}; give finite numbers")
+    return values.astype(float)
+
+
+def _coloured(
+    ax: Axes3D, values: npt.NDArray[np.float64] | None, label: str, count: int
+) -> tuple[Any, Any]:
+    """Return the colours of points and of the lines between them, and draw their bar."""
+    if values is None:
+        colours = np.tile(to_rgba(LINES[0]), (count, 1))
+        return colours, colours[1:]
+    scale = ColourScale.ordered(float(values.min()), float(values.max()))
+    figure: Any = ax.figure
+    figure.colorbar(ScalarMappable(scale.norm, scale.colours), ax=ax, label=label, shrink=0.7)
+    colour_of = colormaps[scale.colours]
+    middles = 0.5 * (values[1:] + values[:-1])
+    return colour_of(scale.norm(values)), colour_of(scale.norm(middles))
+
+
+def _head(ax: Axes3D, light: Light, there: npt.NDArray[np.bool_]) -> None:
+    if not light.ndim:
+        head(ax, f"{state_text(light)}\n{figures_text(light)}")
+    elif not there.all():
+        missing = np.count_nonzero(~there)
+        head(ax, f"{missing} of {light.size} have no point: dark, or not read")
+
+
+def _name_ends(ax: Axes3D, points: npt.NDArray[np.float64], there: npt.NDArray[np.bool_]) -> None:
+    """Write numbers beside the points of a short trail, words beside the ends of a long one."""
+    places = np.flatnonzero(there)
+    if not len(places):
+        return
+    names = [str(place) for place in places]
+    if len(places) > _FEW:
+        places, names = places[[0, -1]], ["first", "last"]
+    name_points(ax, on_paper(ax, points[places]), names)
+
+
+def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = None) -> Axes3D:
+    """Draw the light at a detector on the Poincaré sphere, coloured by a parameter.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> ax = parameter_trail(op.load_preset("malus"), "angle", "eye", "0 deg:90 deg:7")
+    >>> [each.get_ylabel() for each in ax.figure.axes if each is not ax]
+    ['angle (°)']
+    """
+    (parameter,) = varied(path, [name], {})
+    along, given = axis_of(path, parameter, values, START)
+
+    def light_at(values: npt.NDArray[np.float64]) -> Light:
+        return path.trace_all(**{name: values})[detector]
+
+    def points_at(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        return sphere_point(light_at(values))
+
+    told, numbers = "", along.numbers
+    if values is None:
+        fine = fine_steps(given, points_at(given), points_at, on_picture=np.asarray)
+        told, numbers = fine.told(name), np.interp(fine.values, given, numbers)
+        given = fine.values
+    ax = poincare(light_at(given), by=numbers, label=along.labels[-1])
+    if told:
+        head(ax, "\n".join(filter(None, (ax.get_title(), told))))
+    return ax
+
+
+_ELEVATION, _AZIMUTH = 20.0, 35.0
+_REACH, _ZOOM = 1.0, 1.25
+_GROUND = "#f3f6fa"
+_AXIS = 1.3
+"""How far the axes reach, beyond which their names stand."""
+
+_MARK = "Poincaré sphere"
+"""By which a sphere that is there is found again."""
+
+_NAMES = (
+    ("H", (1, 0, 0)),
+    ("V", (-1, 0, 0)),
+    ("D", (0, 1, 0)),
+    ("A", (0, -1, 0)),
+    ("R", (0, 0, 1)),
+    ("L", (0, 0, -1)),
+)
+
+_AXES = ("S1/S0", "right", "top"), ("S2/S0", "left", "top"), ("S3/S0", "center", "bottom")
+"""The names of the axes, and on which side of their ends they stand."""
+
+
+def sphere_axes(given: Any, size: tuple[float, float]) -> Axes3D:
+    """Return axes with a Poincaré sphere, drawn unless it is there already.
+
+    S3 > 0 is up; the far half is fainter. The picture stands still, since its halves and its
+    names are those of one point of view.
+    """
+    if given is None:
+        given = Figure(figsize=size, layout="constrained").add_subplot(projection="3d")
+        own_lines(given)
+    if not isinstance(given, Axes3D):
+        raise OptipathError(
+            f"ax is {shown(given)}, and a sphere needs axes of three dimensions; give "
+            'figure.add_subplot(projection="3d"), or leave it out'
+        )
+    if not any(line.get_gid() == _MARK for line in given.get_lines()):
+        _draw_sphere(given)
+    return given
+
+
+def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    """Tell which points are on the near half of the sphere.
+
+    Shapes: points (..., 3); returns (...).
+
+    Examples
+    --------
+    >>> is_near(np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]))
+    array([ True, False])
+    """
+    return np.asarray(points @ _towards_eye() >= -1e-9)
+
+
+def on_paper(ax: Axes3D, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Return where points are seen, in the flat coordinates of the axes.
+
+    Shapes: points (n, 3); returns (n, 2).
+    """
+    return np.stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2], axis=-1)
+
+
+def _towards_eye() -> npt.NDArray[np.float64]:
+    up, round_ = np.radians(_ELEVATION), np.radians(_AZIMUTH)
+    return np.array([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)])
+
+
+def _draw_sphere(ax: Axes3D) -> None:
+    ax.view_init(elev=_ELEVATION, azim=_AZIMUTH)
+    ax.set_proj_type("ortho")
+    ax.disable_mouse_rotation()
+    ax.computed_zorder = False
+    ax.set_axis_off()
+    ax.set(xlim=(-_REACH, _REACH), ylim=(-_REACH, _REACH), zlim=(-_REACH, _REACH))
+    ax.set_box_aspect((1.0, 1.0, 1.0), zoom=_ZOOM)
+    eye = _towards_eye()
+    side = np.array([-eye[1], eye[0], 0.0]) / np.hypot(eye[0], eye[1])
+    x, y, z = np.eye(3)
+    for first, second in ((x, y), (x, z), (y, z)):
+        _draw_circle(ax, first, second)
+    outline = _circle(side, np.cross(eye, side))
+    ax.plot(*outline.T, color=INK, linewidth=1.0, zorder=2, gid=_MARK)
+    ax.add_collection3d(Poly3DCollection([outline], facecolor=_GROUND, zorder=0))
+    _draw_axes(ax)
+
+
+def _circle(first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]) -> Any:
+    turn = np.linspace(0.0, 2.0 * np.pi, 181)[:, np.newaxis]
+    return np.cos(turn) * first + np.sin(turn) * second
+
+
+def _draw_circle(
+    ax: Axes3D, first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]
+) -> None:
+    points = _circle(first, second)
+    near = is_near(points)[:, np.newaxis]
+    front, back = np.where(near, points, np.nan), np.where(near, np.nan, points)
+    width = 1.1 if second[2] == 0.0 else 0.7
+    ax.plot(*front.T, color=FAINT, linewidth=width, zorder=3)
+    ax.plot(*back.T, color=FAINT, linewidth=width, linestyle=(0, (2, 3)), alpha=0.6, zorder=1)
+
+
+def _draw_axes(ax: Axes3D) -> None:
+    style: dict[str, Any] = {"color": INK, "zorder": 8, "transform": ax.transData}
+    style["path_effects"] = [*HALO]
+    for name, place in _NAMES:
+        point = np.array(place, float)
+        (where,) = on_paper(ax, 1.13 * point[np.newaxis])
+        bold = {"weight": "bold", "alpha": 1.0 if is_near(point) else 0.55}
+        ax.text2D(*where, name, ha="center", va="center", **bold, **style)
+    for axis, (name, across, up) in zip(np.eye(3), _AXES, strict=True):
+        ends = np.outer((0.0, _AXIS), axis)
+        ax.plot(*ends.T, color=FAINT, linewidth=0.7, linestyle=(0, (2, 3)), zorder=1)
+        (where,) = on_paper(ax, _AXIS * axis[np.newaxis])
+        ax.text2D(*where, name, ha=across, va=up, fontsize="small", **style)
+
+
+_FAR = 0.45
+"""How much of a colour is seen on the far half."""
+
+
+def sphere_point(light: Any) -> npt.NDArray[np.float64]:
+    """Return S1, S2 and S3 over S0; NaN where light is dark or has not been read.
+
+    Shapes: light (...); returns (..., 3).
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0], exponent=-5000))
+    array([0.5, 0. , 0. ])
+    """
+    return np.asarray(light.normalized, float)[..., 1:]
+
+
+def draw_points(ax: Axes3D, points: npt.NDArray[np.float64], colours: Any, size: float) -> None:
+    """Draw points on the sphere and within it.
+
+    Shapes: points (n, 3); colours (n, 4).
+    """
+    near, colours = is_near(points), np.array(colours, float)
+    face = np.where(near[:, np.newaxis], colours, 1.0)
+    style: dict[str, Any] = {"s": size**2, "linewidths": 1.3, "depthshade": False, "zorder": 7}
+    if len(points):
+        ax.scatter(*points.T, facecolors=face, edgecolors=colours, **style)
+
+
+def draw_steps(
+    ax: Axes3D,
+    starts: npt.NDArray[np.float64],
+    ends: npt.NDArray[np.float64],
+    colours: Any,
+    **line: Any,
+) -> None:
+    """Draw straight lines, fainter on the far half.
+
+    Shapes: starts, ends (n, 3); colours (n, 4).
+    """
+    there = np.isfinite(starts + ends).all(axis=1) & (starts != ends).any(axis=1)
+    near = is_near(np.where(there[:, np.newaxis], starts + ends, 0.0))
+    for side, alpha in ((there & near, 1.0), (there & ~near, _FAR)):
+        if side.any():
+            pairs = np.stack([starts[side], ends[side]], axis=1)
+            shades = np.array(colours, float)[side]
+            ax.add_collection3d(
+                Line3DCollection(pairs, colors=shades, alpha=alpha, zorder=6, **line)
+            )
+
+
+def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D]:
+    """Return the key of hollow points, where there are some.
+
+    Shape: points (n, 3).
+    """
+    if is_near(points).all():
+        return []
+    mark: dict[str, Any] = {"marker": "o", "markersize": 5.0, "markerfacecolor": "white"}
+    return [Line2D([], [], color=colour, linestyle="none", label="hollow: far half", **mark)]
+
+
+_DISTANCES = 12.0, 20.0, 30.0, 42.0, 56.0
+"""How far from its point a name may stand, in points of a font; the nearest free place is taken."""
+
+_ROUND = 16
+
+_ON_LINES, _ON_ONE = 50_000, 200
+"""At how many points of all lines, and of one at most, it is looked for names over them."""
+
+_OVER = 1000
+"""By how many points of lines a place is worse that another name takes."""
+
+HALO = (withStroke(linewidth=2.5, foreground="white"),)
+"""What keeps names readable over lines."""
+
+_LEADER: dict[str, Any] = {
+    "textcoords": "offset points",
+    "arrowprops": {
+        "arrowstyle": "-",
+        "color": FAINT,
+        "linewidth": 0.6,
+        "shrinkA": 5.0,
+        "shrinkB": 3.0,
+    },
+    "zorder": 8,
+}
+
+
+def name_points(
+    ax: Axes, points: npt.NDArray[np.float64], names: Sequence[str], size: str = "small"
+) -> None:
+    """Write names beside points, where neither points nor other texts are, with lines to them.
+
+    Of places that are free, one with few lines behind it is taken.
+
+    Shape: points (n, 2).
+    """
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()
+    taken = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    pixels = ax.transData.transform(points)
+    lines = _on_lines(ax)
+    mark = 5.0 * figure.dpi / 72.0
+    taken += [Bbox.from_bounds(x - mark, y - mark, 2 * mark, 2 * mark) for x, y in pixels]
+    for point, pixel, name in zip(points, pixels, names, strict=True):
+        text: Any = ax.annotate(
+            name,
+            point,
+            (0.0, 0.0),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=size,
+            color=INK,
+            path_effects=[*HALO],
+            zorder=9,
+        )
+        own = text.get_window_extent()
+        extent = np.array([own.width, own.height])
+        places = [*_around(pixel, ax, figure.dpi / 72.0)]
+        boxes = [Bbox([at - 0.55 * extent, at + 0.55 * extent]) for _, at in places]
+        clashes = [
+            _OVER * sum(box.overlaps(other) for other in taken) + _count(lines, box)
+            for box in boxes
+        ]
+        best = int(np.argmin(clashes))
+        text.set_position(places[best][0])
+        taken.append(boxes[best])
+        if np.hypot(*places[best][0]) > _DISTANCES[0] + 1.0:
+            ax.annotate("", point, places[best][0], **_LEADER)
+
+
+def _on_lines(ax: Axes) -> npt.NDArray[np.float64]:
+    """Return points on all lines that are drawn, in pixels."""
+    rows = [line.get_xydata() for line in ax.lines]
+    for each in ax.collections:
+        if isinstance(each, LineCollection):
+            rows += each.get_segments()
+    steps = [np.stack([row[:-1], row[1:]], axis=1) for row in map(np.asarray, rows)]
+    ends = np.concatenate([np.empty((0, 2, 2)), *steps])
+    count = min(max(_ON_LINES // max(len(ends), 1), 2), _ON_ONE)
+    share = np.linspace(0.0, 1.0, count)[:, np.newaxis, np.newaxis]
+    points = (ends[:, 0] + share * (ends[:, 1] - ends[:, 0])).reshape(-1, 2)
+    pixels = ax.transData.transform(points)
+    return np.asarray(pixels[np.isfinite(pixels).all(axis=1)])
+
+
+def _count(points: npt.NDArray[np.float64], box: Bbox) -> int:
+    """Return how many pixels of lines there are in a box, each of them once."""
+    within = ((points >= box.min) & (points <= box.max)).all(axis=1)
+    return min(len(np.unique(points[within].round(), axis=0)), _OVER - 1)
+
+
+def _around(
+    pixel: npt.NDArray[np.float64], ax: Axes, scale: float
+) -> Iterator[tuple[tuple[float, float], npt.NDArray[np.float64]]]:
+    """Yield offsets from a point and where they lead, the nearest and outward ones first."""
+    box = ax.get_window_extent()
+    centre = np.array([0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)])
+    x, y = pixel - centre
+    outward = np.arctan2(y, x) if np.hypot(x, y) > 1.0 else 0.25 * np.pi
+    turns = sorted(np.arange(_ROUND) * 2.0 * np.pi / _ROUND, key=lambda turn: -np.cos(turn))
+    for distance in _DISTANCES:
+        for turn in turns:
+            offset = distance * np.array([np.cos(outward + turn), np.sin(outward + turn)])
+            yield (float(offset[0]), float(offset[1])), pixel + scale * offset

@@ -1,0 +1,279 @@
+"""Reflection curves over the incidence, with Brewster's and critical angles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.elements.fresnel import fresnel_reflection, given_index
+from optipath.errors import OptipathError, shown
+from optipath.materials.material import Material
+from optipath.plots.axes import fitting_text, label_axes, legend_above, own_axes
+from optipath.plots.colors import DASHES, FAINT, INK, LINES
+from optipath.values.curve import span_text
+from optipath.values.curve_value import CurveValue
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    Numbers = npt.NDArray[np.float64]
+
+
+_SIZE = 6.4, 4.4
+_COUNT = 901
+_NAMES = "$R_s$", "$R_p$", "$R$ unpolarised", "DoLP"
+
+
+def reflection(
+    index: Any, ax: Axes | None = None, *, outside: Any = 1.0, wavelength: Any = None
+) -> Axes:
+    """Draw what a boundary reflects of light from one side, against the angle of incidence.
+
+    The reflectances of s, of p and of light without polarisation, and the degree of linear
+    polarisation of the last one, by Fresnel's equations. Marked are Brewster's angle and the
+    critical one; for what absorbs, the angle at which least of p is reflected and that of the
+    highest degree of polarisation.
+
+    Parameters
+    ----------
+    index : float, complex, str or Material
+        Of the medium behind; n + ik, or the name of a material, such as ``"gold"``.
+    ax : Axes, optional
+        Where; a figure of its own by default, ``.figure`` of what is returned.
+    outside : float, str or Material, optional
+        The index of the medium in front, which does not absorb; a k below 1e-5 n is left out.
+    wavelength : float or str, optional
+        In vacuum, in metres or with a unit; needed where an index depends on it, and only there.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    OptipathError
+        If an index or the wavelength does not fit, or there is nothing that reflects.
+
+    Examples
+    --------
+    >>> ax = reflection("gold", wavelength="516 nm")
+    >>> [text.get_text() for text in ax.get_legend().get_texts()][-2:]
+    ['pseudo-Brewster angle 62.01°', 'highest DoLP 67.41°']
+    """
+    behind, front, told = _indices(index, outside, wavelength)
+    ratio = behind / front
+    ax = own_axes(ax, _SIZE)
+    incidence = np.linspace(0.0, np.pi / 2, _COUNT)
+    curves = reflected(ratio, incidence)
+    lines: list[Any] = []
+    for place, (name, values) in enumerate(zip(_NAMES, curves, strict=True)):
+        colour, dash = LINES[place], DASHES[place]
+        lines += ax.plot(np.degrees(incidence), values, color=colour, linestyle=dash, label=name)
+    for place, marked in enumerate(marked_angles(ratio)):
+        degrees = float(np.degrees(marked.angle))
+        label = f"{marked.name} {degrees:.2f}°"
+        colour, dash = ((INK, ":"), (FAINT, "-."))[place]
+        lines.append(ax.axvline(degrees, color=colour, linestyle=dash, zorder=1.0, label=label))
+    ax.set(xlim=(0.0, 90.0), ylim=(-0.02, 1.02))
+    ax.set_xticks(range(0, 91, 15))
+    ax.set_yticks(np.arange(0.0, 1.1, 0.2))
+    ax.grid(visible=True, alpha=0.3)
+    label_axes(
+        ax,
+        ["angle of incidence (°)", "incidence (°)"],
+        ["reflectance, degree of polarisation", "reflectance, DoLP", "R, DoLP"],
+    )
+    fitting_text(ax.set_title("", fontsize="medium"), told, ax.get_window_extent().width)
+    legend_above([ax], lines)
+    return ax
+
+
+def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float, list[str]]:
+    """Return the index behind, that in front, and titles that say both."""
+    given = {"index": index, "outside": outside}
+    media = {name: _medium(name, one) for name, one in given.items()}
+    depending = [name for name, one in media.items() if _depends(one)]
+    if depending and wavelength is None:
+        raise OptipathError(
+            f"{depending[0]} {shown(given[depending[0]])} depends on the wavelength; give one, "
+            f"such as wavelength='550 nm'"
+        )
+    if wavelength is not None and not depending:
+        raise OptipathError(
+            f"wavelength is {shown(wavelength)}, and no index depends on it; leave it out, or "
+            f"give the name of a material"
+        )
+    at = ""
+    if depending:
+        length, at = _one_wavelength(wavelength)
+        _check_known_there(given, media, length, at)
+        media = {name: one.at(length) for name, one in media.items()}
+    numbers = {name: np.asarray(one.refractive_index) for name, one in media.items()}
+    faults = [
+        f"{name} is {shown(given[name])}; a picture is of one index"
+        for name, number in numbers.items()
+        if number.ndim
+    ]
+    behind, front = (complex(numbers[name]) if not faults else 1j for name in given)
+    if front.imag <= CLEAR * front.real:
+        front = complex(front.real)
+    if not faults and (front.imag or not front.real):
+        faults.append(
+            f"outside is {_written(front)}; give the index of a clear medium, n above 0: in one "
+            f"that absorbs, light has no angle of incidence of its own"
+        )
+    if not faults and behind == front:
+        faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
+    if faults:
+        raise OptipathError(*faults)
+    told = [f"n = {number}" for number in _told_apart(behind, front)]
+    long = " in ".join(
+        f"{one.strip()}{at if name in depending else ''}, {number}" if _is_name(one) else number
+        for (name, one), number in zip(given.items(), told, strict=True)
+    )
+    return behind, front.real, [f"reflection: {long}", long, " in ".join(told)]
+
+
+def _depends(medium: Material) -> bool:
+    return any(isinstance(part, CurveValue) for part in (medium.n, medium.k))
+
+
+def _one_wavelength(wavelength: Any) -> tuple[float, str]:
+    """Return a wavelength in metres, and as titles have it."""
+    parameter = Wavelength()
+    resolved = parameter.resolve(wavelength).value
+    if np.ndim(resolved):
+        raise OptipathError(f"wavelength is {shown(wavelength)}; a picture is of one")
+    return float(resolved), f" at {parameter.text(float(resolved))}"
+
+
+def _check_known_there(given: Any, media: Mapping[str, Material], length: float, at: str) -> None:
+    """Refuse a wavelength at which an index is not known."""
+    faults = [
+        f"{name} {shown(given[name])} is not known{at}; give a wavelength within "
+        f"{span_text(one.span)}"
+        for name, one in media.items()
+        if not one.span[0] <= length <= one.span[1]
+    ]
+    if faults:
+        raise OptipathError(*faults)
+
+
+def _medium(name: str, given: Any) -> Material:
+    """Return the medium that an index, a name or a material stands for."""
+    if isinstance(given, Material):
+        return given
+    if _is_name(given):
+        return Material.named(given)
+    number = np.asarray(given_index(name, given))
+    return Material(number.real.copy(), number.imag.copy())
+
+
+def _is_name(given: Any) -> bool:
+    return isinstance(given, str) and given.strip()[:1].isalpha()
+
+
+def _told_apart(behind: complex, front: complex) -> tuple[str, str]:
+    """Return two indices with as many digits as it takes to tell one from the other.
+
+    Examples
+    --------
+    >>> _told_apart(1.5, 1.0), _told_apart(1.00001, 1.0)
+    (('1.5', '1'), ('1.00001', '1'))
+    """
+    for digits in range(4, 18):
+        told = _written(behind, digits), _written(front, digits)
+        if told[0] != told[1]:
+            break
+    return told
+
+
+def _written(index: complex, digits: int = 4) -> str:
+    n = f"{index.real:.{digits}g}"
+    return f"{n} + {index.imag:.{digits}g}i" if index.imag else n
+
+
+CLEAR = 1e-5
+"""Below which k over n a medium is as one that does not absorb: angles are the same to 1e-9."""
+
+_POINTS, _ROUNDS = 1001, 5
+_SEEN = 1e-9
+"""By how much a least reflectance lies below that at normal incidence, if there is one."""
+
+
+class Reflected(NamedTuple):
+    """What a boundary reflects of light without polarisation.
+
+    Shapes: s, p, unpolarised (...); dolp (...).
+    """
+
+    s: Numbers
+    p: Numbers
+    unpolarised: Numbers
+    dolp: Numbers
+
+
+class MarkedAngle(NamedTuple):
+    """An angle of incidence that has a name.
+
+    Units: angle in radians.
+    """
+
+    name: str
+    angle: float
+
+
+def reflected(index: complex, incidence: Numbers) -> Reflected:
+    """Return what a boundary reflects.
+
+    Shape: incidence (...). Units: incidence in radians.
+
+    Examples
+    --------
+    >>> found = reflected(1.5, np.array(0.0))
+    >>> print(found.s.round(3), found.dolp.round(3))
+    0.04 0.0
+    """
+    mean, half, _, _ = fresnel_reflection(index, np.cos(incidence), np.sin(incidence))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        dolp = np.abs(half) / np.where(mean > 0.0, mean, np.nan)
+    return Reflected(mean + half, mean - half, mean, dolp)
+
+
+def marked_angles(index: complex) -> list[MarkedAngle]:
+    """Return the angles of a reflection that have names.
+
+    Examples
+    --------
+    >>> [(each.name, round(float(np.degrees(each.angle)), 2)) for each in marked_angles(1 / 1.5)]
+    [("Brewster's angle", 33.69), ('critical angle', 41.81)]
+    """
+    n = index.real
+    if index == 1.0:
+        return []
+    if index.imag <= CLEAR * n:
+        found = [MarkedAngle("Brewster's angle", float(np.arctan(n)))]
+        return [*found, MarkedAngle("critical angle", float(np.arcsin(n)))] if n < 1.0 else found
+    least = _least(lambda incidence: reflected(index, incidence).p)
+    most = _least(lambda incidence: -reflected(index, incidence).dolp)
+    upright, there = reflected(index, np.array([0.0, least])).p
+    if not there < upright - _SEEN:
+        return []
+    return [MarkedAngle("pseudo-Brewster angle", least), MarkedAngle("highest DoLP", most)]
+
+
+def _least(of: Callable[[Numbers], Numbers]) -> float:
+    """Return between 0 and a right angle where a smooth function is least, by ever finer grids."""
+    low, high = 0.0, np.pi / 2
+    best = low
+    for _ in range(_ROUNDS):
+        grid = np.linspace(low, high, _POINTS)
+        best = float(grid[np.nanargmin(of(grid))])
+        step = float(grid[1] - grid[0])
+        low, high = max(0.0, best - step), min(np.pi / 2, best + step)
+    return best

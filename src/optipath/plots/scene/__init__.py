@@ -1,0 +1,1 @@
+"""Paths drawn as they stand in space, or flat on an optical bench."""

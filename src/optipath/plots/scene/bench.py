@@ -1,0 +1,517 @@
+"""Optical bench: a path drawn flat, with symbols."""
+
+from __future__ import annotations
+
+import textwrap
+from itertools import combinations
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Circle, Polygon, Wedge
+from matplotlib.transforms import Bbox
+
+from optipath.elements.boundary import BoundaryElement
+from optipath.elements.medium import Medium
+from optipath.errors import PathError
+from optipath.plots.axes import own_axes
+from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.scene.drawn_scene import Label, draw_head, draw_turn, outline, place_labels
+from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
+from optipath.plots.scene.placing import angles_at, has_axis
+from optipath.plots.scene.values import ToldPath, number, quantity_text, told_incidence
+from optipath.values.messages import cure
+from optipath.values.operands import Operand
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.elements.element import Element
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plots.scene.scene import Scene, SceneNode, SceneRay
+
+    Array = npt.NDArray[np.float64]
+
+
+_WIDTH, _ROW, _PLANE = 9.0, 2.1, 5.4
+"""The width of a picture of its own, and the height of one row, or of a plane, in inches."""
+
+_POINTS = 8.5
+_LETTER = 0.6
+"""How wide a letter is about, in heights of a line."""
+
+_ABOVE, _BELOW, _BESIDE = 0.4, 0.38, np.array([0.8, 0.45])
+"""What is free above a beam, between it and names below, and around a plane, in links."""
+
+_ROOMY, _LONGEST = 1.3, 0.45
+"""The height of a row at most, and the length of a link in a plane, of the height."""
+
+_DIALS = (
+    "dials show what is seen when one looks at the source: to the right, what stands across this "
+    "sheet; up, what lies in it"
+)
+_STAR = np.array([[np.cos(a), np.sin(a)] for a in np.radians([0.0, 60.0, 120.0])])
+
+
+def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
+    r"""Draw a set-up that lies in one plane: lamp, plates, surfaces, detectors, and light.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path; its light stays in one plane.
+    ax : Axes, optional
+        Where; by default in a figure of its own. Long straight benches take several rows.
+    **values : float or str
+        As in `PathGraph.trace`, a single number each.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    PathError
+        If light leaves the plane, or the values are those of several paths.
+    OptipathError
+        If `ax` is none, or what is given is no path.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> ax = op.plots.bench(op.load_preset("malus"), angle="30 deg")
+    >>> sorted(text.get_text().replace("\n", ", ") for text in ax.texts)[0]
+    'analyzer, angle = 30 deg'
+    """
+    told = ToldPath(path, "bench", values)
+    scene = scene_with(told)
+    flat = flat_sheet(scene)
+    texts = {
+        node.name: [node.name, *values_below(told.wiring.elements[node.name])]
+        for node in scene.nodes
+    }
+    widest = max(len(line) for lines in texts.values() for line in lines)
+    rows = -(-len(flat.at) // _most(widest, _WIDTH, _POINTS))
+    ax = own_axes(ax, (_WIDTH, _ROW * rows + 0.4 if flat.straight else _PLANE))
+    ax.set_axis_off()
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()  # Until then nobody knows how large axes are.
+    whole, inch = ax.get_window_extent(), figure.dpi
+    size = _POINTS * float(np.clip(whole.width / inch / _WIDTH, 0.66, 1.1))
+    below = _note(ax, scene, flat, size)
+    room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
+    if flat.straight:
+        lines = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
+        most = _most(widest, whole.width / inch, size)
+        flat = _fit_rows(ax, scene, flat, most, (room, lines))
+    else:
+        _fit_plane(ax, flat, room)
+    _draw(ax, scene, flat)
+    drawn: list[Any] = [*ax.lines, *ax.patches]
+    for line in drawn:
+        line.set_linewidth(min(size / _POINTS, 1.0) * line.get_linewidth())
+    if flat.straight:
+        _write_below(ax, flat, texts, size)
+    else:
+        _write_beside(ax, scene, flat, texts, (size, room))
+    return ax
+
+
+def _most(widest: int, inches: float, points: float) -> int:
+    """Return how many nodes may stand in a row of so many inches."""
+    return max(int(inches * 72.0 / ((widest + 1.5) * _LETTER * points)), 2)
+
+
+def _note(ax: Axes, scene: Scene, flat: FlatSheet, size: float) -> float:
+    """Write at the lower edge what was chosen, and return how high that reaches in pixels."""
+    figure: Any = ax.figure.figure
+    whole = ax.get_window_extent()
+    columns = int(whole.width / (0.52 * 0.85 * size * figure.dpi / 72.0))
+    notes = [_DIALS, *scene.notes]
+    if not flat.straight and nearest_symbols(scene, flat) < 2.0 * DIAL:
+        way = cure("op.plots.geometry(path)", "--kind geometry")
+        notes.append(f"symbols lie over one another: {way} draws this path in space")
+    said = textwrap.fill("; ".join(notes), max(columns, 20))
+    style: Any = {"fontsize": 0.85 * size, "color": FAINT, "ha": "center", "va": "bottom"}
+    text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
+    return float(text.get_window_extent().y1)
+
+
+def _fit_rows(
+    ax: Axes, scene: Scene, flat: FlatSheet, most: int, where: tuple[Bbox, float]
+) -> FlatSheet:
+    """Return a straight set-up in rows of so many nodes at most, which fill a part of the axes.
+
+    Below each row there is room for texts, so many pixels high.
+    """
+    room, lines = where
+    rows = -(-len(flat.at) // most)
+    each = -(-len(flat.at) // rows)
+    step, row = room.width / each, room.height / rows
+    per_unit = max(min(step, (row - lines) / (_ABOVE + _BELOW)), 1.0)
+    row = min(row, lines + _ROOMY * per_unit)
+    found = in_rows(flat, scene, each, (step / per_unit, row / per_unit))
+    spare = (room.height - rows * row) / 2.0
+    first = np.array([room.x0 + step / 2.0, room.y1 - spare - _ABOVE * per_unit])
+    _set_limits(ax, np.zeros(2), first, per_unit)
+    return found
+
+
+def _fit_plane(ax: Axes, flat: FlatSheet, room: Bbox) -> None:
+    """Set limits by which a sheet fills a part of the axes, with room for texts beside it."""
+    points = np.array([*flat.at.values(), *(p for ray in flat.rays for p in np.vstack(ray.pieces))])
+    low, high = points.min(axis=0), points.max(axis=0)
+    wide, tall = high - low + 2.0 * _BESIDE
+    per_unit = min(room.width / wide, room.height / tall, _LONGEST * room.height)
+    middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
+    _set_limits(ax, (low + high) / 2.0, middle, per_unit)
+
+
+def _set_limits(ax: Axes, point: Array, pixel: Array, per_unit: float) -> None:
+    """Set limits by which a point lies on a pixel."""
+    whole = ax.get_window_extent()
+    left, bottom = point - (pixel - [whole.x0, whole.y0]) / per_unit
+    ax.set_aspect("equal", adjustable="box")
+    ax.set_xlim(left, left + whole.width / per_unit)
+    ax.set_ylim(bottom, bottom + whole.height / per_unit)
+
+
+def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
+    for ray, drawn in zip(scene.rays, flat.rays, strict=True):
+        _beam(ax, ray, flat, drawn)
+    for node in scene.nodes:
+        at, way = flat.at[node.name], direction_at(node, scene, flat)
+        draw_symbol(ax, node, at, way, _face(scene, flat, node))
+        if node.axis is not None:
+            axes = next(frame.axes for frame in scene.frames if frame.port == f"{node.name}.in")
+            dial(ax, at, flat.in_dial(axes, np.array([-node.axis, node.axis])), INK)
+
+
+def _face(scene: Scene, flat: FlatSheet, node: SceneNode) -> Array | None:
+    """Return the normal of a surface on the sheet, and its two ends."""
+    if node.normal is None or node.role == "plate":
+        return None
+    normal = flat.sheet @ node.normal
+    across = np.array([-normal[1], normal[0]])
+    corners = (outline(scene, node) - node.at) @ flat.sheet.T @ across / scene.unit
+    at = flat.at[node.name]
+    return np.array([normal, at + corners.min() * across, at + corners.max() * across])
+
+
+def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
+    colour, width = (FAINT, 0.8) if ray.leaves or ray.is_dark else (INK, 1.2)
+    style: Any = (0, (1, 2)) if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
+    for tail, head in drawn.pieces:
+        ax.plot(*np.array([tail, head]).T, color=colour, lw=width, ls=style, zorder=3)
+        tip = head if ray.leaves or len(drawn.pieces) > 1 else tail + 0.3 * (head - tail)
+        draw_head(ax, tip, head - tail, np.array([0.08, 0.025]), fc=colour, zorder=3.1)
+    if not (ray.leaves or ray.is_dark):
+        _polarisation(ax, ray, flat, drawn.middle)
+
+
+def _polarisation(ax: Axes, ray: SceneRay, flat: FlatSheet, at: Array) -> None:
+    """Draw the ellipse of light in a dial, and a star for light that has none."""
+    if ray.ellipse is not None:
+        points = flat.in_dial(ray.axes, ray.ellipse) / (LARGEST_ELLIPSE * flat.unit)
+        seen = dial(ax, at, points, ELLIPSE)
+        if ray.turns:
+            draw_turn(ax, seen, 1.0, ELLIPSE, zorder=6.2)
+        return
+    dial(ax, at, np.zeros((0, 2)), FAINT)
+    for way in 0.6 * _STAR:
+        dial_line = np.array([at - 0.15 * way, at + 0.15 * way])
+        ax.plot(*dial_line.T, color=FAINT, lw=1.0, zorder=6.1)
+
+
+def _write_below(ax: Axes, flat: FlatSheet, texts: dict[str, list[str]], size: float) -> None:
+    for name, lines in texts.items():
+        at = flat.at[name] - [0.0, _BELOW]
+        style: Any = {"fontsize": size, "ha": "center", "va": "top", "linespacing": 1.15}
+        ax.text(at[0], at[1], "\n".join(lines), color=INK, **style)
+
+
+def _write_beside(
+    ax: Axes,
+    scene: Scene,
+    flat: FlatSheet,
+    texts: dict[str, list[str]],
+    where: tuple[float, Bbox],
+) -> None:
+    """Write texts where they cover neither beams nor symbols."""
+    size, room = where
+    lines = [np.array(line.get_xydata()) for line in ax.lines]
+    style = {"fontsize": size, "color": INK, "linespacing": 1.15}
+    labels = [
+        Label("\n".join(texts[n.name]), flat.at[n.name], style, 2.0 if n.normal is None else 0.8)
+        for n in scene.nodes
+    ]
+    place_labels(ax, labels, lines, room, ax.patches)
+
+
+BLUE, ELLIPSE, _, _, FACE, LAMP = LINES
+HIGH = 0.26
+"""Half the height of a plate or the length of a surface."""
+
+DIAL = 0.15
+"""The radius of the dials in which axes and polarisation are seen face on."""
+
+_LAYERS = {"layer-stack": 3}
+_RETARDING = ("retarder", "waveplate", "elliptical-retarder", "medium")
+_TURNING = ("rotator", "faraday-rotator")
+_SPLITTING = ("beam-splitter", "polarizing-beam-splitter")
+
+
+def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | None) -> None:
+    """Draw the symbol of an element.
+
+    Shapes: at (2,); way (2,); face (3, 2).
+    """
+    if node.role == "source":
+        _lamp(ax, at)
+    elif node.role == "detector":
+        angle = float(np.degrees(np.arctan2(way[1], way[0])))
+        _add(ax, Wedge(tuple(at), 0.17, angle - 90.0, angle + 90.0, fc="#555555", ec=INK))
+    elif node.role == "dump":
+        _box(ax, at + 0.1 * way, way, (0.1, 0.14), fc="white", ec=INK)
+    elif node.kind in _SPLITTING:
+        _box(ax, at, way, (0.2, 0.2), fc=_pale(FACE), ec=BLUE)
+        if face is not None:
+            middle = (face[1] + face[2]) / 2.0
+            ends = middle + 0.45 * (face[1:] - middle)
+            ax.plot(*ends.T, color=BLUE, lw=1.6, zorder=5)
+    elif node.role in ("surface", "mirror"):
+        _boundary(ax, node, at, face)
+    elif node.role == "plate":
+        _plate(ax, node, at, way)
+    else:
+        _add(ax, Circle(tuple(at), 0.07, fc="white", ec=INK))
+
+
+def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> Array:
+    """Draw a dial with what is seen in it when one looks at the source.
+
+    Shapes: at (2,); line (points, 2); returns (points, 2).
+    """
+    _add(ax, Circle(tuple(at), DIAL, fc="white", ec=FAINT, lw=0.7), zorder)
+    # Who looks at the source has x to the right where y is up, and z comes to him.
+    seen = at + 0.92 * DIAL * np.reshape(line, (-1, 2))
+    if len(seen):
+        style: Any = {"color": colour, "lw": 1.6, "solid_capstyle": "round"}
+        ax.plot(*seen.T, zorder=zorder + 0.1, **style)
+    return seen
+
+
+def _lamp(ax: Axes, at: Array) -> None:
+    # No name stands between its rays.
+    ax.add_patch(Circle(tuple(at), 0.19, fc="none", ec="none"))
+    for angle in np.arange(0.0, 2.0 * np.pi, np.pi / 4.0):
+        way = np.array([np.cos(angle), np.sin(angle)])
+        ax.plot(*np.array([at + 0.13 * way, at + 0.19 * way]).T, color=INK, lw=1.0, zorder=5)
+    _add(ax, Circle(tuple(at), 0.1, fc=LAMP, ec=INK))
+
+
+def _plate(ax: Axes, node: SceneNode, at: Array, way: Array) -> None:
+    if node.kind in _RETARDING:
+        _box(ax, at, way, (0.11, HIGH), fc=_pale(FACE), ec=BLUE)
+    elif node.kind in _TURNING:
+        _box(ax, at, way, (0.2, 0.2), fc="#f7ecd0", ec=INK)
+    else:
+        _box(ax, at, way, (0.045, HIGH), fc="#bbbbbb", ec=INK)
+
+
+def _boundary(ax: Axes, node: SceneNode, at: Array, face: Array | None) -> None:
+    if face is None or np.linalg.norm(face[0]) < 0.5:
+        _add(ax, Circle(tuple(at), 0.07, fc="white", ec=INK))
+        return
+    normal, *ends = face
+    layers = _LAYERS.get(node.kind, 1)
+    depth = max(0.05 * (layers - 1), 0.09) * normal
+    corners = np.array([ends[0], ends[1], ends[1] - depth, ends[0] - depth])
+    is_mirror = node.role == "mirror"
+    _add(ax, Polygon(corners, fc="#9a9a9a" if is_mirror else _pale(FACE), ec="none"), 4.0)
+    for layer in range(layers):
+        line = np.array(ends) - 0.05 * layer * normal
+        ax.plot(*line.T, color=INK if is_mirror else BLUE, lw=1.6, zorder=5)
+
+
+def _box(ax: Axes, at: Array, way: Array, halves: tuple[float, float], **style: Any) -> None:
+    along, across = halves[0] * way, halves[1] * np.array([-way[1], way[0]])
+    corners = [at - along - across, at + along - across, at + along + across, at - along + across]
+    _add(ax, Polygon(np.array(corners), **style), 4.0)
+
+
+def _add(ax: Axes, patch: Any, zorder: float = 5.0) -> None:
+    patch.set_zorder(zorder)
+    if patch.get_linewidth() > 0.9:
+        patch.set_linewidth(0.9)
+    ax.add_patch(patch)
+
+
+def _pale(colour: str) -> tuple[float, ...]:
+    return tuple(0.55 + 0.45 * part for part in to_rgb(colour))
+
+
+_FIELDS = (
+    "angle",
+    "retardance",
+    "incidence",
+    "reflectance",
+    "thickness",
+    "length",
+    "verdet",
+    "field",
+    "dichroic_angle",
+    "azimuth",
+)
+"""What is told of an element, in this order."""
+
+_ALWAYS = "angle", "incidence"
+
+
+def values_below(element: Element) -> list[str]:
+    """Return the values of an element that are written below its symbol.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> values_below(op.Retarder(retardance="90 deg", angle=op.Parameter("a", 0.0, bound=True)))
+    ['a = 0 deg', 'retardance 90 deg']
+    """
+    domains, found = element.domains(), []
+    for name in _FIELDS:
+        value: Any = getattr(element, name, None)
+        if name not in domains or not isinstance(value, Parameter | float | int):
+            continue
+        if name == "angle" and isinstance(element, Medium) and not has_axis(element):
+            continue
+        if isinstance(value, Parameter) or value != 0.0 or name in _ALWAYS:
+            found.append(_text(element, name, value, domains[name].unit))
+    incidence, turn = angles_in_chain(element)
+    if incidence is not None:
+        found.append(told_incidence(incidence, number(incidence)).text)
+    if isinstance(turn, Parameter | float | int) and (isinstance(turn, Parameter) or turn != 0.0):
+        found.append(_text(element, "azimuth", turn, "deg"))
+    return found
+
+
+def _text(element: Element, name: str, value: Any, unit: str) -> str:
+    if name == "incidence" and isinstance(element, BoundaryElement):
+        return told_incidence(value, angles_at(element)[0]).text
+    if not isinstance(value, Parameter):
+        said = quantity_text(number(value), unit)
+        return said if name == "angle" else f"{name} {said}"
+    if not bool(Operand(value, "present").numbers()):
+        return f"{value.name} = none"
+    said = f"{value.formula} = {quantity_text(number(value), value.unit or unit)}"
+    return f"azimuth {said}" if name == "azimuth" else said
+
+
+_IN_PLANE = 1e-7
+"""The sine of an angle out of the plane that is rounding."""
+
+
+_FROM_EDGE = 0.2
+"""How far from the edge polarisation is drawn, in lengths of a link."""
+
+
+class FlatRay(NamedTuple):
+    """A ray on a sheet.
+
+    Shapes: pieces (2, 2); middle (2,).
+    """
+
+    pieces: tuple[Array, ...]
+    middle: Array
+
+
+class FlatSheet(NamedTuple):
+    """A scene on a sheet, a link being about 1 long.
+
+    Shapes: sheet (2, 3); at (2,).
+    """
+
+    sheet: Array
+    at: dict[str, Array]
+    rays: tuple[FlatRay, ...]
+    straight: bool
+    unit: float
+
+    def in_dial(self, axes: Array, vectors: Array) -> Array:
+        """Return what lies across light as who looks at the source sees it.
+
+        Shapes: axes (3, 3); vectors (..., 3); returns (..., 2).
+        """
+        right = np.cross(self.sheet[1], self.sheet[0])
+        return np.asarray(vectors @ np.array([right, np.cross(axes[2], right)]).T)
+
+
+def flat_sheet(scene: Scene) -> FlatSheet:
+    """Return a scene laid flat."""
+    right = scene.rays[0].axes[2] if scene.rays else np.eye(3)[0]
+    ways = np.array([ray.axes[2] for ray in scene.rays]).reshape(-1, 3)
+    aside = ways - np.outer(ways @ right, right)
+    largest = int(np.argmax(np.linalg.norm(aside, axis=1))) if len(aside) else 0
+    straight = not len(aside) or bool(np.linalg.norm(aside[largest]) < _IN_PLANE)
+    first = scene.rays[0].axes if scene.rays else np.eye(3)
+    up = first[1] if straight else aside[largest] / np.linalg.norm(aside[largest])
+    if not straight and up @ first[1] < -_IN_PLANE:
+        up = -up
+    normal = np.cross(right, up)
+    out = [ray.end or ray.start for ray in scene.rays if abs(ray.axes[2] @ normal) > _IN_PLANE]
+    if out:
+        raise PathError(
+            f"bench draws set-ups that lie in one plane, but light leaves that at '{out[0]}'; "
+            f"{cure('op.plots.geometry(path)', '--kind geometry')} draws this path in space"
+        )
+    sheet, origin = np.array([right, up]), scene.nodes[0].at
+    at = {n.name: sheet @ (n.at - origin) / scene.unit for n in scene.nodes}
+    ends = [
+        np.array([ray.tail - origin, ray.head - origin]) @ sheet.T / scene.unit
+        for ray in scene.rays
+    ]
+    flat = tuple(FlatRay((both,), both.mean(axis=0)) for both in ends)
+    back = any(way @ right < 0.0 for way in ways)
+    return FlatSheet(sheet, at, flat, straight and not back, scene.unit)
+
+
+def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]) -> FlatSheet:
+    """Return a straight set-up in rows."""
+    step, down = apart
+    order = sorted(flat.at, key=lambda name: float(flat.at[name][0]))
+    at = {
+        name: np.array([step * (place % each), -down * (place // each)])
+        for place, name in enumerate(order)
+    }
+    rays, half = [], np.array([step / 2.0, 0.0])
+    for ray in scene.rays:
+        tail = at[ray.start]
+        head = at[ray.end] if ray.end else tail + half
+        if tail[1] == head[1]:
+            rays.append(FlatRay((np.array([tail, head]),), (tail + head) / 2.0))
+            continue
+        # What goes on in the next row goes as far as the middle between two nodes.
+        pieces = np.array([tail, tail + half]), np.array([head - half, head])
+        rays.append(FlatRay(pieces, head - half + [min(_FROM_EDGE, 0.5 * half[0]), 0.0]))
+    return flat._replace(at=at, rays=tuple(rays))
+
+
+def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
+    """Return the way on the sheet in which light arrives at a node, or leaves a source.
+
+    Shape: returns (2,).
+    """
+    rays = [ray for ray in scene.rays if ray.end == node.name]
+    rays += [ray for ray in scene.rays if ray.start == node.name]
+    return np.asarray(flat.sheet @ rays[0].axes[2] if rays else np.array([1.0, 0.0]))
+
+
+def nearest_symbols(scene: Scene, flat: FlatSheet) -> float:
+    """Return how near two symbols are whose middles are nearest, dials of light included."""
+    rays = zip(scene.rays, flat.rays, strict=True)
+    dials = [drawn.middle for ray, drawn in rays if not (ray.leaves or ray.is_dark)]
+    return min(
+        (float(np.linalg.norm(a - b)) for a, b in combinations([*flat.at.values(), *dials], 2)),
+        default=np.inf,
+    )

@@ -1,0 +1,462 @@
+"""Scenes drawn on a sheet: lines, faces, labels, as seen from a viewpoint."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
+from matplotlib.path import Path
+from matplotlib.transforms import Bbox
+
+from optipath.plots.colors import FAINT, INK, LINES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import numpy.typing as npt
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+    from optipath.plots.scene.scene import Scene, SceneAngle, SceneFrame, SceneNode, SceneRay
+
+    Array = npt.NDArray[np.float64]
+
+
+X_COLOUR, ELLIPSE, Y_COLOUR, ARC, FACE, LAMP = LINES
+_MIRROR = "#666666"
+
+_FRAME = 0.15
+"""How long x and y of a frame are drawn, of the length of a link."""
+
+_DOTS: Any = (0, (1, 2))
+
+_NORMAL = 0.5
+"""How long a normal is drawn."""
+
+_ARROW_AT, _ARROW = 0.72, (0.085, 0.028)
+"""Where on a ray its arrow points to, and how long and wide it is."""
+
+
+_TURN, _NARROW = (0.065, 0.025), 0.8
+"""The head on an ellipse, and how wide the ellipse is at least, in widths of the head."""
+
+
+def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
+    """Draw all of a scene but its names."""
+    first = len(ax.lines)
+    for plane in scene.planes:
+        _face(ax, view.points(plane.corners), FAINT, 0.09, 1.0)
+    _faces(ax, scene, view)
+    for ray in scene.rays:
+        _ray(ax, scene, ray, view)
+    for angle in scene.angles:
+        _angle(ax, angle, view)
+    for frame in drawn_frames(scene):
+        for axis, colour in zip(frame.axes[:2], (X_COLOUR, Y_COLOUR), strict=True):
+            ends = np.array([frame.at, frame.at + _FRAME * scene.unit * axis])
+            _line(ax, view.points(ends), color=colour, lw=1.4, zorder=5.5)
+    for node in scene.nodes:
+        if node.role in _MARKS:
+            ax.plot(*view.points(node.at), **_MARKS[node.role], ls="", mec=INK, mew=0.9, zorder=7)
+    for line in ax.lines[first:]:
+        line.set_linewidth(weight * line.get_linewidth())
+        line.set_markersize(weight * line.get_markersize())
+
+
+_MARKS: dict[str, dict[str, Any]] = {
+    "source": {"marker": "o", "ms": 8, "mfc": LAMP},
+    "detector": {"marker": "D", "ms": 6.5, "mfc": INK},
+    "dump": {"marker": "s", "ms": 6, "mfc": "white"},
+    "other": {"marker": "o", "ms": 5, "mfc": "white"},
+}
+
+
+def lines_of(scene: Scene, view: View) -> list[Array]:
+    """Return the lines of a scene that no text should cover, and what is to be seen of it.
+
+    Shape: returns (points, 2).
+    """
+    found = [np.array([ray.tail, ray.head]) for ray in scene.rays]
+    found += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
+    found += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
+    found += [outline(scene, node) for node in scene.nodes if node.normal is not None]
+    found += [axis_line(scene, node) for node in scene.nodes if node.axis is not None]
+    found += [_normal(scene, node) for node in scene.nodes if node.role == "surface"]
+    for frame in drawn_frames(scene):
+        x, y, _ = frame.at + _FRAME * scene.unit * frame.axes
+        found.append(np.array([x, frame.at, y]))
+    return [view.points(line) for line in found]
+
+
+def drawn_frames(scene: Scene) -> list[SceneFrame]:
+    """Return the frames that are drawn: those of links, since rays that leave end soon."""
+    leaving = {ray.name for ray in scene.rays if ray.leaves}
+    return [frame for frame in scene.frames if frame.port not in leaving]
+
+
+def key_to(scene: Scene) -> list[Artist]:
+    """Return what a key shows of the lines and faces that are drawn."""
+    s = "surface" in {node.role for node in scene.nodes}
+    found: list[Artist] = [
+        Line2D([], [], color=X_COLOUR, lw=1.6, label="x of a frame" + " (s)" * s),
+        Line2D([], [], color=Y_COLOUR, lw=1.6, label="y" + " (p)" * s),
+    ]
+    if any(_has_ellipse(ray) for ray in scene.rays):
+        found.append(Line2D([], [], color=ELLIPSE, lw=1.4, label="polarisation"))
+    if scene.planes:
+        found.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
+    if any(ray.tap for ray in scene.rays):
+        found.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
+    if any(ray.is_dark and not ray.leaves for ray in scene.rays):
+        found.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
+    if any(ray.leaves for ray in scene.rays):
+        found.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
+    return found
+
+
+def _faces(ax: Axes, scene: Scene, view: View) -> None:
+    """Draw surfaces and plates, what is farther away first."""
+    towards = view.sheet[2]
+    standing = [node for node in scene.nodes if node.normal is not None]
+    for node in sorted(standing, key=lambda node: float(node.at @ towards)):
+        colour = {"mirror": _MIRROR, "plate": FAINT}.get(node.role, FACE)
+        points = view.points(outline(scene, node))
+        _face(ax, points, colour, 0.3 if node.role != "plate" else 0.16, 2.0)
+        _line(ax, np.concatenate([points, points[:1]]), color=colour, lw=0.9, zorder=2.1)
+        if node.axis is not None:
+            _line(ax, view.points(axis_line(scene, node)), color=INK, lw=1.3, zorder=4.5)
+        if node.role == "surface":
+            _line(
+                ax,
+                view.points(_normal(scene, node)),
+                color=FAINT,
+                lw=0.9,
+                ls=(0, (4, 3)),
+                zorder=2.2,
+            )
+
+
+def _normal(scene: Scene, node: SceneNode) -> Array:
+    return np.array([node.at, node.at + _NORMAL * scene.unit * np.asarray(node.normal)])
+
+
+def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
+    colour, width = (FAINT, 0.9) if ray.leaves or ray.is_dark else (INK, 1.4)
+    ends = view.points(np.array([ray.tail, ray.head]))
+    dashes: Any = _DOTS if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
+    _line(ax, ends, color=colour, lw=width, ls=dashes, zorder=4.0)
+    way = ends[1] - ends[0]
+    if np.linalg.norm(way) > 0.1 * scene.unit:
+        tip = ends[0] + (1.0 if ray.leaves else _ARROW_AT) * way
+        size = scene.unit * np.array(_ARROW)
+        draw_head(ax, tip, way, size, fc=colour, zorder=4.2)
+    if _has_ellipse(ray):
+        curve = view.points(_ellipse(ray))
+        _line(ax, curve, color=ELLIPSE, lw=1.4, zorder=5.0)
+        if ray.turns:
+            draw_turn(ax, curve, scene.unit, ELLIPSE, zorder=5.05)
+
+
+def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> None:
+    """Draw the head of an arrow.
+
+    Shapes: tip, way (2,); size (2,).
+    """
+    along = way / np.linalg.norm(way)
+    foot, aside = tip - size[0] * along, size[1] * np.array([-along[1], along[0]])
+    ax.add_patch(Polygon([tip, foot + aside, foot - aside], ec="none", **style))
+
+
+def draw_turn(ax: Axes, curve: Array, unit: float, colour: str, zorder: float) -> None:
+    """Draw a head on an ellipse that shows how the field turns, where the ellipse is flattest.
+
+    Shape: curve (points, 2).
+    """
+    size = unit * np.array(_TURN)
+    narrow = np.linalg.svd(curve[:-1] - curve[:-1].mean(axis=0))[1][1]
+    if narrow * np.sqrt(2.0 / len(curve[:-1])) < _NARROW * size[1]:
+        return  # On what looks like a line a head would say that the field goes along it.
+    steps = (curve[2:] - curve[:-2]) / unit
+    # Of a circle the first one, whatever the rounding.
+    place = int(np.argmax(np.linalg.norm(steps, axis=1).round(6)))
+    way = steps[place] / np.linalg.norm(steps[place])
+    tip = curve[place + 1] + 0.5 * size[0] * way
+    draw_head(ax, tip, way, size, fc=colour, gid="turn", zorder=zorder)
+
+
+def _has_ellipse(ray: SceneRay) -> bool:
+    return ray.ellipse is not None and not ray.leaves
+
+
+def _ellipse(ray: SceneRay) -> Array:
+    return np.asarray((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
+
+
+def _spokes(angle: SceneAngle) -> Array:
+    """Return a line that goes to and fro over the face of an angle."""
+    centres = np.broadcast_to(angle.centre, angle.arc.shape)
+    return np.stack([centres, angle.arc], axis=1).reshape(-1, 3)
+
+
+def _angle(ax: Axes, angle: SceneAngle, view: View) -> None:
+    if not len(angle.arc):
+        return
+    arc, centre = view.points(angle.arc), view.points(angle.centre)
+    _face(ax, np.concatenate([centre[None], arc]), ARC, 0.22, 3.0)
+    _line(ax, arc, color=ARC, lw=1.5, zorder=5.2)
+    if angle.about == "azimuth":
+        for end in (arc[0], arc[-1]):
+            _line(ax, np.array([centre, end]), color=ARC, lw=0.8, zorder=5.1)
+
+
+def _face(ax: Axes, points: Array, colour: str, alpha: float, zorder: float) -> None:
+    ax.add_patch(Polygon(points, fc=colour, ec="none", alpha=alpha, zorder=zorder))
+
+
+def _line(ax: Axes, points: Array, **style: Any) -> None:
+    ax.plot(points[:, 0], points[:, 1], solid_capstyle="round", **style)
+
+
+_ELEVATIONS, _AZIMUTHS = (15.0, 24.0, 34.0, 46.0), np.arange(-180.0, 180.0, 15.0)
+"""In degrees; the views among which one is chosen."""
+
+
+class View(NamedTuple):
+    """A direction to look from; parallel lines stay parallel.
+
+    Units: elevation, azimuth in degrees.
+    """
+
+    elevation: float
+    azimuth: float
+
+    @property
+    def sheet(self) -> Array:
+        """The directions to the right and up on the sheet, and towards who looks, a row each."""
+        c, s = np.cos(np.radians(self.azimuth)), np.sin(np.radians(self.azimuth))
+        flat, high = np.cos(np.radians(self.elevation)), np.sin(np.radians(self.elevation))
+        right, up = (-s, c, 0.0), (-high * c, -high * s, flat)
+        return np.array([right, up, (flat * c, flat * s, high)])
+
+    def points(self, points: Array) -> Array:
+        """Return points of space on the sheet.
+
+        Shapes: points (..., 3); returns (..., 2).
+
+        Examples
+        --------
+        >>> View(0.0, -90.0).points(np.array([2.0, 5.0, 3.0])).round(12)
+        array([2., 3.])
+        """
+        return np.asarray(points) @ self.sheet[:2].T
+
+
+def chosen_view(scene: Scene, aspect: float) -> View:
+    """Return the view in which nodes and rays are farthest apart, and surfaces are seen best."""
+    views = [View(elevation, float(azimuth)) for elevation in _ELEVATIONS for azimuth in _AZIMUTHS]
+    return max(views, key=lambda view: _merit(scene, view, aspect))
+
+
+def _merit(scene: Scene, view: View, aspect: float) -> float:
+    nodes = view.points(np.array([node.at for node in scene.nodes]))
+    ends = [view.points(np.array([ray.tail, ray.head])) for ray in scene.rays]
+    size = np.ptp(np.concatenate([nodes, *ends]), axis=0)
+    scale = 1.0 / max(size[0] / aspect, size[1], 1e-9)
+    apart = min((*_distances(scene, nodes, ends), 1.0 / scale), default=1.0) * scale
+    towards = view.sheet[2]
+    # Ellipses and surfaces are seen from aside, and rays not along themselves.
+    faces = [abs(float(ray.axes[2] @ towards)) for ray in scene.rays]
+    faces += [abs(float(n.normal @ towards)) for n in scene.nodes if n.normal is not None]
+    open_ones = float(np.mean(np.minimum(faces, 0.5))) if faces else 0.5
+    least = min(faces, default=0.5)
+    ahead = np.mean([ray.axes[2] @ view.sheet[0] for ray in scene.rays]) if scene.rays else 0.0
+    return float(apart * (0.1 + open_ones + 0.8 * min(least, 0.3)) * (1.0 + 0.05 * ahead))
+
+
+def _distances(scene: Scene, nodes: Array, ends: list[Array]) -> Iterator[float]:
+    """Yield how far nodes are from one another, and from rays that pass them."""
+    for one, other in combinations(nodes, 2):
+        yield float(np.linalg.norm(one - other))
+    for ray, (tail, head) in zip(scene.rays, ends, strict=True):
+        for node, at in zip(scene.nodes, nodes, strict=True):
+            if node.name not in (ray.start, ray.end):
+                yield 1.5 * _from_segment(at, tail, head)
+
+
+def _from_segment(point: Array, tail: Array, head: Array) -> float:
+    way = head - tail
+    share = np.clip((point - tail) @ way / max(float(way @ way), 1e-30), 0.0, 1.0)
+    return float(np.linalg.norm(point - tail - share * way))
+
+
+_HALF, _RADIUS = 0.3, 0.24
+"""Half the side of a surface, and the radius of a plate, of the length of a link."""
+
+
+def outline(scene: Scene, node: SceneNode) -> Array:
+    """Return the outline of a surface or a plate.
+
+    Shape: returns (points, 3).
+    """
+    normal, across = np.asarray(node.normal), np.asarray(node.across)
+    along = np.cross(normal, across)
+    if node.role == "plate":
+        angle = np.linspace(0.0, 2.0 * np.pi, 49)[:, np.newaxis]
+        circle = np.cos(angle) * across + np.sin(angle) * along
+        return np.asarray(node.at + _RADIUS * scene.unit * circle)
+    met = [ray.head for ray in scene.rays if ray.end == node.name]
+    met += [ray.tail for ray in scene.rays if ray.start == node.name]
+    half = _HALF * scene.unit
+    low, high = _reach([float((point - node.at) @ along) for point in met], half)
+    left, right = _reach([float((point - node.at) @ across) for point in met], half)
+    corners = [(left, low), (right, low), (right, high), (left, high)]
+    return np.array([node.at + a * across + b * along for a, b in corners])
+
+
+def axis_line(scene: Scene, node: SceneNode) -> Array:
+    """Return the line along the axis of a plate.
+
+    Shape: returns (2, 3).
+    """
+    reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
+    return np.array([node.at - reach, node.at + reach])
+
+
+def _reach(places: list[float], half: float) -> tuple[float, float]:
+    return min([0.0, *places]) - half, max([0.0, *places]) + half
+
+
+_DIRECTIONS = np.radians(np.arange(0.0, 360.0, 22.5))
+_STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5, 12.5
+"""How far from what they name texts are tried, in heights of a line."""
+
+_COVERED = 0.5
+"""What four pixels of a line cost that are covered."""
+
+_FREE = 3.0
+"""How far texts are from what is drawn, in pixels."""
+
+_APART = np.array([9.0, 5.0])
+"""How far texts are from one another, in pixels across and up."""
+
+
+class Label(NamedTuple):
+    """A text, and what it names.
+
+    Shape: at (2,).
+    """
+
+    text: str
+    at: Array
+    style: dict[str, Any]
+    leader: float = 1.4
+
+
+def place_labels(
+    ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Patch] = ()
+) -> None:
+    """Write each text near what it names, over no other text and over few lines.
+
+    Shape: lines (points, 2).
+    """
+    filled = [outline for solid in solids for outline in _outlines(solid)]
+    crowd = [_dense(ax.transData.transform(line)) for line in lines if len(line)]
+    drawn = np.concatenate(crowd) if crowd else np.zeros((0, 2))
+    anchors = ax.transData.transform(np.array([label.at for label in labels]).reshape(-1, 2))
+    drawn = np.concatenate([drawn, np.repeat(anchors, 3, axis=0)])
+    taken: list[Bbox] = []
+    for label, anchor in zip(labels, anchors, strict=True):
+        text = ax.annotate(
+            label.text,
+            tuple(label.at),
+            (0.0, 0.0),
+            textcoords="offset pixels",
+            ha="center",
+            va="center",
+            annotation_clip=False,
+            zorder=10,
+            **label.style,
+        )
+        box = text.get_window_extent()
+        half = np.array([box.width, box.height]) / 2.0
+        offset = _best(anchor, half, drawn, (taken, filled), within)
+        middle = anchor + offset
+        taken.append(Bbox([middle - half - _APART, middle + half + _APART]))
+        _move(ax, text, label, offset, half)
+
+
+def _move(ax: Axes, text: Any, label: Label, offset: Array, half: Array) -> None:
+    scale = 72.0 / text.figure.figure.dpi
+    text.set_position(tuple(offset * scale))
+    text.set_anncoords("offset points")
+    away = np.abs(offset) - half
+    if max(away) > label.leader * 2.0 * half[1]:
+        # To the nearest edge of the text.
+        near = offset - np.clip(offset, -half, half) * 0.92
+        ax.annotate(
+            "",
+            tuple(label.at),
+            tuple(near * scale),
+            textcoords="offset points",
+            annotation_clip=False,
+            zorder=3.5,
+            arrowprops={"arrowstyle": "-", "lw": 0.6, "color": FAINT, "shrinkA": 0, "shrinkB": 2},
+        )
+
+
+def _best(
+    anchor: Array, half: Array, drawn: Array, shapes: tuple[list[Bbox], list[Path]], within: Bbox
+) -> Array:
+    """Return the offset at which a text of so many pixels covers least."""
+    offsets, cost = _tried(half)
+    low, high = anchor + offsets - half, anchor + offsets + half
+    out = np.maximum(within.min - low, 0.0) + np.maximum(high - within.max, 0.0)
+    cost += 1e6 * out.sum(axis=1)
+    taken, solids = shapes
+    cost += 1e4 * _overlap(low - 1.0, high + 1.0, taken).sum(axis=1)
+    low, high = low - _FREE, high + _FREE
+    # Where frames of two do not overlap they do not touch, which is soon found.
+    for which, solid in np.argwhere(_overlap(low, high, [each.get_extents() for each in solids])):
+        cost[which] += 1e3 * solids[solid].intersects_bbox(Bbox([low[which], high[which]]))
+    covered = ((drawn > low[:, np.newaxis]) & (drawn < high[:, np.newaxis])).all(axis=2)
+    cost += _COVERED * np.minimum(covered.sum(axis=1), 30)
+    return np.asarray(offsets[np.argmin(cost)])
+
+
+def _tried(half: Array) -> tuple[Array, Array]:
+    """Return the offsets that are tried, and what they cost, which is least near and above."""
+    ways = np.stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)], axis=-1)
+    # The edge of the text, and not its middle, is so far away.
+    edges = np.sign(ways.round(9)) * half * np.minimum(abs(ways) * 1.3, 1.0)
+    steps = np.array(_STEPS)[:, np.newaxis]
+    offsets = 2.0 * half[1] * steps[..., np.newaxis] * ways + edges
+    left, below = ways.T.round(9) < 0.0
+    cost = 1.3 * steps + 0.4 * left + 0.2 * below + 0.1 * abs(ways[:, 0])
+    return offsets.reshape(-1, 2), cost.ravel()
+
+
+def _overlap(low: Array, high: Array, boxes: list[Bbox]) -> npt.NDArray[np.bool_]:
+    """Tell which rectangles overlap which boxes, shape (rectangles, boxes)."""
+    corners = np.array([each.extents for each in boxes]).reshape(-1, 2, 2)
+    apart = (low[:, np.newaxis] >= corners[:, 1]) | (high[:, np.newaxis] <= corners[:, 0])
+    return np.asarray(~apart.any(axis=2))
+
+
+def _outlines(solid: Patch) -> list[Path]:
+    """Return the closed outlines of what is drawn, in pixels."""
+    drawn = solid.get_path().transformed(solid.get_transform())
+    # Of paths with codes Matplotlib forgets the side that closes them.
+    return [Path(points) for points in drawn.to_polygons()]
+
+
+def _dense(line: Array, apart: float = 4.0) -> Array:
+    """Return points along a line of pixels that are so far apart at most."""
+    found = [line[:1]]
+    for tail, head in pairwise(line):
+        count = max(int(np.linalg.norm(head - tail) / apart), 1)
+        share = np.arange(1, count + 1)[:, np.newaxis] / count
+        found.append(tail + share * (head - tail))
+    return np.concatenate(found)

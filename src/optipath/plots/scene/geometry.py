@@ -1,0 +1,168 @@
+"""A path drawn in space, as it is seen from aside."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.transforms import Bbox
+
+from optipath.errors import OptipathError
+from optipath.errors import shown as said
+from optipath.plots.axes import own_axes
+from optipath.plots.colors import FAINT, INK
+from optipath.plots.scene.drawn_scene import (
+    Label,
+    View,
+    chosen_view,
+    draw_scene,
+    key_to,
+    lines_of,
+    place_labels,
+)
+from optipath.plots.scene.layout import scene_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plots.scene.scene import Scene
+
+    Array = npt.NDArray[np.float64]
+
+
+_SIZE = 8.0, 6.0
+_USUAL = 620.0
+"""The mean of width and height, in hundredths of an inch, at which texts are of 9 points."""
+
+_LONGEST = 0.6
+"""How long a link is drawn at most, of the height or the width."""
+
+
+def geometry(
+    path: PathGraph,
+    ax: Axes | None = None,
+    *,
+    view: tuple[float, float] | None = None,
+    **values: Any,
+) -> Axes:
+    """Draw a path in space: rays, surfaces, planes of incidence, frames, angles and polarisation.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    ax : Axes, optional
+        Where; by default in a figure of its own. Plain axes: what is in space is projected.
+    view : tuple of float, optional
+        Elevation and azimuth in degrees from which it is seen, as Matplotlib has them; by default
+        one in which nodes are far apart.
+    **values : float or str
+        As in `PathGraph.trace`, a single number each.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    PathError
+        If the values are those of several paths.
+    OptipathError
+        If `ax` or `view` is none, or what is given is no path.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> ax = op.plots.geometry(op.load_preset("npgr026", case="8"))
+    >>> sorted(text.get_text() for text in ax.texts if "=" in text.get_text())
+    ['delta = 48 deg', 'filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg']
+    """
+    scene = scene_of(path, "geometry", **values)
+    seen_from = None if view is None else _given_view(view)
+    ax = own_axes(ax, _SIZE)
+    ax.set_axis_off()
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()  # Until then nobody knows how large axes are.
+    whole, dots = ax.get_window_extent(), figure.dpi / 100.0
+    size = 9.0 * float(np.clip(np.sqrt(whole.width * whole.height) / dots / _USUAL, 0.62, 1.1))
+    below = _write_below(ax, scene, size)
+    room = Bbox.from_extents(whole.x0 + 2, below + 4, whole.x1 - 2, whole.y1 - 2)
+    seen_from = seen_from or chosen_view(scene, room.width / room.height)
+    _fit(ax, scene, seen_from, room)
+    draw_scene(ax, scene, seen_from, size / 9.0)
+    place_labels(ax, _labels(scene, seen_from, size), lines_of(scene, seen_from), room)
+    return ax
+
+
+def _given_view(view: Any) -> View:
+    try:
+        elevation, azimuth = (float(angle) for angle in view)
+    except (TypeError, ValueError):
+        elevation = azimuth = np.nan
+    if not np.isfinite([elevation, azimuth]).all():
+        raise OptipathError(f"view is {said(view)}; give elevation and azimuth, as (24, -60)")
+    return View(elevation, azimuth)
+
+
+def _write_below(ax: Axes, scene: Scene, size: float) -> float:
+    """Write the key and the notes at the lower edge, and return how high they reach in pixels."""
+    figure: Any = ax.figure.figure
+    whole, dots = ax.get_window_extent(), figure.dpi / 72.0
+    columns = int(whole.width / (0.5 * size * dots))
+    notes = "\n".join(textwrap.wrap("; ".join(scene.notes), max(columns, 20)))
+    text = ax.text(
+        0.5, 0.0, notes, fontsize=size * 0.85, color=FAINT, transform=ax.transAxes, ha="center"
+    )
+    top = text.get_window_extent().y1 if notes else whole.y0
+    handles = key_to(scene)
+    for count in range(len(handles), 0, -1):
+        key = ax.legend(
+            handles=handles,
+            ncols=count,
+            fontsize=size * 0.9,
+            frameon=False,
+            loc="lower center",
+            bbox_to_anchor=(0.5, (top - whole.y0 + 2.0) / whole.height),
+            borderaxespad=0.0,
+            columnspacing=1.4,
+            handlelength=1.6,
+        )
+        box = key.get_window_extent()
+        if box.width <= whole.width:
+            break
+    return float(box.y1)
+
+
+def _fit(ax: Axes, scene: Scene, view: View, room: Bbox) -> None:
+    """Set limits by which a scene fills a part of the axes, and is as wide as high."""
+    shown = [*lines_of(scene, view), *(view.points(plane.corners) for plane in scene.planes)]
+    points = np.concatenate([*shown, view.points(np.array([node.at for node in scene.nodes]))])
+    low, high = points.min(axis=0), points.max(axis=0)
+    whole = ax.get_window_extent()
+    margin = 0.06 * np.array([room.width, room.height]) + 8.0
+    free = np.array([room.width, room.height]) - 2.0 * margin
+    per_unit = float(np.min(free / np.maximum(high - low, 0.01 * scene.unit)))
+    per_unit = min(per_unit, _LONGEST * min(room.width, room.height) / scene.unit)
+    middle = (low + high) / 2.0
+    centre = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
+    left, bottom = middle - (centre - [whole.x0, whole.y0]) / per_unit
+    ax.set_xlim(left, left + whole.width / per_unit)
+    ax.set_ylim(bottom, bottom + whole.height / per_unit)
+    ax.set_aspect("equal", adjustable="box")
+
+
+def _labels(scene: Scene, view: View, size: float) -> list[Label]:
+    bold = {"fontsize": size * 1.1, "fontweight": "bold", "color": INK}
+    found = [Label(node.name, view.points(node.at), bold) for node in scene.nodes]
+    style = {"fontsize": size, "color": ANGLE_INK}
+    return found + [Label(a.text, view.points(a.at), style, _LEADS_SOON) for a in scene.angles]
+
+
+_LEADS_SOON = 0.7
+"""From which distance on a line leads to the name of an angle, in heights of a line."""
+
+ANGLE_INK = "#8b3f71"
+"""Of the names of angles: the colour of their arcs, dark enough to read."""

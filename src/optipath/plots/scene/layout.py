@@ -1,0 +1,286 @@
+"""Layout: a path laid out in space, with its angles as arcs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer.placement import azimuth_of
+from optipath.elements.boundary import BoundaryElement
+from optipath.elements.vertex_chain import VerticesByAngles
+from optipath.elements.vertices import ChainVertex
+from optipath.plots.light_texts import ellipse_points
+from optipath.plots.scene.placing import DrawnLink, Placing, angles_at, has_axis, incidence_at
+from optipath.plots.scene.scene import (
+    Scene,
+    SceneAngle,
+    SceneFrame,
+    SceneNode,
+    ScenePlane,
+    SceneRay,
+)
+from optipath.plots.scene.values import ToldAngle, ToldPath, number, told_angle, told_incidence
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import numpy.typing as npt
+
+    from optipath.composer.wiring import Link
+    from optipath.paths.energy import LightOnLink
+    from optipath.paths.path_graph import PathGraph
+
+    Array = npt.NDArray[np.float64]
+
+
+LARGEST_ELLIPSE = 0.18
+"""How far the ellipse of wholly polarised light reaches from the ray, of the length of a link."""
+
+_LEAVING = 0.5
+"""How long light that leaves the path is drawn, of the length of a link."""
+
+_NO_PLANE, _NARROWEST = 1e-6, 0.3
+"""The sine of an incidence that has no plane, and how far a plane reaches at least."""
+
+_FRAMES_AT = 0.2
+"""How far from its node the frame of a port is drawn."""
+
+
+def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
+    """Return a path laid out in space.
+
+    What has world frames, or stands at the points of a chain, stands where it stands. All else is
+    laid out by following the light from its source, in the frames of docs/conventions.md: x of a
+    surface is along k_out cross k_in, azimuths turn the frame about the light.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> scene = scene_of(op.load_preset("npgr026", case="8"))
+    >>> [angle.text for angle in scene.angles]
+    ['filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg', 'delta = 48 deg']
+    """
+    return scene_with(ToldPath(path, what, values))
+
+
+def scene_with(told: ToldPath) -> Scene:
+    """Return a path with all its values laid out in space."""
+    placing = Placing(told)
+    rays = tuple(_ray(placing, each) for each in told.lights)
+    schematic = not all(posture.told for posture in placing.postures.values())
+    angles = scene_angles(told, placing)
+    lengths = "lengths are chosen: each link is drawn 1 long"
+    notes = [] if told.wiring.self_placed and not placing.by_angles else [lengths]
+    return Scene(
+        notes=(*notes, *placing.notes),
+        schematic=schematic,
+        unit=placing.unit,
+        nodes=tuple(_nodes(told, placing)),
+        rays=rays,
+        planes=tuple(_planes(placing, rays)),
+        frames=tuple(_frames(placing, {each.name: each for each in told.lights})),
+        angles=angles,
+    )
+
+
+def _nodes(told: ToldPath, placing: Placing) -> list[SceneNode]:
+    found = []
+    order = dict.fromkeys([*(name for name, _ in told.wiring.order), *placing.at])
+    for name in order:
+        posture, kind = placing.postures[name], placing.wiring.elements[name].kind
+        stands = placing.at[name], posture.normal, posture.across
+        found.append(SceneNode(name, kind, *stands, posture.role, _axis(placing, name)))
+    return found
+
+
+def _axis(placing: Placing, name: str) -> Array | None:
+    """Return the axis of a plate that has one."""
+    posture, element = placing.postures[name], placing.wiring.elements[name]
+    if posture.role != "plate" or not has_axis(element):
+        return None
+    angle = element.angle  # type: ignore[attr-defined]
+    told = told_angle(angle)
+    if not told.there:
+        return None
+    x, y, _ = posture.axes["in"].T
+    turned = number(angle)
+    return np.asarray(np.cos(turned) * x + np.sin(turned) * y)
+
+
+def _ray(placing: Placing, each: LightOnLink) -> SceneRay:
+    drawn = drawn_link(placing, each)
+    x, y, _ = rows = drawn.axes.T
+    dop = float(each.light.dop)
+    ellipse = None
+    if dop > 1e-9:  # Of NaN as well it is not told.
+        points = ellipse_points(each.light, 49) * (LARGEST_ELLIPSE * placing.unit * min(dop, 1.0))
+        ellipse = points @ np.array([x, y])
+    ends = each.name, each.start, each.end, drawn.tail, drawn.head
+    return SceneRay(*ends, rows, ellipse, each.light, not each.end, each.tap)
+
+
+def drawn_link(placing: Placing, each: LightOnLink) -> DrawnLink:
+    """Return where the light of a link, or of an outlet, is drawn."""
+    if each.end:
+        return placing.links[each.start, each.end, (each.leaves, each.enters)]
+    axes = placing.postures[each.start].axes[each.leaves]
+    tail = placing.tail_of(each.start, each.leaves)
+    return DrawnLink(tail, tail + _LEAVING * placing.unit * axes[:, 2], axes)
+
+
+def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
+    """Return a rectangle for each plane of incidence, which reaches as far as the links."""
+    found = []
+    for name, element in placing.wiring.elements.items():
+        posture, at = placing.postures[name], placing.at[name]
+        if not isinstance(element, BoundaryElement | ChainVertex) or posture.normal is None:
+            continue
+        ends = [ray.tail for ray in rays if ray.end == name and np.allclose(ray.head, at)]
+        ends += [ray.head for ray in rays if ray.start == name and not ray.leaves]
+        across = np.cross(np.asarray(posture.across), posture.normal)
+        least = _NARROWEST * placing.unit
+        wide = max([least, *(abs(float((end - at) @ across)) for end in ends)])
+        heights = [float((end - at) @ posture.normal) for end in ends]
+        side, top = wide * across, max([least, *heights]) * posture.normal
+        foot = min([0.0, *heights]) * posture.normal
+        if abs(posture.axes["in"][:, 2] @ across) > _NO_PLANE:
+            corners = np.array([foot - side, foot + side, top + side, top - side])
+            found.append(ScenePlane(name, at + corners))
+    return found
+
+
+def _frames(placing: Placing, lit: dict[str, LightOnLink]) -> list[SceneFrame]:
+    """Return the frames of the ports that light passes, beside their nodes."""
+    found: dict[str, SceneFrame] = {}
+    for each in lit.values():
+        drawn, aside = drawn_link(placing, each), _FRAMES_AT * placing.unit
+        away = aside * drawn.axes[:, 2]
+        port = f"{each.start}.{each.leaves}"
+        found.setdefault(port, SceneFrame(port, drawn.tail + away, drawn.axes.T))
+        if each.end:
+            port = f"{each.end}.{each.enters}"
+            axes = placing.axes_entering((each.start, each.end, (each.leaves, each.enters)))
+            found.setdefault(port, SceneFrame(port, drawn.head - away, axes.T))
+    return [*found.values()]
+
+
+_AT_SURFACE, _ABOUT_RAY, _ON_PLATE = 0.32, 0.3, 0.3
+"""How large arcs are, of the length of a link."""
+
+_SEEN = np.radians(1.0)
+"""The least angle that is seen as one."""
+
+_OF_AXES = "angle", "dichroic_angle"
+"""The fields of elements that say how an axis stands to x, or by how much light is turned."""
+
+
+def scene_angles(told: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
+    """Return the angles of a path that have names, node by node as light travels."""
+    found: list[SceneAngle] = []
+    names = dict.fromkeys(name for name, _ in told.wiring.order)
+    for name in names:
+        for link in placing.links:
+            if link[1] == name:
+                found += _azimuths(placing, link)
+        element = placing.wiring.elements[name]
+        if isinstance(element, BoundaryElement | ChainVertex):
+            found += _incidences(placing, name, element)
+        elif placing.postures[name].role == "plate":
+            found += _axes(placing, name, element)
+    return tuple(found)
+
+
+def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
+    """Yield the angle between the light that arrives and the normal, or that is given behind."""
+    posture, at = placing.postures[name], placing.at[name]
+    normal: Any = posture.normal
+    front = incidence_at(element, posture)
+    value: Any = front
+    if not isinstance(element, ChainVertex):
+        value = element.incidence
+        _, behind = angles_at(element)
+        given = number(value) if isinstance(value, Parameter) else front
+        if abs(given - front) > 1e-9 and abs(given - behind) < 1e-9:
+            out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
+            yield _arc(told_angle(value), at, -normal, out, behind, size)
+    elif (given := angles_in_chain(element)[0]) is not None:
+        value = given
+    told = told_incidence(value, front)
+    arriving = -posture.axes["in"][:, 2]
+    yield _arc(told, at, normal, arriving, front, _AT_SURFACE * placing.unit)
+
+
+def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
+    """Yield the turn of the frame that light enters in against that in which it left."""
+    wiring, value = placing.wiring, azimuth_of(placing.wiring, link)
+    if link[0] in wiring.self_placed and link[1] in wiring.self_placed:
+        _, value = angles_in_chain(wiring.elements[link[1]])
+    if not isinstance(value, Parameter):
+        return
+    told, drawn = told_angle(value, signed=False), placing.links[link]
+    is_surface = placing.postures[link[1]].role == "surface"
+    first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
+    centre = drawn.tail + 0.72 * (drawn.head - drawn.tail)
+    size = _ABOUT_RAY * placing.unit
+    yield _turn(told, centre, (first, second), number(value), size, "azimuth")
+
+
+def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
+    """Yield the angles of the axes of a plate against x of its frame."""
+    x, y, _ = placing.postures[name].axes["in"].T
+    size = _ON_PLATE * placing.unit
+    for field in _OF_AXES:
+        value = getattr(element, field, None)
+        if isinstance(value, Parameter):
+            told = told_angle(value)
+            angle = number(value) if told.there else 0.0
+            found = _turn(told, placing.at[name], (x, y), angle, size, "axis")
+            yield found if told.there else found._replace(arc=found.arc[:0], at=placing.at[name])
+            size *= 1.25
+
+
+def _arc(
+    told: ToldAngle, at: Array, first: Array, second: Array, angle: float, size: float
+) -> SceneAngle:
+    """Return the arc from one direction to another, which are an angle apart."""
+    across = second - (second @ first) * first
+    length = np.linalg.norm(across)
+    towards = across / length if length > 1e-12 else np.zeros(3)
+    return _turn(told, at, (first, towards), angle, size, "incidence")
+
+
+def _turn(
+    told: ToldAngle, at: Array, sides: tuple[Array, Array], angle: float, size: float, about: str
+) -> SceneAngle:
+    """Return the arc of a turn from one direction towards another at a right angle to it."""
+    first, second = sides
+    steps = np.linspace(0.0, angle, 2 + int(abs(angle) / 0.08))[:, np.newaxis]
+    arc = at + size * (np.cos(steps) * first + np.sin(steps) * second)
+    # An angle that is not seen has its name where it would open.
+    reach = size if abs(angle) > _SEEN else 0.0
+    middle = at + reach * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
+    return SceneAngle(told.name, told.text, arc, middle, at, about)
+
+
+def angles_in_chain(element: Any) -> tuple[Any, Any]:
+    """Return the incidence at a surface, and the turn of its plane against that of the one before.
+
+    Units: incidence, turn in radians.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> path = op.load_preset("npgr026-3d")
+    >>> [angle.name for angle in angles_in_chain(path.element("X1"))]
+    ['delta', 'rho']
+    """
+    if not isinstance(element, ChainVertex):
+        return None, None
+    chain, place = element.vertices, int(element.place)
+    if not isinstance(chain, VerticesByAngles):
+        return None, None
+    way = -1 if chain.backwards else 1
+    turn = chain.turns[::way][place - 2] if place > 1 else None
+    return chain.incidences[::way][place - 1], turn

@@ -1,0 +1,517 @@
+"""Placing: where every node and link of a path is in space."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.composer.placement import azimuth_of, frame_at
+from optipath.composer.wiring import link_text
+from optipath.elements.boundary import BoundaryElement, angles_of, operands_of
+from optipath.elements.detectors import Detector, Terminal
+from optipath.elements.interface import Mirror
+from optipath.elements.medium import Medium
+from optipath.elements.rotators import FaradayRotator, Rotator
+from optipath.elements.splitters import Splitter
+from optipath.elements.vertex_chain import VerticesByAngles, vertices_from_angles
+from optipath.elements.vertices import ChainVertex
+from optipath.kernels.vertex_chain import Event
+from optipath.materials.material import Material
+from optipath.plots.scene.values import number
+from optipath.values.operands import Operand
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.composer.wiring import Link, Wiring
+    from optipath.elements.element import Element
+    from optipath.light.frame import Frame
+    from optipath.plots.scene.values import ToldPath
+
+    Array = npt.NDArray[np.float64]
+
+
+_ASIDE = np.radians([40.0, -40.0, 75.0, -75.0])
+"""By how much taps, and lights that meet, are turned out of the way of other light."""
+
+_BESIDE = 0.6
+"""How far light that comes back along its way is drawn beside it."""
+
+_BACK, _ROOM = 3.0, 0.3
+"""How long the way back is on which there should be room, and how much, in lengths of a link."""
+
+_START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""The axes of the first source, a column each: light goes to the right, y is up."""
+
+
+class DrawnLink(NamedTuple):
+    """A link where it is drawn.
+
+    Shapes: tail, head (3,); axes (3, 3).
+    """
+
+    tail: Array
+    head: Array
+    axes: Array
+
+
+class Placing:
+    """Where the nodes and links of a path are drawn.
+
+    Shape: at (3,).
+    """
+
+    def __init__(self, told: ToldPath) -> None:
+        self.wiring = told.wiring
+        self.at: dict[str, Array] = {}
+        self.postures: dict[str, Posture] = {}
+        self.links: dict[Link, DrawnLink] = {}
+        self.notes: dict[str, None] = {}
+        self.unit = 1.0
+        self.by_angles = True
+        self._returning: dict[tuple[str, str], tuple[Array, Array]] = {}
+        self._begins: dict[tuple[str, str], Array] = {}
+        self._aside: dict[tuple[str, str], int] = {}
+        self._legs = legs_beside_chains(self.wiring)
+        self._taps = {*self.wiring.taps}
+        self._fix()
+        self._follow()
+
+    def note(self, sentence: str) -> None:
+        """Say once what was chosen."""
+        self.notes[sentence] = None
+
+    def _fix(self) -> None:
+        """Place what says itself where it stands."""
+        legs = []
+        for name, element in self.wiring.elements.items():
+            if axes := own_axes_of(self.wiring, name):
+                self.postures[name] = posture_in_space(self.wiring, name, axes)
+            if isinstance(element, ChainVertex):
+                points, place = chain_points(element), int(element.place)
+                self.at[name] = points[place]
+                ends = not self.wiring.self_placed.intersection(self.wiring.graph.successors(name))
+                if isinstance(element.vertices, VerticesByAngles):
+                    if ends:  # What comes behind the chain may stand beside it.
+                        self._part_returning(name, self.postures[name])
+                else:
+                    around = points[place - 1 : place + 2]
+                    legs += [*np.linalg.norm(np.diff(around, axis=0), axis=1)]
+        if legs:
+            self.unit, self.by_angles = float(np.median(legs)), False
+
+    def _follow(self) -> None:
+        """Draw link after link, forwards where that can be, else backwards to other sources."""
+        left = sorted(
+            self.wiring.graph.edges(keys=True),
+            key=lambda link: (self.wiring.order.get((link[0], link[2][0]), 0), link in self._taps),
+        )
+        while left:
+            forwards = [link for link in left if link[0] in self.at]
+            backwards = [each for each in left if each[0] not in self.at and each[1] in self.at]
+            # What comes back goes where there is room, and so comes last.
+            onwards = [link for link in forwards if (link[0], link[2][0]) not in self._returning]
+            if onwards or (forwards and not backwards):
+                link = (onwards or forwards)[0]
+                self.links[link] = self._forwards(link)
+            elif backwards:
+                link = backwards[0]
+                self.links[link] = self._backwards(link)
+            else:
+                self._begin(left[0][0])
+                continue
+            left.remove(link)
+        for name in self.wiring.elements:
+            if name not in self.at:
+                self._begin(name)
+
+    def _begin(self, name: str) -> None:
+        """Place a node that nothing else places."""
+        below = 1.6 * len([n for n in self.at if not self.wiring.elements[n].inputs])
+        at = np.array([0.0, 0.0, -below * self.unit])
+        element = self.wiring.elements[name]
+        port = (*element.outputs, *element.inputs)[0]
+        self._stand(name, at, port, _START)
+
+    def _stand(self, name: str, at: Array, port: str, axes: Array) -> None:
+        """Place a node by the axes of one of its ports."""
+        self.at[name] = at
+        if name not in self.postures:
+            usual = posture_of(self.wiring.elements[name])
+            basis = axes @ usual.axes[port].T
+            self.postures[name] = usual._replace(
+                axes={p: basis @ own for p, own in usual.axes.items()},
+                normal=None if usual.normal is None else basis @ usual.normal,
+                across=None if usual.across is None else basis @ usual.across,
+            )
+        posture = self.postures[name]
+        if not posture.told:
+            self.note(
+                f"schematic: nothing says by which angle '{name}' turns light; drawn at 45 deg"
+            )
+        self._part_returning(name, posture)
+
+    def _part_returning(self, name: str, posture: Posture) -> None:
+        """Let light that comes back along its own way begin beside where it arrived."""
+        for enters, leaves in (("in", "reflected"), ("in", "out")):
+            if not {enters, leaves} <= posture.axes.keys():
+                continue
+            arriving, returning = posture.axes[enters], posture.axes[leaves]
+            if np.linalg.norm(arriving[:, 2] + returning[:, 2]) < 1e-6:
+                self._returning[name, leaves] = arriving[:, 1], returning[:, 2]
+                self.note(f"light that '{name}' sends back is drawn beside the way it came")
+
+    def tail_of(self, name: str, port: str) -> Array:
+        """Return where light begins that leaves a port.
+
+        Shape: returns (3,).
+        """
+        if (name, port) not in self._returning:
+            return self.at[name]
+        if (name, port) not in self._begins:
+            aside, way = self._returning[name, port]
+            sides = [self.at[name] + _BESIDE * self.unit * each for each in (aside, -aside)]
+            free = [self._free(side, way) for side in sides]
+            # To where y is, unless another beam or element is there.
+            other = free[0] < _ROOM and free[1] > free[0]
+            self._begins[name, port] = sides[int(other)]
+        return self._begins[name, port]
+
+    def _free(self, start: Array, way: Array) -> float:
+        """Return how far a beam keeps from what is placed, in lengths of a link."""
+        beam = start + np.linspace(0.0, _BACK * self.unit, 31)[:, np.newaxis] * way
+        share = np.linspace(0.0, 1.0, 11)[:, np.newaxis]
+        lines = [link.tail + share * (link.head - link.tail) for link in self.links.values()]
+        taken = np.concatenate([*lines, np.array([*self.at.values()])])
+        distances = np.linalg.norm(beam[:, np.newaxis] - taken, axis=2)
+        return float(distances.min()) / self.unit
+
+    def axes_entering(self, link: Link) -> Array:
+        """Return the axes in which the light of a link enters, a column each."""
+        _, end, (_, enters) = link
+        axes, drawn = self.postures[end].axes[enters], self.links[link]
+        if np.linalg.norm(axes[:, 2] - drawn.axes[:, 2]) < 1e-9:
+            return axes
+        return drawn.axes @ turn_about_z(self._azimuth(link))
+
+    def _azimuth(self, link: Link) -> float:
+        return number(azimuth_of(self.wiring, link))
+
+    def _length(self, link: Link) -> float:
+        return self._legs.get(link, self.unit)
+
+    def _forwards(self, link: Link) -> DrawnLink:
+        """Draw a link from where it begins."""
+        start, end, (leaves, enters) = link
+        tail, axes = self.tail_of(start, leaves), self.postures[start].axes[leaves]
+        if end in self.at:
+            return self._closed(link, tail, axes)
+        fixed = self.postures.get(end)
+        if link in self._taps and fixed is None:
+            axes = self._turned_aside((start, leaves), axes)
+            self.note("taps, which only read light, are drawn dashed and aside")
+        head = tail + self._length(link) * axes[:, 2]
+        self._stand(end, head, enters, axes @ turn_about_z(self._azimuth(link)))
+        return DrawnLink(tail, head, axes)
+
+    def _backwards(self, link: Link) -> DrawnLink:
+        """Draw a link to a node that stands, from one that does not."""
+        start, end, (leaves, enters) = link
+        arriving = self.postures[end].axes[enters]
+        axes = arriving @ turn_about_z(-self._azimuth(link))
+        taken = [other for other in self.links if other[1] == end and other[2][1] == enters]
+        if taken and start not in self.postures:
+            axes = self._turned_aside((end, enters), axes)
+            self.note(f"lights that meet at '{end}' are drawn from several sides")
+        head = self.at[end]
+        tail = head - self._length(link) * axes[:, 2]
+        self._stand(start, tail, leaves, axes)
+        return DrawnLink(tail, head, axes)
+
+    def _turned_aside(self, port: tuple[str, str], axes: Array) -> Array:
+        count = self._aside[port] = self._aside.get(port, 0) + 1
+        return axes @ turn_about_x(_ASIDE[(count - 1) % len(_ASIDE)])
+
+    def _closed(self, link: Link, tail: Array, axes: Array) -> DrawnLink:
+        """Draw a link between nodes that stand both."""
+        _, end, (_, enters) = link
+        way, along = self.at[end] - tail, axes[:, 2]
+        length = np.linalg.norm(way)
+        if length > 0.0 and np.linalg.norm(way / length - along) < 1e-9:
+            return DrawnLink(tail, self.at[end], axes)
+        posture = self.postures[end]
+        if posture.normal is not None and posture.role != "plate":
+            towards = posture.normal @ along
+            distance = posture.normal @ way / towards if abs(towards) > 1e-9 else 0.0
+            expected = posture.axes[enters][:, 2] @ along > 1.0 - 1e-9
+            if expected and 0.2 * self.unit < distance < 5.0 * self.unit:
+                self.note(f"light comes to '{end}' again at another place of its face")
+                return DrawnLink(tail, tail + distance * along, axes)
+        self.note(f"the picture cannot close: '{link_text(link)}' is drawn to where '{end}' stands")
+        if length < 0.2 * self.unit:
+            return DrawnLink(tail, tail + 0.5 * self.unit * along, axes)
+        return DrawnLink(tail, self.at[end], _carried(axes, way / length))
+
+
+def _carried(axes: Array, direction: Array) -> Array:
+    """Return axes turned by the least turn that takes z to a direction."""
+    z = axes[:, 2]
+    across = np.cross(z, direction)
+    cosine = float(z @ direction)
+    if cosine < -1.0 + 1e-12:
+        return np.asarray(axes * np.array([1.0, -1.0, -1.0]))
+    matrix = np.array(
+        [
+            [0.0, -across[2], across[1]],
+            [across[2], 0.0, -across[0]],
+            [-across[1], across[0], 0.0],
+        ]
+    )
+    return np.asarray((np.eye(3) + matrix + matrix @ matrix / (1.0 + cosine)) @ axes)
+
+
+_STRAIGHT_ON = 1e-12
+"""The sine of an angle that is none."""
+
+
+def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
+    """Return the axes that ports of a node have in the world.
+
+    Shape: returns (3, 3).
+    """
+    element = wiring.elements[name]
+    found = {}
+    for port in (*element.inputs, *element.outputs):
+        own = element.own_frame(port)
+        frame = own.frame({}) if own is not None else frame_at(wiring, name, port)
+        if frame is not None:
+            found[port] = _columns(frame)
+    return found
+
+
+def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Posture:
+    """Return how the ports of a node stand in the world, of which some have axes there.
+
+    Shape: axes (3, 3).
+    """
+    element = wiring.elements[name]
+    usual = posture_of(element)
+    first = next(iter(axes))
+    basis = axes[first] @ usual.axes[first].T if usual.axes else np.eye(3)
+    others = {port: basis @ own for port, own in usual.axes.items() if port not in axes}
+    across = axes[first][:, 0] if usual.role in ("surface", "mirror", "plate") else None
+    normal = None if usual.normal is None else basis @ usual.normal
+    leaves = [port for port in element.outputs if port in axes]
+    if normal is not None and usual.role != "plate" and "in" in axes and leaves:
+        normal = _normal(element, leaves[0], axes["in"], axes[leaves[0]][:, 2])
+    elif isinstance(element, ChainVertex):
+        normal = _normal_of_vertex(element, axes["in"], axes[leaves[0]][:, 2])
+    told = usual.told or len(axes) > 1
+    return usual._replace(axes={**axes, **others}, normal=normal, across=across, told=told)
+
+
+def _normal(element: Element, port: str, arriving: Array, leaves: Array) -> Array:
+    """Return the normal of a surface between two directions, on the side that light comes from."""
+    if port != "transmitted":
+        return _bisector(arriving, leaves)
+    front, behind = angles_at(element) if isinstance(element, BoundaryElement) else (0.0, 0.0)
+    # The plane of incidence is across x, to either side.
+    side = -1.0 if (front - behind) * (arriving[:, 1] @ leaves) > 0.0 else 1.0
+    return np.asarray(side * np.sin(front) * arriving[:, 1] - np.cos(front) * arriving[:, 2])
+
+
+def _normal_of_vertex(vertex: Any, arriving: Array, leaves: Array) -> Array:
+    """Return the normal of a vertex, across which light is reflected or refracted.
+
+    What refracts stands across n2 k_out - n1 k_in (A. Glassner, ed., An Introduction to Ray
+    Tracing, 1989, ch. 4).
+    """
+    by_number = "events" in vertex.domains()
+    if not vertex.refracts or (by_number and vertex.event_here.numbers() == Event.REFLECTS):
+        return _bisector(arriving, leaves)
+    behind = vertex.index.n if isinstance(vertex.index, Material) else np.real(vertex.index)
+    arrives = arriving[:, 2]
+    across = number(behind) * leaves - number(vertex.front) * arrives
+    length = np.linalg.norm(across)
+    if length < _STRAIGHT_ON:
+        return -arrives
+    return np.asarray(-np.sign(across @ arrives) * across / length)
+
+
+def _bisector(arriving: Array, leaves: Array) -> Array:
+    across = leaves - arriving[:, 2]
+    length = np.linalg.norm(across)
+    # Light that grazes the surface is not turned, but its x tells the plane.
+    return across / length if length > _STRAIGHT_ON else arriving[:, 1]
+
+
+def incidence_at(element: Element, posture: Posture) -> float:
+    """Return the angle between the light that arrives at a surface and its normal.
+
+    Units: the result in radians.
+    """
+    if not isinstance(element, ChainVertex) and hasattr(element, "incidence"):
+        return angles_at(element)[0]
+    arrives, normal = posture.axes["in"][:, 2], np.asarray(posture.normal)
+    across = np.linalg.norm(np.cross(arrives, normal))
+    return float(np.arctan2(across, -np.dot(arrives, normal)))
+
+
+def chain_points(element: Any) -> Array:
+    """Return the points of the chain of a vertex, shape (m + 2, 3)."""
+    chain = element.vertices
+    if isinstance(chain, VerticesByAngles):
+        incidences, turns = (
+            [Operand(angle).numbers() for angle in angles]
+            for angles in (chain.incidences, chain.turns)
+        )
+        points = vertices_from_angles(incidences, turns)
+        return points[::-1] if chain.backwards else points
+    return np.asarray(Operand(chain).numbers(), float)
+
+
+def legs_beside_chains(wiring: Wiring) -> dict[Link, float]:
+    """Return how long links before and behind chains of points are, which share a leg.
+
+    Those of chains by angles have no length of their own.
+    """
+    found: dict[Link, float] = {}
+    for name in wiring.self_placed:
+        element: Any = wiring.elements[name]
+        if isinstance(element.vertices, VerticesByAngles):
+            continue
+        points, place = chain_points(element), int(element.place)
+        for beside, links in (
+            (place - 1, _links_before(wiring, name)),
+            (place + 1, _links_behind(wiring, name)),
+        ):
+            length = np.linalg.norm(points[beside] - points[place])
+            found |= dict.fromkeys(links, float(length) / max(len(links), 1))
+    return found
+
+
+def _links_before(wiring: Wiring, name: str) -> list[Link]:
+    links = wiring.links_to.get((name, "in"), [])
+    if len(links) != 1 or links[0][0] in wiring.self_placed:
+        return []
+    start = links[0][0]
+    element = wiring.elements[start]
+    more = _links_before(wiring, start) if element.straight and element.inputs else []
+    return [links[0], *more]
+
+
+def _links_behind(wiring: Wiring, name: str) -> list[Link]:
+    element = wiring.elements[name]
+    links = wiring.links_from.get((name, element.outputs[0]), []) if element.outputs else []
+    if len(links) != 1 or links[0][1] in wiring.self_placed:
+        return []
+    more = _links_behind(wiring, links[0][1]) if wiring.elements[links[0][1]].straight else []
+    return [links[0], *more]
+
+
+def _columns(frame: Frame) -> Array:
+    return np.stack([frame.x, frame.y, frame.z], axis=-1)
+
+
+_RIGHT = np.pi / 2.0
+_SCHEMATIC = np.pi / 4.0
+
+
+class Posture(NamedTuple):
+    """The frames of the ports of an element, in a basis of its own.
+
+    Shapes: axes (3, 3); normal, across (3,).
+    """
+
+    axes: dict[str, Array]
+    normal: Array | None
+    across: Array | None
+    role: str
+    told: bool = True
+
+
+def turn_about_x(angle: float) -> Array:
+    """Return the matrix of a turn about x by an angle in radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def turn_about_z(angle: float) -> Array:
+    """Return the matrix of a turn about z by an angle in radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def posture_of(element: Element) -> Posture:
+    """Return how the ports of an element stand to one another, by its values alone.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> found = posture_of(op.Interface(1.5, "30 deg"))
+    >>> print(found.axes["in"][:, 2].round(3), found.axes["reflected"][:, 2].round(3))
+    [ 0.    -0.866  0.5  ] [0.    0.866 0.5  ]
+    """
+    ports = (*element.inputs, *element.outputs)
+    if isinstance(element, BoundaryElement):
+        return _surface(ports, *angles_at(element), "surface")
+    if isinstance(element, ChainVertex):
+        return Posture({}, None, None, "surface")
+    if isinstance(element, Mirror):
+        return _surface(ports, 0.0, 0.0, "mirror")
+    if isinstance(element, Splitter):
+        return _surface(ports, _SCHEMATIC, _SCHEMATIC, "surface")
+    if element.straight:
+        return _straight(element, ports)
+    return _surface(ports, _SCHEMATIC, _SCHEMATIC, "surface")._replace(told=False)
+
+
+def angles_at(element: Any) -> tuple[float, float]:
+    """Return the angles of light in front of a boundary and behind it, in radians."""
+    front, behind = angles_of(np, *(operand.numbers() for operand in operands_of(element)))
+    return float(front), float(behind)
+
+
+def has_axis(element: Any) -> bool:
+    """Tell whether the angle of an element is that of an axis, and no turn of the light.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> has_axis(op.Polarizer(0.3)), has_axis(op.Rotator(0.3)), has_axis(op.Medium(1.0))
+    (True, False, False)
+    """
+    if getattr(element, "angle", None) is None or isinstance(element, Rotator | FaradayRotator):
+        return False
+    along = (element.retardance, element.dichroism) if isinstance(element, Medium) else (1.0,)
+    return any(number(value) != 0.0 for value in along)
+
+
+def _surface(ports: tuple[str, ...], front: float, behind: float, role: str) -> Posture:
+    """Return ports about x = s, in the basis of x, the normal and along the surface.
+
+    x is along k_out cross k_in (docs/conventions.md), which is the normal cross the light.
+    """
+    angles = {
+        "in": _RIGHT - front,
+        "reflected": front - _RIGHT,
+        "transmitted": _RIGHT - behind,
+        "back": behind - _RIGHT,
+    }
+    outward = angles["reflected"]
+    axes = {port: turn_about_x(angles.get(port, outward)) for port in ports}
+    x, normal, _ = np.eye(3)
+    return Posture(axes, normal, x, role)
+
+
+def _straight(element: Element, ports: tuple[str, ...]) -> Posture:
+    axes = {port: np.eye(3) for port in ports}
+    if isinstance(element, Terminal):
+        return Posture(axes, None, None, "detector" if isinstance(element, Detector) else "dump")
+    if not element.inputs:
+        return Posture(axes, None, None, "source")
+    if element.merges:
+        return Posture(axes, None, None, "other")
+    x, _, z = np.eye(3)
+    return Posture(axes, -z, x, "plate")

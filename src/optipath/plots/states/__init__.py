@@ -1,1 +1,0 @@
-"""Pictures of light and of matrices: ellipses, the Poincare sphere, bars, maps of elements."""

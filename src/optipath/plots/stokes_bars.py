@@ -1,0 +1,302 @@
+"""Stokes vectors as bars, compared with published ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from optipath.errors import OptipathError, shown, unknown
+from optipath.light.light import Light
+from optipath.light.underflow import normalise_exponent
+from optipath.plots.axes import own_axes
+from optipath.plots.colors import INK, LINES
+from optipath.plots.light_texts import digits, lights_to_draw
+from optipath.plots.text import fitting, inches_wide, key_above
+from optipath.values.arrays import array_of
+from optipath.values.jax_values import known
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    _ByName = Mapping[str, npt.NDArray[np.float64]]
+
+
+_HATCHES = "", "///", "...", "\\\\\\", "xx", "++"
+_PUBLISHED: dict[str, Any] = {
+    "marker": "D",
+    "markersize": 5.0,
+    "markerfacecolor": "white",
+    "color": INK,
+    "linestyle": "none",
+    "zorder": 5,
+}
+
+_ONE = "computed, (published), Δ = computed less published"
+_SEVERAL = "Δ: the largest of computed less published"
+
+_NARROW = 3.0
+"""In inches."""
+
+_DIGITS = 6
+"""As many as published tables have."""
+
+_FILLED = 0.92
+"""How much of the distance of two bars the numbers below them take at most."""
+
+_ROUNDING = 4.0 * float(np.finfo(float).eps)
+
+_GROUP = 0.78
+"""How wide the bars of one component are together."""
+
+
+def stokes(
+    light: Light | Mapping[str, Light],
+    ax: Axes | None = None,
+    *,
+    published: Any = None,
+    labels: str | Sequence[str] | None = None,
+) -> Axes:
+    r"""Draw Stokes vectors as bars, with published values as marks and the difference in digits.
+
+    Below the bars of one light stand its components, what was published in brackets, and the
+    difference, computed minus published; below those of several stands the largest difference.
+    What is no more than rounding (`Light.noise`) is 0. Very faint or bright light is in powers of
+    ten, which the axis names.
+
+    Parameters
+    ----------
+    light : Light, or mapping of str to Light
+        One, a batch of shape (n,), or single ones by their names; six at most.
+    ax : Axes, optional
+        Where; a figure of its own by default, ``.figure`` of what is returned.
+    published : array_like of shape (..., 4), or mapping of str to it, optional
+        Stokes vectors beside which those of the light stand, in their unit; of a mapping of
+        lights, by their names. NaN is what was not published.
+    labels : str or sequence of str, optional
+        The name of the one, or of each of the batch.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    OptipathError
+        If there are too many, or names or published values do not fit.
+    ParameterError
+        If JAX traces the light.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> path = op.load_preset("npgr026", case="8")
+    >>> ax = stokes(path.trace(), published=path.cases["8"].published["E"])
+    >>> ax.get_ylabel()
+    'Stokes parameter\n(unit of the source)'
+    """
+    several = {name: without_noise(each) for name, each in lights_to_draw(light, labels).items()}
+    beside = published_for(published, light, several)
+    power = power_of_ten([*several.values()], beside.values())
+    numbers = {
+        name: scaled_to(known(each.mantissa), each.exponent, power)
+        for name, each in several.items()
+    }
+    printed = {name: scaled_to(each, 0, power) for name, each in beside.items()}
+    ax = own_axes(ax, (5.6, 4.4))
+    keys = _draw_bars(ax, numbers, printed)
+    ax.axhline(0.0, color=INK, linewidth=0.8)
+    unit = f"10^{digits(power, 7)} units\nof the source" if power else "unit of the source"
+    ax.set_ylabel(f"Stokes parameter\n({unit})")
+    ax.grid(visible=True, axis="y", alpha=0.3)
+    ax.set_axisbelow(True)
+    ax.margins(y=0.08)
+    if not any(np.nan_to_num(each).any() for each in (*numbers.values(), *printed.values())):
+        # Bars of no height say nothing of how high the axis is.
+        ax.set_ylim(0.0, 1.0)
+    _tell_numbers(ax, numbers, printed)
+    key_above(ax, keys)
+    _fit_numbers(ax)
+    return ax
+
+
+def _draw_bars(ax: Axes, numbers: _ByName, printed: _ByName) -> list[Any]:
+    """Draw the bars of all lights and the marks beside them; return the key, if one is needed."""
+    width = _GROUP / len(numbers)
+    keys: list[Any] = []
+    for place, (name, found) in enumerate(numbers.items()):
+        middle = np.arange(4) + width * (place + 0.5) - 0.5 * _GROUP
+        style: dict[str, Any] = {
+            "facecolor": LINES[place],
+            "edgecolor": "white",
+            "hatch": _HATCHES[place],
+        }
+        ax.bar(middle, np.where(np.isfinite(found), found, 0.0), 0.94 * width, **style)
+        if name in printed:
+            ax.plot(middle, printed[name], **_PUBLISHED)
+        if name or printed:
+            told = name or "computed"
+            told += ": infinite" if np.isinf(found).any() else ""
+            told += ": not read" if np.isnan(found).all() else ""
+            keys.append(Patch(label=fitting(ax, told, less=5), **style))
+    return [*keys, Line2D([], [], label="published", **_PUBLISHED)] if printed else keys
+
+
+def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
+    """Write below the bars what they are, of one light alone, and the differences."""
+    texts = [f"S{place}" for place in range(4)]
+    if len(numbers) == 1:
+        (found,) = numbers.values()
+        texts = [_lines(text, _number(each)) for text, each in zip(texts, found, strict=True)]
+        for given in printed.values():
+            told = [f"({_number(each)})" if np.isfinite(each) else "(none)" for each in given]
+            texts = [_lines(text, each) for text, each in zip(texts, told, strict=True)]
+    if printed:
+        apart = np.array([_apart(numbers[name], given) for name, given in printed.items()])
+        texts = [_lines(text, _largest(each)) for text, each in zip(texts, apart.T, strict=True)]
+        legend = _ONE if len(numbers) == 1 else _SEVERAL
+        ax.set_xlabel(fitting(ax, legend), fontsize="small")
+    ax.set_xticks(range(4), texts)
+    ax.tick_params(axis="x", length=0.0)
+    if any("\n" in text for text in texts):
+        ax.tick_params(axis="x", labelsize="small" if inches_wide(ax) > _NARROW else "xx-small")
+
+
+def _fit_numbers(ax: Axes) -> None:
+    """Write the numbers below the bars as small as it takes for each to stand by itself."""
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    (left, _), (right, _) = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
+    texts = ax.get_xticklabels()
+    share = _FILLED * (right - left) / max(text.get_window_extent().width for text in texts)
+    if share < 1.0:
+        ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
+
+
+def _apart(found: Any, given: Any) -> Any:
+    """Return differences, 0 where they are rounding of the largest number."""
+    apart = found - given
+    largest = np.max(np.abs(found), initial=0.0, where=np.isfinite(found))
+    return np.where(np.abs(apart) <= _ROUNDING * largest, 0.0, apart)
+
+
+def _largest(apart: npt.NDArray[np.float64]) -> str:
+    """Return the largest of some differences; none where nothing can be compared."""
+    there = apart[np.isfinite(apart)]
+    return f"Δ {digits(there[np.abs(there).argmax()], 2)}" if there.size else ""
+
+
+def _lines(*texts: str) -> str:
+    return "\n".join(text for text in texts if text)
+
+
+def _number(value: float) -> str:
+    if np.isfinite(value):
+        return digits(value, _DIGITS)
+    return "not read" if np.isnan(value) else "infinite"
+
+
+def published_for(
+    published: Any, light: Any, several: Mapping[str, Any]
+) -> dict[str, npt.NDArray[np.float64]]:
+    """Return published Stokes vectors by the names of the lights that they stand beside.
+
+    Shapes: published (..., 4); returns (4,).
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> light = op.Light([1.0, 0.5, 0.0, 0.0])
+    >>> published_for([1.0, 0.49, 0.0, 0.0], light, {"eye": light})
+    {'eye': array([1.  , 0.49, 0.  , 0.  ])}
+    """
+    if published is None:
+        return {}
+    if not isinstance(published, Mapping):
+        if isinstance(light, Mapping):
+            raise OptipathError(
+                f"published is {shown(published)}, and lights have names; give a mapping by them"
+            )
+        rows = _numbers("published", published, (*light.shape, 4)).reshape(-1, 4)
+        return dict(zip(several, rows, strict=True))
+    faults = [fault for name in published for fault in unknown("published", name, several)]
+    if faults:
+        raise OptipathError(*faults)
+    return {
+        name: _numbers(f"published {shown(name)}", each, (4,)) for name, each in published.items()
+    }
+
+
+def _numbers(what: str, given: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+    numbers = array_of(what, given, OptipathError)
+    if numbers.shape != shape or numbers.dtype.kind not in "iuf":
+        raise OptipathError(
+            f"{what} is {shown(given)}; give S0, S1, S2 and S3, numbers of shape {shape}"
+        )
+    if np.isinf(numbers).any():
+        raise OptipathError(
+            f"{what} is {shown(given)}, which is not finite; write NaN for what is missing"
+        )
+    return numbers.astype(float)
+
+
+_PLAIN = range(-3, 5)
+"""The powers of ten that numbers on an axis are written without."""
+
+
+def without_noise(light: Light) -> Light:
+    """Return light with 0 for what is no more than rounding.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> without_noise(op.load_preset("senarmont").trace()).stokes
+    array([0., 0., 0., 0.])
+    """
+    numbers, floor = known(light.mantissa), np.asarray(light.noise_floor)[..., np.newaxis]
+    noise = (np.abs(numbers) < floor) & np.isfinite(floor)
+    return Light.of(np.where(noise, 0.0, numbers), light.frame, light.exponent, measured=True)
+
+
+def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float64]]) -> int:
+    """Return over which power of ten some Stokes vectors are drawn; 0 where they need none.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> power_of_ten([op.Light([2e-300, 0.0, 0.0, 0.0])], []), power_of_ten([], [np.array([99.0])])
+    (-300, 0)
+    """
+    largest = [float(light.log10_intensity) for light in lights]
+    with np.errstate(divide="ignore"):
+        largest += [float(np.log10(np.nanmax(np.abs(each), initial=0.0))) for each in others]
+    finite = [power for power in largest if np.isfinite(power)]
+    power = int(np.floor(max(finite, default=0.0)))
+    return 0 if power in _PLAIN else power
+
+
+def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]:
+    """Return numbers times two to an exponent over a power of ten, be they floats or not.
+
+    Shapes: stokes (4,); returns (4,).
+
+    Examples
+    --------
+    >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)
+    array([ 2.,  0., nan,  1.])
+    """
+    infinite = np.isinf(stokes)
+    numbers = np.where(infinite, np.nan, np.asarray(stokes, float))
+    if not power:
+        scaled = np.ldexp(numbers, exponent)
+    else:
+        mantissa, own = normalise_exponent(numbers, exponent)
+        with np.errstate(under="ignore"):
+            scaled = mantissa * np.exp2(float(own) - power * np.log2(10.0))
+    return np.asarray(np.where(infinite, stokes, scaled))

@@ -1,1 +1,0 @@
-"""Which model of light a rough sample needs."""

@@ -1,0 +1,199 @@
+"""Photon ends: where photons leave a sample, each with its light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import SurfaceError
+from optipath.kernels.carriers.carried import stokes_of
+from optipath.kernels.carriers.structures import ROTATION
+from optipath.kernels.facets import plane_at_facet
+from optipath.kernels.filters import align
+from optipath.kernels.primitives import NUMPY
+from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, given_beam
+from optipath.surfaces.walk.layout import (
+    AZIMUTH,
+    CARRIED,
+    END_K,
+    END_LIGHTS,
+    END_X,
+    ENDS,
+    EVENTS,
+    OUTCOME,
+    OUTCOME_NAMES,
+)
+from optipath.values.arrays import refuse_too_large
+from optipath.values.precision import whole_number
+
+if TYPE_CHECKING:
+    from optipath.surfaces.sample import Sample
+    from optipath.surfaces.walk.beam import PhotonBeam
+
+
+@dataclass(frozen=True, eq=False)
+class PhotonEnds:
+    """Where photons have gone, one after the other.
+
+    Their directions are as the sample lies; on an isotropic one, where each photon comes from an
+    azimuth of its own, they are turned back so that all have come along x.
+
+    Shapes: ends (photons,); events (photons,); directions (photons, 3); x (photons, 3); stokes
+    (photons, ..., 4); scalar (photons, ...).
+    """
+
+    ends: npt.NDArray[np.str_]
+    events: npt.NDArray[np.int64]
+    directions: Numbers
+    x: Numbers
+    stokes: Numbers
+    scalar: Numbers
+
+
+def photon_ends(
+    sample: Sample,
+    incidence: Any,
+    photons: int = 10_000,
+    *,
+    azimuth: Any = 0.0,
+    wavelength: str | npt.ArrayLike | None = None,
+    stokes: npt.ArrayLike = UNPOLARISED,
+    seed: int = 0,
+    most_events: int = 1000,
+) -> PhotonEnds:
+    """Return where photons go from a sample: the same photons that `energy` counts.
+
+    Parameters
+    ----------
+    sample, incidence, azimuth, wavelength, stokes, seed, most_events
+        As `energy` takes them.
+    photons : int, optional
+        How many are walked; all of them are kept, in some 130 bytes each.
+
+    Returns
+    -------
+    PhotonEnds
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Examples
+    --------
+    >>> from optipath.surfaces.sample import Sample
+    >>> found = photon_ends(Sample([(1j, 0.3)]), "30 deg", photons=1000)
+    >>> print(found.directions.shape, found.stokes.shape, np.unique(found.ends))
+    (1000, 3) (1000, 4) ['up']
+    """
+    beam = given_beam(
+        sample,
+        incidence,
+        azimuth,
+        wavelength=wavelength,
+        stokes=stokes,
+        seed=seed,
+        most_events=most_events,
+        beside=whole_number("photons", photons),
+    )
+    refuse_too_large(
+        (int(photons),),
+        16 * (ENDS + CARRIED * beam.lights),
+        cure="give fewer photons",
+        error=SurfaceError,
+        what="ends of {:.3g} photons",
+    )
+    blocks = range(-(-photons // BLOCK))
+    return _ends_of(beam, np.concatenate([_block(beam, number, photons) for number in blocks]))
+
+
+def _block(beam: PhotonBeam, number: int, photons: int) -> Numbers:
+    return beam.block(number, min(BLOCK, photons - BLOCK * number), keeps=True).ends
+
+
+def _ends_of(beam: PhotonBeam, found: Numbers) -> PhotonEnds:
+    turned, shape = turned_ends(beam, found), (len(found), *beam.indices.n.shape)
+    return PhotonEnds(
+        ends=np.array(OUTCOME_NAMES)[turned.outcomes],
+        events=turned.events,
+        directions=turned.directions,
+        x=turned.x,
+        stokes=turned.stokes.reshape(*shape, 4),
+        scalar=turned.scalar.reshape(shape),
+    )
+
+
+Numbers = npt.NDArray[np.float64]
+
+_ACROSS = 0.0, 1.0, 0.0
+
+
+class TurnedDirections(NamedTuple):
+    """Where photons go, as the sample lies; on an isotropic one as if all had come along x.
+
+    Shapes: k, x (photons, 3); turns (photons, 2).
+    """
+
+    k: Numbers
+    x: Numbers
+    turns: Numbers
+
+
+class TurnedEnds(NamedTuple):
+    """Where photons end, with their lights; directions are those of `TurnedDirections`.
+
+    Shapes: outcomes, events (photons,); directions, x (photons, 3); stokes (photons, lights, 4);
+    scalar (photons, lights).
+    """
+
+    outcomes: npt.NDArray[np.int64]
+    events: npt.NDArray[np.int64]
+    directions: Numbers
+    x: Numbers
+    stokes: Numbers
+    scalar: Numbers
+
+
+def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
+    """Return where photons go, and the frames that belong to their directions.
+
+    Shape: found (photons, ENDS + CARRIED lights).
+    """
+    back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
+    k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
+    _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
+    x, turns = (np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
+    along = (k[:, 0] == 0.0) & (k[:, 1] == 0.0)
+    if np.any(along):
+        # There is no meridional plane, and x is that of light beside it that goes on towards x.
+        old, z = x[along], k[along, 2]
+        turns[along] = np.stack(align(NUMPY)(old[:, 1], z * old[:, 0]), axis=-1)
+        x[along] = _ACROSS
+    return TurnedDirections(k, x, turns)
+
+
+def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
+    """Return the ends of photons in frames that belong to their directions."""
+    directions = turned_directions(beam, found)
+    lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
+    carried = tuple(lights[..., place] for place in range(4))
+    rotation = [each[:, np.newaxis] for each in directions.turns.T]
+    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
+    return TurnedEnds(
+        outcomes=found[:, OUTCOME].astype(int),
+        events=found[:, EVENTS].astype(int),
+        directions=directions.k,
+        x=directions.x,
+        stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1),
+        scalar=lights[..., 4],
+    )
+
+
+def _turned(vectors: Numbers, angle: Numbers) -> Numbers:
+    """Return vectors turned about z."""
+    c, s = np.cos(angle), np.sin(angle)
+    x, y, z = vectors.T
+    return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)

@@ -1,1 +1,0 @@
-"""Where each photon has gone, and with which polarisation."""

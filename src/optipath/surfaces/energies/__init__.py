@@ -1,1 +1,0 @@
-"""What share of light a sample sends back, and lets through, by number of events."""

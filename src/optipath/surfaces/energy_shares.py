@@ -1,0 +1,410 @@
+"""Energy: the shares of light that a sample reflects, transmits and absorbs."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from contextlib import closing
+from dataclasses import dataclass
+from math import ceil
+from numbers import Real
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import PhotonWarning, shown
+from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, given_beam, walked_in_order
+from optipath.surfaces.walk.layout import (
+    COUNT,
+    DOWN,
+    INTENSITY,
+    INTENSITY_SQUARED,
+    PRODUCT,
+    SCALAR,
+    SCALAR_SQUARED,
+    SIDEWAYS,
+    STUCK,
+    UP,
+)
+from optipath.values.angles import calls_up
+from optipath.values.messages import cure
+from optipath.values.precision import is_whole, whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.surfaces.sample import Sample
+    from optipath.surfaces.walk.beam import PhotonBeam, WalkedBlock
+
+
+_AIM = 1.1
+"""How many times as many photons are walked as the error so far asks for."""
+
+_MOST_GROWN = 8
+"""How many times as many as so far are walked at once, since errors are estimates."""
+
+
+def energy(
+    sample: Sample,
+    incidence: Any,
+    photons: int | None = None,
+    *,
+    azimuth: Any = 0.0,
+    wavelength: str | npt.ArrayLike | None = None,
+    stokes: npt.ArrayLike = UNPOLARISED,
+    seed: int = 0,
+    tolerance: float | None = None,
+    most_events: int = 1000,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Energy:
+    """Return what share of light a sample sends back and lets through.
+
+    Parameters
+    ----------
+    sample : Sample
+        What the light falls on.
+    incidence : float or str
+        The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
+    photons : int, optional
+        How many photons are walked; a million by default. With a tolerance, how many at most.
+    azimuth : float or str, optional
+        Towards which side the light goes, from x towards y of the sample. On an isotropic sample
+        it makes no difference.
+    wavelength : float, str or array_like, optional
+        In metres, or ``"550 nm"``, where an index depends on it. Several ride on the same photons
+        where the base alone depends on them, and is opaque.
+    stokes : array_like, optional
+        The Stokes vector of the light, the x of its frame horizontal; unpolarised by default.
+    seed : int, optional
+        The same seed gives the same bits, with any number of threads.
+    tolerance : float, optional
+        Photons are walked until the standard error of R is no larger, at all wavelengths.
+    most_events : int, optional
+        After how many events a photon is given up, and counted as lost.
+    threads : int, optional
+        How many walk at a time; as many as there are processors by default.
+    progress : callable, optional
+        Told how many photons there are, and of how many.
+
+    Returns
+    -------
+    Energy
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Warns
+    -----
+    PhotonWarning
+        If the tolerance is not reached, or so few photons carry so much of the light that the
+        errors are not to be trusted.
+
+    Examples
+    --------
+    A rough dielectric reflects less than half a percent of the light after several events, and
+    what it does not reflect goes through:
+
+    >>> from optipath.surfaces.sample import Sample
+    >>> found = energy(Sample([(1.5, 0.5)]), "40 deg", photons=16_384)
+    >>> bool(0.001 < found.R_m < 0.005), bool(abs(found.scalar.R + found.scalar.T - 1.0) < 1e-12)
+    (True, True)
+    """
+    run, most = given_run(
+        sample,
+        incidence,
+        photons,
+        tolerance=tolerance,
+        threads=threads,
+        azimuth=azimuth,
+        wavelength=wavelength,
+        stokes=stokes,
+        seed=seed,
+        most_events=most_events,
+    )
+    return walk_wanted(run, most, tolerance, progress)
+
+
+def walk_wanted(
+    run: EnergyRun,
+    most: int,
+    tolerance: float | None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Energy:
+    """Walk as many photons as are wanted."""
+    if tolerance is not None:
+        return walk_until(run, tolerance, most, progress)
+    run.walk(most, progress)
+    return checked_energy(run)
+
+
+def walk_until(
+    run: EnergyRun, tolerance: float, most: int, progress: Callable[[int, int], None] | None
+) -> Energy:
+    """Walk photons until the standard error of R is within a tolerance."""
+    # A block on every surface, so that their differences are known.
+    wanted = min(2 * BLOCK * run.beam.surfaces, most)
+    while True:
+        run.walk(wanted, progress)
+        found = checked_energy(run)
+        error = float(np.max(found.R_se))
+        if error <= tolerance:
+            return found
+        if run.photons >= most:
+            warnings.warn(
+                f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
+                f"the tolerance of {tolerance:g}; allow more {cure('photons', '--photons')}",
+                PhotonWarning,
+                calls_up(),
+            )
+            return found
+        factor = min(_AIM * (error / tolerance) ** 2, _MOST_GROWN)
+        wanted = min(BLOCK * ceil(factor * run.photons / BLOCK), most)
+
+
+Numbers: TypeAlias = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyShares:
+    """Shares of the light that falls on a sample; with ``_se`` behind, the standard error of each.
+
+    All have the shape of the wavelengths, () where there is one.
+
+    Shape: reflected, transmitted, reflected_se, transmitted_se (events, ...).
+    """
+
+    R_s: Numbers
+    R_s_se: Numbers
+    R_m: Numbers
+    R_m_se: Numbers
+    R: Numbers
+    R_se: Numbers
+    T_s: Numbers
+    T_s_se: Numbers
+    T_m: Numbers
+    T_m_se: Numbers
+    T: Numbers
+    T_se: Numbers
+    lost: Numbers
+    lost_se: Numbers
+    absorbed: Numbers
+    absorbed_se: Numbers
+    reflected: Numbers
+    reflected_se: Numbers
+    transmitted: Numbers
+    transmitted_se: Numbers
+
+
+_ONCE, _MORE, _ALL = slice(0, 1), slice(1, None), slice(None)
+_PARTS: dict[str, tuple[list[int], slice]] = {
+    "R_s": ([UP], _ONCE),
+    "R_m": ([UP], _MORE),
+    "R": ([UP], _ALL),
+    "T_s": ([DOWN], _ONCE),
+    "T_m": ([DOWN], _MORE),
+    "T": ([DOWN], _ALL),
+    "lost": ([SIDEWAYS, STUCK], _ALL),
+    "absorbed": ([UP, DOWN, SIDEWAYS, STUCK], _ALL),
+}
+
+
+def energy_shares(photons: Numbers, total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
+    """Return the shares of light out of sums over photons.
+
+    Shapes: photons (surfaces,); total, squares (surfaces, ends, events, ...).
+    """
+    found: dict[str, Numbers] = {}
+    for name, (ends, events) in _PARTS.items():
+        part = [each[:, ends, events].sum(axis=(1, 2)) for each in (total, squares)]
+        found[name], found[f"{name}_se"] = mean_and_error(photons, *part)
+    found["absorbed"] = whole - found["absorbed"]
+    for name, end in (("reflected", UP), ("transmitted", DOWN)):
+        found[name], found[f"{name}_se"] = mean_and_error(photons, total[:, end], squares[:, end])
+    return EnergyShares(**found)
+
+
+def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[Numbers, Numbers]:
+    """Return the mean over photons, and its standard error.
+
+    Where photons fall on several surfaces, their means differ by more than chance: the error is
+    then that of the mean over surfaces (the larger mean square of a one-way analysis of variance;
+    Scheffe, The Analysis of Variance, Wiley 1959, ch. 7).
+
+    Shapes: photons (surfaces,); total, squares (surfaces, ...); returns mean, error (...).
+
+    Examples
+    --------
+    One of two photons is reflected, on either surface:
+
+    >>> one = np.array([1.0, 1.0])
+    >>> mean, error = mean_and_error(2.0 * one, one, one)
+    >>> print(mean, error.round(3))
+    0.5 0.354
+    """
+    lit = photons > 0.0
+    photons, total, squares = photons[lit], total[lit], squares[lit]
+    count, surfaces = photons.sum(), len(photons)
+    each = photons.reshape(-1, *[1] * (total.ndim - 1))
+    mean, means = total.sum(axis=0) / count, total / each
+    # Of one photon, or one surface, nobody knows how it differs from others.
+    within = (squares - total * means).sum(axis=0) / (count - surfaces or np.nan)
+    between = (each * (means - mean) ** 2).sum(axis=0) / (surfaces - 1 or np.nan)
+    return mean, np.sqrt(np.fmax(within, between).clip(min=0.0) / count)
+
+
+@dataclass(frozen=True, eq=False)
+class Energy(EnergyShares):
+    """What becomes of the light that falls on a sample; the shares are those of `EnergyShares`.
+
+    Standard errors are over the photons, and over the realisations of random surfaces that they
+    fell on. Of one surface nothing is known of others; of one photon nothing at all (NaN).
+    """
+
+    scalar: EnergyShares
+    difference: EnergyShares
+    photons: int
+    surfaces: int
+    sideways: int
+    stuck: int
+
+    @classmethod
+    def of(cls, beam: PhotonBeam, sums: npt.NDArray[np.float64]) -> Energy:
+        """Return what sums over photons say.
+
+        Shape: sums (surfaces, ends, events, lights, SUMS).
+        """
+        source, shape = beam.states[0][0], beam.indices.n.shape
+        counts = sums[..., 0, COUNT]
+        photons = counts.sum(axis=(1, 2))
+
+        def shares(
+            total: npt.NDArray[np.float64], squares: npt.NDArray[np.float64], whole: float
+        ) -> EnergyShares:
+            wanted = (*sums.shape[:3], *shape)
+            return energy_shares(
+                photons,
+                (total / source).reshape(wanted),
+                (squares / source**2).reshape(wanted),
+                whole,
+            )
+
+        polarised, scalar = sums[..., INTENSITY], sums[..., SCALAR]
+        squares, scalar_squares = sums[..., INTENSITY_SQUARED], sums[..., SCALAR_SQUARED]
+        apart = squares - 2.0 * sums[..., PRODUCT] + scalar_squares
+        return cls(
+            **vars(shares(polarised, squares, 1.0)),
+            scalar=shares(scalar, scalar_squares, 1.0),
+            difference=shares(polarised - scalar, apart, 0.0),
+            photons=int(photons.sum()),
+            surfaces=int((photons > 0.0).sum()),
+            sideways=int(counts[:, SIDEWAYS].sum()),
+            stuck=int(counts[:, STUCK].sum()),
+        )
+
+
+class EnergyRun:
+    """The sums over the photons that have been walked so far, in the order of their blocks."""
+
+    def __init__(self, beam: PhotonBeam, threads: int) -> None:
+        self.beam, self.threads = beam, threads
+        self.blocks, self.photons = 0, 0
+        self._sums: list[npt.NDArray[np.float64]] = []
+
+    def walk(self, photons: int, progress: Callable[[int, int], None] | None = None) -> None:
+        """Walk on until there are as many photons in all; an interruption loses nothing."""
+        todo = range(self.blocks, -(-photons // BLOCK))
+        walked = walked_in_order(self.beam, todo, photons, self.threads, self.beam.block)
+        with closing(walked):
+            for block in walked:
+                self._add(block)
+                if progress is not None:
+                    progress(self.photons, photons)
+
+    def _add(self, walked: WalkedBlock) -> None:
+        for surface, sums in walked.sums.items():
+            while len(self._sums) <= surface:
+                self._sums.append(np.zeros_like(sums))
+            self._sums[surface] += sums
+        self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
+
+    @property
+    def energy(self) -> Energy:
+        """What is known so far."""
+        return Energy.of(self.beam, np.array(self._sums))
+
+
+_USUAL = 1_000_000
+"""How many photons are walked by default."""
+
+_MOST_WITH_TOLERANCE, _MOST = 1_000_000_000, 1_000_000_000_000
+"""How many at most where a tolerance is given, and how many anybody may ask for."""
+
+_MOST_THREADS = 1024
+
+
+def given_run(
+    sample: Sample,
+    incidence: Any,
+    photons: int | None = None,
+    *,
+    tolerance: float | None = None,
+    threads: int | None = None,
+    **light: Any,
+) -> tuple[EnergyRun, int]:
+    """Return the run of photons that a user asks for, of which none is walked yet."""
+    faults = _faults("photons", photons, _MOST) + _faults("threads", threads, _MOST_THREADS)
+    if tolerance is not None and not _is_error(tolerance):
+        faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
+    beam = given_beam(sample, incidence, **light, beside=faults)
+    usual = _USUAL if tolerance is None else _MOST_WITH_TOLERANCE
+    run = EnergyRun(beam, processors() if threads is None else int(threads))
+    return run, usual if photons is None else int(photons)
+
+
+def _faults(name: str, number: Any, most: int) -> list[str]:
+    if number is None or is_whole(number, 1, most):
+        return []
+    return whole_number(name, number) or [f"{name} is {shown(number)}; give {most:,} at most"]
+
+
+def _is_error(tolerance: Any) -> bool:
+    is_number = isinstance(tolerance, Real) and not isinstance(tolerance, bool)
+    return is_number and 0.0 < float(tolerance) < 1.0
+
+
+def processors() -> int:
+    """Return how many processors this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+_ERRORS, _ROUNDINGS = 6.0, 1e-9
+"""By how many standard errors light may be missing, and by how much in any case."""
+
+
+def checked_energy(run: EnergyRun) -> Energy:
+    """Return what is known of a run; warn where light has come to nothing, or out of nothing.
+
+    Light that is trapped goes through many events, and at each its weight is changed by how it is
+    polarised. The few photons that then carry most of it are seldom met: until they are, light is
+    missing, and no standard error knows of it.
+    """
+    found = run.energy
+    if run.beam.indices.opaque:
+        return found
+    missing, error = float(found.absorbed), float(found.absorbed_se)
+    if abs(missing) > _ERRORS * error + _ROUNDINGS:
+        warnings.warn(
+            f"R + T + lost is {1.0 - missing:.4f} where nothing absorbs, off by "
+            f"{abs(missing) / error:.0f} standard errors: light that is trapped is carried by few "
+            f"photons, which these have not met often enough; trust the shares without "
+            f"polarisation",
+            PhotonWarning,
+            calls_up(),
+        )
+    return found

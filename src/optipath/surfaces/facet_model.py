@@ -1,0 +1,249 @@
+"""Facet model: analytic single scattering by rough surfaces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.elements.fresnel import number_within, parts_of
+from optipath.errors import SurfaceError, ValueFault, unknown
+from optipath.kernels.catalog import REFLECTION
+from optipath.kernels.facets import MASKINGS, FacetScattering
+from optipath.light.frame import Frame, rounding_in, vectors
+from optipath.light.mueller import Mueller
+from optipath.materials.index_domains import INDEX, OUTSIDE
+from optipath.materials.material import Material
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.sample_layers import depends_on_wavelength
+from optipath.values.arrays import check_broadcast, first_place
+from optipath.values.domains import Domain
+from optipath.values.jax_values import check_known, is_traced, namespace
+from optipath.values.kernel_values import kernel_values
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+
+_STABLE = REFLECTION.methods["stable"]
+
+
+def single_scattering(
+    index: npt.ArrayLike | Material,
+    alpha: npt.ArrayLike,
+    incoming: npt.ArrayLike,
+    outgoing: npt.ArrayLike,
+    *,
+    outside: npt.ArrayLike | Material = 1.0,
+    alpha_y: npt.ArrayLike | None = None,
+    masking: str = "smith",
+    wavelength: Any = None,
+) -> Mueller:
+    """Return the polarised BRDF of a rough surface whose facets reflect light once.
+
+    The Mueller matrix of the facet halfway between the directions, times p / n_z^4 G / (4
+    cos(theta_i) cos(theta_o)): p is Beckmann's density of slopes, n the facet's normal, and G the
+    share of the facets that are seen along both directions, by Smith (R. L. Cook and K. E.
+    Torrance, ACM Trans. Graphics 1, 7 (1982); M. Wang et al., Optics Express 25(19), 2017). It is
+    per steradian; a factor cos(theta_o) is not in it, so that ``S_out cos(theta_o) dw`` is the
+    share of the light that goes into dw. What facets reflect twice or let through is left out.
+
+    Light comes in, and goes out, in frames with x perpendicular to the meridional plane, along
+    (0, 0, 1) cross direction; of light along the normal x is (0, 1, 0).
+
+    Parameters
+    ----------
+    index, outside : array_like, real or complex, or Material
+        The indices n + ik below the surface and above it, where light does not fade. Index and
+        roughness broadcast with the directions' leading axes.
+    alpha : array_like
+        The roughness along x, above 0: alpha^2 / 2 is the mean square slope along an axis.
+    incoming, outgoing : array_like, shape (..., 3)
+        Unit vectors along which light travels: down to the surface, whose normal is (0, 0, 1),
+        and up from it.
+    alpha_y : array_like, optional
+        The roughness along y, where it is another.
+    masking : {"smith", "separate", "none"}, optional
+        Whether G is that of facets on one surface of heights, the product of what is seen along
+        each direction, or 1.
+    wavelength : float, str or array_like, optional
+        In vacuum, in metres or with a unit, for a Material that depends on it.
+
+    Returns
+    -------
+    Mueller
+        In 1 / sr, of the broadcast shape. Where JAX traces indices or alphas, its matrix is
+        JAX's, with its slopes.
+
+    Raises
+    ------
+    SurfaceError
+        With a sentence for each value that is not allowed.
+
+    Examples
+    --------
+    >>> down, up = (0.6, 0.0, -0.8), (0.6, 0.0, 0.8)
+    >>> brdf = single_scattering(1.5, 0.3, down, up)
+    >>> print(brdf.matrix.round(4))
+    [[ 0.0606  0.0359  0.      0.    ]
+     [ 0.0359  0.0606  0.      0.    ]
+     [ 0.      0.     -0.0489  0.    ]
+     [ 0.      0.      0.     -0.0489]]
+    >>> single_scattering(1.5, 0.3, down, [up, (0.0, 0.0, 1.0)]).polarizance.round(3)
+    array([0.591, 0.143])
+    """
+    given = {"index": index, "outside": outside, "alpha": alpha}
+    given |= {} if alpha_y is None else {"alpha_y": alpha_y}
+    given |= {"incoming": incoming, "outgoing": outgoing}
+    media, alphas, before, behind = read_facets(given, masking, wavelength)
+    kernel, media = _STABLE.specialised(media, _vanishes)
+    axes = (before.z, before.x, behind.z, behind.x)
+    vectors = (part for axis in axes for part in np.moveaxis(axis, -1, 0))
+    numbers = kernel_values(FacetScattering(kernel, masking), *alphas, *vectors, *media)
+    matrix = namespace(numbers[0]).stack(numbers, axis=-1)
+    return Mueller.of(matrix.reshape(*matrix.shape[:-1], 4, 4), before, behind)
+
+
+def _vanishes(number: Any) -> bool:
+    return not is_traced(number) and not np.any(number)
+
+
+class PositiveAlpha(Domain):
+    """The roughness of a surface that has a density of slopes."""
+
+    def read(self, owner: str, value: Any) -> Any:
+        if isinstance(value, (list, tuple)) and len(value) == 2:
+            raise ValueFault(
+                f"{owner} is {value}, which may be along x and y, or of two surfaces; give alpha= "
+                f"and alpha_y= for the one, np.array({list(value)}) for the other"
+            )
+        return super().read(owner, value)
+
+    def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
+        if array.dtype.kind == "f" and np.any(bad := array <= 0.0):
+            raise ValueFault(
+                f"{owner} is {array[bad].flat[0]:g}{first_place(bad)}; give one above 0, or for a "
+                f"flat surface, whose slopes have no density, take an Interface"
+            )
+        super()._check_numbers(owner, array, rounding)
+
+
+ALPHA = PositiveAlpha("alpha", minimum=1e-12, maximum=1e6)
+_DOMAINS = {"outside": OUTSIDE, "index": INDEX, "alpha": ALPHA, "alpha_y": ALPHA}
+
+
+class FacetInputs(NamedTuple):
+    """What the model is computed of."""
+
+    media: tuple[Any, Any, Any]
+    alphas: tuple[Any, Any]
+    before: Frame
+    behind: Frame
+
+
+def read_facets(given: Mapping[str, Any], masking: str, wavelength: Any) -> FacetInputs:
+    """Return what is given as numbers.
+
+    Examples
+    --------
+    >>> up = {"incoming": (0, 0, -1), "outgoing": (0, 0, 1)}
+    >>> given = {"index": 0.5 + 2j, "outside": 1.0, "alpha": 0.3} | up
+    >>> list(map(float, read_facets(given, "smith", None).media))
+    [1.0, 0.5, 2.0]
+    """
+    faults = Faults(unknown("masking", masking, MASKINGS))
+    if wavelength is not None and not any(map(depends_on_wavelength, given.values())):
+        faults.append("wavelength is given, but no medium depends on it; leave it out")
+    numbers: dict[str, Any] = {
+        name: faults.attempt("", _number, name, given[name], wavelength)
+        for name in _DOMAINS
+        if name in given
+    }
+    before: Any = faults.attempt("", frame_along, "incoming", given["incoming"], up=False)
+    behind: Any = faults.attempt("", frame_along, "outgoing", given["outgoing"], up=True)
+    if not faults:
+        shaped = numbers | {"incoming": before.z[..., 0], "outgoing": behind.z[..., 0]}
+        shapes = {name: value.shape for name, value in shaped.items()}
+        faults.attempt("", check_broadcast, shapes)
+    if faults:
+        raise SurfaceError(*faults)
+    alphas = numbers["alpha"], numbers.get("alpha_y", numbers["alpha"])
+    return FacetInputs((numbers["outside"], *parts_of(numbers["index"])), alphas, before, behind)
+
+
+def _number(name: str, value: Any, wavelength: Any) -> Any:
+    """Return a number, or what JAX traces; an index at the wavelength."""
+    if depends_on_wavelength(value):
+        if wavelength is None:
+            raise SurfaceError(f"{name} depends on the wavelength; give one, wavelength='550 nm'")
+        value = value.at(wavelength)
+    parts = (value.n, value.k) if isinstance(value, Material) else (value,)
+    if open_ones := [part for part in parts if isinstance(part, Parameter)]:
+        raise SurfaceError(
+            f"{name} follows from the parameter '{open_ones[0].name}', and the model takes "
+            f"numbers; give them, one or an array"
+        )
+    return number_within(_DOMAINS[name], name, value)
+
+
+_UNIT = 1e-8
+_LAST_DIGITS = 2.0**-50
+_LEVEL = 2.0**-52
+"""The z of a direction that is along the surface, to rounding."""
+
+
+def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
+    """Return the frame of light that comes down to a surface, or goes up from it.
+
+    Its x is perpendicular to the meridional plane, along (0, 0, 1) cross direction. Along the
+    normal, where there is no such plane, it is (0, 1, 0), as for light beside it that travels on
+    towards x.
+
+    Shapes: direction (..., 3); returns (...).
+
+    Examples
+    --------
+    >>> frame_along("outgoing", (0.6, 0.0, 0.8), up=True).x
+    array([0., 1., 0.])
+    """
+    check_known(name, direction)
+    given, rounding = vectors(name, direction), rounding_in(direction)
+    # Of components of which each is at most 1, so that no square overflows.
+    size = np.max(np.abs(given), axis=-1, initial=0.0, keepdims=True)
+    given = given / np.where(size > 2.0, size / 2.0, 1.0)
+    length = np.linalg.norm(given, axis=-1)
+    if np.any(bad := np.abs(length - 1.0) > max(_UNIT, 2.0 * rounding)):
+        raise SurfaceError(
+            f"{name}{first_place(bad)} is no unit vector; divide it by its length, "
+            f"v / np.linalg.norm(v, axis=-1, keepdims=True)"
+        )
+    # What is one to the last digits keeps them, by which directions next to each other differ.
+    z = given / np.where(np.abs(length - 1.0) > _LAST_DIGITS, length, 1.0)[..., np.newaxis]
+    _check_side(name, z[..., 2], max(rounding, _LEVEL), up=up)
+    x = _across_meridian(z)
+    return Frame.trusted(x, np.cross(z, x), z, rounding)
+
+
+def _check_side(name: str, height: npt.NDArray[np.float64], level: float, *, up: bool) -> None:
+    if np.any(bad := np.abs(height) < level):
+        raise SurfaceError(
+            f"{name}{first_place(bad)} is along the surface, which light that travels along it "
+            f"does not meet; give an angle to the normal below 90 deg"
+        )
+    if np.any(bad := (height > 0.0) != up):
+        way, sign = ("up from", "above") if up else ("down to", "below")
+        raise SurfaceError(
+            f"{name}{first_place(bad)} has z = {height[bad].flat[0]:.6g}; it is the direction in "
+            f"which light travels {way} the surface, so give a z {sign} 0"
+        )
+
+
+def _across_meridian(z: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    size = np.hypot(z[..., 0], z[..., 1])[..., np.newaxis]
+    along_normal = size == 0.0
+    level = np.stack([-z[..., 1], z[..., 0], np.zeros(z.shape[:-1])], axis=-1)
+    # Adding 0 turns -0 into 0.
+    return np.where(along_normal, (0.0, 1.0, 0.0), level / np.where(along_normal, 1.0, size)) + 0.0

@@ -1,1 +1,0 @@
-"""The single-scattering model: rough surfaces as facets that light meets once."""

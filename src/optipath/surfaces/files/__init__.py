@@ -1,1 +1,0 @@
-"""Hemispheres in files: all that was measured, and what other software reads."""

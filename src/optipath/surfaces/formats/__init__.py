@@ -1,0 +1,1 @@
+"""Files of hemispheres, and polarized BRDFs for other software."""

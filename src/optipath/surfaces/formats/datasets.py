@@ -1,0 +1,287 @@
+"""A hemisphere and its sample as the Dataset of a file, and back."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import secrets
+import shutil
+from dataclasses import asdict, dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+import xarray as xr
+
+from optipath.errors import OptipathError, SurfaceError, shown
+from optipath.surfaces.height_field import HeightField
+from optipath.surfaces.hemisphere.arrays import PIXELS
+from optipath.surfaces.hemisphere.beam import STATES, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+from optipath.surfaces.hemisphere.sensor import Sensor
+from optipath.surfaces.sample import Sample
+from optipath.surfaces.sample_files import sample_of_text
+from optipath.surfaces.sample_layers import SampleIndices
+from optipath.surfaces.walk.beam import UNPOLARISED, PhotonBeam
+from optipath.values.files import drafted
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+MEASUREMENT = "measurement"
+"""The attribute that a file is known by: in JSON, what it is read back by."""
+
+LAYOUT = 1
+"""The version of what is in such a file."""
+
+_SUMS = ("part", *PIXELS, "number")
+_LARGEST = 2**63
+
+
+def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
+    """Return the Dataset of a file, of which `hemisphere_of` makes the hemisphere again."""
+    parts, indices = hemisphere.parts, hemisphere.seen.beam.indices
+    names = [f"M{row}{column}" for row in range(4) for column in range(4)]
+    numbers = {"scalar": ["scalar"], "polarized": names, "both": [*names, "scalar"]}
+    what = "sum over the photons of a part, as counted: of Mueller matrices and the scalar"
+    found: xr.Dataset = hemisphere.dataset.assign(
+        sums=(_SUMS, parts.sums, {"long_name": what, "units": "1"}),
+        part_photons=("part", parts.photons, {"long_name": "photons of a part", "units": "1"}),
+        index_n=("wavelength", indices.n.ravel(), {"long_name": "n of the last medium"}),
+        index_k=("wavelength", indices.k.ravel(), {"long_name": "k of the last medium"}),
+    )
+    found = found.assign_coords(number=numbers[hemisphere.seen.polarized])
+    attributes = {name: _plain(each) for name, each in hemisphere.dataset.attrs.items()}
+    found.attrs = attributes | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
+    # Words of a fixed length are in the specifications of all forms.
+    texts = {name: each.astype(str) for name, each in found.coords.items() if each.dtype == object}
+    return found.assign_coords(texts)
+
+
+def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
+    """Return the hemisphere that is in a file."""
+    told = json.loads(dataset.attrs[MEASUREMENT])
+    if told["layout"] != LAYOUT:
+        raise SurfaceError(
+            f"it has layout {told['layout']}, but this version reads layout {LAYOUT}; load it by "
+            f"optipath {dataset.attrs['optipath_version']}"
+        )
+    found = sample_of(told["sample"], sample)
+    seen = SensedBeam(
+        _beam(dataset, told, found),
+        Sensor(told["pixels"], told["projection"], told["parts"]),
+        told["polarized"],
+        told["events"],
+    )
+    read = {name: dataset[name].to_numpy() for name in ("sums", "count", "part_photons")}
+    sums = PartSums(*read.values())
+    if (sums.sums.shape, sums.counts.shape) != (seen.shape, seen.shape[1:4]):
+        raise ValueError(sums.sums.shape)
+    return Hemisphere(seen, sums, dataset.wavelength.to_numpy(), told["symmetric"])
+
+
+def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
+    """Return all of what a hemisphere is that is no array; JSON keeps every bit of a float."""
+    seen = hemisphere.seen
+    beam, sensor = seen.beam, seen.sensor
+    return {
+        "layout": LAYOUT,
+        "sample": kept_sample(beam.sample),
+        "cos": beam.cos,
+        "sin": beam.sin,
+        "azimuth": beam.azimuth,
+        "outside": beam.indices.outside,
+        "inner": beam.indices.inner,
+        "wavelengths": beam.indices.n.shape,
+        "seed": beam.seed,
+        "most_events": beam.most_events,
+        "pixels": int(sensor.pixels),
+        "projection": sensor.projection,
+        "parts": int(sensor.parts),
+        "polarized": seen.polarized,
+        "events": None if seen.events is None else int(seen.events),
+        "symmetric": bool(hemisphere.symmetric),
+    }
+
+
+def _beam(dataset: xr.Dataset, told: Mapping[str, Any], sample: Any) -> PhotonBeam:
+    n, k = [
+        dataset[name].to_numpy().reshape(told["wavelengths"]) for name in ("index_n", "index_k")
+    ]
+    return PhotonBeam(
+        sample,
+        told["cos"],
+        told["sin"],
+        told["azimuth"],
+        SampleIndices(told["outside"], tuple(told["inner"]), n, k),
+        (UNPOLARISED,) if told["polarized"] == "scalar" else STATES,
+        told["seed"],
+        told["most_events"],
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Return an attribute as files take it: whole numbers of more than 64 bits as texts."""
+    is_long = isinstance(value, int | np.integer) and abs(int(value)) >= _LARGEST
+    return str(value) if is_long else value
+
+
+def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
+    """Return what a file keeps of a sample besides its text.
+
+    Examples
+    --------
+    >>> found = kept_sample(Sample([(1.5, 0.1)]))
+    >>> found["why"], sample_of(found)
+    ('', Sample([(1.5, 0.1)]))
+    """
+    if isinstance(sample, UnknownSample):
+        return asdict(sample)
+    text, why = None, "its heights are not in this file" if _heights(sample) else ""
+    try:
+        text = sample.to_toml()
+    except SurfaceError as fault:
+        why = str(fault)
+    return asdict(UnknownSample(why, bool(sample.isotropic), _digest(sample), text))
+
+
+def sample_of(kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSample:
+    """Return the sample of a file."""
+    if given is not None:
+        return _known_again(given, kept)
+    unknown = UnknownSample(**kept)
+    if unknown.why:
+        return unknown
+    try:
+        found = sample_of_text(unknown.to_toml(), Path("the sample of a hemisphere"))
+    except OptipathError as fault:
+        return replace(unknown, why=str(fault))
+    if _digest(found) == unknown.digest:
+        return found
+    return replace(
+        unknown, why="this optipath reads its text in another way than the one that wrote it"
+    )
+
+
+def _known_again(given: Any, kept: Mapping[str, Any]) -> Sample:
+    if not isinstance(given, Sample):
+        raise SurfaceError(f"sample is {shown(given)}; give the op.Sample that was measured")
+    if _digest(given) != kept["digest"]:
+        raise SurfaceError(f"sample is {given}, which is not the one that was measured")
+    return given
+
+
+def _heights(sample: Sample) -> list[HeightField]:
+    """Return the heights that are given; flat interfaces have none."""
+    rough = [layer.roughness for layer in sample.layers]
+    return [each for each in rough if isinstance(each, HeightField) and not each.is_flat]
+
+
+def _digest(sample: Sample) -> str:
+    """Return what tells a sample from others, whatever it is called."""
+    plain = replace(sample, description="")
+    try:
+        text = plain.to_toml()
+    except SurfaceError:
+        text = repr(plain)
+    found = sha256(text.encode())
+    for field in _heights(sample):
+        found.update(repr((field.size, field.periodic)).encode() + field.heights.tobytes())
+    return found.hexdigest()
+
+
+@dataclass(frozen=True, repr=False)
+class UnknownSample:
+    """What stands for a sample that is not known, and refuses to be asked for more than this.
+
+    Examples
+    --------
+    >>> UnknownSample("its heights are in no file", isotropic=True, digest="").layers
+    Traceback (most recent call last):
+    optipath.errors.SurfaceError: the sample of this hemisphere is not known: its heights are in \
+    no file; give it, op.load_hemisphere(path, sample=...)
+    """
+
+    why: str
+    isotropic: bool
+    digest: str
+    text: str | None = None
+
+    def to_toml(self) -> str:
+        """Return the text of its file, as it has been read."""
+        if self.text is None:
+            raise SurfaceError(self.why)
+        return self.text
+
+    def __getattr__(self, name: str) -> NoReturn:
+        if name.startswith("__"):
+            raise AttributeError(name)  # Python itself asks for what need not be there.
+        raise SurfaceError(
+            f"the sample of this hemisphere is not known: {self.why}; give it, "
+            f"op.load_hemisphere(path, sample=...)"
+        )
+
+    def __repr__(self) -> str:
+        return "a sample that is not known"
+
+
+_RECORD = ".zattrs"
+"""The file of a Zarr group in which its attributes are."""
+
+
+def write_netcdf(dataset: xr.Dataset, file: Path) -> None:
+    """Write a Dataset as a file of NetCDF 4, compressed part by part."""
+    packed: dict[str, Any] = {"zlib": True, "complevel": 4, "shuffle": True}
+    encoding = {name: packed for name in dataset.data_vars if dataset[name].ndim > 1}
+    encoding["sums"] = packed | {"chunksizes": _chunks(dataset)}
+    with drafted(file) as draft:
+        dataset.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
+
+
+def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
+    """Write a Dataset as a Zarr group, part by part, in place of a hemisphere that was there."""
+    folder = Path(os.path.realpath(folder))
+    if folder.exists() and not _is_hemisphere(folder):
+        raise SurfaceError(
+            f"'{folder}' is there already, and is no hemisphere; give another name, or move it away"
+        )
+    if not folder.parent.is_dir():  # Zarr would make one.
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
+    name = f".{secrets.token_hex(8)}"
+    draft, old = (folder.with_name(f"{name}.{kind}") for kind in ("draft", "old"))
+    try:
+        # Version 2, whose words of a fixed length and joint metadata are in its specification.
+        encoding = {"sums": {"chunks": _chunks(dataset)}}
+        dataset.to_zarr(draft, encoding=encoding, zarr_format=2, consolidated=True)
+        if folder.exists():
+            folder.rename(old)
+        draft.rename(folder)
+    finally:
+        if old.exists() and not folder.exists():
+            old.rename(folder)
+        for left in (draft, old):
+            shutil.rmtree(left, ignore_errors=True)
+
+
+def read_dataset(place: Path) -> xr.Dataset:
+    """Return all of what a file or folder holds."""
+    is_netcdf = place.suffix == ".nc"
+    engine: Any = {"engine": "h5netcdf"} if is_netcdf else {"engine": "zarr", "consolidated": True}
+    with xr.open_dataset(place, chunks=None, **engine) as found:
+        found.attrs[MEASUREMENT]  # Before any of its numbers is read.
+        return found.load()
+
+
+def _chunks(dataset: xr.Dataset) -> tuple[int, ...]:
+    """Return the shape of the sums of one part."""
+    return (1, *dataset["sums"].shape[1:])
+
+
+def _is_hemisphere(folder: Path) -> bool:
+    try:
+        return f'"{MEASUREMENT}"' in (folder / _RECORD).read_text("utf-8")
+    except (OSError, UnicodeDecodeError):
+        return False

@@ -1,0 +1,284 @@
+"""Polarized BRDFs as tables that Mitsuba 3 reads as measured materials."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import SurfaceError, shown
+from optipath.light.conventions import changed_matrix
+from optipath.light.mueller import Mueller
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.formats.brdf import BrdfOfHemispheres, HalfAngles, in_frames
+from optipath.surfaces.formats.hemisphere_files import told_of
+from optipath.values.files import given_file, written_whole
+from optipath.values.precision import is_whole
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from os import PathLike
+    from typing import IO
+
+    from optipath.light.frame import Frame
+    from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+
+
+_NANOMETRE = 1e-9
+_MOST = 5
+"""How many wavelengths the plugin has room for."""
+
+_ANY = 550
+"""The wavelength in nm that stands for all where nothing depends on it."""
+
+_SHAPE = (73, 91, 91)
+_LONGEST = 65535
+
+
+def write_measured_polarized(
+    path: str | PathLike[str],
+    brdf: Callable[..., Any] | Sequence[Hemisphere],
+    *,
+    wavelengths: str | npt.ArrayLike | None = None,
+    shape: tuple[int, int, int] = _SHAPE,
+    description: str = "",
+) -> None:
+    """Write a polarised BRDF for the plugin ``measured_polarized`` of Mitsuba 3.
+
+    A tensor file as that of S.-H. Baek et al., Image-Based Acquisition and Modeling of
+    Polarimetric Reflectance, ACM Trans. Graphics 39(4), 2020: ``M`` (phi_d, theta_d, theta_h,
+    wavelength, 4, 4) in 1 / sr, without the cosine, with Mitsuba's sign of S3, in frames with x
+    across the directions of the light that comes and goes; ``phi_d``, ``theta_d`` and ``theta_h``
+    (`HalfAngles`), ``wvls`` in nm, and ``description``. Of hemispheres there is ``M00_se``
+    besides, no less than the standard error of M00 (NaN where it is not known), which the plugin
+    does not read.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        A name that ends in .pbsdf. The file is there whole or not at all.
+    brdf : callable or sequence of Hemisphere
+        A function of unit vectors, of the directions in which light comes and goes, such as
+        ``functools.partial(single_scattering, 1.5, 0.3)``, that returns a `Mueller` in 1 / sr; or
+        hemispheres of one isotropic sample for light from several incidences, between which, and
+        between whose pixels, numbers are interpolated: see `BrdfOfHemispheres`.
+    wavelengths : str or array_like, optional
+        Up to five, in whole nanometres, which a function is given one at a time as
+        ``wavelength=`` in metres; hemispheres have their own.
+    shape : tuple of int, optional
+        How many phi_d, theta_d and theta_h there are; each product takes 64 bytes a wavelength.
+    description : str, optional
+        What it is, as the file says; hemispheres are named by default.
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once; if hemispheres do not belong together, or it cannot be written.
+
+    Examples
+    --------
+    >>> from functools import partial
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from optipath.surfaces import single_scattering
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "glass.pbsdf")
+    ...     write_measured_polarized(file, partial(single_scattering, 1.5, 0.3), shape=(5, 4, 6))
+    ...     file.read_bytes()[:11]
+    b'tensor_file'
+    """
+    faults = Faults()
+    place = faults.attempt("", _place, path)
+    table = faults.attempt("", _table, brdf, wavelengths)
+    faults += _shape_faults(shape)
+    if not isinstance(description, str):
+        faults.append(f"description must be a text, not {shown(description)}")
+    if faults or place is None or table is None:
+        raise SurfaceError(*faults)
+    colours = faults.attempt("", _nanometres, table.wavelengths)
+    if colours is None:
+        raise SurfaceError(*faults)
+    axes = HalfAngles.of(shape)
+    with told_of(place), written_whole(place) as stream:
+        write_tensors(stream, _tensors(axes, colours, table, description or _measured(brdf)))
+
+
+def _place(path: Any) -> Any:
+    place = given_file(path, SurfaceError)
+    if place.suffix != ".pbsdf":
+        raise SurfaceError(f"'{place}' is to be a .pbsdf file; give '{place.stem or 'a'}.pbsdf'")
+    return place
+
+
+def _table(brdf: Any, wavelengths: Any) -> GivenBrdf | BrdfOfHemispheres:
+    if isinstance(brdf, (list, tuple)):
+        if wavelengths is not None:
+            raise SurfaceError("hemispheres have wavelengths of their own; leave wavelengths= out")
+        return BrdfOfHemispheres.of(brdf)
+    if not callable(brdf):
+        raise SurfaceError(
+            f"brdf is {shown(brdf)}; give a function of the directions in which light comes and "
+            f"goes, or a list of hemispheres"
+        )
+    when = [np.nan] if wavelengths is None else Wavelength().resolve(wavelengths).value
+    return GivenBrdf(brdf, np.atleast_1d(np.ravel(when)))
+
+
+def _shape_faults(shape: Any) -> list[str]:
+    fits = isinstance(shape, tuple) and len(shape) == 3
+    if fits and all(is_whole(each, 2, 10_000) for each in shape):
+        return []
+    return [f"shape is {shown(shape)}; give three whole numbers from 2 on, such as {_SHAPE}"]
+
+
+def _nanometres(wavelengths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint16]:
+    """Return the wavelengths as the file has them."""
+    if np.isnan(wavelengths).any():
+        return np.array([_ANY], np.uint16)
+    found = wavelengths / _NANOMETRE
+    whole = np.round(found)
+    if np.any(np.abs(found - whole) > 1e-6) or np.any(whole < 1) or np.any(whole > _LONGEST):
+        raise SurfaceError(
+            f"wavelengths are {found.tolist()} nm; the table has whole nanometres from 1 to "
+            f"{_LONGEST}"
+        )
+    if whole.size > _MOST or np.any(np.diff(whole) <= 0.0):
+        raise SurfaceError(
+            f"wavelengths are {whole.tolist()} nm; the plugin reads up to {_MOST} that differ, the "
+            f"shortest first"
+        )
+    return whole.astype(np.uint16)
+
+
+def _tensors(
+    axes: HalfAngles,
+    colours: npt.NDArray[np.uint16],
+    table: GivenBrdf | BrdfOfHemispheres,
+    description: str,
+) -> dict[str, Tensor]:
+    """Return the arrays of the file; matrices are computed while they are written."""
+    errors: list[npt.NDArray[np.float32]] = []
+    shape = (*map(len, axes), len(colours))
+    written = f"{description}\nwritten by optipath {version('optipath')}"
+    text = np.frombuffer(written.encode(), np.uint8)
+    found = {"description": Tensor.of(text), "wvls": Tensor.of(colours)}
+    for name, each in axes._asdict().items():
+        found[name] = Tensor.of(each.astype(np.float32)[np.newaxis])
+    found["M"] = Tensor("float32", (*shape, 4, 4), _matrices(axes, table, errors))
+    if isinstance(table, BrdfOfHemispheres):
+        found["M00_se"] = Tensor("float32", shape, errors)
+    return found
+
+
+def _matrices(
+    axes: HalfAngles,
+    table: GivenBrdf | BrdfOfHemispheres,
+    errors: list[npt.NDArray[np.float32]],
+) -> Iterator[npt.NDArray[np.float32]]:
+    """Yield the matrices of one phi_d after the other; their errors are kept."""
+    for turn in range(len(axes.phi_d)):
+        there, before, behind = axes.frames(turn)
+        matrices, noise = table.at(before, behind)
+        found = np.full((*there.shape, *matrices.shape[1:]), np.nan, np.float32)
+        found[there] = changed_matrix("mitsuba", matrices)
+        if noise is not None:
+            spread = np.full(found.shape[:3], np.nan, np.float32)
+            spread[there] = noise
+            errors.append(spread)
+        yield found
+
+
+def _measured(brdf: Any) -> str:
+    return "; ".join(map(repr, brdf)) if isinstance(brdf, (list, tuple)) else "a polarised BRDF"
+
+
+Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class GivenBrdf:
+    """A function of the directions in which light comes and goes.
+
+    Units: wavelengths in metres.
+    """
+
+    function: Callable[..., Any]
+    wavelengths: Numbers
+
+    def at(self, before: Frame, behind: Frame) -> tuple[Numbers, None]:
+        """Return the BRDF for light that comes and goes in frames.
+
+        Shapes: before, behind (n,); returns matrices (n, wavelengths, 4, 4).
+        """
+        found = []
+        for wavelength in self.wavelengths:
+            at = {} if np.isnan(wavelength) else {"wavelength": float(wavelength)}
+            brdf = self.function(before.z, behind.z, **at)
+            if not isinstance(brdf, Mueller) or brdf.shape != before.x.shape[:-1]:
+                what = f"of shape {brdf.shape}" if isinstance(brdf, Mueller) else shown(brdf)
+                raise SurfaceError(
+                    f"brdf returns {what}; for {len(before.x)} directions it must return an "
+                    f"op.Mueller of shape {before.x.shape[:-1]}"
+                )
+            found.append(in_frames(brdf, before, behind))
+        return np.stack(found, axis=1), None
+
+
+_HEAD = b"tensor_file\0" + bytes([1, 0])
+_CODES = {"uint8": 1, "uint16": 3, "float32": 10}
+_ALIGNED = 8
+
+
+class Tensor(NamedTuple):
+    """An array of a tensor file, whose parts may be computed while it is written."""
+
+    type: str
+    shape: tuple[int, ...]
+    parts: Iterable[npt.NDArray[Any]]
+
+    @classmethod
+    def of(cls, array: npt.NDArray[Any]) -> Tensor:
+        """Return an array that is there as a whole."""
+        return cls(str(array.dtype), array.shape, (array,))
+
+    @property
+    def size(self) -> int:
+        """How many bytes it has."""
+        return int(np.prod(self.shape)) * np.dtype(self.type).itemsize
+
+
+def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
+    """Write a tensor file, as ``mitsuba.python.tensor_io`` of Mitsuba 3.9 does.
+
+    Little-endian: the word ``tensor_file``, the version 1.0, how many arrays; of each the length
+    of its name (16 bits), its name, how many axes (16), its type (8), its place in the file (64)
+    and its shape (64 each); then the arrays.
+
+    Examples
+    --------
+    >>> from io import BytesIO
+    >>> write_tensors(stream := BytesIO(), {"a": Tensor.of(np.array([1, 2], np.uint8))})
+    >>> stream.getvalue()[:11], [*stream.getvalue()[-2:]]
+    (b'tensor_file', [1, 2])
+    """
+    names = {name: name.encode() for name in tensors}
+    heads = sum(2 + len(names[name]) + 11 + 8 * len(each.shape) for name, each in tensors.items())
+    place = len(_HEAD) + 4 + heads
+    stream.write(_HEAD + struct.pack("<I", len(tensors)))
+    gaps = {}
+    for name, each in tensors.items():
+        gaps[name] = -place % _ALIGNED
+        place += gaps[name]
+        stream.write(struct.pack("<H", len(names[name])) + names[name])
+        stream.write(struct.pack("<HBQ", len(each.shape), _CODES[each.type], place))
+        stream.write(struct.pack(f"<{len(each.shape)}Q", *each.shape))
+        place += each.size
+    for name, each in tensors.items():
+        stream.write(bytes(gaps[name]))
+        for part in each.parts:
+            stream.write(np.ascontiguousarray(part, np.dtype(each.type).newbyteorder("<")).data)

@@ -1,0 +1,1 @@
+"""Hemispheres: what rough samples send into all directions, by photons."""

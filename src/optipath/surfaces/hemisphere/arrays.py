@@ -1,0 +1,217 @@
+"""Hemispheres as xarray Datasets and DataArrays."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import xarray as xr
+
+from optipath.errors import SurfaceError
+from optipath.surfaces.hemisphere.beam import Numbers, PixelMask
+from optipath.values.messages import cure
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+
+
+def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
+    """Return the Dataset of a hemisphere.
+
+    Units: the result in radians.
+    """
+    sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
+    found: dict[str, Any] = {}
+    if polarized != "scalar":
+        found |= _with_error("mueller", (*PIXELS, "out", "in"), hemisphere.mueller, _MUELLER)
+    if polarized != "polarized":
+        found |= _with_error("scalar", PIXELS, hemisphere.scalar, _SCALAR)
+    if polarized == "both":
+        found |= _with_error("difference", PIXELS, hemisphere.difference, _DIFFERENCE)
+    found["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
+    area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
+    found["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
+    return xr.Dataset(
+        found, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
+    )
+
+
+_MUELLER = "Mueller matrix: share of the light on the sample that goes into the pixel"
+_SCALAR = "share of the light that goes into the pixel, without polarisation"
+_DIFFERENCE = "share of unpolarised light that goes into the pixel, less that without polarisation"
+
+
+def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict[str, Any]:
+    value, error = found
+    told = {"units": "1"}
+    return {
+        name: (dims, value, {"long_name": what, **told}),
+        f"{name}_se": (dims, error, {"long_name": f"standard error of '{name}'", **told}),
+    }
+
+
+def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
+    seen = hemisphere.seen
+    beam = seen.beam
+    return {
+        "sample": _toml(hemisphere),
+        "incidence": float(np.arctan2(beam.sin, beam.cos)),
+        "azimuth": "each photon its own" if beam.sample.isotropic else beam.azimuth,
+        "photons": hemisphere.photons,
+        "seed": beam.seed,
+        "events": "any number" if seen.events is None else seen.events,
+        "most_events": beam.most_events,
+        "polarized": seen.polarized,
+        "projection": hemisphere.sensor.projection,
+        "symmetric": int(hemisphere.symmetric),
+        "frame": FRAME,
+        "optipath_version": version("optipath"),
+    }
+
+
+def _toml(hemisphere: Hemisphere) -> str:
+    try:
+        return hemisphere.seen.beam.sample.to_toml()
+    except SurfaceError as fault:
+        return f"the sample cannot be written here, since it has no form in TOML: {fault}"
+
+
+_Told = dict[str, str | float]
+
+
+class _Measure(NamedTuple):
+    """What is made of the relative differences at all wavelengths, the last axis."""
+
+    called: str
+    told: str
+    made: Callable[[Numbers], Numbers]
+
+
+_MEASURES = {
+    "signed": _Measure("relative_difference", "(S0 - U) / U", np.asarray),
+    "adm": _Measure(
+        "adm", "mean of |S0 - U| / U over wavelengths", lambda found: np.abs(found).mean(axis=-1)
+    ),
+    "mdm": _Measure(
+        "mdm", "largest |S0 - U| / U over wavelengths", lambda found: np.abs(found).max(axis=-1)
+    ),
+}
+
+
+def difference_map(
+    hemisphere: Hemisphere,
+    measure: str,
+    side: str,
+    brighter_than: float,
+    noise: float | None,
+    known_to: float = 0.001,
+) -> xr.DataArray:
+    """Return what polarisation makes of each pixel."""
+    mask = PixelMask(brighter_than, noise, known_to)
+    at, what = hemisphere.side(side), _MEASURES[measure]
+    found = hemisphere.own.estimate(lambda light: what.made(_relative(hemisphere, light)))
+    value, error = (each[at] for each in found)
+    if noise is not None and np.isnan(error).all():
+        raise SurfaceError(
+            f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
+            f"it; measure with more photons{cure(', or give noise=None', '')}"
+        )
+    counts = mask.bright(hemisphere.scalar_light(at))
+    counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
+    value, error = (np.where(counts, each, np.nan) for each in (value, error))
+    dims = ("y", "x", "wavelength")[: value.ndim]
+    se = xr.Variable(dims, error, {"long_name": f"standard error of '{what.called}'", "units": "1"})
+    told: _Told = {"long_name": what.told, "units": "1", "side": side}
+    told |= _mask_attributes(mask, counts, error)
+    told |= _pixel_attributes(hemisphere)
+    return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, told)
+
+
+def _relative(hemisphere: Hemisphere, light: Numbers) -> Numbers:
+    scalar = hemisphere.intensities(light)
+    return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
+
+
+def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numbers) -> _Told:
+    known = error[counts & ~np.isnan(error)]
+    return {
+        "mask": str(mask),
+        "brighter_than": mask.brighter_than,
+        "noise": "any" if mask.noise is None else mask.noise,
+        "known_to": mask.known_to,
+        "pixels_left": int(counts.sum()),
+        "median_se": float(np.median(known)) if known.size else np.nan,
+        "largest_se": float(known.max()) if known.size else np.nan,
+    }
+
+
+def _pixel_attributes(hemisphere: Hemisphere) -> _Told:
+    sensor = hemisphere.sensor
+    return {
+        "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",
+        "pixel_degrees_at_normal": float(np.degrees(sensor.width_at_normal)),
+        "largest_pixel_solid_angle": float(sensor.solid_angle.max()),
+        "photons": hemisphere.photons,
+        "symmetric": int(hemisphere.symmetric),
+    }
+
+
+PIXELS = ("side", "y", "x", "wavelength")
+"""The dimensions of what is known of each pixel."""
+
+COMPONENTS = ("S0", "S1", "S2", "S3")
+
+FRAME = (
+    "x of the light that comes in is horizontal, perpendicular to the plane of incidence; that of "
+    "the light of a pixel is (0, 0, 1) x direction, perpendicular to its meridional plane, and "
+    "(0, 1, 0) along the normal; y = direction x x"
+)
+"""What the numbers of Mueller matrices and Stokes vectors refer to."""
+
+
+def pixel_array(
+    hemisphere: Hemisphere,
+    name: str,
+    value: Numbers,
+    what: str,
+    units: str,
+    more: tuple[str, ...] = (),
+    *,
+    error: Numbers | None = None,
+    **told: Any,
+) -> xr.DataArray:
+    """Return what is known of each pixel as an array with names."""
+    dims = (*PIXELS, *more)
+    known = coordinates(hemisphere, dims)
+    known["side"] = "side", known["side"][1][: len(value)]
+    if error is not None:
+        known["se"] = dims, error, {"long_name": f"standard error of '{name}'", "units": units}
+    about = {"long_name": what, "units": units, "frame": FRAME, **told}
+    return xr.DataArray(value, known, dims, name, about)
+
+
+def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]:
+    """Return the coordinates of what is known of each pixel."""
+    sensor, place = hemisphere.sensor, {"units": "1"}
+    towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
+    across = {"long_name": "place on the sensor, across the plane of incidence"}
+    angle = {"units": "rad"}
+    found = {
+        "side": ("side", np.array(hemisphere.seen.sides, object)),
+        "y": ("y", sensor.coordinates, across | place),
+        "x": ("x", sensor.coordinates, towards | place),
+        "wavelength": (
+            "wavelength",
+            hemisphere.wavelengths,
+            {"long_name": "wavelength in vacuum", "units": "m"},
+        ),
+        "out": ("out", np.array(COMPONENTS, object)),
+        "in": ("in", np.array(COMPONENTS, object)),
+        "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),
+        "phi": (("y", "x"), sensor.phi, {"long_name": "azimuth from x to y"} | angle),
+    }
+    return {name: each for name, each in found.items() if {each[0]} <= {*dims, ("y", "x")}}

@@ -1,0 +1,257 @@
+"""Beam and sensor: photons on a sample, summed by pixels."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from dataclasses import dataclass
+from numbers import Real
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.engines.engine import address
+from optipath.errors import SurfaceError, shown
+from optipath.surfaces.ends import turned_directions
+from optipath.surfaces.hemisphere.arguments import following
+from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order
+from optipath.surfaces.walk.code import pixel_code
+from optipath.surfaces.walk.layout import DOWN, EVENTS, OUTCOME, UP
+from optipath.values.arrays import same_fields
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.surfaces.hemisphere.sensor import Sensor
+    from optipath.surfaces.walk.beam import PhotonBeam
+
+
+CHUNK = 1 << 22
+"""How many photons are summed up by themselves: the least that is kept, or sent to a worker."""
+
+SIDES = {"reflected": UP, "transmitted": DOWN}
+"""What the hemispheres are called, and the ends of the photons that get there."""
+
+STATES = (
+    (1.0, 0.0, 0.0, 0.0),
+    (1.0, 1.0, 0.0, 0.0),
+    (1.0, 0.0, 1.0, 0.0),
+    (1.0, 0.0, 0.0, 1.0),
+)
+"""The states of the source that ride on one photon: between them they say its Mueller matrix."""
+
+
+class _Seen(NamedTuple):
+    """Where the photons of a block are seen, and what `pixel_sums` needs of them."""
+
+    parts: npt.NDArray[np.int64]
+    places: npt.NDArray[np.int64]
+    turns: npt.NDArray[np.float64]
+    ends: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class SensedBeam:
+    """Photons, and how they are seen; chunks of them do not depend on each other."""
+
+    beam: PhotonBeam
+    sensor: Sensor
+    polarized: str
+    events: int | None
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def sides(self) -> tuple[str, ...]:
+        """The hemispheres that light gets to."""
+        return tuple(SIDES)[: 1 if self.beam.indices.opaque else 2]
+
+    @property
+    def numbers(self) -> int:
+        """How many are summed up of a light: those of a Mueller matrix, its scalar, or both."""
+        return {"both": 17, "polarized": 16, "scalar": 1}[self.polarized]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """That of the sums: (parts, sides, rows, columns, wavelengths, numbers)."""
+        side, lights = self.sensor.pixels, self.beam.indices.n.size
+        return self.sensor.parts, len(self.sides), side, side, lights, self.numbers
+
+    def chunk(
+        self,
+        number: int,
+        photons: int,
+        threads: int,
+        progress: Callable[[int], None] | None = None,
+    ) -> PartSums:
+        """Walk the photons of a chunk, and sum them up in their order."""
+        found, add = PartSums.none(self.shape), pixel_code()
+        kept = [int(self.polarized != other) for other in ("scalar", "polarized")]
+        lights = self.beam.indices.n.size
+        wanted = min(photons, CHUNK * (number + 1))
+        todo = range(CHUNK * number // BLOCK, -(-wanted // BLOCK))
+        walked = walked_in_order(self.beam, todo, wanted, threads, self._seen)
+        with closing(walked):
+            for seen in walked:
+                arrays = map(address, (seen.places, seen.turns, seen.ends))
+                size = len(seen.places)
+                add(*arrays, size, lights, len(self.beam.states), *kept, address(found.sums))
+                pixels = seen.places[seen.places >= 0] % found.counts.size
+                found.counts.reshape(-1)[:] += np.bincount(pixels, minlength=found.counts.size)
+                found.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)
+                if progress is not None:
+                    progress(size)
+        return found
+
+    def _seen(self, number: int, photons: int) -> _Seen:
+        """Walk a block."""
+        ends = self.beam.block(number, photons, keeps=True).ends
+        directions = turned_directions(self.beam, ends)
+        side = np.full(photons, -1)
+        for place, name in enumerate(self.sides):
+            side[ends[:, OUTCOME] == SIDES[name]] = place
+        if self.events is not None:
+            side[ends[:, EVENTS] != self.events] = -1
+        parts = self._parts(number, photons)
+        image = self.sensor.pixels**2
+        places = (parts * len(self.sides) + side) * image + self.sensor.place(directions.k)
+        return _Seen(parts, np.where(side < 0, -1, places), directions.turns, ends)
+
+    def _parts(self, number: int, photons: int) -> npt.NDArray[np.int64]:
+        """Return to which part each photon belongs; all that walk over one surface to the same."""
+        part = (BLOCK * number + np.arange(photons)) // PORTION
+        if self.beam.surfaces > 1:
+            for first, size, surface in self.beam.portions(number, photons):
+                part[first : first + size] = surface
+        return part % self.sensor.parts
+
+
+Numbers = npt.NDArray[np.float64]
+
+_MIRRORED = np.outer([1.0, 1.0, -1.0, -1.0], [1.0, 1.0, -1.0, -1.0]).ravel()
+"""What a Mueller matrix is multiplied by in a mirror that is the plane of incidence."""
+
+
+class PartSums(NamedTuple):
+    """Sums over photons, part by part; or, where none are walked, light that is known exactly.
+
+    Shapes: sums (parts, sides, rows, columns, wavelengths, numbers); counts (sides, rows, columns);
+    photons (parts,).
+    """
+
+    sums: Numbers
+    counts: npt.NDArray[np.int64]
+    photons: npt.NDArray[np.int64]
+
+    @classmethod
+    def none(cls, shape: tuple[int, ...]) -> Self:
+        """Return the sums over no photons."""
+        zero = np.zeros(shape)
+        return cls(zero, np.zeros(shape[1:4], np.int64), np.zeros(shape[0], np.int64))
+
+    def add(self, other: PartSums) -> None:
+        """Add the sums over other photons to these."""
+        for mine, its in zip(self, other, strict=True):
+            np.add(mine, its, out=mine)
+
+    def mirrored(self) -> PartSums:
+        """Return the means of what there is and its mirror image across the plane of incidence.
+
+        On a sample that is the same in a mirror they have the same expectation, and less noise.
+        """
+        numbers = self.sums.shape[-1]
+        signs = np.append(_MIRRORED, 1.0)[-numbers if numbers == 1 else slice(numbers)]
+        return self._replace(sums=0.5 * (self.sums + self.sums[:, :, ::-1] * signs))
+
+    def estimate(self, found: Callable[[Numbers], Numbers]) -> tuple[Numbers, Numbers]:
+        """Return what follows from the light of the pixels, and its standard error.
+
+        The jackknife: the spread of what follows where one part after the other is left out
+        (B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, eq. 3.13).
+        """
+        found = following(found)
+        total, photons = self.sums.sum(axis=0), self.photons.sum()
+        if not photons:
+            with np.errstate(invalid="ignore", divide="ignore"):
+                value = found(total)
+            return value, np.zeros_like(value)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            value = found(total / photons)
+            # Of the differences from the whole, since the squares of the values cancel.
+            mean, square, parts = np.zeros_like(value), np.zeros_like(value), 0
+            for part, size in zip(self.sums, self.photons, strict=True):
+                if size:
+                    apart = found((total - part) / (photons - size)) - value
+                    mean, square, parts = mean + apart, square + apart * apart, parts + 1
+            if parts < 2:
+                return value, np.full_like(value, np.nan)
+            variance = (parts - 1) / parts * np.maximum(square - mean * mean / parts, 0.0)
+            return value, np.sqrt(variance)
+
+
+@dataclass(frozen=True)
+class PixelMask:
+    """Pixels that count where light with polarisation and without are compared.
+
+    Dim pixels decide how large the largest difference is, so that none is worth anything without
+    its mask; and the largest of many noisy ones is noise.
+
+    Examples
+    --------
+    >>> print(PixelMask(brighter_than=0.5, noise=None))
+    light without polarisation above 0.5 of the mean over the hemisphere's pixels, any noise
+    """
+
+    brighter_than: float = 0.2
+    noise: float | None = 0.2
+    known_to: float = 0.001
+
+    def __post_init__(self) -> None:
+        """Refuse all faults."""
+        given = {"brighter_than": self.brighter_than, "known_to": self.known_to}
+        if self.noise is not None:
+            given["noise"] = self.noise
+        faults = [
+            f"{name} is {shown(value)}; give a number from 0, such as {_USUAL[name]:g}"
+            for name, value in given.items()
+            if not _is_threshold(value)
+        ]
+        if faults:
+            raise SurfaceError(*faults)
+
+    def bright(self, light: Numbers) -> npt.NDArray[np.bool_]:
+        """Return which pixels are bright enough.
+
+        Shapes: light (rows, columns); returns (rows, columns).
+        """
+        return np.asarray(light > self.brighter_than * np.nanmean(light))
+
+    def known(self, difference: Numbers, error: Numbers) -> npt.NDArray[np.bool_]:
+        """Return which differences are known well enough.
+
+        Shapes: difference, error (...); returns (...).
+        """
+        if self.noise is None:
+            return ~np.isnan(difference)
+        return np.asarray(error <= np.maximum(self.noise * np.abs(difference), self.known_to))
+
+    def __str__(self) -> str:
+        bright = (
+            f"light without polarisation above {self.brighter_than:g} of the mean over the "
+            "hemisphere's pixels"
+        )
+        if self.noise is None:
+            return f"{bright}, any noise"
+        return (
+            f"{bright}, standard error at most {self.noise:g} of the difference, or at most "
+            f"{self.known_to:g}"
+        )
+
+
+_USUAL = {"brighter_than": 0.2, "noise": 0.2, "known_to": 0.001}
+
+
+def _is_threshold(value: Any) -> bool:
+    real = isinstance(value, Real) and not isinstance(value, bool | np.bool_)
+    return real and 0.0 <= float(value) < np.inf

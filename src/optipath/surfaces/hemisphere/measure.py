@@ -1,0 +1,212 @@
+"""A rough sample, measured from all directions by photons that walk over it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import SurfaceError, need, shown
+from optipath.materials.quantities import YES_OR_NO
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.energy_shares import processors
+from optipath.surfaces.hemisphere.arguments import given_store
+from optipath.surfaces.hemisphere.beam import CHUNK, STATES, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.chunks import ChunkJob
+from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+from optipath.surfaces.hemisphere.sensor import Sensor
+from optipath.surfaces.smooth import flat_light, is_flat
+from optipath.surfaces.walk.beam import UNPOLARISED, given_beam
+from optipath.values.arrays import refuse_too_large
+from optipath.values.messages import PHOTONS_TOLD, no_function
+from optipath.values.precision import is_whole, whole_number
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from os import PathLike
+
+    import numpy.typing as npt
+
+    from optipath.surfaces.sample import Sample
+
+
+_KINDS = ("both", "polarized", "scalar")
+_NOTHING_TO_KEEP = (
+    "all interfaces of the sample are flat: its light is known without photons, and there is "
+    "nothing to keep; leave out store and scheduler"
+)
+_MOST = 1_000_000_000_000
+_IN_PLANE = 1e-9
+"""The sine of an azimuth whose plane of incidence is that of x, but for roundings."""
+
+
+def measure(
+    sample: Sample,
+    incidence: Any,
+    photons: int = CHUNK,
+    wavelengths: str | npt.ArrayLike | None = None,
+    sensor: Sensor | int | str = 128,
+    seed: int = 0,
+    polarized: str = "both",
+    *,
+    azimuth: Any = 0.0,
+    events: int | None = None,
+    symmetric: bool | None = None,
+    most_events: int = 1000,
+    threads: int | None = None,
+    store: str | PathLike[str] | None = None,
+    scheduler: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Hemisphere:
+    """Return the Mueller matrix of a sample for light from one direction, in all directions.
+
+    Of a sample of flat interfaces alone all light is known, and goes into one pixel of each side:
+    no photons are walked, ``photons`` and the counts are 0, and so are the errors (unless
+    ``events`` or less than 1000 ``most_events`` cut the light short).
+
+    Parameters
+    ----------
+    sample : Sample
+        What the light falls on.
+    incidence : float or str
+        The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
+    photons : int, optional
+        How many photons are walked; 2^22, some 4 million, by default.
+    wavelengths : float, str or array_like, optional
+        In metres, or ``["400 nm", "550 nm"]``, where an index depends on it. Several ride on the
+        same photons where the base alone depends on them, and is opaque.
+    sensor : Sensor, int or str, optional
+        The pixels, or how many there are along a side, or their projection.
+    seed : int, optional
+        The same seed gives the same bits, with any number of threads.
+    polarized : {"both", "polarized", "scalar"}, optional
+        What is measured: Mueller matrices, what light does without polarisation, or both on the
+        same photons, whose difference then has a far smaller error than two separate runs.
+    azimuth : float or str, optional
+        Towards which side the light goes, from x towards y of the sample. On an isotropic sample
+        it makes no difference, and the plane of incidence is that of x.
+    events : int, optional
+        After how many events light is seen: 1 for what is scattered once; any number by default.
+    symmetric : bool, optional
+        Whether the two sides of the plane of incidence are taken to be mirror images, which
+        halves the variance; by default where the sample is isotropic and rough. One with a
+        direction may be so from 0 and 180 deg, as where ``alpha`` is a pair.
+    most_events : int, optional
+        After how many events a photon is given up.
+    threads : int, optional
+        How many walk at a time; as many as there are processors by default. Of what a `scheduler`
+        computes, in each chunk; one by default.
+    store : str or PathLike, optional
+        A Zarr store (``.zarr``) in which every 2^22 photons, a chunk, are kept when they are
+        walked. A measurement that was interrupted goes on from there, with the same bits.
+    scheduler : str or distributed.Client, optional
+        What walks the chunks for a store, as `PathGraph.sweep` takes it: a client, the address of
+        a cluster, ``"processes"``, ``"threads"`` or ``"synchronous"``, one chunk after the other;
+        by default the client that is active, else this.
+    progress : callable, optional
+        Told how many photons there are, and of how many.
+
+    Returns
+    -------
+    Hemisphere
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+    JobError
+        If the store holds another measurement, or cannot be written; if the scheduler is lost.
+    MissingExtraError
+        If Numba or xarray is not installed; Dask or Zarr, for a store.
+
+    Examples
+    --------
+    >>> from optipath.surfaces.sample import Sample
+    >>> found = measure(Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+    >>> found.dataset.mueller.dims, dict(found.dataset.scalar.sizes)
+    (('side', 'y', 'x', 'wavelength', 'out', 'in'), {'side': 1, 'y': 16, 'x': 16, 'wavelength': 1})
+    """
+    faults = Faults(_faults(photons, events, polarized, threads))
+    faults += no_function("progress", progress, PHOTONS_TOLD)
+    pixels = faults.attempt("", Sensor.of, sensor)
+    place = faults.attempt("", given_store, store, scheduler)
+    mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)
+    beam = given_beam(
+        sample,
+        incidence,
+        azimuth,
+        wavelength=wavelengths,
+        seed=seed,
+        most_events=most_events,
+        beside=faults,
+    )
+    assert pixels is not None  # noqa: S101 - or a fault has been raised
+    if mirrors and not sample.isotropic and abs(np.sin(beam.azimuth)) > _IN_PLANE:
+        raise SurfaceError(
+            f"symmetric is True, and azimuth {np.degrees(beam.azimuth):.6g} deg; pixels are "
+            f"mirrored across the plane of x, so give an azimuth of 0 or 180 deg, or leave "
+            f"symmetric out"
+        )
+    states = (UNPOLARISED,) if polarized == "scalar" else STATES
+    seen = SensedBeam(replace(beam, states=states), pixels, polarized, events)
+    refuse_too_large(
+        seen.shape,
+        24,
+        cure="give fewer pixels, wavelengths or parts of the sensor",
+        error=SurfaceError,
+        what="hemisphere of {:.3g} numbers",
+    )
+    # Before photons are walked.
+    kept = () if place is None else ("zarr", "dask", "distributed")
+    need("hemispheres", "numba", "llvmlite", "xarray", *kept)
+    when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
+    when = np.atleast_1d(np.ravel(when))
+    is_known = is_flat(seen)
+    if mirrors is None:  # What a flat sample reflects is in one pixel, and has no noise.
+        mirrors = sample.isotropic and not is_known
+    if is_known:
+        if place is not None:
+            raise SurfaceError(_NOTHING_TO_KEEP)
+        sums = flat_light(seen)
+    elif place is None:
+        walking = processors() if threads is None else int(threads)
+        sums = _summed(seen, int(photons), walking, progress)
+    else:
+        from optipath.surfaces.hemisphere.stored_sums import kept_sums  # noqa: PLC0415 - an extra
+
+        sums = kept_sums(ChunkJob(seen, when, int(photons)), place, scheduler, threads, progress)
+    return Hemisphere(seen, sums, when, bool(mirrors))
+
+
+def _summed(
+    seen: SensedBeam, photons: int, threads: int, progress: Callable[[int, int], None] | None
+) -> PartSums:
+    """Walk all chunks; each is summed up by itself, and they are added in their order."""
+    found, done = PartSums.none(seen.shape), 0
+
+    def tell(walked: int) -> None:
+        nonlocal done
+        done += walked
+        if progress is not None:
+            progress(done, photons)
+
+    for number in range(-(-photons // CHUNK)):
+        found.add(seen.chunk(number, photons, threads, tell))
+    return found
+
+
+def _faults(photons: Any, events: Any, polarized: Any, threads: Any) -> list[str]:
+    faults = whole_number("photons", photons)
+    if not faults and not is_whole(photons, 1, _MOST):
+        faults = [f"photons is {shown(photons)}; give {_MOST:,} at most"]
+    for name, number in (("events", events), ("threads", threads)):
+        faults += [] if number is None else whole_number(name, number)
+    if polarized not in _KINDS:
+        faults.append(f"polarized is {shown(polarized)}; give one of {', '.join(_KINDS)}")
+    return faults
+
+
+def _yes(value: Any) -> Any:
+    return YES_OR_NO.check("symmetric", value)

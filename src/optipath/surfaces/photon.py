@@ -1,0 +1,370 @@
+"""Photon: one of those walked over a sample, replayed with all its events."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, degrees, prod
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.elements.detectors import Detector
+from optipath.elements.interface import Interface
+from optipath.elements.sources import Source
+from optipath.errors import SurfaceError, shown
+from optipath.kernels.carriers.carried import stokes_of
+from optipath.kernels.fresnel.boundary import lossless_boundary
+from optipath.kernels.primitives import FLOAT, NUMPY
+from optipath.light.frame import Frame
+from optipath.paths.path_graph import PathGraph
+from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, given_beam
+from optipath.surfaces.walk.layout import (
+    COLUMN,
+    COS,
+    COS_2A,
+    DIRECTION,
+    EVENTS,
+    FACET,
+    FIRST_K,
+    FIRST_X,
+    LAST_K,
+    LAST_X,
+    LAYER,
+    LINE,
+    N1,
+    N2,
+    NORMAL,
+    OPAQUE,
+    OUTCOME,
+    OUTCOME_NAMES,
+    POINT,
+    RECORD,
+    REFLECTED,
+    SHARE,
+    SIN,
+    SIN_2A,
+)
+from optipath.surfaces.walk.meshes import HIGH, NUMBERS, kept_meshes
+from optipath.values.arrays import refuse_too_large
+from optipath.values.precision import whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from optipath.surfaces.sample import Sample
+    from optipath.surfaces.walk.beam import PhotonBeam, WalkedBlock
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Photon:
+    """A photon that has been walked over a sample; ``print(photon)`` has a table of its events.
+
+    Attributes
+    ----------
+    beam : PhotonBeam
+        The photons of which it is one.
+    number : int
+        Which one.
+    surface : int
+        Which realisation of the sample's random surfaces it was on.
+    events : tuple of PhotonEvent
+        Where it has met facets, in their order.
+    end : str
+        How it ends: ``"up"``, ``"down"``, ``"sideways"`` beside a finite field, or ``"stuck"``
+        after as many events as allowed.
+    start : Frame
+        That of the light that comes: z goes down, x is horizontal. On an isotropic sample it comes
+        from an azimuth of its own.
+    frame : Frame
+        That of the light that leaves: z is its direction, x is s of the last facet.
+    stokes : ndarray, shape (..., 4)
+        The Stokes vector that leaves, divided by the probability of the way; for each wavelength.
+    scalar : ndarray, shape (...)
+        The intensity that leaves where there is no polarisation: with the mean of the shares of s
+        and p at each event.
+    """
+
+    beam: PhotonBeam
+    number: int
+    surface: int
+    events: tuple[PhotonEvent, ...]
+    end: str
+    start: Frame
+    frame: Frame
+    stokes: npt.NDArray[np.float64]
+    scalar: npt.NDArray[np.float64]
+
+    @property
+    def sample(self) -> Sample:
+        """What it fell on."""
+        return self.beam.sample
+
+    @property
+    def seed(self) -> int:
+        """That of all random numbers but those of the surfaces."""
+        return self.beam.seed
+
+    @property
+    def weight(self) -> float:
+        """One over the probability of the way: the product of those of all events."""
+        return prod(1.0 / event.probability for event in self.events)
+
+    def path(self, which: Place | None = None) -> PathGraph:
+        """Return the way of the photon as a path, whose light is that of the photon.
+
+        The source has the whole weight, and each event is an `Interface`. The frames of the path
+        stand relative to each other, so its light is in that of the photon: the numbers of
+        ``path().trace().stokes`` are `stokes`, in `frame`.
+
+        Parameters
+        ----------
+        which : int or tuple of int, optional
+            Which of several wavelengths, by its place; all of them by default.
+
+        Returns
+        -------
+        PathGraph
+            Its nodes are ``source``, ``facet-1`` and so on, and ``detector``.
+
+        Raises
+        ------
+        SurfaceError
+            If there is no such wavelength.
+
+        Examples
+        --------
+        >>> from optipath.surfaces.sample import Sample
+        >>> photon = Sample([(1.5, 0.3)], cells=320).photon(7, "60 deg")
+        >>> path = photon.path()
+        >>> photon, bool(abs(path.trace().stokes - photon.stokes).max() < 1e-13)
+        (<Photon 7 of seed 0: down after 1 event>, True)
+        """
+        if which is not None:
+            _check_place(which, self.beam.indices.n.shape)
+        source = Source(self.weight, self.beam.states[0])
+        return event_path(source, self.events, which, repr(self)[1:-1])
+
+    def __repr__(self) -> str:
+        count = len(self.events)
+        events = f"{count} event{'s' if count != 1 else ''}"
+        return f"<Photon {self.number} of seed {self.seed}: {self.end} after {events}>"
+
+    def __str__(self) -> str:
+        stokes = np.array2string(self.stokes, precision=6)
+        return f"{repr(self)[1:-1]}, with light\n{stokes}\n{event_table(self.events)}"
+
+
+def _check_place(which: Place, shape: tuple[int, ...]) -> None:
+    """Refuse a place at which there is no wavelength."""
+    try:
+        is_one = not isinstance(which, bool) and np.empty(shape)[which].ndim == 0
+    except (IndexError, TypeError, ValueError):
+        is_one = False
+    if is_one:
+        return
+    if not shape:
+        raise SurfaceError(f"which is {shown(which)}, but the photon has one light; leave it out")
+    last = tuple(each - 1 for each in shape)
+    raise SurfaceError(
+        f"which is {shown(which)}, but wavelengths have the shape {shape}; give the place of one, "
+        f"such as {last[0] if len(last) == 1 else last}"
+    )
+
+
+Vector = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PhotonEvent:
+    """A photon meets a facet.
+
+    Vectors have three components, along the x and y of the sample and upwards.
+    """
+
+    layer: int
+    facet: tuple[int, int, int]
+    position: Vector
+    on_mesh: Vector
+    normal: Vector
+    direction: Vector
+    onwards: Vector
+    cos: float
+    sin: float
+    turn: float
+    reflected: bool
+    probability: float
+    n1: float
+    n2: Any
+
+    @property
+    def incidence(self) -> float:
+        """The angle of incidence in radians."""
+        return atan2(self.sin, self.cos)
+
+
+def event_of(
+    beam: PhotonBeam, surface: int, walked: WalkedBlock, number: int, onwards: Vector
+) -> PhotonEvent:
+    """Return an event out of the record of a photon."""
+    row = walked.record[number]
+    layer, column, line, facet = (int(row[place]) for place in (LAYER, COLUMN, LINE, FACET))
+    position = row[POINT : POINT + 3].copy()
+    return PhotonEvent(
+        layer=layer,
+        facet=(column, line, facet),
+        position=position,
+        on_mesh=_on_mesh(beam, surface, layer, (column, line), position, walked.starts),
+        normal=row[NORMAL : NORMAL + 3].copy(),
+        direction=row[DIRECTION : DIRECTION + 3].copy(),
+        onwards=onwards,
+        cos=float(row[COS]),
+        sin=float(row[SIN]),
+        turn=0.5 * atan2(row[SIN_2A], row[COS_2A]),
+        reflected=bool(row[REFLECTED]),
+        probability=float(row[SHARE]),
+        n1=float(row[N1]),
+        n2=beam.indices.base if row[N2] == OPAQUE else float(row[N2]),
+    )
+
+
+def _on_mesh(
+    beam: PhotonBeam,
+    surface: int,
+    layer: int,
+    cell: tuple[int, int],
+    position: Vector,
+    starts: Vector,
+) -> Vector:
+    """Return a point of the walk as that of a layer's own field, in the cell that was met."""
+    field = beam.sample.fields(surface)[layer]
+    top = kept_meshes(beam.sample).of(surface).meshes.numbers[NUMBERS * layer + HIGH]
+    shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
+    found: Vector = position + np.array(shift)
+    if field.periodic:
+        middle = (np.array(cell) + 0.5) * field.spacing
+        found[:2] -= np.round((found[:2] - middle) / field.size) * field.size
+    return found
+
+
+Place: TypeAlias = int | tuple[int, ...]
+
+
+def event_path(
+    source: Source, events: Iterable[PhotonEvent], which: Place | None, description: str
+) -> PathGraph:
+    """Return the path of a photon through its events."""
+    path = PathGraph(description=description)
+    path.add("source", source)
+    last = "source"
+    for number, event in enumerate(events, 1):
+        name = f"facet-{number}"
+        path.add(name, _interface(event, which))
+        path.connect(last, name)
+        last = f"{name}.{'reflected' if event.reflected else 'transmitted'}"
+    path.add("detector", Detector())
+    path.connect(last, "detector")
+    return path
+
+
+def _interface(event: PhotonEvent, which: Place | None) -> Interface:
+    index = event.n2 if which is None or not np.ndim(event.n2) else event.n2[which]
+    angle, measured_in = event.incidence, None
+    if not event.reflected and event.n1 > index:
+        # Next to the critical angle, that of refraction has digits which that of incidence lacks.
+        wave = lossless_boundary(FLOAT)(event.n1, index, event.cos, event.sin)
+        angle, measured_in = atan2(wave.n1 * wave.s, wave.a), index
+    # Facets stand at any angle to each other, for which no law of parallel faces holds.
+    return Interface(index, angle, event.n1, event.turn, measured_in, parallel=False)
+
+
+_HEADS = ("", "layer", "", "media", "incidence", "turn", "probability", "x", "y", "z")
+
+
+def event_table(events: Iterable[PhotonEvent]) -> str:
+    """Return a line for each event of a photon."""
+    rows = [_HEADS, *(_row(number, event) for number, event in enumerate(events, 1))]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return "\n".join(
+        "  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True))
+        for row in rows
+    )
+
+
+def _row(number: int, event: PhotonEvent) -> tuple[str, ...]:
+    what = "reflected" if event.reflected else "refracted"
+    media = f"{_index(event.n1)} | {_index(event.n2)}"
+    angles = [f"{_rounded(degrees(angle))} deg" for angle in (event.incidence, event.turn)]
+    where = map(_rounded, event.on_mesh)
+    return str(number), str(event.layer), what, media, *angles, f"{event.probability:.6f}", *where
+
+
+def _rounded(number: float) -> str:
+    # Adding 0 turns -0 into 0.
+    return f"{round(number, 3) + 0.0:.3f}"
+
+
+def _index(index: Any) -> str:
+    if np.ndim(index):
+        return "n + ik"
+    return f"{index.real:g}+{index.imag:g}j" if np.iscomplexobj(index) else f"{index:g}"
+
+
+def replayed_photon(
+    sample: Sample,
+    number: int,
+    incidence: Any = 0.0,
+    *,
+    seed: int = 0,
+    azimuth: Any = 0.0,
+    wavelength: str | npt.ArrayLike | None = None,
+    stokes: npt.ArrayLike = UNPOLARISED,
+    most_events: int = 1000,
+) -> Photon:
+    """Return one of the photons that `energy` counts, with all that happens to it."""
+    beam = given_beam(
+        sample,
+        incidence,
+        azimuth,
+        wavelength=wavelength,
+        stokes=stokes,
+        seed=seed,
+        most_events=most_events,
+        beside=whole_number("number", number, 0),
+    )
+    refuse_too_large(
+        (beam.most_events + 1,),
+        8 * RECORD,
+        cure="give fewer most_events",
+        error=SurfaceError,
+        what="record of {:.3g} events",
+    )
+    block, place = divmod(int(number), BLOCK)
+    walked = beam.block(block, wanted=place)
+    return _photon_of(beam, int(number), walked)
+
+
+def _photon_of(beam: PhotonBeam, number: int, walked: WalkedBlock) -> Photon:
+    surface = beam.surface(number)
+    ends = walked.record[0]
+    first, start_x, last, x = (
+        ends[place : place + 3].copy() for place in (FIRST_K, FIRST_X, LAST_K, LAST_X)
+    )
+    count = int(ends[EVENTS])
+    directions = [*walked.record[2 : count + 1, DIRECTION : DIRECTION + 3].copy(), last][:count]
+    shape = beam.indices.n.shape
+    carried = walked.lights.T[:4]
+    return Photon(
+        beam=beam,
+        number=number,
+        surface=surface,
+        events=tuple(
+            event_of(beam, surface, walked, place, onwards)
+            for place, onwards in enumerate(directions, 1)
+        ),
+        end=OUTCOME_NAMES[int(ends[OUTCOME])],
+        start=Frame.from_direction(first, start_x),
+        frame=Frame.from_direction(last, x),
+        stokes=np.stack(stokes_of(NUMPY, tuple(carried)), axis=-1).reshape(*shape, 4),
+        scalar=walked.lights[:, 4].reshape(shape),
+    )

@@ -1,1 +1,0 @@
-"""One photon of a sample, event by event, and as a path of elements."""

@@ -1,0 +1,314 @@
+"""Reproduction: published numbers compared with measured ones."""
+
+from __future__ import annotations
+
+import warnings
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import MeshWarning
+from optipath.surfaces.energy_shares import energy
+from optipath.surfaces.hemisphere.measure import measure
+from optipath.values.messages import of_files
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import xarray as xr
+
+    from optipath.surfaces.energy_shares import Energy
+    from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+    from optipath.surfaces.published_experiment import Experiment, Measurement, Walks
+    from optipath.surfaces.sample import Sample
+
+
+class Reproduced(NamedTuple):
+    """A published number, and the one that has been measured."""
+
+    measurement: Measurement
+    found: Found
+    photons: int
+
+    @property
+    def agrees(self) -> bool | None:
+        """Whether it is the published one; None where no number is published."""
+        return self.measurement.agrees(self.found.value, self.found.error)
+
+
+def reproduce(
+    experiment: Experiment,
+    photons: int | None = None,
+    *,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[Reproduced]:
+    """Do an experiment again, and yield what is found, one after the other.
+
+    Examples
+    --------
+    >>> from optipath.surfaces.experiment_files import load_experiment
+    >>> mirror = load_experiment("wang-2017-table-2-alpha-0-4")
+    >>> for one in reproduce(mirror, photons=10_000):
+    ...     print(one.measurement.walks.incidence, round(one.found.value, 12), one.agrees)
+    10 deg 1.0 True
+    45 deg 1.0 True
+    80 deg 1.0 True
+    """
+    count = experiment.photons if photons is None else photons
+    for walks, measurements in experiment.by_walks():
+        walked = Walked(experiment, walks, count, seed, threads, progress)
+        for measurement in measurements:
+            found = MEASURES[measurement.measure].of(walked, measurement)
+            yield Reproduced(measurement, found, count)
+
+
+ANY_AZIMUTH = 180.0
+"""Within how many degrees of the plane of incidence all pixels are, on either side."""
+
+
+class Found(NamedTuple):
+    """A number that has been measured."""
+
+    value: float
+    error: float
+    mask: str = ""
+    pixel: str = ""
+
+
+class Measure(NamedTuple):
+    """What is measured, and how."""
+
+    told: str
+    of: Callable[[Walked, Measurement], Found]
+    takes: tuple[str, ...]
+    several: bool = False
+
+
+def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement], Found]:
+    def of(walked: Walked, measurement: Measurement) -> Found:
+        whole = walked.energy(measurement.stokes)
+        energy = whole.scalar if scalar else whole
+        if name == "R+T":
+            error = np.hypot(energy.absorbed_se, energy.lost_se)
+            return Found(float(energy.R + energy.T), float(error))
+        return Found(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
+
+    return of
+
+
+def _largest(name: str) -> Callable[[Walked, Measurement], Found]:
+    def of(walked: Walked, measurement: Measurement) -> Found:
+        made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
+        with of_files():  # Cures are what the file, or the command, can follow.
+            found: xr.DataArray = made(
+                brighter_than=measurement.brighter_than, noise=measurement.noise
+            )
+        # The other side of the plane of incidence is its image.
+        theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
+        value = np.where(azimuth <= measurement.azimuth, found.values, np.nan)
+        mask = f"{sensor.pixels} x {sensor.pixels} pixels: {found.attrs['mask']}"
+        if measurement.azimuth < ANY_AZIMUTH:
+            mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
+        if np.isnan(value).all():
+            return Found(np.nan, np.nan, mask)
+        at = np.unravel_index(np.nanargmax(value), value.shape)
+        pixel = f"{theta[at]:.0f} deg, {azimuth[at]:.0f} deg"
+        return Found(float(value[at]), float(found["se"].values[at]), mask, pixel)
+
+    return of
+
+
+def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
+    """Return what is measured in the pixel towards which a mirror would send the light."""
+
+    def of(walked: Walked, measurement: Measurement) -> Found:
+        hemisphere = walked.hemisphere
+        beam, sensor = hemisphere.seen.beam, hemisphere.sensor
+        at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
+        found: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
+        value, error = (float(each[0, *at, 0]) for each in (found.values, found["se"].values))
+        mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
+        if name == "aop":
+            # The paper folds it: half the arc tangent of |S2 / S1|.
+            value = abs(value) if abs(value) <= np.pi / 4.0 else np.pi / 2.0 - abs(value)
+            return Found(float(np.degrees(value)), float(np.degrees(error)), mask)
+        return Found(value, error, mask)
+
+    return of
+
+
+def _excess(component: int) -> Callable[[Walked, Measurement], Found]:
+    def of(walked: Walked, _: Measurement) -> Found:
+        return Found(*model_excess(walked.hemisphere, component))
+
+    return of
+
+
+def _model_s3(walked: Walked, _: Measurement) -> Found:
+    return Found(float(np.max(np.abs(model_of(walked.hemisphere)[..., 3]))), 0.0)
+
+
+def _off(walked: Walked, _: Measurement) -> Found:
+    mask = f"{BLOCKS} x {BLOCKS} blocks of pixels within {FARTHEST:.0f} deg of the normal"
+    return Found(*model_off(walked.once), mask)
+
+
+_SHARES = {
+    "R_s": "share reflected after one event",
+    "R_m": "share reflected after several events",
+    "R": "share reflected",
+    "T_s": "share let through after one event",
+    "T_m": "share let through after several events",
+    "T": "share let through",
+    "R+T": "share reflected or let through",
+}
+
+_LIGHT = ("cells", "stokes")
+_PIXELS = ("cells", "sensor")
+_SEVERAL_PIXELS = (*_PIXELS, "brighter_than", "noise", "azimuth")
+
+MEASURES = {
+    **{name: Measure(told, _share(name), _LIGHT) for name, told in _SHARES.items()},
+    **{
+        f"scalar-{name}": Measure(
+            f"{told}, without polarisation", _share(name, scalar=True), ("cells",)
+        )
+        for name, told in _SHARES.items()
+    },
+    "adm": Measure("largest ADM of a pixel", _largest("adm"), _SEVERAL_PIXELS, several=True),
+    "mdm": Measure("largest MDM of a pixel", _largest("mdm"), _SEVERAL_PIXELS, several=True),
+    "dolp": Measure("DoLP of mirrored light", _mirrored("dolp"), (*_PIXELS, "stokes")),
+    "aop": Measure("AoP of mirrored light, 0 .. 45 deg", _mirrored("aop"), (*_PIXELS, "stokes")),
+    "model-S0": Measure("S0 of the facet model, over that of photons, less 1", _excess(0), _PIXELS),
+    "model-S1": Measure("S1 of the facet model, over that of photons, less 1", _excess(1), _PIXELS),
+    "model-S2": Measure("S2 of the facet model, over that of photons, less 1", _excess(2), _PIXELS),
+    "model-S3": Measure("largest S3 of the facet model", _model_s3, ("sensor",)),
+    "model-off": Measure(
+        "facet model off photons after one event, over the largest S0", _off, _PIXELS
+    ),
+}
+"""By the names that files of experiments have."""
+
+
+@dataclass(frozen=True)
+class Walked:
+    """Photons of an experiment; each kind of them is walked once, when it is asked for."""
+
+    experiment: Experiment
+    walks: Walks
+    photons: int
+    seed: int = 0
+    threads: int | None = None
+    progress: Callable[[int, int], None] | None = None
+
+    def energy(self, stokes: tuple[float, ...]) -> Energy:
+        """Return what share of light of a Stokes vector comes back and goes through."""
+        known: dict[tuple[float, ...], Energy] = vars(self).setdefault("_energies", {})
+        if stokes not in known:
+            with self._meant_mesh():
+                known[stokes] = energy(
+                    self.sample,
+                    self.walks.incidence,
+                    self.photons,
+                    wavelength=self.walks.wavelengths[0] if self.walks.wavelengths else None,
+                    stokes=stokes,
+                    **self._walking,
+                )
+        return known[stokes]
+
+    @cached_property
+    def hemisphere(self) -> Hemisphere:
+        """What goes into each pixel."""
+        return self._hemisphere(None)
+
+    @cached_property
+    def once(self) -> Hemisphere:
+        """What goes into each pixel after one event."""
+        return self._hemisphere(1)
+
+    @cached_property
+    def sample(self) -> Sample:
+        """What light falls on, with the mesh that is asked for."""
+        cells, sample = self.walks.cells, self.experiment.sample
+        return sample if cells is None else replace(sample, cells=(cells, cells))
+
+    def _hemisphere(self, events: int | None) -> Hemisphere:
+        with self._meant_mesh():
+            return measure(
+                self.sample,
+                self.walks.incidence,
+                self.photons,
+                [*self.walks.wavelengths] or None,
+                self.experiment.sensor,
+                events=events,
+                **self._walking,
+            )
+
+    @property
+    def _walking(self) -> dict[str, Any]:
+        return {"seed": self.seed, "threads": self.threads, "progress": self.progress}
+
+    @contextmanager
+    def _meant_mesh(self) -> Iterator[None]:
+        """Warn of no coarse mesh where it is what is looked at."""
+        with warnings.catch_warnings():
+            if self.walks.cells is not None:
+                warnings.simplefilter("ignore", MeshWarning)
+            yield
+
+
+Numbers = npt.NDArray[np.float64]
+
+FARTHEST = 60.0
+"""Up to how many degrees from the normal the two are compared: 30 deg from grazing."""
+
+BLOCKS = 16
+"""How many blocks of pixels there are along a side, whose light is compared."""
+
+
+def model_of(hemisphere: Hemisphere) -> Numbers:
+    """Return the model's Stokes vectors of unpolarised light, of shape (rows, columns, 4)."""
+    found: Numbers = hemisphere.single_scattering().values[0, :, :, 0, :, 0]
+    return found
+
+
+def model_excess(hemisphere: Hemisphere, component: int) -> tuple[float, float]:
+    """Return by how much the model is above photons, in all: its sum over theirs, less 1."""
+    model = model_of(hemisphere)[..., component]
+    sign, whole = np.sign(model), np.sum(np.abs(model))
+
+    def above(light: Numbers) -> Numbers:
+        return np.asarray(whole / np.sum(_stokes(hemisphere, light)[..., component] * sign) - 1.0)
+
+    value, error = hemisphere.own.estimate(above)
+    return float(value), float(error)
+
+
+def model_off(hemisphere: Hemisphere) -> tuple[float, float]:
+    """Return how far the model is off at most, of all components, over the largest S0."""
+    model = _blocks(model_of(hemisphere))
+    place = (2.0 * np.arange(len(model)) + 1.0) / len(model) - 1.0
+    near = 90.0 * np.hypot(place, place[:, np.newaxis]) < FARTHEST
+    value, error = hemisphere.own.estimate(
+        lambda light: (_blocks(_stokes(hemisphere, light)) - model)[near] / model[..., 0].max()
+    )
+    at = np.unravel_index(np.argmax(np.abs(value)), value.shape)
+    return float(np.abs(value[at])), float(error[at])
+
+
+def _stokes(hemisphere: Hemisphere, light: Numbers) -> Numbers:
+    return hemisphere.matrices(light)[0, :, :, 0, :, 0]
+
+
+def _blocks(pixels: Numbers) -> Numbers:
+    """Return the sums over square blocks."""
+    size = max(len(pixels) // BLOCKS, 1)
+    side = len(pixels) // size
+    whole = pixels[: side * size, : side * size]
+    return np.asarray(whole.reshape(side, size, side, size, -1).sum(axis=(1, 3)))

@@ -1,0 +1,352 @@
+"""Sample: rough or flat interfaces one below the other, with the media between them."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.layer_stack import LayerStack
+from optipath.errors import SurfaceError, shown
+from optipath.materials.quantities import YES_OR_NO
+from optipath.paths.files.schema import FORMAT, Faults
+from optipath.paths.files.values import encode
+from optipath.paths.files.writer import toml_lines
+from optipath.surfaces.field_arguments import cells_of
+from optipath.surfaces.height_field import HeightField
+from optipath.surfaces.sample_layers import (
+    CLEAR_MEDIUM,
+    indices_of,
+    layers_of,
+    medium_of,
+    unused_faults,
+)
+from optipath.values.arrays import Unchanging, same_fields
+from optipath.values.parameters import Parameter
+from optipath.values.precision import whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from optipath.materials.material import Material
+    from optipath.surfaces.sample_layers import SampleIndices, SampleLayer
+
+
+_WIDTH = 80.0
+"""How wide a field is, over alpha: 40 correlation lengths 2 / alpha."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
+class Sample(Unchanging):
+    """Rough or flat interfaces one below the other, and the media between them.
+
+    Heights over x and y, lengths of the fields and wavelengths are no part of each other: light
+    is rays, which neither bend round edges nor interfere. Media do not absorb, but for the last.
+
+    Parameters
+    ----------
+    layers : sequence of pair
+        From the top, the index of the medium below an interface and the interface's roughness:
+        alpha (the slopes have the density exp(-tan^2 / alpha^2) / (pi alpha^2), 0 is flat), a pair
+        of alpha along x and y, or a `HeightField`. The last medium may absorb, n + ik, and is
+        opaque then; ``1j`` makes a perfect mirror of it.
+    outside : float or Material, optional
+        The medium above.
+    cells : int or pair of int, optional
+        How many cells random fields have along x and y; 640, which are 16 a correlation length
+        2 / alpha, by default.
+    surfaces : int, optional
+        How many realisations of random fields light is spread over at a time, since the
+        statistics of one finite field differ a little from those that are meant. After some
+        million photons each, others are drawn.
+    seed : int, optional
+        What random fields begin with. Surface number i of layer number j has the seed
+        ``SeedSequence(seed, spawn_key=(i, j))``.
+    periodic : bool, optional
+        Whether random fields go on beyond their border, so that no light is lost there.
+    description : str, optional
+        One line about it, as its file has it.
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Examples
+    --------
+    >>> sample = Sample([(1.5, 0.1), (2.4, (0.1, 0.2))])
+    >>> sample, sample.isotropic
+    (Sample([(1.5, 0.1), (2.4, (0.1, 0.2))]), False)
+    >>> from optipath.materials.material import Material
+    >>> Sample([(Material.cauchy([1.5, 0.004]), 0.0)]).indices("500 nm").n
+    array(1.516)
+    """
+
+    layers: Sequence[Any]
+    outside: float | Material = 1.0
+    cells: int | tuple[int, int] | None = None
+    surfaces: int = 16
+    seed: int = 0
+    periodic: bool = True
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        """Keep what is given as it is meant; refuse all faults."""
+        faults = Faults()
+        outside = faults.attempt("", medium_of, "outside", self.outside, CLEAR_MEDIUM)
+        layers = layers_of(self.layers, faults)
+        cells = None if self.cells is None else cells_of(self.cells, faults)
+        faults += whole_number("surfaces", self.surfaces) + whole_number("seed", self.seed, 0)
+        periodic = faults.attempt("", YES_OR_NO.check, "periodic", self.periodic)
+        if not isinstance(self.description, str):
+            faults.append(f"description must be a text, not {shown(self.description)}")
+        if not faults:
+            faults += unused_faults(layers, cells, periodic=bool(periodic))
+        if faults:
+            raise SurfaceError(*faults)
+        surfaces, seed = int(self.surfaces), int(self.seed)
+        kept = {"outside": outside, "cells": cells, "surfaces": surfaces, "seed": seed}
+        vars(self).update(kept, layers=layers, periodic=periodic)
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether no direction along the surface is any other."""
+        return all(layer.isotropic for layer in self.layers)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether all interfaces are planes that go on for ever."""
+        return all(layer.is_flat for layer in self.layers)
+
+    def fields(self, surface: int = 0) -> tuple[HeightField, ...]:
+        """Return the heights of all interfaces, from the top.
+
+        Parameters
+        ----------
+        surface : int, optional
+            Which realisation of those that are random, from 0. As many as take turns are kept;
+            others are drawn when they are asked for, with the same bits.
+
+        Returns
+        -------
+        tuple of HeightField
+
+        Raises
+        ------
+        SurfaceError
+            If that is no number of a surface, or there is no memory for it.
+
+        Warns
+        -----
+        MeshWarning
+            If there are too few cells for the roughness.
+
+        Examples
+        --------
+        >>> Sample([(1.5, 0.25)], cells=320).fields(3)
+        (HeightField.beckmann of alpha (0.25, 0.25), 320 x 320 cells, 320 x 320, periodic,)
+        """
+        if faults := whole_number("surface", surface, 0):
+            raise SurfaceError(*faults)
+        known: dict[int, tuple[HeightField, ...]] = vars(self).setdefault("_drawn", {})
+        if surface not in known:
+            drawn = tuple(self._field(int(surface), place) for place in range(len(self.layers)))
+            if len(known) >= self.surfaces:
+                known.pop(next(iter(known)))
+            known[surface] = drawn
+        return known[surface]
+
+    def indices(self, wavelength: Any = None) -> SampleIndices:
+        """Return the indices of refraction of all media.
+
+        Parameters
+        ----------
+        wavelength : float, str or array_like, optional
+            In vacuum, in metres or as a text such as ``"550 nm"``; for media that depend on it.
+            Where there are several, the base alone may, and must be opaque.
+
+        Returns
+        -------
+        SampleIndices
+            ``outside`` and ``inner``, which are floats, and ``n`` and ``k`` of the base, arrays of
+            the shape of the wavelengths.
+
+        Raises
+        ------
+        SurfaceError
+            If a wavelength is missing, or given and not asked for; if a medium is not known there,
+            or absorbs and is not the last; if light of several wavelengths would go several ways.
+
+        Examples
+        --------
+        >>> Sample([(1.5, 0.1), (0.5 + 2.1j, 0.3)]).indices()
+        SampleIndices(outside=1.0, inner=(1.5,), n=array(0.5), k=array(2.1))
+        """
+        return indices_of(self._media, wavelength)
+
+    def smooth(self, incidence: Any = None) -> LayerStack:
+        """Return the same media with flat interfaces, between which light goes to and fro.
+
+        Parameters
+        ----------
+        incidence : float, str, array_like or Parameter, optional
+            The angle of incidence in radians; the parameter ``incidence`` by default.
+
+        Returns
+        -------
+        LayerStack
+            The medium above first.
+
+        Examples
+        --------
+        >>> stack = Sample([(1.5, 0.1), (2.4, 0.1)]).smooth("65 deg")
+        >>> print(stack.mueller("in", "reflected").matrix[0, 0].round(5))
+        0.16024
+        """
+        angle = Parameter("incidence") if incidence is None else incidence
+        return LayerStack([*self._media.values()], angle)
+
+    def photon(
+        self,
+        number: int,
+        incidence: Any = 0.0,
+        *,
+        seed: int = 0,
+        azimuth: Any = 0.0,
+        wavelength: str | npt.ArrayLike | None = None,
+        stokes: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        most_events: int = 1000,
+    ) -> Any:
+        """Return one of the photons that `energy` counts, with all that happens to it.
+
+        Parameters
+        ----------
+        number : int
+            Which photon, from 0. Those of its block of 16384 that come before it are walked, too.
+        incidence : float or str, optional
+            The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
+        seed : int, optional
+            That which `energy` is given.
+        azimuth : float or str, optional
+            Towards which side the light goes, from x towards y of the sample. On an isotropic
+            sample each photon has an azimuth of its own.
+        wavelength : float, str or array_like, optional
+            In metres, or ``"550 nm"``, where an index depends on it; several as `energy` has them.
+        stokes : array_like, optional
+            The Stokes vector of the light, the x of its frame horizontal; unpolarised by default.
+        most_events : int, optional
+            After how many events it is given up.
+
+        Returns
+        -------
+        Photon
+
+        Raises
+        ------
+        SurfaceError
+            With all faults at once, or if photons meet nothing of a finite field.
+
+        Examples
+        --------
+        >>> from optipath.surfaces.sample import Sample
+        >>> photon = Sample([(1.5, 0.0)]).photon(3, "40 deg")
+        >>> photon
+        <Photon 3 of seed 0: down after 1 event>
+        >>> print(photon.events[0].onwards[2].round(6))
+        -0.90353
+        """
+        from optipath.surfaces.photon import (  # noqa: PLC0415 - replays samples
+            replayed_photon,
+        )
+
+        return replayed_photon(
+            self,
+            number,
+            incidence,
+            seed=seed,
+            azimuth=azimuth,
+            wavelength=wavelength,
+            stokes=stokes,
+            most_events=most_events,
+        )
+
+    def to_toml(self) -> str:
+        """Return the sample as the text of a file; `load_sample` gives the sample back.
+
+        Raises
+        ------
+        SurfaceError
+            If heights stand in no file, or a material has no form in files.
+        """
+        return toml_of({"description": self.description, **self._unusual()}, self.layers)
+
+    def _field(self, surface: int, place: int) -> HeightField:
+        layer = self.layers[place]
+        if isinstance(layer.roughness, HeightField):
+            return layer.roughness
+        if not layer.is_random:
+            return HeightField.flat()
+        along_x, along_y = layer.roughness
+        return HeightField.beckmann(
+            along_x,
+            along_y,
+            size=(_WIDTH / along_x, _WIDTH / along_y),
+            cells=self.cells,
+            seed=np.random.SeedSequence(self.seed, spawn_key=(surface, place)),
+            periodic=self.periodic,
+        )
+
+    @property
+    def _media(self) -> dict[str, Any]:
+        """The media by their places, from above."""
+        below = {f"layers[{place}].index": each.index for place, each in enumerate(self.layers)}
+        return {"outside": self.outside, **below}
+
+    def _unusual(self) -> dict[str, Any]:
+        """Return what is given besides the layers, and is not what it is by default."""
+        usual = {each.name: each.default for each in dataclasses.fields(self)}
+        given = {name: getattr(self, name) for name in usual if name != "layers"}
+        return {name: value for name, value in given.items() if value != usual[name]}
+
+    def __repr__(self) -> str:
+        others = [f"{name}={value!r}" for name, value in self._unusual().items()]
+        return f"Sample({', '.join([repr([*self.layers]), *others])})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Random fields are drawn again, with the same bits.
+        return {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+
+def toml_of(options: Mapping[str, Any], layers: Sequence[SampleLayer]) -> str:
+    """Return the text of the file of a sample."""
+    faults = Faults()
+    top = {"format": FORMAT} | {
+        name: value if isinstance(value, bool) else faults.attempt(name, encode, value, "")
+        for name, value in options.items()
+    }
+    rows = [faults.attempt(f"layers[{at}]", _row, layer) for at, layer in enumerate(layers)]
+    if faults:
+        raise SurfaceError(*faults)
+    return "\n".join([toml_lines("", top), *[toml_lines("[[layers]]", row or {}) for row in rows]])
+
+
+def _row(layer: SampleLayer) -> dict[str, Any]:
+    index, rough = {"index": encode(layer.index, "")}, layer.roughness
+    if not isinstance(rough, HeightField):
+        along_x, along_y = rough
+        return index | {"alpha": along_x if along_x == along_y else [along_x, along_y]}
+    if rough.is_flat:
+        return index | {"alpha": 0.0}
+    if not layer.file:
+        raise SurfaceError(
+            "its heights are in no file that it knows of; save them by numpy.save('heights.npy', "
+            'field.heights), and load a sample whose file has heights = "heights.npy"'
+        )
+    row = index | {"heights": layer.file, "size": [*rough.size]}
+    return row | ({"periodic": True} if rough.periodic else {})

@@ -1,1 +1,0 @@
-"""Samples: rough interfaces one below the other, with the media between them, and their files."""

@@ -1,0 +1,290 @@
+"""Beams: photons from one direction, walked block after block."""
+
+from __future__ import annotations
+
+from collections import deque
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+from math import cos, sin
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.engines.engine import address
+from optipath.errors import SurfaceError, shown
+from optipath.kernels.carriers.carried import carry
+from optipath.kernels.primitives import FLOAT
+from optipath.materials.quantities import ANGLE, INCIDENCE
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.sample import Sample
+from optipath.surfaces.walk.code import walk_code
+from optipath.surfaces.walk.layout import (
+    CARRIED,
+    ENDS,
+    MOST_COUNTED,
+    OPAQUE,
+    OUTCOMES,
+    RECORD,
+    SUMS,
+    UP,
+)
+from optipath.surfaces.walk.meshes import kept_meshes
+from optipath.values.arrays import same_fields
+from optipath.values.domains import StokesDomain
+from optipath.values.precision import whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+    from concurrent.futures import Future
+
+    from optipath.surfaces.sample_layers import SampleIndices
+    from optipath.values.domains import Domain
+
+
+BLOCK = 1 << 14
+"""How many photons share a stream of random numbers."""
+
+PORTION = 1 << 9
+"""How many of them walk over one realisation of the surfaces before the next takes its turn."""
+
+TURN = 1 << 19
+"""How many photons walk over a realisation before another is drawn in its place."""
+
+
+@dataclass(frozen=True, eq=False)
+class PhotonBeam:
+    """What is needed to walk any block of photons; blocks do not depend on each other.
+
+    The sample's surfaces take turns, each for a `PORTION` of photons, and after a `TURN` of them
+    others take their places, so that the error of many photons goes down. Block b has the random
+    numbers of child b of the seed (`numpy.random.SeedSequence`).
+    """
+
+    sample: Sample
+    cos: float
+    sin: float
+    azimuth: float
+    indices: SampleIndices
+    states: tuple[tuple[float, float, float, float], ...]
+    seed: int
+    most_events: int
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+    @cached_property
+    def lights(self) -> int:
+        """How many lights ride on a photon: for each index of the base, all states."""
+        return self.indices.n.size * len(self.states)
+
+    @property
+    def plane_azimuth(self) -> float:
+        """That of the plane of incidence as directions are told; on an isotropic sample 0."""
+        return 0.0 if self.sample.isotropic else self.azimuth
+
+    def smooth_sine(self, outcome: int) -> float:
+        """Return the sine of the angle at which a smooth sample sends light up or down."""
+        if outcome == UP:
+            return self.sin
+        return self.sin * self.indices.outside / float(self.indices.n.flat[0])
+
+    @property
+    def surfaces(self) -> int:
+        """How many realisations of the surfaces take turns; one where nothing is random."""
+        return self.sample.surfaces if self._is_random else 1
+
+    @property
+    def _is_random(self) -> bool:
+        return any(each.is_random for each in self.sample.layers)
+
+    def surface(self, photon: int) -> int:
+        """Return over which realisation of the surfaces a photon walks."""
+        if not self._is_random:
+            return 0
+        drawn, place = divmod(photon // PORTION, TURN // PORTION * self.surfaces)
+        return drawn * self.surfaces + place % self.surfaces
+
+    def portions(self, number: int, photons: int) -> Iterator[tuple[int, int, int]]:
+        """Yield the portions of a block: the first photon, how many, and over which surface."""
+        size = PORTION if self._is_random else BLOCK
+        for first in range(0, photons, size):
+            yield first, min(size, photons - first), self.surface(BLOCK * number + first)
+
+    def block(
+        self, number: int, photons: int = BLOCK, wanted: int = -1, *, keeps: bool = False
+    ) -> WalkedBlock:
+        """Walk the first photons of a block."""
+        count, photons = self.lights, photons if wanted < 0 else wanted + 1
+        stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
+        state = np.array(stream.state["state"]["state"], np.uint64)
+        starts, lights = np.zeros(2 * len(self.sample.layers)), np.zeros((count, CARRIED))
+        record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
+        ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
+        azimuth = np.nan if self.sample.isotropic else self.azimuth
+        media, base, source = map(address, self._given)
+        before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
+        behind = [address(each) for each in (state, starts, lights)]
+        code, kept, to_record = walk_code(), kept_meshes(self.sample), address(record)
+        sums: dict[int, npt.NDArray[np.float64]] = {}
+        for first, size, surface in self.portions(number, photons):
+            own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
+            last = wanted - first if first <= wanted else -1
+            place = address(ends) + keeps * first * ends.strides[0]
+            found = code(
+                *kept.of(surface).addresses,
+                *before,
+                *(size, self.most_events, last if last < size else -1),
+                *(*behind, address(own), to_record, place, int(keeps)),
+            )
+            if not found:
+                raise SurfaceError(
+                    "photons meet nothing of the sample: its finite fields are too small for this "
+                    "incidence; give larger or periodic ones"
+                )
+        if not all(np.isfinite(own).all() for own in sums.values()):
+            raise SurfaceError(f"photons of block {number} come to what is no number")
+        return WalkedBlock(photons, sums, record, starts, lights, ends)
+
+    @cached_property
+    def _given(self) -> tuple[npt.NDArray[np.float64], ...]:
+        """Return the media, the base of each light, and what lights are at first."""
+        indices = self.indices
+        behind = OPAQUE if indices.opaque else float(indices.n.flat[0])
+        media = np.array([indices.outside, *indices.inner, behind])
+        base = np.stack([indices.n.ravel(), indices.k.ravel()], axis=-1)
+        source = [[*carry(FLOAT, state), state[0]] for state in self.states]
+        each = np.repeat(base, len(source), axis=0)
+        return media, each, np.tile(np.array(source), (len(base), 1))
+
+
+UNPOLARISED = (1.0, 0.0, 0.0, 0.0)
+_STOKES = StokesDomain("Stokes vector", tail=(4,))
+_LEAST_COSINE = 1e-12
+"""That of an angle that is 90 deg but for roundings."""
+
+
+def given_beam(
+    sample: Sample,
+    incidence: Any,
+    azimuth: Any = 0.0,
+    *,
+    wavelength: str | npt.ArrayLike | None = None,
+    stokes: npt.ArrayLike = UNPOLARISED,
+    seed: int = 0,
+    most_events: int = 1000,
+    beside: Sequence[str] = (),
+) -> PhotonBeam:
+    """Return the photons that a user asks for."""
+    if not isinstance(sample, Sample):
+        raise SurfaceError(
+            *beside,
+            f"sample is {shown(sample)}; give an op.Sample, such as op.Sample([(1.5, 0.1)]), or "
+            f"op.load_sample(name)",
+        )
+    faults = Faults(beside)
+    incidence = faults.attempt("", _one, "incidence", incidence, INCIDENCE)
+    azimuth = faults.attempt("", _one, "azimuth", azimuth, ANGLE)
+    if incidence is not None and cos(incidence) < _LEAST_COSINE:
+        faults.append("incidence is 90 deg, along the sample, where no light gets to it; give less")
+    faults += whole_number("seed", seed, 0) + whole_number("most_events", most_events)
+    light = faults.attempt("", given_state, "stokes", stokes)
+    indices = faults.attempt("", sample.indices, wavelength)
+    if faults or indices is None or light is None:
+        raise SurfaceError(*faults)
+    return PhotonBeam(
+        sample,
+        cos(incidence),
+        sin(incidence),
+        azimuth,
+        indices,
+        (light,),
+        int(seed),
+        int(most_events),
+    )
+
+
+def given_state(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
+    """Return the state of polarisation of the light that falls on a sample.
+
+    Shape: stokes (4,).
+
+    Examples
+    --------
+    >>> given_state("source", [2, 1, 0, 0])
+    (2.0, 1.0, 0.0, 0.0)
+    """
+    faults = Faults()
+    state: Any = faults.attempt("", _one, name, stokes, _STOKES.unphysical)
+    if state is None:
+        raise SurfaceError(*faults)
+    if not state[0] > 0.0:
+        raise SurfaceError(f"{name} has no intensity; give S0 > 0")
+    if not _STOKES.allows(np.array(state)):
+        raise SurfaceError(
+            f"{name} is {[*state]}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
+        )
+    return state  # type: ignore[no-any-return]
+
+
+def _one(name: str, value: Any, domain: Domain) -> Any:
+    """Return one number of a domain, or one vector, as Python has it."""
+    found = np.asarray(domain.check(name, value))
+    if found.shape != domain.tail:
+        raise SurfaceError(
+            f"{name} has the shape {found.shape}; photons come one way at a time, so give one "
+            f"{domain.name}"
+        )
+    return tuple(found.tolist()) if domain.tail else float(found)
+
+
+class WalkedBlock(NamedTuple):
+    """What has become of the photons of a block.
+
+    Shapes: sums (OUTCOMES, MOST_COUNTED, lights, SUMS); record (events + 1, RECORD); starts (2
+    layers,); lights (lights, CARRIED); ends (photons, ENDS + CARRIED lights).
+    """
+
+    photons: int
+    sums: Mapping[int, npt.NDArray[np.float64]]
+    record: npt.NDArray[np.float64]
+    starts: npt.NDArray[np.float64]
+    lights: npt.NDArray[np.float64]
+    ends: npt.NDArray[np.float64]
+
+
+_AHEAD = 4
+"""How many blocks a thread are handed out before the first of them is waited for."""
+
+Found = TypeVar("Found")
+
+
+def walked_in_order(
+    beam: PhotonBeam,
+    todo: range,
+    photons: int,
+    threads: int,
+    work: Callable[[int, int], Found],
+) -> Generator[Found]:
+    """Yield what becomes of blocks, in their order, however many threads there are.
+
+    No more are handed out than keep all threads at work; who closes the generator stops them.
+    """
+    walk_code()
+    kept = kept_meshes(beam.sample)
+    executor = ThreadPoolExecutor(threads)
+    waiting: deque[Future[Found]] = deque()
+    try:
+        for number in todo:
+            size = min(BLOCK, photons - BLOCK * number)
+            # Here and not by a thread, whose warnings nobody would know where from.
+            for _, _, surface in beam.portions(number, size):
+                kept.of(surface)
+            waiting.append(executor.submit(work, number, size))
+            if len(waiting) > _AHEAD * threads:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:
+        executor.shutdown(cancel_futures=True)

@@ -1,0 +1,178 @@
+"""Meshes of a stack as compiled code takes them, with pyramids of heights."""
+
+from __future__ import annotations
+
+from threading import Lock
+from typing import TYPE_CHECKING, NamedTuple
+from weakref import proxy
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.engines.engine import address
+from optipath.surfaces.height_field import HeightField
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.surfaces.sample import Sample
+
+
+WHOLES, NUMBERS = 24, 4
+"""How many whole numbers, and how many others, there are of a mesh."""
+
+HEIGHTS, CELLS_X, CELLS_Y, LEVELS, PERIODIC, PYRAMID = range(6)
+"""The places of the whole numbers: where heights begin, and from the last, where levels do."""
+
+CELL_X, CELL_Y, LOW, HIGH = range(NUMBERS)
+"""The places of the others."""
+
+ENDED, SHIFTED, IN_REGISTER = range(3)
+"""How a mesh stands: it ends at its border; or is periodic, and shifted at random for every photon;
+or periodic, and stays as it is against others of its kind."""
+
+GAP = 2.0
+"""The empty space between two meshes, in standard deviations of the rougher one's heights."""
+
+
+class PackedMeshes(NamedTuple):
+    """Meshes one below the other, from the top."""
+
+    wholes: npt.NDArray[np.int64]
+    numbers: npt.NDArray[np.float64]
+    heights: npt.NDArray[np.float64]
+    extremes: npt.NDArray[np.float64]
+
+
+def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> PackedMeshes:
+    """Return meshes as compiled code takes them, far enough from each other not to touch."""
+    standing = _standing(fields, given)
+    wholes = np.zeros((len(fields), WHOLES), np.int64)
+    numbers = np.zeros((len(fields), NUMBERS))
+    heights: list[npt.NDArray[np.float64]] = []
+    extremes: list[npt.NDArray[np.float64]] = []
+    lowest, taken, told = 0.0, 0, 0
+    for place, field in enumerate(fields):
+        vertices = field.vertices()
+        if place:
+            gap = GAP * max(field.deviation, fields[place - 1].deviation) or GAP
+            vertices = vertices + (lowest - gap - vertices.max())
+        lowest = float(vertices.min())
+        across, down = field.cells
+        levels = pyramid_of(vertices)
+        wholes[place, :PYRAMID] = taken, across, down, len(levels) - 1, standing[place]
+        for level, values in enumerate(levels[1:], 1):
+            wholes[place, PYRAMID + level] = told
+            told += values.size
+        numbers[place] = *np.divide(field.size, field.cells), lowest, vertices.max()
+        taken += vertices.size
+        heights.append(vertices.ravel())
+        extremes += [values.ravel() for values in levels[1:]]
+    extremes.append(np.zeros(1))
+    return PackedMeshes(
+        wholes.ravel(), numbers.ravel(), np.concatenate(heights), np.concatenate(extremes)
+    )
+
+
+def _standing(fields: Sequence[HeightField], given: Sequence[bool]) -> list[int]:
+    """Return how each mesh stands; those that are given stay in register with the first of them."""
+    found = [SHIFTED if field.periodic else ENDED for field in fields]
+    places = [place for place, is_given in enumerate(given) if is_given and found[place] == SHIFTED]
+    for place in places:
+        if fields[place].size == fields[places[0]].size:
+            found[place] = IN_REGISTER
+    return found
+
+
+_MORE = 8
+"""How many are kept besides those in turn, for blocks that are walked a little earlier or later."""
+
+
+class PlacedMeshes(NamedTuple):
+    """Meshes, and where they are in memory."""
+
+    meshes: PackedMeshes
+    addresses: tuple[int, ...]
+
+
+class KeptMeshes:
+    """Packs what a sample draws, once for all threads, and drops what was packed first."""
+
+    def __init__(self, sample: Sample) -> None:
+        # It keeps these meshes itself, and both are to go as soon as nobody needs it.
+        self._sample: Sample = proxy(sample)
+        self._known: dict[int, PlacedMeshes] = {}
+        self._lock = Lock()
+
+    def of(self, surface: int) -> PlacedMeshes:
+        """Return a realisation."""
+        with self._lock:
+            if surface not in self._known:
+                if len(self._known) >= self._sample.surfaces + _MORE:
+                    self._known.pop(next(iter(self._known)))
+                given = [isinstance(each.roughness, HeightField) for each in self._sample.layers]
+                meshes = packed_meshes(self._sample.fields(surface), given)
+                self._known[surface] = PlacedMeshes(meshes, tuple(map(address, meshes)))
+            return self._known[surface]
+
+
+def kept_meshes(sample: Sample) -> KeptMeshes:
+    """Return those that are kept with a sample."""
+    found: KeptMeshes = vars(sample).setdefault("_packed", KeptMeshes(sample))
+    return found
+
+
+SHIFT = 2
+"""Blocks are 2^SHIFT blocks of the level below wide."""
+
+
+def levels_of(cells_x: int, cells_y: int) -> int:
+    """Return how many levels a mesh has above its cells, the last of them of one block.
+
+    Examples
+    --------
+    >>> levels_of(640, 640), levels_of(1, 1)
+    (5, 0)
+    """
+    most, levels = max(cells_x, cells_y) - 1, 0
+    while most >> (SHIFT * levels):
+        levels += 1
+    return levels
+
+
+def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
+    """Return the extremes of a mesh by level, each of shape (rows, columns, 2).
+
+    Shape: vertices (cells_y + 1, cells_x + 1).
+
+    Examples
+    --------
+    >>> cells, whole = pyramid_of(np.array([[0.0, 1.0, 0.0], [2.0, 0.0, 3.0]]))
+    >>> print(cells[0, 1], whole[0, 0])
+    [0. 3.] [0. 3.]
+    """
+    corners = np.stack([vertices[:-1, :-1], vertices[1:, :-1], vertices[:-1, 1:], vertices[1:, 1:]])
+    found = [np.stack([corners.min(axis=0), corners.max(axis=0)], axis=-1)]
+    for _ in range(levels_of(vertices.shape[1] - 1, vertices.shape[0] - 1)):
+        low, high = found[-1][..., 0], found[-1][..., 1]
+        found.append(
+            np.stack(
+                [_blocks(low, np.minimum, np.inf), _blocks(high, np.maximum, -np.inf)], axis=-1
+            )
+        )
+    return found
+
+
+def _blocks(
+    values: npt.NDArray[np.float64], better: np.ufunc, worst: float
+) -> npt.NDArray[np.float64]:
+    width = 1 << SHIFT
+    for axis in (0, 1):
+        missing = -values.shape[axis] % width
+        values = np.pad(
+            values, [(0, missing * (axis == each)) for each in (0, 1)], constant_values=worst
+        )
+        shape = [*values.shape]
+        shape[axis : axis + 1] = [shape[axis] // width, width]
+        values = better.reduce(values.reshape(shape), axis=axis + 1)
+    return values

@@ -1,0 +1,275 @@
+"""Axes of a sweep, from its arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, did_you_mean, listed, shown
+from optipath.plan.inputs import LargeAngles
+from optipath.sweeps.checked_axes import axis_faults, computed_faults, unknown_names, unnamed_arrays
+from optipath.sweeps.coords import (
+    GivenCoordinate,
+    cure_of_table,
+    given_coords,
+    has_coordinates,
+    is_labelled,
+    read_column,
+    read_labelled,
+)
+from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
+from optipath.values.angles import CosSin
+from optipath.values.arrays import as_given, locked
+from optipath.values.columns import TextColumn
+from optipath.values.jax_values import check_known, known
+from optipath.values.messages import no_value
+from optipath.values.text import AxisValues, IdleValues, read_axis_text, read_entries
+from optipath.values.units import BASE_UNITS, dimension_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from optipath.plan.inputs import Inputs
+
+
+_SHORT = 16
+"""How many times the values of all axes a grid has at least beside which they are few."""
+
+_LARGE = 1 << 22
+"""How many points a grid has at least whose run takes longer than to look at short axes twice."""
+
+
+def grid_of(
+    inputs: Inputs,
+    given: Mapping[str, Any],
+    zip: Any = (),  # noqa: A002 - as `path.sweep` has it
+    coords: Any = None,
+    *,
+    ranges: bool = True,
+) -> SweepGrid:
+    """Return the grid of a sweep."""
+    faults: list[str] = []
+    besides = given_coords(inputs, coords, faults)
+    twice = [name for name in given if name in besides]
+    drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
+    faults += [
+        f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
+        for name in twice
+    ]
+    several = {name: GivenCoordinate(value) for name, value in given.items()} | besides
+    values = _read(inputs, several, faults)
+    dimensions = {name: several[name].dimension or name for name in values}
+    own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
+    dimensions |= zipped_dimensions(zip, own, {*inputs.open, *values}, faults)
+    along = {name: value.dims[0] for name, value in given.items() if is_labelled(value, axes=1)}
+    faults += shared_dimensions(along, dimensions)
+    faults += _named_as_others(dimensions, values, inputs)
+    faults += unnamed_arrays(inputs, several)
+    axes: list[SweepAxis] = []
+    fixed: dict[str, Any] = {}
+    labels: dict[str, tuple[Any, str]] = {}
+    for name, value in values.items():
+        numbers = value.given
+        # Labels of half precision are none of pandas.
+        half = value.shown.dtype == np.float16
+        shown = value.shown.astype(np.float32) if half else value.shown
+        if numbers.ndim:
+            told = value._replace(shown=shown)
+            axes.append(sweep_axis(inputs.open, name, told, dimensions[name]))
+        else:
+            fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
+            labels[name] = shown, value.unit
+    grid = SweepGrid(tuple(axes), fixed, labels)
+    is_short = max(_LARGE, _SHORT * sum(map(len, axes))) < grid.points
+    ranges = ranges or bool(faults) or is_short
+    faults += axis_faults(inputs, grid, ranges=ranges)
+    if not faults and ranges:
+        faults = computed_faults(inputs, grid)
+    if faults:
+        raise ParameterError(*dict.fromkeys(faults))
+    LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
+    return grid
+
+
+def _read(
+    inputs: Inputs, several: Mapping[str, GivenCoordinate], faults: list[str]
+) -> dict[str, AxisValues]:
+    """Return the values of each parameter that there is, and that nothing is wrong with."""
+    found = {}
+    told = {n: g.value for n, g in several.items() if not isinstance(g.value, IdleValues)}
+    faults += unknown_names(inputs, told)
+    for name, (value, _) in several.items():
+        if name not in inputs.open and not isinstance(value, IdleValues):
+            continue
+        try:
+            if isinstance(value, TextColumn):
+                found[name] = read_column(inputs, value)
+            else:
+                is_read = isinstance(value, AxisValues)
+                found[name] = value if is_read else read_values(inputs, name, value)
+        except OptipathError as fault:
+            faults += fault.faults
+    return found
+
+
+def _named_as_others(
+    dimensions: Mapping[str, str], values: Mapping[str, AxisValues], inputs: Inputs
+) -> list[str]:
+    """Return what is wrong with dimensions that are called as parameters of other axes."""
+    along = {dimensions[name]: name for name, value in values.items() if value.given.ndim}
+    return [
+        f"'{name}' is along the dimension '{dimension}', which is the name of a parameter with "
+        f"another axis; rename the dimension, such as coords.rename_dims({dimension}='point')"
+        for dimension, name in along.items()
+        if dimension in inputs.open and dimensions.get(dimension) != dimension
+    ]
+
+
+def _is_plain(value: Any) -> bool:
+    """Tell whether a value may have plain numbers, without a unit beside them."""
+    return not (isinstance(value, TextColumn | AxisValues) or is_labelled(value))
+
+
+def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
+    """Return what is given for a parameter.
+
+    Units: value in radians.
+    """
+    if value is None:
+        raise ParameterError(no_value(name))
+    if inputs.tails.get(name):
+        raise ParameterError(
+            f"parameter '{name}' takes several numbers for one path, which no axis has; bind it, "
+            f"by path.bind({name}=...), or leave out what sweeps it"
+        )
+    if isinstance(value, CosSin):
+        raise ParameterError(
+            f"parameter '{name}' is a cosine and a sine, which no axis shows; give the angle"
+        )
+    if cure := cure_of_table(name, value):
+        raise ParameterError(
+            f"parameter '{name}' is a {type(value).__name__}; give {cure}, or all by coords="
+        )
+    check_known(f"parameter '{name}' of a sweep", value)
+    parameter = inputs.open[name]
+    if is_labelled(value):
+        return _of_one_dimension(name, read_labelled(parameter, value, inputs.uses))
+    if isinstance(value, str):
+        several = read_axis_text(value, parameter, "", inputs.uses)
+        if several is not None:
+            return several
+    inputs.ask_in_doubt(name, value)
+    array = as_given(f"parameter '{name}'", known(value), ParameterError)
+    if array.dtype.kind in "UO":
+        _of_one_dimension(name, AxisValues(array, "", array))
+        return read_entries(array.ravel().tolist(), parameter, "", inputs.uses).reshaped(
+            array.shape
+        )
+    if array.dtype.kind not in "iufc":
+        parameter.resolve(value)  # Which says what is wrong with it.
+    array = locked(array.astype(np.float64) if array.dtype.kind in "iu" else array.copy())
+    base = BASE_UNITS.get(dimension_of(parameter.unit), "")
+    return _of_one_dimension(name, AxisValues(array, base, array))
+
+
+def _of_one_dimension(name: str, found: AxisValues) -> AxisValues:
+    shape = found.shown.shape
+    if len(shape) > 1:
+        raise ParameterError(
+            f"parameter '{name}' has the shape {shape}, and an axis has one dimension; give its "
+            f"values in a row, .ravel(), and zip=('{name}', ...) for parameters that vary together"
+        )
+    if 0 in shape:
+        raise ParameterError(f"parameter '{name}' has no values; give one at least")
+    return found
+
+
+_AS = "zip=('a', 'b'), zip=[('a', 'b'), ('c', 'd')] or zip={'point': ('a', 'b')}"
+
+_UNNAMED = "dim_0"
+"""What xarray calls a dimension that nobody has named."""
+
+
+def zipped_dimensions(
+    zipped: Any, lengths: Mapping[str, int], parameters: Collection[str], faults: list[str]
+) -> dict[str, str]:
+    """Return the dimension of each parameter that varies together with others.
+
+    Examples
+    --------
+    >>> zipped_dimensions(("delta", "rho"), {"delta": 3, "rho": 3, "phi": 2}, [], [])
+    {'delta': 'delta_rho', 'rho': 'delta_rho'}
+    """
+    groups = _groups(zipped, faults)
+    found: dict[str, str] = {}
+    for dimension, names in groups:
+        told = [
+            f"zip names '{name}', which has no axis of its own{did_you_mean(name, lengths)}"
+            for name in names
+            if name not in lengths
+        ]
+        told += [
+            f"zip names '{name}' twice; write it in one group, once"
+            for name in dict.fromkeys(names)
+            if name in found or names.count(name) > 1
+        ]
+        if dimension in parameters:
+            told.append(
+                f"zip calls a dimension '{dimension}', which is the name of a parameter; give it "
+                f"another, such as zip={{'point': {(*names,)}}}"
+            )
+        if dimension in found.values():
+            told.append(f"zip has two dimensions '{dimension}'; name them by zip={{...}}")
+        if not told and len({lengths[name] for name in names}) > 1:
+            counted = listed([f"{lengths[name]} of '{name}'" for name in names])
+            told.append(f"zip pairs values one by one, but there are {counted}; give as many each")
+        faults += told
+        if not told:
+            found |= dict.fromkeys(names, dimension)
+    return found
+
+
+def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -> list[str]:
+    """Return what is wrong with arrays along one dimension that may or may not vary together.
+
+    Examples
+    --------
+    >>> shared_dimensions({"a": "x", "b": "x"}, {"a": "a_b", "b": "a_b"})
+    []
+    """
+    faults = []
+    for shared in dict.fromkeys(along.values()):
+        names = [name for name in along if along[name] == shared]
+        if len({dimensions.get(name, name) for name in names}) > 1 and shared != _UNNAMED:
+            quoted = listed([f"'{name}'" for name in names])
+            faults.append(
+                f"{quoted} are all along '{shared}'; write zip={{'{shared}': {(*names,)}}} if they "
+                f"vary together, or .rename({shared}='{names[-1]}') for all combinations"
+            )
+    return faults
+
+
+def _groups(zipped: Any, faults: list[str]) -> list[tuple[str, list[str]]]:
+    """Return the dimension and the names of each group."""
+    if zipped is None or (isinstance(zipped, (list, tuple, Mapping)) and not zipped):
+        return []
+    if isinstance(zipped, Mapping):
+        several: list[tuple[Any, Any]] = [*zipped.items()]
+    elif isinstance(zipped, (list, tuple)):
+        alone = any(isinstance(one, str) for one in zipped)
+        several = [(None, group) for group in ([zipped] if alone else zipped)]
+    else:
+        faults.append(f"zip is {shown(zipped)}; write {_AS}")
+        return []
+    found = []
+    for dimension, group in several:
+        are_names = isinstance(group, (list, tuple)) and all(isinstance(n, str) for n in group)
+        if not are_names or len(group) < 2:
+            faults.append(f"zip has {shown(group)}, and a group is two names or more; write {_AS}")
+        elif dimension is not None and not (isinstance(dimension, str) and dimension):
+            faults.append(f"zip calls a dimension {shown(dimension)}; give it a text for a name")
+        else:
+            found.append((dimension or "_".join(group), [*group]))
+    return found

@@ -1,0 +1,235 @@
+"""Sweeps in chunks: Dask arrays, each block one run of the path."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import dask.array as da
+import numpy as np
+import xarray as xr
+from dask.base import tokenize
+from dask.delayed import delayed
+
+from optipath.errors import ParameterError, shown, unknown
+from optipath.plan.reading import pieces
+from optipath.sweeps.datasets import (
+    attributes_of,
+    coordinates_of,
+    dataset_attributes,
+    dimensions_of,
+)
+from optipath.sweeps.grid import SweepGrid
+from optipath.sweeps.labels import QUANTITIES, detectors_of, variable_names
+from optipath.sweeps.plan_recipe import PlanRecipe
+from optipath.values.messages import units_are_written
+from optipath.values.precision import is_whole
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.composer.composer import Composer
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.labels import LightQuantity
+
+
+class ChunkedSweep(NamedTuple):
+    """A sweep of which nothing is computed yet, and what it is made of."""
+
+    recipe: PlanRecipe
+    grid: SweepGrid
+    quantities: Mapping[str, LightQuantity]
+    dataset: xr.Dataset
+
+
+def swept_in_chunks(
+    path: PathGraph, plan: Plan, grid: SweepGrid, chunks: Any, composer: Composer | None = None
+) -> ChunkedSweep:
+    """Return the light of a grid, to be computed block by block."""
+    names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
+    sizes = chunk_sizes(chunks, grid.sizes, len(detectors_of(plan)))
+    recipe = PlanRecipe.of(path, composer)
+    light = ChunkedLight(recipe, grid, sizes)
+    quantities = {names[each.variable]: each for each in QUANTITIES}
+    variables = {
+        name: (dims, light.of(each), attributes_of(each)) for name, each in quantities.items()
+    }
+    attrs = dataset_attributes(path, plan, composer)
+    found = xr.Dataset(variables, coordinates_of(grid, plan), attrs)
+    return ChunkedSweep(recipe, grid, quantities, found)
+
+
+class ChunkedLight:
+    """The light of a sweep, block by block: each is computed once for all that is asked of it."""
+
+    def __init__(self, recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int]) -> None:
+        self.detectors = len(detectors_of(recipe.plan))
+        self.dtype = np.dtype(recipe.plan.dtype)
+        self.places = tuple(range(len(sizes)))
+        self.token = tokenize(recipe, grid, dict(sizes))
+        places = dict(zip(sizes, self.places, strict=True))
+        arguments: list[Any] = [delayed(recipe, name=f"recipe-{self.token}", traverse=False), None]
+        for axis in grid.axes:
+            # Each block is sent its part of the axes and not the whole of them.
+            part = da.from_array(axis.given, sizes[axis.dimension])  # type: ignore[no-untyped-call]
+            arguments += [part, (places[axis.dimension],)]
+        bare = [replace(axis, shown=axis.shown[:0], given=axis.given[:0]) for axis in grid.axes]
+        self._light = da.blockwise(  # type: ignore[no-untyped-call]
+            _run,
+            self.places,
+            *arguments,
+            name=f"light-{self.token}",
+            align_arrays=False,
+            meta=np.empty((0,) * len(places), object),
+            bare=SweepGrid(tuple(bare), grid.fixed),
+        )
+
+    def of(self, quantity: LightQuantity) -> da.Array:
+        """Return a quantity of it, lazily; of several detectors, along the first axis."""
+        front = {len(self.places): self.detectors} if self.detectors > 1 else {}
+        found: da.Array = da.blockwise(  # type: ignore[no-untyped-call]
+            BlockLight.of,
+            (*front, *self.places),
+            self._light,
+            self.places,
+            quantity,
+            None,
+            name=f"{quantity.variable}-{self.token}",
+            new_axes=front,
+            meta=np.empty((0,) * (len(self.places) + len(front)), self.dtype),
+        )
+        return found
+
+
+def _run(recipe: PlanRecipe, *values: npt.NDArray[Any], bare: SweepGrid) -> BlockLight:
+    """Return the light of a block, for its part of the values of each axis."""
+    axes = [
+        replace(axis, shown=own, given=own) for axis, own in zip(bare.axes, values, strict=True)
+    ]
+    return run_block(recipe, SweepGrid(tuple(axes), bare.fixed))
+
+
+_AT_ONCE = 1 << 18
+"""How many points are run at a time: what is made on the way stays small, and in the cache."""
+
+
+@dataclass(frozen=True)
+class BlockLight:
+    """The light of all detectors, for the points of one block.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> from optipath.sweeps.labels import COMPONENTS
+    >>> lights = op.Light([1.0, 0.0, 0.0, 0.0]), op.Light([2.0, 0.0, 0.0, 0.0])
+    >>> block = BlockLight((2, 1), (lights,))
+    >>> block.of(COMPONENTS[0])
+    array([[1.],
+           [2.]])
+    """
+
+    shape: tuple[int, ...]
+    lights: tuple[tuple[Light, ...], ...]
+    ran: tuple[int, ...] | None = None
+
+    def of(self, quantity: LightQuantity) -> npt.NDArray[Any]:
+        """Return the numbers of a quantity; of several detectors, along the first axis.
+
+        They are a copy: a view would keep the light alive for as long as anybody has it.
+        """
+        numbers = [
+            np.concatenate([np.ravel(quantity.of(light)) for light in several])
+            for several in self.lights
+        ]
+        front = (len(numbers),) if len(numbers) > 1 else ()
+        found = np.concatenate(numbers).reshape(*front, *(self.ran or self.shape))
+        return found if self.ran is None else np.broadcast_to(found, (*front, *self.shape))
+
+    def __sizeof__(self) -> int:
+        # What Dask takes for its memory: Stokes vectors and, once it is asked for, their noise.
+        return sum(light.mantissa.nbytes for several in self.lights for light in several) * 2
+
+
+def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
+    """Return the light of a block."""
+    plan, varied = recipe.plan, block.varied
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        found = [
+            plan.run_all(**varied.given(_region(piece.where, varied.shape)))
+            for piece in pieces(varied.shape, _AT_ONCE)
+        ]
+    lights = [tuple([light[name] for light in found]) for name in detectors_of(plan)]
+    return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)
+
+
+def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slice]:
+    """Return an index as a slice for each dimension."""
+    told = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
+    return told + [slice(None)] * (len(shape) - len(told))
+
+
+BLOCK = 1 << 20
+"""About how many points a block has that nobody has chosen a size for."""
+
+
+def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> dict[str, int]:
+    """Return how many values a block has along each dimension.
+
+    Examples
+    --------
+    >>> chunk_sizes("auto", {"delta": 1000, "rho": 1000, "phi": 100})
+    {'delta': 10, 'rho': 1000, 'phi': 100}
+    >>> chunk_sizes({"delta": 250, "phi": -1}, {"delta": 1000, "rho": 1000, "phi": 100})
+    {'delta': 250, 'rho': 40, 'phi': 100}
+    """
+    if not sizes:
+        raise ParameterError(
+            "chunks= and store= cut axes into blocks, and there is no axis; give several values "
+            "for a parameter, or leave them out"
+        )
+    told = _told(chunks, sizes)
+    found = {name: min(sizes[name], size) for name, size in told.items()}
+    room = BLOCK // detectors
+    for size in found.values():
+        room //= size
+    for name in reversed([*sizes]):
+        if name not in found:
+            found[name] = _even(sizes[name], max(1, min(room, sizes[name])))
+            room //= found[name]
+    return {name: found[name] for name in sizes}
+
+
+def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
+    """Return the sizes that somebody has chosen."""
+    if _auto(chunks):
+        return {}
+    forms = (
+        f"give 'auto', a number of values along each dimension, or {{'{next(iter(sizes))}': 10}}"
+    )
+    if isinstance(chunks, Mapping):
+        faults = [fault for name in chunks for fault in unknown("dimension", name, sizes)]
+        given = {name: size for name, size in chunks.items() if name in sizes and not _auto(size)}
+        wrong = [(f"chunks of '{name}'", size) for name, size in given.items()]
+    else:
+        faults, given, wrong = [], dict.fromkeys(sizes, chunks), [("chunks", chunks)]
+    faults += [
+        f"{what} cannot be {shown(size)}: {forms}; -1 keeps a dimension whole"
+        for what, size in wrong
+        if not (is_whole(size) or is_whole(size, -1, -1))
+    ]
+    if faults:
+        raise ParameterError(*faults)
+    return {name: sizes[name] if size == -1 else int(size) for name, size in given.items()}
+
+
+def _auto(size: Any) -> bool:
+    return isinstance(size, str) and size == "auto"
+
+
+def _even(count: int, most: int) -> int:
+    """Return the size of as few and as equal parts as there can be."""
+    parts = -(-count // most)
+    return -(-count // parts)

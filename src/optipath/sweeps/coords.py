@@ -1,0 +1,270 @@
+"""Axes given as coordinates, labeled values or columns of a file."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.labels import is_variable
+from optipath.values.arrays import as_given
+from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
+from optipath.values.text import AxisValues, read_entries
+from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    import numpy.typing as npt
+    import xarray as xr
+
+    from optipath.plan.inputs import Inputs
+    from optipath.values.columns import TextColumn
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+
+DETECTOR = "detector"
+"""The dimension of several detectors in what a sweep returns."""
+
+_ROWS = "point"
+"""The dimension along which the columns of a file vary together."""
+
+
+_OPENED = {
+    ".nc": "xr.open_dataset",
+    ".h5": "xr.open_dataset",
+    ".zarr": "xr.open_zarr",
+}
+"""What reads the coordinates of files that are no tables."""
+
+
+class GivenCoordinate(NamedTuple):
+    """What is given for a parameter, and along which dimension."""
+
+    value: Any
+    dimension: str = ""
+
+
+def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+    """Return what ``coords=`` gives, by name."""
+    if coords is None:
+        return {}
+    try:
+        if isinstance(coords, (str, PathLike)):
+            return _of_file(inputs, coords, faults)
+        if has_coordinates(coords):
+            return _of_dataset(inputs, coords, faults)
+    except OptipathError as fault:
+        about = f"{fault.about}: " if fault.about else ""
+        faults += [f"{about}{sentence}" for sentence in fault.faults]
+        return {}
+    if isinstance(coords, Mapping):
+        return {str(name): GivenCoordinate(value) for name, value in coords.items()}
+    name = next(iter(inputs.open), "delta")
+    if cure_of_table(name, coords):
+        faults.append(
+            f"coords is a {type(coords).__name__}; give a CSV file, a Dataset, or columns by name: "
+            f"{{'{name}': df['{name}'].to_numpy()}}, and zip= where they vary together"
+        )
+        return {}
+    faults.append(
+        f"coords is {shown(coords)}; give the name of a CSV file, a Dataset, or a mapping such as "
+        f"{{'delta': [...]}}"
+    )
+    return {}
+
+
+def _of_file(
+    inputs: Inputs, path: str | PathLike[str], faults: list[str]
+) -> dict[str, GivenCoordinate]:
+    if (opened := _OPENED.get(PurePath(path).suffix)) is not None:
+        raise ParameterError(
+            f"coords='{path}' is no CSV file; give what it holds, coords={opened}('{path}')"
+        )
+    # The table of a sweep has its axes, and what was found along them.
+    columns = [
+        column
+        for column in columns_of(path, inputs.open)
+        if column.name in inputs.open or not is_variable(column.name)
+    ]
+    dimension = _ROWS if len(columns) > 1 else ""
+    names = [column.name for column in columns]
+    faults += [f"{path}: {inputs.unknown(name)}" for name in names if name not in inputs.open]
+    known = [column for column in columns if column.name in inputs.open]
+    return {column.name: GivenCoordinate(column, dimension) for column in known}
+
+
+def _of_dataset(inputs: Inputs, given: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+    found = {}
+    coords, order = getattr(given, "coords", given), _order_of_dimensions(given)
+    # Those of a store that was opened are in the order of the alphabet.
+    first = sorted(coords.items(), key=lambda each: min(map(order.index, each[1].dims), default=0))
+    for name, array in first:
+        if name not in inputs.open and (name == DETECTOR or _is_label(inputs, coords, name)):
+            continue
+        if name not in inputs.open:
+            faults.append(f"{inputs.unknown(str(name))}, or leave it out, .drop_vars('{name}')")
+        elif array.ndim > 1:
+            faults.append(
+                f"coordinate '{name}' is along {', '.join(map(str, array.dims))}, and an axis has "
+                f"one dimension; leave it out, .drop_vars('{name}'), or make it of one, .stack(...)"
+            )
+        else:
+            found[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
+    return found
+
+
+def _order_of_dimensions(given: Any) -> list[Any]:
+    """Return the dimensions, as data have them, and then as coordinates do."""
+    data = [*given.data_vars.values()] if hasattr(given, "data_vars") else [given]
+    data = sorted(
+        (each for each in data if hasattr(each, "dims")), key=lambda each: -len(each.dims)
+    )
+    several = [*data, *getattr(given, "coords", given).values()]
+    return list(dict.fromkeys(dimension for each in several for dimension in each.dims))
+
+
+def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:
+    """Tell whether a coordinate says what the points of a dimension are called, and no more."""
+    return coords[name].dims == (name,) and any(
+        other in inputs.open and array.dims == (name,) for other, array in coords.items()
+    )
+
+
+_NO_UNIT = ("", NO_UNIT, "dimensionless")
+
+
+def is_labelled(value: Any, axes: int | None = None) -> bool:
+    """Tell whether a value is a `DataArray`, without importing xarray.
+
+    Examples
+    --------
+    >>> is_labelled([0.5])
+    False
+    """
+    xarray = sys.modules.get("xarray")
+    found = xarray is not None and isinstance(value, xarray.DataArray)
+    return found and (axes is None or value.ndim == axes)
+
+
+def has_coordinates(value: Any) -> bool:
+    """Tell whether a value is a `DataArray`, a `Dataset`, or the coordinates of one.
+
+    Examples
+    --------
+    >>> has_coordinates({"delta": [0.5]})
+    False
+    """
+    xarray = sys.modules.get("xarray")
+    return xarray is not None and isinstance(
+        value, (xarray.DataArray, xarray.Dataset, xarray.Coordinates)
+    )
+
+
+def cure_of_table(name: str, value: Any) -> str:
+    """Return what of a table is an axis; ``""`` for what is no table of several.
+
+    Examples
+    --------
+    >>> cure_of_table("delta", [0.5])
+    ''
+    """
+    if has_coordinates(value) and not is_labelled(value):
+        return f"one of its coordinates, such as ds['{name}']"
+    if hasattr(value, "columns") and hasattr(value, "to_numpy"):
+        return f"one of its columns, such as df['{name}'].to_numpy()"
+    return ""
+
+
+def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:
+    """Return the values of an array with a unit.
+
+    Units: the result in degrees.
+    """
+    numbers = as_given(f"parameter '{parameter.name}'", array.values, ParameterError)
+    if numbers.dtype.kind in "UO":
+        return read_entries(numbers.ravel().tolist(), parameter, "", uses).reshaped(numbers.shape)
+    if numbers.dtype.kind not in "iufc":
+        parameter.resolve(numbers)  # Which says what is wrong with it.
+    numbers = numbers.astype(np.float64) if numbers.dtype.kind in "iu" else numbers.copy()
+    unit = _unit_of(parameter, array.attrs.get("units", ""))
+    return AxisValues(numbers, unit, _in_base_units(parameter, numbers, unit))
+
+
+def _unit_of(parameter: Parameter, unit: Any) -> str:
+    """Return the unit that an attribute says."""
+    if not isinstance(unit, str):
+        raise ParameterError(
+            f"the unit of parameter '{parameter.name}' is {shown(unit)}; write a text into "
+            f".attrs['units']"
+        )
+    dimension = dimension_of(parameter.unit)
+    if unit.strip() in _NO_UNIT:
+        if dimension:
+            known = ", ".join(units_of(dimension))
+            raise ParameterError(
+                f"parameter '{parameter.name}' is a DataArray without a unit; write one of {known} "
+                f"into .attrs['units']"
+            )
+        return ""
+    parameter.parse(f"1 {unit.strip()}")
+    return unit.strip()
+
+
+def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -> npt.NDArray[Any]:
+    if unit in ("", BASE_UNITS.get(dimension_of(parameter.unit))):
+        return numbers.copy()
+    known, is_real = UNITS.get(unit), numbers.dtype.kind == "f"
+    doubles = numbers.astype(np.float64) if is_real else numbers
+    if is_real and known is not None and not known.power:
+        return doubles * known.size
+    # The decimal point is moved in the number as it is written, which rounds once.
+    found = [
+        parameter.parse(f"{number} {unit}") if np.isfinite(number) else number
+        for number in doubles.ravel().tolist()
+    ]
+    return np.array(found).reshape(numbers.shape)
+
+
+_ENDLESS = re.compile(r"[-+]?(nan|inf|infinity)\b.*", re.IGNORECASE)
+
+
+def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
+    """Return the values of a column."""
+    name = column.name
+    if lacking := missing_unit(column, inputs.open[name]):
+        raise ParameterError(f"{column.file}: {lacking}")
+    try:
+        return _read(inputs, name, column.texts)
+    except OptipathError as fault:
+        told = [
+            f"line {line}: {sentence}"
+            for line, text in zip(column.lines, column.texts, strict=True)
+            for sentence in _faults(inputs, name, text)
+        ] or [*fault.faults]
+    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(told)])
+
+
+def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:
+    found = read_entries(texts, inputs.open[name], "", inputs.uses)
+    inputs.numbers_for(name, found.given)  # Which looks at its range.
+    return found
+
+
+def _faults(inputs: Inputs, name: str, text: str) -> tuple[str, ...]:
+    """Return what is wrong with a cell."""
+    if _ENDLESS.fullmatch(text):
+        return (f"parameter '{name}' is '{text}', which is not finite; write a number",)
+    try:
+        found = read_entries([text], inputs.open[name], "", inputs.uses)
+        inputs.numbers_for(name, found.given[0])
+    except OptipathError as fault:
+        return fault.faults
+    return ()

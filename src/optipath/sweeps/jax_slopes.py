@@ -1,0 +1,43 @@
+"""Slopes of the Stokes vector by JAX, forward and without compiling."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from optipath.engines.jax_path import double_precision
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.sweeps.light_figures import LightAt
+
+
+def slopes_by_jax(light_at: LightAt) -> npt.NDArray[np.float64]:
+    """Return the slopes of the Stokes vector along each value that is uncertain.
+
+    All at once, one operation after the other: compiling them would take some seconds a path,
+    for slopes that are mostly asked for once.
+
+    Shape: returns (..., 4, k).
+    """
+    uncertain = light_at.uncertain
+
+    def stokes(values: dict[str, Any]) -> Any:
+        return light_at(values).stokes
+
+    def along(tangents: dict[str, Any]) -> Any:
+        return jax.jvp(stokes, (values,), (tangents,))[1]
+
+    with double_precision()(True), jax.disable_jit():  # noqa: FBT003 - as JAX has it
+        values = {each.name: jnp.asarray(each.value) for each in uncertain}
+        rows = np.eye(len(uncertain))
+        tangents = {
+            each.name: jnp.asarray(np.multiply.outer(row, np.ones(each.value.shape)))
+            for row, each in zip(rows, uncertain, strict=True)
+        }
+        found = np.asarray(jax.vmap(along)(tangents))
+    return np.moveaxis(found, 0, -1)

@@ -1,0 +1,194 @@
+"""Quantities of light, names of variables, and tables of a sweep as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import ParameterError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Sequence
+
+    import numpy.typing as npt
+
+    from optipath.light.light import Light
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.grid import SweepGrid
+
+
+class LightQuantity(NamedTuple):
+    """A quantity of light."""
+
+    variable: str
+    attribute: str
+    unit: str
+    name: str
+
+    @property
+    def shown_unit(self) -> str:
+        """The unit in which files, the command line and the page have it: degrees, and no 1."""
+        return {"rad": "deg", "1": ""}.get(self.unit, self.unit)
+
+    def of(self, light: Light) -> npt.NDArray[np.float64]:
+        """Return the numbers that it has for some light, of the shape of the batch."""
+        if self.attribute.isdigit():
+            return np.asarray(light.stokes)[..., int(self.attribute)]
+        return getattr(light, self.attribute)  # type: ignore[no-any-return]
+
+    def shown_of(self, light: Light) -> npt.NDArray[np.float64]:
+        """Return the same numbers in the `shown_unit`."""
+        numbers = self.of(light)
+        return np.degrees(numbers) if self.unit == "rad" else numbers
+
+
+COMPONENTS = tuple(
+    LightQuantity(f"S{place}", str(place), "", name)
+    for place, name in enumerate(
+        [
+            "intensity",
+            "horizontal over vertical",
+            "diagonal over antidiagonal",
+            "right-handed over left-handed circular",
+        ]
+    )
+)
+DERIVED = (
+    LightQuantity("DoP", "dop", "1", "degree of polarisation"),
+    LightQuantity("DoLP", "dolp", "1", "degree of linear polarisation"),
+    LightQuantity("AoP", "aop", "rad", "angle of polarisation, from x towards y"),
+    LightQuantity("ellipticity", "ellipticity", "1", "minor over major axis, with the sign of S3"),
+    LightQuantity("psi", "psi", "rad", "ellipsometric psi of the polarised part"),
+    LightQuantity("delta", "delta", "rad", "ellipsometric Delta of the polarised part"),
+)
+"""What is computed of the light when somebody asks for it."""
+
+QUANTITIES = (*COMPONENTS, *DERIVED)
+
+FAINT = LightQuantity(
+    "log10_intensity", "log10_intensity", "1", "decimal logarithm of the intensity, however faint"
+)
+"""What is there besides where intensities are too small for a float."""
+
+
+DETECTOR = "detector"
+"""The dimension of several detectors."""
+
+_BESIDE = {"psi": "Psi", "delta": "Delta"}
+"""What both ellipsometric angles are called where a parameter has the name of one."""
+
+
+def is_variable(name: str) -> bool:
+    """Tell whether a column of a file is called as a variable of a sweep, at a detector or at all.
+
+    Examples
+    --------
+    >>> is_variable("S0"), is_variable("DoP at camera"), is_variable("rho")
+    (True, True, False)
+    """
+    own = {quantity.variable for quantity in (*QUANTITIES, FAINT)}
+    return name.partition(" at ")[0] in {*own, *_BESIDE.values()}
+
+
+def detectors_of(plan: Plan) -> tuple[str, ...]:
+    """Return the names of the detectors of a plan; dumps are none."""
+    return tuple(plan.program.detectors)
+
+
+def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
+    """Return what the variable of each quantity is called."""
+    taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
+    own = [quantity.variable for quantity in (*QUANTITIES, FAINT)]
+    beside = _BESIDE if _BESIDE.keys() & set(taken) else {}
+    names = {name: beside.get(name, name) for name in own}
+    several = len(detectors_of(plan)) > 1
+    if faults := [*_faults(taken, {*names.values(), *([DETECTOR] if several else [])})]:
+        raise ParameterError(*faults)
+    return names
+
+
+def _faults(taken: Collection[str], names: Collection[str]) -> list[str]:
+    return [
+        f"'{name}' is what a sweep calls a {'dimension' if name == DETECTOR else 'variable'} of "
+        f"its own; give the parameter or dimension another name, such as '{name}_'"
+        for name in taken
+        if name in names
+    ]
+
+
+_ROWS = 1 << 16
+"""How many rows are computed at once."""
+
+
+def heading(name: str, unit: str) -> str:
+    """Return the heading of a column, with the unit of its numbers.
+
+    Examples
+    --------
+    >>> heading("delta", "deg"), heading("n1", "")
+    ('delta (deg)', 'n1')
+    """
+    return f"{name} ({unit})" if unit else name
+
+
+def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ...]]:
+    """Yield parts of a grid in the order of its points.
+
+    Examples
+    --------
+    >>> [[(cut.start, cut.stop) for cut in region] for region in regions((2, 3), 2)]
+    [[(0, 1), (0, 2)], [(0, 1), (2, 3)], [(1, 2), (0, 2)], [(1, 2), (2, 3)]]
+    """
+    whole, points = len(shape), 1
+    while whole and points * shape[whole - 1] <= most:
+        whole -= 1
+        points *= shape[whole]
+    behind = [slice(0, size) for size in shape[whole:]]
+    if not whole:
+        yield tuple(behind)
+        return
+    size, step = shape[whole - 1], max(most // points, 1)
+    for index in np.ndindex(*shape[: whole - 1]):
+        before = [slice(place, place + 1) for place in index]
+        for start in range(0, size, step):
+            yield (*before, slice(start, min(start + step, size)), *behind)
+
+
+def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
+    """Return the heading of each column: of the axes, then of the quantities of light."""
+    names = variable_names(grid, plan)
+    ends = detectors_of(plan)
+    at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
+    told = [
+        heading(names[quantity.variable] + place, quantity.shown_unit)
+        for place in at
+        for quantity in QUANTITIES
+    ]
+    return [_quoted(name) for name in (*[heading(a.name, a.unit) for a in grid.axes], *told)]
+
+
+def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Sequence[str]]:
+    """Yield the texts of each column for a part of a grid."""
+    shape = tuple(cut.stop - cut.start for cut in region)
+    places = dict(zip(grid.sizes, range(len(shape)), strict=True))
+    for axis in grid.axes:
+        place = places[axis.dimension]
+        texts = np.array([_text(value) for value in axis.shown[region[place]].tolist()], object)
+        along = texts.reshape(-1, *(1,) * (len(shape) - 1 - place))
+        yield np.broadcast_to(along, shape).ravel().tolist()
+    lights = plan.run_all(**grid.given(region))
+    for end in detectors_of(plan):
+        for quantity in QUANTITIES:
+            numbers = quantity.shown_of(lights[end])
+            each = np.broadcast_to(numbers + 0.0, shape)  # It may be the same along an axis.
+            yield [repr(number) for number in each.ravel().tolist()]
+
+
+def _text(value: Any) -> str:
+    return _quoted(value) if isinstance(value, str) else repr(value)
+
+
+def _quoted(text: str) -> str:
+    """Return a cell of a table, in quotation marks where it needs them."""
+    return '"' + text.replace('"', '""') + '"' if any(each in text for each in ',"\n') else text

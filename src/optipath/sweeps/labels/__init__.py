@@ -1,1 +1,0 @@
-"""What a Dataset of light says: variables, coordinates, units and attributes."""

@@ -1,0 +1,145 @@
+"""Figures of light that have an uncertainty, and how they follow from Stokes vectors."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import AngleWarning, ParameterError, listed, unknown
+from optipath.light.polarization_state import length
+from optipath.sweeps.labels import QUANTITIES
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from optipath.light.light import Light
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.uncertain_value import UncertainValue
+
+
+STOKES = 4
+"""How many of the figures are the Stokes vector itself; they come first."""
+
+_ROUNDINGS = 64.0
+_NAMES = {each.variable: place for place, each in enumerate(QUANTITIES)} | {
+    each.attribute: place for place, each in enumerate(QUANTITIES) if not each.attribute.isdigit()
+}
+_NAMES["intensity"] = 0
+_PERIODS = {_NAMES["aop"]: np.pi, _NAMES["delta"]: 2.0 * np.pi}
+
+
+def figures_of(light: Light) -> npt.NDArray[np.float64]:
+    """Return all figures, of shape (..., 10), in the order of `QUANTITIES`; NaN for what is not."""
+    return np.stack([np.asarray(each.of(light), np.float64) for each in QUANTITIES], axis=-1)
+
+
+def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
+    """Return figures less others, of angles the shorter way round.
+
+    Shape: figures, others (..., 10).
+    """
+    found = np.asarray(figures - others)
+    for place, period in _PERIODS.items():
+        found[..., place] -= period * np.round(found[..., place] / period)
+    return found
+
+
+def rounding_of(light: Light) -> npt.NDArray[np.float64]:
+    """Return which changes of the figures are no more than rounding, shape (..., 10)."""
+    with np.errstate(all="ignore"):
+        slopes = np.sum(np.abs(np.nan_to_num(gradients_of(light))), axis=-1)
+        noise = np.asarray(light.noise, np.float64)[..., np.newaxis]
+        found = noise * slopes
+        of_one = noise / np.asarray(light.stokes)[..., :1]
+        found[..., STOKES:] = np.fmax(found[..., STOKES:], of_one)
+    return np.asarray(_ROUNDINGS * found)
+
+
+def place_of(quantity: object) -> int:
+    """Return the place of a quantity among the figures.
+
+    Examples
+    --------
+    >>> place_of("intensity"), place_of("S3"), place_of("dop"), place_of("DoP")
+    (0, 3, 4, 4)
+    """
+    if faults := unknown("quantity", quantity, _NAMES):
+        raise ParameterError(*faults)
+    return _NAMES[quantity]  # type: ignore[index]
+
+
+def gradients_of(light: Light) -> npt.NDArray[np.float64]:
+    """Return the slopes of all figures along the four components.
+
+    At a corner, as that of the degree of polarisation of unpolarised light, they are NaN: there
+    is no slope to the first order.
+
+    Shapes: light (...); returns (..., 10, 4).
+    """
+    stokes = np.asarray(light.stokes, np.float64)
+    s0 = stokes[..., 0]
+    with np.errstate(all="ignore"):
+        noise = np.asarray(light.noise, np.float64) / s0
+        s1, s2, s3 = (stokes[..., place] / s0 for place in (1, 2, 3))
+        p, q, t = (_at_least(noise, *of) for of in ((s1, s2, s3), (s1, s2), (s2, s3)))
+        none, wide = np.zeros_like(s0), 0.5 * (1.0 + (s3 / (p + q)) ** 2) / p**2
+        rows = (
+            (-length(s1, s2, s3), s1 / p, s2 / p, s3 / p),
+            (-length(s1, s2), s1 / q, s2 / q, none),
+            (none, -0.5 * s2 / q**2, 0.5 * s1 / q**2, none),
+            (none, -wide * s3 * s1 / q, -wide * s3 * s2 / q, wide * length(s1, s2)),
+            (none, -0.5 * length(s2, s3) / p**2, _over(s1 * s2, t, p), _over(s1 * s3, t, p)),
+            (none, none, s3 / t**2, -s2 / t**2),
+        )
+        derived = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+        derived = derived / s0[..., np.newaxis, np.newaxis]
+    own = np.broadcast_to(np.eye(STOKES), (*s0.shape, STOKES, STOKES))
+    return np.concatenate([own, derived], axis=-2)
+
+
+def _at_least(noise: Any, *components: Any) -> Any:
+    """Return the length of a vector, NaN where it is no more than noise."""
+    long = length(*components)
+    return np.where(long > noise, long, np.nan)
+
+
+def _over(product: Any, across: Any, p: Any) -> Any:
+    return 0.5 * product / (across * p**2)
+
+
+@dataclass(frozen=True, eq=False)
+class LightAt:
+    """What gives the light at one detector, as often as it is asked."""
+
+    plan: Plan
+    detector: str
+    exact: Mapping[str, Any]
+    uncertain: tuple[UncertainValue, ...]
+
+    def __call__(self, values: Mapping[str, Any]) -> Light:
+        """Return the light where some values are others than the best estimates."""
+        given = {**self.exact, **{each.name: each.value for each in self.uncertain}, **values}
+        given = {n: v.item() if _is_one(v) else v for n, v in given.items()}
+        with warnings.catch_warnings():
+            # Whoever gave the values has been warned of them.
+            warnings.simplefilter("ignore", AngleWarning)
+            if len(self.plan.program.detectors) == 1:
+                return self.plan.run(**given)
+            return self.plan.run_all(**given)[self.detector]
+
+    def beside(self, values: Mapping[str, Any], names: Sequence[str]) -> Light:
+        """Return the light beside the best estimates; a fault says of which."""
+        try:
+            return self(values)
+        except ParameterError as fault:
+            about = f"the path with another value of {listed(list(names))}"
+            raise ParameterError(*fault.faults, about=about) from None
+
+
+def _is_one(value: Any) -> bool:
+    return type(value) is np.ndarray and not value.ndim

@@ -1,0 +1,310 @@
+"""Stored sweeps: in a Zarr store or a NetCDF file, block after block."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+import sys
+from contextlib import suppress
+from dataclasses import dataclass, field
+from hashlib import sha256
+from importlib.metadata import version
+from math import prod
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import xarray as xr
+
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.blocks import keep_blocks
+from optipath.sweeps.chunks import run_block
+from optipath.sweeps.jobs import KeptArray, WholeArray, place_of_blocks
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from os import PathLike
+
+    import numpy.typing as npt
+
+    from optipath.sweeps.chunks import ChunkedSweep
+    from optipath.sweeps.grid import SweepAxis, SweepGrid
+    from optipath.sweeps.labels import LightQuantity
+    from optipath.sweeps.plan_recipe import PlanRecipe
+
+    Tell: TypeAlias = Callable[[int, int], None]
+
+
+def place_of_store(store: str | PathLike[str]) -> Path:
+    """Return where a sweep is to be kept.
+
+    Examples
+    --------
+    >>> place_of_store("sweep.csv")
+    Traceback (most recent call last):
+    optipath.errors.ParameterError: store 'sweep.csv' is neither a Zarr store nor a NetCDF file: \
+    give a name that ends in .zarr or .nc, such as 'sweep.zarr'
+    """
+    is_path = isinstance(store, str | os.PathLike)
+    place = Path(store) if is_path else Path()
+    if place.suffix not in (".zarr", ".nc"):
+        stem = "sweep" if place.stem in ("", ".zarr", ".nc") else place.stem
+        raise ParameterError(
+            f"store {shown(str(store) if is_path else store)} is neither a Zarr store nor a NetCDF "
+            f"file: give a name that ends in .zarr or .nc, such as '{stem}.zarr'"
+        )
+    return place
+
+
+def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool | Tell) -> xr.Dataset:
+    """Compute what is not kept yet of a sweep, and return what is kept."""
+    tell = progress if callable(progress) else progress_line if progress else None
+    if place.suffix == ".nc":
+        return kept_in_netcdf(job, place, scheduler, tell)
+    found: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))
+    for each in found.variables.values():
+        each.encoding = {}  # How it is packed here is for this version of Zarr alone.
+    return found
+
+
+@dataclass(frozen=True)
+class SweepJob:
+    """A sweep that is computed block by block and kept; see `BlockJob`."""
+
+    recipe: PlanRecipe
+    grid: SweepGrid
+    sizes: Mapping[str, int]
+    quantities: Mapping[str, LightQuantity]
+    arrays: Mapping[str, KeptArray]
+    coords: Mapping[str, WholeArray]
+    attrs: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, chunked: ChunkedSweep) -> SweepJob:
+        """Return the job that keeps a sweep in chunks."""
+        if chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
+            raise ParameterError(
+                "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
+                "composer=op.Composer(dtype='float64')"
+            )
+        dataset, sizes = chunked.dataset, chunked.dataset.chunksizes
+        arrays = {
+            str(name): KeptArray(
+                tuple(map(str, each.dims)),
+                each.shape,
+                tuple([sizes[dimension][0] for dimension in each.dims]),
+                str(each.dtype),
+                each.attrs,
+            )
+            for name, each in dataset.data_vars.items()
+        }
+        coords = {
+            str(name): WholeArray(tuple(map(str, each.dims)), _fixed(each.to_numpy()), each.attrs)
+            for name, each in dataset.coords.items()
+        }
+        each_size = {name: sizes[name][0] for name in chunked.grid.sizes}
+        return cls(
+            chunked.recipe,
+            chunked.grid,
+            each_size,
+            chunked.quantities,
+            arrays,
+            coords,
+            dataset.attrs,
+        )
+
+    @property
+    def identity(self) -> str:
+        """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
+        types = {name: each.dtype for name, each in self.arrays.items()}
+        return sweep_identity(self.recipe, self.grid, self.sizes, types)
+
+    @property
+    def _counts(self) -> tuple[int, ...]:
+        """How many blocks there are along each dimension."""
+        return tuple([-(-count // self.sizes[name]) for name, count in self.grid.sizes.items()])
+
+    @property
+    def blocks(self) -> int:
+        """How many blocks there are."""
+        return prod(self._counts)
+
+    def region(self, number: int) -> tuple[slice, ...]:
+        """Return the part of the grid that a block is, counted from 0 in the order of the axes."""
+        places = np.unravel_index(number, self._counts)
+        return tuple(
+            [
+                slice(int(place) * size, min((int(place) + 1) * size, count))
+                for place, size, count in zip(
+                    places, self.sizes.values(), self.grid.shape, strict=True
+                )
+            ]
+        )
+
+    def part(self, number: int) -> SweepBlock:
+        """Return the inputs of one block: whole axes may be too large to be sent along."""
+        region = self.region(number)
+        grid = self.grid.part(region)
+        return SweepBlock(self.recipe, grid, region, self.quantities)
+
+    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
+        """Return the part of each variable that a block is, and what is in it."""
+        return self.part(number).compute(number)
+
+
+def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return words as words of a fixed length, which stores have."""
+    return values.astype(str) if values.dtype.kind == "O" else values
+
+
+LAYOUT = 1
+"""The version of what a store of a sweep has in it."""
+
+
+def sweep_identity(
+    recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int], types: Mapping[str, str]
+) -> str:
+    """Return all of what a sweep computes, a line each, so that the first other one can be told."""
+    lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
+    lines += [f"option {name}: {value!r}" for name, value in recipe.options]
+    lines += [f"element class {' '.join(each)}" for each in recipe.own]
+    lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
+    lines += [f"axis {axis.name}: {_told(axis)}" for axis in grid.axes]
+    lines += [f"chunks of {name}: {size}" for name, size in sizes.items()]
+    lines += [f"variable {name}: {each}" for name, each in types.items()]
+    return "\n".join([*lines, recipe.text])
+
+
+def _single(grid: SweepGrid, name: str) -> str:
+    """Return what tells a fixed value from others: what is run, and how it was given."""
+    value = repr(_plain(grid.fixed[name]))
+    shown, unit = grid.labels.get(name, (grid.fixed[name], ""))
+    label = f"{_plain(shown)} {unit}".rstrip()
+    return value if label in (value, value.strip("'")) else f"{value}, given as {label}"
+
+
+def _plain(value: Any) -> Any:
+    """Return a single number of NumPy as one of Python: they are the same sweep."""
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def _told(axis: SweepAxis) -> str:
+    """Return what tells an axis from all others, to the last bit."""
+    ends = f"{axis.shown[0]} to {axis.shown[-1]} {axis.unit}".rstrip()
+    digest = sha256()
+    for values in (axis.given, axis.shown):
+        held = values.tobytes() if values.dtype.kind != "O" else repr(values.tolist()).encode()
+        digest.update(f"{values.dtype.str} {values.shape} ".encode() + held)
+    return f"{len(axis)} values, {ends}, along {axis.dimension}, {digest.hexdigest()[:16]}"
+
+
+@dataclass(frozen=True)
+class SweepBlock:
+    """A block of a `SweepJob`, with its own part of the axes: whole ones may be large."""
+
+    recipe: PlanRecipe
+    grid: SweepGrid
+    region: tuple[slice, ...]
+    quantities: Mapping[str, LightQuantity]
+
+    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:  # noqa: ARG002 - it is one block
+        """Return the part of each variable that the block is, and what is in it."""
+        light = run_block(self.recipe, self.grid)
+        front = (slice(0, len(light.lights)),) if len(light.lights) > 1 else ()
+        return {
+            name: ((*front, *self.region), light.of(each)) for name, each in self.quantities.items()
+        }
+
+
+_IDENTITY = "sweep_identity"
+"""The attribute by which a file is known again."""
+
+_TAKEN = "'{}' is there already, and {}; give another name, or move it away"
+_FAULTS = (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError, OverflowError)
+"""What is raised, at various depths, by bytes that are no NetCDF."""
+
+
+def kept_in_netcdf(
+    job: SweepJob, file: Path, scheduler: Any, tell: Callable[[int, int], None] | None
+) -> xr.Dataset:
+    """Return a sweep out of its file, which is written if it is not there.
+
+    The blocks are kept in a Zarr store beside it until all are there, so that this goes on where it
+    was interrupted, too; the file is then written from it block by block, and put into its place.
+    Two runs share that store: who is later opens the file of who was first.
+    """
+    identity = sha256(job.identity.encode()).hexdigest()
+    if file.exists():
+        return _opened(file, identity)
+    place = place_of_blocks(file)
+    try:
+        keep_blocks(job, place, scheduler, tell)
+        _write(file, place, identity, {name: each.chunks for name, each in job.arrays.items()})
+    except (OptipathError, *_FAULTS):
+        # Another run that was faster has put the file there, and removed the store.
+        if not file.exists():
+            raise
+    found = _opened(file, identity)
+    _remove(place)
+    return found
+
+
+def _remove(store: Path) -> None:
+    """Remove a store at once, so that nobody goes on with half of it."""
+    moved = store.with_name(f".{secrets.token_hex(8)}.draft")
+    with suppress(OSError):
+        store.rename(moved)
+        shutil.rmtree(moved, ignore_errors=True)
+
+
+def _write(file: Path, store: Path, identity: str, chunks: Mapping[str, tuple[int, ...]]) -> None:
+    """Write what a store holds beside the place of a file, and put it there."""
+    draft = file.with_name(f".{secrets.token_hex(8)}.draft")
+    encoding = {name: {"chunksizes": sizes} for name, sizes in chunks.items()}
+    try:
+        with xr.open_zarr(store) as kept:
+            told = kept.assign_attrs({_IDENTITY: identity})
+            written = told.to_netcdf(draft, engine="h5netcdf", encoding=encoding, compute=False)
+            # One block after another: each is read, written, and forgotten.
+            written.compute(scheduler="synchronous")
+        if not file.exists():  # It may have come to be there since the sweep began.
+            draft.replace(file)
+    finally:
+        with suppress(OSError):
+            draft.unlink()
+
+
+def _opened(file: Path, identity: str) -> xr.Dataset:
+    """Return what a file holds, if it is the sweep that is asked for."""
+    if not file.is_file():
+        raise ParameterError(_TAKEN.format(file, "is no file"))
+    try:
+        found = xr.open_dataset(file, engine="h5netcdf", chunks={})
+    except _FAULTS:
+        raise ParameterError(_TAKEN.format(file, "is no NetCDF file, or a damaged one")) from None
+    if found.attrs.pop(_IDENTITY, None) != identity:
+        found.close()
+        raise ParameterError(_TAKEN.format(file, "holds something else"))
+    return found
+
+
+_WIDTH = 40
+
+
+def progress_line(done: int, total: int) -> None:
+    """Write over the last line of the terminal how far a sweep is.
+
+    Examples
+    --------
+    >>> from contextlib import redirect_stderr
+    >>> with redirect_stderr(sys.stdout):
+    ...     progress_line(4, 4)
+    [########################################] 4 of 4 blocks
+    """
+    filled = _WIDTH * done // total
+    if done and filled == _WIDTH * (done - 1) // total:
+        return  # It looks the same.
+    bar = f"[{'#' * filled}{' ' * (_WIDTH - filled)}] {done} of {total} blocks"
+    sys.stderr.write(f"{bar}\n" if done == total else f"{bar}\r")
+    sys.stderr.flush()

@@ -1,0 +1,306 @@
+"""Uncertainty propagation: from values with uncertainties to light with its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer.composer import Composer
+from optipath.errors import OptipathError, ParameterError, shown, unknown
+from optipath.materials.material import Material
+from optipath.plan.answers import only
+from optipath.sweeps.checked_axes import unknown_names
+from optipath.sweeps.first_order import changes_of, nonlinearity_of, slopes_of, spread_of
+from optipath.sweeps.light_figures import LightAt
+from optipath.sweeps.monte_carlo import samples_at_once, spread_of_samples
+from optipath.sweeps.propagation import Propagation, notes_of_first_order, notes_of_lost_light
+from optipath.sweeps.uncertain_value import UncertainValue, read_correlation
+from optipath.values.arrays import array_of, broadcast_fault, enough_for, first_place, numbers_for
+from optipath.values.jax_values import check_known
+from optipath.values.messages import check_named
+from optipath.values.precision import is_whole, whole_number
+from optipath.values.units import dimension_of, format_quantity, parse_quantity
+from optipath.values.use import axes_for
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.inputs import Inputs
+    from optipath.plan.plan import Plan
+
+
+_BYTES = 1100
+"""What a path takes for each value that is uncertain, with all that is made on the way."""
+
+_BYTES_OF_A_SAMPLE = 2600
+"""What a path takes in each sample that runs at once; those of other blocks take nothing."""
+
+
+def propagate(
+    path: PathGraph,
+    unnamed: tuple[object, ...],
+    given: dict[str, Any],
+    options: PropagateOptions,
+) -> Propagation:
+    """Return the light of a path with its uncertainty; see `PathGraph.propagate`."""
+    plan = path.compose()
+    check_named("propagate", unnamed, plan.inputs.open)
+    if clashes := options.clashes(plan.inputs):
+        raise ParameterError(*clashes)
+    exact, uncertain, faults = read_uncertain(plan.inputs, given)
+    # A value whose uncertainty cannot be read is one of them all the same.
+    names = [n for n, value in given.items() if isinstance(value, tuple) and n not in exact]
+    correlation, wrong = read_correlation(options.correlation, names)
+    faults += options.faults() + wrong
+    detector, no_detector = _detector(plan, options.detector)
+    faults += no_detector
+    if faults:
+        raise ParameterError(*faults)
+    composer = options.composer
+    asked = plan if composer is None else path.plan_by(composer)
+    values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in given.items()}
+    asked.answers.large_angles.look(values)
+    asked.answers.large_angles.look_at_uncertainties({n: given[n][1] for n in names})
+    light_at = LightAt(asked, detector, exact, tuple(uncertain))
+    light = light_at({})
+    if options.draws:
+        block = min(options.count, samples_at_once(light.shape)), *light.shape
+        with enough_for(block, _BYTES_OF_A_SAMPLE, error=ParameterError):
+            return _by_samples(light_at, light, correlation, options)
+    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
+        if composer is None:
+            return _to_first_order(light_at, light, correlation, options)
+        exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
+        smooth = replace(light_at, plan=exactly.compose(path))
+        return _to_first_order(smooth, light, correlation, options)
+
+
+def _detector(plan: Plan, asked: Any) -> tuple[str, list[str]]:
+    names = tuple(plan.program.detectors)
+    try:
+        return only("detector", names, f"propagate(detector='{names[0]}', ...)", asked), []
+    except OptipathError as fault:
+        return "", list(fault.faults)
+
+
+def _to_first_order(
+    light_at: LightAt,
+    light: Light,
+    correlation: npt.NDArray[np.float64],
+    options: PropagateOptions,
+) -> Propagation:
+    slopes, method, rounding = slopes_of(light_at, options.method)
+    center = light_at({})
+    changes = changes_of(center, slopes, light_at.uncertain, rounding)
+    changes = np.where(_is_lost(light)[..., np.newaxis, np.newaxis], np.nan, changes)
+    spread = spread_of(changes, correlation)
+    left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
+    there = np.where(_is_lost(light)[..., np.newaxis], 0.0, spread.uncertainties)
+    notes = notes_of_first_order(light, light_at.uncertain, there, left)
+    mean = np.asarray(light.stokes, np.float64)
+    return Propagation(
+        light=light,
+        mean=mean,
+        covariance=spread.covariance,
+        uncertain=light_at.uncertain,
+        method=method,
+        notes=(*notes_of_lost_light(_is_lost(light)), *notes),
+        uncertainties=spread.uncertainties,
+        shares=spread.shares,
+        left=left,
+    )
+
+
+def _by_samples(
+    light_at: LightAt,
+    light: Light,
+    correlation: npt.NDArray[np.float64],
+    options: PropagateOptions,
+) -> Propagation:
+    count, seed = options.count, options.beginning
+    spread, mean, notes = spread_of_samples(light_at, light, correlation, count, seed)
+    lost = _is_lost(light)
+    uncertainties = np.where(lost[..., np.newaxis], np.nan, spread.uncertainties)
+    return Propagation(
+        light=light,
+        mean=mean,
+        covariance=np.where(lost[..., np.newaxis, np.newaxis], np.nan, spread.covariance),
+        uncertain=light_at.uncertain,
+        method=f"Monte Carlo, {count:,} samples, seed {seed}",
+        notes=(*notes_of_lost_light(lost), *notes),
+        uncertainties=uncertainties,
+        shares=spread.shares,
+        left=np.zeros_like(spread.shares),
+    )
+
+
+def _is_lost(light: Light) -> npt.NDArray[np.bool_]:
+    """Return which light is too faint, or too bright, for a float."""
+    s0 = np.asarray(light.stokes)[..., 0]
+    lost = (np.abs(s0) < np.finfo(np.float64).tiny) | np.isinf(s0)
+    return np.asarray(lost & (light.exponent != 0))
+
+
+_PAIR = 2
+
+
+def read_uncertain(
+    inputs: Inputs, given: Mapping[str, Any]
+) -> tuple[dict[str, Any], list[UncertainValue], list[str]]:
+    """Return what is exact, what is uncertain, and what is wrong with either."""
+    faults = unknown_names(inputs, given)
+    known = {name: value for name, value in given.items() if name in inputs.open}
+    exact = {name: value for name, value in known.items() if not isinstance(value, tuple)}
+    uncertain: list[UncertainValue] = []
+    for name, value in known.items():
+        if name not in exact:
+            try:
+                uncertain.append(_read(inputs, name, value))
+            except OptipathError as fault:
+                faults += fault.faults
+    if not any(isinstance(value, tuple) for value in given.values()):
+        faults.append(
+            "nothing that is given has an uncertainty; give a value and its standard uncertainty, "
+            f"such as {_example(inputs)}"
+        )
+    values = {**exact, **{each.name: each.value for each in uncertain}}
+    try:
+        inputs.resolve(values)
+    except OptipathError as fault:
+        told = tuple([f"parameter '{n}' has no value" for n in given if n not in values])
+        faults += [sentence for sentence in fault.faults if not sentence.startswith(told)]
+    return exact, uncertain, faults
+
+
+def _example(inputs: Inputs) -> str:
+    if not inputs.open:
+        return "delta=(0.8, 0.001), for a parameter of the path, which has none yet"
+    return f"{next(iter(inputs.open))}=(0.8, 0.001)"
+
+
+def _read(inputs: Inputs, name: str, given: tuple[Any, ...]) -> UncertainValue:
+    if len(given) != _PAIR:
+        raise ParameterError(
+            f"parameter '{name}' is a tuple of {len(given)}; a value and its standard "
+            f"uncertainty are two, and several values without one are a list or an array"
+        )
+    if inputs.tails.get(name):
+        raise ParameterError(
+            f"parameter '{name}' is of several numbers, which have no uncertainty here; give "
+            f"them exactly, as a list or an array"
+        )
+    value, sigma = _value(inputs, name, given[0]), _sigma(inputs, name, given[1])
+    shapes = {f"the values of '{name}'": value.shape, "their uncertainties": sigma.shape}
+    if faults := broadcast_fault(shapes):
+        raise ParameterError(*faults)
+    value, sigma = np.broadcast_arrays(value, sigma)
+    low, high = inputs.limits[name]
+    return UncertainValue(name, value, sigma, low, high, inputs.open[name].unit)
+
+
+def _value(inputs: Inputs, name: str, value: Any) -> Any:
+    if isinstance(value, Material):
+        raise ParameterError(
+            f"parameter '{name}' is a Material, which has no one uncertainty; write "
+            f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
+        )
+    check_known(f"propagate({name}=...)", value)
+    for use in inputs.uses:
+        if use.value.name == name and (doubt := use.doubt(value)):
+            raise ParameterError(doubt)
+    value, present = inputs.numbers_for(name, axes_for(name, value, inputs.uses))
+    if not np.all(present):
+        raise ParameterError(
+            f"parameter '{name}' is 'none', which takes an element out of the path and has no "
+            f"uncertainty; give it without one, {name}='none'"
+        )
+    if np.iscomplexobj(value):
+        raise ParameterError(
+            f"parameter '{name}' is complex, and its parts have an uncertainty each; write "
+            f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
+        )
+    return np.asarray(value, np.float64)
+
+
+def _sigma(inputs: Inputs, name: str, sigma: Any) -> Any:
+    what, unit = f"the standard uncertainty of parameter '{name}'", inputs.open[name].unit
+    check_known(what, sigma)
+    dimension = inputs.dimensions.get(name, dimension_of(unit))
+    numbers = numbers_for(what, sigma, lambda text: parse_quantity(text, dimension), ParameterError)
+    array = array_of(what, numbers, ParameterError)
+    if array.dtype.kind not in "iuf":
+        kind = "complex" if array.dtype.kind == "c" else "no number"
+        raise ParameterError(f"{what} is {kind}, {shown(sigma)}; give a number of 0 or more")
+    if np.any(bad := ~(np.isfinite(array) & (array >= 0.0))):
+        found = format_quantity(float(array[bad].ravel()[0]), unit)
+        raise ParameterError(
+            f"{what} is {found}{first_place(bad)}; give a finite number of 0 or more"
+        )
+    return array.astype(np.float64)
+
+
+METHODS = ("auto", "gradients", "differences", "monte-carlo")
+_SAMPLES, _SEED = 10_000, 0
+_FEWEST, _MOST = 2, 10_000_000
+
+
+@dataclass(frozen=True)
+class PropagateOptions:
+    """The options of `PathGraph.propagate`, as they are given."""
+
+    method: str = "auto"
+    samples: int | None = None
+    seed: int | None = None
+    correlation: object = None
+    detector: str | None = None
+    composer: Composer | None = None
+
+    @property
+    def draws(self) -> bool:
+        """Whether samples are drawn."""
+        return self.method == METHODS[-1]
+
+    @property
+    def count(self) -> int:
+        """How many samples are drawn."""
+        return _SAMPLES if self.samples is None else int(self.samples)
+
+    @property
+    def beginning(self) -> int:
+        """What random numbers begin with."""
+        return _SEED if self.seed is None else int(self.seed)
+
+    def clashes(self, inputs: Inputs) -> list[str]:
+        """Return what is said of parameters that are called as options, a sentence each."""
+        return [
+            f"'{each.name}' is an option of propagate() and a parameter of this path; "
+            f"path.bind({each.name}=...) gives the parameter its value"
+            for each in fields(self)
+            if each.name in inputs.open
+        ]
+
+    def faults(self) -> list[str]:
+        """Return what is wrong with them, a sentence each."""
+        found = unknown("method", self.method, METHODS)
+        if self.composer is not None and not isinstance(self.composer, Composer):
+            found.append(f"composer must be an op.Composer(...), not {shown(self.composer)}")
+        if self.samples is not None and not is_whole(self.samples, _FEWEST, _MOST):
+            found.append(
+                f"samples must be a whole number within {_FEWEST} .. {_MOST:,}, "
+                f"not {shown(self.samples)}"
+            )
+        if self.seed is not None:
+            found += whole_number("seed", self.seed, 0)
+        drawn = [name for name in ("samples", "seed") if getattr(self, name) is not None]
+        if drawn and not unknown("method", self.method, METHODS) and not self.draws:
+            found.append(
+                f"method='{self.method}' draws no samples; leave {' and '.join(drawn)} out, or "
+                f"write method='monte-carlo'"
+            )
+        return found

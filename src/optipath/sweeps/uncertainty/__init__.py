@@ -1,1 +1,0 @@
-"""How uncertain light is, from how uncertain the values are that a path is given."""

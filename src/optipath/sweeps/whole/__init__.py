@@ -1,1 +1,0 @@
-"""Sweeps in memory: one run of the whole grid, with views of its light."""

@@ -1,0 +1,590 @@
+"""Arrays: what is accepted as numbers, shapes that broadcast, memory, read-only copies."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
+from contextlib import contextmanager
+from copy import copy
+from dataclasses import fields
+from math import prod
+from types import NoneType
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from optipath.errors import OptipathError, ShapeError, ValueFault, shown
+from optipath.values.jax_values import is_jax, is_traced
+from optipath.values.precision import (
+    ENDLESS,
+    NARROW,
+    RIGHT_ANGLES,
+    Array,
+    doubles,
+    with_limits,
+    within,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    import numpy.typing as npt
+
+
+_PLAIN = frozenset(
+    {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
+)
+_DEEPEST = 64
+_FEW, _PATH = 2**20, 32
+"""How many numbers take no memory to speak of, and how many bytes a path of each takes."""
+_LONG = "gG"
+_LABELS = ("to_numpy", "dims", "coords", "columns")
+_UNITS = ("unit", "units")
+_CURES = {
+    "columns": "those of one column, [...].to_numpy()",
+    "to_numpy": ".to_numpy()",
+    "data_vars": "those of one variable, [...].values",
+    "values": ".values",
+}
+_ANY_CURE = "numpy.asarray(...)"
+_OURS = {
+    "Light": (
+        "and light is no number; only where a state is asked for give its Stokes vector, as in "
+        "op.Source(stokes=light.stokes), whose frame is not looked at; several lights of one frame "
+        "are op.Light([a.stokes, b.stokes], a.frame)"
+    ),
+    "Mueller": (
+        "whose frames are not looked at; only where a Mueller matrix is asked for give its numbers,"
+        " as in op.MuellerElement(mueller.matrix)"
+    ),
+}
+"""What is given in place of light and of what light meets."""
+
+
+def array_of(
+    what: str,
+    value: Any,
+    error: type[OptipathError] = ValueFault,
+    limits: tuple[float, float] = ENDLESS,
+) -> Array:
+    """Return an array of a value, of float64 at least; words beside numbers stay words.
+
+    Examples
+    --------
+    >>> array_of("a turn", [0.5, "none"]).tolist()
+    [0.5, 'none']
+    """
+    return doubles(as_given(what, value, error), limits)
+
+
+def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
+    """Return an array of a value, in the precision in which it is given.
+
+    Examples
+    --------
+    >>> as_given("a turn", [0.5, 1.0])
+    array([0.5, 1. ])
+    """
+    if type(value) in _PLAIN:
+        array = np.asarray(value)
+        if array.size <= _FEW and array.dtype.char not in _LONG:
+            return array
+    try:
+        _refuse_endless(value)
+        kinds = _kinds(value, set())
+        _refuse_too_long(value)
+        array = np.asarray(value)
+        _refuse_beyond(array)
+    except _MoreThanNumbers as more:
+        raise error(f"{what} {more}") from None
+    except MemoryError:
+        raise error(f"{what} takes more memory than there is; give fewer numbers") from None
+    except Exception as fault:  # noqa: BLE001 - what is given may raise anything
+        raise error(f"{what} {_reason(fault)}") from None
+    if array.dtype.kind == "U" and not isinstance(value, str):
+        return np.asarray(value, dtype=object)
+    if array.dtype.type is np.float64:
+        # Among numbers of more precision, a right angle of less is a right angle all the same.
+        for kind in kinds.intersection(NARROW):
+            array = with_limits(array, kind, RIGHT_ANGLES)
+    return array
+
+
+def entries_of(
+    what: str, each: str, value: Any, error: type[OptipathError] = ValueFault
+) -> tuple[Any, ...]:
+    """Return the entries of a sequence, of which each may be an array or a parameter.
+
+    Examples
+    --------
+    >>> entries_of("turns", "angles", [0.5, "30 deg"])
+    (0.5, '30 deg')
+    """
+    try:
+        _refuse_more(value)
+        _refuse_too_long(value)
+        # What never ends has no length.
+        if len(value) >= 0 and not isinstance(value, (str, bytes, AbstractSet, Mapping)):
+            return tuple(value)
+        reason = f"must be a sequence of {each}, not {shown(value)}"
+    except _MoreThanNumbers as more:
+        reason = str(more)
+    except MemoryError:
+        reason = "takes more memory than there is"
+    except Exception:  # noqa: BLE001 - what is given may raise anything
+        reason = f"must be a sequence of {each}, not {shown(value)}; for one, write [...]"
+    raise error(f"{what} {reason}")
+
+
+class _MoreThanNumbers(Exception):  # noqa: N818 - a reason, for the sentence around it
+    """Why something is no array; what comes behind the name of what it is given for."""
+
+
+def _kinds(value: Any, seen: set[int]) -> set[type]:
+    """Return the types of all numbers in lists in lists; refuse what is more than numbers.
+
+    Each list is looked at once, since it may be in itself.
+    """
+    if not isinstance(value, (list, tuple)):
+        if type(value) not in _PLAIN:
+            _refuse_more(value)
+        return {type(value)}
+    kinds = set(map(type, value))
+    if np.ndarray in kinds:
+        _refuse_count(sum(entry.size for entry in value if type(entry) is np.ndarray))
+    if kinds <= _PLAIN:
+        return kinds
+    seen.add(id(value))
+    several = (_kinds(entry, seen) for entry in value if id(entry) not in seen)
+    return set().union(*several)
+
+
+def _refuse_endless(value: Any) -> None:
+    """Refuse a list in itself, which NumPy would open for ever."""
+    depth = 0
+    while isinstance(value, (list, tuple)) and value:
+        value, depth = value[0], depth + 1
+        if depth > _DEEPEST:
+            raise _MoreThanNumbers(f"is a list in lists, more than {_DEEPEST} deep; give numbers")
+
+
+def _refuse_too_long(value: Any) -> None:
+    """Refuse what says how long it is, and is longer than there is memory for."""
+    # A view of one number as many takes none, until it is copied.
+    if isinstance(value, np.ndarray):
+        _refuse_count(value.size)
+    # A number of JAX has a length, and refuses to tell it.
+    elif not isinstance(value, (str, bytes)) and getattr(value, "ndim", None) != 0:
+        _refuse_count(len(value) if hasattr(type(value), "__len__") else 0)
+
+
+def _refuse_count(count: int) -> None:
+    if count > _FEW and count * _PATH > memory():
+        raise _MoreThanNumbers(f"has {count:.3g} entries, more than this machine has memory for")
+
+
+def _refuse_beyond(array: Array) -> None:
+    """Refuse numbers of more precision that are no doubles."""
+    if array.dtype.char in _LONG and np.any(np.isfinite(array) & (abs(array) > sys.float_info.max)):
+        raise _MoreThanNumbers("has a number beyond those of double precision; give smaller ones")
+
+
+def _refuse_more(value: Any) -> None:
+    """Refuse what has masked entries, a unit or labels."""
+    if type(value).__module__.partition(".")[0] == "optipath":
+        if (cure := _OURS.get(type(value).__name__)) is not None:
+            raise _MoreThanNumbers(f"is a {type(value).__name__}, {cure}")
+        return
+    if isinstance(value, type):
+        raise _MoreThanNumbers(f"is the class {value.__name__}, and none of its kind; make one")
+    mask = getattr(value, "mask", None)
+    if not callable(mask) and np.any(mask):
+        raise _MoreThanNumbers(
+            "has masked entries; leave them out, .compressed(), or say what they are, .filled(...)"
+        )
+    if any(hasattr(value, name) for name in _LABELS):
+        cure = next((cure for name, cure in _CURES.items() if hasattr(value, name)), _ANY_CURE)
+        raise _MoreThanNumbers(
+            f"is a {type(value).__name__} with labels, by which nothing is aligned here; give its "
+            f"numbers alone, {cure}"
+        )
+    for name in _UNITS:
+        if (unit := getattr(value, name, None)) is not None:
+            raise _MoreThanNumbers(
+                f"has a unit, {shown(unit)}, which nothing looks at; give plain numbers, in "
+                f"radians or metres"
+            )
+
+
+def _reason(fault: Exception) -> str:
+    if type(fault).__name__ == "TracerArrayConversionError":
+        return "is a value that JAX traces; do it outside of jit and grad, or give it to trace()"
+    said = [argument for argument in fault.args if type(argument) is str]
+    if any("inhomogeneous" in text for text in said):
+        return "has rows of unequal lengths; make it one shape"
+    return f"cannot be made an array, which raises {shown(fault)}; give numbers"
+
+
+_STOKES = 32
+"""How many bytes four doubles have."""
+
+MOST_AXES = 30
+"""How many axes a batch may have: NumPy goes along 32, and a matrix has two."""
+
+MOST_PATHS = 2**53
+"""How many paths a batch may have, be it never laid out as a whole."""
+
+
+def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the shape that shapes broadcast to.
+
+    Examples
+    --------
+    >>> joint_shape((3, 1), (), (4,))
+    (3, 4)
+    """
+    found = _joint(shapes)
+    if found is None or len(found) > MOST_AXES or prod(found) > MOST_PATHS:
+        raise ShapeError(*broadcast_fault({f"array {n}": s for n, s in enumerate(shapes, 1)}))
+    return found
+
+
+def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
+    """Return the sentence that names shapes which do not broadcast, or nothing.
+
+    Examples
+    --------
+    >>> print(*broadcast_fault({"delta": (7,), "rho": (4,)}))  # doctest: +NORMALIZE_WHITESPACE
+    arrays do not broadcast together: delta (7,), rho (4,);
+    make their axes equal or 1, as x[:, None] does
+    """
+    found = _joint(shapes.values())
+    if found is None:
+        named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
+        cure = "make their axes equal or 1, as x[:, None] does"
+        return [f"arrays do not broadcast together: {named}; {cure}"]
+    if len(found) > MOST_AXES:
+        owner = max(shapes, key=lambda owner: len(shapes[owner]))
+        return [f"{owner} has {len(found)} axes, and a batch has {MOST_AXES} at most; join some"]
+    if prod(found) > MOST_PATHS:
+        paths = f"{prod(found):.2g} paths, of shape {found}"
+        return [f"a batch has {MOST_PATHS:.2g} paths at most, not {paths}; give fewer values"]
+    return []
+
+
+def _joint(shapes: Iterable[tuple[int, ...]]) -> tuple[int, ...] | None:
+    """Return the shape that shapes broadcast to; None where they do not."""
+    several = tuple(shapes)
+    found = [1] * max(map(len, several), default=0)
+    for shape in several:
+        for axis, length in enumerate(shape, len(found) - len(shape)):
+            if found[axis] == 1:
+                found[axis] = length
+            elif length not in (1, found[axis]):
+                return None
+    return tuple(found)
+
+
+def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
+    """Return the shape that several shapes broadcast to."""
+    if faults := broadcast_fault(shapes):
+        raise ShapeError(*faults)
+    batch = joint_shape(*shapes.values())
+    refuse_too_large(batch, _STOKES)
+    return batch
+
+
+def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
+    """Return an array of real numbers whose last axes are given; what is JAX's stays so.
+
+    Examples
+    --------
+    >>> real_array("a Stokes vector", [1, 0, 0, 0], (4,))
+    array([1., 0., 0., 0.])
+    """
+    array = value if is_jax(value) else as_given(what, value, ShapeError)
+    if array.dtype.kind in "iub":
+        array = array.astype(np.float64)
+    if array.dtype.kind != "f" or array.shape[-len(tail) :] != tail:
+        shape = ", ".join(map(str, ("...", *tail)))
+        raise ShapeError(f"{what} is real and of shape ({shape}), not {array.dtype} {array.shape}")
+    return array
+
+
+def place_text(shape: tuple[int, ...], at: int) -> str:
+    """Say where something stands in an array, ready to be put behind it; nothing of one alone.
+
+    Examples
+    --------
+    >>> place_text((5,), 3), place_text((2, 3), 4), place_text((), 0)
+    (' at 3', ' at (1, 1)', '')
+    """
+    place = tuple(int(i) for i in np.unravel_index(at, shape))
+    return f" at {place if len(place) > 1 else place[0]}" if place else ""
+
+
+def first_place(bad: npt.NDArray[np.bool_]) -> str:
+    """Say where the first of an array is true, as `place_text` does.
+
+    Examples
+    --------
+    >>> first_place(np.array([False, True, True]))
+    ' at 1'
+    """
+    return place_text(bad.shape, int(np.argmax(bad)))
+
+
+UNTOLD = 16 * 2**30
+"""How many bytes of memory a machine is taken to have that does not tell."""
+
+CURE = "give fewer values at a time"
+
+PATHS = "batch of {:.3g} paths"
+"""What takes memory, with a place for how many there are."""
+
+_LITTLE = 2**26
+
+
+def refuse_too_large(
+    batch: tuple[int, ...],
+    each: int,
+    cure: str = CURE,
+    error: type[OptipathError] = ShapeError,
+    what: str = PATHS,
+) -> None:
+    """Refuse a batch that takes more memory than the machine has.
+
+    Examples
+    --------
+    >>> refuse_too_large((1000, 1000), 32)
+    """
+    needed = prod(batch) * each
+    if needed > _LITTLE and needed > memory():
+        raise error(_too_much(batch, each, cure, what))
+
+
+@contextmanager
+def enough_for(
+    batch: tuple[int, ...],
+    each: int,
+    cure: str = CURE,
+    error: type[OptipathError] = ShapeError,
+    what: str = PATHS,
+) -> Iterator[None]:
+    """Do what takes memory for each path of a batch, if there is enough of it.
+
+    Examples
+    --------
+    >>> with enough_for((1000, 1000), 32):
+    ...     pass
+    """
+    refuse_too_large(batch, each, cure, error, what)
+    try:
+        yield
+    except MemoryError:
+        raise error(_too_much(batch, each, cure, what)) from None
+
+
+def memory() -> int:
+    """Return how many bytes of memory the machine has, or how many a process may take.
+
+    Examples
+    --------
+    >>> memory() > 2**20
+    True
+    """
+    try:
+        import resource  # noqa: PLC0415 - Windows has none
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (ImportError, AttributeError, ValueError, OSError):
+        return UNTOLD
+    return there if limit == resource.RLIM_INFINITY else min(there, limit)
+
+
+def _too_much(batch: tuple[int, ...], each: int, cure: str, what: str) -> str:
+    needed, there = (f"{size / 1e9:,.1f} GB" for size in (prod(batch) * each, memory()))
+    return (
+        f"a {what.format(prod(batch))}, of shape {batch}, takes {needed} of memory or more, "
+        f"and this machine has {there}; {cure}"
+    )
+
+
+T = TypeVar("T")
+_SCALARS = (str, bytes, int, float, complex, NoneType)
+
+
+class Unchanging:
+    """An object that is made once and never changes."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        kind = type(self).__name__
+        raise AttributeError(f"a {kind} cannot change; make a new one instead of setting '{name}'")
+
+    def __delattr__(self, name: str) -> None:
+        kind = type(self).__name__
+        raise AttributeError(f"a {kind} cannot change; '{name}' stays")
+
+    def __setstate__(self, own: dict[str, Any]) -> None:
+        # NumPy's own copies and pickles can be written to.
+        vars(self).update({name: locked(value) for name, value in own.items()})
+
+
+def locked(value: Any) -> Any:
+    """Return a value; an array of NumPy's, which nobody else has, is read-only from now on.
+
+    Examples
+    --------
+    >>> locked(np.zeros(2)).flags.writeable
+    False
+    """
+    if type(value) is np.ndarray:
+        value.setflags(write=False)
+    return value
+
+
+def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
+    """Return a value that nobody can change: whatever is an array becomes a read-only copy.
+
+    What is a read-only array of its own already stays what it is, and what is no array of
+    numbers or words is kept as given, for validation to name.
+
+    Examples
+    --------
+    >>> read_only([1.0, 2.0]).flags.writeable
+    False
+    """
+    if type(value) in _SCALARS or is_traced(value):
+        return value
+    try:
+        array = as_given("", value)
+        array = within(array, limits) if array.ndim and not widened else doubles(array, limits)
+    except OptipathError:
+        # A list is copied all the same.
+        return tuple(value) if type(value) is list else value
+    if isinstance(value, (list, tuple, np.ndarray)) or array.dtype.kind != "O":
+        if array is value and array.ndim and array.flags.owndata and not array.flags.writeable:
+            return array
+        array = array.copy()
+        if array.ndim == 0:
+            return array.item()
+        array.flags.writeable = False
+        return array
+    return value
+
+
+def same(first: Any, second: Any) -> bool:
+    """Tell whether two values are equal, arrays by shape and elements.
+
+    Examples
+    --------
+    >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
+    True
+    """
+    if first is second:
+        return True
+    if isinstance(first, tuple) and isinstance(second, tuple):
+        return len(first) == len(second) and all(map(same, first, second))
+    if isinstance(first, dict) and isinstance(second, dict):
+        return first.keys() == second.keys() and all(same(first[key], second[key]) for key in first)
+    try:
+        if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
+            return np.array_equal(np.asarray(first), np.asarray(second))
+        return bool(first == second)
+    except Exception:  # noqa: BLE001 - what cannot be compared is not the same
+        return False
+
+
+def changed(value: T, **others: Any) -> T:
+    """Return a copy of a frozen dataclass with other fields, of which nothing is checked again.
+
+    Examples
+    --------
+    >>> from optipath.materials.material import Material
+    >>> changed(Material(1.5), k=0.1)
+    Material(n=1.5, k=0.1)
+    """
+    found = copy(value)
+    vars(found).update(others)
+    return found
+
+
+def same_fields(first: Any, second: Any) -> Any:
+    """Tell whether two values of one dataclass have the same fields; for its ``__eq__``.
+
+    Examples
+    --------
+    >>> from optipath.materials.material import Material
+    >>> same_fields(Material(1.5), Material(1.5, 0.1))
+    False
+    """
+    if type(second) is not type(first):
+        return NotImplemented
+    return all(same(getattr(first, f.name), getattr(second, f.name)) for f in fields(first))
+
+
+_NUMBER = (float, int, complex, np.number)
+
+
+def numbers_for(
+    what: str,
+    value: Any,
+    parse: Callable[[str], Any],
+    error: type[OptipathError] = ValueFault,
+) -> Any:
+    """Return a value with the number in place of each text that stands for one.
+
+    Examples
+    --------
+    >>> from optipath.values.units import parse_quantity
+    >>> numbers_for("a turn", ["180 deg", 0.5], lambda text: parse_quantity(text, "angle"))
+    array([3.14159265, 0.5       ])
+    """
+    if not may_hold_texts(value):
+        return value
+    if isinstance(value, str):
+        return _number(what, value, parse, error)
+    try:
+        array = as_given(what, value)
+    except ValueFault:
+        return value  # For validation to name.
+    entries = array.astype(object).ravel() if array.dtype.kind in "UO" else np.empty(0)
+    places = [place for place, entry in enumerate(entries) if isinstance(entry, str)]
+    if not places:
+        return value
+    faults: list[str] = []
+    for place in places:
+        try:
+            entries[place] = _number(what, entries[place], parse, error)
+        except error as fault:
+            faults += fault.faults
+    if faults:
+        raise error(*dict.fromkeys(faults))
+    if all(isinstance(entry, _NUMBER) and not isinstance(entry, bool) for entry in entries):
+        entries = np.array(entries.tolist())
+    return entries.reshape(array.shape)
+
+
+def may_hold_texts(value: Any) -> bool:
+    """Tell, quickly, whether a value is a text, or a list or an array of more than numbers.
+
+    Examples
+    --------
+    >>> may_hold_texts("30 deg"), may_hold_texts(np.zeros(3)), may_hold_texts([0.5])
+    (True, False, True)
+    """
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.dtype.kind in "UO"
+    return isinstance(value, (str, list, tuple))
+
+
+def _number(what: str, text: str, parse: Callable[[str], T], error: type[OptipathError]) -> T:
+    try:
+        return parse(text)
+    except OptipathError as fault:
+        raise error(*(f"{what}: {reason}" for reason in fault.faults)) from None

@@ -1,1 +1,0 @@
-"""Arrays as they are given: what is taken for one, its shape, whether there is memory for it."""

@@ -1,0 +1,396 @@
+"""CurveValue: a number in a path that follows from the wavelength of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import pi
+from typing import TYPE_CHECKING, Any, Self, cast
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, ValueFault, shown
+from optipath.kernels.primitives import NUMPY
+from optipath.values.arrays import as_given, broadcast_fault, changed, check_broadcast, place_text
+from optipath.values.curve import CurveSum, WavelengthRange, marked_name
+from optipath.values.domains import Domain, in_unit_of
+from optipath.values.jax_values import is_traced
+from optipath.values.operands import Operand
+from optipath.values.parameters import THERE, Parameter, Resolved
+from optipath.values.precision import doubles
+from optipath.values.units import dimension_of, format_quantity, with_article
+from optipath.values.wavelength import WAVELENGTH, Wavelength, read_within
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from optipath.values.curve import Curve
+
+
+_THERE = Wavelength(default=1e-6, maximum=np.inf, bound=True)
+"""What stands for a wavelength that is known."""
+
+
+@dataclass(frozen=True, eq=False)
+class CurveValue(Parameter):
+    """A value that nobody gives: a part of a curve at a wavelength that is given.
+
+    It stands where a `Parameter` does, by a name of its own, and is computed of what is given
+    before anything else is done. Made by `curve_values`.
+    """
+
+    curve: Any = field(default=None, repr=False)
+    place: int = 0
+    given_by: tuple[Any, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Take all as it is: nobody but this library makes one."""
+
+    @property
+    def arguments(self) -> tuple[Parameter, ...]:
+        """The parameters that it is computed of."""
+        return tuple([one for one in self.given_by if isinstance(one, Parameter)])
+
+    def argument_places(self, owner: str) -> list[tuple[str, Any, Domain]]:
+        """Return where the parameters stand that it is computed of, and what they may be."""
+        domains = [
+            (owner, WavelengthRange.of(self.curve)),
+            *[(f"{owner}.{name}", domain) for name, _, domain in self.curve.arguments()],
+        ]
+        return [
+            (place, value, domain)
+            for value, (place, domain) in zip(self.given_by, domains, strict=True)
+            if isinstance(value, Parameter)
+        ]
+
+    def follows(self, given: Mapping[str, Resolved]) -> bool:
+        """Tell whether all is given that it is computed of, in one shape, and real."""
+        names = [one.name for one in self.arguments if not one.bound or one.name in given]
+        if any(name not in given or np.iscomplexobj(given[name].value) for name in names):
+            return False
+        return not broadcast_fault(self.shapes(given))
+
+    def shapes(self, given: Mapping[str, Resolved]) -> dict[str, tuple[int, ...]]:
+        """Return the shapes of what it is computed of, by name."""
+        return {one.name: np.shape(_number(one, given)) for one in self.arguments}
+
+    def computed(self, given: Mapping[str, Resolved]) -> Resolved:
+        """Return its numbers, scale and offset aside."""
+        return Resolved(self.parts(given)[self.place], THERE)
+
+    def parts(self, given: Mapping[str, Resolved]) -> tuple[Any, ...]:
+        """Return the numbers of all parts of its curve, of which its own are one."""
+        found: tuple[Any, ...]
+        found = self.curve.evaluated(*[_number(one, given) for one in self.given_by])
+        return found
+
+    def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
+        """Return what it is once parameters that it is computed of have values."""
+        if not any(one.name in values for one in self.arguments):
+            return self
+        given_by = tuple(
+            [
+                values[one.name].like(one) if getattr(one, "name", None) in values else one
+                for one in self.given_by
+            ]
+        )
+        return _of(self.curve, self.place, given_by).like(self)
+
+    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
+        """Return the numbers of one of those that it is computed of."""
+        return _number(self.given_by[place], given)
+
+    def check_place(self, owner: str, domain: Domain) -> None:
+        super().check_place(owner, domain)
+        nowhere = not self.offset and self.scale and self.curve.is_nowhere_0(self.place)
+        if nowhere and takes_0_alone(domain):
+            raise ValueFault(
+                f"{self.formula_of(self.spoken)} is 0 at no wavelength, and {owner} takes "
+                f"{domain.described()}"
+            )
+
+    @property
+    def plain_numbers(self) -> Any:
+        return self.default if self.curve.unit else self.curve.samples(self.place)
+
+    @property
+    def spoken(self) -> str:
+        """What sentences call it: by its curve, and by its part where that has several."""
+        parts, label = self.curve.parts, self.curve.label
+        return label if parts == ("value",) else f"{parts[self.place]} of {label}"
+
+    @property
+    def called(self) -> str:
+        return self.spoken
+
+    def at(self, wavelength: Any) -> Any:
+        """Return its numbers at wavelengths, scale and offset applied.
+
+        Units: wavelength in metres.
+        """
+        others = self.given_by[1:]
+        known = _defaults(others)
+        for one in others:
+            if isinstance(one, Parameter) and one.name not in known:
+                raise ParameterError(
+                    f"{self.spoken} follows from parameter '{one.name}' besides, which has no "
+                    f"value; give the parameter a default"
+                )
+        where = read_within(self.curve.span, wavelength)
+        WavelengthRange.of(self.curve).check("the wavelength", where)
+        there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
+        check_broadcast(there.shapes(known))
+        found = there.computed(known).value
+        check_computed(there.like(self), "", Domain("number"), found, known)
+        found = self.placed(found)
+        return found if is_traced(found) or found.ndim else found.item()
+
+    def _shifted(self, other: Any, sign: float) -> Self:
+        """Return a sum with a number, or with what follows from the same wavelength."""
+        if not isinstance(other, CurveValue):
+            return super()._shifted(other, sign)
+        if self.given_by[0] != other.given_by[0]:
+            raise ParameterError(
+                f"{self.spoken} and {other.spoken} follow from two wavelengths, "
+                f"'{self.given_by[0].name}' and '{other.given_by[0].name}'; give both the same one"
+            )
+        terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
+        total = CurveSum(tuple(terms), self.offset + sign * other.offset)
+        one, another = dimension_of(self.unit), dimension_of(other.unit)
+        if one != another:
+            raise ParameterError(
+                f"{self.spoken} is {with_article(one or 'pure number')}, and {other.spoken} "
+                f"{with_article(another or 'pure number')}; add up what is of one kind"
+            )
+        low, high = total.span
+        if not low <= high:
+            raise ParameterError(
+                f"{self.spoken} and {other.spoken} are known at no common wavelength; take curves "
+                f"whose ranges meet"
+            )
+        return cast("Self", _of(total, 0, (*self.given_by, *other.given_by[1:])))
+
+    def same_specification(self, other: Parameter) -> bool:
+        return isinstance(other, CurveValue) and self.name == other.name
+
+    def __repr__(self) -> str:
+        given = ", ".join([one.name for one in self.arguments])
+        shape = (
+            f"{self.scale:g} * " * (self.scale != 1.0),
+            f" + {self.offset:g}" * bool(self.offset),
+        )
+        return f"<{shape[0]}{shown(self.spoken)[1:-1]}{shape[1]}, by {given}>"
+
+    def __eq__(self, other: object) -> bool:
+        return Parameter.__eq__(self, other)
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+
+def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
+    """Return what stands for each part of a curve, at a wavelength that may be a parameter.
+
+    Units: wavelength in metres.
+    """
+    given_by = (wavelength, *[value for _, value, _ in curve.arguments()])
+    if not any(isinstance(one, Parameter) for one in given_by):
+        return curve.evaluated(*given_by)
+    return tuple([_of(curve, place, given_by) for place in range(len(curve.parts))])
+
+
+def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
+    parameters = [one for one in given_by if isinstance(one, Parameter)]
+    bound = all(one.bound for one in parameters)
+    made = CurveValue(
+        marked_name(curve, place, given_by),
+        None,
+        unit=curve.unit,
+        bound=bound,
+        curve=curve,
+        place=place,
+        given_by=given_by,
+    )
+    known = _defaults(parameters)
+    if not made.follows(known) or (curve.takes_grid and not bound):
+        return made
+    default = made.computed(known).value
+    return changed(made, default=default if is_traced(default) or default.ndim else default.item())
+
+
+def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
+    parameters = [one for one in values if isinstance(one, Parameter)]
+    return {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
+
+
+def _number(one: Any, given: Mapping[str, Resolved]) -> Any:
+    operand = Operand(one)
+    return operand.evaluated(NUMPY, operand.raw(given))
+
+
+def check_computed(
+    value: Any,
+    owner: str,
+    domain: Domain,
+    numbers: Any,
+    given: Mapping[str, Resolved] | None = None,
+) -> None:
+    """Check what a curve comes to where it stands."""
+    placed = value.placed(numbers)
+    try:
+        domain.check(owner, placed)
+    except ValueFault as fault:
+        if is_traced(placed) or domain.tail:
+            raise
+        bad = ~np.asarray(domain.allows(np.asarray(placed)))
+        if not np.any(bad):
+            raise
+        found = float(np.asarray(placed)[bad].ravel()[0])
+        known = {**_default_of(value, given or {}), **(given or {})}
+        if faults := coefficient_faults(value, known):
+            raise ValueFault(*faults) from fault
+        at = _wavelength_text(value, bad, known)
+        place, cure = other_numbers(value, bad, known)
+        what = f"{value.formula_of(value.spoken)}{at}"
+        is_what = f"is {found:.6g}" if np.isfinite(found) else "has no value"
+        wanted = f", and {owner} takes {domain.described()}" if owner else ""
+        if takes_0_alone(domain):
+            raise ValueFault(f"{what} {is_what}{wanted}") from fault
+        reason = value.curve.unreal_of(value.place)
+        why = f" ({reason})" if reason else ""
+        raise ValueFault(f"{what} {is_what}{place}{why}{wanted}; {cure}") from fault
+
+
+def takes_0_alone(domain: Domain) -> bool:
+    """Tell whether a domain says itself what to do about any other number."""
+    return domain.interval == (0.0, 0.0)
+
+
+def _default_of(value: Any, given: Mapping[str, Resolved]) -> dict[str, Resolved]:
+    return {
+        p.name: p.resolve(p.default)
+        for p in value.arguments
+        if p.name not in given and p.default is not None
+    }
+
+
+def _wavelength_text(value: Any, bad: Any, known: Mapping[str, Resolved]) -> str:
+    """Return the first wavelength at which a value is not allowed, as a sentence goes on."""
+    wavelength = value.given_by[0]
+    if isinstance(wavelength, Parameter) and wavelength.name not in known:
+        return ""
+    number = value.argument(0, known)
+    if is_traced(number):
+        return ""
+    first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
+    return f" at {format_quantity(float(f'{first:.10g}'), WAVELENGTH.unit)}"
+
+
+def computed_values(
+    values: Iterable[CurveValue], given: Mapping[str, Resolved]
+) -> dict[str, Resolved]:
+    """Return the numbers of those values of which all is given; each curve is evaluated once."""
+    found: dict[str, Resolved] = {}
+    parts: dict[Any, tuple[Any, ...]] = {}
+    for value in values:
+        if value.follows(given):
+            same = id(value.curve), *map(id, value.given_by)
+            if same not in parts:
+                parts[same] = value.parts(given)
+            found[value.name] = Resolved(parts[same][value.place], THERE)
+    return found
+
+
+def parameters_among(values: Iterable[Any]) -> list[Parameter]:
+    """Return the parameters among some values, and behind each those that it follows from."""
+    found: list[Parameter] = []
+    for value in values:
+        if isinstance(value, Parameter):
+            found.append(value)
+        if isinstance(value, CurveValue):
+            found += value.arguments
+    return found
+
+
+def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:
+    """Say which coefficients of a curve do not fit to each other, whatever the wavelength."""
+    faults = value.curve.misfits(value.given_by[1:], known)
+    return [f"{fault}{_hint(value, known)}" for fault in faults]
+
+
+def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[str, str]:
+    """Return where a curve comes to what is not allowed, and what else to give."""
+    told = []
+    for place, one in enumerate(value.given_by[1:], 1):
+        if isinstance(one, Parameter) and not is_traced(number := value.argument(place, known)):
+            first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
+            told.append(f"{one.formula} is {first:.6g}")
+    if not told:
+        return "", "give another wavelength"
+    at = place_text(bad.shape, int(np.argmax(bad)))
+    where = f" ({at.strip()}, of {bad.size} paths)" if bad.size > 1 else ""
+    cure = f"give other coefficients ({', '.join(told)}), or another wavelength"
+    return where, f"{cure}{_hint(value, known)}"
+
+
+def _hint(value: Any, known: Mapping[str, Resolved]) -> str:
+    """Return the hint for a fit, where each coefficient is one number, and one is given."""
+    open_ones = [
+        value.argument(place, known)
+        for place, one in enumerate(value.given_by[1:], 1)
+        if isinstance(one, Parameter) and not one.bound
+    ]
+    return IN_A_FIT * (bool(open_ones) and all(np.size(number) == 1 for number in open_ones))
+
+
+IN_A_FIT = " (in a fit, give the optimiser bounds=)"
+
+
+def with_bounds_hint(
+    faults: Iterable[str], value: Any, limits: tuple[float, float], domains: Sequence[Domain]
+) -> list[str]:
+    """Return sentences on a value; where it is one number beyond its limits, with `bounds=`.
+
+    Examples
+    --------
+    >>> with_bounds_hint(["k is -0.1; give 0 or more"], -0.1, (0.0, 9.0), [])
+    ['k is -0.1; give 0 or more (in a fit, give the optimiser bounds=)']
+    """
+    if not _is_one_beyond(value, limits, domains):
+        return [*faults]
+    return [f"{fault}{IN_A_FIT}" for fault in faults]
+
+
+def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Domain]) -> bool:
+    try:
+        array = as_given("", value)
+    except OptipathError:
+        return False
+    if array.size != 1 or array.dtype.kind not in "iufc" or not np.all(np.isfinite(array)):
+        return False
+    if array.dtype.kind == "c":
+        return any(domain.complex_parts and not np.all(domain.allows(array)) for domain in domains)
+    # So large an angle is in degrees.
+    if any(domain.dimension == "angle" for domain in domains) and np.all(np.abs(array) > 2.0 * pi):
+        return False
+    array = doubles(array, limits)
+    return not np.all((limits[0] <= array) & (array <= limits[1]))
+
+
+def curve_at(curve: Curve, wavelength: Any = None) -> tuple[Any, ...]:
+    """Return what stands for each part of a curve.
+
+    Examples
+    --------
+    >>> from optipath.materials.tables import Tabulated
+    >>> table = Tabulated("gold", ("n",), ["500 nm", "600 nm"], [[0.9, 0.3]])
+    >>> curve_at(table, "500 nm"), curve_at(table)
+    ((0.9,), (<n of gold, by wavelength>,))
+    """
+    if wavelength is None or isinstance(wavelength, Parameter):
+        return curve_values(curve, in_unit_of(wavelength or Wavelength(), WAVELENGTH))
+    there = read_within(curve.span, wavelength)
+    WavelengthRange.of(curve).check("the wavelength", there)
+    values = curve_values(curve, there)
+    if isinstance(values[0], CurveValue):
+        return values  # Its coefficients are given later.
+    return tuple([one.at(there) for one in curve_values(curve, Wavelength())])

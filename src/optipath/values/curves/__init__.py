@@ -1,1 +1,0 @@
-"""What depends on the wavelength: curves, and the values of them that stand in a path."""

@@ -1,1 +1,0 @@
-"""Materials by name: the pages of refractiveindex.info, found and read."""

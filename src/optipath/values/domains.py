@@ -1,0 +1,588 @@
+"""Domain: which numbers a quantity may be; words, fractions, vectors, Stokes states."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import ValueFault, did_you_mean, shown
+from optipath.values.angles import TURN, CosSin, called
+from optipath.values.arrays import as_given, changed, first_place, numbers_for, read_only
+from optipath.values.jax_values import is_traced, namespace
+from optipath.values.messages import cure
+from optipath.values.parameters import Parameter
+from optipath.values.precision import as_doubles, doubles, held, rounding_of
+from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Real numbers between two limits, both included.
+
+    Units: minimum, maximum in radians.
+    """
+
+    complex_parts: ClassVar[tuple[str, ...]] = ()
+    of_numbers: ClassVar[str] = "finite"
+    masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
+
+    name: str
+    dimension: str = ""
+    minimum: float = -np.inf
+    maximum: float = np.inf
+    tail: tuple[int, ...] = ()
+    own_unit: str = ""
+
+    @property
+    def unit(self) -> str:
+        """The unit in which values are written where nobody says another."""
+        return self.own_unit or USUAL_UNITS[self.dimension]
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        """Return the value as an array of numbers, or say what is wrong with it.
+
+        Shape: returns (..., *tail).
+        """
+        if self.quickly_allows(value):
+            return np.array(value)
+        if is_traced(value):
+            self._check_shape(owner, value.shape)
+            return value  # type: ignore[no-any-return]
+        value = self.read(owner, value)
+        given = as_given(owner, value)
+        array = doubles(given, (self.minimum, self.maximum))
+        if array.dtype.kind in "iu":
+            array = array.astype(np.float64)
+        if array.dtype.kind not in "fc":
+            raise ValueFault(f"{owner} {self._no_number(value, array)}")
+        self._check_shape(owner, array.shape)
+        if np.any(bad := ~self.are_numbers(array)):
+            found = f"{array[bad].ravel()[0]}{first_place(bad)}"
+            raise ValueFault(f"{owner} is {found}; give a {self.of_numbers} {self.name}")
+        self._check_numbers(owner, array, rounding_of(given))
+        return array
+
+    def _no_number(self, value: Any, array: npt.NDArray[Any]) -> str:
+        """Return why something is no number; what comes behind the name of its owner."""
+        entries = array.ravel().tolist() if array.dtype.kind == "O" else []
+        if names := [entry.called for entry in entries if isinstance(entry, Parameter)]:
+            whole = "one Parameter for the whole, and all numbers where the path is traced"
+            such, cure = ", ".join(names[:3]), "op.Material(n, k)" if self.complex_parts else whole
+            return f"cannot have numbers and parameters side by side, such as {such}; give {cure}"
+        if isinstance(value, CosSin) and self.dimension == "angle":
+            return (
+                "cannot keep a cosine and a sine; give a Parameter here and these where the path "
+                "is traced, or give the angle"
+            )
+        return f"must be {self.described()}, not {shown(value)}"
+
+    def _check_shape(self, owner: str, shape: tuple[int, ...]) -> None:
+        if self.tail and shape[-len(self.tail) :] != self.tail:
+            wanted = ", ".join(map(str, ("...", *self.tail)))
+            raise ValueFault(f"{owner} must have shape ({wanted}), not {shape}")
+
+    def are_numbers(self, numbers: Any) -> Any:
+        """Return which of an array are numbers at all: finite ones, by default."""
+        return namespace(numbers).isfinite(numbers)
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed, or for which paths; JAX's as well.
+
+        Examples
+        --------
+        >>> Domain("share", minimum=0.0, maximum=1.0).allows(np.array([0.5, 2.0, np.nan]))
+        array([ True, False, False])
+        """
+        inside = self.are_numbers(numbers)
+        if numbers.dtype.kind == "c":
+            return inside & False
+        low, high = held(numbers, (self.minimum, self.maximum))
+        return inside & (numbers >= low) & (numbers <= high)
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        """Say what is wrong with a parameter standing here, whatever its value; mostly nothing."""
+
+    @property
+    def unphysical(self) -> Domain:
+        """The domain of values as they are measured, or of what amplifies; mostly the same."""
+        return self
+
+    @property
+    def shows_in_light(self) -> bool:
+        """Whether no light is finite where an array of the right shape is not allowed.
+
+        Formulas look at their light anyway, so that nobody needs to look at the array first.
+        """
+        return False
+
+    @property
+    def takes_any(self) -> bool:
+        """Whether any numbers are let in, which others look at."""
+        return False
+
+    def quickly_allows(self, value: Any) -> bool:
+        """Tell, for the plain floats that long paths are made of, whether all is well."""
+        inside = type(value) is float and self.minimum <= value <= self.maximum
+        finite = inside and math.isfinite(value) and not self.tail
+        # Of an angle beyond a whole turn one asks whether it is one of degrees.
+        return finite and (self.dimension != "angle" or abs(value) <= TURN)
+
+    def parse(self, text: str) -> Any:
+        """Return the number that a text such as ``"30 deg"`` stands for."""
+        return parse_quantity(text, self.dimension)
+
+    def read(self, owner: str, value: Any) -> Any:
+        """Return a value with numbers in place of texts."""
+        return numbers_for(owner, value, self.parse)
+
+    def doubt(self, owner: str, value: Any) -> str:
+        """Ask what a value means that may be one or several; mostly nothing."""
+        del owner, value
+        return ""
+
+    @property
+    def takes_materials(self) -> bool:
+        """Whether a `Material` may stand for the number."""
+        return self.name == "index of refraction"
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change."""
+        return read_only(value, (self.minimum, self.maximum))
+
+    @property
+    def takes_large_angles(self) -> bool:
+        """Whether angles beyond a whole turn are allowed."""
+        return self.dimension == "angle" and max(-self.minimum, self.maximum) > TURN
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of real numbers; wide open where they are limited in other ways too."""
+        return self.minimum, self.maximum
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the numbers that make up a value: their names, values and domains."""
+        return [(name, value, self)]
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        low, high = self._text(self.minimum), self._text(self.maximum)
+        if np.isinf(self.minimum) and np.isinf(self.maximum):
+            return f"a real {self.name}"
+        if np.isinf(self.maximum):
+            return f"a real {self.name} of {low} or more"
+        return f"a real {self.name} within {low} .. {high}"
+
+    def _text(self, value: float) -> str:
+        return format_quantity(value, self.unit)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
+        if array.dtype.kind == "c":
+            raise ValueFault(f"{owner} is complex; give {self.described()}")
+        if np.isinf(self.minimum) and np.isinf(self.maximum):
+            return
+        # Limits are doubles, and what rounds to one of them is inside.
+        rounded = as_doubles(array)
+        bad = ~self.allows(rounded)
+        if np.any(bad):
+            number = float(array[bad].ravel()[0])
+            value, meant = self.called(number)
+            raise ValueFault(
+                f"{owner} is {value}{first_place(bad)}; give {self.described()}{meant}"
+            )
+
+    def called(self, number: float) -> tuple[str, str]:
+        """Return how a number that is not allowed is called, and what it was meant to be."""
+        limits = self.minimum, self.maximum
+        return called(number, self._text(number), self.dimension, limits)
+
+
+def in_unit_of(value: Any, domain: Domain) -> Any:
+    """Return a value; a parameter without a unit gets the usual one of a domain.
+
+    Examples
+    --------
+    >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
+    'deg'
+    """
+    if isinstance(value, Parameter) and not value.unit:
+        return changed(value, unit=domain.unit)
+    return value
+
+
+@dataclass(frozen=True)
+class Choice(Domain):
+    """One word out of a few."""
+
+    words: tuple[str, ...] = ()
+
+    def quickly_allows(self, value: Any) -> bool:
+        return type(value) is str and value in self.words
+
+    def parse(self, text: str) -> Any:
+        return text
+
+    def check(self, owner: str, value: Any) -> Any:
+        if isinstance(value, str) and value in self.words:
+            return value
+        raise ValueFault(f"{owner} is {shown(value)}{did_you_mean(value, self.words)}")
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        del parameter
+        raise ValueFault(f"{owner} cannot be a parameter; choose one word when building")
+
+
+@dataclass(frozen=True)
+class YesNo(Choice):
+    """True or False; ``true`` or ``false`` in files.
+
+    Examples
+    --------
+    >>> YesNo("whether it is measured").check("X1.measured", True)
+    True
+    """
+
+    def quickly_allows(self, value: Any) -> bool:
+        return value is True or value is False
+
+    def kept(self, value: Any) -> Any:
+        """Return a plain bool for one of NumPy's."""
+        return bool(value) if isinstance(value, np.bool_) else value
+
+    def described(self) -> str:
+        return cure("True or False", "true or false")
+
+    def check(self, owner: str, value: Any) -> Any:
+        if isinstance(value, (bool, np.bool_)):
+            return bool(value)
+        raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        del parameter
+        raise ValueFault(f"{owner} cannot be a parameter; give {self.described()} when building")
+
+
+class FractionDomain(Domain):
+    """Real numbers of 0 to 1.
+
+    Examples
+    --------
+    >>> FractionDomain("fraction", minimum=0.0, maximum=1.0).called(50.0)
+    ('50', '; did you mean 0.5?')
+    """
+
+    def parse(self, text: str) -> Any:
+        if text.rstrip().endswith("%"):
+            raise ValueFault(f"'{text}' is in per cent; give a fraction, such as 0.5 for '50 %'")
+        return super().parse(text)
+
+    def called(self, number: float) -> tuple[str, str]:
+        text, nothing = super().called(number)
+        per_cent = 2.0 <= number <= 100.0
+        return text, f"; did you mean {number / 100.0:g}?" if per_cent else nothing
+
+
+class ExtinctionDomain(Domain):
+    """Ratios of what is wanted to what is not, beyond 1; infinite where nothing of that is left.
+
+    Examples
+    --------
+    >>> ExtinctionDomain("extinction ratio", minimum=1.001).parse("1000:1")
+    1000.0
+    """
+
+    of_numbers: ClassVar[str] = "finite or infinite"
+
+    def are_numbers(self, numbers: Any) -> Any:
+        return ~namespace(numbers).isnan(numbers)
+
+    def described(self) -> str:
+        return (
+            f"a real {self.name} of {self.minimum} or more, or infinity (a BeamSplitter does not "
+            f"polarise)"
+        )
+
+
+class OptionalDomain(Domain):
+    """The numbers of a domain, or None.
+
+    Examples
+    --------
+    >>> OptionalDomain("angle", "angle").parts("angle", None)
+    []
+    """
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        return [] if value is None else super().parts(name, value)
+
+
+_REAL = (float, int, np.floating, np.integer)
+_LARGEST = sys.float_info.max
+
+
+def is_pair(value: Any) -> bool:
+    """Tell whether a value is two real numbers written by hand; arrays are of several paths.
+
+    Examples
+    --------
+    >>> is_pair((0.2, 3.4)), is_pair(["0.2", "3.4"]), is_pair((1.5, 1.6, 1.7))
+    (True, True, False)
+    >>> is_pair(np.array([0.2, 3.4]))
+    False
+    """
+    return isinstance(value, (tuple, list)) and len(value) == 2 and None not in _numbers(value)
+
+
+def pair_in(value: Any, domain: Domain) -> tuple[float, float] | None:
+    """Return two real numbers written by hand that may be the parts of one; None for all else."""
+    if not is_pair(value):
+        return None
+    first, second = _numbers(value)
+    one = np.asarray(complex(first, second))
+    return (first, second) if domain.allows(one) else None
+
+
+def is_real(number: Any) -> bool:
+    """Tell whether something is a finite real number, and no array of it.
+
+    Examples
+    --------
+    >>> is_real(2), is_real(True), is_real(np.nan), is_real("2")
+    (True, False, False, False)
+    """
+    of_type = isinstance(number, _REAL) and not isinstance(number, bool)
+    return of_type and -_LARGEST <= number <= _LARGEST
+
+
+def _numbers(value: Any) -> list[Any]:
+    """Return the real number that each entry is, or stands for; None for what is none."""
+    read = [_read(entry) if isinstance(entry, str) else entry for entry in value]
+    return [number if is_real(number) else None for number in read]
+
+
+def _read(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+_COMPONENTS = 3
+
+
+class FirstComponentDomain(Domain):
+    """The first component of a rotation vector, of which three may be the vector itself.
+
+    Examples
+    --------
+    >>> FirstComponentDomain("component of a rotation vector", "angle").doubt("s1", [0.1, 0.2])
+    ''
+    """
+
+    def doubt(self, owner: str, value: Any) -> str:
+        if not _may_be_a_vector(value):
+            return ""
+        parts = ", ".join(map(repr, value))
+        return (
+            f"{owner} is {value}, which may be a rotation vector, or s1 of three paths; write "
+            f"EllipticalRetarder({parts}) for the one, np.array([{parts}]) for the other"
+        )
+
+
+def _may_be_a_vector(value: Any) -> bool:
+    """Tell whether a value is three numbers, or their texts, written by hand."""
+    listed = isinstance(value, (list, tuple)) and len(value) == _COMPONENTS
+    return listed and all(isinstance(part, str) or is_real(part) for part in value)
+
+
+class WholeNumber(Domain):
+    """Whole numbers, kept as such."""
+
+    def quickly_allows(self, value: Any) -> bool:
+        return type(value) is int
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change.
+
+        Examples
+        --------
+        >>> WholeNumber("place").kept(2.0)
+        2
+        """
+        kept = super().kept(value)
+        return int(kept) if isinstance(kept, float) and kept.is_integer() else kept
+
+
+@dataclass(frozen=True)
+class Refused(Domain):
+    """No value at all.
+
+    Examples
+    --------
+    >>> Refused("length", why="is missing; give it").check("Rod length", None)
+    Traceback (most recent call last):
+    optipath.errors.ValueFault: Rod length is missing; give it
+    """
+
+    why: str = ""
+
+    def quickly_allows(self, value: Any) -> bool:
+        del value
+        return False
+
+    def check(self, owner: str, value: Any) -> NoReturn:
+        del value
+        raise ValueFault(f"{owner} {self.why}")
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> NoReturn:
+        self.check(owner, parameter)
+
+
+_ROUNDING = 1e-12
+_GATHERED = 16.0
+"""How many roundings light of less than double precision may have gathered."""
+_LEAST, _MOST = 1e-280, 1e300
+_SINGLE_ROUNDING = 1e-6
+"""How far the size of an amplitude may be above 1: numbers of single precision are rounded so."""
+
+
+class AmplitudeDomain(Domain):
+    """Complex numbers of a size of 1 or less, but for the rounding of single precision."""
+
+    complex_parts = ("re", "im")
+
+    def doubt(self, owner: str, value: Any) -> str:
+        if (pair := pair_in(value, self)) is None:
+            return ""
+        return (
+            f"{owner} is {value}, which may be one complex number, or the amplitudes of two "
+            f"paths; write complex{pair} for the one, np.array({[*pair]}) for the other"
+        )
+
+    def read(self, owner: str, value: Any) -> Any:
+        if doubt := self.doubt(owner, value):
+            raise ValueFault(doubt)
+        return super().read(owner, value)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of both parts."""
+        return -1.0 - _SINGLE_ROUNDING, 1.0 + _SINGLE_ROUNDING
+
+    def quickly_allows(self, value: Any) -> bool:
+        return type(value) is float and -1.0 <= value <= 1.0
+
+    def described(self) -> str:
+        return f"a real or complex {self.name} of a size of 1 or less"
+
+    def allows(self, numbers: Any) -> Any:
+        xp = namespace(numbers)
+        # Cut off, so that squares of what is far too much do not overflow.
+        parts = (xp.minimum(abs(part), 2.0) for part in (numbers.real, numbers.imag))
+        return xp.hypot(*parts) <= 1.0 + _SINGLE_ROUNDING
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
+        bad = ~self.allows(array)
+        if np.any(bad):
+            raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
+
+
+class IntensityDomain(Domain):
+    """Numbers that are not negative, of which four may be a state of polarisation."""
+
+    def doubt(self, owner: str, value: Any) -> str:
+        if not _may_be_a_state(value):
+            return ""
+        return (
+            f"{owner} is {value}, which may be a state, or the intensities of four paths; give "
+            f"stokes={value} to the Source for the one, np.array({[*value]}) for the other"
+        )
+
+
+def _may_be_a_state(value: Any) -> bool:
+    """Tell whether four numbers written by hand are light that is polarised by 100 % at most."""
+    if not isinstance(value, (list, tuple)) or len(value) != 4 or not all(map(is_real, value)):
+        return False
+    return math.hypot(*map(float, value[1:])) <= float(value[0])
+
+
+@dataclass(frozen=True)
+class StokesDomain(Domain):
+    """Stokes vectors that light can have; none at all is unpolarised light."""
+
+    physical: bool = True
+
+    @property
+    def unphysical(self) -> Domain:
+        """The domain of Stokes vectors as they are measured."""
+        return replace(self, physical=False)
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        return [] if value is None else super().parts(name, value)
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change, in the precision by which it is judged."""
+        return read_only(value, widened=False)
+
+    def allows(self, numbers: Any) -> Any:
+        finite = super().allows(numbers).all(axis=-1)
+        lit = finite & (numbers[..., 0] >= 0.0)
+        return lit & can_be_light(numbers, rounding_of(numbers)) if self.physical else lit
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        super()._check_numbers(owner, array, rounding)
+        negative = array[..., 0] < 0.0
+        if np.any(negative):
+            value = array[..., 0][negative].ravel()[0]
+            raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
+        if not self.physical or surely_light(array):
+            return
+        bad = ~can_be_light(array, rounding)
+        if np.any(bad):
+            state = array[bad].reshape(-1, 4)[0].tolist()
+            raise ValueFault(
+                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= "
+                f"S0^2, or {cure('physical=False', 'physical = false')} for what is measured as it "
+                f"is"
+            )
+
+
+def surely_light(stokes: npt.NDArray[Any]) -> bool:
+    """Tell quickly, and never wrongly, whether all are light, polarised by 100 % at most.
+
+    Examples
+    --------
+    >>> surely_light(np.array([[1.0, 0.6, 0.0, 0.8], [2.0, 0.0, 0.0, 0.0]]))
+    True
+    """
+    with np.errstate(all="ignore"):
+        squares = np.einsum("...i,...i->...", stokes, stokes)
+        most = (2.0 + _ROUNDING) * stokes[..., 0] ** 2
+        # Beyond, squares have lost digits.
+        sure = (squares <= most) & (most < _MOST) & (most > _LEAST)
+        return bool(np.all(sure & (stokes[..., 0] > 0.0)))
+
+
+def can_be_light(stokes: Any, rounding: float) -> Any:
+    """Return which Stokes vectors are polarised by 100 % at most.
+
+    Shapes: stokes (..., 4); returns (...).
+
+    Examples
+    --------
+    >>> can_be_light(np.array([[1.0, 0.6, 0.0, 0.8], [1.0, 1.0, 1.0, 1.0]]), 0.0)
+    array([ True, False])
+    """
+    xp = namespace(stokes)
+    dark = stokes[..., :1] == 0.0
+    shares = abs(stokes[..., 1:]) / xp.where(dark, 1.0, stokes[..., :1])
+    # Cut off, so that squares of what is far too much do not overflow.
+    polarised = xp.linalg.norm(xp.minimum(shares, 2.0), axis=-1)
+    most = 1.0 + max(_ROUNDING, _GATHERED * rounding)
+    return xp.where(dark[..., 0], xp.max(shares, axis=-1) == 0.0, polarised <= most)

@@ -1,1 +1,0 @@
-"""Domains: which values a quantity of an element may take."""

@@ -1,1 +1,0 @@
-"""Spectra: power by wavelength, of lamps, lines and bins, and of what detectors respond to."""

@@ -1,0 +1,364 @@
+"""Texts for several values: ranges such as "0:90:91", lists and columns."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, UnitError, shown
+from optipath.values.columns import column_for, first_of
+from optipath.values.parameters import ABSENT, AXES
+from optipath.values.units import (
+    BASE_UNITS,
+    NUMBER,
+    UNITS,
+    dimension_of,
+    in_unit,
+    ratio_of,
+    unit_of,
+    without_comma,
+)
+from optipath.values.use import axes_for
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    import numpy.typing as npt
+
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+
+_NUMBER = re.compile(rf"[-+]?{NUMBER}", re.ASCII)
+
+
+class AxisValues(NamedTuple):
+    """The values of one parameter.
+
+    Shapes: shown (count,); given (count,). Units: given in radians.
+    """
+
+    shown: npt.NDArray[Any]
+    unit: str
+    given: npt.NDArray[Any]
+
+    def reshaped(self, shape: tuple[int, ...]) -> AxisValues:
+        """Return the same values in another shape."""
+        return AxisValues(self.shown.reshape(shape), self.unit, self.given.reshape(shape))
+
+
+class IdleValues(AxisValues):
+    """The values of an axis on which nothing depends: all is the same along it."""
+
+
+class _Entry(NamedTuple):
+    """One value: what was written, its number in its unit, and that in base units."""
+
+    text: str
+    shown: Any
+    unit: str
+    given: Any
+
+
+def read_axis_text(
+    text: str, parameter: Parameter, unit: str = "", uses: Iterable[Use] = ()
+) -> AxisValues | None:
+    """Return the values that one text stands for; None for a text that is given alone.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> delta = Parameter("delta", unit="deg")
+    >>> read_axis_text("0:180:3", delta, "deg").shown.tolist()
+    [0.0, 90.0, 180.0]
+    >>> print(read_axis_text("45 deg", delta))
+    None
+    """
+    texts = several_texts(parameter, text)
+    if texts is None:
+        return None
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) == 3 and [parts[0], parts[1]] == [texts[0], texts[-1]]:
+        _check_ends(parts, parameter, unit)
+    try:
+        return read_entries(texts, parameter, unit, uses)
+    except OptipathError as fault:
+        if (file := file_of(text)) is None:
+            raise
+        raise ParameterError(*[f"{file}: {sentence}" for sentence in fault.faults]) from None
+
+
+def _check_ends(parts: Sequence[str], parameter: Parameter, unit: str) -> None:
+    """Raise at the beginning of a range, where all is wrong with it that is wrong with a value."""
+    if dimension_of(parameter.unit) and not unit and not unit_of(parts[0]):
+        first, last, count = parts
+        raise ParameterError(
+            f"parameter '{parameter.name}': '{':'.join(parts)}' has no unit; write "
+            f"'{first} {parameter.unit}:{last} {parameter.unit}:{count}' if it is in "
+            f"{parameter.unit}"
+        )
+    parameter.parse(parts[0], unit)
+
+
+def read_entries(
+    entries: Sequence[Any], parameter: Parameter, unit: str = "", uses: Iterable[Use] = ()
+) -> AxisValues:
+    """Return values of which some are texts.
+
+    Units: entries in radians.
+    """
+    uses = [*uses]
+    found: list[_Entry] = []
+    faults: list[str] = []
+    for entry in entries:
+        try:
+            found.append(_read(entry, parameter, unit, uses))
+        except OptipathError as fault:
+            faults += fault.faults
+    if faults:
+        raise ParameterError(*first_of([*dict.fromkeys(faults)]))
+    given = [each.given for each in found]
+    numbers = np.array(given, object if ABSENT in given else None)
+    if any(isinstance(each.shown, str) for each in found):
+        return AxisValues(np.array([each.text for each in found]), "", numbers)
+    unit = _common_unit(found, parameter)
+    shown = [each.shown if each.unit == unit else in_unit(each.given, unit) for each in found]
+    return AxisValues(np.array(shown), unit, numbers)
+
+
+def _read(entry: Any, parameter: Parameter, unit: str, uses: Sequence[Use]) -> _Entry:
+    base = BASE_UNITS.get(dimension_of(parameter.unit), "")
+    if not isinstance(entry, str):
+        number = parameter.resolve(entry).value[()]
+        return _Entry(f"{number!s} {base}".strip(), number, base, number)
+    text = entry.strip()
+    value = axes_for(parameter.name, text, uses)
+    if text in AXES and not isinstance(value, str):
+        return _Entry(text, text, "", value)
+    value = parameter.parse(text, unit)
+    if isinstance(value, str):
+        return _Entry(text, text, "", parameter.words.get(value, value))
+    if not base:
+        return _Entry(text, value, "", value)
+    own = unit_of(text)
+    written = _NUMBER.match(text)
+    shown = float(written[0]) if written else value
+    return _Entry(text if own else f"{text} {unit}", shown, own or unit, value)
+
+
+def _common_unit(entries: Sequence[_Entry], parameter: Parameter) -> str:
+    """Return the unit of the first; that of the parameter for photon energies among lengths."""
+    first = entries[0].unit
+    if all(each.unit == first for each in entries):
+        return first
+    known = UNITS.get(first)
+    of_dimension = known is not None and known.dimension == dimension_of(parameter.unit)
+    return first if of_dimension else parameter.unit
+
+
+_FILE = "@"
+_THOUSANDS = re.compile(r"0\d\d(?:\D.*)?", re.ASCII)
+
+
+def several_texts(parameter: Parameter, text: str) -> list[str] | None:
+    """Return the texts of several values that one text stands for.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> delta = Parameter("delta", unit="deg")
+    >>> several_texts(delta, "0:30:4"), several_texts(delta, "10 deg, 0.5 rad")
+    (['0', '10.0', '20.0', '30'], ['10 deg', '0.5 rad'])
+    >>> several_texts(delta, "30 deg")
+    """
+    text = text.strip()
+    if (file := file_of(text)) is not None:
+        try:
+            return column_for(parameter, file)
+        except OptipathError as fault:
+            about = f"{fault.about}: " if fault.about else ""
+            raise ParameterError(*[f"{about}{sentence}" for sentence in fault.faults]) from None
+    try:
+        if _is_range(parameter, text):
+            return texts_of_range(text)
+        return _listed(text) if "," in text else None
+    except UnitError as fault:
+        told = [f"parameter '{parameter.name}': {sentence}" for sentence in fault.faults]
+        raise ParameterError(*told) from None
+
+
+def file_of(text: str) -> str | None:
+    """Return the file of which a text means a column; None where it means none.
+
+    Examples
+    --------
+    >>> file_of("@angles.csv"), file_of("30 deg")
+    ('angles.csv', None)
+    """
+    text = text.strip()
+    return text.removeprefix(_FILE).strip() if text.startswith(_FILE) else None
+
+
+def _is_range(parameter: Parameter, text: str) -> bool:
+    """Tell whether a text has the colons of a range, and is neither a ratio nor a list of these."""
+    listed = "," in text and not without_comma(text.partition(":")[0].strip())
+    if ":" not in text or listed:
+        return False
+    return text.count(":") > 1 or bool(dimension_of(parameter.unit)) or not _is_ratio(text)
+
+
+def _is_ratio(text: str) -> bool:
+    """Tell whether a text with one colon is a ratio to 1; ask where it may lack a count."""
+    try:
+        ratio = ratio_of(text)
+    except UnitError:
+        return False
+    if any(float(part) == 1.0 for part in text.split(":")):
+        return True
+    raise UnitError(
+        f"'{text}' may be the ratio {ratio:.12g}, or a range that does not say how many values "
+        f"there are; write '{ratio:.12g}', or '{text}:11' for eleven"
+    )
+
+
+def _listed(text: str) -> list[str]:
+    parts = [part.strip() for part in text.split(",")]
+    if meant := without_comma(text):
+        numbers = " or ".join(f"'{number}'" for number in meant)
+        raise UnitError(
+            f"'{text}' may be a number with a comma, or two; write {numbers} for one, and "
+            f"'{', '.join(_in_one_unit(parts))}' for two"
+        )
+    if not all(parts):
+        raise UnitError(f"'{text}' has nothing between two commas, or at an end; leave these out")
+    if ranges := [part for part in parts if part.count(":") > 1]:
+        raise UnitError(f"'{ranges[0]}' is in a list, and a range stands alone; write its values")
+    if thousands := [part for part in parts[1:] if _THOUSANDS.fullmatch(part)]:
+        raise UnitError(
+            f"'{thousands[0]}' of '{text}' may be thousands of the number in front; write that "
+            f"without commas, or '{thousands[0].lstrip('0') or '0'}' in a list"
+        )
+    return parts
+
+
+def _in_one_unit(parts: list[str]) -> list[str]:
+    """Return the two numbers around a comma, where the unit stands behind the second alone."""
+    unit = parts[1].lstrip("+-.eE0123456789")
+    return [f"{parts[0]} {unit.strip()}".strip(), parts[1]]
+
+
+MOST_WRITTEN = 1_000_000
+"""How many values a text may stand for; more are given as an array."""
+
+_END = re.compile(rf"([-+]?{NUMBER})\s*((?:1/)?[^\W\d_].*|[°'\"])?")
+_COUNT = re.compile(r"\+?\d{1,18}", re.ASCII)
+_LONGEST, _LEAST, _LARGEST = 100, -330, 309
+"""How many characters an end may have, and which powers of ten floats have."""
+
+
+def texts_of_range(text: str) -> list[str]:
+    """Return the values of a range, each as somebody would write it.
+
+    They are evenly spaced in the unit of the ends, exactly, and each is rounded once.
+
+    Examples
+    --------
+    >>> texts_of_range("0:1:5")
+    ['0', '0.25', '0.5', '0.75', '1']
+    >>> texts_of_range("700 nm:400 nm:4")
+    ['700 nm', '600.0 nm', '500.0 nm', '400 nm']
+    """
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) != 3 or not all(parts):
+        raise UnitError(_not_three(text, parts))
+    first, last, _ = parts
+    (start, unit), (stop, other) = _end(text, first), _end(text, last)
+    if unit != other:
+        raise UnitError(_two_units(text, parts, unit, other))
+    count = _count(text, parts, start, stop)
+    if count == 1:
+        return [first]
+    steps = count - 1
+    denominator = start.denominator * stop.denominator * steps
+    begin = start.numerator * stop.denominator * steps
+    rise = stop.numerator * start.denominator - start.numerator * stop.denominator
+    behind = f" {unit}" if unit else ""
+    # The quotient of two integers is the float next to it.
+    inner = [f"{(begin + rise * at) / denominator}{behind}" for at in range(1, steps)]
+    return [first, *inner, last]
+
+
+def _end(text: str, end: str) -> tuple[Fraction, str]:
+    """Return the number and the unit of an end of a range."""
+    if meant := without_comma(end):
+        written = " or ".join(f"'{text.replace(end, each)}'" for each in meant)
+        raise UnitError(f"'{text}' has a number with a comma; write {written}")
+    match = _END.fullmatch(end) if len(end) <= _LONGEST else None
+    if match is None:
+        raise UnitError(
+            f"{shown(end)} of {shown(text)} is no number with a unit; write start:stop:count, such "
+            f"as '400 nm:700 nm:61'"
+        )
+    number = Decimal(match[1])
+    if number and not _LEAST < number.adjusted() < _LARGEST:
+        raise UnitError(f"'{end}' of '{text}' is beyond the numbers that floats are; give another")
+    return Fraction(match[1]) if number else Fraction(0), match[2] or ""
+
+
+def _count(text: str, parts: list[str], start: Fraction, stop: Fraction) -> int:
+    first, last, counted = parts
+    if _COUNT.fullmatch(counted) is None:
+        raise UnitError(_no_count(text, parts, start, stop))
+    count = int(counted)
+    if count < 1:
+        raise UnitError(f"'{text}' counts no values; the last of start:stop:count is 1 or more")
+    if count == 1 and start != stop:
+        raise UnitError(
+            f"'{text}' counts one value from {first} to {last}; write '{first}:{last}:2'"
+        )
+    if count > MOST_WRITTEN:
+        raise UnitError(
+            f"'{text}' counts {count} values, and a text stands for {MOST_WRITTEN} at most; give "
+            f"them as an array, such as np.linspace(...), in Python"
+        )
+    return count
+
+
+def _no_count(text: str, parts: list[str], start: Fraction, stop: Fraction) -> str:
+    """Return the sentence for what is no count, and may be a step or have the unit of the ends."""
+    first, last, counted = parts
+    match = _END.fullmatch(counted[:_LONGEST])
+    if match is not None and (unit := match[2]) and _COUNT.fullmatch(match[1]):
+        written = ":".join(_with_unit(end, unit) for end in (first, last))
+        return f"'{counted}' of '{text}' is no count; write '{written}:{match[1]}'"
+    cure = "write how many values there are, both ends included"
+    if match is not None and not match[2] and _LEAST < Decimal(match[1]).adjusted() < _LARGEST:
+        step = abs(Fraction(match[1]))
+        steps = abs(stop - start) / step if step else Fraction(0)
+        if steps.denominator == 1 and 0 < steps < MOST_WRITTEN:
+            cure = f"for steps of {counted.lstrip('+-')} write '{first}:{last}:{steps + 1}'"
+    return f"'{counted}' of '{text}' is no count, which is a whole number; {cure}"
+
+
+def _not_three(text: str, parts: list[str]) -> str:
+    if len(parts) == 2 and all(parts):
+        return f"'{text}' does not say how many values there are; write '{text}:11' for eleven"
+    return (
+        f"{shown(text)} is no range; write start:stop:count, such as '0:90:91' or "
+        f"'400 nm:700 nm:61'"
+    )
+
+
+def _two_units(text: str, parts: list[str], unit: str, other: str) -> str:
+    if unit and other:
+        return f"the ends of '{text}' are in {unit} and in {other}; write both in one unit"
+    written = ":".join([*(_with_unit(end, unit or other) for end in parts[:2]), parts[2]])
+    return f"'{text}' has a unit at one end alone; write '{written}'"
+
+
+def _with_unit(end: str, unit: str) -> str:
+    return end if (match := _END.fullmatch(end)) and match[2] else f"{end} {unit}"
