@@ -4,18 +4,10 @@ from optipath.plots.axes import save as save
 from optipath.plots.charts import chart as chart
 from optipath.plots.ellipses import ellipse as ellipse
 from optipath.plots.energy_flow import energy as energy
-from optipath.plots.hemisphere_maps import (
-    beside_facets as beside_facets,
-)
-from optipath.plots.hemisphere_maps import (
-    differences as differences,
-)
-from optipath.plots.hemisphere_maps import (
-    hemisphere as hemisphere,
-)
-from optipath.plots.hemisphere_maps import (
-    mueller_hemisphere as mueller_hemisphere,
-)
+from optipath.plots.hemisphere_maps import beside_facets as beside_facets
+from optipath.plots.hemisphere_maps import differences as differences
+from optipath.plots.hemisphere_maps import hemisphere as hemisphere
+from optipath.plots.hemisphere_maps import mueller_hemisphere as mueller_hemisphere
 from optipath.plots.mueller_matrix import mueller as mueller
 from optipath.plots.parameter_curves import curve as curve
 from optipath.plots.parameter_curves import quantity_map as quantity_map
