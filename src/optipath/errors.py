@@ -160,8 +160,6 @@ class ComposerError(OptipathError):
 def did_you_mean(word: object, known: Iterable[str]) -> str:
     """Return the cure for a misspelt word, ready to be put behind the fault.
 
-    Examples
-    --------
     >>> did_you_mean("transmited", ["reflected", "transmitted"])
     "; did you mean 'transmitted'?"
     >>> did_you_mean("xyz", ["in", "out"])
@@ -178,8 +176,6 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
 def there_are(names: Sequence[str]) -> str:
     """Return what there is, ready to be put behind a fault.
 
-    Examples
-    --------
     >>> there_are(["in", "out"]), there_are([])
     ('; there are: in, out', '; there are none')
     """
@@ -191,8 +187,6 @@ def there_are(names: Sequence[str]) -> str:
 def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
     """Return the sentence for a word that is none of those there are; none for one that is.
 
-    Examples
-    --------
     >>> unknown("engine", "nunpy", ("numpy", "jax")), unknown("engine", "jax", ("numpy", "jax"))
     (["engine 'nunpy' is unknown; did you mean 'numpy'?"], [])
     """
@@ -204,8 +198,6 @@ def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
 def listed(words: Sequence[str]) -> str:
     """Return words as a sentence lists them.
 
-    Examples
-    --------
     >>> listed(["a"]), listed(["a", "b", "c"])
     ('a', 'a, b and c')
     """
@@ -241,8 +233,6 @@ _UNSEEN = re.compile(
 def printable(text: str) -> str:
     r"""Return a text in which control characters are shown as Python writes them.
 
-    Examples
-    --------
     >>> print(printable("a \x1b[31mred\x1b[0m word"))
     a \x1b[31mred\x1b[0m word
     """
@@ -272,8 +262,6 @@ _SHORT = _Short()
 def shown(value: object) -> str:
     """Return the representation of any value, on one line, cut where it is long or deep.
 
-    Examples
-    --------
     >>> shown("red"), shown([[[[[1]]]]])
     ("'red'", '[[[[...]]]]')
     >>> shown(1 << 20_000)
@@ -308,8 +296,6 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     one or two letters are too short to tell, and numbers are no misspellings of each other, nor
     are such letters with a number.
 
-    Examples
-    --------
     >>> closest("--detla", ["--delta", "--rho"])
     '--delta'
     >>> closest("ellips", ["pyelli", "ellipsometry"])
@@ -341,8 +327,6 @@ def looks_left() -> bool:
 def few_suggestions(most: int = 20) -> Iterator[None]:
     """Let misspelt words be looked for so often inside, and no more: each look takes its time.
 
-    Examples
-    --------
     >>> with few_suggestions(1):
     ...     [closest(word, ["in", "out"]) for word in ("ou", "outt")]
     ['out', None]
@@ -383,8 +367,6 @@ _NAMES = {"yaml": "PyYAML", "jax": "JAX"}
 def need(what: str, *packages: str) -> None:
     """Raise where packages that a feature needs are not installed; none is imported.
 
-    Examples
-    --------
     >>> need("paths")
     """
     if missing := [package for package in packages if find_spec(package) is None]:
@@ -406,8 +388,6 @@ def needing(what: str) -> Iterator[None]:
 def missing_extra(what: str, *packages: str) -> MissingExtraError:
     """Return the error that packages are not installed, and which extras bring them.
 
-    Examples
-    --------
     >>> print(missing_extra("pictures", "matplotlib"))
     pictures need matplotlib, which is not installed; pip install "optipath[plot]"
     """

@@ -46,8 +46,6 @@ def say_wrapped(text: str) -> None:
 def wrapped(text: str, width: int, *, whole_words: bool = False) -> str:
     """Return lines of which those that are longer go on in the next, which is indented.
 
-    Examples
-    --------
     >>> print(wrapped("| out --> polariser.in", 20))
     | out -->
         polariser.in

@@ -329,8 +329,6 @@ _STOKES = ("S0", "S1", "S2", "S3")
 def value_text(value: Any, digits: int) -> str:
     """Return a value of an axis as it is printed.
 
-    Examples
-    --------
     >>> value_text(400.0, 6), value_text("horizontal", 6)
     ('400', 'horizontal')
     """

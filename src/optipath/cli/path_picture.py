@@ -53,8 +53,6 @@ def graph_layers(order: Sequence[str], links: Sequence[Link]) -> GraphLayers:
     A node stands behind all that send light to it, and the items of a layer in such an order
     that links cross seldom (barycentres: Sugiyama, Tagawa and Toda, IEEE Trans. SMC 11, 109, 1981).
 
-    Examples
-    --------
     >>> links = [("a", "b", ("out", "in")), ("b", "c", ("out", "in")), ("a", "c", ("left", "in"))]
     >>> graph_layers(["a", "b", "c"], links).rows
     [['a'], ['b', (('a', 'c', ('left', 'in')), 1)], ['c']]
@@ -134,8 +132,6 @@ def layer_places(
 ) -> dict[Item, float]:
     """Return the middle of each item: near those that it is linked with, and over none beside.
 
-    Examples
-    --------
     >>> from optipath.cli.path_picture import graph_layers
     >>> links = [("a", "b", ("out", "in")), ("a", "c", ("left", "in"))]
     >>> extents = dict.fromkeys("abc", Extent(10, 10))
@@ -347,8 +343,6 @@ Row = tuple[str, str, str, str]
 def headings(case: str | None) -> Row:
     """Return what stands above the columns: of a path with the values of a case no defaults.
 
-    Examples
-    --------
     >>> headings(None)[1], headings("8")[1]
     ('default', 'value')
     """
@@ -358,8 +352,6 @@ def headings(case: str | None) -> Row:
 def parameter_rows(path: PathGraph) -> list[Row]:
     """Return the rows of a path.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> parameter_rows(op.load_preset("malus"))[0]
     ('angle', '30 deg', '-360 deg .. 360 deg', 'turn of the analyser against the polariser')
@@ -410,8 +402,6 @@ def add_text(parent: Tag, text: str, x: float, y: float, size: float, kind: str)
 def drawable(text: str) -> str:
     r"""Return a text on one line, with the codes of characters that XML has no place for.
 
-    Examples
-    --------
     >>> print(drawable("a\n b"))
     a b
     """
@@ -422,8 +412,6 @@ def drawable(text: str) -> str:
 def lines_of(text: str, cells: int) -> list[str]:
     """Return a text in lines of at most so many cells; words that are longer are broken.
 
-    Examples
-    --------
     >>> lines_of("a polariser of reflected light", 12)
     ['a polariser', 'of reflected', 'light']
     """
@@ -462,8 +450,6 @@ def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     Nodes stand below all that send light to them; a tap is dashed, light that goes round is led
     back at the right. Each text has the width that is reckoned with, whatever the typeface.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> path_picture(op.load_preset("malus"), "malus")[:42]
     '<svg xmlns="http://www.w3.org/2000/svg" wi'

@@ -394,8 +394,6 @@ def _count(text: str, inches: float) -> int:
 def title_of(chosen: Chosen, **others: str | None) -> str:
     """Return the preset and the case, and each value that is given besides, with its name.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> from optipath.cli.chosen import Chosen
     >>> path = op.load_preset("npgr026")

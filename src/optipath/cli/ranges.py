@@ -29,8 +29,6 @@ RANGES = (
 def axis_given(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
     """Return the values that the text of an option stands for.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> axis_given(Parameter("delta", unit="deg"), "0:90:3", ()).shown.tolist()
     [0.0, 45.0, 90.0]

@@ -122,8 +122,6 @@ _INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "a
 def incidences_of(texts: Sequence[str]) -> list[AxisValues]:
     """Return the angles of incidence that options give, each alone.
 
-    Examples
-    --------
     >>> [one.shown.item() for one in incidences_of(["0:60:3", "1 rad"])]
     [0.0, 30.0, 60.0, 1.0]
     """
@@ -157,8 +155,6 @@ def azimuth_of(text: str) -> float:
 def numbers_of(option: str, text: str, kind: Any, counts: tuple[int, ...]) -> tuple[Any, ...]:
     """Return numbers with commas between them.
 
-    Examples
-    --------
     >>> numbers_of("--cells", "640, 320", int, (1, 2))
     (640, 320)
     """

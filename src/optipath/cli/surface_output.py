@@ -40,8 +40,6 @@ _KNOWN = 12
 def measured(mean: float, error: float) -> str:
     """Return a number with the standard error of its last two digits.
 
-    Examples
-    --------
     >>> measured(0.1602437, 0.000123), measured(0.5, 0.00996), measured(1.0, 0.0)
     ('0.16024(12)', '0.500(10)', '1')
     """

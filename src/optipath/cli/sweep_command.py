@@ -84,8 +84,6 @@ _SCHEDULERS = ("threads", "processes", "synchronous")
 def ending_of(out: str) -> str:
     """Return the ending of a file, which says in which form it is written.
 
-    Examples
-    --------
     >>> ending_of("result.csv"), ending_of("result.zarr/")
     ('.csv', '.zarr')
     """
@@ -107,8 +105,6 @@ def zip_groups(
 ) -> dict[str, tuple[str, ...]]:
     """Return the parameters of each group that varies together, by what was written.
 
-    Examples
-    --------
     >>> zip_groups(["sky-angle, theta"])
     {'sky-angle, theta': ('sky_angle', 'theta')}
     """
@@ -177,8 +173,6 @@ def option_faults(
 def out_faults(out: str) -> list[str]:
     """Return what is wrong with a file that a sweep is to be written to, a sentence each.
 
-    Examples
-    --------
     >>> out_faults("result.txt")
     ["--out 'result.txt' has no ending of a sweep; write 'result.csv', .json, .nc or .zarr"]
     """

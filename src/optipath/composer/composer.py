@@ -223,8 +223,6 @@ class Composer:
 def put_off() -> Iterator[None]:
     """Collect no garbage for a while: each time, all elements of a long path are looked at.
 
-    Examples
-    --------
     >>> import gc
     >>> with put_off():
     ...     print(gc.isenabled())

@@ -298,8 +298,6 @@ def turn_text(operands: Any, turns: Any) -> str:
 def way_text(leaves: str, enters: str) -> str:
     """Write where light leaves one boundary and enters another.
 
-    Examples
-    --------
     >>> way_text("front.transmitted", "back.in")
     "'front.transmitted' to 'back.in'"
     """

@@ -177,8 +177,6 @@ def is_zero(azimuth: Any) -> bool:
 def turn_text(turn: Any) -> str:
     """Return a turn as people write it.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> turn_text(0.5), turn_text(-2 * Parameter("rho"))
     ('0.5', '-2 * rho')

@@ -216,8 +216,6 @@ class Constant(NamedTuple):
     def then(self, later: Constant) -> Constant | None:
         """Return both as one of the same sort, no digit lost; None where they have none.
 
-        Examples
-        --------
         >>> Constant(SCALE, (0.5,)).then(Constant(SCALE, (0.5,))).numbers
         (0.25,)
         """

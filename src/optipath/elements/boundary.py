@@ -256,8 +256,6 @@ def angles_of(
 
     Units: front, behind in radians.
 
-    Examples
-    --------
     >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 0.0, 1.5, 0.0)
     >>> print(np.degrees(behind).round(6))
     25.373994

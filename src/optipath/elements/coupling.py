@@ -63,8 +63,6 @@ def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
 
     Units: angle in radians.
 
-    Examples
-    --------
     >>> turned(0.0, Operation(TURN, (0.3,)))[0].kernel.name
     'turn'
     >>> [operation.kernel.name for operation in turned(0.5)]
@@ -81,8 +79,6 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
     An index of refraction is two numbers (n, k), and so is any complex number; a Stokes
     vector is four, a matrix sixteen, anything else one.
 
-    Examples
-    --------
     >>> from optipath.materials.index_domains import IndexDomain
     >>> numbers_of(1.5 + 2j, IndexDomain("index"))
     (1.5, 2.0)

@@ -435,8 +435,6 @@ class Element(Chainable):
 
         Behind another element, or a matrix, it is the Mueller matrix of both.
 
-        Examples
-        --------
         >>> from optipath import Light, Polarizer
         >>> Polarizer(0.0) @ Light([1.0, 0.0, 0.0, 0.0])
         Light([0.5, 0.5, 0. , 0. ])
@@ -518,8 +516,6 @@ def _opposite(value: Any) -> Any:
 def with_values(element: E, **values: Any) -> E:
     """Return an element with other values, of which no degrees are asked about again.
 
-    Examples
-    --------
     >>> from optipath import Rotator
     >>> with_values(Rotator(0.5), angle=-0.5)
     Rotator(angle=-0.5)

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 def same_frame(first: Frame, second: Frame) -> bool:
     """Tell whether two frames are one, to rounding.
 
-    Examples
-    --------
     >>> from optipath.light.frame import Frame
     >>> same_frame(Frame(), Frame().turned(0.1))
     False
@@ -29,8 +27,6 @@ def same_frame(first: Frame, second: Frame) -> bool:
 def share_x(first: Frame, second: Frame) -> bool:
     """Tell whether two frames have x along one line, as s is before and after a reflection.
 
-    Examples
-    --------
     >>> from optipath.light.frame import Frame
     >>> share_x(Frame(), Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0)))
     True
@@ -44,8 +40,6 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
 
     Shape: returns (...). Units: the result in radians.
 
-    Examples
-    --------
     >>> from optipath.light.frame import Frame
     >>> to_the_side = Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
     >>> float(np.degrees(incidence_between(Frame(), to_the_side)).round(9))
@@ -61,8 +55,6 @@ def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
 
     Shape: returns (...). Units: the result in radians.
 
-    Examples
-    --------
     >>> from optipath.light.frame import Frame
     >>> aside = Frame.from_direction(z=(0, 1, 1), x=(1, 0, 0))
     >>> float(np.degrees(angle_between(Frame(), aside)).round(9))
@@ -80,8 +72,6 @@ def azimuth_at(element: Any, port: str) -> Any:
 
     Units: the result in radians.
 
-    Examples
-    --------
     >>> from optipath import Interface
     >>> pane = Interface(1.5, 0.8, azimuth=0.3)
     >>> azimuth_at(pane, "in"), azimuth_at(pane, "back")

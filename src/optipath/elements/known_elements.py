@@ -58,8 +58,6 @@ STANDARD = (
 def element_class(kind: str) -> type[Any]:
     """Return the class of a kind.
 
-    Examples
-    --------
     >>> element_class("rotator").__name__
     'Rotator'
     """

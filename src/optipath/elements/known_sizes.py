@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 def bound_value(parameter: Parameter) -> Any:
     """Return the value of a parameter that is bound; a multiple with its factor and offset.
 
-    Examples
-    --------
     >>> float(bound_value(Parameter("a", 2.0, bound=True)))
     2.0
     """
@@ -29,8 +27,6 @@ def bound_value(parameter: Parameter) -> Any:
 def vanishes(value: Any) -> bool:
     """Tell whether a value is known to be 0.
 
-    Examples
-    --------
     >>> vanishes(0.0), vanishes([0.0, 0.1]), vanishes(Parameter("a"))
     (True, False, False)
     """
@@ -45,8 +41,6 @@ def vanishes(value: Any) -> bool:
 def largest(value: Any) -> float:
     """Return the size of a known value, or the most of an open one; infinite without a range.
 
-    Examples
-    --------
     >>> largest(-2.0), largest(Parameter("a", maximum=3.0, minimum=0.0)), largest(Parameter("a"))
     (2.0, 3.0, inf)
     """
@@ -63,8 +57,6 @@ def largest(value: Any) -> float:
 def overflow(per_metre: Any, length: Any) -> bool:
     """Tell whether two values are known, and their product is too large for a float.
 
-    Examples
-    --------
     >>> overflow(1e200, 1e200), overflow(1e200, 1e-3)
     (True, False)
     """

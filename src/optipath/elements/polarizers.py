@@ -154,8 +154,6 @@ def along_circular_axes(*operations: Operation) -> tuple[Operation, ...]:
 
     So no digits of light get lost that one of the two hardly lets through.
 
-    Examples
-    --------
     >>> from optipath.kernels.catalog import POLARIZER
     >>> steps = along_circular_axes(Operation(POLARIZER, (1.0, 0.0)))
     >>> [step.kernel.name for step in steps]

@@ -303,8 +303,6 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
 
     Units: retardance in radians; at, thickness in metres.
 
-    Examples
-    --------
     >>> thickness, _, _ = plate_for("90 deg", "589.3 nm", 0.0091, 0)
     >>> round(thickness * 1e6, 3)
     16.19

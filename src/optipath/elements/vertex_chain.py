@@ -137,8 +137,6 @@ def vertices_from_angles(
 def counted(count: int, what: str) -> str:
     """Return how many there are of something.
 
-    Examples
-    --------
     >>> counted(1, "turn"), counted(2, "turn")
     ('1 turn', '2 turns')
     """
@@ -177,8 +175,6 @@ class VerticesDomain(Domain):
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change; whole numbers, whose differences wrap, as floats.
 
-        Examples
-        --------
         >>> VERTICES.kept(np.eye(3, dtype=np.uint8)).dtype
         dtype('float64')
         """
@@ -284,8 +280,6 @@ _AT_ONCE = 1 << 11
 def of_chain(chain: int, batch: tuple[int, ...]) -> str:
     """Return which chain of a batch is meant, ready to be put behind what is in it.
 
-    Examples
-    --------
     >>> of_chain(0, ()), of_chain(7, (10,)), of_chain(7, (2, 5))
     ('', ' of chain 7', ' of chain (1, 2)')
     """
@@ -298,8 +292,6 @@ def of_chain(chain: int, batch: tuple[int, ...]) -> str:
 def pieces_of(count: int) -> Iterator[slice]:
     """Yield slices of so many chains.
 
-    Examples
-    --------
     >>> list(pieces_of(3000))
     [slice(0, 2048, None), slice(2048, 3000, None)]
     """
@@ -312,8 +304,6 @@ def vertices_back(owner: str, vertices: Any) -> Any:
 
     Shapes: vertices (..., m + 2, 3); returns (..., m + 2, 3).
 
-    Examples
-    --------
     >>> import numpy as np
     >>> vertices_back("vertex", np.array([[0, 0, 0], [0, 0, 1], [0, 1, 1]])).tolist()
     [[0, 1, 1], [0, 0, 1], [0, 0, 0]]

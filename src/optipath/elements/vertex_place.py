@@ -53,8 +53,6 @@ _DOUBLE = np.dtype(np.float64)
 class PlaceInChain:
     """Which vertex of a chain, as somebody says it; it may be none.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> PlaceInChain(np.eye(3), 2, None).faults("mirror")
     ['mirror.place must be a whole number of 1 .. 1, not 2']
@@ -119,8 +117,6 @@ class PlaceInChain:
 def same_points(first: Any, second: Any) -> bool:
     """Tell whether two chains are equal; points that are not finite are, where they stand alike.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> same_points(np.full((3, 3), np.nan), np.full((3, 3), np.nan))
     True
@@ -168,8 +164,6 @@ class Coordinates(NamedTuple):
 def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates:
     """Return the coordinates of some points of a chain.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> found = coordinates(np.eye(3), 3, 1, 2)
     >>> [float(view.numbers({})) for view in found.arguments]
@@ -341,8 +335,6 @@ class SnellAtVertex(Agreement):
 def deviation(points: Any) -> float:
     """Return by how many degrees light is turned at the middle of three points.
 
-    Examples
-    --------
     >>> round(deviation([0, 0, 0, 0, 0, 1, 0, 5, 1]), 9)
     90.0
     """
@@ -368,8 +360,6 @@ def normal_faults(
 
     Shapes: chains (..., count + 2, 3); normals (..., count, 3); sides (..., count, 2).
 
-    Examples
-    --------
     >>> chain = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     >>> normal_faults(chain, [[0.0, -2.0, -2.0]], 1)
     []

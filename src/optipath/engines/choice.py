@@ -72,8 +72,6 @@ class Work(Protocol):
 class EngineChoice:
     """Chooses an engine for each batch of one kind, and keeps count of what others have cost.
 
-    Examples
-    --------
     >>> EngineChoice("numpy", floats=True).of(10, ...)
     'numpy, step by step'
     """
@@ -141,8 +139,6 @@ def default_engine(
 ) -> str:
     """Return what runs so many paths once that has been done several times.
 
-    Examples
-    --------
     >>> default_engine("auto", 10, 300, floats=True)
     'floats'
     >>> default_engine("numba", 10, 300, floats=True)

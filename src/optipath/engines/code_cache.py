@@ -35,8 +35,6 @@ _TROUBLE = (OSError, RuntimeError, CacheError)
 class CodeCache:
     """Keeps what has been compiled, for this process and for the next.
 
-    Notes
-    -----
     *It never changes a result.* The key of an entry is a hash of the text, of the sources of
     what the text calls, of the versions of optipath, Numba, llvmlite, NumPy and Python, of the
     settings of Numba in the environment, and of the processor with its features. A checksum of
@@ -59,8 +57,6 @@ class CodeCache:
     that are kept for equal paths (`runner_for`); of each that a process has compiled itself,
     some 0.2 MB stay with Numba and LLVM.
 
-    Examples
-    --------
     >>> CodeCache().limit
     134217728
     """

@@ -211,8 +211,6 @@ DOUBLE = DIGITS["float64"]
 def left_formula(operation: str) -> Formula:
     """Return what is left of an angle as a formula of double precision, for engines that compile.
 
-    Examples
-    --------
     >>> [step.operation for step in left_formula(FROM_NEARER).steps]
     ['subtract', 'minimum', 'add', 'maximum', 'minimum']
     """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
 from optipath.engines.engine import Engine
@@ -32,5 +31,6 @@ class JaxEngine(Engine[CarriedProgram, "JaxPath"]):
         """Return the program for JAX."""
         if not self.is_installed:
             raise self.missing
-        path: JaxPath = import_module("optipath.engines.jax_path").JaxPath(*formula)
-        return path
+        from optipath.engines.jax_path import JaxPath  # noqa: PLC0415 - an extra
+
+        return JaxPath(*formula)

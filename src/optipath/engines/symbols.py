@@ -153,8 +153,6 @@ ONE_AXIS = frozenset({0})
 class Recorder:
     """A record of operations in the order in which they can be done.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> recorder = Recorder(np.dtype("float64"))
     >>> x = recorder.input("x")

@@ -34,8 +34,6 @@ _STATE = ("case", "places", "values", "detector", "curve", "want")
 class PageAnswers:
     """What answers the page; one request after the other, since plans are shared.
 
-    Examples
-    --------
     >>> from optipath.explorer.paths import ExploredPresets
     >>> answers = PageAnswers(ExploredPresets("malus"))
     >>> answers.trace({"preset": "malus", "values": {"angle": "60"}})["detectors"]["eye"]["texts"]

@@ -157,8 +157,6 @@ def link_as_json(name: str, start: str, end: str, light: Light) -> dict[str, Any
 def poincare(light: Light) -> list[float] | None:
     """Return (S1, S2, S3) over S0, a point within the sphere; None where there is none.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> poincare(op.Light([2.0, 1.0, 0.0, 1.0])), poincare(op.Light([0.0, 0.0, 0.0, 0.0]))
     ([0.5, 0.0, 0.5], None)
@@ -197,8 +195,6 @@ def _ellipse(light: Light) -> dict[str, Any]:
 def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the power on links, and what elements, outlets and ends take of it.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> energy_as_flows(op.load_preset("malus"), {})["text"]
     'Sources give 1; polarizer takes 0.5, analyzer takes 0.125 and eye gets 0.375.'

@@ -123,8 +123,6 @@ _KEPT = 48
 class ExploredPresets:
     """The paths that the page may open, read and composed once.
 
-    Examples
-    --------
     >>> presets = ExploredPresets("malus")
     >>> presets.opened, presets.explored("malus", {}).detectors
     ('malus', ('eye',))
@@ -204,8 +202,6 @@ def slider_range(explored: ExploredPath, name: str) -> list[float] | None:
 def _step_between(low: float, high: float) -> float:
     """Return a power of ten of which there are 180 steps at least between two numbers.
 
-    Examples
-    --------
     >>> _step_between(0.0, 90.0), _step_between(0.0, 360.0), _step_between(1.0, 3.0)
     (0.1, 1.0, 0.01)
     """

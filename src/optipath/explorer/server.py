@@ -316,8 +316,6 @@ class Refusal(NamedTuple):
 def place_asked(path: str, token: str) -> str | None:
     """Return what is asked for below the token; None where the token is not the right one.
 
-    Examples
-    --------
     >>> place_asked("/abc/api/open", "abc"), place_asked("/abd/", "abc"), place_asked("/abc", "abc")
     ('api/open', None, None)
     """
@@ -397,8 +395,6 @@ _TEXTS = re.compile(r'"(?:[^"\\]|\\.)*"?', re.DOTALL)
 def read_json(given: bytes) -> Any:
     """Return what a JSON text says.
 
-    Examples
-    --------
     >>> read_json(b'{"preset": "malus"}')
     {'preset': 'malus'}
     """

@@ -68,8 +68,6 @@ class AskedState:
 def asked_state(given: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
     """Return what a request asks for.
 
-    Examples
-    --------
     >>> asked_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
     {'angle': '30 deg'}
     """

@@ -35,8 +35,6 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
     By elimination without pivots, which a positive matrix needs none of (Higham, Accuracy and
     Stability of Numerical Algorithms, sec. 10.1): right but for a few roundings of M00.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> mirror, turned_over = np.diag([1.0, 1.0, -1.0, -1.0]), np.diag([1.0, 1.0, 1.0, -1.0])
     >>> [bool(is_physical(FLOAT, m.ravel().tolist(), 1e-14)) for m in (mirror, turned_over)]

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 def brought_near_one(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> brought_near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
@@ -51,8 +49,6 @@ def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
 
     Below 1e-150 it is the larger, as it is where the other is much smaller.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> hypotenuse(FLOAT)(3e-140, 4e-140), hypotenuse(FLOAT)(1e-240, 0.0)
     (5e-140, 1e-240)
@@ -76,8 +72,6 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
 
     The larger of a and b is a sum; the smaller is what ab = nk leaves for it.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> complex_root(FLOAT)(-3.0, 2.0, 1.0)[:2]
     (1.0, 2.0)

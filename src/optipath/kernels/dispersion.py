@@ -25,8 +25,6 @@ def sellmeier_square(
 
     Units: wavelength in micrometres; strengths, poles in square micrometres.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> b, c = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.560653)
     >>> round(float(np.sqrt(sellmeier_square(np, 0.5876, 1.0, b, c))), 5)  # BK7
@@ -55,8 +53,6 @@ def cauchy_index(xp: Any, wavelength: Any, coefficients: Sequence[Any]) -> Any:
 
     Units: wavelength in micrometres; coefficients in square micrometres.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> float(cauchy_index(np, 0.5, [1.5, 0.004]))
     1.516
@@ -153,8 +149,6 @@ DATABASE_FORMULAS: dict[int, Formula] = {
 def coefficients_fit(number: int, count: int) -> bool:
     """Tell whether a formula may have so many coefficients.
 
-    Examples
-    --------
     >>> coefficients_fit(2, 7), coefficients_fit(2, 6), coefficients_fit(8, 4)
     (True, False, True)
     """
@@ -178,8 +172,6 @@ def drude_lorentz_permittivity(
 
     Units: energy in electronvolts.
 
-    Examples
-    --------
     >>> gold = [(0.024, 0.415, 0.241), (0.010, 0.830, 0.345)]
     >>> real, imaginary = drude_lorentz_permittivity(1.0, 1.0, 9.03, (0.760, 0.053), gold)
     >>> round(real, 3), round(imaginary, 3)
@@ -207,8 +199,6 @@ def tauc_lorentz_permittivity(
 
     Units: energy in electronvolts.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> silicon = tauc_lorentz_permittivity(np, 3.5, 122.0, 3.45, 2.54, 1.2)
     >>> [round(float(part), 3) for part in silicon]
@@ -251,8 +241,6 @@ def index_of_permittivity(xp: Any, real: Any, imaginary: Any) -> tuple[Any, Any]
     The field is exp(-iwt), so that what absorbs has a positive imaginary part. Slopes are finite
     but where the permittivity is 0.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> n, k = index_of_permittivity(np, 3.0, 4.0)
     >>> float(n), float(k)

@@ -34,8 +34,6 @@ class DoubleDouble:
     It takes the place of a float in a kernel. Two that are the same to all digits that they
     have are equal.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> third = 1.0 / DoubleDouble(FLOAT, 3.0)
     >>> abs((third + third + third - 1.0).high) < 1e-31
@@ -170,8 +168,6 @@ _SIGNED = tuple(share * (-1) ** (n // 2) for n, share in enumerate(_ONE_OVER))
 def sine(angle: DoubleDouble) -> DoubleDouble:
     """Return the sine of an angle.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> float((sine(DoubleDouble(FLOAT, 0.5)) - 0.479425538604203).high)
     -5.103969860556012e-18
@@ -204,8 +200,6 @@ def _circular(angle: DoubleDouble, quarter: int) -> DoubleDouble:
 def exponential(number: DoubleDouble) -> DoubleDouble:
     """Return e to the power of a number.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> float((exponential(DoubleDouble(FLOAT, 1.0)) - 2.718281828459045).high)
     1.4456468917292502e-16
@@ -251,8 +245,6 @@ def _series(shares: Sequence[Fraction], x: DoubleDouble) -> DoubleDouble:
 def twice(xp: Primitives) -> Primitives:
     """Return primitives for numbers of twice the precision of those that `xp` is for.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> double = twice(FLOAT)
     >>> one = double.cos(DoubleDouble(FLOAT, 0.1)), double.sin(DoubleDouble(FLOAT, 0.1))

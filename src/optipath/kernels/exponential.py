@@ -53,8 +53,6 @@ _SERIES = (
 def exponential(xp: Primitives, dtype: str) -> Callable[[Any], Any]:
     """Make ``exp``, infinite and 0 where that is beyond floats.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> exp = exponential(FLOAT, "float64")
     >>> exp(-0.5), exp(0.0), exp(-1000.0)
@@ -88,8 +86,6 @@ def scaled_hyperbolic(xp: Primitives) -> Callable[[Any, Any], tuple[Any, Any]]:
     Where |x| is more by a rounding, of which large numbers have large ones, it is taken as shift;
     its slope stays.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> scaled_hyperbolic(FLOAT)(1e-20, 0.0), scaled_hyperbolic(FLOAT)(1000.0, 1000.0)
     ((1.0, 1e-20), (0.5, 0.5))
@@ -128,8 +124,6 @@ def complementary_error(xp: Primitives) -> Callable[[Any], Any]:
     power, and the residue that it leaves (D. B. Hunter and T. Regan, Math. Comp. 26, 539 (1972)):
     nothing is subtracted.
 
-    Examples
-    --------
     >>> from math import erfc
     >>> from optipath.kernels.primitives import FLOAT
     >>> abs(complementary_error(FLOAT)(0.7) - erfc(0.7)) < 4e-16
@@ -192,8 +186,6 @@ def reproducible(
 def reproducible_numpy(dtype: str) -> Primitives:
     """Return primitives of NumPy whose elementary functions every engine does alike.
 
-    Examples
-    --------
     >>> reproducible_numpy("float64").sin(np.array([0.5, 1e6]))
     array([ 0.47942554, -0.3499935 ])
     """

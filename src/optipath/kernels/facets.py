@@ -27,8 +27,6 @@ def plane_at_facet(xp: Primitives) -> Callable[[Vector, Vector, Vector], tuple[A
     incidence is across s, along normal cross k; along the normal, s is x. The frame is turned
     by a from x to s.
 
-    Examples
-    --------
     Light that goes down and along x, onto a floor:
 
     >>> from optipath.kernels.primitives import FLOAT
@@ -54,8 +52,6 @@ def plane_at_facet(xp: Primitives) -> Callable[[Vector, Vector, Vector], tuple[A
 def reflected_at_facet(k: Vector, normal: Vector, cos: Any) -> Vector:
     """Return the direction of what a facet reflects.
 
-    Examples
-    --------
     >>> reflected_at_facet((0.6, 0.0, -0.8), (0.0, 0.0, 1.0), 0.8)
     (0.6, 0.0, 0.8)
     """
@@ -69,8 +65,6 @@ def refracted_at_facet(xp: Primitives) -> Callable[..., Vector]:
     ch. 4): n k' = n1 k + (n1 cos - g) normal, with the wave g of the boundary. Where all is
     reflected, it means nothing.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> direction = refracted_at_facet(FLOAT)(1.0, 1.5, (0.6, 0.0, -0.8), (0.0, 0.0, 1.0), 0.8, 0.6)
     >>> [round(number, 12) for number in direction]
@@ -146,8 +140,6 @@ def facet_between(xp: Primitives) -> Callable[[Vector, Vector, Vector, Vector], 
     at right angles: neither next to normal nor next to grazing incidence is a digit lost. Light
     that goes back the way it came keeps its x, as at any boundary.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> x = (0.0, 1.0, 0.0)
     >>> met = facet_between(FLOAT)((0.6, 0.0, -0.8), x, (0.6, 0.0, 0.8), x)
@@ -186,8 +178,6 @@ def beckmann(xp: Primitives) -> Callable[[Any, Any, Any, Any], Any]:
     the mean square slope along an axis (E. Heitz, "Generating procedural Beckmann surfaces",
     2015).
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> beckmann(FLOAT)(0.0, 0.0, 1.0, 1.0) * pi
     1.0
@@ -216,8 +206,6 @@ def smith_cosine(xp: Primitives) -> Callable[[Vector, Any, Any], Any]:
     Smith, IEEE Trans. Antennas Propag. 15, 668 (1967); E. Heitz, J. Computer Graphics Techniques
     3(2), 48 (2014), sec. 5). All terms are finite at grazing and at normal incidence.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> cosine = smith_cosine(FLOAT)
     >>> cosine((0.0, 0.0, -1.0), 0.5, 0.5), round(cosine((1.0, 0.0, 0.0), 0.5, 0.5), 6)

@@ -154,8 +154,6 @@ _CURES = (
 def in_words(what: str, error: BaseException) -> OptipathError:
     """Return an error of the library for what code of a user's own has raised.
 
-    Examples
-    --------
     >>> print(in_words("it", ZeroDivisionError("division by zero")))
     it raises ZeroDivisionError: division by zero; let xp.where choose another divisor there
     """

@@ -32,8 +32,6 @@ _LEAST = 2.0**-53
 class Elimination:
     """A system of unknowns, eliminated one after the other, and what its solutions are.
 
-    Examples
-    --------
     Of x, 1/4 comes back as y and 3/4 leaves; of y, 1/2 comes back as x, and 1/2 leaves.
 
     >>> from optipath.kernels.primitives import FLOAT

@@ -84,8 +84,6 @@ def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
 
     It is 0 where the angle cannot tell itself from a multiple of a right one.
 
-    Examples
-    --------
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
     >>> left = from_axes(FLOAT, DIGITS["float64"])
@@ -100,8 +98,6 @@ def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
 
     It is 0 where the angle cannot tell itself from a right one.
 
-    Examples
-    --------
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
     >>> left = from_nearer_axis(FLOAT, DIGITS["float64"])
@@ -123,8 +119,6 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 
     Of an angle that has been given in more digits, `from_axes` in its own gives what is left.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> any_quadrant(FLOAT, DIGITS["float64"])(2.5)
     (0.5984721441039564, -0.8011436155469337)
@@ -151,8 +145,6 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     The cosine is 0 where the angle cannot tell itself from a right one. Of an angle that has
     been given in more digits, `from_nearer_axis` in its own gives what is left.
 
-    Examples
-    --------
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
     >>> sine_cosine = first_quadrant(FLOAT, DIGITS["float64"])
@@ -210,8 +202,6 @@ def _near_zero(digits: Digits) -> Callable[[Any], SinCos]:
 def cosine(xp: Primitives) -> Callable[[Any], Any]:
     """Make ``cos``, 0 at the odd multiples of pi/2.
 
-    Examples
-    --------
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
     >>> cosine(FLOAT)(math.pi / 2), cosine(FLOAT)(math.pi)
@@ -223,8 +213,6 @@ def cosine(xp: Primitives) -> Callable[[Any], Any]:
 def sine(xp: Primitives) -> Callable[[Any], Any]:
     """Make ``sin``, 0 at the multiples of pi.
 
-    Examples
-    --------
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
     >>> sine(FLOAT)(math.pi), sine(FLOAT)(1e-300)
@@ -271,8 +259,6 @@ _RIGHT_LOW = 6.123233995736766e-17
 def arc_tangent(xp: Primitives) -> Callable[[Any, Any], Any]:
     """Make ``(y, x) -> angle`` of a point, within -pi .. pi; that of the origin is 0.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> angle = arc_tangent(FLOAT)
     >>> angle(1.0, -1.0), angle(-2.0, 0.0), angle(0.0, 0.0)

@@ -15,8 +15,6 @@ _SEVERAL = 64.0
 def products(*pairs: tuple[Any, Any]) -> Any:
     """Return the sum of products, without those that have a plain 0 for a factor.
 
-    Examples
-    --------
     >>> products((2.0, 3.0), (1.0, 0.0), (1.0, 4.0))
     10.0
     """
@@ -33,8 +31,6 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 
     Matrices of one's own may make light that cannot be; its negative intensities stay.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
     (0.0, -0.1)
@@ -45,8 +41,6 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
     """Return a number, 0 where it is no more than the roundings of a size.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
     (0.0, 1e-06)

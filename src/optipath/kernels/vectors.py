@@ -34,8 +34,6 @@ def times(number: Any, a: Vector) -> Vector:
 def dot(a: Vector, b: Vector) -> Any:
     """Return a . b.
 
-    Examples
-    --------
     >>> dot((1.0, 2.0, 3.0), (1.0, 0.0, -1.0))
     -2.0
     """
@@ -45,8 +43,6 @@ def dot(a: Vector, b: Vector) -> Any:
 def cross(a: Vector, b: Vector) -> Vector:
     """Return a cross b.
 
-    Examples
-    --------
     >>> cross((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     (0.0, 0.0, 1.0)
     """
@@ -73,8 +69,6 @@ def common_size(xp: Primitives) -> Callable[..., Any]:
 
     What is divided by it has squares that neither vanish nor are too large.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> common_size(FLOAT)(0.5, -3.0), common_size(FLOAT)(0.0, 0.0)
     (3.0, 1.0)
@@ -91,8 +85,6 @@ def common_size(xp: Primitives) -> Callable[..., Any]:
 def norm(xp: Primitives) -> Callable[..., Any]:
     """Make ``(x, ...) -> sqrt(x^2 + ...)``; its slope is 0 where all are 0.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> norm(FLOAT)(3.0, -4.0), norm(FLOAT)(0.0, 0.0), norm(FLOAT)(1e200, 0.0)
     (5.0, 0.0, 1e+200)

@@ -40,8 +40,6 @@ def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
     With unit directions, half of |k_out - k_in| and of |k_out + k_in|: each keeps its digits
     where it is small.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> incidence(FLOAT)(0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
     (0.7071067811865476, 0.7071067811865476)
@@ -68,8 +66,6 @@ def incidence_between(xp: Primitives) -> Callable[[Leg, Leg], tuple[Any, Any]]:
 def points_of(coordinates: Sequence[Any]) -> list[Vector]:
     """Return coordinates in a row as points.
 
-    Examples
-    --------
     >>> points_of((1, 2, 3, 4, 5, 6))
     [(1, 2, 3), (4, 5, 6)]
     """
@@ -114,8 +110,6 @@ class Event:
 def ended(events: Sequence[Any]) -> list[Any]:
     """Return the condition of each vertex that its chain has ended before.
 
-    Examples
-    --------
     >>> ended([Event.REFLECTS, Event.BEHIND])
     [False, True]
     """
@@ -129,8 +123,6 @@ def event_at_vertex(xp: Primitives) -> KernelFunction:
     last vertex, as `incidence_between` or `refracted` says them. No number into a medium that
     absorbs, and where the event cannot be; behind the end of a chain no point is looked at.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> points = (0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
     >>> event_at_vertex(FLOAT)(1.0, 1.5, 0.0, Event.REFLECTS, *points)
@@ -168,8 +160,6 @@ def refraction_at_vertex(xp: Primitives) -> KernelFunction:
 
     Of the refraction at the middle of three points, by `refracted`.
 
-    Examples
-    --------
     Into glass at 45 degrees:
 
     >>> from math import sqrt
@@ -271,8 +261,6 @@ class OfPlanes:
 class TurnBetweenPlanes(OfPlanes):
     """Makes ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> up_sideways_on = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0)
     >>> TurnBetweenPlanes()(FLOAT)(*up_sideways_on)
@@ -365,8 +353,6 @@ class PointsByAngles:
     points lose no digit of a small angle, and the plane of incidence at its start is the one
     across the world's x.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> PointsByAngles(1, 0, 2)(FLOAT)(0.0, 1.0)
     (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0)

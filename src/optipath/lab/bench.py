@@ -148,8 +148,6 @@ def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
 
     Shape: returns (count,).
 
-    Examples
-    --------
     >>> import optipath as op
     >>> values = random_values(op.load_preset("npgr026").compose(), 5)
     >>> sorted(values), values["phi"].shape
@@ -191,8 +189,6 @@ def race(
 ) -> dict[str, Timing]:
     """Return the timing of each contender.
 
-    Examples
-    --------
     >>> timings = race({"nothing": lambda: None}, seconds=0.001)
     >>> timings["nothing"].least <= timings["nothing"].middle
     True
@@ -226,8 +222,6 @@ def seconds_of(action: Callable[[], object], calls: int = 1) -> float:
 def duration(seconds: float) -> str:
     """Return a time in the unit that suits it, with three digits.
 
-    Examples
-    --------
     >>> [duration(seconds) for seconds in (1.05e-6, 2.3e-3, 0.99999, 0.0, 3e-10, 5000)]
     ['1.05 us', '2.3 ms', '1 s', '0 s', '0.3 ns', '5,000 s']
     """

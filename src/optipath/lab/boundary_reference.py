@@ -173,8 +173,6 @@ class Exact(NamedTuple):
 def reflection(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
     """Return (A, B, C, S) of a reflection, with C + iS = r_s conj(r_p).
 
-    Examples
-    --------
     >>> print(float(reflection(1.5, 0.0, 1.0, 0.0).values[0]))
     0.04
     """
@@ -184,8 +182,6 @@ def reflection(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> E
 def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
     """Return (A, B, C, S) of the power let through, with the phase of t_s conj(t_p).
 
-    Examples
-    --------
     >>> print(float(transmission(1.5, 0.0, 1.0, 0.0).values[0]))
     0.96
     """

@@ -78,8 +78,6 @@ _COMPILED = 40.0
 def expected(effort: Effort) -> str:
     """Return about how long a chart of a path of some elements takes, before it is measured.
 
-    Examples
-    --------
     >>> expected(QUICK)
     'this takes less than a minute, more on a busy machine'
     >>> print(expected(FULL._replace(engines=("numpy",))))
@@ -246,8 +244,6 @@ def many_paths(path: PathGraph, count: int) -> tuple[nx.MultiDiGraph, dict[str, 
 
     Shape: returns (count,).
 
-    Examples
-    --------
     >>> import optipath as op
     >>> graph, values = many_paths(op.load_preset("malus"), 7)
     >>> values["angle"].shape
@@ -289,8 +285,6 @@ class _Counted:
 def slow_operations(program: Program) -> dict[str, int]:
     """Return the number of square roots ("sqrt") and divisions ("div") for one path.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> slow_operations(op.load_preset("malus").compose().program)["sqrt"]
     2
@@ -348,8 +342,6 @@ def throughput() -> dict[str, float]:
 
     float64, one thread, through NumPy's compiled loops.
 
-    Examples
-    --------
     >>> sorted(throughput())
     ['byte', 'div', 'sqrt']
     """

@@ -152,8 +152,6 @@ def contenders(
 
     JAX is not among them: it compiles anew for every path that it is given.
 
-    Examples
-    --------
     >>> Composer("stable", engine="numpy", composing="jones") in contenders()
     True
     """

@@ -50,8 +50,6 @@ def errors(
 
     Shape: found (samples, 4). Units: against_first in ulp.
 
-    Examples
-    --------
     >>> off = errors(np.array([[1.0 + 2e-16, 0, 0, 0]]), [((1, 0, 0, 0), (0, 0, 0, 0))], "float64")
     >>> off.componentwise[0], off.normwise
     (array([1., 0., 0., 0.]), array([1.]))
@@ -101,8 +99,6 @@ def interface_errors(
 ) -> Errors:
     """Return the errors of (A, B, C, S) by a method in a region.
 
-    Examples
-    --------
     >>> from optipath.lab.regions import REGIONS
     >>> off = interface_errors("stable", REGIONS[0], count=20)
     >>> bool(np.all(off.componentwise <= 10))

@@ -29,8 +29,6 @@ _HUGE = 1e9
 def exactly(number: Any) -> Any:
     """Return a float of any precision as a number of many digits.
 
-    Examples
-    --------
     >>> with mpmath.workdps(30):
     ...     print(exactly(np.float64(0.1)))
     0.100000000000000005551115123126
@@ -48,8 +46,6 @@ def exact_angle(angle: float) -> Any:
 
     To the digits that mpmath works with.
 
-    Examples
-    --------
     >>> with mpmath.workdps(WORKING_DIGITS):
     ...     bool(abs(mpmath.cos(exact_angle(np.pi / 2))) < 1e-99)
     True
@@ -64,8 +60,6 @@ def exact_angle(angle: float) -> Any:
 def cos_sin(angle: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine; what is less than the working precision is 0.
 
-    Examples
-    --------
     >>> cos_sin(exact_angle(np.pi / 2))
     (mpf('0.0'), mpf('1.0'))
     """

@@ -39,8 +39,6 @@ class ExactLight(NamedTuple):
 def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     """Return the light at every detector and dump of a path, in 50 digits.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> lights = exact_lights(op.load_preset("malus", angle=0.0))
     >>> [float(component) for component in lights["eye"].stokes]
@@ -55,8 +53,6 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
 
     It takes one passage of light, and not one for each angle of the path.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]
     [0.5, 0.5, 0.0, 0.0]

@@ -51,8 +51,6 @@ class Region:
     def samples(self, count: int, dtype: str = "float64", seed: int = 0) -> Samples:
         """Return boundaries and angles, rounded to a precision.
 
-        Examples
-        --------
         >>> REGIONS[0].samples(3).n.shape
         (3,)
         """
@@ -64,8 +62,6 @@ class Region:
 
         Shape: units (dimensions, count).
 
-        Examples
-        --------
         >>> REGIONS[0].at(np.full((REGIONS[0].dimensions, 2), 0.5)).n
         array([2.55, 2.55])
         """
@@ -227,8 +223,6 @@ def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.Mul
     Everything else stays. The incidence of an interface that has world frames stays too:
     they fix it.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> from optipath.lab.regions import REGIONS
     >>> graph = in_region(op.load_preset("npgr026"), REGIONS[0], 5, "float64")
@@ -279,8 +273,6 @@ class CriticalPlace:
 
         Units: distance in radians.
 
-        Examples
-        --------
         >>> samples = PLACES["grazing"].region(1e-3).samples(2)
         >>> samples.cos
         array([0.001, 0.001])

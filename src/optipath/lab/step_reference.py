@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 def mueller_of(steps: Iterable[Step]) -> list[list[Any]]:
     """Return the Mueller matrix of steps in the order in which light meets them.
 
-    Examples
-    --------
     >>> rows = mueller_of([("reflection", {"n": "1.5", "incidence": "0"})])
     >>> [float(entry) for entry in rows[0]]
     [0.04, 0.0, 0.0, 0.0]

@@ -64,8 +64,6 @@ def searched_tables(generations: int) -> list[TextTable]:
 def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = SAMPLED) -> str:
     """Return a Markdown text with the tables between the two lines that mark their place.
 
-    Examples
-    --------
     >>> table = TextTable("All", ("region", "error"), (("here", "1.0"),))
     >>> print(put_tables(f"{BEGIN}{END}", [table]).splitlines()[2])
     All
@@ -81,8 +79,6 @@ def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = S
 def shown(error: float) -> str:
     """Write an error in ulp*: bold where the method fails, "lost" where no digit is right.
 
-    Examples
-    --------
     >>> shown(0.0), shown(3.14), shown(1.2e7), shown(np.inf)
     ('0', '3.1', '**1e7**', '**lost**')
     """
@@ -205,8 +201,6 @@ def worst(
     in a wider float (`numpy.longdouble` for float64; where that is no wider, nothing is found);
     the error of what is found is measured against 50 digits.
 
-    Examples
-    --------
     >>> from optipath.lab.regions import REGIONS
     >>> worst("stable", REGIONS[0], "A", generations=5).error < 16.0
     True

@@ -27,8 +27,6 @@ def sum_of(one: Any, exponent: Any, two: Any, other_exponent: Any) -> tuple[Any,
 
     Shapes: one, two (..., 4); exponent, other_exponent (...).
 
-    Examples
-    --------
     >>> total, power = sum_of(np.eye(4)[0], 0, np.eye(4)[0], 1)
     >>> print(total, power)
     [1.5 0.  0.  0. ] 1
@@ -51,8 +49,6 @@ def product_of(
 
     Shapes: numbers (..., 4); exponent, factor (...).
 
-    Examples
-    --------
     >>> product, power, *_ = product_of(np.eye(4)[0], 0, np.array(6.0), np.multiply)
     >>> print(product, power)
     [6. 0. 0. 0.] 0
@@ -132,8 +128,6 @@ def handed_out(component: Any) -> Any:
 
     Shapes: component (...); returns (...).
 
-    Examples
-    --------
     >>> kept = np.ones(3)
     >>> mine = handed_out(kept)
     >>> mine *= 2.0
@@ -149,8 +143,6 @@ def handed_out(component: Any) -> Any:
 def stacked_components(components: tuple[Any, Any, Any, Any]) -> Array:
     """Return four components, floats or arrays of one shape, as one array (..., 4).
 
-    Examples
-    --------
     >>> stacked_components((1.0, 0.5, 0.0, 0.0))
     array([1. , 0.5, 0. , 0. ])
     """

@@ -68,8 +68,6 @@ class ArrayAxes:
 
         Frames that are a batch go along; JAX may trace integers.
 
-        Examples
-        --------
         >>> from optipath import Light
         >>> lights = Light([[1.0, 0.0, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]])
         >>> lights[1]
@@ -142,8 +140,6 @@ def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
 
     Shapes: numbers (..., n); returns (..., n).
 
-    Examples
-    --------
     >>> each_number(np.eye(3), lambda numbers: numbers[1])
     array([0., 1., 0.])
     """
@@ -154,8 +150,6 @@ def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
 def why_refused(factor: Any) -> str:
     """Say why something is no factor of a product, and what to write in its place.
 
-    Examples
-    --------
     >>> print(why_refused([1, 0, 0, 0]))  # doctest: +NORMALIZE_WHITESPACE
     [1, 0, 0, 0] has no frames; write element @ light, optipath.Mueller(matrix) @ light,
     and optipath.Light(numbers) for light

@@ -144,8 +144,6 @@ def srgb_of(
 def encoded(linear: Any) -> Any:
     """Return components with the transfer function of sRGB; negative ones as positive ones.
 
-    Examples
-    --------
     >>> encoded(np.array([0.0, 0.0031308, 0.5, 1.0])).round(4)
     array([0.    , 0.0404, 0.7354, 1.    ])
     """
@@ -302,8 +300,6 @@ def adapted(xyz: Any, white: Any) -> Any:
 
     Shapes: xyz (..., 3); white (..., 3); returns (..., 3).
 
-    Examples
-    --------
     >>> adapted(np.array([0.5, 0.5, 0.5]), np.ones(3)).round(4)
     array([0.4752, 0.5   , 0.5445])
     """
@@ -317,8 +313,6 @@ def times(matrix: Any, vectors: Any) -> Any:
 
     Shapes: matrix (3, 3); vectors (..., 3); returns (..., 3).
 
-    Examples
-    --------
     >>> times(np.eye(3), np.array([1.0, 2.0, 3.0]))
     array([1., 2., 3.])
     """

@@ -84,8 +84,6 @@ CONVENTIONS = {
 def signs_of(convention: Any) -> Array:
     """Return what a convention multiplies S0, S1, S2 and S3 by.
 
-    Examples
-    --------
     >>> print(signs_of("hecht"))
     [ 1.  1.  1. -1.]
     """
@@ -97,8 +95,6 @@ def changed_stokes(convention: Any, stokes: Any) -> Array:
 
     Shapes: stokes (..., 4); returns (..., 4).
 
-    Examples
-    --------
     >>> changed_stokes("ellipsometry", np.array([1.0, 0.5, 0.0, 0.25]))
     array([ 1.  , -0.5 ,  0.  , -0.25])
     """
@@ -114,8 +110,6 @@ def changed_matrix(convention: Any, matrix: Any) -> Array:
 
     Shapes: matrix (..., 4, 4); returns (..., 4, 4).
 
-    Examples
-    --------
     >>> changed_matrix("mitsuba", np.ones((4, 4)))[3]
     array([-1., -1., -1.,  1.])
     """
@@ -128,8 +122,6 @@ def changed_delta(convention: Any, delta: Any) -> Array:
 
     Units: delta, the result in radians.
 
-    Examples
-    --------
     >>> print(changed_delta("tmm", np.radians(150.0)).round(12) == np.radians(30.0).round(12))
     True
     """

@@ -48,8 +48,6 @@ def reciprocal(matrix: Any) -> Any:
 
     Shapes: matrix (..., 4, 4); returns (..., 4, 4).
 
-    Examples
-    --------
     >>> matrix = np.arange(16.0).reshape(4, 4)
     >>> print(reciprocal(matrix)[2])
     [ -2.  -6.  10. -14.]
@@ -167,8 +165,6 @@ def jones_parts(unit: Array, tolerance: Array) -> tuple[Array, Array, Array]:
     Shapes: unit (..., 4, 4); tolerance (..., 1); returns pure (..., 1), root (..., 1), rotation
     (..., 3, 3).
 
-    Examples
-    --------
     >>> half_wave = np.diag([1.0, 1.0, -1.0, -1.0])
     >>> pure, root, rotation = jones_parts(half_wave, np.array([1e-14]))
     >>> print(pure, root, rotation.diagonal())
@@ -199,8 +195,6 @@ def least_turn(a: Array, b: Array) -> Array:
 
     Shapes: a, b (..., 3); returns (..., 3, 3).
 
-    Examples
-    --------
     >>> least_turn(np.array([1.0, 0.0, 0.0]), np.array([-1.0, 0.0, 0.0])).diagonal()
     array([-1., -1.,  1.])
     """
@@ -223,8 +217,6 @@ def rotation(w: Array, v: Array) -> Array:
 
     Shapes: w (...); v (..., 3); returns (..., 3, 3).
 
-    Examples
-    --------
     >>> rotation(np.array(0.0), np.array([3.0, 0.0, 0.0])).diagonal()
     array([ 1., -1., -1.])
     """
@@ -238,8 +230,6 @@ def rotation(w: Array, v: Array) -> Array:
 def size_and_direction(vector: Array) -> tuple[Array, Array]:
     """Return lengths, shape (..., 1), and unit vectors; 0 and 0 for what has too few digits.
 
-    Examples
-    --------
     >>> size_and_direction(np.array([0.0, 3.0, 4.0]))
     (array([5.]), array([0. , 0.6, 0.8]))
     """
@@ -253,8 +243,6 @@ def outer(a: Array, b: Array) -> Array:
 
     Shapes: a, b (..., 3); returns (..., 3, 3).
 
-    Examples
-    --------
     >>> outer(np.array([1.0, 2.0]), np.array([3.0, 4.0])).tolist()
     [[3.0, 4.0], [6.0, 8.0]]
     """
@@ -292,8 +280,6 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
 
     A matrix of which an entry is not known becomes 0, for `unscaled` to give back.
 
-    Examples
-    --------
     >>> [part.tolist() for part in scaled(np.diag([6.0, 3.0, 3.0, 3.0]))][1]
     3
     """
@@ -318,8 +304,6 @@ def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
 def rounding_of(matrix: Any) -> float:
     """Return the spacing of a matrix's numbers at 1, or that of double precision if it is less.
 
-    Examples
-    --------
     >>> rounding_of(np.eye(4, dtype=np.float32)) == 2.0**-23
     True
     """
@@ -338,8 +322,6 @@ _TOLERANCE = 1e-9
 def coherency(matrix: Array) -> Array:
     """Return the coherency matrices, shape (..., 4, 4), complex; NaN all over where an entry is.
 
-    Examples
-    --------
     >>> coherency(np.diag([1.0, 1.0, -1.0, -1.0])).real.diagonal()
     array([0., 1., 0., 0.])
     """
@@ -361,8 +343,6 @@ def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
 
     Shapes: matrix (..., 4, 4); returns (...).
 
-    Examples
-    --------
     >>> print(is_physical(np.eye(4), 0.0))
     True
     """
@@ -374,8 +354,6 @@ def lack(matrix: Array) -> Array:
 
     Infinite where no eigenvalue is above 0, and one below.
 
-    Examples
-    --------
     >>> print(lack(np.eye(4)), lack(np.diag([1.0, 1.0, 1.0, -1.0])))
     0.0 1.0
     """
@@ -400,8 +378,6 @@ def tolerance_of(rounding: float) -> float:
 def nearest_physical(matrix: Array) -> Array:
     """Return the matrices without what has negative eigenvalues.
 
-    Examples
-    --------
     >>> nearest_physical(np.diag([1.0, 1.0, 1.0, -1.0])).diagonal().round(12)
     array([ 1.5,  0.5,  0.5, -0.5])
     """

@@ -309,8 +309,6 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
     Shape: value (..., 3).
 
-    Examples
-    --------
     >>> vectors("a normal", [0, 0, 1])
     array([0., 0., 1.])
     """
@@ -323,8 +321,6 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 def rounding_in(*given: npt.ArrayLike) -> float:
     """Return the rounding of vectors of which any has less precision than double; else 0.
 
-    Examples
-    --------
     >>> rounding_in([0, 0, 1], np.ones(3, np.float32)) == 2.0**-23
     True
     """
@@ -334,8 +330,6 @@ def rounding_in(*given: npt.ArrayLike) -> float:
 def floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return finite numbers as doubles.
 
-    Examples
-    --------
     >>> floats("a rotation", [[0, 1], [1, 0]]).dtype
     dtype('float64')
     """

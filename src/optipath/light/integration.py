@@ -113,8 +113,6 @@ def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tupl
 
     Shapes: numbers (..., k); exponent (...); weights (n, k).
 
-    Examples
-    --------
     >>> weighted_sum(np.ones((3, 1)), np.zeros(3, int), np.array([[1.0], [2.0], [1.0]]), 0)
     (array([2.]), array(1))
     """

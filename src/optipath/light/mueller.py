@@ -664,8 +664,6 @@ def noise_of_product(behind: tuple[Any, Any], before: tuple[Any, Any]) -> Any:
 
     The noise of each times the other, and the roundings of sums of products of both.
 
-    Examples
-    --------
     >>> one = np.eye(4), 2.0**-52
     >>> print(noise_of_product(one, one) * 2.0**52)
     6.0

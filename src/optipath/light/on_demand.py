@@ -67,8 +67,6 @@ class FramesOnDemand:
 def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
     """Return the frames that belong to a part of a batch.
 
-    Examples
-    --------
     >>> frames = Frame().turned([0.0, 0.5, 1.0])
     >>> indexed_frame(frames, (3,), lambda numbers: numbers[1]) == Frame().turned(0.5)
     True
@@ -136,8 +134,6 @@ def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
 
     Shapes: stokes (..., 4); exponent (...); returns (...).
 
-    Examples
-    --------
     >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9), np.array(0)))
     1e-09
     """
@@ -153,8 +149,6 @@ def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
 def rounding(stokes: Any) -> Any:
     """Return by how much sums of numbers as large as S0 are rounded, of shape (...).
 
-    Examples
-    --------
     >>> print(rounding(np.array([2.0, 0.0, 0.0, 0.0], np.float32)))
     2.3841858e-07
     """
@@ -207,8 +201,6 @@ def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
 
     Units: given, the result in metres.
 
-    Examples
-    --------
     >>> wavelengths_for((2,), ["500 nm", "2.4 eV"]).round(9)
     array([5.00e-07, 5.17e-07])
     """

@@ -36,8 +36,6 @@ def gain(matrix: Array) -> Array:
     M00 + abs((M01, M02, M03)), the intensity of what fully polarised light becomes (Gil and
     Ossikovski, Polarized Light and the Mueller Matrix Approach, sec. 5.4).
 
-    Examples
-    --------
     >>> print(gain(np.array([[0.5, 0.5, 0, 0], [0.5, 0.5, 0, 0], [0] * 4, [0] * 4])))
     1.0
     """
@@ -52,8 +50,6 @@ def are_passive(matrix: Array, tolerance: float) -> Array:
 
     Shapes: matrix (..., 4, 4); returns (...).
 
-    Examples
-    --------
     >>> one, flipped = np.eye(4), np.diag([1.0, 1.0, 1.0, -1.0])
     >>> print(are_passive(np.array([one, 2.0 * one, flipped]), 1e-9))
     [ True False False]
@@ -83,8 +79,6 @@ def problem_of(matrix: Array, tolerance: float) -> str:
 
     Shape: matrix (4, 4).
 
-    Examples
-    --------
     >>> problem_of(2.0 * np.eye(4), 1e-9)[:37]
     'makes light up to 2 times as bright ('
     """
@@ -106,8 +100,6 @@ def cure_of(matrices: Array, tolerance: float) -> str:
 
     Shape: matrices (..., 4, 4).
 
-    Examples
-    --------
     >>> cure_of(2.0 * np.eye(4), 1e-9)
     'matrix / 2'
     """
@@ -172,8 +164,6 @@ def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
 
     Shapes: matrix (..., 4, 4); noise (...); arriving, made (..., 4); returns (...).
 
-    Examples
-    --------
     >>> light = np.array([1.0, 0.0, 0.0, 1.0])
     >>> print(becomes_no_light(np.eye(4), 0.0, light, np.array([1.0, 0.0, 0.0, 1.7])))
     True

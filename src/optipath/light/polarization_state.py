@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 def ratio(part: Any, whole: Any) -> Any:
     """Return a part over the whole: 0 where that is 0, and NaN where it is infinite.
 
-    Examples
-    --------
     >>> ratio(np.array([1.0, 1.0, 1.0]), np.array([4.0, 0.0, np.inf]))
     array([0.25, 0.  ,  nan])
     """
@@ -41,8 +39,6 @@ def ratio(part: Any, whole: Any) -> Any:
 def length(*components: Any) -> Any:
     """Return the length of a vector from its components, however small; at 0 its slope is 0.
 
-    Examples
-    --------
     >>> print(length(np.float64(3e-200), np.float64(4e-200)))
     5e-200
     """
@@ -66,8 +62,6 @@ def direction(y: Any, x: Any) -> Any:
 
     Units: the result in radians.
 
-    Examples
-    --------
     >>> print(direction(np.float64(-0.0), np.float64(-1.0)).round(4))
     3.1416
     """
@@ -82,8 +76,6 @@ def shares(stokes: Array) -> Array:
 
     Shapes: stokes (..., 4); returns (..., 4).
 
-    Examples
-    --------
     >>> shares(np.array([2.0, 1.0, 0.0, 0.0]))
     array([1. , 0.5, 0. , 0. ])
     """
@@ -95,8 +87,6 @@ def polarised(stokes: Array) -> tuple[Array, Array, Array]:
 
     Shapes: stokes (..., 4); returns (...).
 
-    Examples
-    --------
     >>> [part.item() for part in polarised(np.array([2.0, 1.0, 0.0, 0.5]))]
     [0.5, 0.0, 0.25]
     """
@@ -109,8 +99,6 @@ def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
 
     Shapes: numbers (..., 4); floor (...); returns (...).
 
-    Examples
-    --------
     >>> [part.item() for part in ellipse_of(np.array([2.0, 1.0, 1e-9, 0.5]), np.array(1e-8))]
     [0.5, 0.0, 0.25]
     """
@@ -125,8 +113,6 @@ def minor_over_major(s1: Array, s2: Array, s3: Array) -> Array:
 
     Shapes: s1, s2, s3 (...); returns (...).
 
-    Examples
-    --------
     >>> print(minor_over_major(np.float64(0.3), np.float64(0.0), np.float64(-0.4)))
     -0.5
     """
@@ -142,8 +128,6 @@ def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Ar
 
     Shapes: value (...); stokes (..., 4); floor (...); returns (...).
 
-    Examples
-    --------
     >>> print(where_there(0.5, np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-16), 1, 2))
     nan
     """
@@ -159,8 +143,6 @@ def turned_stokes(stokes: Array, turn: Any) -> Array:
 
     Shapes: stokes (..., 4); returns (..., 4).
 
-    Examples
-    --------
     >>> from optipath.light.frame import Frame
     >>> quarter = Frame().turn_to(Frame().turned(np.pi / 4))
     >>> turned_stokes(np.array([1.0, 1.0, 0.0, 0.5]), quarter).round(12)
@@ -184,8 +166,6 @@ def check_physical(stokes: Array) -> None:
 
     Shape: stokes (..., 4).
 
-    Examples
-    --------
     >>> check_physical(np.array([1.0, 0.6, 0.0, np.nan]))
     """
     endless = np.asarray(np.isinf(stokes).any(axis=-1))
@@ -204,8 +184,6 @@ def check_physical(stokes: Array) -> None:
 def problem_of(vector: Array) -> str:
     """Say why a Stokes vector is no light.
 
-    Examples
-    --------
     >>> problem_of(np.array([1.0, 3.0, 0.0, 4.0]))
     'polarised by 500 %'
     """
@@ -225,8 +203,6 @@ def nearest_light(stokes: Any) -> Any:
 
     Shapes: stokes (..., 4); returns (..., 4).
 
-    Examples
-    --------
     >>> nearest_light(np.array([[1.0, 3.0, 0.0, 4.0], [-1.0, 0.5, 0.0, 0.0]]))
     array([[1. , 0.6, 0. , 0.8],
            [0. , 0. , 0. , 0. ]])

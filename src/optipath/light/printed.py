@@ -25,8 +25,6 @@ def text_of(numbers: Any, frame: Frame, exponent: Array) -> str:
 
     Shapes: numbers (..., 4); exponent (...).
 
-    Examples
-    --------
     >>> text_of(np.array([1.0, 0.0, 0.0, 0.5]), Frame(), np.array(-5000))
     'Light([1. , 0. , 0. , 0.5], exponent=-5000)'
     """

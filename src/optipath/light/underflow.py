@@ -28,8 +28,6 @@ def times_two_to(parts: Array, power: Any) -> Array:
 
     Shapes: parts (..., n); power (...); returns (..., n).
 
-    Examples
-    --------
     >>> times_two_to(np.array([1.0, 0.0, 0.0, 0.5]), -1)
     array([0.5 , 0.  , 0.  , 0.25])
     """
@@ -43,8 +41,6 @@ def normalise_exponent(parts: Array, exponent: Any) -> tuple[Array, Array]:
 
     Shapes: parts (..., n); exponent (...); returns parts (..., n), exponent (...).
 
-    Examples
-    --------
     >>> normalise_exponent(np.array([6.0, 0.0, 0.0, 3.0]), 0)
     (array([0.75 , 0.   , 0.   , 0.375]), array(3))
     """
@@ -58,8 +54,6 @@ def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
 
     Shapes: stokes (..., 4); exponent (...); returns stokes (..., 4), exponent (...).
 
-    Examples
-    --------
     >>> folded(np.array([[0.5, 0, 0, 0], [0.5, 0, 0, 0]]), np.array([1, -5000]))[1]
     array([    0, -5000])
     """
@@ -74,8 +68,6 @@ def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
 
     Shapes: stokes (..., 4); exponent (...); returns stokes (..., 4), exponent (...).
 
-    Examples
-    --------
     >>> rounded_to(np.dtype("f4"), np.array([1e-300, 0.0, 0.0, 0.0]), 0)[1]
     array(-996)
     """
@@ -88,8 +80,6 @@ def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
 def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     """Tell where light is so weak that what underflows on the way may be seen in it.
 
-    Examples
-    --------
     >>> underflows(np.array([1e-300, 1.0]))
     array([ True, False])
     """
@@ -99,8 +89,6 @@ def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
 def given_exponent(given: Any) -> Array:
     """Return the exponent that somebody gives for light, of integers.
 
-    Examples
-    --------
     >>> given_exponent([-5, 0])
     array([-5,  0])
     """
@@ -116,8 +104,6 @@ def given_exponent(given: Any) -> Array:
 def same_numbers(one: tuple[Any, Array], two: tuple[Any, Array]) -> bool:
     """Tell whether two mantissas with their exponents are the same lights.
 
-    Examples
-    --------
     >>> faint = np.array([0.5, 0.0, 0.0, 0.0])
     >>> same_numbers((faint, np.array(1)), (2.0 * faint, np.array(0)))
     True

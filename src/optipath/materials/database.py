@@ -157,8 +157,6 @@ def page_curve(
 def source_of(contents: Any) -> str:
     """Return the references of a page as plain text.
 
-    Examples
-    --------
     >>> source_of({"REFERENCES": "A. Author.<br> <i>J. Opt.</i> <b>1</b>, 2 (1990)"})
     'A. Author. J. Opt. 1, 2 (1990)'
     """

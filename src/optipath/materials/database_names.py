@@ -326,8 +326,6 @@ CURATED = (
 def alike(name: str) -> str:
     """Return a name in small letters, with spaces for hyphens and underscores.
 
-    Examples
-    --------
     >>> alike("Fused_Silica"), alike("quartz-o")
     ('fused silica', 'quartz o')
     """
@@ -338,8 +336,6 @@ def alike(name: str) -> str:
 def curated_names() -> dict[str, CuratedName]:
     """Return what each name stands for, as `alike` writes it.
 
-    Examples
-    --------
     >>> curated_names()["aluminum"].place
     'main/Al/Rakic'
     """

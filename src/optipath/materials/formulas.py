@@ -88,8 +88,6 @@ def _plain(given: Any) -> Any:
 def read_span(owner: str, span: Any) -> tuple[float, float]:
     """Return the least and the largest wavelength that a formula holds for, in metres.
 
-    Examples
-    --------
     >>> read_span("span of a glass", ("400 nm", "1 um"))
     (4e-07, 1e-06)
     """
@@ -111,8 +109,6 @@ class Sellmeier(FormulaCurve):
 
     Units: c in square micrometres; resonances in micrometres.
 
-    Examples
-    --------
     >>> from optipath.values.curve_value import curve_values
     >>> float(curve_values(Sellmeier("x", [1.25], [0.0]), 5e-7)[0])
     1.5
@@ -177,8 +173,6 @@ class Cauchy(FormulaCurve):
 
     Units: coefficients in square micrometres.
 
-    Examples
-    --------
     >>> from optipath.values.curve_value import curve_values
     >>> float(curve_values(Cauchy("x", [1.5, 0.004]), 5e-7)[0])
     1.516
@@ -220,8 +214,6 @@ MICROMETRES = 1e6
 def several(name: str, values: Any) -> tuple[Any, ...]:
     """Return coefficients as a tuple.
 
-    Examples
-    --------
     >>> several("b", [1.0, 2])
     (1.0, 2)
     """
@@ -238,8 +230,6 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
 def oscillators_of(label: str, rows: Any, names: tuple[str, ...]) -> tuple[tuple[Any, ...], ...]:
     """Return the coefficients of oscillators, so many of each.
 
-    Examples
-    --------
     >>> oscillators_of("gold", [[0.02, 0.4]], ("strength", "energy"))
     ((0.02, 0.4),)
     """
@@ -371,8 +361,6 @@ class DispersionFormula(Curve):
 
     Units: coefficients in micrometres; known_span in metres.
 
-    Examples
-    --------
     >>> silica = [0, 0.6961663, 0.0684043, 0.4079426, 0.1162414, 0.8974794, 9.896161]
     >>> n = DispersionFormula("silica", 1, silica, (0.21e-6, 6.7e-6)).evaluated(589.3e-9)[0]
     >>> round(float(n), 5)

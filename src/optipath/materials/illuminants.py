@@ -154,8 +154,6 @@ def grid_fault(wavelengths: Any) -> str:
 
     Units: wavelengths in metres.
 
-    Examples
-    --------
     >>> grid_fault([500e-9, 600e-9]), grid_fault(500e-9)
     ('', 'are one wavelength alone')
     """
@@ -182,8 +180,6 @@ def grid_edges(wavelengths: Any) -> Any:
 
     Shapes: wavelengths (n,); returns (n + 1,). Units: wavelengths in metres.
 
-    Examples
-    --------
     >>> grid_edges([400e-9, 500e-9, 700e-9]).round(9)
     array([400., 450., 600., 700.])
     """
@@ -199,8 +195,6 @@ def grid_widths(wavelengths: Any) -> Any:
 
     Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
 
-    Examples
-    --------
     >>> grid_widths([400e-9, 500e-9, 700e-9]).round(9)
     array([ 50., 150., 100.])
     """

@@ -21,8 +21,6 @@ from optipath.values.precision import held
 class Followed(Domain):
     """The numbers of a domain, or `FOLLOWS`, which stands for one of them.
 
-    Examples
-    --------
     >>> Followed("angle", "angle").parts("incidence", FOLLOWS)
     []
     """
@@ -43,8 +41,6 @@ class Followed(Domain):
 class Follows:
     """What stands for a value of the boundary before; `FOLLOWS` is the only one.
 
-    Examples
-    --------
     >>> FOLLOWS
     FOLLOWS
     """
@@ -89,8 +85,6 @@ the boundary before, refracted by Snell's law. Files write ``"follows"``.
 class NoAbsorption(Domain):
     """Extinction coefficients that are 0.
 
-    Examples
-    --------
     >>> NoAbsorption("k", why=", since light goes on in there").described()
     '0, since light goes on in there: take the medium without its k, such as Material(glass.n)'
     """

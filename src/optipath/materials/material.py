@@ -59,8 +59,6 @@ def _number(value: Any) -> Any:
 def index_of(text: str, asked: str = "") -> complex:
     """Return the number that a text stands for, which is no name of a material.
 
-    Examples
-    --------
     >>> index_of("0.2+3.4j")
     (0.2+3.4j)
     """

@@ -98,8 +98,6 @@ def is_curve(given: Any) -> bool:
 def is_by_wavelength(given: Any) -> bool:
     """Return whether something is put in place of a parameter: a material, or one curve.
 
-    Examples
-    --------
     >>> is_by_wavelength(Material(1.5)), is_by_wavelength(1.5)
     (True, False)
     """
@@ -109,8 +107,6 @@ def is_by_wavelength(given: Any) -> bool:
 def waits_for(given: Any) -> Sequence[str]:
     """Return the names of the parameters that a material or curve depends on; else none.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> waits_for(Material(1.5, Parameter("k"))), waits_for(Material(1.5))
     (['k'], [])
@@ -197,8 +193,6 @@ def single_value(
 ) -> Any:
     """Return what a text stands for: a number, a word of the parameter, or an axis.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> single_value(Parameter("delta", unit="deg"), "180", (), "deg")
     3.141592653589793

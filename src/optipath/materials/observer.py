@@ -92,8 +92,6 @@ class Observer:
 def observer_called(name: str) -> Observer:
     """Return a standard observer.
 
-    Examples
-    --------
     >>> observer = observer_called("CIE 1931 2 deg")
     >>> observer.functions.sum(axis=0).round(3)
     array([106.865, 106.857, 106.892])

@@ -39,8 +39,6 @@ _ABOVE_GAP = ("amplitude", "energy", "broadening", "gap")
 class DrudeLorentz(FormulaCurve):
     """Electrons that are free, and bound ones; energies in electronvolts.
 
-    Examples
-    --------
     >>> from optipath.values.curve_value import curve_values
     >>> n, k = curve_values(DrudeLorentz("a metal", 9.0, 0.02), 1e-6)
     >>> round(float(n), 4), round(float(k), 4)
@@ -91,8 +89,6 @@ class DrudeLorentz(FormulaCurve):
 class TaucLorentz(FormulaCurve):
     """Oscillators above a gap, of amorphous films; energies in electronvolts.
 
-    Examples
-    --------
     >>> from optipath.values.curve_value import curve_values
     >>> silicon = TaucLorentz("silicon", [(122.0, 3.45, 2.54, 1.2)], background=1.15)
     >>> n, k = curve_values(silicon, 500e-9)

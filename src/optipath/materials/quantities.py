@@ -53,8 +53,6 @@ from optipath.values.wavelength import Wavelength as WavelengthParameter
 def spectrum_meant(text: str) -> str:
     """Return the sentence for a text in place of a spectrum, if it names one.
 
-    Examples
-    --------
     >>> print(spectrum_meant("D65"))
     'D65' is no spectrum by itself; write op.Spectrum.illuminant("D65")
     """
@@ -78,8 +76,6 @@ def _is_wavelength(text: str) -> bool:
 class SpectralDomain(OptionalDomain):
     """Numbers that are not negative, of which a spectrum gives one for each wavelength; or None.
 
-    Examples
-    --------
     >>> SPECTRAL.parts("spectrum", None)
     []
     """
@@ -195,8 +191,6 @@ def plain(
 ) -> Any:
     """Return a value as JSON can hold it, in a unit; what is not finite is None.
 
-    Examples
-    --------
     >>> plain(0.5 + 0.1j), plain(1.5 + 0.1j, "", ("n", "k"))
     ({'re': 0.5, 'im': 0.1}, {'n': 1.5, 'k': 0.1})
     """

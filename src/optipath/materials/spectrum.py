@@ -527,8 +527,6 @@ class Spectrum(Curve):
 def check_response(owner: str, response: Any) -> None:
     """Raise where a response is a spectrum with power in bins or lines.
 
-    Examples
-    --------
     >>> check_response("the response", Spectrum.constant(0.5))
     """
     curve = getattr(response, "curve", response)
@@ -605,8 +603,6 @@ class WidthAtPeak(Domain):
 
     Units: peak in metres.
 
-    Examples
-    --------
     >>> round(WidthAtPeak("width", "length", peak=620e-9).parse("0.1 eV") * 1e9, 3)
     31.023
     """

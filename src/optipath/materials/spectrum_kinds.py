@@ -40,8 +40,6 @@ LENGTH_CURE = "for nanometres write '{0:g} nm', or {0:g}e-9"
 def one_number(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> float:
     """Return one number of a spectrum.
 
-    Examples
-    --------
     >>> one_number("power of a line", 2)
     2.0
     """
@@ -68,8 +66,6 @@ def several_numbers(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> Ar
 def some_wavelengths(owner: str, value: Any) -> Array:
     """Return wavelengths in metres, of numbers in metres or of texts.
 
-    Examples
-    --------
     >>> some_wavelengths("a grid", ["500 nm", "2.4 eV"]).round(10)
     array([5.000e-07, 5.166e-07])
     """
@@ -90,8 +86,6 @@ def refuse_longest(owner: str, metres: Any) -> None:
 def one_wavelength(owner: str, value: Any) -> float:
     """Return one wavelength in metres.
 
-    Examples
-    --------
     >>> one_wavelength("a line", "633 nm")
     6.33e-07
     """
@@ -305,8 +299,6 @@ class Lines(SpectrumKind):
 def called(lines: Sequence[EmissionLine]) -> str:
     """Return what sentences call some lines.
 
-    Examples
-    --------
     >>> called([EmissionLine(633e-9, 1.0)])
     'the line at 633 nm'
     """
@@ -324,8 +316,6 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> np.ndar
 
     Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
 
-    Examples
-    --------
     >>> density_of_lines([EmissionLine(500e-9, 2.0)], [400e-9, 490e-9, 600e-9]).round(9)
     array([0.  , 0.02, 0.  ])
     """

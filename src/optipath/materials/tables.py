@@ -30,8 +30,6 @@ class Tabulated(Curve):
 
     Shapes: wavelengths (n,); columns (n,). Units: wavelengths in metres; unit in radians.
 
-    Examples
-    --------
     >>> gold = Tabulated("gold", ("n",), ["500 nm", "600 nm"], [[0.9, 0.3]])
     >>> gold.evaluated(5.5e-7)[0].round(12).item()
     0.6
@@ -214,8 +212,6 @@ def monotone_slopes(places: Array, values: Array) -> Array:
 
     Shapes: places (n,); values (n,); returns (n,).
 
-    Examples
-    --------
     >>> monotone_slopes(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 1.0]))
     array([1.5, 0. , 0. ])
     """
@@ -247,8 +243,6 @@ class PageCurve(Curve):
 
     Units: within in metres.
 
-    Examples
-    --------
     >>> from optipath.materials.tables import Tabulated
     >>> n = Tabulated("n", ("n",), [4e-7, 8e-7], [[1.5, 1.3]])
     >>> k = Tabulated("k", ("k",), [5e-7, 9e-7], [[0.0, 0.4]])

@@ -31,8 +31,6 @@ REFLECTS, REFRACTS = "R", "T"
 def event_faults(events: Any, count: int) -> list[str]:
     """Return what is wrong with the events of a chain, a sentence each.
 
-    Examples
-    --------
     >>> event_faults("RTR", 3)
     []
     >>> event_faults("rt", 2)
@@ -53,8 +51,6 @@ def event_faults(events: Any, count: int) -> list[str]:
 def passable(events: str, materials: Sequence[Any]) -> tuple[list[Any], list[str]]:
     """Return the media of a chain, and why light cannot go on in some of those that it should.
 
-    Examples
-    --------
     >>> passable("RT", (1.5 + 2j, 1.5))
     ([(1.5+2j), 1.5], [])
     """
@@ -80,8 +76,6 @@ def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
 def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[Any]:
     """Return the medium that light comes from at each vertex.
 
-    Examples
-    --------
     A pane with an echo in it:
 
     >>> media_in_front("TRT", (1.5, 1.0, 1.0), 1.0)
@@ -113,8 +107,6 @@ def letters_given(events: Any, count: int) -> Letters:
 
     Shapes: events (..., count); returns (..., count).
 
-    Examples
-    --------
     >>> letters_given(["RT", "T"], 2).tolist()
     [[82, 84], [84, 0]]
     """
@@ -139,8 +131,6 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
 
     Shapes: letters (..., count); lengths (...); returns (..., count).
 
-    Examples
-    --------
     >>> events_of(letters_given(["RTR", "T"], 3), None)
     array([[0., 1., 0.],
            [1., 2., 2.]])
@@ -193,8 +183,6 @@ def lengths_given(lengths: Any, count: int) -> Whole:
 
     Shape: lengths (...).
 
-    Examples
-    --------
     >>> lengths_given([1, 3], 3)
     array([1, 3])
     """
@@ -219,8 +207,6 @@ def whole_numbers(what: str, given: Any) -> npt.NDArray[Any]:
 def number_of(numbers: npt.NDArray[Any], bad: npt.NDArray[np.bool_]) -> str:
     """Return the first number that is bad, as sentences have it.
 
-    Examples
-    --------
     >>> number_of(np.array([1.0, 2.5]), np.array([False, True]))
     '2.5'
     """
@@ -232,8 +218,6 @@ def has_ended(lengths: Whole, count: int) -> npt.NDArray[np.bool_]:
 
     Shapes: lengths (...); returns (..., count).
 
-    Examples
-    --------
     >>> has_ended(np.array([1, 2]), 2).tolist()
     [[False, True], [False, False]]
     """

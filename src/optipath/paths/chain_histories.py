@@ -55,8 +55,6 @@ def histories(
 ) -> tuple[Histories, list[str]]:
     """Return what is told of chains, and what is wrong with it.
 
-    Examples
-    --------
     >>> told, faults = histories((1.5, 1.0), ["TT", "R"], None, None, (2,))
     >>> told.events.tolist(), faults
     ([[1.0, 1.0], [0.0, 2.0]], [])
@@ -120,8 +118,6 @@ def masked(chains: Histories, bad: npt.NDArray[np.bool_]) -> Histories:
 def numbers_of_events(chains: Histories) -> Floats:
     """Return the events of histories by numbers, shape (..., m).
 
-    Examples
-    --------
     >>> numbers_of_events(Histories((1.5, 1.0), "RT"))
     array([0., 1.])
     """
@@ -158,8 +154,6 @@ def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray
 
     Shapes: numbers (..., m); ended (..., m).
 
-    Examples
-    --------
     >>> ended = np.array([[False, False], [False, True]])
     >>> ids_within(np.array([[0, 1], [1, -1]]), 2, ended).tolist()
     [[0, 1], [1, 0]]
@@ -185,8 +179,6 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tupl
 
     Shape: ids (..., m).
 
-    Examples
-    --------
     >>> media_by_ids([1.5, 1.0], np.array([[0, 1], [1, 1]]))
     (array([1.5, 1. ]), array([1., 1.]))
     """
@@ -216,8 +208,6 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tupl
 def index_parts(name: str, medium: Any, why: str) -> tuple[Floats, Floats]:
     """Return n and k of a medium as numbers.
 
-    Examples
-    --------
     >>> index_parts("gold", 0.2 + 3j, "")
     (array(0.2), array(3.))
     """

@@ -44,8 +44,6 @@ def known(value: Any) -> Any:
 def known_index(medium: Any) -> Floats | None:
     """Return n of a medium; None where it is not known, or absorbs.
 
-    Examples
-    --------
     >>> known_index(1.5), known_index(Parameter("n")), known_index(1.5 + 2j)
     (array(1.5), None, None)
     """
@@ -66,8 +64,6 @@ def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | No
 
     Shape: returns (..., m, 2).
 
-    Examples
-    --------
     >>> sides_of("RT", (1.5, 1.5), 3.0)
     array([[1. , 1. ],
            [1. , 0.5]])
@@ -88,8 +84,6 @@ def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | No
 def over_the_larger(n1: Any, n2: Any, refracts: Any, otherwise: Any = 1.0) -> tuple[Any, Any]:
     """Return the indices on both sides of a vertex as normals need them.
 
-    Examples
-    --------
     >>> [float(n) for n in over_the_larger(1.5, 3.0, True)]
     [0.5, 1.0]
     """
@@ -118,8 +112,6 @@ def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[
 
     Shape: events (..., m).
 
-    Examples
-    --------
     A pane, from which some light comes back:
 
     >>> events = np.array([[1.0, 1.0], [1.0, 0.0]])

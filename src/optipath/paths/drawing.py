@@ -30,8 +30,6 @@ _FEW, _PLANE = 4, 2
 def draw(path: PathGraph) -> str:
     """Return the drawing.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> print(draw(op.load_preset("malus")).splitlines()[0])
     lamp       source     intensity=$intensity
@@ -61,8 +59,6 @@ def draw(path: PathGraph) -> str:
 def element_values(element: Element) -> list[str]:
     """Return the values of an element that are not the usual ones, each with its name.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> element_values(op.Interface(index=op.Parameter("n"), incidence="56 deg"))
     ['index=$n', 'incidence=56 deg']
@@ -80,8 +76,6 @@ def element_values(element: Element) -> list[str]:
 def value_text(value: Any, unit: str) -> str:
     """Return a value of an element as a drawing shows it: ``$name`` for a parameter.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> value_text(2 * op.Parameter("a"), "deg"), value_text([1.5], "")
     ('2 * $a', '[1.5]')

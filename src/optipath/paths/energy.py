@@ -49,8 +49,6 @@ class EnergyAlong(NamedTuple):
 
     Shapes: given (...); taken (...); left (...); ended (...).
 
-    Examples
-    --------
     >>> import optipath as op
     >>> found = energy_along(op.load_preset("malus"), angle="60 deg")
     >>> {name: float(power.round(3)) for name, power in found.taken.items()}
@@ -79,8 +77,6 @@ class EnergyAlong(NamedTuple):
 def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     """Return where the power of the light of a path comes from and goes.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> found = energy_along(op.load_preset("two-panes"))
     >>> {name: float(power.round(3)) for name, power in found.left.items()}
@@ -173,8 +169,6 @@ class LightOnLink(NamedTuple):
 def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     """Return the light on every link, and what leaves the path, in the order of travel.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> path = op.load_preset("two-panes")
     >>> for each in lights_along(path):

@@ -30,8 +30,6 @@ _LONGEST = 12
 def name_by_kind(element: Element) -> str:
     """Return what a node of an element is called in a chain: its kind, or that of its class.
 
-    Examples
-    --------
     >>> from optipath.elements.splitters import BeamSplitter
     >>> from optipath.elements.element import Element
     >>> class WavePlate(Element): ...
@@ -223,8 +221,6 @@ def are_alike(first: Any, second: Any) -> bool:
 
     Units: first, second in radians.
 
-    Examples
-    --------
     >>> are_alike(0.7, 0.7 - 0.9 + 0.9), are_alike(0.7, 0.8)
     (True, False)
     """

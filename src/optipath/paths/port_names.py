@@ -21,8 +21,6 @@ _REFRACTED = "refracted"
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
     """Raise unless a port of a node is one of those given.
 
-    Examples
-    --------
     >>> from optipath.elements.splitters import BeamSplitter
     >>> try:
     ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
@@ -56,8 +54,6 @@ def natural_of(element: Element, *, out: bool) -> str:
 def natural_port(element: Element, owner: str, *, out: bool) -> str:
     """Return the natural port of a node.
 
-    Examples
-    --------
     >>> from optipath.elements.splitters import BeamSplitter
     >>> natural_port(BeamSplitter(), "bs", out=False)
     'in'

@@ -277,8 +277,6 @@ def _next_port(wiring: Wiring, node: str, behind: str) -> Port | None:
 def reversed_end(element: Element, source: Element | None = None) -> Element:
     """Return what stands on the way back where light began or ended.
 
-    Examples
-    --------
     >>> reversed_end(Source(100.0)), reversed_end(Dump()).intensity
     (Detector(reads='stokes', response=None), 0.0)
     """

@@ -44,8 +44,6 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
 
     Units: the result in radians.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> path = op.load_preset("glass-slab")
     >>> usual_range(path, "n"), usual_range(path, "intensity")
@@ -160,8 +158,6 @@ def _in_base_unit(number: float, parameter: Parameter) -> float:
 def _rounded_up(number: float) -> float:
     """Return the next round number, or the largest float.
 
-    Examples
-    --------
     >>> _rounded_up(4.24), _rounded_up(0.0), _rounded_up(200.0)
     (5.0, 0.0, 200.0)
     """

@@ -132,8 +132,6 @@ class Answers:
 def only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
     """Return the name that is given, or the only one.
 
-    Examples
-    --------
     >>> only("detector", ("eye",), "run_all()")
     'eye'
     """
@@ -149,8 +147,6 @@ def only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) 
 def by_place(ends: tuple[Any, ...], unnamed: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return what is given by its place, but for names of sources and detectors.
 
-    Examples
-    --------
     >>> by_place(("lamp", None), ()), by_place((0.3, None), (0.2,))
     ((), (0.3, 0.2))
     """

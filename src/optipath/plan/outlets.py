@@ -56,8 +56,6 @@ class LaterFrame:
 def kept(value: Any) -> Any:
     """Return a value that was given, or a copy of what somebody may change.
 
-    Examples
-    --------
     >>> given = np.ones(2)
     >>> kept(given) is given, kept(0.5)
     (False, 0.5)

@@ -233,8 +233,6 @@ _THIN = 64
 class Layout:
     """The axes of a batch; neighbours that all arrays have together, or lack, are one.
 
-    Examples
-    --------
     >>> layout = Layout((4, 3, 2), {"a": np.ones((4, 1, 1)), "b": np.ones((3, 2))})
     >>> layout.shape, layout.axes["b"]
     ((4, 6), frozenset({1}))
@@ -299,8 +297,6 @@ class Layout:
 def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Array:
     """Return what belongs to a part of the batch, still without the axes along which it is one.
 
-    Examples
-    --------
     >>> sliced(np.ones((3, 1)), (3, 5), (slice(0, 2), slice(1, 4))).shape
     (2, 1)
     """
@@ -337,8 +333,6 @@ class Piece(NamedTuple):
 def pieces(batch: tuple[int, ...], size: int) -> Iterator[Piece]:
     """Yield the parts of a batch in order, each of a size at most.
 
-    Examples
-    --------
     >>> [piece.where for piece in pieces((2, 3), 4)]
     [(slice(0, 1, None),), (slice(1, 2, None),)]
     """

@@ -4,13 +4,7 @@ from optipath.errors import need, public_names
 
 
 def check_matplotlib() -> None:
-    """Raise where Matplotlib is not installed.
-
-    Raises
-    ------
-    MissingExtraError
-        Which says what to install.
-    """
+    """Raise where Matplotlib is not installed."""
     need("pictures", "matplotlib")
 
 

@@ -95,8 +95,6 @@ def _toned(least: float, largest: float) -> Normalize:
 def _rounded(largest: float, length: float) -> tuple[float, ...]:
     """Return numbers such as 0.2, 0.5 and 1 that are apart on a bar of toned light.
 
-    Examples
-    --------
     >>> _rounded(0.9, 1.0)
     (0.005, 0.02, 0.05, 0.1, 0.2, 0.5)
     """

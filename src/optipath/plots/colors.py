@@ -30,8 +30,6 @@ DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1.5, 2)), (0, (9, 3)), (0,
 def positive(what: str, number: Any) -> list[str]:
     """Return the sentence for what is no number above 0; none for one that is, or for None.
 
-    Examples
-    --------
     >>> positive("largest", -1.0), positive("largest", 2), positive("largest", None)
     (['largest is -1.0; give a number above 0'], [], [])
     """

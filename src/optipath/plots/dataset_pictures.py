@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -69,7 +68,8 @@ def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
             "the light has components that are not read, and a sphere shows all; sweep "
             "path.reading('stokes')"
         )
-    sphere = import_module("optipath.plots").poincare
+    from optipath.plots.poincare_sphere import poincare as sphere  # noqa: PLC0415 - in space
+
     return sphere(Light(stokes), ax, by=along.numbers, label=along.labels[-1])
 
 

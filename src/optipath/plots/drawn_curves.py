@@ -153,8 +153,6 @@ def open_at_jumps(along: Numbers, angles: Numbers, period: float) -> tuple[Numbe
 
     Shape: along, angles (count,).
 
-    Examples
-    --------
     >>> along, angles = np.array([0.0, 1.0]), np.array([80.0, -80.0])
     >>> [each.tolist() for each in open_at_jumps(along, angles, 180.0)]
     [[0.0, 0.5, 0.5, 0.5, 1.0], [80.0, 90.0, nan, -90.0, -80.0]]

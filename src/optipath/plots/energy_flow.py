@@ -306,8 +306,6 @@ def energy_rows(found: EnergyAlong) -> EnergyRows:
     Light goes on in the lane of its element, and what parts from it in the next that is free;
     light that comes back goes up to the right of all others.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> from optipath.paths.energy import energy_along
     >>> rows = energy_rows(energy_along(op.load_preset("two-panes"))).rows
@@ -404,8 +402,6 @@ def bent(stations: list[tuple[float, float]]) -> Numbers:
 
     Shape: returns (..., 2).
 
-    Examples
-    --------
     >>> bent([(0.0, 0.0), (1.0, -1.0)])[[0, 12, -1]].tolist()
     [[0.0, 0.0], [0.5, -0.5], [1.0, -1.0]]
     """

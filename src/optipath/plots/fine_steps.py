@@ -44,8 +44,6 @@ class FineSteps(NamedTuple):
     def told(self, name: str) -> str:
         """Return what is to be said where lines are not near.
 
-        Examples
-        --------
         >>> FineSteps(np.zeros(721), np.zeros((721, 1)), resolved=False).told("wavelength")
         'it changes faster with wavelength than 721 points tell; give values in a smaller range'
         """
@@ -66,8 +64,6 @@ def fine_steps(
 
     Shapes: values (n,); numbers (n, k).
 
-    Examples
-    --------
     >>> bent = lambda x: np.maximum(x - 1.0, 0.0)[:, np.newaxis]
     >>> x = np.array([0.0, 1.0, 2.0])
     >>> fine_steps(x, bent(x), bent, on_picture=lambda y: y).values

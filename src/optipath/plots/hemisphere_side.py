@@ -230,8 +230,6 @@ class PixelQuantity(NamedTuple):
     def faults_of(self, mask: Any) -> list[str]:
         """Return sentences for what is no mask of it.
 
-        Examples
-        --------
         >>> QUANTITIES[0].faults_of({"noise": None})
         ['mask is given, but S0 has none; leave it out']
         """

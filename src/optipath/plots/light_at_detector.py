@@ -174,8 +174,6 @@ def _fill(
 def reads_of(path: PathGraph, end: str) -> str:
     """Return what an end of a path reads.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> reads_of(op.Source() >> op.Detector(reads="linear"), "detector")
     'linear'
@@ -219,8 +217,6 @@ class AlongAxis(NamedTuple):
     def labels(self) -> tuple[str, ...]:
         """What it is called, the longest wording first.
 
-        Examples
-        --------
         >>> import numpy as np
         >>> AlongAxis("theta", "deg", np.zeros(2), "angle of incidence, inside").labels
         ('theta: angle of incidence, inside (°)', 'theta: angle of incidence (°)', 'theta (°)')
@@ -235,8 +231,6 @@ class AlongAxis(NamedTuple):
     def default_text(self) -> str:
         """The value by default with its unit, to four digits; empty where there is none.
 
-        Examples
-        --------
         >>> import numpy as np
         >>> AlongAxis("theta", "deg", np.zeros(2), default=56.30993).default_text
         '56.31°'

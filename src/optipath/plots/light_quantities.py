@@ -107,8 +107,6 @@ def _ends(numbers: npt.NDArray[np.float64]) -> tuple[float, float]:
 def drawn_quantities(names: Any) -> list[DrawnQuantity]:
     """Return the quantities of some names, which may be written in small letters.
 
-    Examples
-    --------
     >>> [each.label for each in drawn_quantities(("s0", "AoP"))]
     ['S0: intensity', 'AoP: angle of polarisation (°)']
     """
@@ -149,8 +147,6 @@ Quantity = TypeVar("Quantity", bound=Named)
 def named_quantity(name: Any, quantities: Sequence[Quantity]) -> Quantity:
     """Return the quantity of a name.
 
-    Examples
-    --------
     >>> from optipath.plots.hemisphere_side import QUANTITIES
     >>> named_quantity("AoP", QUANTITIES).label
     'angle of polarisation (°)'

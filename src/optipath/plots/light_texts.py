@@ -23,8 +23,6 @@ MOST = len(LINES)
 def known_light(light: Any) -> Light:
     """Return what is a light, with numbers that are known.
 
-    Examples
-    --------
     >>> known_light(Light([1.0, 0.0, 0.0, 1.0])).shape
     ()
     """
@@ -42,8 +40,6 @@ def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
 
     Shape: light (n,).
 
-    Examples
-    --------
     >>> [*lights_to_draw(Light([[1.0, 0.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]]))]
     ['light[0]', 'light[1]']
     """
@@ -110,8 +106,6 @@ _MINUS = "\N{MINUS SIGN}"
 def digits(value: float, count: int = 4) -> str:
     """Return a number as a picture shows it.
 
-    Examples
-    --------
     >>> digits(0.25), digits(2e200), digits(0.1 + 0.2), digits(-0.0)
     ('0.25', '2e200', '0.3', '0')
     """
@@ -123,8 +117,6 @@ def digits(value: float, count: int = 4) -> str:
 def intensity_text(light: Light) -> str:
     """Return the intensity of one light, however faint.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> intensity_text(op.Light([0.5, 0.0, 0.0, 0.0]))
     'S0 = 0.5'
@@ -141,8 +133,6 @@ def intensity_text(light: Light) -> str:
 def no_ellipse(light: Light) -> str:
     """Return why one light has no ellipse; nothing where it has one.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> no_ellipse(op.Light([1.0, 0.0, 0.0, 0.0])), no_ellipse(op.Light([0.0, 0.0, 0.0, 0.0]))
     ('unpolarised', 'dark')
@@ -164,8 +154,6 @@ def no_ellipse(light: Light) -> str:
 def state_text(light: Light) -> str:
     """Return the state of polarisation of one light, its hand as `Light.handedness` has it.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> state_text(op.Light([1.0, 0.0, 0.6, 0.8])), state_text(op.Light([1.0, 0.0, 0.0, -1.0]))
     ('right-handed elliptical', 'left-handed circular')
@@ -183,8 +171,6 @@ def state_text(light: Light) -> str:
 def figures_text(light: Light) -> str:
     """Return the figures that one light has: intensity, DoP, AoP and the ratio of its axes.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> figures_text(op.Light([2.0, 0.0, 0.6, 0.8]))
     'S0 = 2, DoP = 0.5, AoP = 45°, b/a = 0.5'
@@ -202,8 +188,6 @@ def figures_text(light: Light) -> str:
 def angle_text(light: Light) -> str:
     """Return the angle of polarisation of one light in degrees.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> angle_text(op.Light([1.0, 0.0, 1.0, 0.0]))
     '45°'
@@ -216,8 +200,6 @@ def ellipse_points(light: Light, count: int = 73) -> npt.NDArray[np.float64]:
 
     Shapes: light (...); returns (..., count, 2).
 
-    Examples
-    --------
     >>> import optipath as op
     >>> ellipse_points(op.Light([1.0, 0.0, 0.0, 1.0]), 5).round(4) + 0.0
     array([[ 0.7071,  0.    ],

@@ -129,8 +129,6 @@ def _draw_cell(ax: Axes, row: int, column: int, value: float, scale: ColourScale
 def _cell_text(value: float) -> str:
     """Return a number of a cell, by three decimals, or by its power of ten where it is small.
 
-    Examples
-    --------
     >>> [_cell_text(value) for value in (1.0, 0.5, 0.12345, 0.0)]
     ['1', '0.5', '0.123', '0']
     """

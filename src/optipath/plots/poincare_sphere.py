@@ -166,8 +166,6 @@ def _name_ends(ax: Axes3D, points: npt.NDArray[np.float64], there: npt.NDArray[n
 def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = None) -> Axes3D:
     """Draw the light at a detector on the Poincaré sphere, coloured by a parameter.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> ax = parameter_trail(op.load_preset("malus"), "angle", "eye", "0 deg:90 deg:7")
     >>> [each.get_ylabel() for each in ax.figure.axes if each is not ax]
@@ -239,8 +237,6 @@ def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
 
     Shapes: points (..., 3); returns (...).
 
-    Examples
-    --------
     >>> is_near(np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]))
     array([ True, False])
     """
@@ -319,8 +315,6 @@ def sphere_point(light: Any) -> npt.NDArray[np.float64]:
 
     Shapes: light (...); returns (..., 3).
 
-    Examples
-    --------
     >>> import optipath as op
     >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0], exponent=-5000))
     array([0.5, 0. , 0. ])

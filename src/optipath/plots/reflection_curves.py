@@ -181,8 +181,6 @@ def _is_name(given: Any) -> bool:
 def _told_apart(behind: complex, front: complex) -> tuple[str, str]:
     """Return two indices with as many digits as it takes to tell one from the other.
 
-    Examples
-    --------
     >>> _told_apart(1.5, 1.0), _told_apart(1.00001, 1.0)
     (('1.5', '1'), ('1.00001', '1'))
     """
@@ -233,8 +231,6 @@ def reflected(index: complex, incidence: Numbers) -> Reflected:
 
     Shape: incidence (...). Units: incidence in radians.
 
-    Examples
-    --------
     >>> found = reflected(1.5, np.array(0.0))
     >>> print(found.s.round(3), found.dolp.round(3))
     0.04 0.0
@@ -248,8 +244,6 @@ def reflected(index: complex, incidence: Numbers) -> Reflected:
 def marked_angles(index: complex) -> list[MarkedAngle]:
     """Return the angles of a reflection that have names.
 
-    Examples
-    --------
     >>> [(each.name, round(float(np.degrees(each.angle)), 2)) for each in marked_angles(1 / 1.5)]
     [("Brewster's angle", 33.69), ('critical angle', 41.81)]
     """

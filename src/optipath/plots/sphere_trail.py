@@ -144,8 +144,6 @@ def _states(points: npt.NDArray[np.float64]) -> list[_State]:
 def _numbers(links: Sequence[int]) -> str:
     """Return numbers in order, runs by their ends.
 
-    Examples
-    --------
     >>> _numbers([1, 2, 3, 5])
     '1-3, 5'
     """

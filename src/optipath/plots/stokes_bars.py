@@ -209,8 +209,6 @@ def published_for(
 
     Shapes: published (..., 4); returns (4,).
 
-    Examples
-    --------
     >>> import optipath as op
     >>> light = op.Light([1.0, 0.5, 0.0, 0.0])
     >>> published_for([1.0, 0.49, 0.0, 0.0], light, {"eye": light})
@@ -253,8 +251,6 @@ _PLAIN = range(-3, 5)
 def without_noise(light: Light) -> Light:
     """Return light with 0 for what is no more than rounding.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> without_noise(op.load_preset("senarmont").trace()).stokes
     array([0., 0., 0., 0.])
@@ -267,8 +263,6 @@ def without_noise(light: Light) -> Light:
 def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float64]]) -> int:
     """Return over which power of ten some Stokes vectors are drawn; 0 where they need none.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> power_of_ten([op.Light([2e-300, 0.0, 0.0, 0.0])], []), power_of_ten([], [np.array([99.0])])
     (-300, 0)
@@ -286,8 +280,6 @@ def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]
 
     Shapes: stokes (4,); returns (4,).
 
-    Examples
-    --------
     >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)
     array([ 2.,  0., nan,  1.])
     """

@@ -25,8 +25,6 @@ _MEASURE = TextToPath()
 def width_of(text: str, points: float) -> float:
     """Return how wide a text is, in inches.
 
-    Examples
-    --------
     >>> width_of("iii", 14.0) < width_of("mmm", 14.0) < 1.0
     True
     """
@@ -38,8 +36,6 @@ def width_of(text: str, points: float) -> float:
 def shortened(text: str, inches: float, points: float) -> str:
     """Return a text, or its beginning, so that it is no wider.
 
-    Examples
-    --------
     >>> shortened("near the critical angle", 1.0, 14.0)
     'near th…'
     """
@@ -54,8 +50,6 @@ def shortened(text: str, inches: float, points: float) -> str:
 def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
     """Return lines that are no wider, made of words that stay whole where they fit.
 
-    Examples
-    --------
     >>> broken(["grazing,", "n near 0,", "metals"], 1.85, 14.0)
     ['grazing, n near 0,', 'metals']
     """
@@ -90,8 +84,6 @@ _SPHERE_LEAVES = 0.08
 def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
     r"""Return a text in lines that are no wider than some axes.
 
-    Examples
-    --------
     >>> from matplotlib.figure import Figure
     >>> fitting(Figure(figsize=(1.5, 1.5)).add_subplot(), "polarised part: 80 % of S0")
     'polarised part:\n80 % of S0'
@@ -118,8 +110,6 @@ def head(ax: Axes, text: str) -> None:
 def inches_wide(ax: Axes) -> float:
     """Return how wide axes are, in inches, before they are laid out.
 
-    Examples
-    --------
     >>> from matplotlib.figure import Figure
     >>> round(inches_wide(Figure(figsize=(4.0, 3.0)).add_subplot()), 3)
     3.1
@@ -165,8 +155,6 @@ def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> Legend:
 def missing_letters_as_boxes() -> Iterator[None]:
     """Let letters that the font lacks be drawn and measured as boxes, without a warning of each.
 
-    Examples
-    --------
     >>> from matplotlib.figure import Figure
     >>> figure = Figure()
     >>> _ = figure.text(0.5, 0.5, "\u5149")

@@ -236,8 +236,6 @@ def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[
 
     Shapes: photons (surfaces,); total, squares (surfaces, ...); returns mean, error (...).
 
-    Examples
-    --------
     One of two photons is reflected, on either surface:
 
     >>> one = np.array([1.0, 1.0])

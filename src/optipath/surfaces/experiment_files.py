@@ -30,8 +30,6 @@ _WHAT = "experiment"
 def experiment_names() -> list[str]:
     """Return the names of the experiments that come with the library, sorted.
 
-    Examples
-    --------
     >>> experiment_names()[0]
     'wang-2017-figure-4'
     """
@@ -41,8 +39,6 @@ def experiment_names() -> list[str]:
 def load_experiment(experiment: str | PathLike[str]) -> Experiment:
     """Return an experiment out of its file.
 
-    Examples
-    --------
     >>> print(load_experiment("wang-2017-table-1").source)
     M. Wang et al., Optics Express 25(19), 2017, table 1
     """

@@ -147,8 +147,6 @@ class FacetInputs(NamedTuple):
 def read_facets(given: Mapping[str, Any], masking: str, wavelength: Any) -> FacetInputs:
     """Return what is given as numbers.
 
-    Examples
-    --------
     >>> up = {"incoming": (0, 0, -1), "outgoing": (0, 0, 1)}
     >>> given = {"index": 0.5 + 2j, "outside": 1.0, "alpha": 0.3} | up
     >>> list(map(float, read_facets(given, "smith", None).media))
@@ -204,8 +202,6 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
 
     Shapes: direction (..., 3); returns (...).
 
-    Examples
-    --------
     >>> frame_along("outgoing", (0.6, 0.0, 0.8), up=True).x
     array([0., 1., 0.])
     """

@@ -37,8 +37,6 @@ _FARTHEST = 1e30
 def length_faults(what: str, value: object, cure: str = "") -> list[str]:
     """Return the sentence for what is no positive number; none for one that is.
 
-    Examples
-    --------
     >>> length_faults("alpha", -0.1), length_faults("alpha", 0.1)
     (['alpha must be a positive number, not -0.1'], [])
     """
@@ -50,8 +48,6 @@ def length_faults(what: str, value: object, cure: str = "") -> list[str]:
 def pair_of(what: str, value: Any, faults: list[str]) -> Pair:
     """Return positive numbers for x and for y, of one number or of a pair.
 
-    Examples
-    --------
     >>> pair_of("size", 400, [])
     (400.0, 400.0)
     """
@@ -77,8 +73,6 @@ def period_or_not(periodic: object) -> list[str]:
 def cells_of(cells: Any, faults: list[str]) -> tuple[int, int]:
     """Return how many cells there are along x and y, of one number or of a pair.
 
-    Examples
-    --------
     >>> cells_of((640, 320), [])
     (640, 320)
     """
@@ -94,8 +88,6 @@ def cells_of(cells: Any, faults: list[str]) -> tuple[int, int]:
 def seed_of(seed: Any, faults: list[str]) -> np.random.SeedSequence:
     """Return the sequence of seeds that a number stands for, or one that is given.
 
-    Examples
-    --------
     >>> seed_of(3, []).entropy
     3
     """
@@ -113,8 +105,6 @@ def seed_of(seed: Any, faults: list[str]) -> np.random.SeedSequence:
 def period_faults(alpha: Pair, size: Pair) -> list[str]:
     """Return the sentences for periods too short for random waves; none for long ones.
 
-    Examples
-    --------
     >>> period_faults((0.1, 0.1), (400.0, 400.0))
     []
     """
@@ -210,8 +200,6 @@ def correlation_lengths(
 ) -> tuple[float, float]:
     """Return how many correlation lengths, 2 / alpha, a surface of random waves has.
 
-    Examples
-    --------
     >>> correlation_lengths((1.0, 0.5), (80.0, 80.0))
     (40.0, 20.0)
     """
@@ -221,8 +209,6 @@ def correlation_lengths(
 def converged_cells(alpha: tuple[float, float], size: tuple[float, float]) -> tuple[int, int]:
     """Return how many cells are enough for light of any number of events.
 
-    Examples
-    --------
     >>> converged_cells((1.0, 0.5), (80.0, 80.0))
     (640, 320)
     """

@@ -401,8 +401,6 @@ class LargestOf(NamedTuple):
 
         Shape: values, errors (...).
 
-        Examples
-        --------
         >>> found = LargestOf.of([0.01, -0.05], [0.001, 0.005])
         >>> print(round(found.value, 3), found.is_below(0.07), found.is_above(0.03))
         0.05 True True

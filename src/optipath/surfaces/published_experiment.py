@@ -36,8 +36,6 @@ class Measurement:
     def agrees(self, value: float, error: float) -> bool | None:
         """Tell whether a value is the published one, as far as it is known.
 
-        Examples
-        --------
         >>> one = Measurement("adm", "7 to 8 %", Walks("60 deg", (), None), (0.07, 0.08))
         >>> one.agrees(0.083, 0.002), one.agrees(0.09, 0.002)
         (True, False)

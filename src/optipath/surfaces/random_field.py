@@ -122,8 +122,6 @@ class RandomWaves(NamedTuple):
         a single one of their power. The powers are then weighted with a polynomial of the
         squares of the wave vector, by some per cent, for the variances to be what they should.
 
-        Examples
-        --------
         >>> drawn = RandomWaves.drawn((0.3, 0.3), 1000, seed=1, period=(200.0, 200.0))
         >>> slopes = (drawn.amplitude * drawn.x_number) ** 2 / 2
         >>> round(float(slopes.sum()), 12) == 0.3**2 / 2

@@ -50,8 +50,6 @@ def reproduce(
 ) -> Iterator[Reproduced]:
     """Do an experiment again, and yield what is found, one after the other.
 
-    Examples
-    --------
     >>> from optipath.surfaces.experiment_files import load_experiment
     >>> mirror = load_experiment("wang-2017-table-2-alpha-0-4")
     >>> for one in reproduce(mirror, photons=10_000):

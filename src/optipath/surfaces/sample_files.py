@@ -38,8 +38,6 @@ def sample_names() -> list[str]:
 def sample_descriptions() -> dict[str, str]:
     """Return what each sample that comes with the library is, by name, without making it.
 
-    Examples
-    --------
     >>> sample_descriptions()["glass-rough"]
     'A rough face of glass, lit from the air'
     """

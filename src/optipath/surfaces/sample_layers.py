@@ -155,8 +155,6 @@ def layers_of(given: Any, faults: Faults) -> tuple[SampleLayer, ...]:
 def unused_faults(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool) -> list[str]:
     """Return a sentence for what is given of random fields and says nothing of those there are.
 
-    Examples
-    --------
     >>> from optipath.surfaces.sample_layers import SampleLayer
     >>> unused_faults([SampleLayer(1.5, (0.0, 0.0))], (640, 640), periodic=True)
     ['cells is given, but no interface is random; leave it out']
@@ -217,8 +215,6 @@ BASE = BaseDomain(_NAME)
 def medium_of(owner: str, value: Any, domain: Domain) -> float | complex | Material:
     """Return a medium as a sample keeps it.
 
-    Examples
-    --------
     >>> medium_of("outside", Material(1.5), CLEAR_MEDIUM), medium_of("base", "0.5+2.1j", BASE)
     (1.5, (0.5+2.1j))
     """

@@ -31,8 +31,6 @@ def smooth_path(indices: SampleIndices, side: str) -> PathGraph:
 
     Its parameter is the angle of ``incidence``.
 
-    Examples
-    --------
     >>> from optipath.surfaces.sample import Sample
     >>> path = smooth_path(Sample([(1.5, 0.1), (2.4, 0.1)]).indices(), "reflected")
     >>> print(path.trace(incidence="65 deg").intensity.round(5))
@@ -54,8 +52,6 @@ def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> floa
 
     Units: incidence in radians.
 
-    Examples
-    --------
     >>> from optipath.surfaces.sample import Sample
     >>> indices = Sample([(1.5, 0.1), (2.4, 0.1)]).indices()
     >>> print(round(100.0 * smooth_difference(indices, "60 deg", "reflected"), 3))
@@ -83,8 +79,6 @@ def smooth_exit(
 
     Units: incidence, exit_angle in radians.
 
-    Examples
-    --------
     Off n = 2.4 under a layer of 1.5, at 50 and 65 deg of incidence:
 
     >>> from optipath.surfaces.sample import Sample

@@ -197,8 +197,6 @@ def zipped_dimensions(
 ) -> dict[str, str]:
     """Return the dimension of each parameter that varies together with others.
 
-    Examples
-    --------
     >>> zipped_dimensions(("delta", "rho"), {"delta": 3, "rho": 3, "phi": 2}, [], [])
     {'delta': 'delta_rho', 'rho': 'delta_rho'}
     """
@@ -234,8 +232,6 @@ def zipped_dimensions(
 def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -> list[str]:
     """Return what is wrong with arrays along one dimension that may or may not vary together.
 
-    Examples
-    --------
     >>> shared_dimensions({"a": "x", "b": "x"}, {"a": "a_b", "b": "a_b"})
     []
     """

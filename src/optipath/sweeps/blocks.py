@@ -30,8 +30,6 @@ def keep_blocks(
 ) -> Path:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
-    Notes
-    -----
     A store that was made and has no block yet goes again where an error comes out, so that the job
     can be mended; but not where workers of a cluster may still be at it. Every block that
     is done stays, whatever ends the rest: an error of a block, which comes out as
@@ -39,8 +37,6 @@ def keep_blocks(
     not come back here. Sums over blocks are made of what the store holds, in the order of blocks,
     and so do not depend on who was first. Two runs may share a store.
 
-    Examples
-    --------
     >>> from tempfile import TemporaryDirectory
     >>> from types import SimpleNamespace
     >>> import numpy as np

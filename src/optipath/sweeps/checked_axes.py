@@ -103,8 +103,6 @@ _OPTIONS = frozenset(each.name for each in fields(Composer)) - {"keep"}
 def unknown_names(inputs: Inputs, given: Mapping[str, Any]) -> list[str]:
     """Return what is wrong with names that no parameter has.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> inputs = op.load_preset("malus").compose().inputs
     >>> unknown_names(inputs, {"engine": "numba", "dtype": "float32"})

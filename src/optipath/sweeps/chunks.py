@@ -120,8 +120,6 @@ _AT_ONCE = 1 << 18
 class BlockLight:
     """The light of all detectors, for the points of one block.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> from optipath.sweeps.labels import COMPONENTS
     >>> lights = op.Light([1.0, 0.0, 0.0, 0.0]), op.Light([2.0, 0.0, 0.0, 0.0])
@@ -178,8 +176,6 @@ BLOCK = 1 << 20
 def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> dict[str, int]:
     """Return how many values a block has along each dimension.
 
-    Examples
-    --------
     >>> chunk_sizes("auto", {"delta": 1000, "rho": 1000, "phi": 100})
     {'delta': 10, 'rho': 1000, 'phi': 100}
     >>> chunk_sizes({"delta": 250, "phi": -1}, {"delta": 1000, "rho": 1000, "phi": 100})

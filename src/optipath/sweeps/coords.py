@@ -144,8 +144,6 @@ _NO_UNIT = ("", NO_UNIT, "dimensionless")
 def is_labelled(value: Any, axes: int | None = None) -> bool:
     """Tell whether a value is a `DataArray`, without importing xarray.
 
-    Examples
-    --------
     >>> is_labelled([0.5])
     False
     """
@@ -157,8 +155,6 @@ def is_labelled(value: Any, axes: int | None = None) -> bool:
 def has_coordinates(value: Any) -> bool:
     """Tell whether a value is a `DataArray`, a `Dataset`, or the coordinates of one.
 
-    Examples
-    --------
     >>> has_coordinates({"delta": [0.5]})
     False
     """
@@ -171,8 +167,6 @@ def has_coordinates(value: Any) -> bool:
 def cure_of_table(name: str, value: Any) -> str:
     """Return what of a table is an axis; ``""`` for what is no table of several.
 
-    Examples
-    --------
     >>> cure_of_table("delta", [0.5])
     ''
     """

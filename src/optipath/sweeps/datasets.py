@@ -55,8 +55,6 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
 def attributes_of(quantity: LightQuantity) -> dict[str, str]:
     """Return the attributes of the variable of a quantity.
 
-    Examples
-    --------
     >>> from optipath.sweeps.labels import DERIVED
     >>> attributes_of(DERIVED[0])
     {'long_name': 'degree of polarisation', 'units': '1'}
@@ -102,8 +100,6 @@ def dataset_attributes(
 ) -> dict[str, str | float]:
     """Return the attributes of the Dataset of a sweep, texts and numbers.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> path = op.load_preset("malus")
     >>> attributes = dataset_attributes(path, path.compose())

@@ -7,7 +7,6 @@ have the least error is kept, of truncation and of rounding, each component of e
 
 from __future__ import annotations
 
-from importlib import import_module
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -78,8 +77,6 @@ def spread_of(changes: Any, correlation: npt.NDArray[np.float64]) -> Spread:
 
     Shapes: changes (..., 10, k); correlation (k, k).
 
-    Examples
-    --------
     >>> changes = np.zeros((10, 2))
     >>> changes[0] = 3.0, 4.0
     >>> print(spread_of(changes, np.eye(2)).uncertainties[0])
@@ -298,9 +295,10 @@ def slopes_of(light_at: LightAt, method: str) -> StokesSlopes:
 
 def _gradients(light_at: LightAt) -> StokesSlopes:
     need("gradients", "jax")
-    by_jax = import_module("optipath.sweeps.jax_slopes").slopes_by_jax
+    from optipath.sweeps.jax_slopes import slopes_by_jax  # noqa: PLC0415 - an extra
+
     try:
-        return StokesSlopes(by_jax(light_at), "gradients by JAX", 1e-12)
+        return StokesSlopes(slopes_by_jax(light_at), "gradients by JAX", 1e-12)
     except Exception as fault:  # noqa: BLE001 - an element of one's own may raise anything
         raise ParameterError(
             f"JAX does not trace this path, which raises {shown(fault)}; write method='differences'"

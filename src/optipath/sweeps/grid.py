@@ -123,8 +123,6 @@ _GROUP_LIMITS = ("memory.max", "memory/memory.limit_in_bytes")
 def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     """Refuse a sweep in memory that takes more than there is.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> from optipath.sweeps.axes import grid_of
     >>> plan = op.load_preset("malus").compose()
@@ -147,8 +145,6 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
 def bytes_of_a_point(plan: Plan, points: int) -> int:
     """Return how many bytes a run takes for each point: its results, and what is made on the way.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> bytes_of_a_point(op.load_preset("malus").compose(), 1_000_000)
     32
@@ -161,8 +157,6 @@ def bytes_of_a_point(plan: Plan, points: int) -> int:
 def free_memory() -> int:
     """Return how many bytes this process may still take.
 
-    Examples
-    --------
     >>> free_memory() > 2**20
     True
     """

@@ -174,8 +174,6 @@ def mark_of(about: str, stamps: Mapping[str, list[Any]]) -> bytes:
 def damaged_files(folder: Path, mark: str, about: str) -> Iterator[str]:
     """Yield the names of files that are not as a mark says; its own name where it is damaged.
 
-    Examples
-    --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
@@ -247,8 +245,6 @@ def clear(place: Path) -> None:
 def place_of_blocks(store: str | PathLike[str]) -> Path:
     """Return where the blocks of a sweep are until all are there.
 
-    Examples
-    --------
     >>> place_of_blocks("sweep.zarr").name, place_of_blocks("sweep.nc").name
     ('sweep.zarr', '.sweep.nc.blocks')
     """

@@ -82,8 +82,6 @@ _BESIDE = {"psi": "Psi", "delta": "Delta"}
 def is_variable(name: str) -> bool:
     """Tell whether a column of a file is called as a variable of a sweep, at a detector or at all.
 
-    Examples
-    --------
     >>> is_variable("S0"), is_variable("DoP at camera"), is_variable("rho")
     (True, True, False)
     """
@@ -124,8 +122,6 @@ _ROWS = 1 << 16
 def heading(name: str, unit: str) -> str:
     """Return the heading of a column, with the unit of its numbers.
 
-    Examples
-    --------
     >>> heading("delta", "deg"), heading("n1", "")
     ('delta (deg)', 'n1')
     """
@@ -135,8 +131,6 @@ def heading(name: str, unit: str) -> str:
 def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ...]]:
     """Yield parts of a grid in the order of its points.
 
-    Examples
-    --------
     >>> [[(cut.start, cut.stop) for cut in region] for region in regions((2, 3), 2)]
     [[(0, 1), (0, 2)], [(0, 1), (2, 3)], [(1, 2), (0, 2)], [(1, 2), (2, 3)]]
     """

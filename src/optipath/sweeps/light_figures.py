@@ -63,8 +63,6 @@ def rounding_of(light: Light) -> npt.NDArray[np.float64]:
 def place_of(quantity: object) -> int:
     """Return the place of a quantity among the figures.
 
-    Examples
-    --------
     >>> place_of("intensity"), place_of("S3"), place_of("dop"), place_of("DoP")
     (0, 3, 4, 4)
     """

@@ -184,8 +184,6 @@ def derived(quantity: LightQuantity, lights: tuple[SweptLight, ...]) -> Any:
 def stacked(parts: Sequence[Array]) -> Array:
     """Return arrays of one shape as one array, with an axis for them in front.
 
-    Examples
-    --------
     >>> rows = np.arange(12.0).reshape(3, 4)
     >>> np.shares_memory(stacked([rows[0], rows[2]]), rows), stacked([rows[0], rows[2]])[1, 0]
     (True, np.float64(8.0))
@@ -218,8 +216,6 @@ def quick_dataset(
 ) -> xr.Dataset:
     """Return what ``xarray.Dataset`` returns, in a third of the time.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> parts = {"S0": ("x", np.ones(2), {})}, {"x": ("x", np.arange(2.0), {})}, {}
     >>> quick_dataset(*parts).identical(xr.Dataset(*parts))

@@ -29,8 +29,6 @@ PATHS = 1 << 17
 def samples_at_once(shape: tuple[int, ...]) -> int:
     """Return how many samples of a batch of some shape run at once.
 
-    Examples
-    --------
     >>> samples_at_once((1000,))
     131
     """
@@ -204,8 +202,6 @@ class SampleMoments:
 
     Shape: intensity (...).
 
-    Examples
-    --------
     >>> moments = SampleMoments(1e-200)
     >>> moments.add(np.full((2, 10), [[1e-200], [3e-200]]))
     >>> print(moments.mean[0], f"{moments.deviation[0]:.3g}")

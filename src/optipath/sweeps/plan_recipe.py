@@ -32,8 +32,6 @@ class PlanRecipe:
 
     Each process makes the plan once, and compiles it or finds its own compiled code.
 
-    Examples
-    --------
     >>> import pickle
     >>> import optipath as op
     >>> recipe = PlanRecipe.of(op.load_preset("malus"))
@@ -138,8 +136,6 @@ class OwnClass(NamedTuple):
     def of(cls, element_class: type[Any]) -> OwnClass:
         """Return what tells a class from others.
 
-        Examples
-        --------
         >>> def made(factor):
         ...     class Times:
         ...         def of(self, x):

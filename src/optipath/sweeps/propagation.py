@@ -285,8 +285,6 @@ def notes_of_lost_figures(lost: Any) -> list[str]:
 
     Shape: lost (..., 10).
 
-    Examples
-    --------
     >>> notes_of_lost_figures(np.zeros(10, bool))
     []
     """
@@ -300,8 +298,6 @@ def notes_of_lost_light(lost: Any) -> list[str]:
 
     Shape: lost (...).
 
-    Examples
-    --------
     >>> notes_of_lost_light(np.array(False))
     []
     """

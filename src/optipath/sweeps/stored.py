@@ -39,8 +39,6 @@ if TYPE_CHECKING:
 def place_of_store(store: str | PathLike[str]) -> Path:
     """Return where a sweep is to be kept.
 
-    Examples
-    --------
     >>> place_of_store("sweep.csv")
     Traceback (most recent call last):
     optipath.errors.ParameterError: store 'sweep.csv' is neither a Zarr store nor a NetCDF file: \
@@ -295,8 +293,6 @@ _WIDTH = 40
 def progress_line(done: int, total: int) -> None:
     """Write over the last line of the terminal how far a sweep is.
 
-    Examples
-    --------
     >>> from contextlib import redirect_stderr
     >>> with redirect_stderr(sys.stdout):
     ...     progress_line(4, 4)

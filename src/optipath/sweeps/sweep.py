@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
@@ -93,15 +92,9 @@ def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
     return None
 
 
-_PICTURES = "optipath.plots"  # Whose room is above.
-_OF_DATASETS = f"{_PICTURES}.curves.dataset_pictures"
-
-
 class SweepPictures:
     """Pictures of the Dataset of a sweep, in memory, in chunks, or read from a file.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> sweep = op.load_preset("malus").sweep(angle="0 deg:90 deg:91")
     >>> sweep.optipath.curve("S0").get_xlabel()
@@ -142,8 +135,12 @@ class SweepPictures:
 
 
 def _drawn(picture: str, *given: Any) -> Any:
-    import_module(_PICTURES).check_matplotlib()
-    return getattr(import_module(_OF_DATASETS), picture)(*given)
+    from optipath.plots import check_matplotlib  # noqa: PLC0415 - pictures stand above sweeps
+
+    check_matplotlib()
+    from optipath.plots import dataset_pictures  # noqa: PLC0415 - an extra
+
+    return getattr(dataset_pictures, picture)(*given)
 
 
 if not hasattr(xr.Dataset, "optipath"):  # Else xarray warns, where this is loaded anew.

@@ -24,8 +24,6 @@ class UncertainValue(Unchanging):
 
     Units: value, sigma in radians.
 
-    Examples
-    --------
     >>> UncertainValue("k", np.array(0.1), np.array(0.2), 0.0, np.inf, "").leaves_its_range
     True
     """
@@ -86,8 +84,6 @@ def read_correlation(given: Any, names: Sequence[str]) -> tuple[npt.NDArray[np.f
 
     Shape: returns matrix (k, k).
 
-    Examples
-    --------
     >>> read_correlation({("n", "k"): 0.5}, ["n", "k"])[0]
     array([[1. , 0.5],
            [0.5, 1. ]])
@@ -135,8 +131,6 @@ def _wrong(pair: Any, coefficient: Any, names: Sequence[str]) -> str:
 def root_of(matrix: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Return a root R of a matrix of coefficients, R @ R.T, also where it is singular.
 
-    Examples
-    --------
     >>> root_of(np.eye(2))
     array([[1., 0.],
            [0., 1.]])

@@ -33,8 +33,6 @@ class Affine:
 
     It gives a multiple with an offset by arithmetic, and refuses all other arithmetic.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> (90 - 2 * Parameter("d")).formula
     '-2 * d + 90'
@@ -293,8 +291,6 @@ class Affine:
 def real_number(number: Any) -> float | None:
     """Return a finite real number as a float; None for what is none.
 
-    Examples
-    --------
     >>> real_number(2), real_number("2"), real_number(math.inf)
     (2.0, None, None)
     """

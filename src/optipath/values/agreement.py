@@ -152,8 +152,6 @@ def _number(operand: Operand, given: Mapping[str, Resolved]) -> Any:
 def text_of(operand: Operand, number: float, unit: str = "") -> str:
     """Write a number, and whose value it is.
 
-    Examples
-    --------
     >>> text_of(Operand(Parameter("n")), 1.5)
     "1.5 (parameter 'n')"
     >>> text_of(Operand(2 * Parameter("n")), 1.5)
@@ -173,8 +171,6 @@ def text_of(operand: Operand, number: float, unit: str = "") -> str:
 def is_single(xp: Any, numbers: Any) -> Any:
     """Tell of numbers whether they have been rounded to single precision.
 
-    Examples
-    --------
     >>> is_single(np, np.array([1.33, np.float32(1.33), 1.5]))
     array([False,  True, False])
     """

@@ -129,8 +129,6 @@ class CosSin(Unchanging):
 def within_right_angle(cos: Any, sin: Any) -> Any:
     """Return cosines; 0 where the angle is beyond a right one by the rounding it is given in.
 
-    Examples
-    --------
     >>> within_right_angle(np.cos(np.float32([np.pi / 2.0])), np.ones(1, np.float32))
     array([0.], dtype=float32)
     """
@@ -144,8 +142,6 @@ def within_right_angle(cos: Any, sin: Any) -> Any:
 def is_angle(cos: Any, sin: Any) -> bool:
     """Tell whether cosines and sines belong to angles, to the rounding in which they are given.
 
-    Examples
-    --------
     >>> is_angle(np.array(0.6), np.array(0.8)), is_angle(np.array(0.6), np.array(0.7))
     (True, False)
     """
@@ -187,8 +183,6 @@ def is_within_a_turn(low: Any, high: Any) -> bool:
 
     Units: low, high in radians.
 
-    Examples
-    --------
     >>> is_within_a_turn(0.0, 1.6), is_within_a_turn(0.0, math.inf)
     (True, False)
     """
@@ -201,8 +195,6 @@ def has_plain_degrees(low: float, high: float) -> bool:
 
     Units: low, high in radians.
 
-    Examples
-    --------
     >>> has_plain_degrees(0.0, 80.0), has_plain_degrees(0.0, math.pi)
     (True, False)
     """
@@ -217,8 +209,6 @@ def counts_degrees(scale: float) -> bool:
 def is_of_an_angle(scale: float) -> bool:
     """Tell whether a factor is one of angles, and not one that makes angles of pure numbers.
 
-    Examples
-    --------
     >>> is_of_an_angle(-1.0), is_of_an_angle(2.5), is_of_an_angle(math.pi / 180.0)
     (True, True, False)
     """
@@ -230,8 +220,6 @@ def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
 
     Units: number, allows in radians.
 
-    Examples
-    --------
     >>> meant_in_degrees(48.0, lambda angle: 0.0 <= angle <= 1.6)
     "; did you mean '48 deg' or np.radians(48)?"
     >>> meant_in_degrees(math.radians(100.0), lambda angle: 0.0 <= angle <= 1.6)
@@ -251,8 +239,6 @@ def called(
 
     Units: number in radians.
 
-    Examples
-    --------
     >>> called(5.0, "286 deg", "angle", (0.0, 1.6))
     ('5 rad, which is 286.479 deg', "; did you mean '5 deg' or np.radians(5)?")
     """
@@ -276,8 +262,6 @@ def _in_few_digits(text: str, dimension: str, limits: tuple[float, float]) -> st
 def _in_both(number: float) -> str:
     """Write an angle in radians and in degrees.
 
-    Examples
-    --------
     >>> _in_both(48.0)
     '48 rad, which is 2750.2 deg'
     """
@@ -296,8 +280,6 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
 
     The sentence is the same for all values, so that Python shows it once a place.
 
-    Examples
-    --------
     >>> warn_of_degrees("a turn", 1.0)
     >>> warn_of_degrees("a turn", "720 deg")
     """
@@ -331,8 +313,6 @@ def warn_of_two_factors(name: str, value: Any) -> None:
 def largest(value: Any) -> float:
     """Return the plain number of the largest size in a value, out of a thousand; 0 without any.
 
-    Examples
-    --------
     >>> largest([0.5, -90.0]), largest(["720 deg", 0.5]), largest(None)
     (-90.0, 0.5, 0.0)
     """

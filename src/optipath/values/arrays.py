@@ -71,8 +71,6 @@ def array_of(
 ) -> Array:
     """Return an array of a value, of float64 at least; words beside numbers stay words.
 
-    Examples
-    --------
     >>> array_of("a turn", [0.5, "none"]).tolist()
     [0.5, 'none']
     """
@@ -82,8 +80,6 @@ def array_of(
 def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
     """Return an array of a value, in the precision in which it is given.
 
-    Examples
-    --------
     >>> as_given("a turn", [0.5, 1.0])
     array([0.5, 1. ])
     """
@@ -117,8 +113,6 @@ def entries_of(
 ) -> tuple[Any, ...]:
     """Return the entries of a sequence, of which each may be an array or a parameter.
 
-    Examples
-    --------
     >>> entries_of("turns", "angles", [0.5, "30 deg"])
     (0.5, '30 deg')
     """
@@ -240,8 +234,6 @@ MOST_PATHS = 2**53
 def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
     """Return the shape that shapes broadcast to.
 
-    Examples
-    --------
     >>> joint_shape((3, 1), (), (4,))
     (3, 4)
     """
@@ -254,8 +246,6 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
     """Return the sentence that names shapes which do not broadcast, or nothing.
 
-    Examples
-    --------
     >>> print(*broadcast_fault({"delta": (7,), "rho": (4,)}))  # doctest: +NORMALIZE_WHITESPACE
     arrays do not broadcast together: delta (7,), rho (4,);
     make their axes equal or 1, as x[:, None] does
@@ -299,8 +289,6 @@ def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
 def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
     """Return an array of real numbers whose last axes are given; what is JAX's stays so.
 
-    Examples
-    --------
     >>> real_array("a Stokes vector", [1, 0, 0, 0], (4,))
     array([1., 0., 0., 0.])
     """
@@ -316,8 +304,6 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
 def place_text(shape: tuple[int, ...], at: int) -> str:
     """Say where something stands in an array, ready to be put behind it; nothing of one alone.
 
-    Examples
-    --------
     >>> place_text((5,), 3), place_text((2, 3), 4), place_text((), 0)
     (' at 3', ' at (1, 1)', '')
     """
@@ -328,8 +314,6 @@ def place_text(shape: tuple[int, ...], at: int) -> str:
 def first_place(bad: npt.NDArray[np.bool_]) -> str:
     """Say where the first of an array is true, as `place_text` does.
 
-    Examples
-    --------
     >>> first_place(np.array([False, True, True]))
     ' at 1'
     """
@@ -356,8 +340,6 @@ def refuse_too_large(
 ) -> None:
     """Refuse a batch that takes more memory than the machine has.
 
-    Examples
-    --------
     >>> refuse_too_large((1000, 1000), 32)
     """
     needed = prod(batch) * each
@@ -375,8 +357,6 @@ def enough_for(
 ) -> Iterator[None]:
     """Do what takes memory for each path of a batch, if there is enough of it.
 
-    Examples
-    --------
     >>> with enough_for((1000, 1000), 32):
     ...     pass
     """
@@ -390,8 +370,6 @@ def enough_for(
 def memory() -> int:
     """Return how many bytes of memory the machine has, or how many a process may take.
 
-    Examples
-    --------
     >>> memory() > 2**20
     True
     """
@@ -438,8 +416,6 @@ class Unchanging:
 def locked(value: Any) -> Any:
     """Return a value; an array of NumPy's, which nobody else has, is read-only from now on.
 
-    Examples
-    --------
     >>> locked(np.zeros(2)).flags.writeable
     False
     """
@@ -454,8 +430,6 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
     What is a read-only array of its own already stays what it is, and what is no array of
     numbers or words is kept as given, for validation to name.
 
-    Examples
-    --------
     >>> read_only([1.0, 2.0]).flags.writeable
     False
     """
@@ -481,8 +455,6 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
 def same(first: Any, second: Any) -> bool:
     """Tell whether two values are equal, arrays by shape and elements.
 
-    Examples
-    --------
     >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
     True
     """
@@ -503,8 +475,6 @@ def same(first: Any, second: Any) -> bool:
 def changed(value: T, **others: Any) -> T:
     """Return a copy of a frozen dataclass with other fields, of which nothing is checked again.
 
-    Examples
-    --------
     >>> from optipath.materials.material import Material
     >>> changed(Material(1.5), k=0.1)
     Material(n=1.5, k=0.1)
@@ -517,8 +487,6 @@ def changed(value: T, **others: Any) -> T:
 def same_fields(first: Any, second: Any) -> Any:
     """Tell whether two values of one dataclass have the same fields; for its ``__eq__``.
 
-    Examples
-    --------
     >>> from optipath.materials.material import Material
     >>> same_fields(Material(1.5), Material(1.5, 0.1))
     False
@@ -539,8 +507,6 @@ def numbers_for(
 ) -> Any:
     """Return a value with the number in place of each text that stands for one.
 
-    Examples
-    --------
     >>> from optipath.values.units import parse_quantity
     >>> numbers_for("a turn", ["180 deg", 0.5], lambda text: parse_quantity(text, "angle"))
     array([3.14159265, 0.5       ])
@@ -573,8 +539,6 @@ def numbers_for(
 def may_hold_texts(value: Any) -> bool:
     """Tell, quickly, whether a value is a text, or a list or an array of more than numbers.
 
-    Examples
-    --------
     >>> may_hold_texts("30 deg"), may_hold_texts(np.zeros(3)), may_hold_texts([0.5])
     (True, False, True)
     """

@@ -60,8 +60,6 @@ class Case:
 def name_faults(name: str) -> list[str]:
     """Return what is wrong with the name of a case, a sentence; nothing where it can be asked for.
 
-    Examples
-    --------
     >>> name_faults("7"), name_faults("all")
     ([], ["cases.all: 'all' stands for every case; give this one another name"])
     """

@@ -420,8 +420,6 @@ _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
 def split_heading(head: str) -> tuple[str, str]:
     """Return what a column is called, and its unit; ``""`` for none.
 
-    Examples
-    --------
     >>> split_heading("delta (deg)"), split_heading("wavelength_nm"), split_heading("n1")
     (('delta', 'deg'), ('wavelength', 'nm'), ('n1', ''))
     """
@@ -509,8 +507,6 @@ def _in_micrometres(cells: Sequence[str]) -> bool:
 def is_header(cells: Sequence[str]) -> bool:
     """Tell whether a line names a column of wavelengths.
 
-    Examples
-    --------
     >>> is_header(["wl", "k"]), is_header(["0.5", "1.2"])
     (True, False)
     """
@@ -520,8 +516,6 @@ def is_header(cells: Sequence[str]) -> bool:
 def names_in(header: Sequence[str], names: Sequence[str]) -> list[str]:
     """Return those of some names that a first line has.
 
-    Examples
-    --------
     >>> names_in(["wl (um)", "N"], ["n", "k"])
     ['n']
     """
@@ -556,8 +550,6 @@ def places_of(
 def has_numbers(header: list[str]) -> bool:
     """Tell whether a first line has numbers alone, and no names.
 
-    Examples
-    --------
     >>> has_numbers(["500", "1.5"]), has_numbers(["wavelength (nm)", "n"])
     (True, False)
     """
@@ -623,8 +615,6 @@ of X-rays are usual in eV, and those of the far infrared in THz and 1/cm.
 def unit_doubted(metres: Sequence[float], unit: str) -> str:
     """Return why the unit of a table of wavelengths is most likely another one, if it is.
 
-    Examples
-    --------
     >>> print(unit_doubted([400e-6, 500e-6], "um"))  # doctest: +NORMALIZE_WHITESPACE
     the wavelengths are 400 um .. 500 um, which are most likely nm; give the unit nm, or, where
     they are meant, each with its unit, such as '400 um'

@@ -254,8 +254,6 @@ def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
 
     Units: wavelength in metres.
 
-    Examples
-    --------
     >>> is_within(830 * 1e-9, (300e-9, 830e-9)), 830 * 1e-9 <= 830e-9
     (True, False)
     """
@@ -291,8 +289,6 @@ class WavelengthRange(WavelengthDomain):
 def span_text(span: tuple[float, float]) -> str:
     """Return a range of wavelengths in nanometres.
 
-    Examples
-    --------
     >>> span_text((1.88e-7, 1.937e-6)), span_text((0.0, np.inf))
     ('188 nm .. 1937 nm', 'any wavelength')
     >>> span_text((4.959367937328011e-07, 1e-6))

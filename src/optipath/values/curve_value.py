@@ -350,8 +350,6 @@ def with_bounds_hint(
 ) -> list[str]:
     """Return sentences on a value; where it is one number beyond its limits, with `bounds=`.
 
-    Examples
-    --------
     >>> with_bounds_hint(["k is -0.1; give 0 or more"], -0.1, (0.0, 9.0), [])
     ['k is -0.1; give 0 or more (in a fit, give the optimiser bounds=)']
     """
@@ -379,8 +377,6 @@ def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Do
 def curve_at(curve: Curve, wavelength: Any = None) -> tuple[Any, ...]:
     """Return what stands for each part of a curve.
 
-    Examples
-    --------
     >>> from optipath.materials.tables import Tabulated
     >>> table = Tabulated("gold", ("n",), ["500 nm", "600 nm"], [[0.9, 0.3]])
     >>> curve_at(table, "500 nm"), curve_at(table)

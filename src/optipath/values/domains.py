@@ -93,8 +93,6 @@ class Domain:
     def allows(self, numbers: Any) -> Any:
         """Return which numbers of an array are allowed, or for which paths; JAX's as well.
 
-        Examples
-        --------
         >>> Domain("share", minimum=0.0, maximum=1.0).allows(np.array([0.5, 2.0, np.nan]))
         array([ True, False, False])
         """
@@ -205,8 +203,6 @@ class Domain:
 def in_unit_of(value: Any, domain: Domain) -> Any:
     """Return a value; a parameter without a unit gets the usual one of a domain.
 
-    Examples
-    --------
     >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
     'deg'
     """
@@ -241,8 +237,6 @@ class Choice(Domain):
 class YesNo(Choice):
     """True or False; ``true`` or ``false`` in files.
 
-    Examples
-    --------
     >>> YesNo("whether it is measured").check("X1.measured", True)
     True
     """
@@ -270,8 +264,6 @@ class YesNo(Choice):
 class FractionDomain(Domain):
     """Real numbers of 0 to 1.
 
-    Examples
-    --------
     >>> FractionDomain("fraction", minimum=0.0, maximum=1.0).called(50.0)
     ('50', '; did you mean 0.5?')
     """
@@ -290,8 +282,6 @@ class FractionDomain(Domain):
 class ExtinctionDomain(Domain):
     """Ratios of what is wanted to what is not, beyond 1; infinite where nothing of that is left.
 
-    Examples
-    --------
     >>> ExtinctionDomain("extinction ratio", minimum=1.001).parse("1000:1")
     1000.0
     """
@@ -311,8 +301,6 @@ class ExtinctionDomain(Domain):
 class OptionalDomain(Domain):
     """The numbers of a domain, or None.
 
-    Examples
-    --------
     >>> OptionalDomain("angle", "angle").parts("angle", None)
     []
     """
@@ -328,8 +316,6 @@ _LARGEST = sys.float_info.max
 def is_pair(value: Any) -> bool:
     """Tell whether a value is two real numbers written by hand; arrays are of several paths.
 
-    Examples
-    --------
     >>> is_pair((0.2, 3.4)), is_pair(["0.2", "3.4"]), is_pair((1.5, 1.6, 1.7))
     (True, True, False)
     >>> is_pair(np.array([0.2, 3.4]))
@@ -350,8 +336,6 @@ def pair_in(value: Any, domain: Domain) -> tuple[float, float] | None:
 def is_real(number: Any) -> bool:
     """Tell whether something is a finite real number, and no array of it.
 
-    Examples
-    --------
     >>> is_real(2), is_real(True), is_real(np.nan), is_real("2")
     (True, False, False, False)
     """
@@ -378,8 +362,6 @@ _COMPONENTS = 3
 class FirstComponentDomain(Domain):
     """The first component of a rotation vector, of which three may be the vector itself.
 
-    Examples
-    --------
     >>> FirstComponentDomain("component of a rotation vector", "angle").doubt("s1", [0.1, 0.2])
     ''
     """
@@ -409,8 +391,6 @@ class WholeNumber(Domain):
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change.
 
-        Examples
-        --------
         >>> WholeNumber("place").kept(2.0)
         2
         """
@@ -422,8 +402,6 @@ class WholeNumber(Domain):
 class Refused(Domain):
     """No value at all.
 
-    Examples
-    --------
     >>> Refused("length", why="is missing; give it").check("Rod length", None)
     Traceback (most recent call last):
     optipath.errors.ValueFault: Rod length is missing; give it
@@ -556,8 +534,6 @@ class StokesDomain(Domain):
 def surely_light(stokes: npt.NDArray[Any]) -> bool:
     """Tell quickly, and never wrongly, whether all are light, polarised by 100 % at most.
 
-    Examples
-    --------
     >>> surely_light(np.array([[1.0, 0.6, 0.0, 0.8], [2.0, 0.0, 0.0, 0.0]]))
     True
     """
@@ -574,8 +550,6 @@ def can_be_light(stokes: Any, rounding: float) -> Any:
 
     Shapes: stokes (..., 4); returns (...).
 
-    Examples
-    --------
     >>> can_be_light(np.array([[1.0, 0.6, 0.0, 0.8], [1.0, 1.0, 1.0, 1.0]]), 0.0)
     array([ True, False])
     """

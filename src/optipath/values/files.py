@@ -30,8 +30,6 @@ LARGEST = 64 * 1024 * 1024
 def given_file(path: Any, error: type[OptipathError] = ValueFault) -> Path:
     """Return the path of a file that is to be read.
 
-    Examples
-    --------
     >>> given_file("lamp.csv").stem
     'lamp'
     """
@@ -68,8 +66,6 @@ def write_file(file: Path, content: bytes) -> None:
     A new file has the permissions that the umask leaves, one that is replaced keeps its own. A
     link is followed; what is no ordinary file, such as ``/dev/stdout``, is written to directly.
 
-    Examples
-    --------
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_file(Path(folder, "a.txt"), b"light")
@@ -97,8 +93,6 @@ def written_whole(file: Path) -> Iterator[IO[bytes]]:
 def drafted(file: Path) -> Iterator[Path]:
     """Let a file be written by others under the name of a draft, which is then moved to its place.
 
-    Examples
-    --------
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     with drafted(Path(folder, "a.txt")) as draft:

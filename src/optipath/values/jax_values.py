@@ -13,8 +13,6 @@ from optipath.errors import ParameterError
 def is_jax(value: Any) -> bool:
     """Tell whether a value is JAX's, without importing it.
 
-    Examples
-    --------
     >>> is_jax(1.0)
     False
     """
@@ -25,8 +23,6 @@ def is_jax(value: Any) -> bool:
 def is_traced(value: Any) -> bool:
     """Tell whether a value is one that JAX does not know yet, and so cannot be checked.
 
-    Examples
-    --------
     >>> is_traced(1.0)
     False
     """
@@ -40,8 +36,6 @@ def known(value: Any) -> Any:
 
     JAX itself would compute float64 in float32 where its x64 is off.
 
-    Examples
-    --------
     >>> known(1.0)
     1.0
     """
@@ -51,8 +45,6 @@ def known(value: Any) -> Any:
 def check_known(what: str, value: Any) -> None:
     """Raise where a value is one that JAX does not know yet.
 
-    Examples
-    --------
     >>> check_known("an exponent", 1)
     """
     if is_traced(value):

@@ -23,8 +23,6 @@ def kernel_values(
     Where JAX traces one of them, what comes out is JAX's, with its slopes, in the precision that
     JAX has; else it is NumPy's in float64.
 
-    Examples
-    --------
     >>> from optipath.kernels.fresnel.boundary import phase_index
     >>> kernel_values(phase_index, 1.5, 0.0, 1.0, 0.0)
     (array(1.5),)

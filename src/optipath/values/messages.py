@@ -51,8 +51,6 @@ def of_options(options: Mapping[str, str]) -> Iterator[None]:
 def argument(name: str, value: str = "") -> str:
     """Return how an argument is given where the fault is; nothing where no option gives it.
 
-    Examples
-    --------
     >>> argument("k", "0.0")
     'k=0.0'
     >>> with of_options({"k": "--k1"}):
@@ -68,8 +66,6 @@ def argument(name: str, value: str = "") -> str:
 def cure(python: str, file: str) -> str:
     """Return a cure as it is written where the fault is.
 
-    Examples
-    --------
     >>> cure("op.FOLLOWS", '"follows"')
     'op.FOLLOWS'
     >>> with of_files():
@@ -82,8 +78,6 @@ def cure(python: str, file: str) -> str:
 def how_to_give(name: str) -> str:
     """Return how a value is given for a parameter, where files are run at the command line.
 
-    Examples
-    --------
     >>> how_to_give("n_1")
     'n_1=...'
     >>> with of_files():
@@ -101,8 +95,6 @@ def how_to_give(name: str) -> str:
 def no_value(name: str) -> str:
     """Return the sentence for a parameter that nobody has given a value.
 
-    Examples
-    --------
     >>> no_value("n")
     "parameter 'n' has no value; give one, n=..."
     """
@@ -112,8 +104,6 @@ def no_value(name: str) -> str:
 def no_function(name: str, given: object, wanted: str) -> list[str]:
     """Return the sentence for what is no function; none for one, or for None.
 
-    Examples
-    --------
     >>> no_function("progress", 3, "two numbers"), no_function("progress", print, "two numbers")
     (['progress is 3; give a function of two numbers'], [])
     """
@@ -131,8 +121,6 @@ def check_named(
 ) -> None:
     """Refuse values that are given without a name.
 
-    Examples
-    --------
     >>> check_named("run", [0.5], ["delta", "rho"])
     Traceback (most recent call last):
     optipath.errors.ParameterError: values are given by name: run(delta=0.5); there are: delta, rho
@@ -157,8 +145,6 @@ UNITS_ARE_WRITTEN: ContextVar[bool] = ContextVar("UNITS_ARE_WRITTEN", default=Fa
 def units_are_written() -> Iterator[None]:
     """Let no number inside be taken for one of degrees: all come from texts with units.
 
-    Examples
-    --------
     >>> with units_are_written():
     ...     print(UNITS_ARE_WRITTEN.get())
     True

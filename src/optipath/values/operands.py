@@ -42,8 +42,6 @@ def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
 
     Shapes: numbers (..., *tail); returns (...).
 
-    Examples
-    --------
     >>> part_of(np.array([[1.0, 2.0], [3.0, 4.0]]), 2, (2, 2))
     array(3.)
     """
@@ -321,8 +319,6 @@ class Ranges(dict["Hashable", "tuple[float, float]"]):
     A multiple that no element has as a value, as ``couplings()`` may make one of a field, has the
     range that follows from that of its parameter.
 
-    Examples
-    --------
     >>> Ranges({"f": (0.0, 1.0)})["f", -2.0, 1.0]
     (-1.0, 1.0)
     """

@@ -455,8 +455,6 @@ _CASE = "cas"
 def unknown_parameter(name: str, known: Iterable[str]) -> str:
     """Return the sentence for a parameter that there is not.
 
-    Examples
-    --------
     >>> unknown_parameter("dtype", ["delta"])
     "'dtype' is no parameter of the path; write Composer(dtype=...).compose(path)"
     """
@@ -472,8 +470,6 @@ def unknown_parameter(name: str, known: Iterable[str]) -> str:
 def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = "") -> str:
     """Return the sentence for a word that a parameter does not know, or that is no number.
 
-    Examples
-    --------
     >>> unknown_word("filter", "vertikal", ["horizontal", "vertical"])
     "parameter 'filter' knows no word 'vertikal'; did you mean 'vertical'?"
     >>> unknown_word("t", "half", [])
@@ -488,8 +484,6 @@ def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = ""
 def word_meant(word: str, known: Iterable[str], dimension: str) -> str:
     """Return the cure for a word that is unknown where a number may stand, too.
 
-    Examples
-    --------
     >>> word_meant("antidiagonal", ["diagonal"], "angle")
     "; write '-45 deg' for the axis 'antidiagonal'"
     >>> word_meant("off", ["none"], "angle")
@@ -529,8 +523,6 @@ AXES: Mapping[str, float] = MappingProxyType(
 def label_of(what: str, name: Any, usual: str) -> str:
     """Return what sentences call a thing by.
 
-    Examples
-    --------
     >>> label_of("a spectrum", "", "a histogram"), label_of("a spectrum", "LED", "a histogram")
     ('a histogram', 'LED')
     """

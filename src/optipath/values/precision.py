@@ -22,8 +22,6 @@ _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
 def precision(given: Any) -> np.dtype[Any]:
     """Return the dtype of a name, or of what NumPy takes for one.
 
-    Examples
-    --------
     >>> precision("float32"), precision("f4"), precision(float)
     (dtype('float32'), dtype('float32'), dtype('float64'))
     """
@@ -33,8 +31,6 @@ def precision(given: Any) -> np.dtype[Any]:
 def precision_name(given: Any) -> str:
     """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is.
 
-    Examples
-    --------
     >>> precision_name(np.float32), precision_name("double")
     ('float32', 'float64')
     """
@@ -65,8 +61,6 @@ def _character(given: Any) -> str:
 def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
     """Return the precision in which angles are turned into cosines: float64 at least.
 
-    Examples
-    --------
     >>> wide(np.dtype("float32"))
     dtype('float64')
     """
@@ -78,8 +72,6 @@ def coarser(*numbers: Any) -> Any:
 
     It is the precision that what is made of all of them has.
 
-    Examples
-    --------
     >>> coarser(np.ones(2), np.ones(2, np.float32))
     dtype('float32')
     """
@@ -89,8 +81,6 @@ def coarser(*numbers: Any) -> Any:
 def at_least_single(numbers: Any) -> Any:
     """Return numbers as arithmetic takes them: half precision, which ends at 65504, as float32.
 
-    Examples
-    --------
     >>> at_least_single(np.ones(2, np.float16)).dtype, at_least_single(np.ones(2)).dtype
     (dtype('float32'), dtype('float64'))
     """
@@ -113,8 +103,6 @@ NARROW = (np.float16, np.float32)
 def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
     """Return limits as the precision of JAX's numbers holds them, neither as 0 nor as infinite.
 
-    Examples
-    --------
     >>> held(np.array([0.5], np.float32), (0.0, 1e60))
     (0.0, 1e+60)
     """
@@ -131,8 +119,6 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     What is beyond a limit by its rounding becomes the limit, as `within` has it; so does what is
     beyond a right angle, which limits angles of incidence.
 
-    Examples
-    --------
     >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
     True
     """
@@ -148,8 +134,6 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
 def as_doubles(array: Array) -> Array:
     """Return numbers as doubles; what is larger than any of these is infinite.
 
-    Examples
-    --------
     >>> as_doubles(np.array([1.0, 2.0], np.longdouble)).dtype
     dtype('float64')
     """
@@ -162,8 +146,6 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
 
     Where there are such, they are doubles at least.
 
-    Examples
-    --------
     >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
     0.1
     """
@@ -179,8 +161,6 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
 def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
     """Tell whether numbers of less precision than double are beyond a limit, rounded to that.
 
-    Examples
-    --------
     >>> is_beyond(np.float32([0.5, np.pi / 2.0]), (0.0, np.pi / 2.0))
     True
     """
@@ -196,8 +176,6 @@ def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
 def traced_within(numbers: Any, limits: tuple[float, float]) -> Any:
     """Return numbers that JAX traces as `within` does, with their slopes.
 
-    Examples
-    --------
     >>> float(traced_within(np.float32(np.pi / 2.0), (0.0, np.pi / 2.0))) == np.pi / 2.0
     True
     """
@@ -213,8 +191,6 @@ def traced_within(numbers: Any, limits: tuple[float, float]) -> Any:
 def rounding_of(array: Array) -> float:
     """Return the rounding of numbers of less precision than double; 0 for all others.
 
-    Examples
-    --------
     >>> rounding_of(np.ones(3, np.float32)) == 2.0**-23, rounding_of(np.ones(3))
     (True, 0.0)
     """
@@ -234,8 +210,6 @@ def _rounded(kind: Any, limits: tuple[float, float]) -> tuple[float, float]:
 def with_limits(array: Array, kind: Any, limits: tuple[float, float]) -> Array:
     """Return doubles; those beyond a limit by its rounding to a precision, as the limit.
 
-    Examples
-    --------
     >>> float(with_limits(np.array([1.0 + 2.0**-23]), np.float32, (0.0, 1.0 + 1e-7))[0])
     1.0000001
     """
@@ -252,8 +226,6 @@ _ROUNDINGS = 2.0**-51
 def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float] = ENDLESS) -> Any:
     """Return a multiple of numbers plus an offset.
 
-    Examples
-    --------
     >>> affine(2.0, 0.5, np.float32([0.25]))
     array([1.])
     """
@@ -293,8 +265,6 @@ def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
 def whole_number(what: str, number: object, least: int = 1) -> list[str]:
     """Return the sentence for what is no whole number, or too small; none for one that serves.
 
-    Examples
-    --------
     >>> whole_number("threads", 1.5), whole_number("threads", 2)
     (['threads must be a whole number of 1 or more, not 1.5'], [])
     """

@@ -69,8 +69,6 @@ def read_axis_text(
 ) -> AxisValues | None:
     """Return the values that one text stands for; None for a text that is given alone.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> delta = Parameter("delta", unit="deg")
     >>> read_axis_text("0:180:3", delta, "deg").shown.tolist()
@@ -167,8 +165,6 @@ _THOUSANDS = re.compile(r"0\d\d(?:\D.*)?", re.ASCII)
 def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     """Return the texts of several values that one text stands for.
 
-    Examples
-    --------
     >>> from optipath.values.parameters import Parameter
     >>> delta = Parameter("delta", unit="deg")
     >>> several_texts(delta, "0:30:4"), several_texts(delta, "10 deg, 0.5 rad")
@@ -194,8 +190,6 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
 def file_of(text: str) -> str | None:
     """Return the file of which a text means a column; None where it means none.
 
-    Examples
-    --------
     >>> file_of("@angles.csv"), file_of("30 deg")
     ('angles.csv', None)
     """
@@ -265,8 +259,6 @@ def texts_of_range(text: str) -> list[str]:
 
     They are evenly spaced in the unit of the ends, exactly, and each is rounded once.
 
-    Examples
-    --------
     >>> texts_of_range("0:1:5")
     ['0', '0.25', '0.5', '0.75', '1']
     >>> texts_of_range("700 nm:400 nm:4")

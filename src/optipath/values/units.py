@@ -56,8 +56,6 @@ _GONS |= dict.fromkeys(
 def usual_name(word: str) -> str:
     """Return a unit as it is called here; the word itself where it has no other name.
 
-    Examples
-    --------
     >>> usual_name("degrees/Millimeter"), usual_name("cm^-1"), usual_name("°"), usual_name("nm")
     ('deg/mm', '1/cm', 'deg', 'nm')
     """
@@ -73,8 +71,6 @@ def usual_name(word: str) -> str:
 def unit_meant(word: str, units: Collection[str]) -> str:
     """Return the cure for an unknown unit, ready to be put behind the fault.
 
-    Examples
-    --------
     >>> unit_meant("degrees", ["deg", "rad"]), unit_meant("pints", ["deg", "rad"])
     ("; did you mean 'deg'?", '; there are: deg, rad')
     >>> unit_meant("grad", ["deg", "rad"])
@@ -95,8 +91,6 @@ _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}(?:\D.*)?", re.ASCII)
 def without_comma(text: str) -> list[str]:
     """Return the numbers that one with a comma may be meant for; none where it has no comma.
 
-    Examples
-    --------
     >>> without_comma("30,5 deg"), without_comma("1,000"), without_comma("1.5")
     (['30.5 deg'], ['1.000', '1000'], [])
     """
@@ -109,8 +103,6 @@ def without_comma(text: str) -> list[str]:
 def comma_cure(text: str) -> str:
     """Return the cure for a number with a comma, a part of a sentence; nothing for others.
 
-    Examples
-    --------
     >>> comma_cure("30,5 deg")
     "did you mean '30.5 deg'? (a text is one value; several are an array, in Python)"
     >>> comma_cure("1,000")
@@ -139,8 +131,6 @@ _LARGEST = 300.0
 def ratio_of(text: str) -> float | None:
     """Return the number that a ratio is, or None for a text that is none.
 
-    Examples
-    --------
     >>> ratio_of("1000:1"), ratio_of("inf"), ratio_of("20")
     (1000.0, inf, None)
     """
@@ -159,8 +149,6 @@ def ratio_of(text: str) -> float | None:
 def without_unit(number: str, unit: str) -> str:
     """Return the cure for a unit where a pure number is asked for; decibels are a ratio.
 
-    Examples
-    --------
     >>> without_unit("30", "dB")
     'write 1000, which is 10 ** (30 / 10), for a ratio of intensities (0.001 for a loss of as much)'
     >>> without_unit("30", "mm")
@@ -181,8 +169,6 @@ def is_of_decibels(unit: str) -> bool:
 def finite_number(value: Any, unit: str) -> str:
     """Return what to give in place of a number that is not finite.
 
-    Examples
-    --------
     >>> finite_number(math.nan, ""), finite_number(math.inf, "")
     ('a finite number', 'a finite number, 1e30 for an extinction ratio without end')
     """
@@ -266,8 +252,6 @@ _NOTHING = Unit("")
 def dimension_of(unit: str) -> str:
     """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit.
 
-    Examples
-    --------
     >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
     ('angle', 'inverse length', '')
     """
@@ -287,8 +271,6 @@ def units_of(dimension: str) -> list[str]:
 def unit_of(text: str) -> str:
     """Return the unit that a text has, known or not; ``""`` for none, and for what is no quantity.
 
-    Examples
-    --------
     >>> unit_of("30 deg"), unit_of("0.5"), unit_of("horizontal")
     ('deg', '', '')
     """
@@ -299,8 +281,6 @@ def unit_of(text: str) -> str:
 def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float | complex:
     """Return the number that a text such as ``"30 deg"`` stands for.
 
-    Examples
-    --------
     >>> parse_quantity("180 deg", "angle")
     3.141592653589793
     >>> parse_quantity("20 um", "length"), parse_quantity("(0.3 - 0.4j)", "")
@@ -331,8 +311,6 @@ def in_unit(value: float, unit: str) -> float:
 
     Units: value in radians.
 
-    Examples
-    --------
     >>> in_unit(0.8377580409572782, "deg")
     48.0
     >>> in_unit(2e-05, "mm")
@@ -346,8 +324,6 @@ def format_quantity(value: complex, unit: str) -> str:
 
     Units: value in radians.
 
-    Examples
-    --------
     >>> format_quantity(0.8377580409572782, "deg"), format_quantity(1.33, "")
     ('48 deg', '1.33')
     >>> format_quantity(0.3 - 0.4j, "")
@@ -369,8 +345,6 @@ def format_quantity(value: complex, unit: str) -> str:
 def with_article(dimension: str) -> str:
     """Return the name of a dimension for a sentence.
 
-    Examples
-    --------
     >>> with_article("length"), with_article("angle per length")
     ('a length', 'an angle per length')
     """
@@ -445,8 +419,6 @@ def displayed(value: float, unit: str) -> str:
 
     Units: value in radians.
 
-    Examples
-    --------
     >>> displayed(math.radians(3.0), "arcmin"), format_quantity(math.radians(3.0), "arcmin")
     ('180 arcmin', '180.00000000000003 arcmin')
     """
@@ -458,8 +430,6 @@ def format_range(low: float, high: float, unit: str) -> str:
 
     Units: low, high in radians.
 
-    Examples
-    --------
     >>> format_range(0.0, 0.5, "mm"), format_range(0.0, math.inf, "")
     ('0 mm .. 500 mm', '0 or more')
     """
@@ -485,8 +455,6 @@ _ALL = 17
 def digits_until(holds: Callable[[int], bool], least: int = 10) -> int:
     """Return with how few significant digits something holds; 17, which tell all doubles apart.
 
-    Examples
-    --------
     >>> digits_until(lambda digits: f"{1 + 1e-11:.{digits}g}" != "1")
     12
     """

@@ -199,8 +199,6 @@ _is_checked_later: ContextVar[bool] = ContextVar("_is_checked_later", default=Fa
 def checked_later() -> Iterator[None]:
     """Leave the values of what is made inside to the check of the whole path, which names nodes.
 
-    Examples
-    --------
     >>> from optipath.elements.polarizers import Attenuator
     >>> with checked_later():
     ...     Attenuator(1.5).faults("filter")
@@ -336,8 +334,6 @@ def _angle_of(value: Any, parameter: Parameter) -> Any:
 class AxisDomain(Domain):
     """Angles of an axis across the light; some have names.
 
-    Examples
-    --------
     >>> AxisDomain("angle", "angle").parse("antidiagonal")
     -0.7853981633974483
     """
@@ -353,8 +349,6 @@ class AxisDomain(Domain):
 class OptionalAxisDomain(AxisDomain):
     """The same, or none.
 
-    Examples
-    --------
     >>> OptionalAxisDomain("angle", "angle").parts("dichroic_angle", None)
     []
     """

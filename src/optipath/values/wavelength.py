@@ -23,8 +23,6 @@ LONGEST_FIRST = 0.01
 def too_long(wavelength: float) -> str:
     """Say of a number that is too large that it is no wavelength, and what it may have been.
 
-    Examples
-    --------
     >>> too_long(188.0).partition(";")[0]
     '188 metres, which is no wavelength of light'
     """
@@ -37,8 +35,6 @@ def too_long(wavelength: float) -> str:
 class WavelengthDomain(Domain):
     """Wavelengths in vacuum, above 0 and in metres.
 
-    Examples
-    --------
     >>> WAVELENGTH.check("a line", "516 nm")
     array(5.16e-07)
     """
@@ -156,8 +152,6 @@ def read_within(span: tuple[float, float], given: Any) -> Any:
 
     Units: given in metres.
 
-    Examples
-    --------
     >>> print(read_within((44.3e-9, 2.0), "1.9 m"))
     1.9
     """
@@ -200,8 +194,6 @@ def wavelength_of(text: str) -> float | None:
 
     Units: the result in metres.
 
-    Examples
-    --------
     >>> round(wavelength_of("2.4 eV") * 1e9, 3), wavelength_of("20000 1/cm")
     (516.601, 5e-07)
     """
@@ -217,8 +209,6 @@ def wavelength_of(text: str) -> float | None:
 def falls_with_wavelength(text: object) -> bool:
     """Tell whether a text is a photon energy, a wave number or a frequency.
 
-    Examples
-    --------
     >>> falls_with_wavelength("2.4 eV"), falls_with_wavelength("516 nm")
     (True, False)
     """
@@ -236,8 +226,6 @@ def with_other_units(fault: UnitError, text: str) -> UnitError:
 def spectral_unit_meant(word: str) -> str | None:
     """Return the unit of `wavelength_of` that differs in capital letters alone, if any.
 
-    Examples
-    --------
     >>> spectral_unit_meant("ev"), spectral_unit_meant("nm")
     ('eV', None)
     """

@@ -86,7 +86,7 @@ def test_no_more_sorts_and_runners_are_kept_than_there_is_room_for(monkeypatch):
         plan.run(theta=0.2, phi=np.linspace(0.1, 1.2, count))
     assert len(plan.answers.light._recipes) <= 2
     assert len(plan.answers.light._kinds) <= 2
-    monkeypatch.setattr(shared, "_MOST", 3)
+    monkeypatch.setattr(shared, "_MOST_RUNNERS", 3)
     for t in np.linspace(0.1, 0.9, 7):
         chain([op.Attenuator(float(t))]).trace()
     assert len(shared._RUNNERS) <= 3

@@ -38,8 +38,6 @@ _MANY = 1024.0
 def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
     """Return Stokes components as they are carried, or the first `count` of them.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> carry(FLOAT, (1.0, -0.5, 0.0, 0.0)), carry(FLOAT, (1.0, 0.0, 0.0, 0.0), 1)
     ((0.25, -0.5, 0.0, 0.0), (0.5,))
@@ -54,8 +52,6 @@ def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
 def all_four(carried: Carried) -> tuple[Any, Any, Any, Any]:
     """Return carried light with plain zeros for what is left out.
 
-    Examples
-    --------
     >>> all_four((0.25, -0.5))
     (0.25, -0.5, 0.0, 0.0)
     """
@@ -66,8 +62,6 @@ def all_four(carried: Carried) -> tuple[Any, Any, Any, Any]:
 def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
     """Return the first `count` components of carried light.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> leaving(FLOAT, (0.25, -0.5, 0.1, 0.0), 2), leaving(FLOAT, (0.25, -0.5), 1)
     ((0.25, -0.5), (0.5,))
@@ -82,8 +76,6 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 
     Matrices of one's own may make light that cannot be; it stays as it is.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))
     (2.5000000000000003e-17, 1.0, 1e-08, 0.0)
@@ -105,8 +97,6 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 def stokes_of(xp: Primitives, carried: Carried) -> Components:
     """Return the Stokes components of carried light; those that are left out are 0.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> stokes_of(FLOAT, (0.25, -0.5, 0.0, 0.0))
     (1.0, -0.5, 0.0, 0.0)
@@ -126,8 +116,6 @@ def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
 def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
     """Return two lights together, incoherently.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> add(FLOAT, (0.0, 1.0, 0.0, 0.0), (0.0, -1.0, 0.0, 0.5))
     (1.0, 0.0, 0.0, 0.5)
@@ -172,8 +160,6 @@ def unit_light(part: int, count: int) -> Carried:
 def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
     """Return the parts of carried light, as many as a count of components has.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> parts_of(FLOAT, (0.25, -0.5, 0.1, 0.0), 3), parts_of(FLOAT, (0.25, -0.5), 1)
     ((0.25, 0.75, 0.1), (1.0,))
@@ -186,8 +172,6 @@ def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
 def light_of(xp: Primitives, parts: Parts) -> Carried:
     """Return carried light of these parts.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> light_of(FLOAT, (0.25, 0.75, 0.1))
     (0.25, -0.5, 0.1)

@@ -79,8 +79,6 @@ class StokesCarrier(Carrier):
 class MatrixCarrier(Carrier):
     """Carries columns of Mueller matrices: every element is its matrix, and nothing else.
 
-    Examples
-    --------
     >>> from optipath.kernels.carriers.structures import BLOCK
     >>> from optipath.kernels.primitives import FLOAT
     >>> carrier = MatrixCarrier(FLOAT)

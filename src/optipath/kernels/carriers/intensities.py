@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 class IntensityCarrier(Carrier):
     """Carries intensities over one denominator, which is divided by at the very end.
 
-    Examples
-    --------
     >>> from optipath.kernels.carriers.structures import BLOCK
     >>> from optipath.kernels.primitives import FLOAT
     >>> carrier = IntensityCarrier(FLOAT)
@@ -78,8 +76,6 @@ class Boosts(NamedTuple):
 def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
     """Return the boosts with one more.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> boosted(FLOAT, Boosts(0.5), 0.25)
     Boosts(most=0.5, more=1.25, less=0.75)
@@ -91,8 +87,6 @@ def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
 def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
     """Return the least and the largest ratio of the true intensity to that of no polarisation.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> ratio_bounds(FLOAT, Boosts(0.5, 1.5, 0.5))
     (0.75, 1.25)
@@ -108,8 +102,6 @@ def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
 def dop_bound(boosts: Boosts) -> Any:
     """Return the largest degree of polarisation that boosts can give, or add up to.
 
-    Examples
-    --------
     >>> dop_bound(Boosts(0.5, 1.5, 0.5))
     0.8
     """
@@ -123,8 +115,6 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
     As a share of the true intensity, or of that of the model, whichever is larger. What any
     model gives that drops components lies between the bounds, too.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> largest_error(FLOAT, 0.5, 1.25, "scalar"), largest_error(FLOAT, 0.5, 1.25, "sp")
     (1.0, 1.5)
@@ -152,8 +142,6 @@ class BoundsCarrier(Carrier):
     one to it, and the largest degree of polarisation. The bounds hold for
     physical matrices, which `is_physical` tells.
 
-    Examples
-    --------
     >>> from optipath.kernels.carriers.structures import BLOCK
     >>> from optipath.kernels.primitives import FLOAT
     >>> carrier, half = BoundsCarrier(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)

@@ -33,8 +33,6 @@ JonesState: TypeAlias = tuple[Columns, Any]
 class JonesCarrier(Carrier):
     """Carries light as two Jones columns, with an integer exponent.
 
-    Examples
-    --------
     >>> from optipath.kernels.carriers.structures import SCALE
     >>> from optipath.kernels.primitives import FLOAT
     >>> carrier = JonesCarrier(FLOAT)

@@ -46,8 +46,6 @@ class Noisy(NamedTuple):
 class NoiseCarrier(Carrier):
     """Carries light with its roundings; what is read is S0 and the noise.
 
-    Examples
-    --------
     >>> from optipath.kernels.carriers.structures import FULL
     >>> from optipath.kernels.primitives import FLOAT
     >>> carrier = NoiseCarrier(FLOAT, 2.0**-52)

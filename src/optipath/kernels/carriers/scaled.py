@@ -40,8 +40,6 @@ class ScaledCarrier(Carrier):
     integer; and what rounding has polarised beyond 100 % is taken back, lest it
     gathers over thousands of elements.
 
-    Examples
-    --------
     >>> from optipath.kernels.carriers.structures import SCALE
     >>> from optipath.kernels.primitives import FLOAT
     >>> carrier = ScaledCarrier(FLOAT)

@@ -101,8 +101,6 @@ PowersAction: TypeAlias = Callable[[Sequence[Any], Intensities, int], Intensitie
 def in_all(powers: Intensities) -> Intensities:
     """Return the total over the denominator.
 
-    Examples
-    --------
     >>> in_all((1.0, 3.0, 2.0)), in_all((4.0, 2.0))
     ((4.0, 2.0), (4.0, 2.0))
     """
@@ -112,8 +110,6 @@ def in_all(powers: Intensities) -> Intensities:
 def along_x_and_y(powers: Intensities) -> tuple[Any, Any, Any]:
     """Return what is along x, what is along y, and the denominator.
 
-    Examples
-    --------
     >>> along_x_and_y((4.0, 1.0))
     (2.0, 2.0, 1.0)
     """

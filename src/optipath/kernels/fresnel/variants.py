@@ -148,8 +148,6 @@ class AtAngle:
 def numbers_at(xp: Primitives, cos: Any, numbers: Sequence[Any]) -> list[Any]:
     """Return numbers where there is an angle, and NaN elsewhere.
 
-    Examples
-    --------
     >>> from optipath.kernels.primitives import FLOAT
     >>> numbers_at(FLOAT, nan, [0.5, 1.0])
     [nan, nan]

@@ -43,8 +43,6 @@ _QUANTITIES = {"": "birefringence", "angle per length": "rotatory_power"}
 def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
     """Return what a crystal gives where one number stands.
 
-    Examples
-    --------
     >>> from optipath.values.domains import Domain
     >>> round(number_of_crystal("quartz", Domain("birefringence"), 5.893e-7), 5)
     0.0091
@@ -64,8 +62,6 @@ def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
 def crystal_of(curve: Curve) -> str:
     """Return the name of the crystal that a curve is of; ``""`` for any other.
 
-    Examples
-    --------
     >>> crystal_of(Crystal.named("calcite").birefringence.curve)
     'calcite'
     """
@@ -226,8 +222,6 @@ _OF_NUMBER = ("part", "scale", "offset")
 def is_curve(raw: Mapping[str, Any]) -> bool:
     """Tell whether a table is one of what depends on the wavelength.
 
-    Examples
-    --------
     >>> is_curve({"material": "gold"}), is_curve({"n": 1.5})
     (True, False)
     """

@@ -31,8 +31,6 @@ def preset_names() -> list[str]:
 def preset_descriptions() -> dict[str, str]:
     """Return what each preset is, by name, without making its path.
 
-    Examples
-    --------
     >>> preset_descriptions()["glass-slab"][:15]
     'A slab of glass'
     """

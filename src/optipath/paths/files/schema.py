@@ -38,8 +38,6 @@ _WORDS = {
 def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> list[str]:
     """Return a sentence for each key that is not known.
 
-    Examples
-    --------
     >>> key_faults("links[0]", {"form": "a.out"}, ["from", "to"])
     ["links[0]: key 'form' is unknown; did you mean 'from'?"]
     """
@@ -65,8 +63,6 @@ def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
 
     So that what stands there is read, and not called missing as well.
 
-    Examples
-    --------
     >>> as_meant({"knd": "source", "frames": {}, "colour": 3}, ["kind", "frames"])
     {'frames': {}, 'kind': 'source'}
     """
@@ -97,8 +93,6 @@ def checked(
 def texts_in(raw: Any) -> list[str]:
     """Return the texts that stand anywhere in a value.
 
-    Examples
-    --------
     >>> texts_in({"index": {"n": "$n1", "k": 0.1}, "range": ["0 deg", "90 deg"]})
     ['0 deg', '90 deg', '$n1']
     """
@@ -129,8 +123,6 @@ class Faults(list[str]):
     ) -> T | None:
         """Return what an action gives, or None after keeping its faults.
 
-        Examples
-        --------
         >>> from optipath.values.units import dimension_of
         >>> faults = Faults()
         >>> faults.attempt("parameters.delta", dimension_of, "degg")
@@ -147,8 +139,6 @@ class Faults(list[str]):
 def unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
     """Return a sentence for each key of a table that is none of those that there are.
 
-    Examples
-    --------
     >>> unknown_keys({"scal": 2}, ["scale", "offset"])
     ["key 'scal' is unknown; did you mean 'scale'?"]
     """
@@ -170,8 +160,6 @@ def _placed(where: str, fault: str) -> str:
 def joined(faults: Iterable[str]) -> list[str]:
     """Return faults, one sentence for all the places where the same is wrong.
 
-    Examples
-    --------
     >>> joined(["a.x: 'z' is unknown", "b: 'y' is unknown", "c: 'z' is unknown", "no lamp"])
     ["a.x and c: 'z' is unknown", "b: 'y' is unknown", 'no lamp']
     """

@@ -72,8 +72,6 @@ def decode_spectrum(
 def spectrum_of(raw: Any) -> Spectrum:
     """Return the spectrum of a table.
 
-    Examples
-    --------
     >>> spectrum_of({"line": "633 nm", "power": 2.0})
     <Spectrum: the line at 633 nm>
     """
@@ -106,8 +104,6 @@ def spectrum_of(raw: Any) -> Spectrum:
 def spectrum_table(spectrum: Spectrum) -> dict[str, Any]:
     """Return the table of a spectrum, of which the same one is read.
 
-    Examples
-    --------
     >>> spectrum_table(Spectrum.line("633 nm", power=2.0) * 3)
     {'line': '633 nm', 'power': 6.0}
     """
@@ -223,8 +219,6 @@ def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Doma
 def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
     """Return wavelengths in metres.
 
-    Examples
-    --------
     >>> wavelengths_of([500, 520], "nm"), wavelengths_of(["0.5 um"])
     ([5e-07, 5.2e-07], [5e-07])
     """
@@ -254,8 +248,6 @@ def _wavelength(entry: Any, place: int, unit: Any) -> float:
 def samples_of(raw: Any, unit: str) -> list[float]:
     """Return the samples of one quantity in base units.
 
-    Examples
-    --------
     >>> samples_of([1.5, 1.6], ""), samples_of(["1 mm"], "mm")
     ([1.5, 1.6], [0.001])
     """
@@ -297,8 +289,6 @@ def written_wavelengths(metres: Any) -> dict[str, Any]:
 
     Shape: metres (n,). Units: metres in metres.
 
-    Examples
-    --------
     >>> written_wavelengths([5e-07, 5.2e-07])
     {'wavelengths': [500.0, 520.0], 'unit': 'nm'}
     """

@@ -119,8 +119,6 @@ _STEPS = {"[": 1, "{": 1, "]": -1, "}": -1}
 def refuse_unwieldy(text: str) -> None:
     """Raise where a text would take long to parse, in time that grows with its length.
 
-    Examples
-    --------
     >>> try:
     ...     refuse_unwieldy("a = " + 20 * "[")
     ... except PresetError as error:
@@ -169,8 +167,6 @@ _LONGEST = 200
 def likely_cure(text: str, reason: str) -> str:
     """Return the cure for a slip, ready to be put behind what the parser says.
 
-    Examples
-    --------
     >>> likely_cure("kind = interface", "Invalid value (at line 1, column 8)")
     '; write kind = "interface"'
     """

@@ -59,8 +59,6 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
 
     Units: the result in radians.
 
-    Examples
-    --------
     >>> from optipath.materials.quantities import REAL
     >>> decode([1, 2.5], REAL, {})
     [1.0, 2.5]
@@ -297,8 +295,6 @@ def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
 def references_in(raw: Any) -> set[str]:
     """Return the names of the parameters that a part of a document refers to.
 
-    Examples
-    --------
     >>> mirror = {"index": {"n": "$n1", "k": 0.1}, "azimuth": {"parameter": "rho", "scale": -2}}
     >>> sorted(references_in([mirror, "-$phi"]))
     ['n1', 'phi', 'rho']
@@ -325,8 +321,6 @@ def wavelength_names(raw: Any) -> set[str]:
 
     That which is called ``wavelength`` is one of them, since materials take it by themselves.
 
-    Examples
-    --------
     >>> sorted(wavelength_names([{"wavelength": "$lam"}, {"thickness": "$d"}]))
     ['lam', 'wavelength']
     """
@@ -359,8 +353,6 @@ _SIGNS = re.compile(r"[*/+()^\s\d]|(?<=.)-|\$.*\$")
 def table_for(text: str) -> str:
     """Return how a file writes a multiple of a parameter with an offset; an example for others.
 
-    Examples
-    --------
     >>> table_for("$theta/2"), table_for("10 * $a - 5 deg")
     ('{ parameter = "theta", scale = 0.5 }', '{ parameter = "a", scale = 10, offset = "-5 deg" }')
     >>> table_for("90 deg - $theta")
@@ -390,8 +382,6 @@ def table_for(text: str) -> str:
 def is_arithmetic(text: str) -> bool:
     """Tell whether a text with a ``$`` is more than one name.
 
-    Examples
-    --------
     >>> is_arithmetic("$theta/2"), is_arithmetic("$a + $b"), is_arithmetic("-$thta")
     (True, True, False)
     """
@@ -405,8 +395,6 @@ _BACKWARDS = "backwards"
 def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> VerticesByAngles:
     """Return the chain of a table.
 
-    Examples
-    --------
     >>> chain_by_angles({"incidences": [0.5], "backwards": True}, float)
     VerticesByAngles(incidences=(0.5,), turns=(), backwards=True)
     """
@@ -431,8 +419,6 @@ def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> Ve
 def table_of_angles(chain: VerticesByAngles, encoded: Callable[[Any], Any]) -> dict[str, Any]:
     """Return the table of a chain.
 
-    Examples
-    --------
     >>> table_of_angles(VerticesByAngles((0.5, 0.6), (0.1,)), str)
     {'incidences': ['0.5', '0.6'], 'turns': ['0.1']}
     """

@@ -167,8 +167,6 @@ def _case(
 def toml_lines(header: str, row: Mapping[str, Any]) -> str:
     """Return a table of a file, with a line for each of its keys.
 
-    Examples
-    --------
     >>> print(toml_lines("[elements.eye]", {"kind": "detector"}), end="")
     [elements.eye]
     kind = "detector"
@@ -184,8 +182,6 @@ def _key(key: str) -> str:
 def as_toml(value: Any) -> str:
     """Write a text, a number, or a list or a table of such, on one line.
 
-    Examples
-    --------
     >>> as_toml({"light": "L.out", "tap": True})
     '{ light = "L.out", tap = true }'
     """

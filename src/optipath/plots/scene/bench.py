@@ -373,8 +373,6 @@ _ALWAYS = "angle", "incidence"
 def values_below(element: Element) -> list[str]:
     """Return the values of an element that are written below its symbol.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> values_below(op.Retarder(retardance="90 deg", angle=op.Parameter("a", 0.0, bound=True)))
     ['a = 0 deg', 'retardance 90 deg']

@@ -246,8 +246,6 @@ class View(NamedTuple):
 
         Shapes: points (..., 3); returns (..., 2).
 
-        Examples
-        --------
         >>> View(0.0, -90.0).points(np.array([2.0, 5.0, 3.0])).round(12)
         array([2., 3.])
         """

@@ -55,8 +55,6 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     laid out by following the light from its source, in the frames of docs/conventions.md: x of a
     surface is along k_out cross k_in, azimuths turn the frame about the light.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> scene = scene_of(op.load_preset("npgr026", case="8"))
     >>> [angle.text for angle in scene.angles]
@@ -269,8 +267,6 @@ def angles_in_chain(element: Any) -> tuple[Any, Any]:
 
     Units: incidence, turn in radians.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> path = op.load_preset("npgr026-3d")
     >>> [angle.name for angle in angles_in_chain(path.element("X1"))]

@@ -446,8 +446,6 @@ def turn_about_z(angle: float) -> Array:
 def posture_of(element: Element) -> Posture:
     """Return how the ports of an element stand to one another, by its values alone.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> found = posture_of(op.Interface(1.5, "30 deg"))
     >>> print(found.axes["in"][:, 2].round(3), found.axes["reflected"][:, 2].round(3))
@@ -476,8 +474,6 @@ def angles_at(element: Any) -> tuple[float, float]:
 def has_axis(element: Any) -> bool:
     """Tell whether the angle of an element is that of an axis, and no turn of the light.
 
-    Examples
-    --------
     >>> import optipath as op
     >>> has_axis(op.Polarizer(0.3)), has_axis(op.Rotator(0.3)), has_axis(op.Medium(1.0))
     (True, False, False)

@@ -116,8 +116,6 @@ class Scene(NamedTuple):
     def as_json(self) -> dict[str, Any]:
         """Return lists and dictionaries of plain numbers, for `json.dumps`; no NaN among them.
 
-        Examples
-        --------
         >>> import json
         >>> import optipath as op
         >>> from optipath.plots.scene.layout import scene_of

@@ -38,8 +38,6 @@ class ToldAngle(NamedTuple):
     def text(self) -> str:
         """The name, and the value in its unit.
 
-        Examples
-        --------
         >>> ToldAngle("tilt", np.pi / 1080.0, unit="arcmin").text
         'tilt = 10 arcmin'
         """
@@ -82,8 +80,6 @@ def quantity_text(value: float, unit: str) -> str:
 
     Units: value in radians.
 
-    Examples
-    --------
     >>> quantity_text(-0.0, "deg"), quantity_text(1.164278e-3, "um")
     ('0 deg', '1164.3 um')
     """

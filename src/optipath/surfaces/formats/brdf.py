@@ -204,8 +204,6 @@ def level_frame(z: Numbers) -> Frame:
 
     Shape: z (..., 3).
 
-    Examples
-    --------
     >>> print(level_frame(np.array([[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]])).x)
     [[ 0.   1.   0. ]
      [ 0.   0.8 -0.6]]
@@ -254,8 +252,6 @@ def _unturned(sensor: Sensor, there: npt.NDArray[np.bool_]) -> Numbers:
 def each_wavelength(frame: Frame) -> Frame:
     """Return frames of shape (n, 1) for matrices of (n, wavelengths).
 
-    Examples
-    --------
     >>> each_wavelength(level_frame(np.array([[0.0, 0.0, 1.0]]))).z.shape
     (1, 1, 3)
     """
@@ -285,8 +281,6 @@ class HalfAngles(NamedTuple):
         Those of theta_h grow from 0 on, so that they are narrow where lobes are: the square of
         place / last, as in the table of W. Matusik et al., A Data-Driven Reflectance Model, 2003.
 
-        Examples
-        --------
         >>> axes = HalfAngles.of((5, 3, 4))
         >>> print(np.degrees(axes.theta_h))
         [ 0. 10. 40. 90.]

@@ -132,8 +132,6 @@ def _plain(value: Any) -> Any:
 def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
     """Return what a file keeps of a sample besides its text.
 
-    Examples
-    --------
     >>> found = kept_sample(Sample([(1.5, 0.1)]))
     >>> found["why"], sample_of(found)
     ('', Sample([(1.5, 0.1)]))
@@ -197,8 +195,6 @@ def _digest(sample: Sample) -> str:
 class UnknownSample:
     """What stands for a sample that is not known, and refuses to be asked for more than this.
 
-    Examples
-    --------
     >>> UnknownSample("its heights are in no file", isotropic=True, digest="").layers
     Traceback (most recent call last):
     optipath.errors.SurfaceError: the sample of this hemisphere is not known: its heights are in \

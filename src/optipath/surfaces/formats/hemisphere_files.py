@@ -124,8 +124,6 @@ def _writer(hemisphere: Hemisphere, ending: str) -> Any:
 def told_of(place: Path, error: type[OptipathError] = SurfaceError) -> Iterator[None]:
     """Tell what the file system refuses while a file is written.
 
-    Examples
-    --------
     >>> from pathlib import Path
     >>> with told_of(Path("nowhere/a.nc")):
     ...     raise FileNotFoundError(2, "")
@@ -204,8 +202,6 @@ def _channels(
 def _name(wavelength: float) -> str:
     """Return the name of a channel: the wavelength with a comma, which splits no layers.
 
-    Examples
-    --------
     >>> _name(550.25e-9)
     '550,250000nm'
     """

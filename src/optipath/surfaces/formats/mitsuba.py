@@ -259,8 +259,6 @@ def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
     of its name (16 bits), its name, how many axes (16), its type (8), its place in the file (64)
     and its shape (64 each); then the arrays.
 
-    Examples
-    --------
     >>> from io import BytesIO
     >>> write_tensors(stream := BytesIO(), {"a": Tensor.of(np.array([1, 2], np.uint8))})
     >>> stream.getvalue()[:11], [*stream.getvalue()[-2:]]

@@ -32,8 +32,6 @@ def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
 
     Shape: given (..., 3).
 
-    Examples
-    --------
     >>> print(direction_of(["30 deg", "-30 deg"], 0.0, up=True).z.round(6))
     [[ 0.5       0.        0.866025]
      [-0.5       0.        0.866025]]
@@ -60,8 +58,6 @@ def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
 
     Shape: known (wavelengths,). Units: known in metres.
 
-    Examples
-    --------
     >>> wavelength_place(np.array([4e-7, 5e-7]), "500 nm")
     1
     """
@@ -121,8 +117,6 @@ Numbers = npt.NDArray[np.float64]
 def following(found: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:
     """Return a function that returns arrays, or refuses what is returned.
 
-    Examples
-    --------
     >>> following(lambda light: None)(np.eye(4))
     Traceback (most recent call last):
     optipath.errors.SurfaceError: what is estimated is None; let the function return real numbers
@@ -153,8 +147,6 @@ _ENDING = ".zarr"
 def given_store(store: Any, scheduler: Any) -> Path | None:
     """Return where a measurement is to be kept; None where it is not.
 
-    Examples
-    --------
     >>> given_store("hemisphere.nc", None)
     Traceback (most recent call last):
     optipath.errors.SurfaceError: store 'hemisphere.nc' is no Zarr store; give a name that ends \

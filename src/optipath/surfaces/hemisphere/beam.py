@@ -197,8 +197,6 @@ class PixelMask:
     Dim pixels decide how large the largest difference is, so that none is worth anything without
     its mask; and the largest of many noisy ones is noise.
 
-    Examples
-    --------
     >>> print(PixelMask(brighter_than=0.5, noise=None))
     light without polarisation above 0.5 of the mean over the hemisphere's pixels, any noise
     """

@@ -231,8 +231,6 @@ def pixel_areas(pixels: int, cap: Callable[[Numbers], Numbers]) -> Numbers:
 
     Shape: returns (pixels, pixels).
 
-    Examples
-    --------
     >>> print(pixel_areas(2, np.ones_like) / np.pi)
     [[0.5 0.5]
      [0.5 0.5]]
@@ -272,8 +270,6 @@ def pixel_points(sensor: Sensor, points: int) -> Iterator[tuple[Numbers, Numbers
 
     Shapes: returns directions (pixels, pixels, 3), solid_angles (pixels, pixels).
 
-    Examples
-    --------
     >>> from optipath.surfaces.hemisphere.sensor import Sensor
     >>> sensor = Sensor(16, "equal-area")
     >>> found = sum(area for _, area in pixel_points(sensor, 4))

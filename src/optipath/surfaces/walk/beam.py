@@ -210,8 +210,6 @@ def given_state(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, 
 
     Shape: stokes (4,).
 
-    Examples
-    --------
     >>> given_state("source", [2, 1, 0, 0])
     (2.0, 1.0, 0.0, 0.0)
     """

@@ -51,7 +51,7 @@ def path(
 
 # Of sources {digest}
 """
-_SOURCES = "kernels", "engines/formulas", "surfaces/walk"
+_SOURCES = "kernels", "engines", "surfaces/walk"
 """What the code is made of."""
 
 

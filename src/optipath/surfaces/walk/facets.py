@@ -165,8 +165,6 @@ def compiled_kernel(
 ) -> Any:
     """Return a kernel as a function of Numba.
 
-    Examples
-    --------
     >>> from optipath.kernels.filters import align
     >>> compiled_kernel("aligned", align, 2)(0.0, 1.0)
     (-1.0, 0.0)

@@ -129,8 +129,6 @@ SHIFT = 2
 def levels_of(cells_x: int, cells_y: int) -> int:
     """Return how many levels a mesh has above its cells, the last of them of one block.
 
-    Examples
-    --------
     >>> levels_of(640, 640), levels_of(1, 1)
     (5, 0)
     """
@@ -145,8 +143,6 @@ def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64
 
     Shape: vertices (cells_y + 1, cells_x + 1).
 
-    Examples
-    --------
     >>> cells, whole = pyramid_of(np.array([[0.0, 1.0, 0.0], [2.0, 0.0, 3.0]]))
     >>> print(cells[0, 1], whole[0, 0])
     [0. 3.] [0. 3.]
