@@ -2,6 +2,7 @@
 
 import json
 import random
+import re
 import socket
 import time
 from contextlib import suppress
@@ -12,8 +13,9 @@ from explorer.served import asked, head_of, page_server, posted, raw
 from optipath.errors import OptipathError
 from optipath.explorer import server as page_handler
 from optipath.explorer import server as page_servers
-from optipath.explorer.server import HOST, read_json
+from optipath.explorer.server import HOST, page_files, read_json
 from optipath.explorer.state import AskedCurve, asked_state
+from optipath.values.units import UNITS
 from tables import rows, slow
 
 ARABIC_TWO = "\u0662".encode().decode("latin-1")
@@ -52,6 +54,18 @@ def test_the_page_comes_with_headers_that_let_nothing_else_in_and_files_with_typ
         status, headers, content = asked(server, "GET", f"page/{name}")
         assert (status, headers.get_content_type()) == (200, kind)
         assert len(content) == int(headers["Content-Length"])
+
+
+def test_the_units_are_those_of_the_library_and_the_page_has_no_table_of_its_own(server):
+    served = json.loads(asked(server, "GET", "api/presets")[2])["units"]
+    assert {name: unit["dimension"] for name, unit in served.items()} == {
+        name: unit.dimension for name, unit in UNITS.items()
+    }
+    for name, unit in UNITS.items():
+        assert served[name]["size"] == pytest.approx(unit.size * 10.0**unit.power), name
+    code = page_files()["page/units.js"].content.decode()
+    assert "useUnits(" in page_files()["page/main.js"].content.decode()
+    assert [name for name in UNITS if re.search(rf"\b{re.escape(name)}\W*:", code)] == []
 
 
 def test_questions_are_answered(server):

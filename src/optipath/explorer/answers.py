@@ -19,6 +19,7 @@ from optipath.materials.named_materials import extinction_beside
 from optipath.sweeps.grid import SweepGrid
 from optipath.sweeps.labels import regions, table_columns, table_heads
 from optipath.values.messages import of_fields, of_files, units_are_written
+from optipath.values.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -45,11 +46,12 @@ class PageAnswers:
         self._lock = Lock()
 
     def presets(self) -> dict[str, Any]:
-        """Return what may be opened, and what is opened first."""
+        """Return what may be opened, what is opened first, and the units."""
         return {
             "presets": self._presets.as_json(),
             "opened": self._presets.opened,
             "version": version("optipath"),
+            "units": _units_as_json(),
         }
 
     def open(self, given: Any) -> dict[str, Any]:
@@ -89,6 +91,14 @@ class PageAnswers:
             yield lambda: dict.fromkeys(
                 str(each.message) for each in heard or () if issubclass(each.category, _WARNINGS)
             )
+
+
+def _units_as_json() -> dict[str, Any]:
+    """Return the dimension of every unit and its size in base units."""
+    return {
+        name: {"dimension": known.dimension, "size": parse_quantity(f"1 {name}", known.dimension)}
+        for name, known in UNITS.items()
+    }
 
 
 def _or_faults(answer: Any) -> dict[str, Any]:

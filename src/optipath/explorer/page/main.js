@@ -10,7 +10,7 @@ import { listen } from "./listen.js";
 import { Pictures } from "./pictures.js";
 import { History, fromHash, newState, toHash, withEntry, withoutIdle } from "./state.js";
 import { chooseTheme } from "./theme.js";
-import { typeset } from "./units.js";
+import { typeset, useUnits } from "./units.js";
 
 /** What is open: the description of the preset, its controls, the history. */
 const open = { about: null, key: null, controls: null, curve: null, history: null, answer: null };
@@ -177,6 +177,7 @@ async function start() {
     say(by("fault"), presets.faults[0].sentence);
     return;
   }
+  useUnits(presets.units);
   by("version").textContent = presets.version;
   by("preset").replaceChildren(
     ...presets.presets.map(({ name, file }) => option(name, file ? `${name} (your file)` : name)),

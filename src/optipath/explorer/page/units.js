@@ -1,23 +1,12 @@
 /** Numbers written in one unit or another; what they mean is the library's. */
 
-const SIZES = {
-  rad: 1,
-  mrad: 1e-3,
-  deg: Math.PI / 180,
-  arcmin: Math.PI / 10800,
-  arcsec: Math.PI / 648000,
-  angstrom: 1e-10,
-  nm: 1e-9,
-  um: 1e-6,
-  mm: 1e-3,
-  cm: 1e-2,
-  dm: 1e-1,
-  m: 1,
-  T: 1,
-  mT: 1e-3,
-  G: 1e-4,
-  kG: 1e-1,
-};
+/** The units of the library by name, each with its dimension and its size in base units. */
+let units = {};
+
+/** Take the units from the library's first answer, before anything is converted. */
+export function useUnits(served) {
+  units = served;
+}
 
 /** How large a unit such as "deg", "1/cm" or "deg/(T cm)" is in base units; NaN where unknown. */
 export function sizeOf(unit) {
@@ -27,7 +16,7 @@ export function sizeOf(unit) {
       .replace(/[()]/g, "")
       .split(" ")
       .filter((word) => word !== "" && word !== "1")
-      .reduce((size, word) => size * (SIZES[word] ?? NaN), 1);
+      .reduce((size, word) => size * (units[word]?.size ?? NaN), 1);
   return product(above) / product(below);
 }
 
