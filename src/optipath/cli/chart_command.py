@@ -11,7 +11,7 @@ from optipath.cli.console import say
 from optipath.cli.plot_command import title_of
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress import told_progress
-from optipath.cli.text_files import NewFile, check_place, read_text, told_of, write
+from optipath.cli.text_files import NewFile, check_place, read_text, write
 from optipath.paths.files.presets import preset_names
 from optipath.values.files import check_form
 
@@ -208,8 +208,7 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
         write(data, chart_text(kept).encode())
         say(f"wrote {data}")
     picture = draw(kept, peers=peers)
-    with told_of(out):
-        save(picture, out, _DOTS)
+    save(picture, out, _DOTS)
     say(f"wrote {out}")
     if interrupted:
         raise KeyboardInterrupt

@@ -326,10 +326,10 @@ _FEW = 5
 _STOKES = ("S0", "S1", "S2", "S3")
 
 
-def value_text(value: Any, digits: int) -> str:
+def printed_value(value: Any, digits: int) -> str:
     """Return a value of an axis as it is printed.
 
-    >>> value_text(400.0, 6), value_text("horizontal", 6)
+    >>> printed_value(400.0, 6), printed_value("horizontal", 6)
     ('400', 'horizontal')
     """
     return value if isinstance(value, str) else f"{value + 0.0:.{digits}g}"
@@ -338,9 +338,9 @@ def value_text(value: Any, digits: int) -> str:
 def span_text(axis: SweepAxis, digits: int) -> str:
     """Return which values an axis has, in a few words."""
     if len(axis) <= _FEW:
-        texts = [value_text(value, digits) for value in axis.shown.tolist()]
+        texts = [printed_value(value, digits) for value in axis.shown.tolist()]
         return f"{', '.join(texts)} {axis.unit}".rstrip()
-    ends = [value_text(axis.shown[place].item(), digits) for place in (0, -1)]
+    ends = [printed_value(axis.shown[place].item(), digits) for place in (0, -1)]
     return f"{' .. '.join(ends)} {axis.unit}".rstrip() + f", {len(axis):,} values"
 
 
@@ -377,7 +377,7 @@ def point_table(
 def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> Table:
     """Return S0 for a grid of two axes: a row for each value of the first."""
     down, across = grid.axes
-    heads = [value_text(value, numbers.digits) for value in across.shown.tolist()]
+    heads = [printed_value(value, numbers.digits) for value in across.shown.tolist()]
     corner = f"{heading(down.name, down.unit)} \\ {heading(across.name, across.unit)}"
     table = headed(
         corner, *heads, box=None, title=cell(title), title_justify="left", title_style=""
@@ -386,7 +386,7 @@ def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> 
         column.justify = "right"
     for row, value in enumerate(down.shown.tolist()):
         texts = [numbers.stokes(light, (row, place))[0] for place in range(len(across))]
-        table.add_row(*map(cell, (value_text(value, numbers.digits), *texts)))
+        table.add_row(*map(cell, (printed_value(value, numbers.digits), *texts)))
     return table
 
 
@@ -396,4 +396,4 @@ def _degrees(numbers: Any, unit: str) -> Any:
 
 def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:
     places = dict(zip(grid.sizes, index, strict=False))  # A batch without names has no sizes.
-    return [value_text(axis.shown[places[axis.dimension]].item(), digits) for axis in grid.axes]
+    return [printed_value(axis.shown[places[axis.dimension]].item(), digits) for axis in grid.axes]

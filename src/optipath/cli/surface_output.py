@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.cli.console import PlainConsole, cell, headed, say, say_json, title
-from optipath.cli.outcome import value_text
+from optipath.cli.outcome import printed_value
 from optipath.cli.progress import photon_bar
 from optipath.cli.surface_options import given_walks
 from optipath.errors import SurfaceError
@@ -85,7 +85,7 @@ def _walked(outcome: EnergyOutcome) -> str:
 
 
 def _text(values: AxisValues) -> str:
-    return f"{value_text(values.shown.item(), _DIGITS)} {values.unit}".rstrip()
+    return f"{printed_value(values.shown.item(), _DIGITS)} {values.unit}".rstrip()
 
 
 def _tables(models: Sequence[EnergyShares], place: tuple[int, ...]) -> Iterator[Table]:
@@ -166,13 +166,13 @@ def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:
     if given.tolerance is not None:
         found["tolerance"] = given.tolerance
     found |= {"interrupted": outcome.interrupted, "seconds": outcome.seconds}
-    return {**found, **_plain(asdict(outcome.energy))}
+    return {**found, **_json_numbers(asdict(outcome.energy))}
 
 
-def _plain(found: dict[str, Any]) -> dict[str, Any]:
+def _json_numbers(found: dict[str, Any]) -> dict[str, Any]:
     """Return numbers and arrays as JSON can hold them; counts stay whole."""
     return {
-        name: _plain(value)
+        name: _json_numbers(value)
         if isinstance(value, dict)
         else value
         if isinstance(value, int)

@@ -26,7 +26,7 @@ from optipath.cli.outcome import (
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.cli.progress import progress_bar
 from optipath.cli.ranges import refuse_arrays
-from optipath.cli.text_files import told_of, write
+from optipath.cli.text_files import write
 from optipath.composer.composer import Composer
 from optipath.errors import OptipathError, ParameterError, listed, printable, shown
 from optipath.light.printed import Numbers
@@ -34,7 +34,7 @@ from optipath.sweeps.axes import grid_of
 from optipath.sweeps.jobs import place_of_blocks
 from optipath.sweeps.labels import regions, table_columns, table_heads
 from optipath.values.columns import columns_of
-from optipath.values.files import written_whole
+from optipath.values.files import told_of, written_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -264,7 +264,8 @@ def write_json(file: Path, outcome: Outcome) -> None:
 def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
     """Write a line for each point of a grid, a part of them after the other."""
     columns = table_heads(plan, grid)
-    with told_of(file), written_whole(file) as stream, progress_bar(grid.points) as tell:
+    unwritten = told_of(file, click.ClickException, "")
+    with unwritten, written_whole(file) as stream, progress_bar(grid.points) as tell:
         stream.write(",".join(columns).encode() + b"\n")
         for region in regions(grid.shape):
             rows = list(zip(*table_columns(plan, grid, region), strict=True))

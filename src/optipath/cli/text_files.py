@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import os
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from optipath.errors import shown
-from optipath.values.files import bytes_of, write_file
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from optipath.values.files import bytes_of, told_of, write_file
 
 
 class NewFile(click.Path):
@@ -50,15 +46,5 @@ def check_place(file: Path) -> None:
 
 def write(file: Path, content: bytes) -> None:
     """Write a file, whole or not at all."""
-    with told_of(file):
+    with told_of(file, click.ClickException, ""):
         write_file(file, content)
-
-
-@contextmanager
-def told_of(file: Path) -> Iterator[None]:
-    """Say of what goes wrong inside that the file cannot be written."""
-    try:
-        yield
-    except OSError as error:
-        reason = error.strerror or error
-        raise click.ClickException(f"'{file}' cannot be written: {reason}") from None

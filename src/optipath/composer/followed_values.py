@@ -104,7 +104,7 @@ class _Taking:
         """Return the media in which light comes to the front of an element."""
         ports = [meeting.leaves for meeting in self.fronts.get(name, ())]
         media = [self.elements[node].medium_at(port) for node, port in ports]
-        return [_plain(index) for index in media if index is not FOLLOWS]
+        return [_real_if_clear(index) for index in media if index is not FOLLOWS]
 
     def _angles(self, name: str) -> list[tuple[Any, Any]]:
         """Return the incidence at parallel boundaries before it, each with its medium."""
@@ -169,7 +169,7 @@ def _real(index: Any) -> Any:
     return index
 
 
-def _plain(index: Any) -> Any:
+def _real_if_clear(index: Any) -> Any:
     """Return an index of complex numbers without absorption as a real one; any other as it is."""
     if isinstance(index, complex) or (isinstance(index, np.ndarray) and index.dtype.kind == "c"):
         return index if np.any(index.imag) else read_only(index.real)

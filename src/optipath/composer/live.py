@@ -85,7 +85,7 @@ _IDENTITY: Entries = tuple(tuple(float(row == column) for column in range(4)) fo
 
 
 def _entries_of_steps(program: Program) -> list[Entries]:
-    known = entries_of(program)
+    known = entries_of_evaluations(program)
     # What adds lights up, and does nothing to them, is known as such.
     places = [step.evaluation for step in program.steps]
     return [_IDENTITY if place is None else known[place] for place in places]
@@ -187,7 +187,7 @@ def known_numbers(
     return operands, found
 
 
-def entries_of(program: Program) -> list[Entries]:
+def entries_of_evaluations(program: Program) -> list[Entries]:
     """Return what is known of the matrix of each evaluation, or of what it emits."""
     numbers, evaluated = known_numbers(program)
     pairs = zip(program.operands, numbers, strict=True)

@@ -3,7 +3,7 @@
 A step is a word with values by name, as texts: `("reflection", {"n": "1.5", "incidence": "30"})`.
 Angles are in degrees. No kernel and no element of the library is used.
 
-``python -m optipath.lab.accuracy.mueller_table > docs/reference-mueller-matrices.json`` writes it.
+``python -m optipath.lab.step_reference > docs/reference-mueller-matrices.json`` writes it.
 """
 
 from __future__ import annotations

@@ -203,17 +203,17 @@ def tristimulus(light: Light, white: Any, observer: str, outside: str) -> Array:
     total, power = _sums(light, standard, outside)
     warn_of(light, standard, outside)
     if white is None:
-        absolute: Array = LUMENS_PER_WATT * _plain(total, power)
+        absolute: Array = LUMENS_PER_WATT * _unscaled(total, power)
         return absolute
     of_white, power_of_white = white_sums(light, white, standard, outside)
     check_broadcast({"light": total.shape[:-1], "white": of_white.shape[:-1]})
     if is_traced(total) or is_traced(of_white):
-        relative: Array = _plain(total, power) / _plain(of_white, power_of_white)[..., 1:2]
+        relative: Array = _unscaled(total, power) / _unscaled(of_white, power_of_white)[..., 1:2]
         return relative
     return times_two_to(total / of_white[..., 1:2], power - power_of_white)
 
 
-def _plain(total: Any, power: Any) -> Any:
+def _unscaled(total: Any, power: Any) -> Any:
     return total if is_traced(total) else times_two_to(total, power)
 
 

@@ -132,7 +132,7 @@ def page_curve(
 ) -> PageCurve:
     """Return the curve of a page."""
     faults: list[str] = []
-    entries = entries_of(contents, faults)
+    entries = entries_of_page(contents, faults)
     if faults:
         raise MaterialError(*_cured(faults, remedy), about=about)
     # Of two entries that give one part, the later one counts, as the database's reader has it.
@@ -254,7 +254,7 @@ class PageEntry(NamedTuple):
         ]
 
 
-def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
+def entries_of_page(contents: Any, faults: list[str]) -> list[PageEntry]:
     """Return the entries of a page, and tell what is wrong with others."""
     data = contents.get("DATA") if isinstance(contents, dict) else None
     if not isinstance(data, list) or not data:

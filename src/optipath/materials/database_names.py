@@ -393,12 +393,12 @@ def _pages(catalog: Any) -> Iterator[CatalogPage]:
         for book in _with(shelf["content"], "BOOK"):
             divider = ""
             for entry in book["content"]:
-                divider = _plain(entry.get("DIVIDER", divider))
+                divider = _untagged(entry.get("DIVIDER", divider))
                 if "PAGE" not in entry:
                     continue
                 place = f"{shelf['SHELF']}/{book['BOOK']}/{entry['PAGE']}"
                 data = _MISPLACED.get((place, entry["data"]), entry["data"])
-                told = (_plain(book.get("name", "")), _plain(entry.get("name", "")), divider)
+                told = (*(_untagged(each.get("name", "")) for each in (book, entry)), divider)
                 yield CatalogPage(shelf["SHELF"], book["BOOK"], entry["PAGE"], *told, data)
 
 
@@ -406,7 +406,7 @@ def _with(entries: Any, key: str) -> Iterator[dict[str, Any]]:
     return (entry for entry in entries if key in entry)
 
 
-def _plain(text: str) -> str:
+def _untagged(text: str) -> str:
     return re.sub(r"<[^>]+>", "", text)
 
 

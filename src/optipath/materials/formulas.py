@@ -56,7 +56,7 @@ class FormulaCurve(Curve):
             faults += fault.faults
         if faults:
             raise ValueFault(*faults)
-        vars(self).update({name: _plain(value) for name, value in given.items()})
+        vars(self).update({name: _as_floats(value) for name, value in given.items()})
 
     @abstractmethod
     def arguments(self) -> list[Coefficient]:
@@ -77,10 +77,10 @@ def _check(owner: str, value: Any, domain: Domain) -> None:
         raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
 
 
-def _plain(given: Any) -> Any:
+def _as_floats(given: Any) -> Any:
     """Return coefficients as floats, so that 2 and 2.0 make equal curves."""
     if isinstance(given, tuple):
-        return tuple(map(_plain, given))
+        return tuple(map(_as_floats, given))
     is_open = given is None or isinstance(given, Parameter) or is_traced(given)
     return given if is_open else REAL.check("", given).item() + 0.0
 

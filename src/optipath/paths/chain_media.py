@@ -122,13 +122,13 @@ def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[
     found = []
     for place, material in enumerate(materials):
         n, k = index_parts(f"materials[{place}]", material, _WHY)
-        behind = Material(_plain(n), _plain(k)) if np.any(k) else _plain(n)
-        found.append(Sides(_plain(front), behind))
+        behind = Material(_unboxed(n), _unboxed(k)) if np.any(k) else _unboxed(n)
+        found.append(Sides(_unboxed(front), behind))
         front = locked(np.where(events[..., place] == Event.REFRACTS, n, front))
     return found
 
 
-def _plain(numbers: Floats) -> Any:
+def _unboxed(numbers: Floats) -> Any:
     """Return an array, or one number as it is."""
     return numbers if numbers.ndim else float(numbers)
 

@@ -69,7 +69,10 @@ class EnergyAlong(NamedTuple):
 
         None stands for a power that is not a number, as of a place that there is not.
         """
-        powers = {name: _plain(getattr(self, name)) for name in ("given", "taken", "left", "ended")}
+        powers = {
+            which: {name: plain(power) for name, power in getattr(self, which).items()}
+            for which in ("given", "taken", "left", "ended")
+        }
         links = [link._asdict() | {"power": plain(link.power)} for link in self.links]
         return {"links": links, **powers, "notes": [*self.notes]}
 
@@ -144,10 +147,6 @@ def _notes(links: Iterable[PowerOnLink], taken: Mapping[str, Any]) -> Iterable[s
     for name, power in taken.items():
         if np.any(power < 0.0):
             yield f"'{name}' gives more light than it gets: it takes a negative power"
-
-
-def _plain(powers: Mapping[str, npt.NDArray[np.float64]]) -> dict[str, Any]:
-    return {name: plain(power) for name, power in powers.items()}
 
 
 KEEPING = Composer(keep="all")

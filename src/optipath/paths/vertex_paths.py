@@ -205,12 +205,12 @@ def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
         several = entries_of("materials", "one for each vertex", materials)
     except ValueFault as fault:
         return (), list(fault.faults)
-    several = tuple(_plain(medium) for medium in several)
+    several = tuple(_real_again(medium) for medium in several)
     none = "materials must be a sequence of one for each vertex, and there is none"
     return several, [none] * (not several)
 
 
-def _plain(medium: Any) -> Any:
+def _real_again(medium: Any) -> Any:
     """Return a medium that an array with others has made complex as the real one that it is."""
     of_numpy = isinstance(medium, (np.ndarray, np.generic)) and medium.dtype.kind == "c"
     is_complex = isinstance(medium, complex) or of_numpy

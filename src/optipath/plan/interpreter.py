@@ -351,7 +351,7 @@ class _Judged:
         self.solver = solver
         self.columns = [solver.scattered(column.back) for column in solver.columns]
         numbers = [*solver.pivots, *(n for column in self.columns for n in column.values())]
-        self.shape = np.broadcast_shapes((1,), *(np.shape(_plain(number)) for number in numbers))
+        self.shape = np.broadcast_shapes((1,), *(np.shape(_high(number)) for number in numbers))
         holds = reduce(np.logical_and, solver.conditions, np.True_)
         self.where = tuple(np.argwhere(~np.broadcast_to(holds, self.shape)).T)
         # What no light ever gets to may keep all of it.
@@ -414,7 +414,7 @@ class _Judged:
             return self._picked(self.solver.adds_up(_ROUNDING)) > 0.0
 
     def _picked(self, number: Any) -> Array:
-        return np.broadcast_to(np.asarray(_plain(number), float), self.shape)[self.where]
+        return np.broadcast_to(np.asarray(_high(number), float), self.shape)[self.where]
 
     def _stacked(self, numbers: Iterable[Any]) -> Array:
         return np.stack([self._picked(number) for number in numbers], axis=-1)
@@ -438,7 +438,7 @@ def _condition(matrix: Array) -> float:
     return float((1.0 + np.linalg.norm(matrix, 2)) * np.linalg.norm(sums, 2))
 
 
-def _plain(number: Any) -> Any:
+def _high(number: Any) -> Any:
     return number.high if isinstance(number, DoubleDouble) else number
 
 

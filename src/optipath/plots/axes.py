@@ -14,8 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from optipath.errors import OptipathError, shown
 from optipath.plots.colors import LINES, positive
 from optipath.plots.text import missing_letters_as_boxes
-from optipath.surfaces.formats.hemisphere_files import told_of
-from optipath.values.files import given_file, write_picture
+from optipath.values.files import given_file, told_of, write_picture
 
 if TYPE_CHECKING:
     import os

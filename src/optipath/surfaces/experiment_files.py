@@ -156,7 +156,7 @@ def measurements_of(
     """Return a measurement for each angle of incidence."""
     if not isinstance(table, dict):
         raise SurfaceError(f"it must be a table headed [[measurements]], not {shown(table)}")
-    faults = Faults(fault.removeprefix("it: ") for fault in type_faults("it", table, MEASUREMENT))
+    faults = Faults(type_faults("", table, MEASUREMENT))
     meant, given = as_meant(table, MEASUREMENT), readable(table, MEASUREMENT)
     faults += [f"'{key}' is missing" for key in _NEEDED_BY_MEASUREMENT if key not in meant]
     if "measure" in given:

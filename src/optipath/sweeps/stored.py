@@ -176,13 +176,13 @@ def sweep_identity(
 
 def _single(grid: SweepGrid, name: str) -> str:
     """Return what tells a fixed value from others: what is run, and how it was given."""
-    value = repr(_plain(grid.fixed[name]))
+    value = repr(_python_number(grid.fixed[name]))
     shown, unit = grid.labels.get(name, (grid.fixed[name], ""))
-    label = f"{_plain(shown)} {unit}".rstrip()
+    label = f"{_python_number(shown)} {unit}".rstrip()
     return value if label in (value, value.strip("'")) else f"{value}, given as {label}"
 
 
-def _plain(value: Any) -> Any:
+def _python_number(value: Any) -> Any:
     """Return a single number of NumPy as one of Python: they are the same sweep."""
     return value.item() if isinstance(value, np.generic | np.ndarray) else value
 

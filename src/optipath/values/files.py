@@ -18,7 +18,7 @@ from typing import IO, TYPE_CHECKING, Any
 from optipath.errors import OptipathError, ValueFault, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from matplotlib.figure import Figure
 
@@ -58,6 +58,27 @@ def bytes_of(file: Path, most: int = LARGEST) -> bytes:
     if len(found) > most:
         raise OSError(0, f"it is larger than {most // 1024**2} MiB")
     return found
+
+
+@contextmanager
+def told_of(
+    file: Path,
+    error: Callable[[str], Exception],
+    cure: str = "; give a name in a folder that takes files",
+) -> Iterator[None]:
+    """Tell what the file system refuses while a file is written.
+
+    >>> with told_of(Path("a.nc"), ValueFault, "; mend it"):
+    ...     raise FileNotFoundError(2, "")
+    Traceback (most recent call last):
+    optipath.errors.ValueFault: 'a.nc' cannot be written: No such file or directory; mend it
+    """
+    try:
+        yield
+    except OSError as fault:
+        # Libraries write more into `strerror` than what the system says.
+        why = os.strerror(fault.errno) if fault.errno else fault
+        raise error(f"'{file}' cannot be written: {why}{cure}") from None
 
 
 def write_file(file: Path, content: bytes) -> None:

@@ -85,7 +85,7 @@ def read_axis_text(
     try:
         return read_entries(texts, parameter, unit, uses)
     except OptipathError as fault:
-        if (file := file_of(text)) is None:
+        if (file := column_file(text)) is None:
             raise
         raise ParameterError(*[f"{file}: {sentence}" for sentence in fault.faults]) from None
 
@@ -172,7 +172,7 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     >>> several_texts(delta, "30 deg")
     """
     text = text.strip()
-    if (file := file_of(text)) is not None:
+    if (file := column_file(text)) is not None:
         try:
             return column_for(parameter, file)
         except OptipathError as fault:
@@ -187,10 +187,10 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
         raise ParameterError(*told) from None
 
 
-def file_of(text: str) -> str | None:
+def column_file(text: str) -> str | None:
     """Return the file of which a text means a column; None where it means none.
 
-    >>> file_of("@angles.csv"), file_of("30 deg")
+    >>> column_file("@angles.csv"), column_file("30 deg")
     ('angles.csv', None)
     """
     text = text.strip()

@@ -93,7 +93,7 @@ def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
         raise PresetError(
             f"'{form}' must be a table of its coefficients ({', '.join(known)}), not {shown(table)}"
         )
-    faults = Faults(f".{form}: {fault}" for fault in unknown_keys(table, [*known]))
+    faults = unknown_keys(table, known, f".{form}")
     table = as_meant(table, known)
     faults += [
         f".{form}: '{name}' is missing"

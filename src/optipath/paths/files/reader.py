@@ -464,7 +464,7 @@ def read_element(
         return None
     domains = found.domains()
     known = ["kind", "frames", *domains]
-    if wrong := schema.key_faults(where, table, known):
+    if wrong := schema.unknown_keys(table, known, where):
         faults += wrong
         table = schema.as_meant(table, known)
     values: dict[str, Any] = {}
@@ -499,7 +499,7 @@ def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
     frames = {}
     for port, axes in table.items():
         at = f"{where}.frames.{port}"
-        wrong = schema.key_faults(at, axes, ("x", "y", "z", "rounding"))
+        wrong = schema.unknown_keys(axes, ("x", "y", "z", "rounding"), at)
         wrong += [f"{at}: axis '{axis}' is missing" for axis in "xyz" if axis not in axes]
         faults += wrong
         frame = None if wrong else faults.attempt(at, Frame, **axes)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from optipath.errors import OptipathError, closest, did_you_mean, listed, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterable, Mapping
 
 
 FORMAT = 1
@@ -35,27 +35,15 @@ _WORDS = {
 }
 
 
-def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> list[str]:
-    """Return a sentence for each key that is not known.
-
-    >>> key_faults("links[0]", {"form": "a.out"}, ["from", "to"])
-    ["links[0]: key 'form' is unknown; did you mean 'from'?"]
-    """
-    return [
-        f"{where}: key '{key}' is unknown{did_you_mean(key, known)}"
-        for key in table
-        if key not in known
-    ]
-
-
 def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
     """Return a sentence for each key that is unknown or has a value of another type."""
+    at = f"{where}: " if where else ""
     wrong = [
-        f"{where}: '{key}' must be {_EXAMPLES.get(key, _WORDS[kind])}, not {shown(table[key])}"
+        f"{at}'{key}' must be {_EXAMPLES.get(key, _WORDS[kind])}, not {shown(table[key])}"
         for key, kind in schema.items()
         if key in table and kind not in (object, type(table[key]))
     ]
-    return key_faults(where, table, schema) + wrong
+    return unknown_keys(table, schema, where) + wrong
 
 
 def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
@@ -136,14 +124,15 @@ class Faults(list[str]):
             return None
 
 
-def unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
+def unknown_keys(table: Mapping[str, Any], known: Collection[str], where: str = "") -> Faults:
     """Return a sentence for each key of a table that is none of those that there are.
 
-    >>> unknown_keys({"scal": 2}, ["scale", "offset"])
-    ["key 'scal' is unknown; did you mean 'scale'?"]
+    >>> unknown_keys({"form": "a.out"}, ["from", "to"], "links[0]")
+    ["links[0]: key 'form' is unknown; did you mean 'from'?"]
     """
-    unknown = [key for key in raw if key not in names]
-    return Faults(f"key '{key}' is unknown{did_you_mean(key, names)}" for key in unknown)
+    at = f"{where}: " if where else ""
+    unknown = [key for key in table if key not in known]
+    return Faults(f"{at}key '{key}' is unknown{did_you_mean(key, known)}" for key in unknown)
 
 
 def _placed(where: str, fault: str) -> str:

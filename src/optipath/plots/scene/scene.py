@@ -126,14 +126,14 @@ class Scene(NamedTuple):
         return {
             "notes": [*self.notes],
             "schematic": self.schematic,
-            "nodes": [_plain(node, "axis") for node in self.nodes],
+            "nodes": [_as_dict(node, "axis") for node in self.nodes],
             "rays": [_ray(ray) for ray in self.rays],
-            "planes": [_plain(plane) for plane in self.planes],
+            "planes": [_as_dict(plane) for plane in self.planes],
             "frames": [
                 {"port": each.port, "at": _list(each.at), **_axes(each.axes)}
                 for each in self.frames
             ],
-            "angles": [_plain(angle, "centre", "about") for angle in self.angles],
+            "angles": [_as_dict(angle, "centre", "about") for angle in self.angles],
             "bounds": _list(self.bounds),
         }
 
@@ -154,7 +154,7 @@ def _ray(ray: SceneRay) -> dict[str, Any]:
     }
 
 
-def _plain(told: Any, *kept: str) -> dict[str, Any]:
+def _as_dict(told: Any, *kept: str) -> dict[str, Any]:
     """Return what is told but for what is kept."""
     pairs = [(name, value) for name, value in told._asdict().items() if name not in kept]
     return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in pairs}

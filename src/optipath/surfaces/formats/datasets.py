@@ -54,7 +54,7 @@ def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
         index_k=("wavelength", indices.k.ravel(), {"long_name": "k of the last medium"}),
     )
     found = found.assign_coords(number=numbers[hemisphere.seen.polarized])
-    attributes = {name: _plain(each) for name, each in hemisphere.dataset.attrs.items()}
+    attributes = {name: _attribute(each) for name, each in hemisphere.dataset.attrs.items()}
     found.attrs = attributes | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
     # Words of a fixed length are in the specifications of all forms.
     texts = {name: each.astype(str) for name, each in found.coords.items() if each.dtype == object}
@@ -123,7 +123,7 @@ def _beam(dataset: xr.Dataset, told: Mapping[str, Any], sample: Any) -> PhotonBe
     )
 
 
-def _plain(value: Any) -> Any:
+def _attribute(value: Any) -> Any:
     """Return an attribute as files take it: whole numbers of more than 64 bits as texts."""
     is_long = isinstance(value, int | np.integer) and abs(int(value)) >= _LARGEST
     return str(value) if is_long else value

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import version
@@ -13,10 +11,10 @@ import numpy as np
 
 from optipath.errors import OptipathError, SurfaceError, needing
 from optipath.surfaces.walk.beam import UNPOLARISED, given_state
-from optipath.values.files import drafted, given_file
+from optipath.values.files import drafted, given_file, told_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
     from os import PathLike
     from pathlib import Path
 
@@ -90,7 +88,7 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
     place = given_file(path, SurfaceError)
     if place.suffix == ".exr":
         picture = StokesPicture.of(hemisphere, source, side)
-        with told_of(place):
+        with told_of(place, SurfaceError):
             picture.write(place)
     elif place.suffix in _PACKAGES:
         if given := [n for n, each in {"source": source, "side": side}.items() if each is not None]:
@@ -99,7 +97,7 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
                 f"{'= and '.join(given)}= out, or give a name that ends in .exr for a picture"
             )
         write = _writer(hemisphere, place.suffix)
-        with told_of(place):
+        with told_of(place, SurfaceError):
             write(place)
     else:
         raise SurfaceError(
@@ -118,26 +116,6 @@ def _writer(hemisphere: Hemisphere, ending: str) -> Any:
         )
     write = {".zarr": write_zarr, ".nc": write_netcdf}[ending]
     return lambda place: write(kept_hemisphere(hemisphere), place)
-
-
-@contextmanager
-def told_of(place: Path, error: type[OptipathError] = SurfaceError) -> Iterator[None]:
-    """Tell what the file system refuses while a file is written.
-
-    >>> from pathlib import Path
-    >>> with told_of(Path("nowhere/a.nc")):
-    ...     raise FileNotFoundError(2, "")
-    Traceback (most recent call last):
-    optipath.errors.SurfaceError: 'nowhere/a.nc' cannot be written: No such file or directory; \
-    give a name in a folder that takes files
-    """
-    try:
-        yield
-    except OSError as fault:
-        why = os.strerror(fault.errno) if fault.errno else fault
-        raise error(
-            f"'{place}' cannot be written: {why}; give a name in a folder that takes files"
-        ) from None
 
 
 _NANOMETRE = 1e-9

@@ -15,8 +15,7 @@ from optipath.light.conventions import changed_matrix
 from optipath.light.mueller import Mueller
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.formats.brdf import BrdfOfHemispheres, HalfAngles, in_frames
-from optipath.surfaces.formats.hemisphere_files import told_of
-from optipath.values.files import given_file, written_whole
+from optipath.values.files import given_file, told_of, written_whole
 from optipath.values.precision import is_whole
 from optipath.values.wavelength import Wavelength
 
@@ -104,7 +103,7 @@ def write_measured_polarized(
     if colours is None:
         raise SurfaceError(*faults)
     axes = HalfAngles.of(shape)
-    with told_of(place), written_whole(place) as stream:
+    with told_of(place, SurfaceError), written_whole(place) as stream:
         write_tensors(stream, _tensors(axes, colours, table, description or _measured(brdf)))
 
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 LAYOUT = 1
 """The version of what a store of a measurement has in it."""
 
-_SOURCES = "kernels", "engines/formulas", "surfaces"
+_SOURCES = "kernels", "engines", "surfaces"
 """What the bits follow from."""
 
 
