@@ -5,8 +5,8 @@ from importlib import import_module
 from distributed import WorkerPlugin
 
 CHUNK = 1 << 14
-_HOME = "optipath.surfaces.hemispheres"
-PLACES = [f"{_HOME}.{name}.CHUNK" for name in ("sensed_beam", "chunk_job", "kept_sums", "measure")]
+_HOME = "optipath.surfaces.hemisphere"
+PLACES = [f"{_HOME}.{name}.CHUNK" for name in ("beam", "chunks", "stored_sums", "measure")]
 
 
 class SmallChunks(WorkerPlugin):
