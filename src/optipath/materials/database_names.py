@@ -398,8 +398,9 @@ def _pages(catalog: Any) -> Iterator[CatalogPage]:
                     continue
                 place = f"{shelf['SHELF']}/{book['BOOK']}/{entry['PAGE']}"
                 data = _MISPLACED.get((place, entry["data"]), entry["data"])
-                told = (*(_untagged(each.get("name", "")) for each in (book, entry)), divider)
-                yield CatalogPage(shelf["SHELF"], book["BOOK"], entry["PAGE"], *told, data)
+                names = [_untagged(each.get("name", "")) for each in (book, entry)]
+                told = shelf["SHELF"], book["BOOK"], entry["PAGE"], *names, divider, data
+                yield CatalogPage(*told)
 
 
 def _with(entries: Any, key: str) -> Iterator[dict[str, Any]]:
