@@ -157,6 +157,24 @@ class ComposerError(OptipathError):
     """A composer option that does not exist."""
 
 
+@contextmanager
+def collecting(
+    faults: list[str], error: type[OptipathError] = OptipathError, about: str = ""
+) -> Iterator[None]:
+    """Keep the sentences of what goes wrong inside, each behind what it is about, and go on.
+
+    >>> faults = []
+    >>> with collecting(faults, about="there: "):
+    ...     raise OptipathError("it is dark")
+    >>> faults
+    ['there: it is dark']
+    """
+    try:
+        yield
+    except error as fault:
+        faults += [about + sentence for sentence in fault.faults]
+
+
 def did_you_mean(word: object, known: Iterable[str]) -> str:
     """Return the cure for a misspelt word, ready to be put behind the fault.
 

@@ -9,7 +9,15 @@ import click
 
 from optipath.cli.ranges import axis_faults, axis_given
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError, listed, printable, shown, there_are
+from optipath.errors import (
+    OptipathError,
+    ParameterError,
+    collecting,
+    listed,
+    printable,
+    shown,
+    there_are,
+)
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     WAVELENGTH,
@@ -83,10 +91,8 @@ def chosen_by(
     single = {name: value for name, value in sound.items() if name not in axes}
     found = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
     if faults or axes or len(found) > 1:
-        try:
+        with collecting(faults):
             of_each(found, Chosen.path)
-        except OptipathError as error:
-            faults += error.faults
         faults += axis_faults(path, axes) if faults else []
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
@@ -161,7 +167,7 @@ def _value(
             return None
         return text
     parameter = path.parameters.get(name, WAVELENGTH)
-    try:
+    with collecting(faults):
         if is_material(parameter, text, uses):
             beside = extinction_beside(uses, name)
             k = _value(path, beside, given, uses, faults) if beside in given else None
@@ -176,9 +182,7 @@ def _value(
         # A bare number may be nanometres, micrometres or electronvolts.
         unit = "" if isinstance(parameter, Wavelength) else parameter.unit
         return single_value(parameter, text, uses, unit, lambda word: f"--{_flag(word)}")
-    except OptipathError as error:
-        faults += error.faults
-        return None
+    return None
 
 
 def _flag(name: str) -> str:

@@ -21,7 +21,7 @@ from optipath.cli.console import (
 )
 from optipath.cli.options import StrictCommand
 from optipath.elements.fresnel import effective_index, fresnel_reflection
-from optipath.errors import MaterialError, OptipathError, did_you_mean
+from optipath.errors import MaterialError, OptipathError, collecting, did_you_mean
 from optipath.materials.database import FoundPage, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
@@ -258,8 +258,6 @@ def _read(text: str, faults: list[str]) -> float:
 
 
 def _angle(text: str, faults: list[str]) -> float:
-    try:
+    with collecting(faults):
         return float(INCIDENCE_DOMAIN.check("--incidence", parse_quantity(text, "angle", "deg")))
-    except OptipathError as error:
-        faults += error.faults
-        return 0.0
+    return 0.0

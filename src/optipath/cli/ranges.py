@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, shown
+from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.grid import SweepGrid, sweep_axis
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
@@ -48,10 +48,8 @@ def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
     faults: list[str] = []
     for name, values in axes.items():
         if name in path.parameters:
-            try:
+            with collecting(faults):
                 path.bind(**{name: values.given})
-            except OptipathError as error:
-                faults += error.faults
     return faults
 
 

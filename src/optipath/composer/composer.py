@@ -19,7 +19,7 @@ from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring, link_text
 from optipath.engines.choice import ENGINES, REGISTRY, is_installed
 from optipath.engines.program import MODELS
-from optipath.errors import ComposerError, shown, unknown
+from optipath.errors import ComposerError, collecting, shown, unknown
 from optipath.kernels.catalog import METHODS
 from optipath.plan.plan import Plan
 from optipath.values.precision import precision_name, whole_number
@@ -118,10 +118,8 @@ class Composer:
             value = getattr(self, option)
             if value is not None or option != "loops":
                 faults += unknown(option, value, choices)
-        try:
+        with collecting(faults, ComposerError):
             object.__setattr__(self, "dtype", precision_name(self.dtype))
-        except ComposerError as fault:
-            faults += fault.faults
         engine, dtype, model, composing = (
             word if isinstance(word, str) else ""  # an array equals no word, and has no truth
             for word in (self.engine, self.dtype, self.model, self.composing)

@@ -12,7 +12,7 @@ from optipath.elements.coupling import Coupling, turned
 from optipath.elements.element import Element
 from optipath.elements.known_sizes import largest, over_a_length, overflow, vanishes
 from optipath.elements.polarizers import along_circular_axes
-from optipath.errors import ValueFault, did_you_mean
+from optipath.errors import ValueFault, collecting, did_you_mean
 from optipath.kernels.catalog import (
     ABSORPTION_ALONG,
     ABSORPTION_BESIDE_DICHROISM,
@@ -261,15 +261,14 @@ def _absorption(k: Any, wavelength: Any) -> Any:
     return absorption
 
 
-def _value_faults(name: str, value: Any, domain: Domain) -> tuple[str, ...]:
+def _value_faults(name: str, value: Any, domain: Domain) -> list[str]:
     if isinstance(value, Parameter):
         problem = f"{name} is parameter '{value.name}', but absorption is computed from it at once"
-        return (f"{problem}; give a value, or give Medium a parameter for its absorption",)
-    try:
+        return [f"{problem}; give a value, or give Medium a parameter for its absorption"]
+    faults: list[str] = []
+    with collecting(faults, ValueFault):
         domain.check(name, value)
-    except ValueFault as fault:
-        return fault.faults
-    return ()
+    return faults
 
 
 _ROUNDING = 1e-6

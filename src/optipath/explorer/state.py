@@ -7,7 +7,15 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import OptipathError, ParameterError, listed, printable, shown, unknown
+from optipath.errors import (
+    OptipathError,
+    ParameterError,
+    collecting,
+    listed,
+    printable,
+    shown,
+    unknown,
+)
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     WAVELENGTH,
@@ -81,10 +89,8 @@ def asked_state(given: Any, allowed: Sequence[str], needed: Sequence[str] = ()) 
     read: dict[str, Any] = {}
     for name in names:
         if name in given and (name in needed or name == "preset" or given[name] is not None):
-            try:
+            with collecting(faults, ParameterError):
                 read[name] = _READERS[name](name, given[name])
-            except ParameterError as fault:
-                faults += fault.faults
     if faults:
         raise ParameterError(*faults)
     return AskedState(**read)
@@ -148,10 +154,8 @@ def _curve(name: str, given: Any) -> AskedCurve:
     faults += [f"{name}.{key} is missing; give it" for key in readers if key not in given]
     read: list[Any] = []
     for key, reader in readers.items():
-        try:
+        with collecting(faults, ParameterError):
             read.append(reader(f"{name}.{key}", given[key]) if key in given else None)
-        except ParameterError as fault:
-            faults += fault.faults
     if faults:
         raise ParameterError(*faults)
     return AskedCurve(*read)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from optipath.errors import OptipathError, listed, shown, unknown
+from optipath.errors import OptipathError, collecting, listed, shown, unknown
 from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, link_as_json
 from optipath.explorer.state import FieldFault, FieldFaults, single_text
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
@@ -74,11 +74,9 @@ def _curve(state: ReadState) -> dict[str, Any]:
 
 def _scene(path: PathGraph, state: ReadState, notes: list[str]) -> dict[str, Any] | None:
     """Return the path in space; a note where it cannot be laid out."""
-    try:
+    with collecting(notes):
         return scene_of(path, **state.values).as_json()
-    except OptipathError as error:
-        notes += error.faults
-        return None
+    return None
 
 
 def traced(state: ReadState) -> dict[str, Light]:
@@ -229,10 +227,8 @@ def _end_faults(state: ReadState, parameter: Parameter, asked: AskedCurve) -> li
         if any(sign in text for sign in _SEVERAL) or text in parameter.all_words:
             faults.append(f"{shown(text)} is no end of a curve; give one number, with a unit")
             continue
-        try:
+        with collecting(faults):
             single_text(state.explored, parameter, text.strip())
-        except OptipathError as error:
-            faults += error.faults
     return faults
 
 

@@ -7,7 +7,7 @@ from decimal import Decimal, InvalidOperation
 from html import unescape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import MaterialError, OptipathError, ValueFault, shown, unknown
+from optipath.errors import MaterialError, OptipathError, ValueFault, collecting, shown, unknown
 from optipath.materials.database_names import (
     CURATED,
     VACUUM,
@@ -262,10 +262,8 @@ def entries_of_page(contents: Any, faults: list[str]) -> list[PageEntry]:
         return []
     found = []
     for at, entry in enumerate(data, 1):
-        try:
+        with collecting(faults, about=f"entry {at} of DATA "):
             found.append(_entry(entry))
-        except OptipathError as error:
-            faults += [f"entry {at} of DATA {fault}" for fault in error.faults]
     return found
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.errors import ValueFault, listed, shown
+from optipath.errors import ValueFault, collecting, listed, shown
 from optipath.kernels.dispersion import (
     DATABASE_FORMULAS,
     cauchy_index,
@@ -46,14 +46,10 @@ class FormulaCurve(Curve):
         vars(self).update(label=label, beyond="take another formula", **given)
         faults: list[str] = []
         for name, value, domain in self.arguments():
-            try:
+            with collecting(faults, ValueFault):
                 _check(f"{name} of {label}", value, domain)
-            except ValueFault as fault:
-                faults += fault.faults
-        try:
+        with collecting(faults, ValueFault):
             vars(self).update(span=read_span(f"span of {label}", span))
-        except ValueFault as fault:
-            faults += fault.faults
         if faults:
             raise ValueFault(*faults)
         vars(self).update({name: _as_floats(value) for name, value in given.items()})

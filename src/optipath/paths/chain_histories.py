@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ValueFault
+from optipath.errors import ValueFault, collecting
 from optipath.kernels.vertex_chain import Event
 from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
@@ -62,10 +62,8 @@ def histories(
     faults: list[str] = []
 
     def attempt(read: Any, *given: Any) -> Any:
-        try:
+        with collecting(faults):
             return read(*given)
-        except OptipathError as fault:
-            faults.extend(fault.faults)
 
     chosen = None if ids is None else attempt(rows_of_ids, ids)
     count = len(materials) if chosen is None else chosen.shape[-1]
@@ -186,15 +184,12 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tupl
     n, k = np.ones(len(materials)), np.zeros(len(materials))
     for place, material in enumerate(materials):
         name = f"materials[{place}]"
-        try:
+        with collecting(faults, ValueFault):
             one_n, one_k = index_parts(name, material, "ids choose from numbers")
-        except ValueFault as fault:
-            faults += fault.faults
-            continue
-        if one_n.ndim or one_k.ndim:
-            faults.append(f"{name} is an array, and ids choose from numbers; give one number")
-        else:
-            n[place], k[place] = one_n, one_k
+            if one_n.ndim or one_k.ndim:
+                faults.append(f"{name} is an array, and ids choose from numbers; give one number")
+            else:
+                n[place], k[place] = one_n, one_k
     if faults:
         raise ValueFault(*faults)
     if ids is None:

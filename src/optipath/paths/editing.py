@@ -17,7 +17,7 @@ from optipath.composer.wiring import Wiring, link_text, taken_out
 from optipath.elements.chaining import NamedElement
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import azimuth_at
-from optipath.errors import PathError, did_you_mean, listed, shown, there_are
+from optipath.errors import PathError, collecting, did_you_mean, listed, shown, there_are
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
 from optipath.paths.joining import are_alike, name_by_kind, turn_more
@@ -125,10 +125,8 @@ def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]
     """Return the link between two ports, or raise with these faults and those of the ports."""
     ends = []
     for text, out in ((leaves, True), (enters, False)):
-        try:
+        with collecting(faults, PathError):
             ends.append(find_port(graph, text, out=out))
-        except PathError as fault:
-            faults += fault.faults
     if faults:
         raise PathError(*faults)
     (start, out_port), (end, in_port) = ends

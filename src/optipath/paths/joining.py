@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.composer.placement import azimuth_of, goes_straight, is_zero, turn_text
 from optipath.composer.wiring import LOOPS, Wiring
-from optipath.errors import OptipathError, PathError
+from optipath.errors import OptipathError, PathError, collecting
 from optipath.paths.port_names import element_at, find_port, natural_of, natural_port
 from optipath.values.arrays import joint_shape, read_only, same
 from optipath.values.parameters import Parameter
@@ -47,10 +47,8 @@ def join(
     faults: list[str] = []
     link = []
     for given, graph, out in ((leaves, first, True), (None, second, False)):
-        try:
+        with collecting(faults, PathError):
             link.append(given or _open_port(graph, out=out))
-        except PathError as fault:
-            faults += fault.faults
     names = _names(first, second)
     faults += [
         f"node '{name}' stands on both sides of >>; give one of them another name"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
-from optipath.errors import ParameterError, PathError, shown, unknown
+from optipath.errors import ParameterError, PathError, collecting, shown, unknown
 from optipath.paths.binding import bind
 from optipath.paths.editing import insert, remove
 from optipath.paths.joining import turn_to, turns_to
@@ -71,27 +71,22 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
 
 def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool = True) -> list[str]:
     """Return why the node of a choice cannot be put in its places, a sentence each."""
-    node, of_node, of_places = choice.node, [], []
-    try:
+    node, faults = choice.node, list[str]()
+    with collecting(faults, PathError):
         element = element_at(graph, node)
         enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
         if not goes_straight(element, enters, leaves):
-            of_node.append(f"light does not go straight through '{node}', so it has no other place")
-    except PathError as fault:
-        of_node += fault.faults
+            faults.append(f"light does not go straight through '{node}', so it has no other place")
     # What has no place at all says nothing of links.
-    links = Wiring(graph).links_from if linked and not of_node else None
+    links = Wiring(graph).links_from if linked and not faults else None
     for word, port in choice.behind.items():
-        try:
+        at = f"place '{word}': "
+        with collecting(faults, PathError, at):
             start, way = find_port(graph, port, out=True)
-        except PathError as fault:
-            of_places += [f"place '{word}': {sentence}" for sentence in fault.faults]
-            continue
-        if links is not None and (start == node or len(links.get((start, way), [])) != 1):
-            of_places.append(
-                f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
-            )
-    return [*of_node, *of_places]
+            if links is not None and (start == node or len(links.get((start, way), [])) != 1):
+                no_place = f"'{start}.{way}' feeds no one link that '{node}' could be put into"
+                faults.append(at + no_place)
+    return faults
 
 
 def with_given(
@@ -101,14 +96,10 @@ def with_given(
     graph = graph.copy()
     faults: list[str] = []
     for name in [name for name in graph.graph.get("choices", {}) if name in values]:
-        try:
+        with collecting(faults, PathError):
             put_in_place(graph, name, values.pop(name))
-        except PathError as fault:
-            faults += fault.faults
-    try:
+    with collecting(faults, ParameterError):
         graph = bind(graph, values, for_good=for_good)
-    except ParameterError as fault:
-        faults += fault.faults
     if faults:
         raise ParameterError(*faults)
     return graph

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, ValueFault
+from optipath.errors import ParameterError, ValueFault, collecting
 from optipath.kernels.carriers.intensities import Boosts, boosted, largest_error, ratio_bounds
 from optipath.kernels.primitives import NUMPY
 from optipath.light.underflow import underflows
@@ -99,10 +99,8 @@ def intensity_bounds(
     numbers: dict[str, npt.NDArray[Any]] = {}
     faults: list[str] = []
     for name, (value, domain) in given.items():
-        try:
+        with collecting(faults, ValueFault):
             numbers[name] = domain.check(name, value)
-        except ValueFault as fault:
-            faults += fault.faults
     if faults:
         raise ParameterError(*faults)
     check_broadcast({name: number.shape for name, number in numbers.items()})

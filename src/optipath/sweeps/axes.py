@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, did_you_mean, listed, shown
+from optipath.errors import ParameterError, collecting, did_you_mean, listed, shown
 from optipath.plan.inputs import LargeAngles
 from optipath.sweeps.checked_axes import axis_faults, computed_faults, unknown_names, unnamed_arrays
 from optipath.sweeps.coords import (
@@ -103,14 +103,12 @@ def _read(
     for name, (value, _) in several.items():
         if name not in inputs.open and not isinstance(value, IdleValues):
             continue
-        try:
+        with collecting(faults):
             if isinstance(value, TextColumn):
                 found[name] = read_column(inputs, value)
             else:
                 is_read = isinstance(value, AxisValues)
                 found[name] = value if is_read else read_values(inputs, name, value)
-        except OptipathError as fault:
-            faults += fault.faults
     return found
 
 

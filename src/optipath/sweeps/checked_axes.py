@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import OptipathError, closest, listed, shown
+from optipath.errors import closest, collecting, listed, shown
 from optipath.paths.path_graph import PathGraph
 from optipath.values.arrays import broadcast_fault
 from optipath.values.messages import no_value
@@ -34,13 +34,11 @@ def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list
     given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
     for name, value in given.items():
         uses = tuple([use for use in inputs.uses if use.value.name == name])
-        try:
+        with collecting(faults):
             if any(use.domain.takes_any for use in uses):
                 inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
             if ranges:
                 _alone(inputs, name, uses).resolve({name: value})
-        except OptipathError as fault:
-            faults += fault.faults
     return faults
 
 
@@ -48,12 +46,11 @@ def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
     """Return what is wrong with what follows from values of a grid, each of which is well."""
     if not inputs.computed:
         return []
-    try:
+    faults: list[str] = []
+    with collecting(faults):
         # Along the dimensions of what it follows from, and nothing is laid out.
         replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
-    except OptipathError as fault:
-        return [*fault.faults]
-    return []
+    return faults
 
 
 def unnamed_arrays(inputs: Inputs, given: Collection[str]) -> list[str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, shown
+from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.labels import is_variable
 from optipath.values.arrays import as_given
 from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
@@ -252,13 +252,12 @@ def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:
     return found
 
 
-def _faults(inputs: Inputs, name: str, text: str) -> tuple[str, ...]:
+def _faults(inputs: Inputs, name: str, text: str) -> list[str]:
     """Return what is wrong with a cell."""
     if _ENDLESS.fullmatch(text):
-        return (f"parameter '{name}' is '{text}', which is not finite; write a number",)
-    try:
+        return [f"parameter '{name}' is '{text}', which is not finite; write a number"]
+    faults: list[str] = []
+    with collecting(faults):
         found = read_entries([text], inputs.open[name], "", inputs.uses)
         inputs.numbers_for(name, found.given[0])
-    except OptipathError as fault:
-        return fault.faults
-    return ()
+    return faults

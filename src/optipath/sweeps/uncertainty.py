@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import OptipathError, ParameterError, shown, unknown
+from optipath.errors import OptipathError, ParameterError, collecting, shown, unknown
 from optipath.materials.material import Material
 from optipath.plan.answers import only
 from optipath.sweeps.checked_axes import unknown_names
@@ -160,10 +160,8 @@ def read_uncertain(
     uncertain: list[UncertainValue] = []
     for name, value in known.items():
         if name not in exact:
-            try:
+            with collecting(faults):
                 uncertain.append(_read(inputs, name, value))
-            except OptipathError as fault:
-                faults += fault.faults
     if not any(isinstance(value, tuple) for value in given.values()):
         faults.append(
             "nothing that is given has an uncertainty; give a value and its standard uncertainty, "

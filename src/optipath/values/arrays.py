@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ShapeError, ValueFault, shown
+from optipath.errors import OptipathError, ShapeError, ValueFault, collecting, shown
 from optipath.values.jax_values import is_jax, is_traced
 from optipath.values.precision import (
     ENDLESS,
@@ -525,10 +525,8 @@ def numbers_for(
         return value
     faults: list[str] = []
     for place in places:
-        try:
+        with collecting(faults, error):
             entries[place] = _number(what, entries[place], parse, error)
-        except error as fault:
-            faults += fault.faults
     if faults:
         raise error(*dict.fromkeys(faults))
     if all(isinstance(entry, _NUMBER) and not isinstance(entry, bool) for entry in entries):

@@ -15,6 +15,7 @@ from optipath.errors import (
     UnitError,
     ValueFault,
     closest,
+    collecting,
     did_you_mean,
     looks_left,
     shown,
@@ -404,11 +405,8 @@ def read_specification(parameter: Any) -> dict[str, Any]:
     found = {"unit": unit, **limits, "words": {**named} if named else words}
     parse = partial(parse_quantity, dimension=dimension)
     for what, (several, key) in places.items():
-        try:
+        with collecting(faults, ParameterError):
             number = numbers_for(what, several[key], parse, ParameterError)
-        except ParameterError as fault:
-            faults += fault.faults
-        else:
             (found if several is limits else found["words"])[key] = number
     if faults:
         raise ParameterError(*faults)

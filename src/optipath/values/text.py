@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, UnitError, shown
+from optipath.errors import OptipathError, ParameterError, UnitError, collecting, shown
 from optipath.values.columns import column_for, first_of
 from optipath.values.parameters import ABSENT, AXES
 from optipath.values.units import (
@@ -113,10 +113,8 @@ def read_entries(
     found: list[_Entry] = []
     faults: list[str] = []
     for entry in entries:
-        try:
+        with collecting(faults):
             found.append(_read(entry, parameter, unit, uses))
-        except OptipathError as fault:
-            faults += fault.faults
     if faults:
         raise ParameterError(*first_of([*dict.fromkeys(faults)]))
     given = [each.given for each in found]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, ValueFault
+from optipath.errors import OptipathError, ParameterError, ValueFault, collecting
 from optipath.values.angles import is_of_an_angle, meant_in_degrees, warn_of_degrees
 from optipath.values.arrays import as_given
 from optipath.values.curve_value import CurveValue, check_computed
@@ -295,10 +295,8 @@ def faults_of(uses: Iterable[Use]) -> list[str]:
     """Return what is wrong with the values that are known already, a sentence each."""
     found: list[str] = []
     for use in uses:
-        try:
+        with collecting(found, ValueFault):
             use.check()
-        except ValueFault as fault:
-            found += fault.faults
     return found
 
 
