@@ -1,1 +1,1 @@
-"""The optical elements, one concept a file; a class of one's own is one more."""
+"""The optical elements, one family a file; a class of one's own is one more."""

@@ -1,4 +1,4 @@
 """The physics, elementwise, each piece written once.
 
-A kernel is made for any `Primitives`; `catalogue` binds each to the structure of what it returns.
+A kernel is made for any `Primitives`; `catalog` binds each to the structure of what it returns.
 """
