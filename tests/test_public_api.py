@@ -20,13 +20,10 @@ FOR_DEVELOPERS = {"test", "lint", "docs", "browser"}
 
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
-    "interruption",
-    "spelling",
-    "lazy_names",
     "errors",
-    "extras",
     "kernels",
     "values",
+    "materials",
     "light",
     "elements",
     "engines",
@@ -42,6 +39,12 @@ ROOMS = [
 ]
 
 
+def calls_up():
+    """The imports within methods that lead upwards, as the page on the architecture lists them."""
+    page = (PROJECT.parent / "docs" / "architecture.md").read_text("utf-8")
+    return {*re.findall(r"^- `(\S+)` -> `(\S+)`:", page, re.MULTILINE)}
+
+
 def modules():
     """Every module, with the room that it is in."""
     for file in SOURCE.rglob("*.py"):
@@ -54,7 +57,6 @@ class Parts(NamedTuple):
     imports: list
     names_from: list
     calls: list
-    classes: list
 
     @classmethod
     @functools.cache
@@ -64,7 +66,6 @@ class Parts(NamedTuple):
             [node for node in nodes if isinstance(node, ast.Import)],
             [node for node in nodes if isinstance(node, ast.ImportFrom)],
             [node for node in nodes if isinstance(node, ast.Call) and node.args],
-            [node.name for node in nodes if isinstance(node, ast.ClassDef)],
         )
 
     @property
@@ -73,27 +74,8 @@ class Parts(NamedTuple):
         return [node for node in self.names_from if (node.module or "").startswith("optipath.")]
 
 
-def imports_of(file):
-    return [node.module.split(".")[1] for node in Parts.of(file).own]
-
-
 def test_every_room_has_its_place():
     assert {room for room, _ in modules()} - {"__init__", "__main__"} == {*ROOMS}
-
-
-def test_imports_point_one_way():
-    for room, file in modules():
-        if room in ROOMS:
-            allowed = ROOMS[: ROOMS.index(room) + 1]
-            for imported in imports_of(file):
-                assert imported in allowed, f"{file} imports {imported}"
-
-
-def test_no_two_modules_or_classes_have_one_name():
-    names = [file.stem for _, file in modules() if file.stem != "__init__"]
-    assert sorted(names) == sorted(set(names))
-    found = [name for _, file in modules() for name in Parts.of(file).classes if name[0] != "_"]
-    assert sorted(found) == sorted(set(found))
 
 
 def test_all_is_sorted_complete_and_documented():
@@ -177,14 +159,6 @@ def test_rooms_and_the_version_are_attributes_before_anything_is_used():
     assert done.stdout.split() == ["optipath.light", version("optipath")]
 
 
-def test_names_have_the_homes_that_type_checkers_see():
-    own = Parts.of(SOURCE / "__init__.py").own
-    told = {node.module: [alias.name for alias in node.names] for node in own}
-    homes = {f"optipath.{home}": list(names) for home, names in op._HOMES.items()}
-    at_once = ("optipath.errors", "optipath.errors")
-    assert told == homes | {module: told[module] for module in at_once}
-
-
 def module_of(*parts):
     """The file of a module, or of the package of that name; None where there is neither."""
     place = SOURCE.joinpath(*parts)
@@ -192,21 +166,51 @@ def module_of(*parts):
     return next((file for file in found if file.is_file()), None)
 
 
-def modules_imported_by(file):
-    """The modules that a file takes names from, for its annotations too."""
+def imported_by(file):
+    """The files that a file takes names from, in its functions and for its annotations too."""
     for node in Parts.of(file).own:
         parts = node.module.split(".")[1:]
         for alias in node.names:
             yield module_of(*parts, alias.name) or module_of(*parts)
+    for node in Parts.of(file).imports:
+        for alias in node.names:
+            if alias.name.startswith("optipath."):
+                yield module_of(*alias.name.split(".")[1:])
 
 
-def test_no_modules_import_each_other_in_a_circle():
-    imports = nx.DiGraph()
+def imports():
+    """The graph of the files of the library, by the places that they have in it."""
+    graph = nx.DiGraph()
     for _, file in modules():
-        imports.add_edges_from((file, other) for other in modules_imported_by(file))
-    circles = [part for part in nx.strongly_connected_components(imports) if len(part) > 1]
-    assert circles == []
-    assert not list(nx.selfloop_edges(imports))
+        for other in imported_by(file):
+            graph.add_edge(*(each.relative_to(SOURCE).as_posix() for each in (file, other)))
+    return graph
+
+
+def floor(place):
+    """How high the room of a file stands; the package itself stands above them all."""
+    room = place.partition("/")[0].removesuffix(".py")
+    return ROOMS.index(room) if room in ROOMS else len(ROOMS)
+
+
+def test_imports_point_down_but_for_the_calls_that_the_page_on_the_architecture_lists():
+    graph = imports()
+    graph.remove_edges_from(calls_up())
+    assert [edge for edge in graph.edges if floor(edge[1]) > floor(edge[0])] == []
+    assert [part for part in nx.strongly_connected_components(graph) if len(part) > 1] == []
+    assert not list(nx.selfloop_edges(graph))
+
+
+def test_every_listed_call_is_an_import_within_a_function_that_leads_up_or_round():
+    graph = imports()
+    for lower, upper in calls_up():
+        assert graph.has_edge(lower, upper), (lower, upper)
+        led_back = nx.has_path(graph, upper, lower)
+        assert led_back or floor(upper) > floor(lower), (lower, upper)
+        body = ast.parse((SOURCE / lower).read_text("utf-8")).body
+        at_once = [ast.unparse(n) for n in body if isinstance(n, ast.Import | ast.ImportFrom)]
+        module = upper.removesuffix("/__init__.py").removesuffix(".py").replace("/", ".")
+        assert not [line for line in at_once if f"optipath.{module} import" in line]
 
 
 def test_packages_list_no_names_of_their_modules():
@@ -219,9 +223,9 @@ def test_packages_list_no_names_of_their_modules():
     assert sorted(with_names) == [".", "cli", "plots", "surfaces"]
 
 
-def test_no_module_is_longer_than_320_lines():
+def test_no_file_is_longer_than_900_lines():
     lengths = {str(file): len(file.read_text("utf-8").splitlines()) for _, file in modules()}
-    assert {name: length for name, length in lengths.items() if length > 320} == {}
+    assert {name: length for name, length in lengths.items() if length > 900} == {}
 
 
 def test_the_user_code_that_is_type_checked_runs():

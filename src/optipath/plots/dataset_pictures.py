@@ -68,7 +68,7 @@ def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
             "the light has components that are not read, and a sphere shows all; sweep "
             "path.reading('stokes')"
         )
-    from optipath.plots.poincare_sphere import poincare as sphere  # noqa: PLC0415 - in space
+    from optipath.plots import poincare as sphere  # noqa: PLC0415 - in space
 
     return sphere(Light(stokes), ax, by=along.numbers, label=along.labels[-1])
 

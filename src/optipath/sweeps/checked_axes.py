@@ -104,7 +104,7 @@ def unknown_names(inputs: Inputs, given: Mapping[str, Any]) -> list[str]:
     >>> inputs = op.load_preset("malus").compose().inputs
     >>> unknown_names(inputs, {"engine": "numba", "dtype": "float32"})
     ["'engine' and 'dtype' are no parameters of the path; give \
-    composer=op.Composer(engine='numba', dtype='float32')"]
+composer=op.Composer(engine='numba', dtype='float32')"]
     """
     unknown = [name for name in given if name not in inputs.open]
     chosen = {*inputs.open, *inputs.bound, *inputs.choices}

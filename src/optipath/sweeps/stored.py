@@ -42,7 +42,7 @@ def place_of_store(store: str | PathLike[str]) -> Path:
     >>> place_of_store("sweep.csv")
     Traceback (most recent call last):
     optipath.errors.ParameterError: store 'sweep.csv' is neither a Zarr store nor a NetCDF file: \
-    give a name that ends in .zarr or .nc, such as 'sweep.zarr'
+give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     """
     is_path = isinstance(store, str | os.PathLike)
     place = Path(store) if is_path else Path()

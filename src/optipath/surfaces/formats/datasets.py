@@ -198,7 +198,7 @@ class UnknownSample:
     >>> UnknownSample("its heights are in no file", isotropic=True, digest="").layers
     Traceback (most recent call last):
     optipath.errors.SurfaceError: the sample of this hemisphere is not known: its heights are in \
-    no file; give it, op.load_hemisphere(path, sample=...)
+no file; give it, op.load_hemisphere(path, sample=...)
     """
 
     why: str

@@ -150,7 +150,7 @@ def given_store(store: Any, scheduler: Any) -> Path | None:
     >>> given_store("hemisphere.nc", None)
     Traceback (most recent call last):
     optipath.errors.SurfaceError: store 'hemisphere.nc' is no Zarr store; give a name that ends \
-    in .zarr, such as 'hemisphere.zarr'
+in .zarr, such as 'hemisphere.zarr'
     """
     faults = Faults()
     if scheduler is not None:
