@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import ValueFault
 from optipath.kernels.carriers.structures import BLOCK
 from optipath.kernels.catalog import REFLECTION, TRANSMISSION
-from optipath.kernels.fresnel import boundary as refraction_kernels
+from optipath.kernels.fresnel import boundary
 from optipath.kernels.fresnel.boundary import phase_index, refraction
 from optipath.kernels.fresnel.textbook import single_amplitudes
 from optipath.kernels.primitives import NUMPY
@@ -339,7 +339,7 @@ def effective_index(
     check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
     numbers = n1, k1, *parts_of(m), arriving_cosine(c, k1), s + 0.0
-    return EffectiveIndex(*kernel_values(refraction_kernels.effective_index, *numbers))
+    return EffectiveIndex(*kernel_values(boundary.effective_index, *numbers))
 
 
 COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)

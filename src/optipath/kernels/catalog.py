@@ -4,12 +4,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TypeAlias
 
-from optipath.kernels import filters, vertex_chain
-from optipath.kernels import filters as bench
-from optipath.kernels import filters as emission
-from optipath.kernels import filters as rotation
-from optipath.kernels import medium as lorentz
-from optipath.kernels import medium as stretch
+from optipath.kernels import filters, medium, vertex_chain
 from optipath.kernels.carriers.structures import (
     BLOCK,
     DEPOLARIZING_BLOCK,
@@ -18,12 +13,7 @@ from optipath.kernels.carriers.structures import (
     ROTATION,
     SCALE,
 )
-from optipath.kernels.fresnel import absorbing as from_absorbing
-from optipath.kernels.fresnel import boundary as inhomogeneous
-from optipath.kernels.fresnel import stable, textbook
-from optipath.kernels.fresnel import textbook as amplitude
-from optipath.kernels.fresnel import textbook as amplitude_from_absorbing
-from optipath.kernels.fresnel import variants as powers
+from optipath.kernels.fresnel import absorbing, boundary, stable, textbook, variants
 from optipath.kernels.fresnel.boundary import Refracting
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.variants import AtAngle, AtEvent, Compensated
@@ -71,9 +61,9 @@ def _cheaper_within(name: str, factories: Factories, intensities: Factories = ()
 REFLECTION = _fresnel(
     "Fresnel reflection",
     (stable.stable_reflection, stable.lossless_reflection, stable.denser_reflection),
-    (powers.reflected_powers, powers.lossless_powers, powers.denser_powers),
+    (variants.reflected_powers, variants.lossless_powers, variants.denser_powers),
     compensated=(Compensated(stable.stable_reflection), Compensated(stable.lossless_reflection)),
-    amplitude=(Refracting(amplitude.amplitude_reflection),),
+    amplitude=(Refracting(textbook.amplitude_reflection),),
     textbook=(Refracting(textbook.textbook_reflection),),
 )
 TRANSMISSION = _fresnel(
@@ -84,7 +74,7 @@ TRANSMISSION = _fresnel(
         Compensated(stable.stable_transmission),
         Compensated(stable.lossless_transmission),
     ),
-    amplitude=(Refracting(amplitude.amplitude_transmission),),
+    amplitude=(Refracting(textbook.amplitude_transmission),),
     textbook=(Refracting(textbook.textbook_transmission),),
 )
 METHODS = tuple(REFLECTION.methods)
@@ -140,7 +130,7 @@ def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> Ke
         usual, name = family.methods[method], f"{what} ({method})"
         alone = None
         if usual.powers:
-            intensities = powers.inhomogeneous_powers
+            intensities = variants.inhomogeneous_powers
             alone = Kernel(f"{name}, powers", POWERS, intensities, (1, usual.powers))
         methods[method] = Kernel(name, BLOCK, factory, (1, usual), powers=alone)
     return KernelFamily(what, methods)
@@ -163,24 +153,24 @@ def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> K
 
 REFLECTION_FROM_ABSORBING = _from_front(
     REFLECTION,
-    from_absorbing.inhomogeneous_reflection,
-    amplitude_from_absorbing.amplitude_inhomogeneous_reflection,
+    absorbing.inhomogeneous_reflection,
+    textbook.amplitude_inhomogeneous_reflection,
 )
 TRANSMISSION_FROM_ABSORBING = _from_front(
     TRANSMISSION,
-    from_absorbing.inhomogeneous_transmission,
-    amplitude_from_absorbing.amplitude_inhomogeneous_transmission,
+    absorbing.inhomogeneous_transmission,
+    textbook.amplitude_inhomogeneous_transmission,
 )
 TRANSMISSION_FROM_BEHIND = _from_behind(
     TRANSMISSION,
-    from_absorbing.transmission_from_behind,
-    amplitude_from_absorbing.amplitude_transmission_from_behind,
+    absorbing.transmission_from_behind,
+    textbook.amplitude_transmission_from_behind,
 )
 PHASE_INDEX = Kernel(
     "index of planes of constant phase",
     None,
-    inhomogeneous.phase_index,
-    without=(1, Kernel("index without absorption", None, inhomogeneous.real_index)),
+    boundary.phase_index,
+    without=(1, Kernel("index without absorption", None, boundary.real_index)),
 )
 """The index by which Snell's law holds for the real angle in an absorbing medium."""
 
@@ -207,10 +197,10 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
     return KernelFamily(what, methods)
 
 
-TURN = Kernel("turn", ROTATION, rotation.turn)
-TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
+TURN = Kernel("turn", ROTATION, filters.turn)
+TURN_BACK = Kernel("turn back", ROTATION, filters.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
-ALIGN = Kernel("align", ROTATION, rotation.align)
+ALIGN = Kernel("align", ROTATION, filters.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
 TURN_BESIDE_REFRACTION = Kernel(
     "turn between planes beside a refraction", ROTATION, TurnBetweenPlanes(across=True)
@@ -224,42 +214,40 @@ REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)
-ELLIPTICAL_RETARDER = Kernel("elliptical retarder", FULL, lorentz.retardance)
+ELLIPTICAL_RETARDER = Kernel("elliptical retarder", FULL, medium.retardance)
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 RESPONSE = Kernel("response", SCALE, filters.given)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
 DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
-GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, amplitude.given_amplitudes)
-ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, stretch.absorption_along)
-THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, stretch.third_of_absorption)
-ROTATION_ALONG = Kernel("rotation along the way", ROTATION, stretch.rotation_along)
-DEXTROROTATION_ALONG = Kernel(
-    "dextrorotation along the way", ROTATION, stretch.dextrorotation_along
-)
-RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, stretch.retardance_along)
-FARADAY_ROTATION = Kernel("Faraday rotation", ROTATION, bench.faraday_rotation)
-WAVEPLATE = Kernel("wave plate", BLOCK, bench.waveplate)
-POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, bench.polarizing_reflection)
-POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, bench.polarizing_transmission)
+GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, textbook.given_amplitudes)
+ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
+THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, medium.third_of_absorption)
+ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
+DEXTROROTATION_ALONG = Kernel("dextrorotation along the way", ROTATION, medium.dextrorotation_along)
+RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
+FARADAY_ROTATION = Kernel("Faraday rotation", ROTATION, filters.faraday_rotation)
+WAVEPLATE = Kernel("wave plate", BLOCK, filters.waveplate)
+POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, filters.polarizing_reflection)
+POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, filters.polarizing_transmission)
 ABSORPTION_BESIDE_DICHROISM = Kernel(
-    "absorption beside dichroism", SCALE, stretch.absorption_beside_dichroism
+    "absorption beside dichroism", SCALE, medium.absorption_beside_dichroism
 )
 THIRD_BESIDE_DICHROISM = Kernel(
-    "a third of absorption beside dichroism", SCALE, stretch.third_of_absorption_beside_dichroism
+    "a third of absorption beside dichroism", SCALE, medium.third_of_absorption_beside_dichroism
 )
-DICHROISM_ALONG = Kernel("dichroism along the way", BLOCK, stretch.dichroism_along)
-DEPOLARIZATION_ALONG = Kernel("depolarisation along the way", FULL, stretch.depolarization_along)
+DICHROISM_ALONG = Kernel("dichroism along the way", BLOCK, medium.dichroism_along)
+DEPOLARIZATION_ALONG = Kernel("depolarisation along the way", FULL, medium.depolarization_along)
 DICHROISM_AND_RETARDANCE_ALONG = Kernel(
-    "dichroism and retardance along the way", FULL, stretch.dichroism_and_retardance_along
+    "dichroism and retardance along the way", FULL, medium.dichroism_and_retardance_along
 )
 DEPOLARIZING_DICHROISM_ALONG = Kernel(
-    "dichroism and depolarisation along the way", FULL, stretch.depolarizing_dichroism_along
+    "dichroism and depolarisation along the way", FULL, medium.depolarizing_dichroism_along
 )
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)
 
-PRODUCT = Kernel("intensity at a wavelength", None, emission.product)
-UNPOLARIZED = Kernel("unpolarized light", None, emission.unpolarized)
-POLARIZED = Kernel("polarized light", None, emission.polarized)
+PRODUCT = Kernel("intensity at a wavelength", None, filters.product)
+UNPOLARIZED = Kernel("unpolarized light", None, filters.unpolarized)
+POLARIZED = Kernel("polarized light", None, filters.polarized)

@@ -11,7 +11,7 @@ from optipath.errors import ParameterError
 from optipath.kernels.carriers.structures import BLOCK
 from optipath.kernels.catalog import REFLECTION, TRANSMISSION
 from optipath.kernels.primitives import NUMPY
-from optipath.lab import boundary_reference as reference
+from optipath.lab import boundary_reference
 from optipath.lab.many_digits import WORKING_DIGITS, exactly, mpmath
 from optipath.lab.path_reference import exact_batch
 from optipath.lab.regions import in_region, interfaces
@@ -85,7 +85,10 @@ def in_ulp(distance: Any, value: Any, dtype: str) -> float:
 
 SAMPLES = 200
 FAMILIES = {"reflection": REFLECTION, "transmission": TRANSMISSION}
-REFERENCES = {"reflection": reference.reflection, "transmission": reference.transmission}
+REFERENCES = {
+    "reflection": boundary_reference.reflection,
+    "transmission": boundary_reference.transmission,
+}
 
 
 def interface_errors(
@@ -123,7 +126,9 @@ def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
 
 
 @lru_cache(maxsize=256)
-def _references(region: Region, dtype: str, count: int, what: str) -> tuple[reference.Exact, ...]:
+def _references(
+    region: Region, dtype: str, count: int, what: str
+) -> tuple[boundary_reference.Exact, ...]:
     samples = zip(*region.samples(count, dtype), strict=True)
     with mpmath.workdps(WORKING_DIGITS):
         return tuple(REFERENCES[what](*map(exactly, sample)) for sample in samples)

@@ -18,7 +18,7 @@ import numpy as np
 from optipath.errors import CoherenceWarning, FrameError, LightError
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.primitives import NUMPY
-from optipath.light import decompositions as cloude
+from optipath.light import decompositions
 from optipath.light.array_axes import ArrayAxes, each_number, why_refused
 from optipath.light.conventions import EllipsometricAngles, changed_matrix
 from optipath.light.decompositions import polar_parts, reciprocal, stacked, turn_of
@@ -260,7 +260,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).coherency.real.diagonal()
         array([0.25, 0.25, 0.25, 0.25])
         """
-        return cloude.coherency(self.matrix)
+        return decompositions.coherency(self.matrix)
 
     @property
     def cloude_eigenvalues(self) -> Array:
@@ -268,7 +268,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         What does not depolarise has one above 0; a physical matrix has none below 0.
         """
-        return cloude.eigenvalues(self.matrix)
+        return decompositions.eigenvalues(self.matrix)
 
     def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
         """Tell whether some mixture of Jones matrices acts like this, shape (...).
@@ -291,7 +291,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
         False
         """
-        return cloude.is_physical(self.matrix, tolerance)
+        return decompositions.is_physical(self.matrix, tolerance)
 
     @property
     def noise(self) -> Array:
@@ -368,7 +368,9 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).nearest_physical().matrix.diagonal().round(12)
         array([ 1.5,  0.5,  0.5, -0.5])
         """
-        return Mueller.of(cloude.nearest_physical(self.matrix), self.frame_in, self.frame_out)
+        return Mueller.of(
+            decompositions.nearest_physical(self.matrix), self.frame_in, self.frame_out
+        )
 
     def reversed(self) -> Mueller:
         """Return what the same system does to light that goes back through it.

@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import LightError, shown
 from optipath.kernels.coherency import is_physical
 from optipath.kernels.primitives import FLOAT, NUMPY
-from optipath.light import decompositions as cloude
+from optipath.light import decompositions
 from optipath.light.decompositions import rounding_of as spacing_of
 from optipath.light.decompositions import tolerance_for
 from optipath.light.polarization_state import length
@@ -70,7 +70,7 @@ def are_passive(matrix: Array, tolerance: float) -> Array:
     doubtful = ~found
     if doubtful.any():
         left = flat[doubtful]
-        found[doubtful] = (cloude.lack(left) <= tolerance) & (gain(left) <= 1.0 + tolerance)
+        found[doubtful] = (decompositions.lack(left) <= tolerance) & (gain(left) <= 1.0 + tolerance)
     return found.reshape(matrix.shape[:-2])
 
 
@@ -82,7 +82,7 @@ def problem_of(matrix: Array, tolerance: float) -> str:
     >>> problem_of(2.0 * np.eye(4), 1e-9)[:37]
     'makes light up to 2 times as bright ('
     """
-    lacks = cloude.lack(matrix)
+    lacks = decompositions.lack(matrix)
     if lacks <= tolerance:
         times = _text(float(gain(matrix)))
         return (
@@ -104,9 +104,9 @@ def cure_of(matrices: Array, tolerance: float) -> str:
     'matrix / 2'
     """
     found = "matrix"
-    if np.any(cloude.lack(matrices) > tolerance):
+    if np.any(decompositions.lack(matrices) > tolerance):
         found = "op.Mueller(matrix).nearest_physical().matrix"
-        matrices = cloude.nearest_physical(matrices)
+        matrices = decompositions.nearest_physical(matrices)
     most = np.max(gain(matrices))
     return f"{found} / {_rounded_up(most)}" if most > 1.0 else found
 

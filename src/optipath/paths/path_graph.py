@@ -18,7 +18,7 @@ from optipath.elements.detectors import Detector
 from optipath.elements.element import Element
 from optipath.errors import ComposerError, ParameterError, PathError, needing, shown, unknown
 from optipath.materials.named_materials import is_by_wavelength, is_curve
-from optipath.paths import editing as splicing
+from optipath.paths import editing
 from optipath.paths.binding import cases_left
 from optipath.paths.editing import add, connect, disconnect, edit
 from optipath.paths.joining import append, as_chain, join, name_by_kind
@@ -261,7 +261,7 @@ class PathGraph(Chainable):
         >>> path
         <PathGraph: L >> P >> X2 >> X1 >> P2 >> E>
         """
-        self._edit(splicing.insert, name, element, behind, before)
+        self._edit(editing.insert, name, element, behind, before)
         return Node(self, name)
 
     def remove(self, name: str) -> None:
@@ -277,7 +277,7 @@ class PathGraph(Chainable):
             If there is no such node, or the links in the way do not tell how to close the gap;
             the path is as it was then.
         """
-        self._edit(splicing.remove, name)
+        self._edit(editing.remove, name)
         if self.choices:
             left = {word: choice for word, choice in self.choices.items() if choice.node != name}
             self._graph.graph["choices"] = left
@@ -306,7 +306,7 @@ class PathGraph(Chainable):
             If a port is missing, frames would not fit, its link says another azimuth, or it lacks
             that of one that light does not go straight through; the path is as it was then.
         """
-        self._edit(splicing.replace, name, element)
+        self._edit(editing.replace, name, element)
         return Node(self, name)
 
     def offer(self, name: str, node: str, behind: Mapping[str, str], help: str = "") -> None:  # noqa: A002 - as parameters have it
