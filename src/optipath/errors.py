@@ -186,8 +186,8 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     if not looks_left():
         return ""
     names = [name for name in known if name]
-    if (found := closest(word if isinstance(word, str) else shown(word), names)) is not None:
-        return f"; did you mean '{found}'?"
+    if (result := closest(word if isinstance(word, str) else shown(word), names)) is not None:
+        return f"; did you mean '{result}'?"
     return there_are(names)
 
 
@@ -254,7 +254,7 @@ def printable(text: str) -> str:
     >>> print(printable("a \x1b[31mred\x1b[0m word"))
     a \x1b[31mred\x1b[0m word
     """
-    return _UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+    return _UNSEEN.sub(lambda result: result[0].encode("unicode_escape").decode(), text)
 
 
 class _Short(Repr):
@@ -330,9 +330,9 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     begun = [name for name in by_bare if name.startswith(asked)] if len(asked) >= _BEGINNING else []
     if len(begun) > 1 and asked not in by_bare:
         return None
-    for found in get_close_matches(asked, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
-        if found == asked or not _too_short(asked, found):
-            return by_bare[found]
+    for result in get_close_matches(asked, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
+        if result == asked or not _too_short(asked, result):
+            return by_bare[result]
     return None
 
 
@@ -361,9 +361,9 @@ def _bare(word: str) -> str:
     return word.lower().lstrip(_SIGNS)
 
 
-def _too_short(asked: str, found: str) -> bool:
-    letters = ["".join(c for c in word if not c.isdigit()) for word in (asked, found)]
-    return max(map(len, (asked, found))) < 3 or (letters[0] == letters[1] and len(letters[0]) < 3)
+def _too_short(asked: str, result: str) -> bool:
+    letters = ["".join(c for c in word if not c.isdigit()) for word in (asked, result)]
+    return max(map(len, (asked, result))) < 3 or (letters[0] == letters[1] and len(letters[0]) < 3)
 
 
 EXTRAS = {

@@ -15,18 +15,18 @@ def _cache(*, clear: bool, as_json: bool) -> None:
     """Show the folder of compiled code and how much it holds, or clear it."""
     removed = CODE.clear() if clear else 0
     entries = CODE.entries()
-    found = {
+    results = {
         "folder": str(CODE.folder),
         "entries": len(entries),
         "bytes": sum(entry.length for entry in entries),
         "limit": CODE.limit,
     }
     if as_json:
-        say_json(found | ({"removed": removed} if clear else {}))
+        say_json(results | ({"removed": removed} if clear else {}))
     elif clear:
-        click.echo(f"removed {removed} entries from {found['folder']}")
+        click.echo(f"removed {removed} entries from {results['folder']}")
     else:
-        for name, value in found.items():
+        for name, value in results.items():
             click.echo(f"{name:8} {value if isinstance(value, str) else f'{value:,}'}")
 
 

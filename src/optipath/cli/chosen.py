@@ -89,29 +89,29 @@ def chosen_by(
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
     axes = {name: value for name, value in sound.items() if isinstance(value, AxisValues)}
     single = {name: value for name, value in sound.items() if name not in axes}
-    found = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
-    if faults or axes or len(found) > 1:
+    results = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
+    if faults or axes or len(results) > 1:
         with collecting(faults):
-            of_each(found, Chosen.path)
+            of_each(results, Chosen.path)
         faults += axis_faults(path, axes) if faults else []
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
-    return found
+    return results
 
 
 def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[str, T]:
     """Return what an action makes of each case, by its name."""
-    found: dict[str, T] = {}
+    results: dict[str, T] = {}
     having: dict[str, list[str]] = {}
     for chosen in several:
         try:
-            found[chosen.case or ""] = action(chosen)
+            results[chosen.case or ""] = action(chosen)
         except OptipathError as error:
             for fault in error.faults:
                 having.setdefault(fault, []).append(chosen.case or "")
     if having:
         raise ParameterError(*(_of_cases(fault, cases, several) for fault, cases in having.items()))
-    return found
+    return results
 
 
 def _of_cases(fault: str, cases: Sequence[str], several: Sequence[Chosen]) -> str:

@@ -66,8 +66,8 @@ class _Commands(WholeHelp):
         del ctx
         if cmd_name not in _COMMANDS:
             return None
-        found: click.Command = getattr(import_module(f"optipath.cli.{cmd_name}_command"), cmd_name)
-        return found
+        result: click.Command = getattr(import_module(f"optipath.cli.{cmd_name}_command"), cmd_name)
+        return result
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

@@ -57,9 +57,9 @@ def wrapped(text: str, width: int, *, whole_words: bool = False) -> str:
     return "\n".join("\n".join(parts) for parts in lines)
 
 
-def say_json(found: dict[str, Any]) -> None:
+def say_json(results: dict[str, Any]) -> None:
     """Print one JSON object."""
-    click.echo(json.dumps(found, allow_nan=False))
+    click.echo(json.dumps(results, allow_nan=False))
 
 
 def cell(text: str, style: str = "") -> Text:
@@ -69,8 +69,8 @@ def cell(text: str, style: str = "") -> Text:
 
 def title(name: str, description: str) -> Text:
     """Return the line above what a command prints."""
-    found = Text.assemble(cell(name, "bold"))
-    return found.append_text(cell(f": {description}")) if description else found
+    result = Text.assemble(cell(name, "bold"))
+    return result.append_text(cell(f": {description}")) if description else result
 
 
 def headed(*headers: str, **keywords: Any) -> Table:
@@ -133,9 +133,9 @@ def _stacked(table: Table) -> Iterator[Any]:
 
 
 def _text(shown: Any) -> Text:
-    found = shown if isinstance(shown, Text) else Text(str(shown))
-    found.overflow = "fold"
-    return found
+    result = shown if isinstance(shown, Text) else Text(str(shown))
+    result.overflow = "fold"
+    return result
 
 
 def _width() -> int:

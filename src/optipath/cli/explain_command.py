@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
 def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
     """Explain the plan of a preset."""
-    found = Composer(**options).compose(chosen.path(reads)).explanation()
+    result = Composer(**options).compose(chosen.path(reads)).explanation()
     if as_json:
-        say_json({"preset": chosen.preset, **found.as_dict()})
+        say_json({"preset": chosen.preset, **result.as_dict()})
     else:
-        say_wrapped(str(found))
+        say_wrapped(str(result))
 
 
 explain = PresetGroup("explain", _explain)

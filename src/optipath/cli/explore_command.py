@@ -44,10 +44,10 @@ def _explore(preset: str | None, *, browser: bool, port: int) -> None:
 def _open(address: str) -> None:
     """Open the page where there is a browser; the address has been printed all the same."""
     try:
-        found = webbrowser.open(address)
+        result = webbrowser.open(address)
     except (webbrowser.Error, OSError):
-        found = False
-    if not found:
+        result = False
+    if not result:
         say("no browser could be opened; open the address above")
 
 

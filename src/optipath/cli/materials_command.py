@@ -98,16 +98,16 @@ def _materials(
         raise click.UsageError(f"{option} goes with --at; write --at '550 nm' as well")
     # Of vacuum no page is needed.
     vacuum = alike(" ".join(words)) == VACUUM
-    found = [] if vacuum else pages_with(" ".join(words).split())
-    if not found and not vacuum:
+    result = [] if vacuum else pages_with(" ".join(words).split())
+    if not result and not vacuum:
         names = [VACUUM, *[name for curated in CURATED for name in curated.names]]
         meant = did_you_mean(" ".join(words), names)
         raise MaterialError(f"no page has '{' '.join(words)}'{meant}")
     if as_json:
-        listed = [_as_json(one) for one in found] + [_VACUUM] * (vacuum or not words)
+        listed = [_as_json(one) for one in result] + [_VACUUM] * (vacuum or not words)
         say_json({"materials": listed, "units": {"range": _UNIT}})
         return
-    _print(found, vacuum=vacuum or not words, everything=not words)
+    _print(result, vacuum=vacuum or not words, everything=not words)
 
 
 materials = click.command(
@@ -115,9 +115,9 @@ materials = click.command(
 )(_materials)
 
 
-def _print(found: list[FoundPage], *, vacuum: bool, everything: bool) -> None:
+def _print(results: list[FoundPage], *, vacuum: bool, everything: bool) -> None:
     table = headed("material", "range", "source", box=None)
-    for one in found:
+    for one in results:
         table.add_row(*map(cell, (one.name, _range_text(one), one.described)))
     if vacuum:
         table.add_row(*map(cell, (VACUUM, "any wavelength", _NOTHING)))
@@ -169,7 +169,7 @@ class MaterialReport:
 
     def as_json(self) -> dict[str, Any]:
         """Return it as JSON can hold it, with all digits."""
-        found = {
+        results = {
             "material": self.name,
             "page": self.place,
             "source": self.source,
@@ -178,8 +178,8 @@ class MaterialReport:
             "wavelength": plain(self.wavelengths, "nm"),
         }
         for key in ("n", "k", "reflectance", "effective_n", "effective_k"):
-            found[key] = plain(getattr(self, key))
-        return found | {"units": {"range": "nm", "wavelength": "nm", "incidence": "deg"}}
+            results[key] = plain(getattr(self, key))
+        return results | {"units": {"range": "nm", "wavelength": "nm", "incidence": "deg"}}
 
     def print(self, digits: int) -> None:
         """Print it as a table."""
@@ -237,8 +237,8 @@ def told_at(
 
 
 def _numbers(part: Any, there: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    found = part.at(there) if isinstance(part, CurveValue) else part
-    return np.broadcast_to(np.asarray(found, np.float64), there.shape)
+    result = part.at(there) if isinstance(part, CurveValue) else part
+    return np.broadcast_to(np.asarray(result, np.float64), there.shape)
 
 
 def _check_range(curve: PageCurve | None, wavelengths: Sequence[float]) -> None:

@@ -132,12 +132,12 @@ def _inner_line(name: str, words: Sequence[str], context: click.Context) -> str:
     """Return how an option is written that a command further to the right has; else nothing."""
     command, path = context.command, context.command_path
     for word in words:
-        found = None
+        result = None
         if isinstance(command, click.Group) and not word.startswith("-"):
             with suppress(OptipathError):  # No preset, but what an option takes, perhaps.
-                found = command.get_command(context, word)
-        if found is not None:
-            command, path = found, f"{path} {word}"
+                result = command.get_command(context, word)
+        if result is not None:
+            command, path = result, f"{path} {word}"
     if isinstance(command, click.Group):
         # Of a preset that is not there, or cannot be read, a parameter may have any name.
         first = command.subcommand_metavar.partition(" ")[0].strip("[]")

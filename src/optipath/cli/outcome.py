@@ -83,9 +83,9 @@ class Outcome:
         """The largest errors that the certificates leave, where some are allowed."""
         approximation = self.plan.answers.approximation
         assert approximation is not None  # noqa: S101 - asked for by who knows
-        found = approximation.errors_for(self.grid.given())
+        result = approximation.errors_for(self.grid.given())
         is_idle = self.grid.varied is not self.grid
-        return np.broadcast_to(found, self.grid.shape) if is_idle else found
+        return np.broadcast_to(result, self.grid.shape) if is_idle else result
 
     @property
     def materials(self) -> dict[str, Any]:
@@ -96,8 +96,8 @@ class Outcome:
         wavelength = known[WAVELENGTH.name].default if WAVELENGTH.name in known else None
         along = [axis.given for axis in self.grid.axes if axis.name == WAVELENGTH.name]
         wavelength = along[0] if along else wavelength
-        found = {name: material_as_json(label, one, wavelength) for name, label, one in given}
-        return {"materials": found}
+        results = {name: material_as_json(label, one, wavelength) for name, label, one in given}
+        return {"materials": results}
 
     @property
     def note(self) -> str:
@@ -117,8 +117,8 @@ def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> 
     """Run a plan for all that was chosen."""
     if grid.axes:
         refuse_more_than_free(plan, grid)
-    found = plan.run_all(**grid.given())
-    lights = {name: _laid_out(light, grid) for name, light in found.items()}
+    result = plan.run_all(**grid.given())
+    lights = {name: _laid_out(light, grid) for name, light in result.items()}
     return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by), grid)
 
 
@@ -134,7 +134,7 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
     """Return what a run has found as JSON can hold it, with all digits."""
     plan, parameters = outcome.plan, outcome.single
     parts = complex_parts_of(outcome.path.graph)
-    found: dict[str, Any] = {
+    results: dict[str, Any] = {
         "preset": outcome.chosen.preset,
         "parameters": {
             name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
@@ -150,14 +150,14 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
     }
     if (instead := plan.instead) is not None:
         allowed = {"most": instead.most, "model": instead.model, "exact": plan.reduction.model}
-        found["tolerance"] = {**allowed, "error": plain(outcome.errors)}
+        results["tolerance"] = {**allowed, "error": plain(outcome.errors)}
     if outcome.chosen.case:
-        found["case"] = outcome.chosen.case
+        results["case"] = outcome.chosen.case
     if outcome.note:
-        found["note"] = outcome.note
-    found["detectors"] = {name: _reading(outcome, name) for name in plan.program.detectors}
+        results["note"] = outcome.note
+    results["detectors"] = {name: _reading(outcome, name) for name in plan.program.detectors}
     dumps = {name: _reading(outcome, name) for name in plan.program.dumps}
-    return found | ({"dumps": dumps} if dumps else {})
+    return results | ({"dumps": dumps} if dumps else {})
 
 
 def _axes_as_json(grid: SweepGrid) -> dict[str, Any]:
@@ -179,12 +179,12 @@ def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
         key: plain(getattr(light, key.lower()), unit) for key, (_, unit) in TOLD.items()
     }
     told["units"] = {key: unit for key, (_, unit) in TOLD.items() if unit}
-    found = {"stokes": plain(light.stokes), "polarization": told}
+    results = {"stokes": plain(light.stokes), "polarization": told}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
-        found["log10_intensity"] = plain(light.log10_intensity)
-        found["normalized"] = plain(light.normalized)
-    return found | ({"published": list(published)} if published else {})
+        results["log10_intensity"] = plain(light.log10_intensity)
+        results["normalized"] = plain(light.normalized)
+    return results | ({"published": list(published)} if published else {})
 
 
 _ROWS = 20
@@ -272,7 +272,9 @@ def ran(outcomes: Sequence[Outcome]) -> str:
         "model": [outcome.model for outcome in outcomes],
         "engine": [outcome.engine for outcome in outcomes],
     }
-    return ", ".join(f"{what} {' or '.join(dict.fromkeys(found))}" for what, found in ways.items())
+    return ", ".join(
+        f"{what} {' or '.join(dict.fromkeys(result))}" for what, result in ways.items()
+    )
 
 
 def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:

@@ -93,12 +93,12 @@ def _layer_of(order: Sequence[str], onwards: Sequence[Link]) -> dict[str, int]:
 
 def _neighbours(ways: Mapping[Link, Sequence[Item]], step: int) -> dict[Item, list[Item]]:
     """Return what each item is linked with in the layer before (-1) or behind it (1)."""
-    found: dict[Item, list[Item]] = {}
+    results: dict[Item, list[Item]] = {}
     for way in ways.values():
         for one, next_one in pairwise(way):
             here, there = (one, next_one) if step > 0 else (next_one, one)
-            found.setdefault(here, []).append(there)
-    return found
+            results.setdefault(here, []).append(there)
+    return results
 
 
 def _in_order(rows: list[list[Item]], ways: Mapping[Link, Sequence[Item]]) -> list[list[Item]]:
@@ -158,16 +158,16 @@ def _linked(
     layers: GraphLayers, ends: Mapping[Link, tuple[float, float]], step: int
 ) -> dict[Item, list[tuple[Item, float]]]:
     """Return what each item hangs on in the layer before (-1) or behind (1), and how far beside."""
-    found: dict[Item, list[tuple[Item, float]]] = {}
+    results: dict[Item, list[tuple[Item, float]]] = {}
     for link, way in layers.ways.items():
         leaves, enters = ends[link]
         offsets = [leaves, *[0.0] * (len(way) - 2), enters]
         for (above, left), (below, right) in pairwise(zip(way, offsets, strict=True)):
             if step < 0:
-                found.setdefault(below, []).append((above, left - right))
+                results.setdefault(below, []).append((above, left - right))
             else:
-                found.setdefault(above, []).append((below, right - left))
-    return found
+                results.setdefault(above, []).append((below, right - left))
+    return results
 
 
 def _apart(wanted: Sequence[float], extents: Sequence[Extent], gap: float) -> list[float]:
@@ -312,17 +312,17 @@ class PictureLegend:
 
 def legend_of(path: PathGraph, case: str | None = None) -> PictureLegend:
     """Return the legend of a path."""
-    found = PictureLegend([], [])
+    result = PictureLegend([], [])
     if rows := parameter_rows(path):
-        _add(found, [headings(case), *rows], _WIDEST)
+        _add(result, [headings(case), *rows], _WIDEST)
     named: dict[str, list[str]] = {}
     for name, each in path.cases.items():
         named.setdefault(each.note, []).append(name)
     if named:
         alone = [*named] == [""]
         notes = [(", ".join(names), note) for note, names in named.items()]
-        _add(found, [("cases", ""), *notes], [_LEGEND_CELLS if alone else _WIDEST[0]])
-    return found
+        _add(result, [("cases", ""), *notes], [_LEGEND_CELLS if alone else _WIDEST[0]])
+    return result
 
 
 def _add(legend: PictureLegend, rows: Sequence[tuple[str, ...]], widest: Sequence[int]) -> None:
@@ -406,7 +406,7 @@ def drawable(text: str) -> str:
     a b
     """
     tame = printable(" ".join(text.split()))
-    return _NO_XML.sub(lambda found: f"U+{ord(found[0]):04X}", tame)
+    return _NO_XML.sub(lambda result: f"U+{ord(result[0]):04X}", tame)
 
 
 def lines_of(text: str, cells: int) -> list[str]:

@@ -33,28 +33,28 @@ _SMALL = 1e-12
 
 def _polarization(chosen: Chosen, *, as_json: bool, digits: int) -> None:
     """Show what polarisation does to the intensity, beside the scalar result."""
-    found = _found(chosen.path())
+    result = _found(chosen.path())
     if as_json:
-        say_json({"preset": chosen.preset, **_as_json(found)})
+        say_json({"preset": chosen.preset, **_as_json(result)})
     else:
-        _print(chosen, found, digits)
+        _print(chosen, result, digits)
 
 
-def _print(chosen: Chosen, found: Mapping[str, Polarization], digits: int) -> None:
+def _print(chosen: Chosen, results: Mapping[str, Polarization], digits: int) -> None:
     console = PlainConsole()
     console.print(title(chosen.title, chosen.opened.description))
-    for name, one in found.items():
+    for name, one in results.items():
         console.print(_table(name, one, digits))
         console.print(cell(_verdict(one)))
 
 
 def _polarization_of_several(several: Sequence[Chosen], *, as_json: bool, digits: int) -> None:
-    found = of_each(several, lambda one: _found(one.path()))
+    result = of_each(several, lambda one: _found(one.path()))
     if as_json:
-        cases = {case: _as_json(one) for case, one in found.items()}
+        cases = {case: _as_json(one) for case, one in result.items()}
         say_json({"preset": several[0].preset, "cases": cases})
         return
-    for chosen, one in zip(several, found.values(), strict=True):
+    for chosen, one in zip(several, result.values(), strict=True):
         _print(chosen, one, digits)
 
 
@@ -69,31 +69,31 @@ def _found(path: PathGraph) -> dict[str, Polarization]:
     return {name: found_for(path, name) for name in ends}
 
 
-def _as_json(found: Mapping[str, Polarization]) -> dict[str, Any]:
-    return {"detectors": {name: _one_as_json(one) for name, one in found.items()}}
+def _as_json(results: Mapping[str, Polarization]) -> dict[str, Any]:
+    return {"detectors": {name: _one_as_json(one) for name, one in results.items()}}
 
 
-def _one_as_json(found: Polarization) -> dict[str, Any]:
-    numbers = {name: plain(getattr(found, name)) for name in ("exact", "scalar", "difference")}
-    known = found.certificate
+def _one_as_json(result: Polarization) -> dict[str, Any]:
+    numbers = {name: plain(getattr(result, name)) for name in ("exact", "scalar", "difference")}
+    known = result.certificate
     bounds = {name: known and plain(getattr(known, name)) for name in ("lower", "upper")}
-    elements = {name: plain(share) for name, share in found.elements.items()}
-    return {**numbers, **bounds, "elements": elements, "culprits": list(found.culprits)}
+    elements = {name: plain(share) for name, share in result.elements.items()}
+    return {**numbers, **bounds, "elements": elements, "culprits": list(result.culprits)}
 
 
-def _table(name: str, found: Polarization, digits: int) -> Table:
+def _table(name: str, result: Polarization, digits: int) -> Table:
     """Return the numbers of each path, a column each."""
-    indices = list(np.ndindex(found.exact.shape))
+    indices = list(np.ndindex(result.exact.shape))
     shown = indices[:_PATHS]
     table = headed(f"S0 at {name}")
     for index in shown:
         table.add_column(cell(str(list(index))) if index else "")
-    for head, powers in (("exact", found.exact), ("scalar: without polarisation", found.scalar)):
+    for head, powers in (("exact", result.exact), ("scalar: without polarisation", result.scalar)):
         table.add_row(head, *(f"{powers[index]:.{digits}g}" for index in shown))
-    shares = {"difference": found.difference}
-    if (known := found.certificate) is not None:
+    shares = {"difference": result.difference}
+    if (known := result.certificate) is not None:
         shares |= {"at least": known.lower - 1.0, "at most": known.upper - 1.0}
-    for element, share in found.elements.items():
+    for element, share in result.elements.items():
         if np.any(np.abs(share) > _SMALL):
             shares[f"by {element}"] = share
     for head, share in shares.items():
@@ -103,19 +103,19 @@ def _table(name: str, found: Polarization, digits: int) -> Table:
     return table
 
 
-def _verdict(found: Polarization) -> str:
-    if not np.any(found.scalar > 0.0):
+def _verdict(result: Polarization) -> str:
+    if not np.any(result.scalar > 0.0):
         return "dark: there is nothing to compare"
-    largest = float(np.max(np.abs(found.difference), initial=0.0))
+    largest = float(np.max(np.abs(result.difference), initial=0.0))
     text = f"polarisation changes S0 by up to {100.0 * largest:.3g} %"
     if largest >= _SMALL:
-        by = f"{text}, most of it by {listed(found.culprits)}"
-        return by if found.certificate is not None else f"{by}; {_NO_BOUNDS}"
-    if not found.elements:
+        by = f"{text}, most of it by {listed(result.culprits)}"
+        return by if result.certificate is not None else f"{by}; {_NO_BOUNDS}"
+    if not result.elements:
         return "polarisation changes nothing"
-    if found.certificate is None:
+    if result.certificate is None:
         return f"{text} here; {_NO_BOUNDS}"
-    lower, upper = np.min(found.certificate.lower) - 1.0, np.max(found.certificate.upper) - 1.0
+    lower, upper = np.min(result.certificate.lower) - 1.0, np.max(result.certificate.upper) - 1.0
     if upper - lower < _SMALL:
         return "polarisation changes nothing"
     return (

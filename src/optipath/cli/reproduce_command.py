@@ -71,20 +71,20 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
     finally:
         if as_json and done and done[0][1]:
             whole = len(done) == len(experiments) and all(
-                len(found) == len(experiment.measurements) for experiment, found in done
+                len(result) == len(experiment.measurements) for experiment, result in done
             )
             several = [reproduced_as_json(*one) for one in done if one[1]]
             say_json({"experiments": several, "interrupted": not whole})
 
 
-def _run(experiment: Experiment, found: list[Reproduced], **options: Any) -> None:
+def _run(experiment: Experiment, results: list[Reproduced], **options: Any) -> None:
     """Do an experiment again; what has been found stays where Ctrl-C comes."""
     from optipath.cli.progress import photon_bar  # noqa: PLC0415
     from optipath.surfaces.reproduction import reproduce  # noqa: PLC0415
 
     with photon_bar(experiment.name) as progress:
         for one in reproduce(experiment, progress=progress, **options):
-            found += [one]
+            results += [one]
 
 
 def _list(experiments: list[Experiment], *, as_json: bool) -> None:
@@ -107,25 +107,25 @@ _AGREES = {None: "", True: "yes", False: "no"}
 
 
 def print_reproduced(
-    experiment: Experiment, found: Sequence[Reproduced], *, first: bool = True
+    experiment: Experiment, results: Sequence[Reproduced], *, first: bool = True
 ) -> None:
     """Print what is published of a sample, and what has been measured."""
     console = PlainConsole()
     if not first:
         console.print()
     console.print(title(experiment.name, experiment.description))
-    photons = f"{found[0].photons:,} photons a direction" if found else "nothing measured"
+    photons = f"{results[0].photons:,} photons a direction" if results else "nothing measured"
     console.print(cell(f"{experiment.source}; {photons}"))
-    for text in dict.fromkeys(one.measurement.text for one in found):
+    for text in dict.fromkeys(one.measurement.text for one in results):
         console.print()
         console.print(cell(f'"{text}"'))
-        several = [one for one in found if one.measurement.text == text]
+        several = [one for one in results if one.measurement.text == text]
         for mask in dict.fromkeys(one.found.mask for one in several):
             console.print(_table([one for one in several if one.found.mask == mask]))
             if mask:
                 console.print(cell(f"of {mask}"))
     console.print()
-    for measure in dict.fromkeys(one.measurement.measure for one in found):
+    for measure in dict.fromkeys(one.measurement.measure for one in results):
         console.print(cell(f"{measure}: {MEASURES[measure].told}"))
 
 
@@ -154,13 +154,13 @@ def _row(one: Reproduced) -> Iterator[str]:
     yield one.found.pixel
 
 
-def reproduced_as_json(experiment: Experiment, found: Sequence[Reproduced]) -> dict[str, Any]:
+def reproduced_as_json(experiment: Experiment, results: Sequence[Reproduced]) -> dict[str, Any]:
     """Return what has been measured as JSON can hold it, with all digits."""
     return {
         "experiment": experiment.name,
         "description": experiment.description,
         "source": experiment.source,
-        "measurements": [_as_json(one) for one in found],
+        "measurements": [_as_json(one) for one in results],
     }
 
 

@@ -32,8 +32,8 @@ def _run_several(
 ) -> None:
     outcomes = of_each(several, lambda one: _outcome(one, reads, options))
     if as_json:
-        found = {case: outcome_as_json(outcome) for case, outcome in outcomes.items()}
-        say_json({"preset": several[0].preset, "cases": found})
+        results = {case: outcome_as_json(outcome) for case, outcome in outcomes.items()}
+        say_json({"preset": several[0].preset, "cases": results})
     else:
         print_cases(outcomes, digits)
 

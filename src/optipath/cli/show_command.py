@@ -67,6 +67,6 @@ def _print(console: PlainConsole, path: PathGraph, case: str | None) -> None:
     text = [draw(path)]
     if path.cases:
         text += ["", f"cases: {', '.join(path.cases)}"]
-    text += [f"  {name}: {found.note}" for name, found in path.cases.items() if found.note]
+    text += [f"  {name}: {result.note}" for name, result in path.cases.items() if result.note]
     lines = wrapped("\n".join(text), console.width, whole_words=True)
     console.print(cell(lines), soft_wrap=True)

@@ -166,21 +166,21 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     )
 
     walks = given_walks(loaded, **options)
-    found: list[EnergyOutcome] = []
+    results: list[EnergyOutcome] = []
     try:
         for walk in walks:
             with photon_bar(walk.direction) as progress:
-                found.append(walked(walk, progress))
+                results.append(walked(walk, progress))
             if not as_json:
-                if len(found) == 1:
+                if len(results) == 1:
                     PlainConsole().print(title(sample, loaded.description))
                 say("")
-                print_energy(found[-1])
-            if found[-1].interrupted:
+                print_energy(results[-1])
+            if results[-1].interrupted:
                 raise KeyboardInterrupt
     finally:
-        if as_json and found:
-            several = [energy_as_json(outcome) for outcome in found]
+        if as_json and results:
+            several = [energy_as_json(outcome) for outcome in results]
             one = several[0] if len(walks) == 1 else {"directions": several}
             say_json({"sample": sample, **one})
 

@@ -140,9 +140,9 @@ def wavelengths_of(text: str | None) -> AxisValues | None:
     """Return the wavelengths that an option gives, without an axis where it is one."""
     if text is None:
         return None
-    found = _values(text, WAVELENGTH, "")
-    _refuse_many("--wavelength", len(found.given))
-    return found if axis_given(WAVELENGTH, text, ()) else found.reshaped(())
+    result = _values(text, WAVELENGTH, "")
+    _refuse_many("--wavelength", len(result.given))
+    return result if axis_given(WAVELENGTH, text, ()) else result.reshaped(())
 
 
 def azimuth_of(text: str) -> float:
@@ -159,17 +159,17 @@ def numbers_of(option: str, text: str, kind: Any, counts: tuple[int, ...]) -> tu
     (640, 320)
     """
     try:
-        found = tuple([kind(part) for part in text.split(",")])
+        results = tuple([kind(part) for part in text.split(",")])
     except ValueError:
-        found = ()
-    if len(found) not in counts:
+        results = ()
+    if len(results) not in counts:
         several = listed([str(count) for count in counts]).replace(" and ", " or ")
         usual = {int: "640", float: "1,0,0,0"}[kind]
         raise SurfaceError(
             f"{option} takes {several} numbers with commas between, such as {usual}, and not "
             f"{shown(text)}"
         )
-    return found
+    return results
 
 
 def _refuse_many(option: str, count: int) -> None:

@@ -154,22 +154,22 @@ def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:
     """Return an outcome as JSON can hold it, with all digits."""
     given, beam = outcome.given, outcome.given.run.beam
     units = {"incidence": given.incidence.unit, "azimuth": "deg"}
-    found: dict[str, Any] = {
+    results: dict[str, Any] = {
         "incidence": plain(given.incidence.shown),
         "azimuth": plain(beam.azimuth, "deg"),
         "stokes": [*beam.states[0]],
     }
     if given.wavelengths is not None:
-        found["wavelength"] = plain(given.wavelengths.shown)
+        results["wavelength"] = plain(given.wavelengths.shown)
         units["wavelength"] = given.wavelengths.unit
-    found |= {"units": units, "seed": beam.seed}
+    results |= {"units": units, "seed": beam.seed}
     if given.tolerance is not None:
-        found["tolerance"] = given.tolerance
-    found |= {"interrupted": outcome.interrupted, "seconds": outcome.seconds}
-    return {**found, **_json_numbers(asdict(outcome.energy))}
+        results["tolerance"] = given.tolerance
+    results |= {"interrupted": outcome.interrupted, "seconds": outcome.seconds}
+    return {**results, **_json_numbers(asdict(outcome.energy))}
 
 
-def _json_numbers(found: dict[str, Any]) -> dict[str, Any]:
+def _json_numbers(results: dict[str, Any]) -> dict[str, Any]:
     """Return numbers and arrays as JSON can hold them; counts stay whole."""
     return {
         name: _json_numbers(value)
@@ -177,7 +177,7 @@ def _json_numbers(found: dict[str, Any]) -> dict[str, Any]:
         else value
         if isinstance(value, int)
         else plain(np.asarray(value))
-        for name, value in found.items()
+        for name, value in results.items()
     }
 
 
@@ -196,15 +196,15 @@ def print_choices(
     if walks[0].run.beam.states[0] != UNPOLARISED:
         raise SurfaceError("--decide is of unpolarised light; leave --stokes out")
     wanted = 0.02 if tolerance is None else tolerance
-    found = []
+    results = []
     for walk in walks:
         with photon_bar(walk.direction) as progress:
-            found.append(_decided(walk, wanted, side=side, threads=threads, progress=progress))
+            results.append(_decided(walk, wanted, side=side, threads=threads, progress=progress))
         if not as_json:
-            if len(found) == 1:
+            if len(results) == 1:
                 PlainConsole().print(title(sample, loaded.description))
             say("")
-            say(f"{walk.direction}: {found[-1].explain()}")
+            say(f"{walk.direction}: {results[-1].explain()}")
     if as_json:
         several = [
             {
@@ -215,7 +215,7 @@ def print_choices(
                 "multiple": _plain_pair(each.multiple),
                 "beside_model": _plain_pair(each.beside_model),
             }
-            for walk, each in zip(walks, found, strict=True)
+            for walk, each in zip(walks, results, strict=True)
         ]
         one = several[0] if len(several) == 1 else {"directions": several}
         say_json({"sample": sample, **one})

@@ -245,10 +245,10 @@ def neighbours(
         if light not in behind:
             # Between junctions, light has one way to come from.
             behind[light] = behind[steps[light].inputs[0]]
-    found: dict[int, set[int]] = {junction: set() for junction in junctions}
+    results: dict[int, set[int]] = {junction: set() for junction in junctions}
     for junction in junctions:
         before = {behind[light] for light in steps[junction].inputs if light >= start}
         for other in before - {junction}:
-            found[junction].add(other)
-            found[other].add(junction)
-    return found
+            results[junction].add(other)
+            results[other].add(junction)
+    return results

@@ -39,14 +39,14 @@ def with_followed(
         return graph, []
     taking = _Taking(elements, Meetings(Wiring(graph)))
     faults = {name: [*taking.faults(name)] for name in names if name not in unsure}
-    found = graph.copy()
-    found.graph[FOLLOWING] = {name: elements[name].followed() for name in names}
-    found.graph[TAKEN_OVER] = frozenset(
+    result = graph.copy()
+    result.graph[FOLLOWING] = {name: elements[name].followed() for name in names}
+    result.graph[TAKEN_OVER] = frozenset(
         (name, field) for name in names for field in _filled(elements[name])
     )
     for name in names:
         if not faults.get(name):
-            found.nodes[name]["element"] = taking.elements[name]
+            result.nodes[name]["element"] = taking.elements[name]
     told = [fault for several in faults.values() for fault in several]
     going_round = [name for name in faults if not told and taking.elements[name].followed()]
     told += [
@@ -54,7 +54,7 @@ def with_followed(
         f"one of them"
         for name in going_round
     ]
-    return found, told
+    return result, told
 
 
 def _filled(element: Any) -> set[str]:
@@ -148,10 +148,10 @@ class _Taking:
 
 
 def _by_end(meetings: Any) -> dict[str, list[Meeting]]:
-    found: dict[str, list[Meeting]] = {}
+    results: dict[str, list[Meeting]] = {}
     for meeting in meetings:
-        found.setdefault(meeting.enters[0], []).append(meeting)
-    return found
+        results.setdefault(meeting.enters[0], []).append(meeting)
+    return results
 
 
 def _may_measure(element: Any) -> bool:

@@ -63,12 +63,12 @@ class Live:
     def _forward(self, light: int) -> Iterable[int]:
         inputs, sources = self.program.steps[light].inputs, self.sources[light]
         arriving = set().union(*[self.reached[before] for before in inputs]) if inputs else _ALL
-        found = {row for row, columns in enumerate(sources) if columns & arriving}
+        results = {row for row, columns in enumerate(sources) if columns & arriving}
         if light in self.doubtful:
-            found |= arriving
-        if found <= self.reached[light]:
+            results |= arriving
+        if results <= self.reached[light]:
             return ()
-        self.reached[light] |= found
+        self.reached[light] |= results
         return self.program.used_by[light]
 
     def _backward(self, light: int) -> Iterable[int]:
@@ -173,18 +173,18 @@ def known_numbers(
     give as 0 or 1 may be neither: none is known.
     """
     operands = [number_of(operand) for operand in program.operands]
-    found: list[tuple[float, ...] | None] = []
+    outcomes: list[tuple[float, ...] | None] = []
     for evaluation in program.evaluations:
         given: list[float | None] = []
         for argument in evaluation.arguments:
             if isinstance(argument, Result):
-                results = found[argument.evaluation]
+                results = outcomes[argument.evaluation]
                 given.append(None if results is None else results[argument.place])
             else:
                 given.append(operands[argument])
         unknown = None in given or program.loops
-        found.append(None if unknown else _evaluated(evaluation.kernel, tuple(given)))
-    return operands, found
+        outcomes.append(None if unknown else _evaluated(evaluation.kernel, tuple(given)))
+    return operands, outcomes
 
 
 def entries_of_evaluations(program: Program) -> list[Entries]:
@@ -192,18 +192,18 @@ def entries_of_evaluations(program: Program) -> list[Entries]:
     numbers, evaluated = known_numbers(program)
     pairs = zip(program.operands, numbers, strict=True)
     known = [0.0 if n is None and vanishes(o) else _zero_or_one(n) for o, n in pairs]
-    found: list[Entries] = []
+    results: list[Entries] = []
     for evaluation, result in zip(program.evaluations, evaluated, strict=True):
         given = [
-            _zero_or_one(_result(program, found, argument))
+            _zero_or_one(_result(program, results, argument))
             if isinstance(argument, Result)
             else known[argument]
             for argument in evaluation.arguments
         ]
-        found.append(_entries(evaluation.kernel, result, tuple(given)))
+        results.append(_entries(evaluation.kernel, result, tuple(given)))
         if evaluation.presence is not None and evaluation.kernel.structure is not None:
-            found[-1] = _as_it_may_be_absent(found[-1])
-    return found
+            results[-1] = _as_it_may_be_absent(results[-1])
+    return results
 
 
 @lru_cache(1024)
@@ -214,10 +214,10 @@ def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] 
         return None
 
 
-def _result(program: Program, found: Sequence[Entries], result: Result) -> Entry:
+def _result(program: Program, results: Sequence[Entries], result: Result) -> Entry:
     """Return what is known of a result: that of a kernel without structure has one row."""
     structure = program.evaluations[result.evaluation].kernel.structure
-    row = found[result.evaluation][0]
+    row = results[result.evaluation][0]
     return row[result.place] if structure is None and result.place < len(row) else None
 
 

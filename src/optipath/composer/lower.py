@@ -194,21 +194,21 @@ class _Lowering:
     def _lowered(self, operation: Operation) -> Operation:
         """Return an operation by the method, with operands and results of such as arguments."""
         known: dict[int, Operation] = {}
-        found: list[Operand | ResultOf] = []
+        results: list[Operand | ResultOf] = []
         for argument in operation.arguments:
             if not isinstance(argument, ResultOf):
-                found.append(operand_of(argument))
+                results.append(operand_of(argument))
                 continue
             inner = argument.operation
             if id(inner) not in known:
                 known[id(inner)] = self._lowered(inner)
-            found.append(ResultOf(known[id(inner)], argument.place))
-        return Operation(operation.kernel.by_method(self.method), tuple(found))
+            results.append(ResultOf(known[id(inner)], argument.place))
+        return Operation(operation.kernel.by_method(self.method), tuple(results))
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
         """Return the frame in which light leaves an element; the unit frame if none is known."""
-        found = frame_at(self.wiring, name, port) or vertex_frame(self.wiring, name, port)
-        return found or _UNIT
+        result = frame_at(self.wiring, name, port) or vertex_frame(self.wiring, name, port)
+        return result or _UNIT
 
     def _reading_frame(self, name: str, port: str) -> Frame | VertexFrame:
         own = frame_at(self.wiring, name, port)
@@ -217,9 +217,9 @@ class _Lowering:
         links = self.wiring.links_to[name, port]
         arriving = [frame_at(self.wiring, start, leaves) for start, _, (leaves, _) in links]
         placed = next((frame for frame in arriving if frame is not None), None)
-        found = placed or vertex_frame(self.wiring, name, port)
-        if found or len(links) > 1 or alignment(self.wiring, links[0]) is not None:
-            return found or _UNIT
+        result = placed or vertex_frame(self.wiring, name, port)
+        if result or len(links) > 1 or alignment(self.wiring, links[0]) is not None:
+            return result or _UNIT
         start, _, (leaves, _) = links[0]
         return self._frame_behind(start, leaves)
 

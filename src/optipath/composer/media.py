@@ -63,7 +63,7 @@ class Media:
 
     @cached_property
     def _media(self) -> tuple[SameMedium, ...]:
-        found = []
+        results = []
         for meeting in _once(self.meetings.all):
             leaves, enters = meeting.leaves, meeting.enters
             first, second = self._medium(leaves), self._medium(enters)
@@ -76,12 +76,12 @@ class Media:
                 measures = enters[1] == "in" and self._measures_in_front(enters)
                 ports = ".".join(leaves), ".".join(enters)
                 follows = enters[1] == "in" and self._follows(enters[0], "outside")
-                found.append(SameMedium(operands, *ports, field, measures, follows))
-        return tuple(found)
+                results.append(SameMedium(operands, *ports, field, measures, follows))
+        return tuple(results)
 
     @cached_property
     def _angles(self) -> tuple[SnellsLaw, ...]:
-        found: dict[Any, SnellsLaw] = {}
+        results: dict[Any, SnellsLaw] = {}
         for meeting in self.meetings.in_layers:
             leaves, enters = meeting.leaves, meeting.enters
             turns = () if meeting.sides in self.meetings.to_and_fro else meeting.turns
@@ -99,12 +99,12 @@ class Media:
                         may_be_told=self.meetings.may_be_told(meeting),
                         follows=self._follows(enters[0], "incidence"),
                     )
-                    found.setdefault((meeting.sides, keys_of(turns)), law)
-        return tuple(found.values())
+                    results.setdefault((meeting.sides, keys_of(turns)), law)
+        return tuple(results.values())
 
     @cached_property
     def _planes(self) -> tuple[OnePlane, ...]:
-        found: dict[Any, OnePlane] = {}
+        results: dict[Any, OnePlane] = {}
         for meeting in self.meetings.in_layers:
             leaves, enters = meeting.leaves, meeting.enters
             follows = self._follows(enters[0], "incidence")
@@ -113,8 +113,8 @@ class Media:
                 operands = tuple(map(Operand, (first.incidence, *meeting.turns)))
                 if not any(operand.value is FOLLOWS for operand in operands):
                     plane = OnePlane(operands, ".".join(leaves), ".".join(enters), follows)
-                    found.setdefault((leaves, enters, keys_of(meeting.turns)), plane)
-        return tuple(found.values())
+                    results.setdefault((leaves, enters, keys_of(meeting.turns)), plane)
+        return tuple(results.values())
 
     @cached_property
     def _rounds(self) -> tuple[SameTurn, ...]:
@@ -122,13 +122,13 @@ class Media:
         both = self.meetings.to_and_fro
         between = [meeting for meeting in self.meetings.in_layers if meeting.sides in both]
         ways = [(first.setdefault(meeting.sides, meeting), meeting) for meeting in between]
-        found = []
+        results = []
         for one, other in (*ways, *self.meetings.mirrored):
             if keys_of(one.turns) != keys_of(other.turns):
                 operands = tuple(map(Operand, (*one.turns, *other.turns)))
                 ends = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, other)]
-                found.append(SameTurn(operands, len(one.turns), *ends))
-        return tuple(found)
+                results.append(SameTurn(operands, len(one.turns), *ends))
+        return tuple(results)
 
     @property
     def _in_space(self) -> Iterator[WorldAngle]:
@@ -446,7 +446,7 @@ class SnellsLaw(Agreement):
 
     def _angles(self, angle: float, n: float, own_n: float) -> list[str]:
         """Return what the second may say of its angle, with as many digits as it takes to pass."""
-        found = []
+        results = []
         there = math.degrees(angle)
         if (sine := n * math.sin(angle) / own_n) <= 1.0:
             exact = math.degrees(math.asin(sine))
@@ -455,7 +455,7 @@ class SnellsLaw(Agreement):
                     np, angle, n, 0.0, math.radians(float(f"{exact:.{d}g}")), own_n, 0.0
                 )
             )
-            found.append(f"{exact:.{digits}g} deg in n = {own_n:.12g}")
+            results.append(f"{exact:.{digits}g} deg in n = {own_n:.12g}")
         if n != own_n:
             elsewhere = replace(self, ends=(self.ends[0], False))
             digits = digits_until(
@@ -469,8 +469,8 @@ class SnellsLaw(Agreement):
                     0.0,
                 )
             )
-            found.append(f"{there:.{digits}g} deg with incidence_in = {n:.{digits + 2}g}")
-        return found
+            results.append(f"{there:.{digits}g} deg with incidence_in = {n:.{digits + 2}g}")
+        return results
 
 
 def _index(xp: Any, angle: Any, n: Any, k: Any) -> Any:

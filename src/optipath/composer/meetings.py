@@ -54,17 +54,17 @@ class Meetings:
         ]
         if not starts:
             return ()
-        found = [meeting for start in starts for meeting in self._of(start)]
-        return tuple(sorted(found, key=lambda meeting: meeting.enters[1] == "back"))
+        results = [meeting for start in starts for meeting in self._of(start)]
+        return tuple(sorted(results, key=lambda meeting: meeting.enters[1] == "back"))
 
     @cached_property
     def _links_from(self) -> dict[Port, list[Link]]:
         """The links of each out-port, those that only read its light included."""
         wiring = self.wiring
-        found = {port: [*links] for port, links in wiring.links_from.items()}
+        results = {port: [*links] for port, links in wiring.links_from.items()}
         for tap in wiring.taps:
-            found.setdefault((tap[0], tap[2][0]), []).append(tap)
-        return found
+            results.setdefault((tap[0], tap[2][0]), []).append(tap)
+        return results
 
     @property
     def mirrored(self) -> Iterator[tuple[Meeting, Meeting]]:
@@ -133,7 +133,7 @@ class Meetings:
             leaving.setdefault(meeting.leaves, []).append(meeting)
         both = self.to_and_fro
         waiting = [m for m in facing if m.sides in both or self._refracted(m.leaves)]
-        found = {_way(meeting) for meeting in waiting}
+        results = {_way(meeting) for meeting in waiting}
         while waiting:
             last = waiting.pop()
             # What stands at an angle sends light where no other is known to be parallel.
@@ -142,10 +142,10 @@ class Meetings:
             name, port = last.enters
             reflected = name, "reflected" if port == "in" else "transmitted"
             for meeting in leaving.get(reflected, ()):
-                if _way(meeting) not in found:
-                    found.add(_way(meeting))
+                if _way(meeting) not in results:
+                    results.add(_way(meeting))
                     waiting.append(meeting)
-        return tuple(m for m in facing if _way(m) in found)
+        return tuple(m for m in facing if _way(m) in results)
 
     @cached_property
     def to_and_fro(self) -> frozenset[frozenset[Port]]:

@@ -44,20 +44,20 @@ class Values:
     @cached_property
     def uses(self) -> tuple[Use, ...]:
         """Each number where it stands."""
-        found: list[Use] = []
+        results: list[Use] = []
         for name, element in self.graph.nodes(data="element"):
-            found += element.uses(name)
-        found += self._entered()
+            results += element.uses(name)
+        results += self._entered()
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
-                found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
-        for use in found:
+                results.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
+        for use in results:
             if isinstance(use.value, CurveValue):
-                found = [each for one in found for each in one.with_arguments()]
+                results = [each for one in results for each in one.with_arguments()]
                 break
         if self.doubtful:
-            return tuple(use for use in found if not self._is_doubtful(use.value))
-        return tuple(found)
+            return tuple(use for use in results if not self._is_doubtful(use.value))
+        return tuple(results)
 
     def _is_doubtful(self, value: Any) -> bool:
         return isinstance(value, Parameter) and value.name in self.doubtful
@@ -87,14 +87,14 @@ class Values:
     @cached_property
     def parameters(self) -> dict[str, Parameter]:
         """The parameters by name: in declared order, then as they are met."""
-        found: dict[str, Parameter] = {}
+        results: dict[str, Parameter] = {}
         for use in self._given:
-            known = found.get(use.value.name)
+            known = results.get(use.value.name)
             taken_over = known is not None and known is not use.value and _yields(known)
             if known is None or (taken_over and not _yields(use.value)):
-                found[use.value.name] = use.value.alone()
-        declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
-        return {name: found[name] for name in dict.fromkeys([*declared, *found])}
+                results[use.value.name] = use.value.alone()
+        declared = [name for name in self.graph.graph.get("declared", ()) if name in results]
+        return {name: results[name] for name in dict.fromkeys([*declared, *results])}
 
     @cached_property
     def known_shapes(self) -> dict[str, tuple[int, ...]]:
@@ -110,20 +110,20 @@ class Values:
     @cached_property
     def defaults(self) -> dict[str, Resolved]:
         """What parameters are by default: those with one number, and of elements that are there."""
-        found = {
+        results = {
             name: p.resolve(p.default)
             for name, p in self.parameters.items()
             if not p.bound and p.default is not None and not is_traced(p.default)
         }
-        found = {name: r for name, r in found.items() if r.present.ndim == 0 and r.present}
-        alone = [c for c in self._computed if c.follows(found) and not c.curve.takes_grid]
-        return found | {c.name: c.computed(found) for c in alone}
+        results = {name: r for name, r in results.items() if r.present.ndim == 0 and r.present}
+        alone = [c for c in self._computed if c.follows(results) and not c.curve.takes_grid]
+        return results | {c.name: c.computed(results) for c in alone}
 
     @cached_property
     def _computed(self) -> tuple[CurveValue, ...]:
         """What follows from parameters that are given when the path runs."""
-        found = [use.value for use in self.uses if isinstance(use.value, CurveValue)]
-        return tuple({value.name: value.alone() for value in found if not value.bound}.values())
+        results = [use.value for use in self.uses if isinstance(use.value, CurveValue)]
+        return tuple({value.name: value.alone() for value in results if not value.bound}.values())
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
@@ -150,7 +150,7 @@ class Values:
 
     def faults(self) -> list[str]:
         """Return what is wrong with the values that are known, a sentence each."""
-        found: list[str] = []
+        results: list[str] = []
         faulty: set[str] = set()
         looked_at = set()
         ranges, out_of = [], set()
@@ -175,11 +175,11 @@ class Values:
                 out_of.add(use.domain)
                 bare = {sentence: sentence.replace(use.owner, "") for sentence in fault.faults}
                 if not self._is_taken_over(use) or not told.issuperset(bare.values()):
-                    found += fault.faults
+                    results += fault.faults
                 told.update(bare.values())
         sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
         return [
-            *found,
+            *results,
             *self._parameter_faults(),
             *self._optional_faults(),
             *(range_faults(ranges) if ranges else ()),

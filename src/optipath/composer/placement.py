@@ -63,16 +63,16 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
 
 def placement_faults(wiring: Wiring) -> list[str]:
     """Return what is wrong with the frames and turns of the links, a sentence each."""
-    found = []
+    results = []
     for name, element in wiring.elements.items():
         frames = wiring.graph.nodes[name]["frames"]
         if not broadcast_fault({port: frame.z.shape[:-1] for port, frame in frames.items()}):
-            found += element.frame_faults(name, frames)
+            results += element.frame_faults(name, frames)
     for link in wiring.graph.edges(keys=True):
-        found += _self_placed_faults(wiring, link) or _link_faults(wiring, link)
+        results += _self_placed_faults(wiring, link) or _link_faults(wiring, link)
     for name, element in wiring.elements.items():
-        found += _meeting_faults(wiring, name, element)
-    return [*found, *_between_faults(wiring)]
+        results += _meeting_faults(wiring, name, element)
+    return [*results, *_between_faults(wiring)]
 
 
 def _self_placed_faults(wiring: Wiring, link: Link) -> list[str]:
@@ -208,10 +208,10 @@ def _followed(
         if own is not None:
             return own.turned(*turns)
         passed.add(port)
-        found = following(wiring, port)
-        if found is None:
+        result = following(wiring, port)
+        if result is None:
             return None
-        port, more = found
+        port, more = result
         turns += more
     return None
 

@@ -54,8 +54,8 @@ def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...]
         (doubles, Pass("multiplied constants", partial(multiplied_constants, matrices=stokes))),
         (stokes, Pass("left out", left_out)),
     )
-    found = () if model == "full" else every
-    return tuple(each for is_wanted, each in found if is_wanted), 3 if stokes else 1
+    result = () if model == "full" else every
+    return tuple(each for is_wanted, each in result if is_wanted), 3 if stokes else 1
 
 
 def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:
@@ -65,8 +65,8 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
     for _ in range(rounds):
         done = len(notes)
         for each in passes:
-            program, found = each(program)
-            notes += found
+            program, result = each(program)
+            notes += result
         if len(notes) == done:
             break
     folded = tuple(dict.fromkeys(notes))
@@ -238,8 +238,8 @@ def multiplied(first: Constant, second: Constant) -> Constant | None:
     one, other = first.as_full().numbers, second.as_full().numbers
     rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
     product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)
-    found = _kept(Constant(FULL, product))
-    return found if found and found.lets_through else None
+    result = _kept(Constant(FULL, product))
+    return result if result and result.lets_through else None
 
 
 def _kept(product: Constant) -> Constant | None:
@@ -285,21 +285,21 @@ class _Multiplying:
         self.notes: list[str] = []
 
     def done_to(self, items: list[Item]) -> list[Item]:
-        found: list[Item] = []
+        results: list[Item] = []
         run: list[tuple[Item, Constant]] = []
         for item in items:
             constant = self.known[item.light]
             if constant is None:
-                found += self._as_one(run)
+                results += self._as_one(run)
                 run = []
-                found.append(item)
+                results.append(item)
             elif constant.is_identity:
                 self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
                 run[-1] = self._joined([run[-1][0], item], both), both
             else:
                 run.append((item, constant))
-        return found + self._as_one(run)
+        return results + self._as_one(run)
 
     def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
@@ -309,14 +309,14 @@ class _Multiplying:
         dear = sum(constant.cost for constant in constants) > Constant(FULL, ()).cost
         if not (dear and all(constant.lets_through for constant in constants)):
             return items
-        found: list[tuple[Item, Constant]] = []
+        results: list[tuple[Item, Constant]] = []
         for place, (item, constant) in enumerate(run):
-            both = multiplied(found[-1][1], constant) if place % _MOST else None
+            both = multiplied(results[-1][1], constant) if place % _MOST else None
             if both:
-                found[-1] = self._joined([found[-1][0], item], both), both
+                results[-1] = self._joined([results[-1][0], item], both), both
             else:
-                found.append((item, constant))
-        return [item for item, _ in found]
+                results.append((item, constant))
+        return [item for item, _ in results]
 
     def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
         names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
@@ -330,16 +330,16 @@ def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
     notes: list[str] = []
 
     def joined(items: list[Item]) -> list[Item]:
-        found: list[Item] = []
+        results: list[Item] = []
         for item in items:
-            turns = found and _is_turn(item) and _is_turn(found[-1])
-            if turns and len(found[-1].operation.arguments) < _MOST:
-                names = dict.fromkeys(f"'{turn.label}'" for turn in (found[-1], item))
+            turns = results and _is_turn(item) and _is_turn(results[-1])
+            if turns and len(results[-1].operation.arguments) < _MOST:
+                names = dict.fromkeys(f"'{turn.label}'" for turn in (results[-1], item))
                 notes.append(f"the turns at {' and '.join(names)} are one")
-                found[-1:] = _as_one(found[-1], item, sums=sums and item.once)
+                results[-1:] = _as_one(results[-1], item, sums=sums and item.once)
             else:
-                found.append(item)
-        return found
+                results.append(item)
+        return results
 
     return (along_chains(program, joined) if _has_neighbours(program) else program), notes
 

@@ -69,15 +69,15 @@ def _faults(
 ) -> list[str]:
     # In a cycle by mistake, light meets media and misses ends in consequence.
     cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring.untapped))
-    found = [*values.faults(), *placement_faults(wiring), *([] if cyclic else media.faults())]
-    found += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
-    found += [*_dark_link_faults(wiring), *cyclic]
+    results = [*values.faults(), *placement_faults(wiring), *([] if cyclic else media.faults())]
+    results += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
+    results += [*_dark_link_faults(wiring), *cyclic]
     if whole:
-        found += _missing_end_faults(wiring)
-    found += [] if found else _own_faults(wiring)
+        results += _missing_end_faults(wiring)
+    results += [] if results else _own_faults(wiring)
     if wiring.starts and wiring.ends and not cyclic:
-        found += _reach_faults(wiring, unsure)
-    return found
+        results += _reach_faults(wiring, unsure)
+    return results
 
 
 def _own_faults(wiring: Wiring) -> Iterator[str]:

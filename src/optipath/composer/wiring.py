@@ -82,19 +82,19 @@ class Wiring:
     @cached_property
     def links_to(self) -> dict[Port, list[Link]]:
         """The links that arrive at each in-port, in order of their names."""
-        found: dict[Port, list[Link]] = {}
+        results: dict[Port, list[Link]] = {}
         for link in sorted(self.graph.edges(keys=True)):
-            found.setdefault((link[1], link[2][1]), []).append(link)
-        return found
+            results.setdefault((link[1], link[2][1]), []).append(link)
+        return results
 
     @cached_property
     def links_from(self) -> dict[Port, list[Link]]:
         """The links that take the light of each out-port, in order of their names; no taps."""
-        found: dict[Port, list[Link]] = {}
+        results: dict[Port, list[Link]] = {}
         for start, end, key, tap in sorted(self.graph.edges(keys=True, data="tap")):
             if not tap:
-                found.setdefault((start, key[0]), []).append((start, end, key))
-        return found
+                results.setdefault((start, key[0]), []).append((start, end, key))
+        return results
 
     @cached_property
     def taps(self) -> list[Link]:
@@ -185,13 +185,13 @@ class Wiring:
     def outlets(self) -> tuple[str, ...]:
         """The out-ports whose light no link takes: it leaves the path, read by taps or not."""
         taken = self.links_from
-        found = (
+        results = (
             f"{name}.{port}"
             for name, element in self.elements.items()
             for port in element.outputs
             if (name, port) not in taken
         )
-        return tuple(sorted(found))
+        return tuple(sorted(results))
 
 
 Port: TypeAlias = tuple[str, str]
@@ -251,23 +251,23 @@ def cycles(ways: Ways) -> list[set[Port]]:
 
 def backwards(ways: Ways) -> Ways:
     """Return from which ports light comes to each."""
-    found: Ways = {port: [] for port in ways}
+    result: Ways = {port: [] for port in ways}
     for port, onwards in ways.items():
         for later in onwards:
-            found[later].append(port)
-    return found
+            result[later].append(port)
+    return result
 
 
 def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
     """Return the ports that light reaches."""
-    found = set(starts)
-    waiting = list(found)
+    results = set(starts)
+    waiting = list(results)
     while waiting:
         for later in ways[waiting.pop()]:
-            if later not in found:
-                found.add(later)
+            if later not in results:
+                results.add(later)
                 waiting.append(later)
-    return found
+    return results
 
 
 def among(ways: Ways, kept: set[Port]) -> Ways:

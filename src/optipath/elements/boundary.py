@@ -117,10 +117,10 @@ def _unit(vector: Any) -> Any:
 def _open_incidence_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[str]:
     incidence = element.incidence
     if {"in", "reflected"} <= frames.keys() and not Operand(incidence).known:
-        found = incidence_between(frames["in"], frames["reflected"])
+        result = incidence_between(frames["in"], frames["reflected"])
         yield (
             f"the frames of '{owner}' meet at an incidence of "
-            f"{np.degrees(np.ravel(found)[0]):.9g} deg; give that, not the parameter "
+            f"{np.degrees(np.ravel(result)[0]):.9g} deg; give that, not the parameter "
             f"'{incidence.name}'"
         )
 
@@ -167,21 +167,21 @@ class WorldAngle(Agreement):
         return (self.owner,)
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        found, *given = numbers
+        result, *given = numbers
         front, behind = angles_of(xp, *given)
         single = [is_single(xp, number) for number in given]
         last = xp.where(sum(single) > 0, _LAST_SINGLE_DIGITS, _LAST_DIGITS)
         # An angle next to grazing has fewer digits than its sine.
         cosine = xp.maximum(xp.minimum(xp.cos(front), xp.cos(behind)), xp.sqrt(last))
         allowed = max(_ROUNDING, self.rounding) + last / cosine
-        differs = abs(found - self._expected(front, behind)) > allowed
+        differs = abs(result - self._expected(front, behind)) > allowed
         return ~differs | xp.isnan(sum(given))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
-        found, *given = numbers
+        result, *given = numbers
         front, behind = angles_of(np, *given)
-        there, expected = _degrees(found), _degrees(self._expected(front, behind))
+        there, expected = _degrees(result), _degrees(self._expected(front, behind))
         incidence, *indices = self.operands[1:]
         angle = text_of(incidence, math.degrees(given[0]), " deg")
         open_ones = [] if incidence.known else [angle]

@@ -521,7 +521,7 @@ def with_values(element: E, **values: Any) -> E:
     Rotator(angle=-0.5)
     """
     kept = {name: read_only(value, widened=False) for name, value in values.items()}
-    found = not_known_sound(changed(element, **kept))
-    if faults := found.faults(element.kind or type(element).__name__):
+    result = not_known_sound(changed(element, **kept))
+    if faults := result.faults(element.kind or type(element).__name__):
         raise PathError(*(f"on the way back, {fault}" for fault in faults))
-    return found
+    return result

@@ -202,8 +202,8 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         >>> print(stack.absorbed().round(6))
         [0.218291 0.      ]
         """
-        found = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
-        return found[..., ::-1] if enters == "back" else found
+        result = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
+        return result[..., ::-1] if enters == "back" else result
 
     def agreements(self, owner: str) -> Iterator[Agreement]:
         """Yield what must hold of the layers that may absorb, and what is known at a run only."""

@@ -84,17 +84,17 @@ class OwnWays:
         rounding = self._rounding(read)
         tolerance = tolerance_of(rounding)
         matrices: list[Array] = []
-        found: list[tuple[int, str]] = []
+        results: list[tuple[int, str]] = []
         for coupling in self.couplings:
             with np.errstate(all="ignore"):
                 light = self._emitted(coupling, read)
                 matrix = self._matrix(coupling, read) if light is None else None
             if light is not None:
-                found += self._emission_faults(light.astype(np.float32) if rounding else light)
+                results += self._emission_faults(light.astype(np.float32) if rounding else light)
             if matrix is not None:
                 matrices.append(matrix)
-                found += self._matrix_faults(matrix.reshape(-1, 4, 4), tolerance)
-        return found or self._sum_faults(matrices, tolerance)
+                results += self._matrix_faults(matrix.reshape(-1, 4, 4), tolerance)
+        return results or self._sum_faults(matrices, tolerance)
 
     def _rounding(self, read: Callable[[Operand], Any]) -> float:
         """Return that of single precision where a number has been rounded so; else 0."""
@@ -183,15 +183,15 @@ def is_own(element_class: type[Any]) -> bool:
 def couplings_of(element: Any) -> tuple[Coupling, ...]:
     """Return the ways through an element."""
     what = f"couplings() of element class {type(element).__name__}"
-    found: tuple[Coupling, ...] = called(what, lambda: tuple(element.couplings()))
-    if is_own(type(element)) and (faults := list(_faults(what, element, found))):
+    results: tuple[Coupling, ...] = called(what, lambda: tuple(element.couplings()))
+    if is_own(type(element)) and (faults := list(_faults(what, element, results))):
         raise PathError(*faults)
-    return found
+    return results
 
 
-def _faults(what: str, element: Any, found: tuple[Any, ...]) -> Iterator[str]:
+def _faults(what: str, element: Any, results: tuple[Any, ...]) -> Iterator[str]:
     known = list[tuple[Any, Any]]()
-    for coupling in found:
+    for coupling in results:
         if not isinstance(coupling, Coupling):
             yield f"{what} gives {shown(coupling)}; return a tuple of op.Coupling"
             continue
@@ -420,16 +420,16 @@ def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
         _check_array(what, rows, values, (4, 4))
         rows = np.asarray(rows)
     try:
-        found = []
+        results = []
         # Each row before the next, which may be a generator that knows one at a time.
         for row in rows:
             _check_array(what, row, values, (4,))
-            found.append(tuple(row))
+            results.append(tuple(row))
     except TypeError:
-        found = []
-    if len(found) != 4 or any(len(row) != 4 for row in found):
+        results = []
+    if len(results) != 4 or any(len(row) != 4 for row in results):
         raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
-    entries = tuple(entry for row in found for entry in row)
+    entries = tuple(entry for row in results for entry in row)
     if any(map(_is_complex, entries)):
         return _real(what, entries, _rounding(entries + values))
     for entry in entries:

@@ -271,11 +271,11 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every number; beside others, three of s1 are no vector."""
-        found = super().quantities()
+        result = super().quantities()
         if self._is_of_one_component:
-            return found
+            return result
         first = FIRST_ROTATION_ANGLE
-        return ((name, value, ROTATION_ANGLE if of is first else of) for name, value, of in found)
+        return ((name, value, ROTATION_ANGLE if of is first else of) for name, value, of in result)
 
     @property
     def _is_of_one_component(self) -> bool:
@@ -337,9 +337,9 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
 def _birefringence(crystal: Any) -> Any:
     if isinstance(crystal, str):
         crystal = Crystal.named(crystal)
-    found = crystal.birefringence if isinstance(crystal, Crystal) else crystal
-    if isinstance(found, CurveValue) or real_number(found) is not None:
-        return found
+    result = crystal.birefringence if isinstance(crystal, Crystal) else crystal
+    if isinstance(result, CurveValue) or real_number(result) is not None:
+        return result
     raise ValueFault(
         f"crystal is {shown(crystal)}; give a name such as 'quartz', a Crystal, or a birefringence "
         f"as a number or by wavelength"

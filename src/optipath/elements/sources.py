@@ -66,10 +66,12 @@ class Source(Element, kind="source"):
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every number; beside a state, four of an intensity are none."""
-        found = super().quantities()
+        result = super().quantities()
         if self.stokes is None:
-            return found
-        return ((name, value, NON_NEGATIVE if of is INTENSITY else of) for name, value, of in found)
+            return result
+        return (
+            (name, value, NON_NEGATIVE if of is INTENSITY else of) for name, value, of in result
+        )
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the emission into ``out``."""

@@ -56,7 +56,7 @@ class Splitter(FourPort):
         return frames.get(port) or frames.get(_THROUGH[port])
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        found = []
+        results = []
         for enters, passes, turns in (
             ("in", "transmitted", "reflected"),
             ("back", "reflected", "transmitted"),
@@ -65,15 +65,15 @@ class Splitter(FourPort):
             if entry is None:
                 continue
             if not same_frame(frames.get(passes, entry), entry):
-                found.append(
+                results.append(
                     f"'{owner}' lets transmitted light go straight through; give "
                     f"'{owner}.{enters}' and '{owner}.{passes}' one frame"
                 )
             if not share_x(frames.get(turns, entry), entry):
-                found.append(
+                results.append(
                     f"the frames of '{owner}.{enters}' and '{owner}.{turns}' must share one x"
                 )
-        return found
+        return results
 
 
 class BeamSplitter(Splitter, kind="beam-splitter"):

@@ -227,7 +227,7 @@ class VerticesDomain(Domain):
             with np.errstate(over="ignore"):
                 bad = ~legs_fit(some)
             if bad.any():
-                chain, place = (int(found[0]) for found in np.nonzero(bad))
+                chain, place = (int(result[0]) for result in np.nonzero(bad))
                 where = of_chain(piece.start + chain, array.shape[:-2])
                 raise ValueFault(_leg_fault(owner, some[chain], place, where))
 
@@ -285,8 +285,8 @@ def of_chain(chain: int, batch: tuple[int, ...]) -> str:
     """
     if not batch:
         return ""
-    found = tuple(int(place) for place in np.unravel_index(chain, batch))
-    return f" of chain {found if len(found) > 1 else found[0]}"
+    results = tuple(int(place) for place in np.unravel_index(chain, batch))
+    return f" of chain {results if len(results) > 1 else results[0]}"
 
 
 def pieces_of(count: int) -> Iterator[slice]:

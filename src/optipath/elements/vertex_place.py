@@ -90,19 +90,19 @@ class PlaceInChain:
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the numbers, a sentence each."""
-        found, name = [], self.counted_by
+        result, name = [], self.counted_by
         if self.told is not None and not is_whole(self.told, most=_MOST):
-            found.append(f"{owner}.{name} must be a whole number above 0, not {shown(self.told)}")
+            result.append(f"{owner}.{name} must be a whole number above 0, not {shown(self.told)}")
         elif not self.count and isinstance(self.vertices, Parameter):
-            found.append(
+            result.append(
                 f"{owner}.vertices is a parameter without a default; tell the number of "
                 f"{'vertices' if name == 'count' else name} of the chain, {name}=..."
             )
         if not is_whole(self.number, most=self.count or _MOST):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
             given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
-            found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
-        return found
+            result.append(f"{owner}.place must be a whole number{up_to}, not {given}")
+        return result
 
     @property
     def _number(self) -> int:
@@ -232,12 +232,12 @@ class EventFits(Agreement):
     def fits(self, xp: Any, *numbers: Any) -> Any:
         if xp is not np:
             return _fits(xp, *numbers)
-        found = _surely_fits(*numbers)
-        if not np.all(found):
-            left = ~found
+        result = _surely_fits(*numbers)
+        if not np.all(result):
+            left = ~result
             several = (np.broadcast_to(number, left.shape)[left] for number in numbers)
-            found[left] = _fits(np, *several)
-        return found
+            result[left] = _fits(np, *several)
+        return result
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
@@ -426,15 +426,15 @@ def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_
 
 def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
     """Return which normals are none, whatever the chain."""
-    found = []
+    results = []
     for bad, problem in (
         (~np.isfinite(normals).all(axis=-1), "is not finite; give numbers"),
         (~normals.any(axis=-1), "has no length; give one with a direction of its own"),
     ):
         if bad.any():
             chain, place = (int(index[0]) for index in np.nonzero(bad))
-            found.append(f"{_normal_of(place, chain, batch)} {problem}")
-    return found
+            results.append(f"{_normal_of(place, chain, batch)} {problem}")
+    return results
 
 
 def _off_faults(
@@ -486,9 +486,9 @@ def _surely_along(chains: Floats, normals: Floats, sides: Floats) -> bool:
 
 def _dot(a: Floats, b: Floats) -> Floats:
     product = a * b
-    found: Floats = product[:, 0] + product[:, 1]
-    found += product[:, 2]
-    return found
+    result: Floats = product[:, 0] + product[:, 1]
+    result += product[:, 2]
+    return result
 
 
 def _off(chains: Floats, normals: Floats, sides: Floats) -> Floats:

@@ -135,18 +135,18 @@ class ChainVertex(MediaOfBoundary, Element):
         )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        found = []
+        results = []
         if frames:
-            found.append(f"'{owner}' has its frames from its vertices; give it no other frames")
-        return [*found, *self._place_faults(owner)]
+            results.append(f"'{owner}' has its frames from its vertices; give it no other frames")
+        return [*results, *self._place_faults(owner)]
 
     def _place_faults(self, owner: str) -> list[str]:
-        found = self.in_chain.faults(owner)
+        result = self.in_chain.faults(owner)
         if self.refracts and isinstance(self.vertices, VerticesByAngles):
-            found.append(
+            result.append(
                 f"{owner}.vertices are angles, which say reflections alone; give the points"
             )
-        return found
+        return result
 
 
 class Vertex(ChainVertex, kind="vertex"):

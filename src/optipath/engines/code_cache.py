@@ -92,7 +92,7 @@ class CodeCache:
             if text not in self._functions:
                 self._functions[text] = self._loaded(text, compiled)
             self._functions.move_to_end(text)
-            found = self._functions[text]
+            result = self._functions[text]
             try:
                 most = self.most_functions
             except CacheError as error:
@@ -100,7 +100,7 @@ class CodeCache:
                 self.tell(str(error))
             while len(self._functions) > most:
                 self._functions.popitem(last=False)
-            return found
+            return result
 
     def _loaded(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
@@ -258,12 +258,12 @@ def cache_place() -> Path:
         if own := os.environ.get("OPTIPATH_CACHE"):
             return Path(own).absolute()
         base = Path(os.environ.get("XDG_CACHE_HOME", ""))
-        found = (base if base.is_absolute() else Path.home() / ".cache") / "optipath"
+        result = (base if base.is_absolute() else Path.home() / ".cache") / "optipath"
     except (OSError, RuntimeError):
-        found = Path()
-    if not found.is_absolute():
+        result = Path()
+    if not result.is_absolute():
         raise CacheError(f"there is no home folder; {CURE}")
-    return found
+    return result
 
 
 def own_folder(*, make: bool = False) -> Path:
@@ -280,15 +280,15 @@ def own_folder(*, make: bool = False) -> Path:
 
 def entries_in(folder: Path, suffix: str) -> list[Entry]:
     """Return the files whose names end so, that which has not been used for longest first."""
-    found = []
+    results = []
     for file in folder.iterdir():
         if file.suffix == suffix:
             try:
                 about = file.lstat()
             except FileNotFoundError:  # another process was faster
                 continue
-            found.append(Entry(file, about.st_size, about.st_mtime))
-    return sorted(found, key=lambda entry: entry.used)
+            results.append(Entry(file, about.st_size, about.st_mtime))
+    return sorted(results, key=lambda entry: entry.used)
 
 
 def _refuse_shared(folder: Path) -> None:

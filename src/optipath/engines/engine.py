@@ -75,5 +75,5 @@ def address(array: Any) -> int:
     try:
         return ctypes.addressof(ctypes.c_char.from_buffer(array))
     except (TypeError, ValueError):  # The array is read-only, or empty.
-        found: int = array.__array_interface__["data"][0]
-        return found
+        result: int = array.__array_interface__["data"][0]
+        return result

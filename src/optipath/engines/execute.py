@@ -111,8 +111,8 @@ def _met(solver: LoopSolver, states: Mapping[int, Any], carrier: Any) -> dict[in
         inputs = solver.program.steps[junction].inputs
         if outside := [states[source] for source in inputs if source < solver.loop.start]:
             arriving[junction] = _together(outside, carrier)
-    found: dict[int, Any] = carrier.meet(solver, arriving)
-    return found
+    results: dict[int, Any] = carrier.meet(solver, arriving)
+    return results
 
 
 def _together(lights: list[Any], carrier: Carrier) -> Any:
@@ -128,8 +128,8 @@ def evaluated(
     results: dict[int, Numbers] | None = None,
 ) -> tuple[Any, ...]:
     """Return the numbers that an evaluation comes to."""
-    found = _evaluated(program, index, operands, carrier, {} if results is None else results)
-    return tuple(map(number, found))
+    result = _evaluated(program, index, operands, carrier, {} if results is None else results)
+    return tuple(map(number, result))
 
 
 def _evaluated(

@@ -51,15 +51,15 @@ class Formula:
     @cached_property
     def needed(self) -> tuple[Symbol, ...]:
         """What the results need, in the order in which it can be done."""
-        found: dict[int, Symbol] = {}
+        results: dict[int, Symbol] = {}
         waiting = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
         while waiting:
             symbol = waiting.pop()
-            if symbol.index not in found:
-                found[symbol.index] = symbol
+            if symbol.index not in results:
+                results[symbol.index] = symbol
                 if symbol.index not in self.earlier:
                     waiting += [o for o in symbol.operands if isinstance(o, Symbol)]
-        return tuple(found[index] for index in sorted(found))
+        return tuple(results[index] for index in sorted(results))
 
     @cached_property
     def inputs(self) -> tuple[Symbol, ...]:
@@ -151,11 +151,11 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
     whose results are given to later ones.
     """
     known: list[Symbol] = []
-    found: list[Formula] = []
+    outcomes: list[Formula] = []
     for own in sorted({s.axes for s in whole.steps if s.axes < axes and s.axes}, key=_order):
         later = _later(whole, own)
         results = tuple(s for s in whole.steps if s.axes == own and s.index in later)
-        found.append(_stage(whole, results, own, last, known))
+        outcomes.append(_stage(whole, results, own, last, known))
         known += results
     done = {symbol.index for symbol in known}
     results = tuple(
@@ -163,7 +163,7 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
         for result in whole.results
         if not (isinstance(result, Symbol) and result.index in done)
     )
-    return (*found, _stage(whole, results, axes, last, known, frozenset()))
+    return (*outcomes, _stage(whole, results, axes, last, known, frozenset()))
 
 
 def _later(whole: Formula, own: frozenset[int]) -> set[int]:
@@ -244,10 +244,10 @@ def assignments(
     steps: Iterable[Symbol], written: Callable[[Any], str], *, branchless: bool = False
 ) -> list[str]:
     """Return a line for each operation."""
-    found = []
+    results = []
     for step in steps:
         text = OPERATIONS[step.operation].text
         if branchless and step.operation == "where":
             text = "chosen({0}, {1}, {2})"
-        found.append(f"{written(step)} = {text.format(*map(written, step.operands))}")
-    return found
+        results.append(f"{written(step)} = {text.format(*map(written, step.operands))}")
+    return results

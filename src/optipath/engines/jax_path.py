@@ -54,8 +54,8 @@ class JaxPath:
         values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_lights if self._known_traced else self._lights
-            found, sound = run(values, batch=batch, absent=absent)
-        return list(found), sound
+            result, sound = run(values, batch=batch, absent=absent)
+        return list(result), sound
 
     def matrix(
         self,
@@ -75,9 +75,9 @@ class JaxPath:
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
     ) -> tuple[tuple[Any, ...], Any]:
         operands = self._operands(values, absent)
-        found, solvers = self._stokes(operands, self.carrier, batch)
+        result, solvers = self._stokes(operands, self.carrier, batch)
         factor = self._factor(solvers, batch)[..., np.newaxis]
-        return tuple(factor * stokes for stokes in found.values()), _are_sound(solvers)
+        return tuple(factor * stokes for stokes in result.values()), _are_sound(solvers)
 
     def _traced_matrix(
         self,
@@ -96,8 +96,8 @@ class JaxPath:
                 step: tuple(map(self._number, column if name == source else 0.0 * column))
                 for name, (step, _) in self.program.sources.items()
             }
-            found, others = self._stokes(operands, MatrixCarrier(JAX), batch, emitted)
-            columns.append(found[reading])
+            result, others = self._stokes(operands, MatrixCarrier(JAX), batch, emitted)
+            columns.append(result[reading])
             # All light gains no more than unpolarised light does, which has some of each.
             solvers = solvers or others
         factor = self._factor(solvers, batch)[..., np.newaxis, np.newaxis]
@@ -120,7 +120,7 @@ class JaxPath:
         """Return the Stokes vector of every reading, and what has been solved for loops."""
         solvers: list[LoopSolver] = []
         fixed = JAX.fixed(operands)
-        found = execute(
+        result = execute(
             self.program, fixed, StepByStep(carrier), emitted, self._number, None, solvers
         )
         # Where the smaller of two intensities changes, the light that is carried has no slope,
@@ -129,7 +129,7 @@ class JaxPath:
         smooth = execute(self.program, operands, matrices, emitted, self._number)
         stokes = {}
         for name, reading in self.program.readings.items():
-            components, exponent = found[reading.light]
+            components, exponent = result[reading.light]
             if not isinstance(exponent, int):
                 components = tuple(JAX.ldexp(part, exponent) for part in components)
             both = components, smooth[reading.light][0]

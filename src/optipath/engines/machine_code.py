@@ -31,8 +31,8 @@ def compiled(text: str) -> bytes:
 
 def assembly(text: str) -> str:
     """Return what `compiled` makes of a text, to be read by people."""
-    found: str = _library(text)[0].get_asm_str()
-    return found
+    result: str = _library(text)[0].get_asm_str()
+    return result
 
 
 def _library(text: str) -> tuple[Any, str, list[str]]:
@@ -69,7 +69,7 @@ def _typing(context: Any) -> Any:
 
     Numba tries its rules for arrays at every product of two numbers, half of what it does.
     """
-    found, known = copy(context), {}
+    result, known = copy(context), {}
 
     def resolved(function: Any, given: Any, named: Any) -> Any:
         key = function, given, *named.items()
@@ -77,8 +77,8 @@ def _typing(context: Any) -> Any:
             known[key] = context.resolve_function_type(function, given, named)
         return known[key]
 
-    found.resolve_function_type = resolved
-    return found
+    result.resolve_function_type = resolved
+    return result
 
 
 @cache

@@ -63,12 +63,12 @@ def lights_formula(
     solvers: list[LoopSolver] = []
     symbols = operands.of(program)
     with np.errstate(all="ignore"):
-        found = execute(program, symbols, carried, number=known or itself, solvers=solvers)
+        result = execute(program, symbols, carried, number=known or itself, solvers=solvers)
     outputs: list[Any] = []
     exponents: list[Any] = []
     holds = [condition for solver in solvers for condition in solver.conditions]
     for reading in program.readings.values():
-        components, exponent = found[reading.light]
+        components, exponent = result[reading.light]
         read: Any = components[: 4 if unreduced else reading.components]
         sound = _finite(read, recorder.dtype)
         if carrier is StokesCarrier:
@@ -98,8 +98,8 @@ def bounds_formula(
     xp = operands.primitives
     symbols, carrier = operands.of(program), BoundsCarrier(xp, slack_of(program, dtype))
     matrices = whole_matrices(program, symbols, carrier)
-    found = execute(program, symbols, carrier, shared=matrices)
-    read = [found[reading.light][0] for reading in program.readings.values()]
+    result = execute(program, symbols, carrier, shared=matrices)
+    read = [result[reading.light][0] for reading in program.readings.values()]
     totals = [total for total, *_ in read]
     holds = [is_physical(xp, matrix, _spare(dtype)) for matrix in matrices.values()]
     holds += [_finite([n for numbers in read for n in numbers], recorder.dtype)]
@@ -210,12 +210,14 @@ class SymbolicInputs:
 
     def of(self, program: Program) -> list[Any]:
         """Return a symbol, or a number that is known, for each operand."""
-        found = [
+        results = [
             self._operand(operand, f".{place}") for place, operand in enumerate(program.operands)
         ]
         if self.known is None:
-            return found
-        return [operand if isinstance(operand, bool) else self.known(operand) for operand in found]
+            return results
+        return [
+            operand if isinstance(operand, bool) else self.known(operand) for operand in results
+        ]
 
     def _operand(self, operand: Operand, name: str) -> Any:
         if operand.known:

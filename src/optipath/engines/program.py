@@ -113,16 +113,16 @@ class Program:
     @cached_property
     def operations(self) -> tuple[Operation, ...]:
         """The evaluations as operations of operands."""
-        found: list[Operation] = []
+        results: list[Operation] = []
         for evaluation in self.evaluations:
             arguments = [
-                ResultOf(found[argument.evaluation], argument.place)
+                ResultOf(results[argument.evaluation], argument.place)
                 if type(argument) is Result
                 else self.operands[argument]  # type: ignore[index]
                 for argument in evaluation.arguments
             ]
-            found.append(Operation(evaluation.kernel, tuple(arguments)))
-        return tuple(found)
+            results.append(Operation(evaluation.kernel, tuple(arguments)))
+        return tuple(results)
 
     def presence(self, evaluation: int) -> Operand | None:
         """Return the operand that says where the element of an evaluation is there at all."""
@@ -138,12 +138,12 @@ class Program:
     @cached_property
     def given_to(self) -> tuple[tuple[int, ...], ...]:
         """The operands of each evaluation, and of those whose results it is given."""
-        found: list[tuple[int, ...]] = []
+        results: list[tuple[int, ...]] = []
         for evaluation, takes in zip(self.evaluations, self.takes, strict=True):
             own = [argument for argument in evaluation.arguments if type(argument) is int]
-            behind = [operand for taken in takes for operand in found[taken]]
-            found.append(tuple(dict.fromkeys([*own, *behind])))
-        return tuple(found)
+            behind = [operand for taken in takes for operand in results[taken]]
+            results.append(tuple(dict.fromkeys([*own, *behind])))
+        return tuple(results)
 
     @cached_property
     def taken_by_several(self) -> frozenset[int]:
@@ -185,12 +185,12 @@ class Program:
     @cached_property
     def matrices(self) -> Mapping[int, tuple[str, ...]]:
         """The evaluations that are whole Mueller matrices, and the elements that they are of."""
-        found: dict[int, tuple[str, ...]] = {}
+        results: dict[int, tuple[str, ...]] = {}
         for step in self.steps:
             index = step.evaluation
             if index is not None and self.evaluations[index].kernel.structure == FULL:
-                found[index] = (*found.get(index, ()), step.label.rpartition(".")[0])
-        return found
+                results[index] = (*results.get(index, ()), step.label.rpartition(".")[0])
+        return results
 
     def stretches(self) -> Iterator[tuple[range, Loop | None]]:
         """Yield the steps in order, those of a loop together and with it."""
@@ -204,11 +204,11 @@ class Program:
     @cached_property
     def used_by(self) -> tuple[tuple[int, ...], ...]:
         """Which steps read each light."""
-        found: list[list[int]] = [[] for _ in self.steps]
+        results: list[list[int]] = [[] for _ in self.steps]
         for light, step in enumerate(self.steps):
             for source in step.inputs:
-                found[source].append(light)
-        return tuple(map(tuple, found))
+                results[source].append(light)
+        return tuple(map(tuple, results))
 
     @cached_property
     def readings(self) -> Mapping[str, Reading]:
@@ -272,8 +272,8 @@ class LoopSolver:
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
         """Return the parts of the light at each junction, for those of what arrives at some."""
         given = self.scattered(arriving)
-        found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
-        self.found = [found if is_zero(found) else self.rounded(found) for found in found]
+        result = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
+        self.found = [result if is_zero(result) else self.rounded(result) for result in result]
         lights: dict[int, Parts] = dict.fromkeys(self.loop.junctions, ())
         for (junction, _), number in zip(self.unknowns, self.found, strict=True):
             lights[junction] = (*lights[junction], self.rounded(number))
@@ -311,11 +311,11 @@ class LoopSolver:
         Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
         where l3^2 + l4^2 <= l1 l2. Numbers that are looked at in any case are left out.
         """
-        found = []
+        results = []
         for junction in self.loop.junctions:
             places = [self._place[junction, part] for part in range(self.count(junction))]
             along, across = places[:2], [self.leaves[place] for place in places[2:]]
-            found += [
+            results += [
                 self.leaves[place] > -_ROUNDING
                 for place in along
                 if not any(self.leaves[place] is number for number in looked_at)
@@ -323,8 +323,8 @@ class LoopSolver:
             squares = [leaves * leaves for leaves in across if not is_zero(leaves)]
             if squares:
                 most = self.leaves[along[0]] * self.leaves[along[1]] + _ROUNDING
-                found.append(sum(squares) <= most)
-        return found
+                results.append(sum(squares) <= most)
+        return results
 
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
         """Return the parts of the lights at some junctions by their place among the unknowns."""

@@ -196,9 +196,9 @@ class Recorder:
         if not symbols:
             with np.errstate(all="ignore"):
                 return about.ufunc(*operands)[()]
-        found = simplified(operation, operands)
-        if found is not UNKNOWN:
-            return found
+        result = simplified(operation, operands)
+        if result is not UNKNOWN:
+            return result
         names = [o.index if isinstance(o, Symbol) else repr(o) for o in operands]
         if about.commutes:
             names.sort(key=str)

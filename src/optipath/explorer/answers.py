@@ -66,8 +66,8 @@ class PageAnswers:
         """Return what the page shows of a state."""
         with self._answering() as told:
             asked = asked_state(given, _STATE)
-            found = _or_faults(lambda: traced_as_json(read_state(self._presets, asked)))
-            return found if found["faults"] else found | {"notes": [*found["notes"], *told()]}
+            result = _or_faults(lambda: traced_as_json(read_state(self._presets, asked)))
+            return result if result["faults"] else result | {"notes": [*result["notes"], *told()]}
 
     def export(self, given: Any) -> dict[str, Any]:
         """Return a state as a file, and what it is called."""
@@ -105,8 +105,8 @@ def _or_faults(answer: Any) -> dict[str, Any]:
     """Return an answer, or what is wrong with the fields that it is asked by."""
     try:
         return dict(answer())
-    except FieldFaults as found:
-        return {"faults": [fault._asdict() for fault in found.faults]}
+    except FieldFaults as result:
+        return {"faults": [fault._asdict() for fault in result.faults]}
     except OptipathError as error:
         return {"faults": [{"field": None, "sentence": each} for each in error.faults]}
 

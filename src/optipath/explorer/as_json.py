@@ -166,15 +166,15 @@ def poincare(light: Light) -> list[float] | None:
 
 
 def _quantities(light: Light, stokes: Sequence[str]) -> list[dict[str, Any]]:
-    found = []
+    results = []
     for quantity in QUANTITIES:
         unit, component = quantity.shown_unit, quantity.attribute
         number = plain(np.asarray(quantity.of(light), float), unit)
         state = PRINTED.state(math.nan if number is None else number)
         text = stokes[int(component)] if component.isdigit() else state
         told = {"name": quantity.variable, "label": quantity.name, "unit": unit}
-        found.append({**told, "number": number, "text": text})
-    return found
+        results.append({**told, "number": number, "text": text})
+    return results
 
 
 def _ellipse(light: Light) -> dict[str, Any]:
@@ -199,27 +199,27 @@ def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any
     >>> energy_as_flows(op.load_preset("malus"), {})["text"]
     'Sources give 1; polarizer takes 0.5, analyzer takes 0.125 and eye gets 0.375.'
     """
-    found = energy_along(path, **values)
+    result = energy_along(path, **values)
     links = [
         {"start": each.start, "end": each.end, "name": each.name, "tap": each.tap}
         | _power(each.power)
-        for each in found.links
+        for each in result.links
         if each.end
     ]
-    given = sum(float(power) for power in found.given.values())
+    given = sum(float(power) for power in result.given.values())
     told = [
-        *(f"{node} takes {_text(power)}" for node, power in found.taken.items() if power),
-        *(f"{_text(power)} leaves at {name}" for name, power in found.left.items() if power),
-        *(f"{node} gets {_text(power)}" for node, power in found.ended.items()),
+        *(f"{node} takes {_text(power)}" for node, power in result.taken.items() if power),
+        *(f"{_text(power)} leaves at {name}" for name, power in result.left.items() if power),
+        *(f"{node} gets {_text(power)}" for node, power in result.ended.items()),
     ]
     return {
         "links": links,
-        "given": [{"node": node} | _power(power) for node, power in found.given.items()],
-        "taken": [{"node": node} | _power(power) for node, power in found.taken.items()],
-        "leaves": [{"name": name} | _power(power) for name, power in found.left.items()],
-        "ends": [{"node": node} | _power(power) for node, power in found.ended.items()],
+        "given": [{"node": node} | _power(power) for node, power in result.given.items()],
+        "taken": [{"node": node} | _power(power) for node, power in result.taken.items()],
+        "leaves": [{"name": name} | _power(power) for name, power in result.left.items()],
+        "ends": [{"node": node} | _power(power) for node, power in result.ended.items()],
         "text": f"Sources give {_text(given)}; {listed(told)}.",
-        "notes": [*found.notes],
+        "notes": [*result.notes],
     }
 
 

@@ -241,8 +241,8 @@ class PageHandler(BaseHTTPRequestHandler):
 
     def _answer(self, name: str, body: bytes) -> None:
         try:
-            found = getattr(self.server.answers, name)(read_json(body))
-            content = json.dumps(found, allow_nan=False).encode()
+            result = getattr(self.server.answers, name)(read_json(body))
+            content = json.dumps(result, allow_nan=False).encode()
         except OptipathError as error:
             self._send_json({"error": "; ".join(error.faults)}, HTTPStatus.BAD_REQUEST)
         except Exception as error:  # noqa: BLE001 - the page gets a sentence, whatever happens
@@ -279,8 +279,8 @@ class PageHandler(BaseHTTPRequestHandler):
         while left > 0 and (read := len(self.rfile.read1(1 << 16))):
             left -= read
 
-    def _send_json(self, found: Any, status: int = HTTPStatus.OK) -> None:
-        self._send(status, _JSON, json.dumps(found, allow_nan=False).encode())
+    def _send_json(self, result: Any, status: int = HTTPStatus.OK) -> None:
+        self._send(status, _JSON, json.dumps(result, allow_nan=False).encode())
 
     def _send(self, status: int, kind: str, content: bytes) -> None:
         self.connection.settimeout(_SENDING)
@@ -377,13 +377,13 @@ class PageFile(NamedTuple):
 def page_files() -> dict[str, PageFile]:
     """Return the files by the name under which they are asked for."""
     folder = files("optipath.explorer").joinpath("page")
-    found = {}
+    results = {}
     for file in folder.iterdir():
         kind = _TYPES.get("." + file.name.rpartition(".")[2])
         if kind is not None:
             name = "" if file.name == "index.html" else f"page/{file.name}"
-            found[name] = PageFile(kind, file.read_bytes())
-    return found
+            results[name] = PageFile(kind, file.read_bytes())
+    return results
 
 
 _DEEPEST = 8
@@ -405,17 +405,17 @@ def read_json(given: bytes) -> Any:
     if _depth(text) > _DEEPEST:
         raise _refused(f"has brackets more than {_DEEPEST} levels deep; send one object")
     try:
-        found = json.loads(
+        result = json.loads(
             text, parse_constant=_no_number, parse_float=_finite, object_pairs_hook=_once
         )
-        json.dumps(found, ensure_ascii=False).encode()
+        json.dumps(result, ensure_ascii=False).encode()
     except UnicodeEncodeError:
         raise _refused("has half a character, a surrogate by itself; send whole ones") from None
     except json.JSONDecodeError as fault:
         raise _refused(f"is no JSON at character {fault.pos}; send one JSON object") from None
     except ValueError:
         raise _refused("has a whole number of too many digits; send values as texts") from None
-    return found
+    return result
 
 
 def _depth(text: str) -> int:
@@ -439,12 +439,12 @@ def _finite(text: str) -> float:
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    results = dict(pairs)
+    if len(results) < len(pairs):
         names = [name for name, _ in pairs]
         twice = next(name for name in names if names.count(name) > 1)
         raise _refused(f"has the name {shown(twice)} twice; leave one out")
-    return found
+    return results
 
 
 def _refused(what: str) -> ParameterError:

@@ -278,13 +278,13 @@ def _opened(
 def _places(
     choices: Mapping[str, Any], given: Mapping[str, str], faults: list[FieldFault]
 ) -> dict[str, str]:
-    found = {}
+    results = {}
     for name, word in given.items():
         if wrong := unknown("choice", name, choices) or unknown(name, word, choices[name].behind):
             faults += [FieldFault(name if name in choices else None, each) for each in wrong]
         else:
-            found[name] = word
-    return found
+            results[name] = word
+    return results
 
 
 def _value(

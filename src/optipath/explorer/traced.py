@@ -37,7 +37,7 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     """Return what the page shows of a state."""
     explored, asked = state.explored, state.asked
     lights = traced(state)
-    found: dict[str, Any] = {
+    results: dict[str, Any] = {
         "faults": [],
         "notes": [*state.notes],
         "values": values_as_json(state),
@@ -49,16 +49,16 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     # It stands for the path wherever pictures ask for the light on its links.
     path = cast("PathGraph", TracedOnce(explored.path, state.values))
     along = lights_along(path, **state.values)
-    found["along"] = [link_as_json(e.name, e.start, e.end, e.light) for e in along]
+    results["along"] = [link_as_json(e.name, e.start, e.end, e.light) for e in along]
     plan = explored.plan
-    found |= {"model": plan.model, "method": plan.method}
-    found["engine"] = " and ".join(plan.answers.ran_by)
-    found |= _curve(state)
+    results |= {"model": plan.model, "method": plan.method}
+    results["engine"] = " and ".join(plan.answers.ran_by)
+    results |= _curve(state)
     want = asked.want
-    found["scene"] = _scene(path, state, found["notes"]) if "scene" in want else None
-    found["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
-    found["explanation"] = explored.explanation if "explanation" in want else None
-    return found
+    results["scene"] = _scene(path, state, results["notes"]) if "scene" in want else None
+    results["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
+    results["explanation"] = explored.explanation if "explanation" in want else None
+    return results
 
 
 def _curve(state: ReadState) -> dict[str, Any]:
@@ -67,8 +67,8 @@ def _curve(state: ReadState) -> dict[str, Any]:
     try:
         detector = curve_detector(state)
         curve = None if asked is None else curve_as_json(state, asked, detector)
-    except FieldFaults as found:
-        return {"curve": None, "curve_faults": [fault._asdict() for fault in found.faults]}
+    except FieldFaults as result:
+        return {"curve": None, "curve_faults": [fault._asdict() for fault in result.faults]}
     return {"curve": curve, "curve_faults": []}
 
 
@@ -110,7 +110,7 @@ def curve_detector(state: ReadState) -> str:
 
 def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
     """Return the value of each parameter, as a text, a number or a word."""
-    found: dict[str, dict[str, Any]] = {}
+    results: dict[str, dict[str, Any]] = {}
     for name, parameter in state.explored.parameters.items():
         value = state.values.get(name, parameter.default)
         word = value if isinstance(value, str) else None
@@ -121,12 +121,17 @@ def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
             number = float(value)
         text = "" if value is None else parameter.text(_single(value))
         shown = None if number is None else in_unit(number, parameter.unit)
-        found[name] = {"text": text, "number": shown, "unit": parameter.unit, "word": word}
-    if state.base.offers_wavelength and WAVELENGTH.name not in found:
-        found[WAVELENGTH.name] = {"text": "", "number": None, "unit": WAVELENGTH.unit, "word": None}
+        results[name] = {"text": text, "number": shown, "unit": parameter.unit, "word": word}
+    if state.base.offers_wavelength and WAVELENGTH.name not in results:
+        results[WAVELENGTH.name] = {
+            "text": "",
+            "number": None,
+            "unit": WAVELENGTH.unit,
+            "word": None,
+        }
     if given := state.materials:
-        found |= _materials(state, given)
-    return found
+        results |= _materials(state, given)
+    return results
 
 
 def _single(value: Any) -> Any:
@@ -140,16 +145,16 @@ def _materials(state: ReadState, given: dict[str, Any]) -> dict[str, dict[str, A
     light = state.explored.parameters.get(WAVELENGTH.name)
     at = None if light is None else state.values.get(WAVELENGTH.name, light.default)
     plain = {"number": None, "unit": "", "word": None}
-    found = {}
+    results = {}
     for name, label, material in materials_among(given):
         told = material_as_json(label, material, at)
         text = state.asked.values[name].strip()
-        found[name] = {**plain, "text": text, "material": label, "n": told["n"], "k": told["k"]}
+        results[name] = {**plain, "text": text, "material": label, "n": told["n"], "k": told["k"]}
         for k in given_by_materials(state.base.path.graph, {name: material}):
             number = told["k"] if isinstance(told["k"], float) else None
             text = "" if number is None else PRINTED.text(number)
-            found[k] = {**plain, "text": text, "number": number, "by": name}
-    return found
+            results[k] = {**plain, "text": text, "number": number, "by": name}
+    return results
 
 
 class TracedOnce:
@@ -235,8 +240,8 @@ def _end_faults(state: ReadState, parameter: Parameter, asked: AskedCurve) -> li
 def _by_value(sentence: str, axes: Sequence[SweepAxis]) -> str:
     """Return a sentence that tells the place on a curve by the value there, not by its number."""
 
-    def value(found: re.Match[str]) -> str:
-        places = (f"{each.name} is {each.shown[int(found[1])]:g} {each.unit}" for each in axes)
+    def value(result: re.Match[str]) -> str:
+        places = (f"{each.name} is {each.shown[int(result[1])]:g} {each.unit}" for each in axes)
         return f"(where {listed([place.strip() for place in places])})"
 
     return _PLACE.sub(value, sentence)

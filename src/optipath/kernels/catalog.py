@@ -43,19 +43,19 @@ def _fresnel(
 
 def _cheaper_within(name: str, factories: Factories, intensities: Factories = ()) -> Kernel:
     """Return the kernel of the first factory, which knows the cheaper ones of the others."""
-    found: Kernel | None = None
+    result: Kernel | None = None
     words = (")", ", lossless)", ", lossless, from the rarer side)")
     for place, made_by in reversed(list(enumerate(factories))):
         # Of (n1, n, k, cos, sin), k is the third; of (n1, n, cos, sin), n is to be n1 or more.
-        without = (2, found) if place == 0 and found else None
-        denser = (1, 0, found) if place == 1 and found else None
+        without = (2, result) if place == 0 and result else None
+        denser = (1, 0, result) if place == 1 and result else None
         alone = None
         if intensities:
-            cheap = (2, found.powers) if place == 0 and found and found.powers else None
+            cheap = (2, result.powers) if place == 0 and result and result.powers else None
             alone = Kernel(f"{name}{words[place]}, powers", POWERS, intensities[place], cheap)
-        found = Kernel(name + words[place], BLOCK, made_by, without, denser, alone)
-    assert found is not None  # noqa: S101 - there is one factory at least
-    return found
+        result = Kernel(name + words[place], BLOCK, made_by, without, denser, alone)
+    assert result is not None  # noqa: S101 - there is one factory at least
+    return result
 
 
 REFLECTION = _fresnel(

@@ -44,10 +44,10 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
         [[_sum(numbers, *places) for places in row] for row in part] for part in _FOUR_TIMES
     )
     shift = 4.0 * spare * numbers[0]
-    found: Any = np.True_
+    result: Any = np.True_
     for k in range(4):
         pivot = real[k][k] + shift
-        found = found & (pivot >= 0.0)
+        result = result & (pivot >= 0.0)
         divisor = xp.where(pivot > 0.0, pivot, 1.0)
         for i in range(k + 1, 4):
             a, b = real[i][k] / divisor, imaginary[i][k] / divisor
@@ -56,7 +56,7 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
                 c, d = real[j][k], imaginary[j][k]
                 real[i][j] = real[i][j] - (a * c + b * d)
                 imaginary[i][j] = imaginary[i][j] - (b * c - a * d)
-    return found
+    return result
 
 
 def _places(part: Any) -> list[list[tuple[list[int], list[int]]]]:

@@ -31,13 +31,13 @@ def sellmeier_square(
     1.5168
     """
     square = wavelength * wavelength
-    found = offset + 0.0 * square
+    result = offset + 0.0 * square
     for strength, pole in zip(strengths, poles, strict=True):
         beyond = square - pole
         at_resonance = beyond == 0.0
         term = strength * square / xp.where(at_resonance, 1.0, beyond)
-        found = found + xp.where(at_resonance, xp.nan, term)
-    return found
+        result = result + xp.where(at_resonance, xp.nan, term)
+    return result
 
 
 def index_of_square(xp: Any, square: Any) -> Any:
@@ -58,10 +58,10 @@ def cauchy_index(xp: Any, wavelength: Any, coefficients: Sequence[Any]) -> Any:
     1.516
     """
     per_square = 1.0 / (wavelength * wavelength)
-    found = xp.zeros_like(per_square)
+    result = xp.zeros_like(per_square)
     for coefficient in reversed(coefficients):
-        found = found * per_square + coefficient
-    return found
+        result = result * per_square + coefficient
+    return result
 
 
 def _grouped(coefficients: Sequence[float], size: int) -> Iterator[Sequence[float]]:

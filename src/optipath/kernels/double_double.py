@@ -153,11 +153,11 @@ _LN2 = Fraction(
 
 
 def _in_floats(number: Fraction, count: int) -> tuple[float, ...]:
-    found: list[float] = []
+    results: list[float] = []
     for _ in range(count):
-        found.append(float(number))
-        number -= Fraction(found[-1])
-    return tuple(found)
+        results.append(float(number))
+        number -= Fraction(results[-1])
+    return tuple(results)
 
 
 _RIGHT_PARTS, _LN2_PARTS = _in_floats(_RIGHT, 4), _in_floats(_LN2, 3)
@@ -190,11 +190,11 @@ def _circular(angle: DoubleDouble, quarter: int) -> DoubleDouble:
     turns = np.remainder(turns + quarter, 4.0)
     odd, back = np.remainder(turns, 2.0) == 1.0, turns >= 2.0
     plain = (np.sin, np.cos)[quarter](angle.high)
-    found = []
+    results = []
     for one, other, rough in ((sin.high, cos.high, plain), (sin.low, cos.low, 0.0 * plain)):
         part = np.where(odd, other, one)
-        found.append(np.where(known, np.where(back, -part, part), rough)[()])
-    return DoubleDouble(angle.xp, *found)
+        results.append(np.where(known, np.where(back, -part, part), rough)[()])
+    return DoubleDouble(angle.xp, *results)
 
 
 def exponential(number: DoubleDouble) -> DoubleDouble:
@@ -207,8 +207,8 @@ def exponential(number: DoubleDouble) -> DoubleDouble:
     # Beyond, it is 0 or infinite in any case.
     high = np.clip(number.high, -1e4, 1e4)
     power, small = _near_zero(DoubleDouble(number.xp, high, number.low), _LN2_PARTS)
-    found, power = _series(_ONE_OVER, small), power.astype(int)
-    return DoubleDouble(number.xp, np.ldexp(found.high, power), np.ldexp(found.low, power))
+    result, power = _series(_ONE_OVER, small), power.astype(int)
+    return DoubleDouble(number.xp, np.ldexp(result.high, power), np.ldexp(result.low, power))
 
 
 def angle(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble:

@@ -195,9 +195,9 @@ def reproducible_numpy(dtype: str) -> Primitives:
 def _where_large(plain: Callable[..., Any], angles: Any, large: Any) -> Any:
     """Return a function of some angles in a row, as which NumPy does each alike, else 0."""
     numbers = np.asarray(angles)
-    found = np.zeros_like(numbers)
-    found[large] = plain(numbers[large].astype(np.float64))
-    return found
+    result = np.zeros_like(numbers)
+    result[large] = plain(numbers[large].astype(np.float64))
+    return result
 
 
 def _in_precision(function: Callable[..., Any], dtype: str) -> Callable[..., Any]:

@@ -65,21 +65,21 @@ class Elimination:
 
     def solved(self, arriving: Sequence[Any]) -> list[Any]:
         """Return all unknowns for what arrives from outside, as numbers or plain zeros."""
-        found = list(arriving)
+        results = list(arriving)
         for unknown, pivot in enumerate(self.pivots):
-            if not is_zero(found[unknown]):
-                found[unknown] = self._quotient(found[unknown], pivot, of_light=True)
+            if not is_zero(results[unknown]):
+                results[unknown] = self._quotient(results[unknown], pivot, of_light=True)
                 for to, gain in self._later(unknown):
-                    found[to] = found[to] + gain * found[unknown]
-        for unknown in reversed(range(len(found))):
+                    results[to] = results[to] + gain * results[unknown]
+        for unknown in reversed(range(len(results))):
             pivot = self.pivots[unknown]
             terms = [
-                self._quotient(self._back[source][unknown], pivot) * found[source]
+                self._quotient(self._back[source][unknown], pivot) * results[source]
                 for source in self._feeds[unknown]
-                if source > unknown and not is_zero(found[source])
+                if source > unknown and not is_zero(results[source])
             ]
-            found[unknown] = reduce(_add, terms, found[unknown])
-        return found
+            results[unknown] = reduce(_add, terms, results[unknown])
+        return results
 
     def _later(self, unknown: int) -> Iterable[tuple[int, Any]]:
         return [(to, gain) for to, gain in self._back[unknown].items() if to > unknown]

@@ -349,13 +349,13 @@ def depolarizing_lorentz(xp: Primitives) -> KernelFunction:
         P, Q = dot(p, p), dot(q, q)
         less_one, a, b, c = polynomial(size, P, Q, dot(p, q), d)
         left = exp(-shift)
-        found = (
+        results = (
             products((a, one), (b, two), (c, three + (Q - P) * one))
             for one, two, three in zip(x, square, cube, strict=True)
         )
         return tuple(
             left * (1.0 + (less_one + entry) if place % 5 == 0 else entry)
-            for place, entry in enumerate(found)
+            for place, entry in enumerate(results)
         )
 
     return exponential

@@ -82,18 +82,18 @@ def legs(xp: Primitives) -> Callable[..., list[Leg]]:
     sqrt, where, chosen = xp.sqrt, xp.where, choice(xp)
 
     def between(points: Sequence[Vector], ended: Sequence[Any] = ()) -> list[Leg]:
-        found: list[Leg] = []
+        results: list[Leg] = []
         for start, end in pairwise(points):
             along = minus(end, start)
-            if found and ended:
-                along = chosen(ended[len(found) - 1], found[-1].along, along)
+            if results and ended:
+                along = chosen(ended[len(results) - 1], results[-1].along, along)
             squared = dot(along, along)
             inverse = 1.0 / sqrt(squared)
             # Both limits are 0 in single precision, which has none of the other numbers.
             kept = (squared > _LEAST) & (inverse > _INVERSE)
             inverse = where(kept, inverse, nan)
-            found.append(Leg(along, inverse, times(inverse, along)))
-        return found
+            results.append(Leg(along, inverse, times(inverse, along)))
+        return results
 
     return between
 
@@ -316,7 +316,7 @@ def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vec
 
     def planes(several: Sequence[Leg], known: Sequence[Vector]) -> list[Vector]:
         least = _NEARLY if known else parallel(several[0].unit)
-        found, x = [], (0.0, 0.0, 0.0) if known else perpendicular(several[0].unit)
+        result, x = [], (0.0, 0.0, 0.0) if known else perpendicular(several[0].unit)
         for vertex, (before, behind) in enumerate(pairwise(several)):
             # Of the points' differences: what is parallel in them comes to 0.
             across = times(behind.inverse * before.inverse, cross(behind.along, before.along))
@@ -324,8 +324,8 @@ def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vec
             has_plane = squared > least * least
             own = times(1.0 / sqrt(where(has_plane, squared, 1.0)), across)
             x = chosen(has_plane, own, known[vertex] if known else x)
-            found.append(x)
-        return found
+            result.append(x)
+        return result
 
     def parallel(k: Vector) -> Any:
         # By what the rounding of a direction is, the sine that is none.
@@ -383,20 +383,20 @@ class PointsByAngles:
             # By vertex: its incidence, and the turn from the vertex before it to it.
             met = dict(enumerate(pairs[:count], 1))
             turned = dict(enumerate(pairs[count:], 2))
-            found, across = {middle: _ORIGIN, middle + 1: _Z}, {}
+            result, across = {middle: _ORIGIN, middle + 1: _Z}, {}
             light = _Axes(_X, _Y, _Z)
             for vertex in range(middle + 1, last):
                 light = light.turned(*turned[vertex]) if vertex in turned else light
                 across[vertex] = light.x
                 light = light.reflected(*met[vertex])
-                found[vertex + 1] = plus(found[vertex], light.z)
+                result[vertex + 1] = plus(result[vertex], light.z)
             light = _Axes(_X, _Y, _Z)
             for vertex in range(middle, first, -1):
                 across[vertex] = light.x
                 light = light.before_reflection(*met[vertex])
-                found[vertex - 1] = minus(found[vertex], light.z)
+                result[vertex - 1] = minus(result[vertex], light.z)
                 light = light.before_turn(*turned[vertex]) if vertex in turned else light
-            wanted = [found[point] for point in range(first, last + 1)][::order]
+            wanted = [result[point] for point in range(first, last + 1)][::order]
             if self.axes:
                 wanted += [across[vertex] for vertex in range(first + 1, last)][::order]
             return tuple(number for vector in wanted for number in vector)

@@ -55,8 +55,8 @@ def bench(
     progress: Callable[[str], object] = lambda _: None,
 ) -> Report:
     """Measure a path."""
-    found = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
-    for engine in found:
+    result = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
+    for engine in result:
         if not is_installed(engine):
             raise REGISTRY[engine].missing
 
@@ -65,7 +65,7 @@ def bench(
         # Kept, so that nothing is compiled for one batch after the other.
         return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
 
-    report = Report(software=software(("numpy", "networkx", *found)))
+    report = Report(software=software(("numpy", "networkx", *result)))
     plan = Composer().compose(path)
     one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
     single: dict[str, Callable[[], object]] = {
@@ -80,24 +80,24 @@ def bench(
     report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
     kinds = slice(None if long else 1)
     # First, since their first calls tell how long they take to be compiled.
-    methods = product(found, METHODS[kinds], [min(_COMPARED, largest)])
+    methods = product(result, METHODS[kinds], [min(_COMPARED, largest)])
     report.methods.extend(_timed(plan_of, ("engine", "method", "paths"), methods, progress))
     tens = [10**power for power in range(len(str(largest)))]
     for size in tens if long else sorted({max(1, largest // 100), largest}):
-        batches = product(found, _DTYPES[kinds], _OUTPUTS[kinds], [size])
+        batches = product(result, _DTYPES[kinds], _OUTPUTS[kinds], [size])
         report.batches.extend(_timed(plan_of, _BATCH, batches, progress))
     return report
 
 
 def software(names: Iterable[str]) -> dict[str, str]:
     """Return the versions of Python, the library, and packages."""
-    found = {"python": platform.python_version()}
+    results = {"python": platform.python_version()}
     for name in ("optipath", *names):
         try:
-            found[name] = version(name)
+            results[name] = version(name)
         except PackageNotFoundError:
             continue
-    return found
+    return results
 
 
 def _timed(
@@ -130,8 +130,8 @@ def _timed(
 
 def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
     """Run, and wait for engines that answer before they are done."""
-    found = run(**values)
-    for light in found.values() if isinstance(found, dict) else [found]:
+    result = run(**values)
+    for light in result.values() if isinstance(result, dict) else [result]:
         numbers = light.matrix if hasattr(light, "matrix") else light.stokes
         getattr(numbers, "block_until_ready", bool)()
 
@@ -205,7 +205,9 @@ def race(
         for name, action in contenders.items():
             if turn < 3 or sum(taken[name]) * calls[name] < seconds:
                 taken[name].append(seconds_of(action, calls[name]))
-    return {name: Timing(first[name], min(found), median(found)) for name, found in taken.items()}
+    return {
+        name: Timing(first[name], min(result), median(result)) for name, result in taken.items()
+    }
 
 
 def seconds_of(action: Callable[[], object], calls: int = 1) -> float:

@@ -113,16 +113,16 @@ def path_chart(
     _refuse_batches(path)
     runners = _different(path, effort)
     graph, values = many_paths(path, PATHS)
-    found = [_entry(runner) for runner in runners]
+    results = [_entry(runner) for runner in runners]
     progress("composing and compiling", 0.0)
     plans = [runner.compose(graph) for runner in runners]
-    _time(found, [partial(plan.run_all, **values) for plan in plans], effort, progress)
+    _time(results, [partial(plan.run_all, **values) for plan in plans], effort, progress)
     program = Composer(engine="numpy").compose(graph).program
     given, _ = plans[0].inputs.resolve(values)
     arrays = sum(operand.numbers(given).size > 1 for operand in program.operands)
     least = limits(arrays + 4 * len(program.readings), slow_operations(program))
     words = {name: p.text(p.default) for name, p in path.parameters.items()}
-    made = {"parameters": words, **_chart(title, found, least, effort)}
+    made = {"parameters": words, **_chart(title, results, least, effort)}
     # Longdouble is given the numbers of float64, and so has its references.
     rounded = {"float64": "float64", "float32": "float32", "longdouble": "float64"}
     dtypes = dict.fromkeys(rounded[runner.dtype] for runner in runners)
@@ -132,7 +132,7 @@ def path_chart(
         name = "the path as given" if number == 0 else REGIONS[number - 1].name
         progress(f"errors, {name}", _TIMED + (1 - _TIMED) * number / count)
         tests = dict(zip(dtypes, map(next, drawn), strict=True))
-        for runner, entry in zip(runners, found, strict=True):
+        for runner, entry in zip(runners, results, strict=True):
             trial = tests[rounded[runner.dtype]]
             _add(entry, trial.region, path_errors(runner, trial, runner.dtype))
         keep({**made, "regions": {"measured": number + 1, "of": count}})
@@ -144,17 +144,17 @@ def interface_chart(
 ) -> dict[str, Any]:
     """Measure every way to compute (A, B, C, S) of one interface."""
     runners = contenders(("stokes",), ("numpy",))
-    found, actions = [_entry(runner) for runner in runners], []
+    result, actions = [_entry(runner) for runner in runners], []
     for runner in runners:
         samples = REGIONS[0].samples(PATHS, runner.dtype)
         actions.append(partial(matrix_numbers, REFLECTION.by_method(runner.method), samples))
-    _time(found, actions, effort, progress)
+    _time(result, actions, effort, progress)
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
-    made = _chart("one interface", found, least, effort)
+    made = _chart("one interface", result, least, effort)
     count = len(REGIONS)
     for number, region in enumerate(REGIONS):
         progress(f"errors, {region.name}", _TIMED + (1 - _TIMED) * number / count)
-        for runner, entry in zip(runners, found, strict=True):
+        for runner, entry in zip(runners, result, strict=True):
             off = interface_errors(runner.method, region, runner.dtype, effort.samples)
             _add(entry, region.name, off)
         keep({**made, "regions": {"measured": number + 1, "of": count}})
@@ -171,7 +171,7 @@ def _refuse_batches(path: PathGraph) -> None:
 
 def _different(path: PathGraph, effort: Effort) -> list[Composer]:
     """Return the contenders that can compute a path, and each computation once."""
-    found: dict[Any, Composer] = {}
+    results: dict[Any, Composer] = {}
     for runner in filter(effort.measures, contenders(engines=effort.engines)):
         try:
             runner.compose(path)
@@ -181,8 +181,8 @@ def _different(path: PathGraph, effort: Effort) -> list[Composer]:
         except (ComposerError, ParameterError):
             continue
         kernels = tuple(evaluation.kernel for evaluation in plan.program.evaluations)
-        found.setdefault((kernels, runner.dtype, runner.engine, runner.composing), runner)
-    return list(found.values())
+        results.setdefault((kernels, runner.dtype, runner.engine, runner.composing), runner)
+    return list(results.values())
 
 
 def _entry(runner: Composer) -> dict[str, Any]:
@@ -217,12 +217,12 @@ def _time(
 
 
 def _chart(
-    title: str, found: list[dict[str, Any]], least: Mapping[str, float], effort: Effort
+    title: str, results: list[dict[str, Any]], least: Mapping[str, float], effort: Effort
 ) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "title": title,
-        "contenders": found,
+        "contenders": results,
         "limits_ns": dict(least),
         "fails_above": LIMIT,
         "paths": PATHS,
@@ -362,8 +362,8 @@ def _least_ns(action: Callable[[], Any], calls: int = 1) -> float:
 def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
     """Return the least ns a path: its roots and divisions, and its numbers in and out."""
     unit = throughput()
-    found = {
+    results = {
         "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],
         "memory": 8 * numbers * unit["byte"],
     }
-    return {name: ns for name, ns in found.items() if ns > 0.0}
+    return {name: ns for name, ns in results.items() if ns > 0.0}

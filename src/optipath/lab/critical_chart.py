@@ -46,7 +46,7 @@ def critical_chart(
     """
     wanted = places_called(places)
     measured = _of_interface(samples) if path is None else _of_path(path, title, samples)
-    found: list[dict[str, Any]] = []
+    results: list[dict[str, Any]] = []
     made = {
         "format": FORMAT,
         "drawn": CRITICAL,
@@ -55,14 +55,14 @@ def critical_chart(
         "eps": float(np.finfo(DTYPE).eps),
         "samples": samples,
         "fails_above": LIMIT,
-        "places": found,
+        "places": results,
         "versions": software(["numpy"]),
     }
     total = len(wanted) * len(DISTANCES)
     for number, place in enumerate(wanted):
         entry: dict[str, Any] = {"name": place.name, "called": place.called, "distances": []}
         entry["errors"] = {}
-        found.append(entry)
+        results.append(entry)
         # From afar, where nothing fails yet.
         for step, distance in enumerate(reversed(DISTANCES)):
             progress(f"near {place.called}", (number * len(DISTANCES) + step) / total)

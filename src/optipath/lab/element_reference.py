@@ -66,12 +66,12 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
     turned = way.enters == "back" and (elsewhere or not way.reflects)
     first, second = (behind, before) if turned else (before, behind)
     if first.imag:
-        found = between(first, second, measured.real * s)
+        result = between(first, second, measured.real * s)
     elif elsewhere or measured is not before:
-        found = boundary(second / first.real, *refracted(measured.real / first.real, s))
+        result = boundary(second / first.real, *refracted(measured.real / first.real, s))
     else:
-        found = boundary(behind / before.real, c, s)
-    return found.reflected if way.reflects else found.transmitted
+        result = boundary(behind / before.real, c, s)
+    return result.reflected if way.reflects else result.transmitted
 
 
 @jones.register

@@ -44,7 +44,7 @@ class Errors(NamedTuple):
 
 
 def errors(
-    found: npt.NDArray[Any], exact: Iterable[Any], dtype: str, *, against_first: bool = False
+    result: npt.NDArray[Any], exact: Iterable[Any], dtype: str, *, against_first: bool = False
 ) -> Errors:
     """Return the errors of computed numbers.
 
@@ -54,9 +54,9 @@ def errors(
     >>> off.componentwise[0], off.normwise
     (array([1., 0., 0., 0.]), array([1.]))
     """
-    componentwise, normwise = np.zeros(found.shape), np.zeros(len(found))
+    componentwise, normwise = np.zeros(result.shape), np.zeros(len(result))
     with mpmath.workdps(WORKING_DIGITS):
-        for row, (numbers, (values, conditions)) in enumerate(zip(found, exact, strict=True)):
+        for row, (numbers, (values, conditions)) in enumerate(zip(result, exact, strict=True)):
             off = [_distance(x, value) for x, value in zip(numbers, values, strict=True)]
             size = abs(values[0])
             instead = size if against_first else 0
@@ -108,9 +108,9 @@ def interface_errors(
     True
     """
     kernel = FAMILIES[what].by_method(method)
-    found = matrix_numbers(kernel, region.samples(count, dtype))
+    result = matrix_numbers(kernel, region.samples(count, dtype))
     exact = _references(region, dtype, count, what)
-    return errors(found, exact, dtype, against_first=against_first)
+    return errors(result, exact, dtype, against_first=against_first)
 
 
 def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
@@ -173,18 +173,18 @@ def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
     except ParameterError:
         shape = (len(exact), 4)
         return Errors(np.full(shape, np.inf), np.full(len(exact), np.inf))
-    found = np.concatenate([lights[end].mantissa.reshape(-1, 4) for end in ends])
+    result = np.concatenate([lights[end].mantissa.reshape(-1, 4) for end in ends])
     powers = np.concatenate([lights[end].exponent.ravel() for end in ends])
-    unread = np.isnan(found)
-    found = np.where(unread, 0, found)
+    unread = np.isnan(result)
+    result = np.where(unread, 0, result)
     exact = [
         _comparable(*each) for each in zip(exact, powers.tolist(), (~unread).tolist(), strict=True)
     ]
-    off = errors(found, exact, dtype, against_first=True)
+    off = errors(result, exact, dtype, against_first=True)
     # Light that a precision cannot hold is lost, however small the step of its last place.
     least = exactly(np.finfo(dtype).tiny)
     lost = [
-        not row[0] and 0 < light.stokes[0] < least for row, light in zip(found, exact, strict=True)
+        not row[0] and 0 < light.stokes[0] < least for row, light in zip(result, exact, strict=True)
     ]
     off.componentwise[lost] = off.normwise[lost] = np.inf
     return off

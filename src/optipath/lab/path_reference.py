@@ -160,15 +160,15 @@ class _Walk:
                 for link, start in before
                 if self._is_there(start, within)
             ]
-        found = []
+        results = []
         for coupling in self.wiring.couplings[name]:
             if coupling.leaves != way:
                 continue
             if coupling.enters is None:
-                found += [self._emitted(coupling)] if within is None else []
+                results += [self._emitted(coupling)] if within is None else []
             elif self._is_there((name, coupling.enters), within):
-                found.append(self._through(name, coupling))
-        return found
+                results.append(self._through(name, coupling))
+        return results
 
     def _is_there(self, port: Port, within: set[Port] | None) -> bool:
         return port in self.at and (within is None or port in within)
@@ -230,13 +230,13 @@ def _solved(system: Any, given: list[Any]) -> list[Any]:
     lit = [place for place, number in enumerate(given) if number]
     for column in lit:
         lit += [row for row in range(len(given)) if row not in lit and system[row, column]]
-    found = [mpmath.mpf(0)] * len(given)
+    result = [mpmath.mpf(0)] * len(given)
     if lit:
         part = mpmath.matrix([[system[row, column] for column in lit] for row in lit])
         numbers = mpmath.lu_solve(part, mpmath.matrix([given[row] for row in lit]))
         for place, number in zip(lit, numbers, strict=True):
-            found[place] = number
-    return found
+            result[place] = number
+    return result
 
 
 def _angle_between(frame: Frame, other: Frame) -> Any:

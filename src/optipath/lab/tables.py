@@ -61,7 +61,7 @@ def searched_tables(generations: int) -> list[TextTable]:
     return [_worst_cases(method, dtype, generations) for method, dtype in wanted]
 
 
-def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = SAMPLED) -> str:
+def put_tables(text: str, results: Sequence[TextTable], marks: tuple[str, str] = SAMPLED) -> str:
     """Return a Markdown text with the tables between the two lines that mark their place.
 
     >>> table = TextTable("All", ("region", "error"), (("here", "1.0"),))
@@ -73,7 +73,7 @@ def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = S
         raise OptipathError(f"the tables have no place; put '{begin}' and '{end}' into the file")
     before, rest = text.split(begin)
     behind = rest.split(end)[1]
-    return f"{before}{begin}\n\n{''.join(map(_markdown, found))}{end}{behind}"
+    return f"{before}{begin}\n\n{''.join(map(_markdown, results))}{end}{behind}"
 
 
 def shown(error: float) -> str:
@@ -239,7 +239,7 @@ def _children(rng: np.random.Generator, parents: Floats) -> Floats:
 
 
 def _scores(
-    component: str, found: Floats, samples: Samples, family: KernelFamily, kind: Any
+    component: str, result: Floats, samples: Samples, family: KernelFamily, kind: Any
 ) -> Floats:
     """Return the errors of computed numbers against the stable formulas in a wider float."""
     place, step = "ABCS".index(component[0]), _STEPS * np.finfo(kind).eps
@@ -249,8 +249,8 @@ def _scores(
         condition = np.where((samples.cos > 0.0) & (samples.sin > 0.0), condition, 0.0)
         has_zeros = component[0] == "C" and family is REFLECTION
         near = is_near_double_zero(A, exact, condition) & has_zeros
-        score = np.abs(found[:, place] - exact)
-        score /= _ulp(A if component == "C near 0" else exact, found.dtype)
+        score = np.abs(result[:, place] - exact)
+        score /= _ulp(A if component == "C near 0" else exact, result.dtype)
         if component != "C near 0":
             score, near = score / (1.0 + condition), ~near
     return np.where(np.isfinite(score) & near & (exact != 0.0), score, 0.0).astype(float)
@@ -280,7 +280,7 @@ def _ulp(number: Floats, dtype: Any) -> Floats:
 
 
 def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype: str) -> WorstCase:
-    found, place = matrix_numbers(kernel, sample), "ABCS".index(component[0])
+    result, place = matrix_numbers(kernel, sample), "ABCS".index(component[0])
     given = [part[0] for part in sample]
     with mpmath.workdps(WORKING_DIGITS):
         exact = REFERENCES[what](*map(exactly, given))
@@ -288,9 +288,9 @@ def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype:
         has_zeros = component[0] == "C" and what == "reflection"
         near = has_zeros and is_near_double_zero(exact.values[0], value, condition)
         if component == "C near 0":
-            off = in_ulp(abs(exactly(found[0, place]) - value), exact.values[0], dtype)
+            off = in_ulp(abs(exactly(result[0, place]) - value), exact.values[0], dtype)
         else:
-            off = float(errors(found, [exact], dtype).componentwise[0, place])
+            off = float(errors(result, [exact], dtype).componentwise[0, place])
         if near != (component == "C near 0"):
             off = 0.0
     return WorstCase(off, *map(float, given))

@@ -75,8 +75,8 @@ class Srgb(Unchanging):
         sRGB; less than half of a step of eight bits is no more than rounding.
         """
         xp = namespace(self.linear)
-        found = encoded(self.linear)
-        return xp.max(xp.maximum(found - 1.0, xp.maximum(-found, 0.0)), axis=-1)  # type: ignore[no-any-return]
+        result = encoded(self.linear)
+        return xp.max(xp.maximum(result - 1.0, xp.maximum(-result, 0.0)), axis=-1)  # type: ignore[no-any-return]
 
     @property
     def outside(self) -> Array:
@@ -129,15 +129,15 @@ def srgb_of(
     if adapt:
         xyz = adapted(xyz, white_sums(light, white, observer_called(observer), outside)[0])
     linear = times(FROM_XYZ, xyz)
-    found = Srgb(linear, linear)
+    result = Srgb(linear, linear)
     if out_of_gamut == "keep":
-        return found
+        return result
     if out_of_gamut == "scale":
         linear_in_gamut = _scaled(linear)
     else:
         linear_in_gamut = namespace(linear).clip(linear, 0.0, 1.0)
     if out_of_gamut == "refuse":
-        _refuse(found)
+        _refuse(result)
     return Srgb(linear, linear_in_gamut)
 
 

@@ -132,9 +132,9 @@ def changed_delta(convention: Any, delta: Any) -> Array:
             f"convention {shown(convention)} has no psi and Delta{did_you_mean('', having)}"
         )
     xp = namespace(delta)
-    found = {"same": delta, "negative": -delta, "supplement": np.pi - delta}[way]
-    found = xp.where(found > np.pi, found - 2.0 * np.pi, found)
-    return xp.where(found <= -np.pi, np.pi, found)  # type: ignore[no-any-return]
+    result = {"same": delta, "negative": -delta, "supplement": np.pi - delta}[way]
+    result = xp.where(result > np.pi, result - 2.0 * np.pi, result)
+    return xp.where(result <= -np.pi, np.pi, result)  # type: ignore[no-any-return]
 
 
 def _found(convention: Any) -> Convention:

@@ -296,9 +296,9 @@ def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
     Shapes: matrix (..., 4, 4); parts (..., 4, n); power (...); returns (..., 4, n).
     """
     *batch, rows, columns = parts.shape
-    found = times_two_to(parts.reshape(*batch, rows * columns), power)
+    result = times_two_to(parts.reshape(*batch, rows * columns), power)
     flat = np.asarray(matrix).reshape(*matrix.shape[:-2], 16)
-    return np.where(_known(flat), found, np.nan).reshape(parts.shape)
+    return np.where(_known(flat), result, np.nan).reshape(parts.shape)
 
 
 def rounding_of(matrix: Any) -> float:
@@ -326,16 +326,16 @@ def coherency(matrix: Array) -> Array:
     array([0., 1., 0., 0.])
     """
     parts, power = scaled(matrix)
-    found = gathered(parts)
-    real, imaginary = (unscaled(matrix, part, power) for part in (found.real, found.imag))
+    result = gathered(parts)
+    real, imaginary = (unscaled(matrix, part, power) for part in (result.real, result.imag))
     return real + 1j * imaginary
 
 
 def eigenvalues(matrix: Array) -> Array:
     """Return the eigenvalues of the coherency matrices, shape (..., 4), the largest first."""
     parts, power = scaled(matrix)
-    found = np.linalg.eigvalsh(gathered(parts))[..., ::-1]
-    return unscaled(matrix, found[..., np.newaxis], power)[..., 0]
+    result = np.linalg.eigvalsh(gathered(parts))[..., ::-1]
+    return unscaled(matrix, result[..., np.newaxis], power)[..., 0]
 
 
 def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
@@ -385,8 +385,8 @@ def nearest_physical(matrix: Array) -> Array:
     values, vectors = np.linalg.eigh(gathered(parts))
     kept = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
     positive = kept @ np.swapaxes(vectors.conj(), -1, -2)
-    found = (positive.reshape(*parts.shape[:-2], 16) @ TO_MUELLER).real
-    return unscaled(matrix, found.reshape(parts.shape), power)
+    result = (positive.reshape(*parts.shape[:-2], 16) @ TO_MUELLER).real
+    return unscaled(matrix, result.reshape(parts.shape), power)
 
 
 def _tolerance(given: Any, matrix: Array) -> float:

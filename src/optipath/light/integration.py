@@ -153,8 +153,8 @@ def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array, exponen
     floor = light.noise_floor + rounding(known(light.mantissa))
     with np.errstate(over="ignore", under="ignore"):
         share = np.ldexp(floor, light.exponent - np.expand_dims(exponent, axis))
-        found: Array = np.sum(share * np.abs(weights).reshape(shape), axis=axis)
-    return found.astype(stokes.dtype)
+        results: Array = np.sum(share * np.abs(weights).reshape(shape), axis=axis)
+    return results.astype(stokes.dtype)
 
 
 def _edges(given: Any) -> Array:
@@ -163,47 +163,47 @@ def _edges(given: Any) -> Array:
     return np.asarray(Wavelength("edges").resolve(given).value, np.float64)
 
 
-def _widths_of(found: Array, grid: Array) -> Array:
+def _widths_of(results: Array, grid: Array) -> Array:
     """Return the widths, in nanometres, of bins with these edges, each about a wavelength."""
-    if found.shape != (len(grid) + 1,):
+    if results.shape != (len(grid) + 1,):
         raise ShapeError(
             f"{len(grid)} wavelengths have {len(grid) + 1} edges of bins, one more than there "
-            f"are, not edges of shape {found.shape}"
+            f"are, not edges of shape {results.shape}"
         )
-    ordered = grid if len(grid) > 1 else found
+    ordered = grid if len(grid) > 1 else results
     up = 1.0 if ordered[-1] > ordered[0] else -1.0
-    outside = (up * found[:-1] > up * grid) | (up * grid > up * found[1:])
-    if np.any(outside) or np.any(up * np.diff(found) <= 0.0):
+    outside = (up * results[:-1] > up * grid) | (up * grid > up * results[1:])
+    if np.any(outside) or np.any(up * np.diff(results) <= 0.0):
         place = int(np.argmax(outside))
-        low, at, high = (1e9 * x for x in (found[place], grid[place], found[place + 1]))
+        low, at, high = (1e9 * x for x in (results[place], grid[place], results[place + 1]))
         raise ValueFault(
             f"bin {place} is from {low:g} nm to {high:g} nm, and its wavelength is {at:g} nm; give "
             f"edges in the order of the wavelengths, each wavelength within its bin"
         )
-    widths: Array = np.abs(np.diff(found * NANOMETRES))
+    widths: Array = np.abs(np.diff(results * NANOMETRES))
     return widths
 
 
 def _response_at(response: Any, grid: Array) -> Any:
     """Return the response at each wavelength, which is not below 0."""
     check_response("the response", response)
-    found = response.at(grid) if hasattr(response, "at") and not is_traced(response) else response
-    if not is_traced(found):
-        found = as_given("the response", known(found), ShapeError)
-        if found.dtype.kind not in "biuf":
+    result = response.at(grid) if hasattr(response, "at") and not is_traced(response) else response
+    if not is_traced(result):
+        result = as_given("the response", known(result), ShapeError)
+        if result.dtype.kind not in "biuf":
             raise ShapeError(f"the response must be of real numbers, not {shown(response)}")
-    if found.shape not in ((), (len(grid),)):
+    if result.shape not in ((), (len(grid),)):
         raise ShapeError(
-            f"the response has the shape {tuple(found.shape)}, and there are {len(grid)} "
+            f"the response has the shape {tuple(result.shape)}, and there are {len(grid)} "
             f"wavelengths; give one number for each, one for all, or a Spectrum"
         )
-    if is_traced(found):
-        return found
-    good = (found >= 0.0) & np.isfinite(found)
+    if is_traced(result):
+        return result
+    good = (result >= 0.0) & np.isfinite(result)
     if not np.all(good):
-        bad = found[~good].flat[0]
+        bad = result[~good].flat[0]
         raise ValueFault(f"the response is {bad:g}, and light has no {bad:g}-fold; give one >= 0")
-    return np.asarray(found, np.float64)
+    return np.asarray(result, np.float64)
 
 
 def _frame_without(light: Light, axis: int) -> Any:

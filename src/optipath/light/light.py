@@ -316,10 +316,10 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         own = self.__dict__
         kept = own.get("_wavelength")
         if callable(kept):
-            found = kept()
-            if found is None:
+            result = kept()
+            if result is None:
                 return None  # What is kept says which ones are in doubt.
-            own["_wavelength"] = kept = found
+            own["_wavelength"] = kept = result
         return kept
 
     @property

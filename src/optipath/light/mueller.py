@@ -113,10 +113,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         -------
         Mueller
         """
-        found = cls.__new__(cls)
-        vars(found)["matrix"] = locked(matrix)
-        found._keep_frames(frame_in=frame_in, frame_out=frame_out)  # noqa: SLF001 - its own
-        return found
+        result = cls.__new__(cls)
+        vars(result)["matrix"] = locked(matrix)
+        result._keep_frames(frame_in=frame_in, frame_out=frame_out)  # noqa: SLF001 - its own
+        return result
 
     @classmethod
     def from_(
@@ -329,9 +329,9 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         Mueller
         """
         frames = self._kept_frame("frame_in"), self._kept_frame("frame_out")
-        found = self.of(self.matrix, *frames)
-        vars(found).update(_noise=noise, _given=given)
-        return found
+        result = self.of(self.matrix, *frames)
+        vars(result).update(_noise=noise, _given=given)
+        return result
 
     @property
     def is_given(self) -> bool:
@@ -684,11 +684,11 @@ def _size(matrix: Any, noise: Any) -> Any:
 
 def _isotropic(matrix: Array) -> Array:
     """Return the matrix of an isotropic sample that is nearest to one, over M00."""
-    found = np.zeros(matrix.shape)
+    result = np.zeros(matrix.shape)
     m = matrix / matrix[..., :1, :1]
-    found[..., 0, 0] = found[..., 1, 1] = 1.0
-    found[..., 0, 1] = found[..., 1, 0] = (m[..., 0, 1] + m[..., 1, 0]) / 2.0
-    found[..., 2, 2] = found[..., 3, 3] = (m[..., 2, 2] + m[..., 3, 3]) / 2.0
-    found[..., 2, 3] = (m[..., 2, 3] - m[..., 3, 2]) / 2.0
-    found[..., 3, 2] = -found[..., 2, 3]
-    return found
+    result[..., 0, 0] = result[..., 1, 1] = 1.0
+    result[..., 0, 1] = result[..., 1, 0] = (m[..., 0, 1] + m[..., 1, 0]) / 2.0
+    result[..., 2, 2] = result[..., 3, 3] = (m[..., 2, 2] + m[..., 3, 3]) / 2.0
+    result[..., 2, 3] = (m[..., 2, 3] - m[..., 3, 2]) / 2.0
+    result[..., 3, 2] = -result[..., 2, 3]
+    return result

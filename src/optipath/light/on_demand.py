@@ -141,8 +141,8 @@ def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
     if noise is None or is_traced(stokes):
         return least
     if isinstance(noise, tuple):
-        found, *given = noise
-        noise = found(*given, stokes, exponent)
+        result, *given = noise
+        noise = result(*given, stokes, exponent)
     return np.maximum(least, noise)
 
 
@@ -186,12 +186,12 @@ def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
         return kept
 
     def part() -> Any:
-        found = kept() if callable(kept) else kept
-        if found is None:
+        result = kept() if callable(kept) else kept
+        if result is None:
             return None
-        xp = namespace(found)
-        found = change(xp.broadcast_to(found, batch))
-        return namespace(found).asarray(found)
+        xp = namespace(result)
+        result = change(xp.broadcast_to(result, batch))
+        return namespace(result).asarray(result)
 
     return part
 
@@ -204,8 +204,8 @@ def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
     >>> wavelengths_for((2,), ["500 nm", "2.4 eV"]).round(9)
     array([5.00e-07, 5.17e-07])
     """
-    found = Wavelength().resolve(given).value
-    shape = tuple(found.shape)
+    result = Wavelength().resolve(given).value
+    shape = tuple(result.shape)
     if len(shape) > len(batch) or any(
         own not in (1, whole) for own, whole in zip(shape[::-1], batch[::-1], strict=False)
     ):
@@ -213,5 +213,5 @@ def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
             f"wavelengths of shape {shape} do not fit light of shape {batch}; give one for each "
             f"light, or an array that broadcasts to them, such as wavelengths[:, None]"
         )
-    wavelengths: Array = found if is_traced(found) else locked(np.array(found, np.float64))
+    wavelengths: Array = result if is_traced(result) else locked(np.array(result, np.float64))
     return wavelengths

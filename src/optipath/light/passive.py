@@ -63,15 +63,17 @@ def are_passive(matrix: Array, tolerance: float) -> Array:
         _is_passive(one, tolerance) for one in flat.reshape(-1, 16).tolist()
     ):
         return np.ones(matrix.shape[:-2], bool)
-    found = np.empty(len(flat), bool)
+    result = np.empty(len(flat), bool)
     for start in range(0, len(flat), _AT_ONCE):
         some = slice(start, start + _AT_ONCE)
-        found[some] = _surely_passive(flat[some], tolerance)
-    doubtful = ~found
+        result[some] = _surely_passive(flat[some], tolerance)
+    doubtful = ~result
     if doubtful.any():
         left = flat[doubtful]
-        found[doubtful] = (decompositions.lack(left) <= tolerance) & (gain(left) <= 1.0 + tolerance)
-    return found.reshape(matrix.shape[:-2])
+        result[doubtful] = (decompositions.lack(left) <= tolerance) & (
+            gain(left) <= 1.0 + tolerance
+        )
+    return result.reshape(matrix.shape[:-2])
 
 
 def problem_of(matrix: Array, tolerance: float) -> str:
@@ -103,12 +105,12 @@ def cure_of(matrices: Array, tolerance: float) -> str:
     >>> cure_of(2.0 * np.eye(4), 1e-9)
     'matrix / 2'
     """
-    found = "matrix"
+    result = "matrix"
     if np.any(decompositions.lack(matrices) > tolerance):
-        found = "op.Mueller(matrix).nearest_physical().matrix"
+        result = "op.Mueller(matrix).nearest_physical().matrix"
         matrices = decompositions.nearest_physical(matrices)
     most = np.max(gain(matrices))
-    return f"{found} / {_rounded_up(most)}" if most > 1.0 else found
+    return f"{result} / {_rounded_up(most)}" if most > 1.0 else result
 
 
 def _text(number: float) -> str:

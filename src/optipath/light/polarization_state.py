@@ -134,8 +134,8 @@ def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Ar
     there = stokes[..., 0] > floor
     if components:
         there = there & (length(*(stokes[..., i] for i in components)) > floor)
-    found = namespace(stokes).where(there, value, np.nan)
-    return namespace(found).asarray(found)  # type: ignore[no-any-return]
+    result = namespace(stokes).where(there, value, np.nan)
+    return namespace(result).asarray(result)  # type: ignore[no-any-return]
 
 
 def turned_stokes(stokes: Array, turn: Any) -> Array:

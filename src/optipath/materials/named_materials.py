@@ -44,8 +44,8 @@ def stands_for_index(uses: Sequence[Use], name: str) -> bool:
 
 def extinction_beside(uses: Sequence[Use], name: str) -> str:
     """Return the parameter that is the k of an index of which another is n; nothing without one."""
-    found = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
-    return found.pop() if len(found) == 1 else ""
+    results = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
+    return results.pop() if len(results) == 1 else ""
 
 
 def material_named(option: str, text: str, beside: str = "", k: Any = None) -> Material:
@@ -115,8 +115,8 @@ def waits_for(given: Any) -> Sequence[str]:
         return []
     if isinstance(given, Curve):
         given = curve_values(given, Wavelength())[0]
-    found = parameters_among([given.n, given.k] if isinstance(given, Material) else [given])
-    return [*dict.fromkeys(p.name for p in found if not isinstance(p, CurveValue))]
+    result = parameters_among([given.n, given.k] if isinstance(given, Material) else [given])
+    return [*dict.fromkeys(p.name for p in result if not isinstance(p, CurveValue))]
 
 
 def given_too_late(name: str, given: Any) -> str:
@@ -139,13 +139,13 @@ def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) 
         place, _, part = owner.rpartition(".")
         if isinstance(value, Parameter) and value.name == name and part in _OTHER:
             other = _OTHER[part]
-            found = values.get(f"{place}.{other}")
-            if isinstance(found, CurveValue):
-                return f"{other} is that of {found.curve.label}; give {part} alone, a real number"
-            if isinstance(found, Parameter):
-                return f"give {other} by {how(found.name)}"
-            if isinstance(found, (int, float)):
-                return f"{other} is {found:g} where the path is built; make it a parameter there"
+            result = values.get(f"{place}.{other}")
+            if isinstance(result, CurveValue):
+                return f"{other} is that of {result.curve.label}; give {part} alone, a real number"
+            if isinstance(result, Parameter):
+                return f"give {other} by {how(result.name)}"
+            if isinstance(result, (int, float)):
+                return f"{other} is {result:g} where the path is built; make it a parameter there"
     return ""
 
 
@@ -157,13 +157,13 @@ def places_of(uses: Iterable[Use], name: str) -> list[Use]:
 def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
     """Return what k is wherever a parameter stands as the n of an index."""
     values = {use.owner: use.value for use in uses}
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     for owner, value in values.items():
         place, _, part = owner.rpartition(".")
         if isinstance(value, Parameter) and value.name == name and part == "n":
             k = f"{place}.k"
-            found |= {k: values[k]} if k in values else {}
-    return found
+            results |= {k: values[k]} if k in values else {}
+    return results
 
 
 def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any) -> list[str]:

@@ -47,8 +47,8 @@ class Observer:
         a, b, c, d = (self.functions[first + i] for i in range(4))
         outer = a * (1.0 - t) * (2.0 - t) * (3.0 - t) + d * t * (t - 1.0) * (t - 2.0)
         inner = b * t * (2.0 - t) * (3.0 - t) + c * t * (t - 1.0) * (3.0 - t)
-        found: Array = np.maximum(outer / 6.0 + 0.5 * inner, 0.0)
-        return found
+        results: Array = np.maximum(outer / 6.0 + 0.5 * inner, 0.0)
+        return results
 
     def weights(self, grid: Array, *, nearest: bool = False) -> Array:
         """Return what light of each wavelength, per nanometre, adds to X, Y and Z.
@@ -64,9 +64,9 @@ class Observer:
         nodes = np.union1d(self.wavelengths, grid[(grid > low) & (grid < high)])
         if not nearest:
             nodes = nodes[(nodes >= grid[0] - _ROUNDING) & (nodes <= grid[-1] + _ROUNDING)]
-        found = np.zeros((len(grid), 3))
+        result = np.zeros((len(grid), 3))
         if len(nodes) == 0:
-            return found
+            return result
         ends = [nodes[0], nodes[-1]]
         ends[0] -= _HALF_BIN * (nodes[0] == low)
         ends[1] += _HALF_BIN * (nodes[-1] == high)
@@ -75,9 +75,9 @@ class Observer:
         before = np.clip(np.searchsorted(grid, nodes, side="right") - 1, 0, len(grid) - 2)
         way = (nodes - grid[before]) / (grid[before + 1] - grid[before])
         way = np.clip(way, 0.0, 1.0)[:, np.newaxis]
-        np.add.at(found, before, (1.0 - way) * share)
-        np.add.at(found, before + 1, way * share)
-        return found
+        np.add.at(result, before, (1.0 - way) * share)
+        np.add.at(result, before + 1, way * share)
+        return result
 
     def left_out(self, grid: Array) -> float:
         """Return the largest share of X, Y or Z, of equal energy, beyond some wavelengths.

@@ -80,10 +80,10 @@ class DrudeLorentz(FormulaCurve):
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         background, plasma, strength, damping, *rest = arguments
         bound = [rest[at : at + 3] for at in range(0, len(rest), 3)]
-        found = drude_lorentz_permittivity(
+        result = drude_lorentz_permittivity(
             HC / wavelength, background, plasma, (strength, damping), bound
         )
-        return index_of_permittivity(xp, *found)
+        return index_of_permittivity(xp, *result)
 
 
 class TaucLorentz(FormulaCurve):

@@ -177,12 +177,12 @@ def powers_between(kind: SpectrumKind, edges: Array) -> Array:
 
     Shapes: edges (n + 1,); returns (n,). Units: edges in metres.
     """
-    found = smooth_powers(kind, edges)
+    result = smooth_powers(kind, edges)
     for line in kind.lines:
         if edges[0] <= line.wavelength <= edges[-1]:
             place = int(np.searchsorted(edges, line.wavelength, side="right")) - 1
-            found[min(place, found.size - 1)] += line.power
-    return found
+            result[min(place, result.size - 1)] += line.power
+    return result
 
 
 def smooth_powers(kind: SpectrumKind, edges: Array) -> Array:
@@ -195,21 +195,21 @@ def smooth_powers(kind: SpectrumKind, edges: Array) -> Array:
     ends = np.union1d(edges, inner)
     low, high = ends[:-1], ends[1:]
     whole = _by_gauss(kind, low, high)
-    found, least = np.zeros(edges.size - 1), 1e-17 * float(whole.sum())
+    result, least = np.zeros(edges.size - 1), 1e-17 * float(whole.sum())
     for _ in range(_ROUNDS):
         middle = 0.5 * (low + high)
         halves = _by_gauss(kind, low, middle), _by_gauss(kind, middle, high)
         finer = halves[0] + halves[1]
         good = np.abs(finer - whole) <= np.maximum(_AGREES * finer, least)
-        np.add.at(found, np.searchsorted(edges, low[good], side="right") - 1, finer[good])
+        np.add.at(result, np.searchsorted(edges, low[good], side="right") - 1, finer[good])
         if good.all():
-            return found
+            return result
         rough = ~good
         whole = np.concatenate([half[rough] for half in halves])
         low = np.concatenate([low[rough], middle[rough]])
         high = np.concatenate([middle[rough], high[rough]])
-    np.add.at(found, np.searchsorted(edges, low, side="right") - 1, whole)
-    return found
+    np.add.at(result, np.searchsorted(edges, low, side="right") - 1, whole)
+    return result
 
 
 def _by_gauss(kind: SpectrumKind, low: Array, high: Array) -> Array:

@@ -171,9 +171,9 @@ class Spectrum(Curve):
             With all that is wrong, and the lines.
         """
         signs = {str(column): "such as 0 for what is noise"}
-        found = read_columns(path, [column], unit=unit, signs=signs)
-        values = found.columns[column]
-        return cls.sampled(found.wavelengths, values, outside=outside, name=name or found.title)
+        result = read_columns(path, [column], unit=unit, signs=signs)
+        values = result.columns[column]
+        return cls.sampled(result.wavelengths, values, outside=outside, name=name or result.title)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
@@ -336,10 +336,10 @@ class Spectrum(Curve):
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments
-        found = self.kind.density(xp, wavelength)
+        result = self.kind.density(xp, wavelength)
         if self.kind.lines:
-            found = found + density_of_lines(self.kind.lines, wavelength)
-        return (found,)
+            result = result + density_of_lines(self.kind.lines, wavelength)
+        return (result,)
 
     def at(self, wavelength: Any) -> Any:
         """Return what it is at wavelengths, or what stands for it where these are a parameter.
@@ -517,8 +517,8 @@ class Spectrum(Curve):
     def _of(self, kind: type[SpectrumKind], name: str, cure: str) -> np.ndarray[Any, Any]:
         if not isinstance(self.kind, kind):
             raise ValueFault(f"{self.label} has no {name}; ask for those of spectrum.{cure}")
-        found: np.ndarray[Any, Any] = getattr(self.kind, name)
-        return found
+        result: np.ndarray[Any, Any] = getattr(self.kind, name)
+        return result
 
     def __repr__(self) -> str:
         return f"<Spectrum: {self.label}>"
@@ -589,8 +589,8 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
             f"number of steps, as up to {nearest}"
         )
     first, each = Decimal(repr(start)), Decimal(repr(along))
-    found = [float(first + place * each) for place in range(count)]
-    return np.array([*found, stop])
+    results = [float(first + place * each) for place in range(count)]
+    return np.array([*results, stop])
 
 
 @dataclass(frozen=True)

@@ -261,8 +261,8 @@ class Histogram(SpectrumKind):
     def density(self, xp: Any, wavelength: Any) -> Any:
         place = xp.searchsorted(xp.asarray(self.edges), wavelength, side="right") - 1
         # An edge is of the bin above it, but for the last one.
-        found = xp.asarray(self._densities)[xp.clip(place, 0, self.powers.size - 1)]
-        return xp.where(is_within(wavelength, self.extent), found, 0.0)
+        result = xp.asarray(self._densities)[xp.clip(place, 0, self.powers.size - 1)]
+        return xp.where(is_within(wavelength, self.extent), result, 0.0)
 
     def times(self, factor: float) -> Histogram:
         return Histogram(self.edges, factor * self.powers, self.outside, self.label)
@@ -327,7 +327,7 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> np.ndar
             f"path.trace(wavelength=op.wavelengths('380 nm', '700 nm', '40 nm'))"
         )
     edges = grid_edges(wavelengths)
-    found = np.zeros(edges.size - 1)
+    result = np.zeros(edges.size - 1)
     widths, falling = np.abs(np.diff(edges)), edges[0] > edges[-1]
     rising = edges[::-1] if falling else edges
     low, high = rising[0] * (1.0 - _ROUNDING), rising[-1] * (1.0 + _ROUNDING)
@@ -335,16 +335,16 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> np.ndar
         place = line.wavelength * NANOMETRES
         if low <= place <= high:
             bin_ = int(np.searchsorted(rising, place, side="right")) - 1
-            bin_ = min(max(bin_, 0), found.size - 1)
-            bin_ = found.size - 1 - bin_ if falling else bin_
-            found[bin_] += line.power / widths[bin_]
+            bin_ = min(max(bin_, 0), result.size - 1)
+            bin_ = result.size - 1 - bin_ if falling else bin_
+            result[bin_] += line.power / widths[bin_]
         elif line.outside is None and line.power:
             raise ParameterError(
                 f"{called([line])} is outside of the wavelengths of this run, {rising[0]:.10g} nm "
                 f".. {rising[-1]:.10g} nm, so that none of its power is there; run it at "
                 f"wavelengths around it, or give outside=0.0 to the line"
             )
-    return found
+    return result
 
 
 OUTSIDE = "give outside=0.0 where the spectrum is made, if nothing is there"
@@ -401,10 +401,10 @@ class Sampled(SpectrumKind):
         return "sampled", *self._table.content, self.outside
 
     def density(self, xp: Any, wavelength: Any) -> Any:
-        (found,) = self._table.numbers(xp, xp.clip(wavelength, *self.extent))
+        (result,) = self._table.numbers(xp, xp.clip(wavelength, *self.extent))
         if self.outside in HELD:
-            return xp.maximum(found, 0.0)  # Where a straight line goes on there is no less power.
-        return xp.where(is_within(wavelength, self.extent), found, 0.0)
+            return xp.maximum(result, 0.0)  # Where a straight line goes on there is no less power.
+        return xp.where(is_within(wavelength, self.extent), result, 0.0)
 
     def times(self, factor: float) -> Sampled:
         return self.with_values(factor * self.values)

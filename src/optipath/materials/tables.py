@@ -113,11 +113,11 @@ class Tabulated(Curve):
         # Each sample reaches halfway to its neighbours, so that it is exact on either side.
         piece = xp.searchsorted(xp.asarray(self._edges), wavelength, side="right")
         step = wavelength - xp.asarray(self._nodes)[piece]
-        found = []
+        results = []
         for cubic in self._cubics:
             value, slope, second, third = [xp.asarray(each)[piece] for each in cubic]
-            found.append(value + step * (slope + step * (second + step * third)))
-        return tuple(found)
+            results.append(value + step * (slope + step * (second + step * third)))
+        return tuple(results)
 
 
 def _beyond() -> str:
@@ -139,8 +139,8 @@ def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray
     else:
         if array.ndim == 1 and array.size:
             if np.any(bad := ~np.isfinite(array)):
-                found = f"{array[bad][0]}{first_place(bad)}"
-                faults.append(f"{owner}: {found} is no number; give one, or leave the sample out")
+                result = f"{array[bad][0]}{first_place(bad)}"
+                faults.append(f"{owner}: {result} is no number; give one, or leave the sample out")
             return array
         faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")
     return np.zeros(1)

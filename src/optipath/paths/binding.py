@@ -67,8 +67,8 @@ def bind(
             try:
                 # Whether it is one of degrees is looked at below, where all is well.
                 known_value = axes_for(name, value, inputs.uses)
-                found = replace(parameters[name], default=known_value, bound=True)
-                bound[name] = changed(found, bound=for_good)
+                result = replace(parameters[name], default=known_value, bound=True)
+                bound[name] = changed(result, bound=for_good)
             except OptipathError as fault:
                 faults += of_complex(fault.faults, Values(graph).uses, name, value)
     copy = exchanged(graph, bound)
@@ -120,8 +120,8 @@ def given_by_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set
     """Return the parameters that are the k of materials among some values."""
     names = [name for name, value in values.items() if isinstance(value, Material)]
     uses = Values(graph).uses if names else ()
-    found = [k for name in names for k in extinctions_beside(uses, name).values()]
-    return {k.name for k in found if isinstance(k, Parameter)}
+    results = [k for name in names for k in extinctions_beside(uses, name).values()]
+    return {k.name for k in results if isinstance(k, Parameter)}
 
 
 def _faults(
@@ -171,12 +171,12 @@ def _faults(
 
 def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Case]:
     """Return the cases of a path in which parameters are there no more."""
-    found = {}
+    results = {}
     for name, case in cases.items():
         left = {given: value for given, value in case.values.items() if given in known}
         same_values = len(left) == len(case.values)
-        found[name] = case if same_values else replace(case, values=left, published={}, note="")
-    return found
+        results[name] = case if same_values else replace(case, values=left, published={}, note="")
+    return results
 
 
 def exchanged(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
@@ -201,13 +201,13 @@ def _exchanged(value: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(value, CurveValue):
         return value.bound_to(values)
     if isinstance(value, Parameter):
-        found = values.get(value.name, value)
-        kept = found is value or not isinstance(found, Parameter)
-        if kept or not isinstance(found, CurveValue):
-            return found if kept else found.like(value)
-        offset = value.scale * found.offset + value.offset
-        dimension = value.offset_dimension or found.offset_dimension
-        return found.shaped(value.scale * found.scale, offset, dimension)
+        result = values.get(value.name, value)
+        kept = result is value or not isinstance(result, Parameter)
+        if kept or not isinstance(result, CurveValue):
+            return result if kept else result.like(value)
+        offset = value.scale * result.offset + value.offset
+        dimension = value.offset_dimension or result.offset_dimension
+        return result.shaped(value.scale * result.scale, offset, dimension)
     if isinstance(value, tuple):
         return tuple(_exchanged(one, values) for one in value)
     # What is made of several values, as a material and a chain of vertices are.

@@ -56,9 +56,11 @@ def passable(events: str, materials: Sequence[Any]) -> tuple[list[Any], list[str
     """
     media, faults = list(materials), []
     for place, event in enumerate(events):
-        if event == REFRACTS and (found := medium_faults(f"vertex{place + 1}.index", media[place])):
+        if event == REFRACTS and (
+            result := medium_faults(f"vertex{place + 1}.index", media[place])
+        ):
             media[place] = 1.0
-            faults += found
+            faults += result
     return media, faults
 
 
@@ -81,11 +83,11 @@ def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[
     >>> media_in_front("TRT", (1.5, 1.0, 1.0), 1.0)
     [1.0, 1.5, 1.5]
     """
-    found, medium = [], outside
+    result, medium = [], outside
     for event, material in zip(events, materials, strict=True):
-        found.append(medium)
+        result.append(medium)
         medium = material if event == REFRACTS else medium
-    return found
+    return result
 
 
 def _meant(events: Any) -> str:
@@ -148,11 +150,11 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
     np.copyto(codes, Event.BEHIND, where=ended)
     if not np.all(told):
         bad = ~told
-        chain, place = (int(found[0]) for found in np.nonzero(bad.reshape(-1, bad.shape[-1])))
+        chain, place = (int(result[0]) for result in np.nonzero(bad.reshape(-1, bad.shape[-1])))
         letter = np.broadcast_to(letters, codes.shape).reshape(-1, bad.shape[-1])[chain, place]
-        found = f"is {shown(chr(letter))}" if letter else "is missing"
+        result = f"is {shown(chr(letter))}" if letter else "is missing"
         where = of_chain(chain, codes.shape[:-1])
-        raise ValueFault(f"events: letter {place + 1}{where} {found}; {_CURE}")
+        raise ValueFault(f"events: letter {place + 1}{where} {result}; {_CURE}")
     return codes
 
 
@@ -221,5 +223,5 @@ def has_ended(lengths: Whole, count: int) -> npt.NDArray[np.bool_]:
     >>> has_ended(np.array([1, 2]), 2).tolist()
     [[False, True], [False, False]]
     """
-    found: npt.NDArray[np.bool_] = np.arange(count) >= lengths[..., np.newaxis]
-    return found
+    result: npt.NDArray[np.bool_] = np.arange(count) >= lengths[..., np.newaxis]
+    return result

@@ -78,17 +78,17 @@ def histories(
     batches |= {"lengths": getattr(told, "shape", None)}
     batches |= {"events": None if letters is None else letters.shape[:-1]}
     faults += broadcast_fault({name: shape for name, shape in batches.items() if shape})
-    found = Histories((*materials, *[*materials[-1:]] * count)[:count])
+    result = Histories((*materials, *[*materials[-1:]] * count)[:count])
     if faults or not materials:
-        return found, list(dict.fromkeys(faults))
+        return result, list(dict.fromkeys(faults))
     codes = None if letters is None else attempt(events_of, letters, told)
     ended = None if codes is None else codes == Event.BEHIND
     if chosen is not None:
         media = attempt(media_by_ids, materials, attempt(ids_within, chosen, len(materials), ended))
-        found = found if media is None else replace(found, materials=media)
+        result = result if media is None else replace(result, materials=media)
     if faults or codes is None:
-        return found, faults
-    return _simplest(replace(found, events=codes, ended=ended), told=events is not None), faults
+        return result, faults
+    return _simplest(replace(result, events=codes, ended=ended), told=events is not None), faults
 
 
 def _simplest(chains: Histories, *, told: bool) -> Histories:

@@ -68,15 +68,15 @@ def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | No
     array([[1. , 1. ],
            [1. , 0.5]])
     """
-    found: list[Any] = []
+    results: list[Any] = []
     front = media_in_front(events, materials, outside)
     for event, before, behind in zip(events, front, materials, strict=True):
         n1, n2 = (np.ones(()),) * 2 if event == REFLECTS else map(known_index, (before, behind))
         if n1 is None or n2 is None:
             return None
-        found.append(over_the_larger(n1, n2, event == REFRACTS))
+        results.append(over_the_larger(n1, n2, event == REFRACTS))
     try:
-        return in_order(found)
+        return in_order(results)
     except ValueError:
         return None
 
@@ -119,13 +119,13 @@ def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[
     array([1.5, 1.5])
     """
     front, _ = index_parts("outside", outside, _WHY)
-    found = []
+    results = []
     for place, material in enumerate(materials):
         n, k = index_parts(f"materials[{place}]", material, _WHY)
         behind = Material(_unboxed(n), _unboxed(k)) if np.any(k) else _unboxed(n)
-        found.append(Sides(_unboxed(front), behind))
+        results.append(Sides(_unboxed(front), behind))
         front = locked(np.where(events[..., place] == Event.REFRACTS, n, front))
-    return found
+    return results
 
 
 def _unboxed(numbers: Floats) -> Any:
@@ -148,9 +148,9 @@ def normals_checked(
     if chains.ended is not None and points is not None:
         points = _turned_back(points, chains.ended)
         given = _any_behind_the_end(normals, chains)
-    found = normal_faults(points if bad == "refuse" else None, given, chains.count, sides)
-    if bad == "refuse" or found or points is None:
-        return chains, found
+    result = normal_faults(points if bad == "refuse" else None, given, chains.count, sides)
+    if bad == "refuse" or result or points is None:
+        return chains, result
     off = are_off(points, np.asarray(given), sides)
     return masked(chains, off) if np.any(off) else chains, []
 
@@ -160,23 +160,25 @@ def _sides(chains: Histories, outside: Any) -> Floats | None:
     events: Any = chains.events
     if not isinstance(events, np.ndarray):
         return sides_of(events or REFLECTS * chains.count, chains.materials, outside)
-    found: list[Any] = []
+    results: list[Any] = []
     for place, (n1, behind) in enumerate(media_along(events, chains.materials, outside)):
         n2 = behind.n if isinstance(behind, Material) else behind
         here = events[..., place]
         otherwise = np.where(here == Event.BEHIND, 0.0, 1.0)
-        found.append(over_the_larger(n1, n2, here == Event.REFRACTS, otherwise))
-    return in_order(found)
+        results.append(over_the_larger(n1, n2, here == Event.REFRACTS, otherwise))
+    return in_order(results)
 
 
 def _turned_back(points: Floats, ended: npt.NDArray[np.bool_]) -> Floats:
     """Return points that go to and fro behind the end of a chain, where nobody says any."""
     batch = np.broadcast_shapes(points.shape[:-2], ended.shape[:-1])
-    found = np.array(np.broadcast_to(points, (*batch, *points.shape[-2:])))
+    result = np.array(np.broadcast_to(points, (*batch, *points.shape[-2:])))
     for place in range(ended.shape[-1]):
         there = ended[..., place, np.newaxis]
-        found[..., place + 2, :] = np.where(there, found[..., place, :], found[..., place + 2, :])
-    return found
+        result[..., place + 2, :] = np.where(
+            there, result[..., place, :], result[..., place + 2, :]
+        )
+    return result
 
 
 def _any_behind_the_end(normals: Any, chains: Histories) -> Any:

@@ -98,8 +98,8 @@ def find_link(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> Link:
 def _only_link(graph: nx.MultiDiGraph, leaves: Any) -> Link:
     """Return the link from a port that has no other, taps included."""
     port = find_port(graph, leaves, out=True)
-    found = graph.out_edges(port[0], keys=True)
-    links: list[Link] = [link for link in found if link[2][0] == port[1]]
+    result = graph.out_edges(port[0], keys=True)
+    links: list[Link] = [link for link in result if link[2][0] == port[1]]
     if len(links) == 1:
         return links[0]
     text = ".".join(port)

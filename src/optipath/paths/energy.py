@@ -127,10 +127,10 @@ def _in_order(flows: Iterable[PowerOnLink]) -> list[str]:
 
 
 def _sums(powers: Iterable[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     for name, power in powers:
-        found[name] = found[name] + power if name in found else power
-    return found
+        results[name] = results[name] + power if name in results else power
+    return results
 
 
 def _taken(node: str, flows: list[PowerOnLink]) -> npt.NDArray[np.float64]:
@@ -181,24 +181,24 @@ def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     # By the plan, since a parameter may be called keep.
     lights: Mapping[str, Light] = path.plan_by(KEEPING).run_all(**parameters)
     wiring = Wiring(path.graph, keep="all")
-    found = [
+    results = [
         LightOnLink(name, start, leaves, end, enters, lights[name], bool(tap))
         for start, end, (leaves, enters), tap in path.graph.edges(keys=True, data="tap")
         if (name := link_text((start, end, (leaves, enters)))) in lights
     ]
     for name in lights.keys() & {*wiring.outlets}:
         start, _, leaves = name.rpartition(".")
-        found.append(LightOnLink(name, start, leaves, "", "", lights[name]))
+        results.append(LightOnLink(name, start, leaves, "", "", lights[name]))
     order = _order(wiring)
-    return sorted(found, key=lambda each: (*order[each.start, each.leaves], each.tap))
+    return sorted(results, key=lambda each: (*order[each.start, each.leaves], each.tap))
 
 
 def _order(wiring: Wiring) -> dict[Port, tuple[int, int]]:
     """Return where in the order of travel light leaves each port, by where it has come in."""
-    place, found = wiring.order, {}
+    place, result = wiring.order, {}
     for (name, port), own in place.items():
         ways = [c.enters for c in wiring.couplings[name] if c.leaves == port]
         fed = [place.get((name, enters), own) for enters in ways if enters is not None]
         # That which comes round in a loop comes in behind the port.
-        found[name, port] = max([at for at in fed if at < own], default=own), own
-    return found
+        result[name, port] = max([at for at in fed if at < own], default=own), own
+    return result

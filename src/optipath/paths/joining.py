@@ -111,14 +111,16 @@ def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
         for port in (element.outputs if out else element.inputs)
         if (name, port) not in used
     ]
-    found = [port for port in unused if natural_of(elements[port[0]], out=out) == port[1]]
-    if len(found) == 1:
-        return found[0]
+    results = [port for port in unused if natural_of(elements[port[0]], out=out) == port[1]]
+    if len(results) == 1:
+        return results[0]
     place, way = ("in front of", "out") if out else ("behind", "in")
     if not unused:
         raise PathError(f"the path {place} >> has no way {way} that is open; >> cannot go on there")
-    what = f"{len(found)} natural ways {way} that are open" if found else f"no natural way {way}"
-    several = ", ".join(f"'{name}.{port}'" for name, port in found or unused)
+    what = (
+        f"{len(results)} natural ways {way} that are open" if results else f"no natural way {way}"
+    )
+    several = ", ".join(f"'{name}.{port}'" for name, port in results or unused)
     raise PathError(f"the path {place} >> has {what}; connect one by its name: {several}")
 
 
@@ -182,17 +184,17 @@ def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
 
     Units: the result in radians.
     """
-    wiring, found, leaves, seen = Wiring(graph), [], "", set()
+    wiring, result, leaves, seen = Wiring(graph), [], "", set()
     while len(links := graph.in_edges(name, keys=True)) == 1:
         (link,) = links
         start, end, (port, enters) = link
         bends = leaves and not goes_straight(wiring.elements[end], enters, leaves)
         if bends or link in seen:  # A ring has no port to begin at.
             break
-        found.append(azimuth_of(wiring, link))
+        result.append(azimuth_of(wiring, link))
         seen.add(link)
         name, leaves = start, port
-    return [turn for turn in found if not is_zero(turn)]
+    return [turn for turn in result if not is_zero(turn)]
 
 
 def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:

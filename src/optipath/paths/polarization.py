@@ -141,17 +141,17 @@ def _scalar(plan: Plan, end: str, parameters: Mapping[str, Any]) -> tuple[Any, C
     """Return the intensity of the scalar model, and bounds of the exact one where there are any."""
     whole = plan.whole
     stacks = any(evaluation.kernel.unpolarising for evaluation in whole.evaluations)
-    found = None if whole.loops else plan.certificate(end, **parameters)
-    if found is not None and not stacks:
-        return found.scalar, found
+    result = None if whole.loops else plan.certificate(end, **parameters)
+    if result is not None and not stacks:
+        return result.scalar, result
     grey = without_polarization(whole, chain.from_iterable(polarising(whole).values()))
     scalar = _intensity(plan, grey, end, parameters)
-    if found is None:
+    if result is None:
         return scalar, None
     # The certificate is of stacks that dim light by what is exact for unpolarised light.
     lit = scalar > 0.0
-    share = np.where(lit, found.scalar, 1.0) / np.where(lit, scalar, 1.0)
-    return scalar, Certificate(scalar, share * found.lower, share * found.upper)
+    share = np.where(lit, result.scalar, 1.0) / np.where(lit, scalar, 1.0)
+    return scalar, Certificate(scalar, share * result.lower, share * result.upper)
 
 
 def _over(difference: Any, scalar: Any) -> npt.NDArray[Any]:
@@ -166,14 +166,14 @@ def _intensity(plan: Plan, program: Program, end: str, parameters: Mapping[str, 
 
 def polarising(program: Program) -> dict[str, list[int]]:
     """Return the steps of each element that may polarise, by its name."""
-    found: dict[str, list[int]] = {}
+    results: dict[str, list[int]] = {}
     for light, step in enumerate(program.steps):
         if step.evaluation is None or not step.inputs:
             continue
         kernel = program.evaluations[step.evaluation].kernel
         if kernel.structure is not None and kernel.structure.unpolarising is not None:
-            found.setdefault(step.label.rpartition(".")[0], []).append(light)
-    return found
+            results.setdefault(step.label.rpartition(".")[0], []).append(light)
+    return results
 
 
 def without_polarization(program: Program, steps: Iterable[int]) -> Program:

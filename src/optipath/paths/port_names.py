@@ -63,9 +63,9 @@ def natural_port(element: Element, owner: str, *, out: bool) -> str:
     ...     print(error)
     'bs' has no one natural way out; connect one of its out-ports: 'bs.reflected', 'bs.transmitted'
     """
-    found = natural_of(element, out=out)
-    if found:
-        return found
+    result = natural_of(element, out=out)
+    if result:
+        return result
     way, ports = ("out", element.outputs) if out else ("in", element.inputs)
     if not ports:
         reason = "ends there; let it stand last" if out else "begins there; let it stand first"

@@ -46,14 +46,14 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
     if faults := [*faults, *turning.faults, *turning.link_faults()]:
         raise PathError(*faults)
     choices = reversed_choices(turning.wiring, turning.port)
-    found = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
+    result = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
     for name in [*graph][::-1]:
-        found.add_node(name, element=turning.elements[name], frames=turning.frames(name))
+        result.add_node(name, element=turning.elements[name], frames=turning.frames(name))
     for link in [*graph.edges(keys=True)][::-1]:
         start, end, (leaves, enters) = link
         key = turning.port(end, enters), turning.port(start, leaves)
-        found.add_edge(end, start, key=key, azimuth=turning.azimuth(link), tap=False)
-    return found
+        result.add_edge(end, start, key=key, azimuth=turning.azimuth(link), tap=False)
+    return result
 
 
 class _Turning:
@@ -171,14 +171,14 @@ class _Turning:
     def frames(self, name: str) -> dict[str, Frame]:
         """Return the world frames of a node: those of light that goes back."""
         given = self.wiring.graph.nodes[name]["frames"]
-        found = {self.port(name, port): frame.reversed() for port, frame in given.items()}
-        if found or self.before[name].outputs:
-            return found
+        results = {self.port(name, port): frame.reversed() for port, frame in given.items()}
+        if results or self.before[name].outputs:
+            return results
         # A detector reads light in the frame that it arrives in; a source has one of its own.
         for start, _, (leaves, enters) in self.wiring.graph.in_edges(name, keys=True):
             if (frame := frame_at(self.wiring, start, leaves)) is not None:
-                found[self.port(name, enters)] = frame.reversed()
-        return found
+                results[self.port(name, enters)] = frame.reversed()
+        return results
 
     def azimuth(self, link: Link) -> Any:
         """Return the azimuth of a link on the way back, which is that on the way there."""
@@ -240,7 +240,7 @@ def reversed_choices(
     """
     choices: dict[str, PlaceChoice] = wiring.graph.graph.get("choices", {})
     movable = {choice.node for choice in choices.values()}
-    found = {}
+    results = {}
     for name, choice in choices.items():
         next_ports = {
             word: _next_port(wiring, choice.node, port) for word, port in choice.behind.items()
@@ -251,8 +251,8 @@ def reversed_choices(
                 for word, port in next_ports.items()
                 if port is not None
             }
-            found[name] = replace(choice, behind=behind)
-    return found
+            results[name] = replace(choice, behind=behind)
+    return results
 
 
 def _next_port(wiring: Wiring, node: str, behind: str) -> Port | None:

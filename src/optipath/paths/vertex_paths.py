@@ -222,9 +222,9 @@ def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
     if isinstance(vertices, Parameter):
         return vertices, []
     if isinstance(vertices, VerticesByAngles):
-        found = len(vertices.incidences)
-        fault = f"vertices have {counted(found, 'incidence')}{_for(count)}"
-        return vertices, [fault] * (found != count)
+        result = len(vertices.incidences)
+        fault = f"vertices have {counted(result, 'incidence')}{_for(count)}"
+        return vertices, [fault] * (result != count)
     try:
         traced = is_traced(vertices)
         chain = vertices if traced else VERTICES.kept(as_given("the array of vertices", vertices))

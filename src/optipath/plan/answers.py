@@ -96,15 +96,15 @@ class Answers:
         self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()
     ) -> dict[str, Light]:
         """Return the light at every end in its frame."""
-        found = {}
+        results = {}
         by = self.wavelengths
         later = LaterWavelength(by, self.plan.inputs, parameters, where) if by else None
         for name, reading in self.plan.program.readings.items():
             stokes, exponent = lights[name]
             frame = self.framed(reading.frame, parameters, where)
             noise = (noise_at, self, name, parameters, where)
-            found[name] = Light.of(stokes, frame, exponent, noise, wavelength=later)
-        return found
+            results[name] = Light.of(stokes, frame, exponent, noise, wavelength=later)
+        return results
 
     def as_light(self, parameters: Mapping[str, Any], stokes: Any, frame: Any) -> Light:
         """Return light of Stokes vectors by themselves, with the frame and wavelengths of a run.

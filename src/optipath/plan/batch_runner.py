@@ -72,10 +72,10 @@ class Results(NamedTuple):
 
     def array(self, place: int) -> Array:
         """Return one result as an array over paths."""
-        found = self.each[place]
-        if isinstance(found, np.ndarray):
-            return found
-        return np.full(self.out.shape[1], found, self.out.dtype)
+        result = self.each[place]
+        if isinstance(result, np.ndarray):
+            return result
+        return np.full(self.out.shape[1], result, self.out.dtype)
 
 
 class BatchRunner:
@@ -101,18 +101,18 @@ class BatchRunner:
         """Return the results, an array over paths or a number each."""
         if self.formula.unread:
             refused()
-        found, failed = self._found(self._stages(engine), numbers, layout)
+        outcome, failed = self._found(self._stages(engine), numbers, layout)
         if failed and len(self.parts) > 1:
-            found, failed = self._found(self._stages(engine, in_one=True), numbers, layout)
+            outcome, failed = self._found(self._stages(engine, in_one=True), numbers, layout)
         if failed:
             refused()
-            out = np.empty((len(found.each), found.out.shape[1]), self.formula.dtype)
-            for row, result in zip(out, found.each, strict=True):
+            out = np.empty((len(outcome.each), outcome.out.shape[1]), self.formula.dtype)
+            for row, result in zip(out, outcome.each, strict=True):
                 row[...] = result
             for piece in failed:
                 out[:, piece.start : piece.stop] = fallback(piece)
-            found = Results([*out], out, [*range(len(out))])
-        return found
+            outcome = Results([*out], out, [*range(len(out))])
+        return outcome
 
     def _stages(self, engine: str, *, in_one: bool = False) -> _Compiled:
         """Return the formula compiled; in one stage, it tells in which part of a batch it fails."""

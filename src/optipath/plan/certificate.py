@@ -105,6 +105,6 @@ def intensity_bounds(
         raise ParameterError(*faults)
     check_broadcast({name: number.shape for name, number in numbers.items()})
     first, *others = map(np.abs, numbers.values())
-    boosts = reduce(lambda found, t: boosted(NUMPY, found, t), others, Boosts(first))
+    boosts = reduce(lambda result, t: boosted(NUMPY, result, t), others, Boosts(first))
     lower, upper = ratio_bounds(NUMPY, boosts)
     return np.asarray(lower), np.asarray(upper)

@@ -284,10 +284,10 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     if plan.answers.whole.for_jax.has_traced:
         return {"text": "depends on values that JAX traces"}
     try:
-        found = plan.answers.certificates({})
+        result = plan.answers.certificates({})
     except ParameterError as fault:
         return {"text": f"none, since {fault}"}
-    bounds = {name: _extremes(one) for name, one in found.items()}
+    bounds = {name: _extremes(one) for name, one in result.items()}
     if len(bounds) > _FEW:
         see = cure("see plan.certificate(...)", "see --json")
         return {"bounds": bounds, "text": f"for {len(bounds)} ends; {see}"}
@@ -355,7 +355,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     runner.for_jax.refuse_traced(parameters, "evaluations are counted")
     runner.inputs.resolve(parameters)
     given, program = runner.reader.read(parameters), runner.program
-    found: dict[str, int] = {}
+    results: dict[str, int] = {}
     for step in program.steps:
         if step.evaluation is None:
             continue
@@ -373,5 +373,5 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
                 shapes += [np.shape(given.numbers[key]) for key in keys if key in given.numbers]
         count = prod(joint_shape(*shapes))
         # What one element does in several steps goes by one name.
-        found[step.label] = max(count, found.get(step.label, 0))
-    return found
+        results[step.label] = max(count, results.get(step.label, 0))
+    return results

@@ -76,7 +76,7 @@ class Inputs:
                 except OptipathError as fault:
                     faults += self._of_a_fit(fault.faults, name, value)
         resolved |= computed_values(self.computed, resolved)
-        found: dict[str, tuple[int, ...]] = {}
+        results: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
         for use in self.distinct_uses:
             name = use.value.name
@@ -97,10 +97,10 @@ class Inputs:
                 refused.add(name)
             else:
                 shape = getattr(numbers, "shape", ())
-                found[name] = shape[: len(shape) - len(use.domain.tail)]
+                results[name] = shape[: len(shape) - len(use.domain.tail)]
         # As they are given, so that a sentence names them in the order of whoever reads it; what
         # is computed of them has their shapes.
-        shapes = {name: found[name] for name in (*given, *self.open) if name in found}
+        shapes = {name: results[name] for name in (*given, *self.open) if name in results}
         shapes = {**self.shapes, **shapes}
         faults += broadcast_fault(shapes)
         laws = self._agreements_of(resolved, seen=plain is None)
@@ -139,10 +139,10 @@ class Inputs:
     @cached_property
     def distinct_uses(self) -> tuple[Use, ...]:
         """The uses that ask different things of a parameter."""
-        found: dict[Any, Use] = {}
+        results: dict[Any, Use] = {}
         for use in self.uses:
-            found.setdefault((use.value, use.domain), use)
-        return tuple(found.values())
+            results.setdefault((use.value, use.domain), use)
+        return tuple(results.values())
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths all values that JAX traces are allowed; True where it has none."""
@@ -169,19 +169,19 @@ class Inputs:
         That of a multiple with an offset stands beside it, by what `InputKey.quantity` says.
         """
         known = (*self.open.values(), *self.computed)
-        found = Ranges({p.name: (p.minimum, p.maximum) for p in known})
+        result = Ranges({p.name: (p.minimum, p.maximum) for p in known})
         for use in self.uses:
             name = use.value.name
             low, high = use.value.span_for(*use.domain.interval)
-            found[name] = max(found[name][0], low), min(found[name][1], high)
+            result[name] = max(result[name][0], low), min(result[name][1], high)
         for use in self.uses:
             if not use.value.is_signed:
                 value, (low, high) = use.value, use.domain.interval
-                least, most = value.span_of(*found[value.name])
+                least, most = value.span_of(*result[value.name])
                 low, high = max(least, low), min(most, high)
                 # A turn back is by the negative.
-                found.update({value.quantity: (low, high), (-value).quantity: (-high, -low)})
-        return found
+                result.update({value.quantity: (low, high), (-value).quantity: (-high, -low)})
+        return result
 
     @cached_property
     def dimensions(self) -> dict[str, str]:

@@ -72,10 +72,10 @@ class Interpreter:
 
         None where that takes more care than floats allow.
         """
-        found = self._found(ResolvedInputs(numbers, (1,)), {})
-        if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in found):
+        result = self._found(ResolvedInputs(numbers, (1,)), {})
+        if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in result):
             return None
-        return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in found]
+        return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in result]
 
     def lights(
         self, given: ResolvedInputs, shared: Shared | None = None
@@ -93,7 +93,7 @@ class Interpreter:
         Together they are no more than the light that the batch gives.
         """
         operands, carrier = self.operands(given), self._carriers[self.carrier]
-        left, found = 4 * given.paths, {}
+        left, result = 4 * given.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
                 shapes = [operands[operand].shape for operand in self.program.given_to[index]]
@@ -103,9 +103,9 @@ class Interpreter:
                 size = 16 * prod(joint_shape(*shapes))
                 needed = self.program.evaluation_uses[index]
                 if needed and size <= min(left, given.paths):
-                    found[index] = evaluated(self.program, index, operands, carrier, self.number)
+                    result[index] = evaluated(self.program, index, operands, carrier, self.number)
                     left -= size
-        return found
+        return result
 
     def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
@@ -130,11 +130,11 @@ class Interpreter:
             )
         lacking = what_matrices_lack(self.program, matrices)
         carrier = BoundsCarrier(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
-        found = self._execute(given, carrier, shared=matrices)
+        result = self._execute(given, carrier, shared=matrices)
         read = []
         for reading in self.program.readings.values():
             parts = np.empty((4, *given.batch), self.dtype)
-            for row, part in enumerate(found[reading.light][0]):
+            for row, part in enumerate(result[reading.light][0]):
                 parts[row] = part
             # What is too extreme for floats is bounded by nothing.
             told = np.all(np.isfinite(parts), axis=0)
@@ -145,10 +145,10 @@ class Interpreter:
 
     def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
         """Return light and exponents; what is too faint for floats is carried with an exponent."""
-        found = self._stacked(given, self._carriers[self.carrier], shared)
-        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in found):
-            found = self._stacked(given, self._carriers[ScaledCarrier], shared)
-        return found
+        result = self._stacked(given, self._carriers[self.carrier], shared)
+        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in result):
+            result = self._stacked(given, self._carriers[ScaledCarrier], shared)
+        return result
 
     def _stacked(self, given: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Any]:
         return self._read(given, self._execute(given, carrier, None, shared))
@@ -174,10 +174,10 @@ class Interpreter:
         begin = emitted and emitted(given)
         with np.errstate(all="ignore"):
             operands = self.operands(given)
-            found = execute(self.program, operands, carrier, begin, self.number, shared, solvers)
+            result = execute(self.program, operands, carrier, begin, self.number, shared, solvers)
             doubtful = _doubtful(solvers, given.batch)
             if not np.any(doubtful):
-                return found
+                return result
             part = given if np.all(doubtful) else given.part((doubtful,))
             operands, solvers = self.operands(part), []
             begin = emitted and emitted(part)
@@ -187,7 +187,7 @@ class Interpreter:
                 self.program, operands, carrier, begin, self.number, longer, solvers, closer.meet
             )
             check_gains(solvers)
-        return again if part is given else _instead(found, again, doubtful)
+        return again if part is given else _instead(result, again, doubtful)
 
     def number(self, number: Any) -> np.ndarray[Any, Any]:
         """Return what a kernel gives in the precision of the plan."""
@@ -227,7 +227,7 @@ def _doubtful(solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> np.ndarr
 
 
 def _instead(
-    found: dict[int, Any], others: Mapping[int, Any], where: np.ndarray[Any, Any]
+    results: dict[int, Any], others: Mapping[int, Any], where: np.ndarray[Any, Any]
 ) -> dict[int, Any]:
     """Return lights, those of some paths replaced by others."""
 
@@ -240,7 +240,7 @@ def _instead(
 
     return {
         light: (tuple(map(put, components, others[light][0])), put(exponent, others[light][1]))
-        for light, (components, exponent) in found.items()
+        for light, (components, exponent) in results.items()
     }
 
 

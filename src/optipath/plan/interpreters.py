@@ -72,36 +72,36 @@ class ReproducibleInterpreter(Interpreter):
         self, given: ResolvedInputs, shared: Shared | None = None
     ) -> list[tuple[np.ndarray[Any, Any], Any]]:
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
-        found = self._found(_as_batch(given), own)
+        result = self._found(_as_batch(given), own)
         return [
             folded(stokes.reshape(*given.batch, 4), np.reshape(exponent, given.batch))
-            for stokes, exponent in found
+            for stokes, exponent in result
         ]
 
     def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
         program, carrier = self._carrying
         if program is self.program:
-            found = self._stacked(given, carrier, shared)
+            result = self._stacked(given, carrier, shared)
         else:
             with np.errstate(all="ignore"):
                 lights = execute(program, self.operands(given), carrier, number=self.number)
-            found = self._read(given, lights)
+            result = self._read(given, lights)
         if self.carrier is not StokesCarrier:
-            return found
-        faint = np.any([underflows(stokes[..., 0]) for stokes, _ in found], axis=0)
+            return result
+        faint = np.any([underflows(stokes[..., 0]) for stokes, _ in result], axis=0)
         if not np.any(faint):
-            return found
+            return result
         again = self._stacked(given, self._carriers[ScaledCarrier], shared)
         return [
             (np.where(faint[..., np.newaxis], one, other), np.where(faint, power, 0))
-            for (other, _), (one, power) in zip(found, again, strict=True)
+            for (other, _), (one, power) in zip(result, again, strict=True)
         ]
 
     def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         return super().matrix(_as_batch(given), source, reading).reshape(*given.batch, 4, 4)
 
     def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
-        return [found.reshape(4, *given.batch) for found in super().bounds(_as_batch(given))]
+        return [result.reshape(4, *given.batch) for result in super().bounds(_as_batch(given))]
 
     def operands(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
         # Numbers that are known are no arrays, so that kernels see which of them are 0.
@@ -159,15 +159,15 @@ class NoiseInterpreter(Interpreter):
     def noise(self, given: ResolvedInputs, reading: Reading, exponent: Array) -> tuple[Any, Any]:
         """Return the intensity at an end, and its noise, over two to a power."""
         carrier = NoiseCarrier(NUMPY, self.eps)
-        found = np.zeros((2, *given.batch), self.dtype)
+        result = np.zeros((2, *given.batch), self.dtype)
         for piece in pieces(given.batch, _AT_ONCE):
             part = given.part(piece.where)
             lights = self._execute(part, carrier)
             (intensity, noise, _, _), power = lights[reading.light]
             for row, number in enumerate((intensity, noise)):
                 with np.errstate(over="ignore", under="ignore"):
-                    found[(row, *piece.where)] = np.ldexp(number, power - exponent[piece.where])
-        return found[0], found[1]
+                    result[(row, *piece.where)] = np.ldexp(number, power - exponent[piece.where])
+        return result[0], result[1]
 
     def emitted(self, given: ResolvedInputs, source: str) -> Array:
         """Return the light that a source emits, as Stokes vectors, in its own shape.
@@ -192,7 +192,7 @@ class NoiseInterpreter(Interpreter):
 
     def most_of_one(self, parameters: Mapping[str, Any]) -> float | None:
         """Return the same where sources emit one number each, plain as it is given; else None."""
-        found = {}
+        results = {}
         for place, operand in self._emitted.items():
             given = {}
             if not operand.known:
@@ -201,8 +201,8 @@ class NoiseInterpreter(Interpreter):
                 if type(number) is not float:
                     return None
                 given[name] = Resolved(np.array(number), THERE)
-            found[place] = operand.numbers(given)
-        most = self._most(found)
+            results[place] = operand.numbers(given)
+        most = self._most(results)
         return None if np.ndim(most) else float(most)
 
     @cached_property
@@ -246,26 +246,26 @@ def noise_at(
 
     Shapes: stokes (..., 4); exponent (...); returns (...).
     """
-    found = np.zeros(exponent.shape, stokes.dtype)
+    result = np.zeros(exponent.shape, stokes.dtype)
     interpreter = answers.noise
     readings = interpreter.program.readings
     if end not in readings or any(map(is_traced, parameters.values())):
-        return found
+        return result
     most = interpreter.most_of_one(parameters)
     if most is not None and not _as_little(stokes, exponent, most).any():
-        return found
+        return result
     given = answers.whole.reader.read(parameters)
     given = given.part(where) if where else given
     doubtful = _as_little(stokes, exponent, interpreter.most(given)).any(axis=-1)
     if not doubtful.any():
-        return found
+        return result
     part = given.part((doubtful,)) if given.batch else given
     again, noise = interpreter.noise(part, readings[end], exponent[doubtful].reshape(part.batch))
     intensity = stokes[doubtful][..., 0].reshape(part.batch)
     with np.errstate(over="ignore", invalid="ignore"):
         same = np.abs(again - intensity) <= 4.0 * noise + _SAME * np.abs(intensity)
-    found[doubtful] = np.where(same, noise, 0.0)
-    return found
+    result[doubtful] = np.where(same, noise, 0.0)
+    return result
 
 
 def matrix_noise_at(

@@ -75,15 +75,15 @@ def light_paths(
         raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
     whole.for_jax.refuse_traced(parameters, "light paths are listed")
     _, batch = whole.inputs.resolve(parameters)
-    found: list[LightPath] = []
+    results: list[LightPath] = []
     with whole.enough_for(batch, 4 * len(whole.program.readings) + 16):
         # Refuses light that never fades.
         whole.interpreter.lights(whole.reader.read(parameters))
         for path in Search(whole, parameters, as_light).paths(bounces):
-            if len(found) == limit:
+            if len(results) == limit:
                 break
-            found.append(path)
-    return found
+            results.append(path)
+    return results
 
 
 _FAINTEST = 1e-200

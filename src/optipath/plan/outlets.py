@@ -111,10 +111,10 @@ class LaterWavelength:
     @cached_property
     def _found(self) -> Any:
         (parameter,) = self.among
-        found, present = parameter.resolve(self.parameters.get(parameter.name, parameter.default))
+        result, present = parameter.resolve(self.parameters.get(parameter.name, parameter.default))
         if not np.all(present):
-            found = np.where(present, found, np.nan)
+            result = np.where(present, result, np.nan)
         if self.where:
             _, batch = self.inputs.resolve(self.parameters)
-            found = sliced(found, batch, self.where)
-        return found if is_traced(found) else locked(np.array(found, np.float64))
+            result = sliced(result, batch, self.where)
+        return result if is_traced(result) else locked(np.array(result, np.float64))

@@ -247,8 +247,8 @@ class Plan:
         frames = (
             self.answers.framed(f, parameters) for f in (program.sources[begin][1], reading.frame)
         )
-        found = Mueller.of(matrix, *frames)
-        return found.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
+        result = Mueller.of(matrix, *frames)
+        return result.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
 
     def paths(
         self,

@@ -157,9 +157,9 @@ class Recipe:
                 use.check_given(parameters[use.value.name])
         except ValueFault:
             return None
-        found = dict(self.fixed)
+        results = dict(self.fixed)
         for name, parameter in self.names.items():
-            found[name] = parameters[parameter]
+            results[name] = parameters[parameter]
         for key in self.parts:
-            found[str(key)] = self.reader.part(key, parameters[key.name])
-        return found
+            results[str(key)] = self.reader.part(key, parameters[key.name])
+        return results

@@ -102,30 +102,30 @@ class LightQuestion(Question):
         return maker.lights(forms, axes=axes, unreduced=maker.unreduced)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        found = runner.interpreter.lights(given, shared)
-        for (stokes, _), count in zip(found, self.counts, strict=True):
+        result = runner.interpreter.lights(given, shared)
+        for (stokes, _), count in zip(result, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
             stokes[np.isnan(stokes[..., 0])] = np.nan
-        components = [stokes.reshape(-1, 4).T for stokes, _ in found]
-        return np.concatenate([*components, *(power.reshape(1, -1) for _, power in found)])
+        components = [stokes.reshape(-1, 4).T for stokes, _ in result]
+        return np.concatenate([*components, *(power.reshape(1, -1) for _, power in result)])
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        found, sound = runner.for_jax.path.lights(resolved, batch, parameters)
+        result, sound = runner.for_jax.path.lights(resolved, batch, parameters)
         if runner.for_jax.needs_closer_look(sound, resolved):
             return None
         lights = {}
-        for stokes, name, count in zip(found, self.ends, self.counts, strict=True):
+        for stokes, name, count in zip(result, self.ends, self.counts, strict=True):
             lights[name] = runner.for_jax.nan_outside(stokes, resolved, 1), 0
             runner.refuse_infinite(lights[name][0][..., :count])
         return lights
 
     def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
-        underflow, found = False, {}
+        underflow, result = False, {}
         for power in results.each[self.read :]:
             underflow = underflow or bool(power.any() if isinstance(power, np.ndarray) else power)
         for end, name in enumerate(self.ends):
-            found[name] = self._light(results, batch, end, underflow=underflow)
-        return found
+            result[name] = self._light(results, batch, end, underflow=underflow)
+        return result
 
     def _light(
         self, results: Results, batch: Batch, end: int, *, underflow: bool
@@ -174,19 +174,19 @@ class MatrixQuestion(Question):
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.
-        found = runner.interpreter.matrix(given, self.source, self.reading)
-        runner.refuse_infinite(found[..., : self.reading.components, :])
-        found[np.isnan(found[..., 0, 0])] = np.nan
-        return found.reshape(-1, 16).T
+        result = runner.interpreter.matrix(given, self.source, self.reading)
+        runner.refuse_infinite(result[..., : self.reading.components, :])
+        result[np.isnan(result[..., 0, 0])] = np.nan
+        return result.reshape(-1, 16).T
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
         name = next(n for n, end in self.program.readings.items() if end is self.reading)
-        found, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
+        result, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
         if runner.for_jax.needs_closer_look(sound, resolved):
             return None
-        found = runner.for_jax.nan_outside(found, resolved, 2)
-        runner.refuse_infinite(found[..., : self.reading.components, :])
-        return found
+        result = runner.for_jax.nan_outside(result, resolved, 2)
+        runner.refuse_infinite(result[..., : self.reading.components, :])
+        return result
 
     def answer(self, results: Results, batch: Batch) -> Array:
         return _behind(results.block(0, 16), batch, (4, 4))
@@ -218,8 +218,8 @@ class BoundsQuestion(Question):
     def answer(self, results: Results, batch: Batch) -> dict[str, Certificate]:
         each = results.block(0, self.read).reshape(len(self.ends), 4, *batch)
         return {
-            name: Certificate(*map(np.asarray, found[:3]))
-            for name, found in zip(self.ends, each, strict=True)
+            name: Certificate(*map(np.asarray, result[:3]))
+            for name, result in zip(self.ends, each, strict=True)
         }
 
 
@@ -234,7 +234,7 @@ class ErrorsQuestion(BoundsQuestion):
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         bounds = super().rows(runner, given, shared).reshape(-1, 4, given.paths)
         assert self.model is not None  # noqa: S101 - for mypy
-        errors = [Certificate(*found[:3]).error_of(self.model) for found in bounds]
+        errors = [Certificate(*result[:3]).error_of(self.model) for result in bounds]
         return np.array([*bounds[:, 0], np.max(errors, axis=0)])
 
     def answer(self, results: Results, batch: Batch) -> Any:

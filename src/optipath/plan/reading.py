@@ -91,10 +91,10 @@ class InputReader:
         self._widest = np.result_type(dtype, np.float64)
         # An engine of doubles reads what it is given as doubles, where it stands.
         self._known_kinds = "fd?" if dtype == np.float32 and not reproducible else "d?"
-        found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
+        result = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         computed = [value.name for value in inputs.computed]
-        self.keys = {n: [r for r in found if r.name == n] for n in (*inputs.open, *computed)}
-        affine = [key for key in found if key.is_affine]
+        self.keys = {n: [r for r in result if r.name == n] for n in (*inputs.open, *computed)}
+        affine = [key for key in result if key.is_affine]
         self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
         # A formula checks the range of a number that it reads, and of no other.
         self._plain = {
@@ -118,20 +118,20 @@ class InputReader:
         """
         if self.inputs.hidden:
             return None
-        found: list[Any] = []
+        results: list[Any] = []
         for name, value in parameters.items():
             kind = type(value)
             if kind is np.ndarray:
                 if value.dtype is not _DOUBLE or value.size == 1:
                     return None
-                found.append((name, value.shape))
+                results.append((name, value.shape))
             elif kind is float:
-                found.append((name, None))
+                results.append((name, None))
             elif kind is str:
-                found.append((name, value))
+                results.append((name, value))
             else:
                 return None
-        return tuple(found)
+        return tuple(results)
 
     def read(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
         """Return the numbers that are given.
@@ -300,14 +300,14 @@ def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Arra
     >>> sliced(np.ones((3, 1)), (3, 5), (slice(0, 2), slice(1, 4))).shape
     (2, 1)
     """
-    found: Array
+    results: Array
     if where and not isinstance(where[0], (int, slice)):
-        found = np.broadcast_to(array, batch)[where]
+        results = np.broadcast_to(array, batch)[where]
     else:
         shape = (1,) * (len(batch) - array.ndim) + array.shape
         index = [_kept(at, own, whole) for at, own, whole in zip(where, shape, batch, strict=False)]
-        found = array.reshape(shape)[tuple(index)]
-    return found
+        results = array.reshape(shape)[tuple(index)]
+    return results
 
 
 def _kept(at: Any, own: int, whole: int) -> Any:

@@ -167,12 +167,12 @@ class Runner(Answering):
         """Return what this batch has in common with others."""
         forms = given.forms(self.dtype)
         key = question.key, forms, layout.key, floats
-        found = self._kinds.get(key)
-        if found is None:
+        result = self._kinds.get(key)
+        if result is None:
             own = self.formulas, self.single, self.options
-            found = BatchKind(question, dict(forms), layout, *own, floats=floats)
-            keep(self._kinds, key, found)
-        return found
+            result = BatchKind(question, dict(forms), layout, *own, floats=floats)
+            keep(self._kinds, key, result)
+        return result
 
     def _run(
         self,
@@ -223,12 +223,12 @@ class Runner(Answering):
         if not self.for_jax.traces(parameters):
             self.first_values.check((*parameters, batch), lambda: self.reader.read(parameters))
         with self.enough_for(batch, 2 * question.read):
-            found = question.by_jax(self, resolved, batch, parameters)
-        self._ran = NUMPY_STEPS if found is None else "jax"
-        if found is None:
+            result = question.by_jax(self, resolved, batch, parameters)
+        self._ran = NUMPY_STEPS if result is None else "jax"
+        if result is None:
             # Loops that need a closer look get the same one by every engine.
             return self._stepped(question, self.reader.read(parameters))
-        return found
+        return result
 
     def engine_for(self, count: int) -> str:
         """Return what runs a batch of so many paths, once that has been done several times."""
@@ -392,10 +392,10 @@ def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
         return operand.evaluated(NUMPY, operand.given_in(mine, np.asarray))
 
     try:
-        found = way.faults(read)
+        result = way.faults(read)
     except KeyError:
         return []  # Not all of its values are of use to what is read.
-    return [f"at {_values(mine, place, units)}: {fault}" for place, fault in found]
+    return [f"at {_values(mine, place, units)}: {fault}" for place, fault in result]
 
 
 def _values(numbers: dict[InputKey, Any], place: int, units: Mapping[str, str]) -> str:

@@ -58,12 +58,12 @@ class FloatFunction(NamedTuple):
             else:
                 columns.append(repeat(number))
         try:
-            found = [self.path(*row) for row in islice(zip(*columns), layout.paths)]  # noqa: B905
+            results = [self.path(*row) for row in islice(zip(*columns), layout.paths)]  # noqa: B905
         except _REFUSED:
             return None
-        if None in found or not found or len(found) < layout.paths:
+        if None in results or not results or len(results) < layout.paths:
             return None
-        return np.array(found).T
+        return np.array(results).T
 
 
 class ScalarRunner:
@@ -188,13 +188,13 @@ class ScalarRunner:
 def _called(path: Any, numbers: list[Any]) -> Lights | None:
     """Return the lights that a function gives."""
     try:
-        found = path(*numbers)
+        result = path(*numbers)
     except _REFUSED:
         return None
-    if found is None or len(found) == 5:
-        return found and [found]
-    ends = len(found) // 5
-    return [(*found[4 * end : 4 * end + 4], found[4 * ends + end]) for end in range(ends)]
+    if result is None or len(result) == 5:
+        return result and [result]
+    ends = len(result) // 5
+    return [(*result[4 * end : 4 * end + 4], result[4 * ends + end]) for end in range(ends)]
 
 
 class FollowingFloats:
@@ -210,7 +210,7 @@ class FollowingFloats:
     def beside(self, given: Mapping[str, float]) -> Mapping[str, float] | None:
         """Return what is given and what follows from it; None where that is to be looked at."""
         numbers = tuple([given.get(name, default) for name, default in self.defaults.items()])
-        last, found = self._last
+        last, results = self._last
         if numbers != last:
             for number, (low, high) in zip(numbers, self._ranges, strict=True):
                 if type(number) is not float or not low <= number <= high:
@@ -218,6 +218,6 @@ class FollowingFloats:
             pairs = zip(self.defaults, numbers, strict=True)
             resolved = {name: Resolved(number, THERE) for name, number in pairs}
             computed = computed_values(self.computed, resolved)
-            found = {name: of_it.value.item() for name, of_it in computed.items()}
-            self._last = numbers, found
-        return {**given, **found}
+            results = {name: of_it.value.item() for name, of_it in computed.items()}
+            self._last = numbers, results
+        return {**given, **results}

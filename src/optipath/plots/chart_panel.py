@@ -217,7 +217,7 @@ def draw_legend(figure: Figure, rows: list[list[Artist]], top: float) -> None:
 
 def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[tuple[str, str]]:
     """Return in which regions methods fail."""
-    found = []
+    results = []
     for method in dict.fromkeys(mark.method for mark in marks if mark.fails):
         own = [mark for mark in marks if mark.method == method]
         where = {name: [mark for mark in own if name in mark.fails] for name in regions}
@@ -230,11 +230,11 @@ def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[
             words = [begin, "all but:", *_listed(holds)]
         else:
             words = [begin, *_listed([_told(name, where[name], own) for name in failing])]
-        found += [
+        results += [
             (method if number == 0 else "", line)
             for number, line in enumerate(broken(words, inches, POINTS))
         ]
-    return found
+    return results
 
 
 def _told(region: str, failing: list[Mark], own: list[Mark]) -> str:
@@ -437,9 +437,9 @@ def _frontier(axes: Axes, points: list[tuple[float, float]], base: float) -> Non
 
 def _roundings(axes: Axes, chart: Mapping[str, Any], frame: ChartFrame) -> None:
     """Draw eps of each precision, with its name above the line, or above those below it."""
-    found = {entry["dtype"]: entry["eps"] for entry in chart["contenders"]}
+    results = {entry["dtype"]: entry["eps"] for entry in chart["contenders"]}
     reached = frame.floor
-    for dtype, eps in sorted(found.items(), key=lambda each: each[1]):
+    for dtype, eps in sorted(results.items(), key=lambda each: each[1]):
         axes.axhline(eps, color=FAINT, linewidth=1.0, linestyle="--", zorder=0.8)
         at = max(frame.inches(eps) + 0.03, reached)
         reached = at + LINE

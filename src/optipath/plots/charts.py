@@ -87,18 +87,18 @@ def chart(
     ['distance from the normal (rad)']
     """
     if isinstance(measured, Mapping):
-        found = checked_chart(measured, "what is given")
+        result = checked_chart(measured, "what is given")
     else:
         file = given_file(measured, OptipathError)
-        found = read_chart(_text(file), str(file))
-    if found.get("drawn") == CRITICAL:
+        result = read_chart(_text(file), str(file))
+    if result.get("drawn") == CRITICAL:
         if peers is not None:
             raise OptipathError("peers stand beside speed and accuracy alone; leave them out")
-        return draw_critical(found)
+        return draw_critical(result)
     if peers is None:
-        return draw_speed_and_accuracy(found)
+        return draw_speed_and_accuracy(result)
     file = given_file(peers, OptipathError)
-    return draw_speed_and_accuracy(found, peer_times(_text(file), str(file), found))
+    return draw_speed_and_accuracy(result, peer_times(_text(file), str(file), result))
 
 
 def _text(file: Path) -> str:
@@ -123,7 +123,7 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
     marks = {kind: marks_of(chart, kind) for kind in _KINDS}
     frame = ChartFrame.around(chart, list(marks.values()))
     legend = legend_rows(chart, looks, fails=bool(frame.methods))
-    notes = [_notes(chart, kind, found) for kind, found in marks.items()]
+    notes = [_notes(chart, kind, result) for kind, result in marks.items()]
     told = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
     beside = PeerFrame.of(peers) if peers else None
     below = LINE * 1.15 * len(legend) + 0.1 + LINE * max(map(len, notes)) + EDGE

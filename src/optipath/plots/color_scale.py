@@ -99,12 +99,12 @@ def _rounded(largest: float, length: float) -> tuple[float, ...]:
     (0.005, 0.02, 0.05, 0.1, 0.2, 0.5)
     """
     top = int(np.floor(np.log10(largest)))
-    found: list[float] = []
+    results: list[float] = []
     for power in range(top, top - 5, -1):
         for digit in (5, 2, 1):
             number = float(f"{digit}e{power}")
-            above = (found[-1] / largest) ** _TONE if found else np.inf
+            above = (results[-1] / largest) ** _TONE if results else np.inf
             place = (number / largest) ** _TONE
             if place <= 1.0 and min(place, above - place) * length >= _APART:
-                found.append(number)
-    return tuple(reversed(found))
+                results.append(number)
+    return tuple(reversed(results))

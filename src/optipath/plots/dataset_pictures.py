@@ -118,8 +118,8 @@ def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
     free = names.count(None)
     if len(rest) != free:
         raise OptipathError(_wrong_count(dataset, along, rest, len(names)))
-    found = [name if name is not None else _only(rest.pop(0), along) for name in names]
-    return [_axis(dataset, name) for name in found]
+    results = [name if name is not None else _only(rest.pop(0), along) for name in names]
+    return [_axis(dataset, name) for name in results]
 
 
 def _wrong_count(dataset: Any, along: dict[str, list[str]], rest: list[str], count: int) -> str:

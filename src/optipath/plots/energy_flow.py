@@ -73,22 +73,22 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     """
     if not isinstance(path, PathGraph):
         raise OptipathError(f"energy is that of a path, not of {shown(path)}; give a PathGraph")
-    found = energy_along(path, **values)
-    if any(link.power.ndim for link in found.links):
-        shape = found.links[0].power.shape
+    result = energy_along(path, **values)
+    if any(link.power.ndim for link in result.links):
+        shape = result.links[0].power.shape
         raise OptipathError(
             f"the light is a batch of shape {shape}, and a picture is of one; give one value each"
         )
-    if not all(np.isfinite(link.power) for link in found.links):
+    if not all(np.isfinite(link.power) for link in result.links):
         raise OptipathError("the light is not a number on some links; give values that there are")
-    drawn = energy_rows(found)
+    drawn = energy_rows(result)
     places = EnergyPlaces(drawn.over_largest())
-    count = len(drawn.rows) + len(found.notes)
+    count = len(drawn.rows) + len(result.notes)
     ax = own_axes(ax, (_WIDE, _AROUND + _ROW * count))
     ax.set_axis_off()
     ax.set_ylim(0.55 - count, 0.55)
     _draw(ax, places)
-    _write(ax, places, drawn.rows, found)
+    _write(ax, places, drawn.rows, result)
     return ax
 
 
@@ -110,9 +110,9 @@ def _draw(ax: Axes, places: EnergyPlaces) -> None:
         ax.add_patch(Rectangle((left, y - BAR), width, 2 * BAR, color=INK, linewidth=0.6))
 
 
-def _write(ax: Axes, places: EnergyPlaces, rows: Sequence[EnergyRow], found: EnergyAlong) -> None:
+def _write(ax: Axes, places: EnergyPlaces, rows: Sequence[EnergyRow], result: EnergyAlong) -> None:
     """Write names on the left, and what becomes of light on the right, as large as they fit."""
-    total = float(sum(found.given.values()))
+    total = float(sum(result.given.values()))
     texts: list[tuple[Any, Any]] = []
     for row in rows:
         y = places.level[row.name]
@@ -124,7 +124,7 @@ def _write(ax: Axes, places: EnergyPlaces, rows: Sequence[EnergyRow], found: Ene
         texts.append((name, told))
     notes = [
         ax.text(0.0, -float(len(rows) + at), note, ha="left", va="center", color=INK)
-        for at, note in enumerate(found.notes)
+        for at, note in enumerate(result.notes)
     ]
     _fit(ax, places, texts, notes)
 
@@ -300,7 +300,7 @@ class EnergyRows(NamedTuple):
         )
 
 
-def energy_rows(found: EnergyAlong) -> EnergyRows:
+def energy_rows(result: EnergyAlong) -> EnergyRows:
     """Return the rows of a path, each element in one of its own, and the lanes of its links.
 
     Light goes on in the lane of its element, and what parts from it in the next that is free;
@@ -312,13 +312,13 @@ def energy_rows(found: EnergyAlong) -> EnergyRows:
     >>> [(row.name, row.lane, row.told) for row in rows[:4]]
     [('lamp', 0, 'gives'), ('pane1', 0, ''), ('pane1.transmitted', 1, 'leaves'), ('pane2', 0, '')]
     """
-    names = _in_order(found.links)
+    names = _in_order(result.links)
     place = {name: row for row, name in enumerate(names)}
-    lanes, ways = _lanes(found.links, place)
-    rows = [EnergyRow(name, lanes[name], *_told(name, found)) for name in names]
+    lanes, ways = _lanes(result.links, place)
+    rows = [EnergyRow(name, lanes[name], *_told(name, result)) for name in names]
     links = [
         EnergyLink(link.start, _end(link), float(link.power), lane, _is_back(link, place), link.tap)
-        for link, lane in zip(found.links, ways, strict=True)
+        for link, lane in zip(result.links, ways, strict=True)
     ]
     return EnergyRows(rows, links)
 
@@ -379,14 +379,14 @@ def _free(busy: Iterable[int]) -> int:
     return next(lane for lane in range(len(taken) + 1) if lane not in taken)
 
 
-def _told(name: str, found: EnergyAlong) -> tuple[str, float]:
-    for word, powers in (("gives", found.given), ("leaves", found.left), ("gets", found.ended)):
+def _told(name: str, result: EnergyAlong) -> tuple[str, float]:
+    for word, powers in (("gives", result.given), ("leaves", result.left), ("gets", result.ended)):
         if name in powers:
             return word, float(powers[name])
-    if name in found.taken:
-        power = float(found.taken[name])
+    if name in result.taken:
+        power = float(result.taken[name])
         return ("takes" if power > 0.0 else "adds" if power < 0.0 else ""), abs(power)
-    return "reads", float(np.sum([link.power for link in found.links if _end(link) == name]))
+    return "reads", float(np.sum([link.power for link in result.links if _end(link) == name]))
 
 
 _STEPS = np.linspace(0.0, 1.0, 25)

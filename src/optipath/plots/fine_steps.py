@@ -78,12 +78,12 @@ def fine_steps(
         if not at.size:
             break
         middles = values[at] + (values[at + 1] - values[at]) / 2.0
-        found = numbers_at(middles)
-        off = _off_line(points[at], on_picture(found), points[at + 1])
+        result = numbers_at(middles)
+        off = _off_line(points[at], on_picture(result), points[at + 1])
         rough = np.zeros_like(halved)
         rough[at] = off > _SMOOTH * _NEAR
         values = np.insert(values, at + 1, middles)
-        numbers = np.insert(numbers, at + 1, found, axis=0)
+        numbers = np.insert(numbers, at + 1, result, axis=0)
         points = on_picture(numbers)
         halved = np.zeros(len(values) - 1, np.bool_)
         first = (at + np.arange(at.size))[off > _NEAR]

@@ -328,12 +328,12 @@ def beside_facets(
             "other numbers of events, too; measure with events=1"
         )
     panel = own_panel(axes, (3, 4), (12.4, 9.2))
-    found = measured.stokes(seen.source).values
+    result = measured.stokes(seen.source).values
     model = measured.single_scattering().values @ np.array(seen.source)
     with np.errstate(invalid="ignore", divide="ignore"):
         by_photons, by_model = (
             seen.pixels(each) / measured.sensor.solid_angle[..., np.newaxis]
-            for each in (found, model)
+            for each in (result, model)
         )
     brightest = largest_of(by_model[..., 0])
     apart = 100.0 * (by_photons - by_model) / brightest

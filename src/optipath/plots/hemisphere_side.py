@@ -60,9 +60,9 @@ class SeenSide:
 
         Shapes: numbers (sides, rows, columns, wavelengths, ...); returns (rows, columns, ...).
         """
-        found = numbers[self.measured.side(self.side), :, :, self.place].copy()
-        found[self.measured.sensor.solid_angle == 0.0] = np.nan
-        return found
+        result = numbers[self.measured.side(self.side), :, :, self.place].copy()
+        result[self.measured.sensor.solid_angle == 0.0] = np.nan
+        return result
 
     def radius(self, theta: float) -> float:
         """Return how far from the centre of the disc light falls, 1 at the horizon.
@@ -153,7 +153,7 @@ def seen_sides(
     """
     most = max(map(_choices, several.values()))
     faults = Faults(beside)
-    found = {
+    results = {
         name: faults.attempt(
             name,
             SeenSide.of,
@@ -166,7 +166,7 @@ def seen_sides(
     }
     if faults:
         raise SurfaceError(*joined(faults))
-    return {name: seen for name, seen in found.items() if seen}
+    return {name: seen for name, seen in results.items() if seen}
 
 
 def titled(what: str, several: Collection[SeenSide]) -> str:
@@ -249,33 +249,33 @@ class PixelQuantity(NamedTuple):
     ) -> KnownPixels:
         """Return what is known of the pixels of a side."""
         limit = self.known_to if known_to is None else known_to
-        found = self.of(seen, mask or {})
+        result = self.of(seen, mask or {})
         if np.isinf(limit):
-            return found
+            return result
         # An error that is not known is one of too little light.
-        values = np.where(found.errors <= limit, found.values, np.nan)
-        return found._replace(
-            values=values, unknown=f"{found.unknown}, or not known to {limit:g}{self.unit}"
+        values = np.where(result.errors <= limit, result.values, np.nan)
+        return result._replace(
+            values=values, unknown=f"{result.unknown}, or not known to {limit:g}{self.unit}"
         )
 
 
 def _component(number: int, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
-    found, area = seen.measured.stokes(seen.source), seen.measured.sensor.solid_angle
-    value, error = (seen.pixels(each[..., number]) for each in (found.values, found.se.values))
+    result, area = seen.measured.stokes(seen.source), seen.measured.sensor.solid_angle
+    value, error = (seen.pixels(each[..., number]) for each in (result.values, result.se.values))
     with np.errstate(invalid="ignore", divide="ignore"):
         return KnownPixels(value / area, error / area)
 
 
 def _state(name: str, unit: float, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
-    found = getattr(seen.measured, name)(seen.source)
-    return KnownPixels(unit * seen.pixels(found.values), unit * seen.pixels(found.se.values))
+    result = getattr(seen.measured, name)(seen.source)
+    return KnownPixels(unit * seen.pixels(result.values), unit * seen.pixels(result.se.values))
 
 
 def _effect(name: str, seen: SeenSide, mask: Mapping[str, Any]) -> KnownPixels:
-    found = getattr(seen.measured, name)(seen.side, **mask)
-    place = (..., seen.place) if "wavelength" in found.dims else ...
-    value, error = (100.0 * each.values[place] for each in (found, found.se))
-    return KnownPixels(value, error, f"masked; seen are pixels of {found.attrs['mask']}")
+    result = getattr(seen.measured, name)(seen.side, **mask)
+    place = (..., seen.place) if "wavelength" in result.dims else ...
+    value, error = (100.0 * each.values[place] for each in (result, result.se))
+    return KnownPixels(value, error, f"masked; seen are pixels of {result.attrs['mask']}")
 
 
 def _share(_largest: float) -> ColourScale:

@@ -139,15 +139,15 @@ def quantities_at(
     except ParameterError:
         if not chosen:
             raise
-        found = np.full((len(quantities), *shape), np.nan)
-        _fill(found, path, end, quantities, given, fixed)
-        if np.isnan(found).all():
+        result = np.full((len(quantities), *shape), np.nan)
+        _fill(result, path, end, quantities, given, fixed)
+        if np.isnan(result).all():
             raise
-    return end, [*found]
+    return end, [*result]
 
 
 def _fill(
-    found: Numbers,
+    results: Numbers,
     path: PathGraph,
     end: str,
     quantities: Sequence[DrawnQuantity],
@@ -159,16 +159,16 @@ def _fill(
         spread = dict(zip(given, np.ix_(*given.values()), strict=True))
         light = path.trace_all(**spread, **fixed)[end]
     except ParameterError:
-        count, axis = max((count, axis) for axis, count in enumerate(found.shape[1:]))
+        count, axis = max((count, axis) for axis, count in enumerate(results.shape[1:]))
         if count == 1:
             return
         name = [*given][axis]
-        parts = np.array_split(found, 2, axis + 1)
+        parts = np.array_split(results, 2, axis + 1)
         for part, values in zip(parts, np.array_split(given[name], 2), strict=True):
             _fill(part, path, end, quantities, {**given, name: values}, fixed)
     else:
         for place, quantity in enumerate(quantities):
-            found[place] = quantity.of(quantity.light.of(light))
+            results[place] = quantity.of(quantity.light.of(light))
 
 
 def reads_of(path: PathGraph, end: str) -> str:

@@ -96,11 +96,11 @@ def curve(
     along, given = axis_of(path, parameter, values, START)
     told, chosen = "", values is None
     asked = [*quantities, *drawn_quantities("S0")]
-    end, found = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
-    numbers = found[:-1]
+    end, result = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
+    numbers = result[:-1]
     if chosen:
         at = partial(_at, path, detector, x, parameters, quantities)
-        fine = fine_steps(given, np.stack(numbers, axis=1), at, _on_picture(quantities, found))
+        fine = fine_steps(given, np.stack(numbers, axis=1), at, _on_picture(quantities, result))
         told, numbers = fine.told(x), [*fine.numbers.T]
         along = along._replace(numbers=np.interp(fine.values, given, along.numbers))
     ax = own_axes(ax, _SIZE)
@@ -122,10 +122,10 @@ def _at(
     """Return quantities at values of x, NaN where the path takes none of these."""
     try:
         given = {x: values}
-        found = quantities_at(path, detector, quantities, given, parameters, chosen=True)[1]
+        result = quantities_at(path, detector, quantities, given, parameters, chosen=True)[1]
     except ParameterError:
         return np.full((len(values), len(quantities)), np.nan)
-    return np.stack(found, axis=1)
+    return np.stack(result, axis=1)
 
 
 def _on_picture(

@@ -251,8 +251,10 @@ def marked_angles(index: complex) -> list[MarkedAngle]:
     if index == 1.0:
         return []
     if index.imag <= CLEAR * n:
-        found = [MarkedAngle("Brewster's angle", float(np.arctan(n)))]
-        return [*found, MarkedAngle("critical angle", float(np.arcsin(n)))] if n < 1.0 else found
+        results = [MarkedAngle("Brewster's angle", float(np.arctan(n)))]
+        return (
+            [*results, MarkedAngle("critical angle", float(np.arcsin(n)))] if n < 1.0 else results
+        )
     least = _least(lambda incidence: reflected(index, incidence).p)
     most = _least(lambda incidence: -reflected(index, incidence).dolp)
     upright, there = reflected(index, np.array([0.0, least])).p

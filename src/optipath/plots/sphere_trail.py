@@ -129,16 +129,16 @@ def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: npt.NDArray[np
 
 def _states(points: npt.NDArray[np.float64]) -> list[_State]:
     """Return points that are apart, each with the numbers of its links."""
-    found: list[_State] = []
+    results: list[_State] = []
     for number, point in enumerate(points, 1):
         if not np.isfinite(point).all():
             continue
-        same = [state for state in found if np.linalg.norm(state.point - point) < _SAME]
+        same = [state for state in results if np.linalg.norm(state.point - point) < _SAME]
         if same:
             same[0].links.append(number)
         else:
-            found.append(_State(point, [number]))
-    return found
+            results.append(_State(point, [number]))
+    return results
 
 
 def _numbers(links: Sequence[int]) -> str:

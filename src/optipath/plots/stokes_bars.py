@@ -130,20 +130,20 @@ def _draw_bars(ax: Axes, numbers: _ByName, printed: _ByName) -> list[Any]:
     """Draw the bars of all lights and the marks beside them; return the key, if one is needed."""
     width = _GROUP / len(numbers)
     keys: list[Any] = []
-    for place, (name, found) in enumerate(numbers.items()):
+    for place, (name, result) in enumerate(numbers.items()):
         middle = np.arange(4) + width * (place + 0.5) - 0.5 * _GROUP
         style: dict[str, Any] = {
             "facecolor": LINES[place],
             "edgecolor": "white",
             "hatch": _HATCHES[place],
         }
-        ax.bar(middle, np.where(np.isfinite(found), found, 0.0), 0.94 * width, **style)
+        ax.bar(middle, np.where(np.isfinite(result), result, 0.0), 0.94 * width, **style)
         if name in printed:
             ax.plot(middle, printed[name], **_PUBLISHED)
         if name or printed:
             told = name or "computed"
-            told += ": infinite" if np.isinf(found).any() else ""
-            told += ": not read" if np.isnan(found).all() else ""
+            told += ": infinite" if np.isinf(result).any() else ""
+            told += ": not read" if np.isnan(result).all() else ""
             keys.append(Patch(label=fitting(ax, told, less=5), **style))
     return [*keys, Line2D([], [], label="published", **_PUBLISHED)] if printed else keys
 
@@ -152,8 +152,8 @@ def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
     """Write below the bars what they are, of one light alone, and the differences."""
     texts = [f"S{place}" for place in range(4)]
     if len(numbers) == 1:
-        (found,) = numbers.values()
-        texts = [_lines(text, _number(each)) for text, each in zip(texts, found, strict=True)]
+        (result,) = numbers.values()
+        texts = [_lines(text, _number(each)) for text, each in zip(texts, result, strict=True)]
         for given in printed.values():
             told = [f"({_number(each)})" if np.isfinite(each) else "(none)" for each in given]
             texts = [_lines(text, each) for text, each in zip(texts, told, strict=True)]
@@ -179,10 +179,10 @@ def _fit_numbers(ax: Axes) -> None:
         ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
 
 
-def _apart(found: Any, given: Any) -> Any:
+def _apart(result: Any, given: Any) -> Any:
     """Return differences, 0 where they are rounding of the largest number."""
-    apart = found - given
-    largest = np.max(np.abs(found), initial=0.0, where=np.isfinite(found))
+    apart = result - given
+    largest = np.max(np.abs(result), initial=0.0, where=np.isfinite(result))
     return np.where(np.abs(apart) <= _ROUNDING * largest, 0.0, apart)
 
 

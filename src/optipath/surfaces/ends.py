@@ -114,8 +114,8 @@ def _block(beam: PhotonBeam, number: int, photons: int) -> Numbers:
     return beam.block(number, min(BLOCK, photons - BLOCK * number), keeps=True).ends
 
 
-def _ends_of(beam: PhotonBeam, found: Numbers) -> PhotonEnds:
-    turned, shape = turned_ends(beam, found), (len(found), *beam.indices.n.shape)
+def _ends_of(beam: PhotonBeam, results: Numbers) -> PhotonEnds:
+    turned, shape = turned_ends(beam, results), (len(results), *beam.indices.n.shape)
     return PhotonEnds(
         ends=np.array(OUTCOME_NAMES)[turned.outcomes],
         events=turned.events,
@@ -157,13 +157,13 @@ class TurnedEnds(NamedTuple):
     scalar: Numbers
 
 
-def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
+def turned_directions(beam: PhotonBeam, results: Numbers) -> TurnedDirections:
     """Return where photons go, and the frames that belong to their directions.
 
     Shape: found (photons, ENDS + CARRIED lights).
     """
-    back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
-    k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
+    back = -results[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(results))
+    k, old_x = (_turned(results[:, place : place + 3], back) for place in (END_K, END_X))
     _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
     x, turns = (np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
     along = (k[:, 0] == 0.0) & (k[:, 1] == 0.0)
@@ -175,16 +175,16 @@ def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
     return TurnedDirections(k, x, turns)
 
 
-def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
+def turned_ends(beam: PhotonBeam, results: Numbers) -> TurnedEnds:
     """Return the ends of photons in frames that belong to their directions."""
-    directions = turned_directions(beam, found)
-    lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
+    directions = turned_directions(beam, results)
+    lights = results[:, END_LIGHTS:].reshape(len(results), -1, CARRIED)
     carried = tuple(lights[..., place] for place in range(4))
     rotation = [each[:, np.newaxis] for each in directions.turns.T]
     stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
     return TurnedEnds(
-        outcomes=found[:, OUTCOME].astype(int),
-        events=found[:, EVENTS].astype(int),
+        outcomes=results[:, OUTCOME].astype(int),
+        events=results[:, EVENTS].astype(int),
         directions=directions.k,
         x=directions.x,
         stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1),

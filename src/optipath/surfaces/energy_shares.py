@@ -149,10 +149,10 @@ def walk_until(
     wanted = min(2 * BLOCK * run.beam.surfaces, most)
     while True:
         run.walk(wanted, progress)
-        found = checked_energy(run)
-        error = float(np.max(found.R_se))
+        result = checked_energy(run)
+        error = float(np.max(result.R_se))
         if error <= tolerance:
-            return found
+            return result
         if run.photons >= most:
             warnings.warn(
                 f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
@@ -160,7 +160,7 @@ def walk_until(
                 PhotonWarning,
                 calls_up(),
             )
-            return found
+            return result
         factor = min(_AIM * (error / tolerance) ** 2, _MOST_GROWN)
         wanted = min(BLOCK * ceil(factor * run.photons / BLOCK), most)
 
@@ -217,14 +217,16 @@ def energy_shares(photons: Numbers, total: Numbers, squares: Numbers, whole: flo
 
     Shapes: photons (surfaces,); total, squares (surfaces, ends, events, ...).
     """
-    found: dict[str, Numbers] = {}
+    results: dict[str, Numbers] = {}
     for name, (ends, events) in _PARTS.items():
         part = [each[:, ends, events].sum(axis=(1, 2)) for each in (total, squares)]
-        found[name], found[f"{name}_se"] = mean_and_error(photons, *part)
-    found["absorbed"] = whole - found["absorbed"]
+        results[name], results[f"{name}_se"] = mean_and_error(photons, *part)
+    results["absorbed"] = whole - results["absorbed"]
     for name, end in (("reflected", UP), ("transmitted", DOWN)):
-        found[name], found[f"{name}_se"] = mean_and_error(photons, total[:, end], squares[:, end])
-    return EnergyShares(**found)
+        results[name], results[f"{name}_se"] = mean_and_error(
+            photons, total[:, end], squares[:, end]
+        )
+    return EnergyShares(**results)
 
 
 def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[Numbers, Numbers]:
@@ -392,10 +394,10 @@ def checked_energy(run: EnergyRun) -> Energy:
     polarised. The few photons that then carry most of it are seldom met: until they are, light is
     missing, and no standard error knows of it.
     """
-    found = run.energy
+    result = run.energy
     if run.beam.indices.opaque:
-        return found
-    missing, error = float(found.absorbed), float(found.absorbed_se)
+        return result
+    missing, error = float(result.absorbed), float(result.absorbed_se)
     if abs(missing) > _ERRORS * error + _ROUNDINGS:
         warnings.warn(
             f"R + T + lost is {1.0 - missing:.4f} where nothing absorbs, off by "
@@ -405,4 +407,4 @@ def checked_energy(run: EnergyRun) -> Energy:
             PhotonWarning,
             calls_up(),
         )
-    return found
+    return result

@@ -92,15 +92,15 @@ def _experiment(document: dict[str, Any], folder: Path, name: str) -> Experiment
     if "measurements" in given and not tables:
         faults.append("the experiment measures nothing; add a table [[measurements]]")
     faults += _faults_of_sensor(tables) if "sensor" in given else []
-    found: list[Measurement] = []
+    results: list[Measurement] = []
     for at, table in enumerate(tables):
         made = faults.attempt(f"measurements[{at}]", measurements_of, table, sample, wavelengths)
-        found += made or []
+        results += made or []
     if faults or sample is None:
         raise SurfaceError(*dict.fromkeys(faults))
     more = {key: given[key] for key in ("photons", "sensor") if key in given}
     about = given["description"], given["source"], sample
-    return Experiment(name, *about, tuple(found), **more)
+    return Experiment(name, *about, tuple(results), **more)
 
 
 def _sample(given: str, folder: Path) -> Sample:

@@ -122,12 +122,12 @@ def decide(
 
 
 def _exit_evidence(sample: Sample, incidence: float, wavelengths: Any) -> str:
-    found = [
+    results = [
         np.ravel(smooth_exit(sample, incidence, _EXIT, depth, wavelengths))
         for depth in range(1, len(sample.layers))
     ]
-    depth = int(np.argmax([np.abs(each).max() for each in found]))
-    largest = found[depth][np.argmax(np.abs(found[depth]))]
+    depth = int(np.argmax([np.abs(each).max() for each in results]))
+    largest = results[depth][np.argmax(np.abs(results[depth]))]
     return (
         f"nearly smooth, exact: light off interface {depth + 2} that comes out forwards at 80 deg "
         f"changes by {100.0 * largest:z.1f} %"
@@ -244,8 +244,8 @@ class PairedRun:
     @cached_property
     def counts(self) -> npt.NDArray[np.bool_]:
         """The pixels that count, (rows, columns): at least one."""
-        found = self.hemisphere
-        light = found.scalar_light(found.side(self.side))
+        result = self.hemisphere
+        light = result.scalar_light(result.side(self.side))
         counts = self.mask.bright(light)
         if not counts.any():
             raise SurfaceError(self._none_counts(light))
@@ -254,11 +254,11 @@ class PairedRun:
     @cached_property
     def difference(self) -> LargestOf:
         """The largest abs(S0 - U) / U of a pixel at a wavelength."""
-        found = self.hemisphere.relative_difference(
+        result = self.hemisphere.relative_difference(
             self.side, brighter_than=self.mask.brighter_than
         )
         counts = self.counts
-        return LargestOf.of(found.values[counts], found.se.values[counts])
+        return LargestOf.of(result.values[counts], result.se.values[counts])
 
     @cached_property
     def multiple(self) -> LargestOf:
@@ -274,10 +274,10 @@ class PairedRun:
     @cached_property
     def beside_model(self) -> LargestOf:
         """How far the analytic model is off all light of a pixel, over that light, at most."""
-        found = self.hemisphere
-        model = found.single_scattering().values[..., 0, 0]
-        value, error = found.own.estimate(
-            lambda light: model / found.matrices(light)[:1, ..., 0, 0] - 1.0
+        result = self.hemisphere
+        model = result.single_scattering().values[..., 0, 0]
+        value, error = result.own.estimate(
+            lambda light: model / result.matrices(light)[:1, ..., 0, 0] - 1.0
         )
         return LargestOf.of(value[0][self.counts], error[0][self.counts])
 
@@ -352,21 +352,21 @@ def _single_scattering(
     return _serves(apart, tolerance), multiple, apart, told
 
 
-def _known(found: LargestOf | None) -> tuple[float, float] | None:
-    return None if found is None else (found.value, found.error)
+def _known(result: LargestOf | None) -> tuple[float, float] | None:
+    return None if result is None else (result.value, result.error)
 
 
-def _serves(found: LargestOf, tolerance: float) -> bool | None:
+def _serves(result: LargestOf, tolerance: float) -> bool | None:
     """Return whether something is within the tolerance; None if the noise does not tell."""
-    if found.is_below(tolerance):
+    if result.is_below(tolerance):
         return True
-    return False if found.is_above(tolerance) else None
+    return False if result.is_above(tolerance) else None
 
 
-def _verdict(found: LargestOf, tolerance: float) -> str:
-    if found.is_below(tolerance):
+def _verdict(result: LargestOf, tolerance: float) -> str:
+    if result.is_below(tolerance):
         return ", noise taken in: less than the tolerance"
-    if found.is_above(tolerance):
+    if result.is_above(tolerance):
         return ", noise taken in: more than the tolerance"
     return ", noise taken in: walk more photons to know if that is too much"
 

@@ -240,11 +240,11 @@ def _on_mesh(
     field = beam.sample.fields(surface)[layer]
     top = kept_meshes(beam.sample).of(surface).meshes.numbers[NUMBERS * layer + HIGH]
     shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
-    found: Vector = position + np.array(shift)
+    result: Vector = position + np.array(shift)
     if field.periodic:
         middle = (np.array(cell) + 0.5) * field.spacing
-        found[:2] -= np.round((found[:2] - middle) / field.size) * field.size
-    return found
+        result[:2] -= np.round((result[:2] - middle) / field.size) * field.size
+    return result
 
 
 Place: TypeAlias = int | tuple[int, ...]

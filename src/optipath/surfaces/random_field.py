@@ -159,7 +159,7 @@ class RandomWaves(NamedTuple):
         numbers, first = np.unique(self.x_number, return_index=True)
         along = np.multiply.outer(numbers, x)
         cosines, sines = np.cos(along), np.sin(along)
-        found = np.empty((y.size, x.size))
+        result = np.empty((y.size, x.size))
         rows = max(1, _AT_ONCE // self.phase.size)
         for begin in range(0, y.size, rows):
             part = slice(begin, begin + rows)
@@ -167,8 +167,8 @@ class RandomWaves(NamedTuple):
             C = np.add.reduceat(self.amplitude * np.cos(angle), first, axis=1)
             S = np.add.reduceat(self.amplitude * np.sin(angle), first, axis=1)
             # A matrix product of BLAS has other bits with other numbers of threads.
-            found[part] = np.einsum("im,mj->ij", C, cosines) - np.einsum("im,mj->ij", S, sines)
-        return found
+            result[part] = np.einsum("im,mj->ij", C, cosines) - np.einsum("im,mj->ij", S, sines)
+        return result
 
 
 def _whole_waves(vectors: Array, powers: Array, steps: Array) -> tuple[Array, Array]:
@@ -190,5 +190,5 @@ def _weighted(vectors: Array, powers: Array) -> Array:
     products = np.einsum("in,jn,n->ij", moments, moments, powers)
     weights = 1.0 + np.einsum("in,i->n", moments, np.linalg.lstsq(products, wrong)[0])
     # Of a few waves, which cannot have the variances, none has a power below 0.
-    found: Array = np.maximum(weights, 0.0) * powers
-    return found
+    results: Array = np.maximum(weights, 0.0) * powers
+    return results

@@ -62,8 +62,8 @@ def reproduce(
     for walks, measurements in experiment.by_walks():
         walked = Walked(experiment, walks, count, seed, threads, progress)
         for measurement in measurements:
-            found = MEASURES[measurement.measure].of(walked, measurement)
-            yield Reproduced(measurement, found, count)
+            result = MEASURES[measurement.measure].of(walked, measurement)
+            yield Reproduced(measurement, result, count)
 
 
 ANY_AZIMUTH = 180.0
@@ -104,20 +104,20 @@ def _largest(name: str) -> Callable[[Walked, Measurement], Found]:
     def of(walked: Walked, measurement: Measurement) -> Found:
         made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
         with of_files():  # Cures are what the file, or the command, can follow.
-            found: xr.DataArray = made(
+            result: xr.DataArray = made(
                 brighter_than=measurement.brighter_than, noise=measurement.noise
             )
         # The other side of the plane of incidence is its image.
         theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
-        value = np.where(azimuth <= measurement.azimuth, found.values, np.nan)
-        mask = f"{sensor.pixels} x {sensor.pixels} pixels: {found.attrs['mask']}"
+        value = np.where(azimuth <= measurement.azimuth, result.values, np.nan)
+        mask = f"{sensor.pixels} x {sensor.pixels} pixels: {result.attrs['mask']}"
         if measurement.azimuth < ANY_AZIMUTH:
             mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
         if np.isnan(value).all():
             return Found(np.nan, np.nan, mask)
         at = np.unravel_index(np.nanargmax(value), value.shape)
         pixel = f"{theta[at]:.0f} deg, {azimuth[at]:.0f} deg"
-        return Found(float(value[at]), float(found["se"].values[at]), mask, pixel)
+        return Found(float(value[at]), float(result["se"].values[at]), mask, pixel)
 
     return of
 
@@ -129,8 +129,8 @@ def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
         hemisphere = walked.hemisphere
         beam, sensor = hemisphere.seen.beam, hemisphere.sensor
         at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
-        found: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
-        value, error = (float(each[0, *at, 0]) for each in (found.values, found["se"].values))
+        result: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
+        value, error = (float(each[0, *at, 0]) for each in (result.values, result["se"].values))
         mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
         if name == "aop":
             # The paper folds it: half the arc tangent of |S2 / S1|.
@@ -272,8 +272,8 @@ BLOCKS = 16
 
 def model_of(hemisphere: Hemisphere) -> Numbers:
     """Return the model's Stokes vectors of unpolarised light, of shape (rows, columns, 4)."""
-    found: Numbers = hemisphere.single_scattering().values[0, :, :, 0, :, 0]
-    return found
+    results: Numbers = hemisphere.single_scattering().values[0, :, :, 0, :, 0]
+    return results
 
 
 def model_excess(hemisphere: Hemisphere, component: int) -> tuple[float, float]:

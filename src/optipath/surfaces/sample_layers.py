@@ -130,10 +130,10 @@ def _alpha_of(owner: str, given: Any) -> float:
     if isinstance(given, Parameter) or is_traced(given):
         what = given.called if isinstance(given, Parameter) else "traced by JAX"
         raise SurfaceError(f"{owner} is {what}; give a number, and make a sample for each")
-    found = ALPHA.check(owner, given)
-    if found.ndim:
+    result = ALPHA.check(owner, given)
+    if result.ndim:
         raise SurfaceError(f"{owner} has {shown(given)} for one number; give a pair along x and y")
-    return float(found)
+    return float(result)
 
 
 def layers_of(given: Any, faults: Faults) -> tuple[SampleLayer, ...]:
@@ -145,11 +145,11 @@ def layers_of(given: Any, faults: Faults) -> tuple[SampleLayer, ...]:
         )
         return ()
     domains = [CLEAR_MEDIUM] * (len(given) - 1) + [BASE]
-    found = [
+    results = [
         faults.attempt("", layer_of, f"layers[{place}]", layer, domain)
         for place, (layer, domain) in enumerate(zip(given, domains, strict=True))
     ]
-    return tuple([layer for layer in found if layer is not None])
+    return tuple([layer for layer in results if layer is not None])
 
 
 def unused_faults(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool) -> list[str]:
@@ -159,17 +159,17 @@ def unused_faults(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool) 
     >>> unused_faults([SampleLayer(1.5, (0.0, 0.0))], (640, 640), periodic=True)
     ['cells is given, but no interface is random; leave it out']
     """
-    found = []
+    results = []
     if cells is not None and not any(layer.is_random for layer in layers):
-        found.append("cells is given, but no interface is random; leave it out")
+        results.append("cells is given, but no interface is random; leave it out")
     for place, layer in enumerate(layers):
         heights = layer.roughness if isinstance(layer.roughness, HeightField) else None
         if not periodic and heights is not None and heights.periodic and not heights.is_flat:
-            found.append(
+            results.append(
                 f"periodic is False, but the heights of layers[{place}] are periodic; give those a "
                 f"border, or leave periodic out, which is of random fields"
             )
-    return found
+    return results
 
 
 _NAME = "index of refraction"
@@ -290,15 +290,15 @@ def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
     given = _given(media.values(), wavelength)
     domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]
     faults = Faults()
-    found: dict[str, Parts] = {}
+    results: dict[str, Parts] = {}
     for (place, medium), domain in zip(media.items(), domains, strict=True):
         parts = faults.attempt("", _parts_at, place, medium, domain, given)
-        found |= {} if parts is None else {place: parts}
+        results |= {} if parts is None else {place: parts}
     if not faults:
-        faults += _faults_of_several(found)
+        faults += _faults_of_several(results)
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
-    *above, (n, k) = found.values()
+    *above, (n, k) = results.values()
     outside, *inner = [float(np.ravel(clear)[0]) for clear, _ in above]
     shape = np.shape(given[WHEN].value) if given else ()
     return SampleIndices(outside, tuple(inner), _laid_out(n, shape), _laid_out(k, shape))
@@ -349,16 +349,16 @@ def _part_at(place: str, use: Use, given: Mapping[str, Resolved]) -> Any:
     return use.value.placed(numbers)
 
 
-def _faults_of_several(found: Mapping[str, Parts]) -> Iterator[str]:
+def _faults_of_several(results: Mapping[str, Parts]) -> Iterator[str]:
     """Yield what keeps light of several wavelengths from one way through a sample."""
-    *above, base = found
+    *above, base = results
     for place in above:
-        if np.ptp(found[place][0]):
+        if np.ptp(results[place][0]):
             yield (
                 f"{place} differs from wavelength to wavelength, and so do the ways of light below "
                 f"it; give one wavelength at a time"
             )
-    n, k = found[base]
+    n, k = results[base]
     if n.size > 1 and not np.all(k):
         yield (
             f"{base} lets light through, whose ways differ from wavelength to wavelength; give one "

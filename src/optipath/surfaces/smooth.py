@@ -57,8 +57,8 @@ def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> floa
     >>> print(round(100.0 * smooth_difference(indices, "60 deg", "reflected"), 3))
     -2.9
     """
-    found = np.ravel(polarization(smooth_path(indices, side), incidence=incidence).difference)
-    return float(found[np.argmax(np.abs(found))])
+    result = np.ravel(polarization(smooth_path(indices, side), incidence=incidence).difference)
+    return float(result[np.argmax(np.abs(result))])
 
 
 Numbers = npt.NDArray[np.float64]
@@ -145,15 +145,15 @@ def flat_light(seen: SensedBeam) -> PartSums:
     Of light that goes to and fro between the interfaces, the sum over all rounds, as a
     `LayerStack` has it; without polarisation, the same with each interface by its mean.
     """
-    found = PartSums.none(seen.shape)
+    result = PartSums.none(seen.shape)
     for place, side in enumerate(seen.sides):
         matrices, scalar = _by_stack(seen, side)
         numbers = np.column_stack([matrices.reshape(len(scalar), 16), scalar])
         kept = {"both": slice(17), "polarized": slice(16), "scalar": slice(16, 17)}
         pixel = seen.sensor.place(_direction(seen, side))
-        image = found.sums[0, place].reshape(-1, *seen.shape[-2:])
+        image = result.sums[0, place].reshape(-1, *seen.shape[-2:])
         image[pixel] = numbers[:, kept[seen.polarized]]
-    return found
+    return result
 
 
 def _direction(seen: SensedBeam, side: str) -> Numbers:

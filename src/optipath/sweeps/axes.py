@@ -97,7 +97,7 @@ def _read(
     inputs: Inputs, several: Mapping[str, GivenCoordinate], faults: list[str]
 ) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
-    found = {}
+    results = {}
     told = {n: g.value for n, g in several.items() if not isinstance(g.value, IdleValues)}
     faults += unknown_names(inputs, told)
     for name, (value, _) in several.items():
@@ -105,11 +105,11 @@ def _read(
             continue
         with collecting(faults):
             if isinstance(value, TextColumn):
-                found[name] = read_column(inputs, value)
+                results[name] = read_column(inputs, value)
             else:
                 is_read = isinstance(value, AxisValues)
-                found[name] = value if is_read else read_values(inputs, name, value)
-    return found
+                results[name] = value if is_read else read_values(inputs, name, value)
+    return results
 
 
 def _named_as_others(
@@ -172,8 +172,8 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
     return _of_one_dimension(name, AxisValues(array, base, array))
 
 
-def _of_one_dimension(name: str, found: AxisValues) -> AxisValues:
-    shape = found.shown.shape
+def _of_one_dimension(name: str, result: AxisValues) -> AxisValues:
+    shape = result.shown.shape
     if len(shape) > 1:
         raise ParameterError(
             f"parameter '{name}' has the shape {shape}, and an axis has one dimension; give its "
@@ -181,7 +181,7 @@ def _of_one_dimension(name: str, found: AxisValues) -> AxisValues:
         )
     if 0 in shape:
         raise ParameterError(f"parameter '{name}' has no values; give one at least")
-    return found
+    return result
 
 
 _AS = "zip=('a', 'b'), zip=[('a', 'b'), ('c', 'd')] or zip={'point': ('a', 'b')}"
@@ -199,7 +199,7 @@ def zipped_dimensions(
     {'delta': 'delta_rho', 'rho': 'delta_rho'}
     """
     groups = _groups(zipped, faults)
-    found: dict[str, str] = {}
+    results: dict[str, str] = {}
     for dimension, names in groups:
         told = [
             f"zip names '{name}', which has no axis of its own{did_you_mean(name, lengths)}"
@@ -209,22 +209,22 @@ def zipped_dimensions(
         told += [
             f"zip names '{name}' twice; write it in one group, once"
             for name in dict.fromkeys(names)
-            if name in found or names.count(name) > 1
+            if name in results or names.count(name) > 1
         ]
         if dimension in parameters:
             told.append(
                 f"zip calls a dimension '{dimension}', which is the name of a parameter; give it "
                 f"another, such as zip={{'point': {(*names,)}}}"
             )
-        if dimension in found.values():
+        if dimension in results.values():
             told.append(f"zip has two dimensions '{dimension}'; name them by zip={{...}}")
         if not told and len({lengths[name] for name in names}) > 1:
             counted = listed([f"{lengths[name]} of '{name}'" for name in names])
             told.append(f"zip pairs values one by one, but there are {counted}; give as many each")
         faults += told
         if not told:
-            found |= dict.fromkeys(names, dimension)
-    return found
+            results |= dict.fromkeys(names, dimension)
+    return results
 
 
 def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -> list[str]:
@@ -257,7 +257,7 @@ def _groups(zipped: Any, faults: list[str]) -> list[tuple[str, list[str]]]:
     else:
         faults.append(f"zip is {shown(zipped)}; write {_AS}")
         return []
-    found = []
+    results = []
     for dimension, group in several:
         are_names = isinstance(group, (list, tuple)) and all(isinstance(n, str) for n in group)
         if not are_names or len(group) < 2:
@@ -265,5 +265,5 @@ def _groups(zipped: Any, faults: list[str]) -> list[tuple[str, list[str]]]:
         elif dimension is not None and not (isinstance(dimension, str) and dimension):
             faults.append(f"zip calls a dimension {shown(dimension)}; give it a text for a name")
         else:
-            found.append((dimension or "_".join(group), [*group]))
-    return found
+            results.append((dimension or "_".join(group), [*group]))
+    return results

@@ -68,10 +68,10 @@ def keep_blocks(
         try:
             with (
                 workers_of(scheduler, len(missing)) as workers,
-                closing(_handed_out(job, kept, missing, workers)) as found,
+                closing(_handed_out(job, kept, missing, workers)) as result,
             ):
                 are_at_work = workers.stay
-                for finished, _ in enumerate(found, len(done) + 1):
+                for finished, _ in enumerate(result, len(done) + 1):
                     _tell(progress, finished, job)
         except KeyboardInterrupt:
             # Blocks that were in work have come to their end meanwhile.

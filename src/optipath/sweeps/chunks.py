@@ -58,8 +58,8 @@ def swept_in_chunks(
         name: (dims, light.of(each), attributes_of(each)) for name, each in quantities.items()
     }
     attrs = dataset_attributes(path, plan, composer)
-    found = xr.Dataset(variables, coordinates_of(grid, plan), attrs)
-    return ChunkedSweep(recipe, grid, quantities, found)
+    result = xr.Dataset(variables, coordinates_of(grid, plan), attrs)
+    return ChunkedSweep(recipe, grid, quantities, result)
 
 
 class ChunkedLight:
@@ -90,7 +90,7 @@ class ChunkedLight:
     def of(self, quantity: LightQuantity) -> da.Array:
         """Return a quantity of it, lazily; of several detectors, along the first axis."""
         front = {len(self.places): self.detectors} if self.detectors > 1 else {}
-        found: da.Array = da.blockwise(  # type: ignore[no-untyped-call]
+        result: da.Array = da.blockwise(  # type: ignore[no-untyped-call]
             BlockLight.of,
             (*front, *self.places),
             self._light,
@@ -101,7 +101,7 @@ class ChunkedLight:
             new_axes=front,
             meta=np.empty((0,) * (len(self.places) + len(front)), self.dtype),
         )
-        return found
+        return result
 
 
 def _run(recipe: PlanRecipe, *values: npt.NDArray[Any], bare: SweepGrid) -> BlockLight:
@@ -143,8 +143,8 @@ class BlockLight:
             for several in self.lights
         ]
         front = (len(numbers),) if len(numbers) > 1 else ()
-        found = np.concatenate(numbers).reshape(*front, *(self.ran or self.shape))
-        return found if self.ran is None else np.broadcast_to(found, (*front, *self.shape))
+        result = np.concatenate(numbers).reshape(*front, *(self.ran or self.shape))
+        return result if self.ran is None else np.broadcast_to(result, (*front, *self.shape))
 
     def __sizeof__(self) -> int:
         # What Dask takes for its memory: Stokes vectors and, once it is asked for, their noise.
@@ -155,11 +155,11 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     """Return the light of a block."""
     plan, varied = recipe.plan, block.varied
     with units_are_written():  # Who reads the axes has told of degrees among them.
-        found = [
+        results = [
             plan.run_all(**varied.given(_region(piece.where, varied.shape)))
             for piece in pieces(varied.shape, _AT_ONCE)
         ]
-    lights = [tuple([light[name] for light in found]) for name in detectors_of(plan)]
+    lights = [tuple([light[name] for light in results]) for name in detectors_of(plan)]
     return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)
 
 
@@ -187,15 +187,15 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
             "for a parameter, or leave them out"
         )
     told = _told(chunks, sizes)
-    found = {name: min(sizes[name], size) for name, size in told.items()}
+    results = {name: min(sizes[name], size) for name, size in told.items()}
     room = BLOCK // detectors
-    for size in found.values():
+    for size in results.values():
         room //= size
     for name in reversed([*sizes]):
-        if name not in found:
-            found[name] = _even(sizes[name], max(1, min(room, sizes[name])))
-            room //= found[name]
-    return {name: found[name] for name in sizes}
+        if name not in results:
+            results[name] = _even(sizes[name], max(1, min(room, sizes[name])))
+            room //= results[name]
+    return {name: results[name] for name in sizes}
 
 
 def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:

@@ -102,7 +102,7 @@ def _of_file(
 
 
 def _of_dataset(inputs: Inputs, given: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
-    found = {}
+    results = {}
     coords, order = getattr(given, "coords", given), _order_of_dimensions(given)
     # Those of a store that was opened are in the order of the alphabet.
     first = sorted(coords.items(), key=lambda each: min(map(order.index, each[1].dims), default=0))
@@ -117,8 +117,8 @@ def _of_dataset(inputs: Inputs, given: Any, faults: list[str]) -> dict[str, Give
                 f"one dimension; leave it out, .drop_vars('{name}'), or make it of one, .stack(...)"
             )
         else:
-            found[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
-    return found
+            results[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
+    return results
 
 
 def _order_of_dimensions(given: Any) -> list[Any]:
@@ -148,8 +148,8 @@ def is_labelled(value: Any, axes: int | None = None) -> bool:
     False
     """
     xarray = sys.modules.get("xarray")
-    found = xarray is not None and isinstance(value, xarray.DataArray)
-    return found and (axes is None or value.ndim == axes)
+    result = xarray is not None and isinstance(value, xarray.DataArray)
+    return result and (axes is None or value.ndim == axes)
 
 
 def has_coordinates(value: Any) -> bool:
@@ -220,11 +220,11 @@ def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -
     if is_real and known is not None and not known.power:
         return doubles * known.size
     # The decimal point is moved in the number as it is written, which rounds once.
-    found = [
+    results = [
         parameter.parse(f"{number} {unit}") if np.isfinite(number) else number
         for number in doubles.ravel().tolist()
     ]
-    return np.array(found).reshape(numbers.shape)
+    return np.array(results).reshape(numbers.shape)
 
 
 _ENDLESS = re.compile(r"[-+]?(nan|inf|infinity)\b.*", re.IGNORECASE)
@@ -247,9 +247,9 @@ def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
 
 
 def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:
-    found = read_entries(texts, inputs.open[name], "", inputs.uses)
-    inputs.numbers_for(name, found.given)  # Which looks at its range.
-    return found
+    result = read_entries(texts, inputs.open[name], "", inputs.uses)
+    inputs.numbers_for(name, result.given)  # Which looks at its range.
+    return result
 
 
 def _faults(inputs: Inputs, name: str, text: str) -> list[str]:
@@ -258,6 +258,6 @@ def _faults(inputs: Inputs, name: str, text: str) -> list[str]:
         return [f"parameter '{name}' is '{text}', which is not finite; write a number"]
     faults: list[str] = []
     with collecting(faults):
-        found = read_entries([text], inputs.open[name], "", inputs.uses)
-        inputs.numbers_for(name, found.given[0])
+        result = read_entries([text], inputs.open[name], "", inputs.uses)
+        inputs.numbers_for(name, result.given[0])
     return faults

@@ -36,20 +36,20 @@ def dimensions_of(grid: SweepGrid, plan: Plan) -> tuple[str, ...]:
 def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dict[str, str]]]:
     """Return a coordinate for every axis and every value that is fixed."""
     several = detectors_of(plan)
-    found: dict[str, tuple[Any, Any, dict[str, str]]] = {}
+    results: dict[str, tuple[Any, Any, dict[str, str]]] = {}
     if len(several) > 1:
         attrs = {"long_name": "where the light is read"}
-        found[DETECTOR] = DETECTOR, np.array(several, object), attrs
+        results[DETECTOR] = DETECTOR, np.array(several, object), attrs
     for axis in grid.axes:
         attrs = _attrs(axis.help, axis.unit, axis.shown)
-        found[axis.name] = axis.dimension, _labels(axis), attrs
+        results[axis.name] = axis.dimension, _labels(axis), attrs
     for name, parameter in plan.inputs.open.items():
-        if name not in found:
+        if name not in results:
             base = BASE_UNITS.get(plan.inputs.dimensions.get(name, ""), "")
             given, unit = grid.labels.get(name, (grid.fixed.get(name, parameter.default), base))
             value = _single(parameter, given)
-            found[name] = (), value, _attrs(parameter.help, unit, value)
-    return found
+            results[name] = (), value, _attrs(parameter.help, unit, value)
+    return results
 
 
 def attributes_of(quantity: LightQuantity) -> dict[str, str]:

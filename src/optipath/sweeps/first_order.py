@@ -62,11 +62,11 @@ def changes_of(
             np.where(change == 0.0, 0.0, gradients[..., place, np.newaxis] * change)
             for place, change in enumerate(np.moveaxis(stokes, -2, 0)[..., np.newaxis, :])
         ]
-        found, size = sum(terms), sum(map(np.abs, terms))
-        found = np.where(np.abs(found) <= rounding * size, 0.0, found)
-    found[..., :STOKES, :] = stokes
+        result, size = sum(terms), sum(map(np.abs, terms))
+        result = np.where(np.abs(result) <= rounding * size, 0.0, result)
+    result[..., :STOKES, :] = stokes
     is_there = ~np.isnan(figures_of(light))[..., np.newaxis]
-    return np.where(is_there, found, np.nan)
+    return np.where(is_there, result, np.nan)
 
 
 def spread_of(changes: Any, correlation: npt.NDArray[np.float64]) -> Spread:
@@ -119,7 +119,7 @@ def nonlinearity_of(
     Shapes: changes (..., 10, k); uncertainties (..., 10); correlation (k, k); returns (..., 10, k).
     """
     center, uncertain = figures_of(light), light_at.uncertain
-    found, rounding = np.zeros_like(changes), rounding_of(light)
+    result, rounding = np.zeros_like(changes), rounding_of(light)
 
     def moved(values: dict[str, Any]) -> Any:
         there = difference(figures_of(light_at.beside(values, [*values])), center)
@@ -129,7 +129,7 @@ def nonlinearity_of(
     def count(left: Any, share: Any, step: float = 1.0) -> None:
         """Count what is left for the values that have a share in the change."""
         left = np.where(left <= rounding, 0.0, left / step**2)[..., np.newaxis]
-        found[...] = np.where(share, np.fmax(found, left), found)
+        result[...] = np.where(share, np.fmax(result, left), result)
 
     inner = [_towards(each, 1.0, -1.0) for each in uncertain]
     alone = [moved({each.name: end}) for each, end in zip(uncertain, inner, strict=True)]
@@ -162,15 +162,15 @@ def nonlinearity_of(
         share = np.isin(np.arange(len(uncertain)), (one, other))
         count(np.abs(both - alone[one] - alone[other]), share)
     with np.errstate(all="ignore"):
-        share = found / uncertainties[..., np.newaxis]
-    return np.where(found == 0.0, 0.0, share)
+        share = result / uncertainties[..., np.newaxis]
+    return np.where(result == 0.0, 0.0, share)
 
 
 def _directions(changes: Any, correlation: Any) -> list[Any]:
     """Return which way values are changed together, in standard uncertainties, shape (..., k)."""
     values = changes.shape[-1]
     batch = (*changes.shape[:-2], values)
-    found = [np.broadcast_to(row, batch) for row in np.eye(values)]
+    results = [np.broadcast_to(row, batch) for row in np.eye(values)]
     if values > 1:
         stokes = np.nan_to_num(np.moveaxis(changes[..., :STOKES, :], -2, 0))
         together = stokes @ correlation
@@ -178,17 +178,17 @@ def _directions(changes: Any, correlation: Any) -> list[Any]:
             size = np.max(np.abs(stokes), axis=-1, keepdims=True)
             stokes, together = stokes / size, together / size
             scale = np.sqrt(np.sum(stokes * together, axis=-1, keepdims=True))
-            found += [*np.nan_to_num(together / scale, posinf=0.0, neginf=0.0)]
-    return found
+            results += [*np.nan_to_num(together / scale, posinf=0.0, neginf=0.0)]
+    return results
 
 
 def _towards(each: UncertainValue, *signs: float) -> Any:
     """Return a value plus or minus its uncertainty, the first that it may have; else itself."""
-    found = each.value
+    result = each.value
     for sign in reversed(signs):
         end = each.value + sign * each.sigma
-        found = np.where(each.allows(end), end, found)
-    return found
+        result = np.where(each.allows(end), end, result)
+    return result
 
 
 _FIRST = 0.0437

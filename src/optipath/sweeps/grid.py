@@ -72,7 +72,7 @@ class SweepGrid:
     def given(self, region: Sequence[slice] | None = None) -> dict[str, Any]:
         """Return what `Plan.run` is given for the grid, or for a part of it."""
         places = list(self.sizes)
-        found = dict(self.fixed)
+        results = dict(self.fixed)
         used = [axis for axis in self.axes if not axis.idle]
         is_whole = len(used) == len(self.axes)
         for axis in used:
@@ -80,8 +80,8 @@ class SweepGrid:
             cut = slice(None) if region is None else region[place]
             behind = len(places) - 1 - place
             ahead = 0 if is_whole else place  # Dimensions in front may have no other array.
-            found[axis.name] = axis.given[cut].reshape(*(1,) * ahead, -1, *(1,) * behind)
-        return found
+            results[axis.name] = axis.given[cut].reshape(*(1,) * ahead, -1, *(1,) * behind)
+        return results
 
 
 _IDLE = "nothing depends on it"

@@ -39,5 +39,5 @@ def slopes_by_jax(light_at: LightAt) -> npt.NDArray[np.float64]:
             each.name: jnp.asarray(np.multiply.outer(row, np.ones(each.value.shape)))
             for row, each in zip(rows, uncertain, strict=True)
         }
-        found = np.asarray(jax.vmap(along)(tangents))
-    return np.moveaxis(found, 0, -1)
+        result = np.asarray(jax.vmap(along)(tangents))
+    return np.moveaxis(result, 0, -1)

@@ -99,8 +99,8 @@ def check_record(folder: Path, record: dict[str, Any]) -> None:
         raise JobError(f"'{folder}' is there, and is no folder; {OTHER_PLACE}")
     if not (folder / RECORD).exists():
         raise JobError(f"'{folder}' is there, and is no store of blocks; {OTHER_PLACE}")
-    found = object_of(folder / RECORD)
-    version, identity = found.get("format"), found.get("identity")
+    result = object_of(folder / RECORD)
+    version, identity = result.get("format"), result.get("identity")
     if version is None or not isinstance(identity, str):
         raise JobError(f"the record '{folder / RECORD}' is damaged; {OTHER_PLACE}: '{folder}'")
     if version != FORMAT:
@@ -108,8 +108,8 @@ def check_record(folder: Path, record: dict[str, Any]) -> None:
             f"'{folder}' has format {shown(version)}, and this version of optipath knows {FORMAT}; "
             f"use the version that made it, or {OTHER_PLACE}"
         )
-    if found != record:
-        difference = _difference(identity, record["identity"]) or _layout(found, record)
+    if result != record:
+        difference = _difference(identity, record["identity"]) or _layout(result, record)
         raise JobError(f"'{folder}' holds blocks of another job{difference}; {OTHER_PLACE}")
 
 
@@ -134,13 +134,13 @@ def _has_notes(folder: Path, job: BlockJob) -> bool:
 
     Zarr writes them into both of its files: what is in one alone is damage.
     """
-    attrs, found = group_attrs(job), object_of(folder / ".zattrs")
+    attrs, result = group_attrs(job), object_of(folder / ".zattrs")
     told = object_of(folder / ".zmetadata").get("metadata")
     needed = {f"{name}/{each}" for name in (*job.arrays, *job.coords) for each in _METADATA}
     return (
         isinstance(told, dict)
         and {".zgroup", ".zattrs", *needed} <= told.keys()
-        and attrs.items() < found.items()
+        and attrs.items() < result.items()
         and all(content == object_of(folder / name) for name, content in told.items())
     )
 
@@ -221,10 +221,10 @@ def content_of(file: Path, most: int = _MOST) -> bytes:
 def object_of(file: Path) -> dict[str, Any]:
     """Return the JSON object that is in a file; an empty one where there is none."""
     try:
-        found = json.loads(content_of(file))
+        result = json.loads(content_of(file))
     except (ValueError, RecursionError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return result if isinstance(result, dict) else {}
 
 
 def put_file(file: Path, content: bytes) -> None:

@@ -43,10 +43,10 @@ def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
 
     Shape: figures, others (..., 10).
     """
-    found = np.asarray(figures - others)
+    result = np.asarray(figures - others)
     for place, period in _PERIODS.items():
-        found[..., place] -= period * np.round(found[..., place] / period)
-    return found
+        result[..., place] -= period * np.round(result[..., place] / period)
+    return result
 
 
 def rounding_of(light: Light) -> npt.NDArray[np.float64]:
@@ -54,10 +54,10 @@ def rounding_of(light: Light) -> npt.NDArray[np.float64]:
     with np.errstate(all="ignore"):
         slopes = np.sum(np.abs(np.nan_to_num(gradients_of(light))), axis=-1)
         noise = np.asarray(light.noise, np.float64)[..., np.newaxis]
-        found = noise * slopes
+        result = noise * slopes
         of_one = noise / np.asarray(light.stokes)[..., :1]
-        found[..., STOKES:] = np.fmax(found[..., STOKES:], of_one)
-    return np.asarray(_ROUNDINGS * found)
+        result[..., STOKES:] = np.fmax(result[..., STOKES:], of_one)
+    return np.asarray(_ROUNDINGS * result)
 
 
 def place_of(quantity: object) -> int:

@@ -47,8 +47,8 @@ def swept_in_memory(
     coords = coordinates_of(grid, plan)
     refuse_more_than_free(plan, grid.varied)
     with units_are_written():  # Who reads the axes has told of degrees among them.
-        found = plan.answers.lights(grid.given())
-    lights = tuple([SweptLight(plan, grid, name, *found[name]) for name in detectors_of(plan)])
+        result = plan.answers.lights(grid.given())
+    lights = tuple([SweptLight(plan, grid, name, *result[name]) for name in detectors_of(plan)])
     variables: dict[str, Any] = {}
     each = zip(*[light.components for light in lights], strict=True)
     for quantity, parts in zip(COMPONENTS, each, strict=True):
@@ -123,15 +123,15 @@ class SweptLight:
             if size < self.grid.shape[place]:
                 axes[place] = range(min(len(axes[place]), 1))
         shape = tuple(map(len, axes))
-        found = np.empty(prod(shape), self.dtype)
-        for piece in pieces(shape, _AT_ONCE) if found.size else ():
+        result = np.empty(prod(shape), self.dtype)
+        for piece in pieces(shape, _AT_ONCE) if result.size else ():
             where = (*piece.where, *[slice(None)] * (len(axes) - len(piece.where)))
             several = [_places(axis, index) for axis, index in zip(axes, where, strict=True)]
             light = self.part([slice(axis.start, axis.stop, axis.step) for axis in several])
-            found[piece.start : piece.stop] = np.ravel(quantity.of(light))
+            result[piece.start : piece.stop] = np.ravel(quantity.of(light))
         ends = tuple(slice(None) if isinstance(index, slice) else 0 for index in key)
-        found = found.reshape(shape)
-        return (found if shape == whole else np.broadcast_to(found, whole).copy())[ends]
+        result = result.reshape(shape)
+        return (result if shape == whole else np.broadcast_to(result, whole).copy())[ends]
 
 
 def _places(axis: range, index: int | slice) -> range:
@@ -195,9 +195,9 @@ def stacked(parts: Sequence[Array]) -> Array:
     if len(distances) == 1 and len(alike) == 1:
         shape, strides = (len(parts), *first.shape), (*distances, *first.strides)
         return np.lib.stride_tricks.as_strided(first, shape, strides, writeable=False)
-    found = np.stack(parts)
-    found.setflags(write=False)
-    return found
+    result = np.stack(parts)
+    result.setflags(write=False)
+    return result
 
 
 def _owner(array: Array) -> Any:
@@ -224,15 +224,15 @@ def quick_dataset(
     direct: Any = getattr(xr.Dataset, _DIRECT, None)
     if direct is None:
         return xr.Dataset(variables, coords, attrs)
-    found = {name: _variable(*parts) for name, parts in variables.items()}
+    results = {name: _variable(*parts) for name, parts in variables.items()}
     indexes: dict[str, PandasIndex] = {}
     for name, (dimensions, values, told) in coords.items():
         alone = {name: _variable(dimensions, values, told)}
         if dimensions == name:
             indexes[name] = PandasIndex(values, name, values.dtype)
             alone = indexes[name].create_variables(alone)
-        found |= alone
-    quick: xr.Dataset = direct(found, {*coords}, None, dict(attrs), indexes)
+        results |= alone
+    quick: xr.Dataset = direct(results, {*coords}, None, dict(attrs), indexes)
     return quick
 
 

@@ -75,14 +75,14 @@ def _moments(
     light_at: LightAt, light: Light, samples: DrawnSamples, names: Sequence[str]
 ) -> SampleMoments:
     """Return the moments of what samples differ by from the light at the best estimates."""
-    center, found = figures_of(light), SampleMoments(light.intensity)
+    center, result = figures_of(light), SampleMoments(light.intensity)
     size = samples_at_once(light.shape)
     for start in range(0, samples.count, size):
         values = samples.within(slice(start, min(start + size, samples.count)), names)
         some = light_at.beside(values, names)
         with np.errstate(all="ignore"):
-            found.add(difference(figures_of(some), center))
-    return found
+            result.add(difference(figures_of(some), center))
+    return result
 
 
 _CHUNK = 4096
@@ -122,34 +122,34 @@ class DrawnSamples:
 
     def within(self, block: slice, names: Collection[str]) -> dict[str, npt.NDArray[np.float64]]:
         """Return some samples of some values, an axis of them in front of the batch."""
-        found: dict[str, list[Any]] = {name: [] for name in names}
+        results: dict[str, list[Any]] = {name: [] for name in names}
         for chunk in range(block.start // _CHUNK, (block.stop - 1) // _CHUNK + 1):
             first = chunk * _CHUNK
             part = slice(max(block.start - first, 0), min(block.stop - first, _CHUNK))
             for group, root in self._groups:
-                if any(each.name in found for each in group):
+                if any(each.name in results for each in group):
                     drawn = self._within(group, root, chunk, part)
                     for each in group:
-                        if each.name in found:
-                            found[each.name].append(drawn[each.name])
-        return {name: np.concatenate(parts) for name, parts in found.items()}
+                        if each.name in results:
+                            results[each.name].append(drawn[each.name])
+        return {name: np.concatenate(parts) for name, parts in results.items()}
 
     def _within(
         self, group: Sequence[UncertainValue], root: Any, chunk: int, part: slice
     ) -> dict[str, Any]:
-        found = self._drawn(group, root, chunk, part, 0)
+        results = self._drawn(group, root, chunk, part, 0)
         for each in group:
-            outer = ~_inside(each, found[each.name])
+            outer = ~_inside(each, results[each.name])
             outer = outer.reshape(len(outer), -1).any(axis=1)
             self.outside[each.name] += int(np.count_nonzero(outer))
         for number in range(1, _ROUNDS):
             bad = ~np.logical_and.reduce(
-                np.broadcast_arrays(*[_inside(each, found[each.name]) for each in group])
+                np.broadcast_arrays(*[_inside(each, results[each.name]) for each in group])
             )
             if not np.any(bad):
-                return found
+                return results
             again = self._drawn(group, root, chunk, part, number)
-            found = {name: np.where(bad, again[name], found[name]) for name in found}
+            results = {name: np.where(bad, again[name], results[name]) for name in results}
         raise ParameterError(_hardly_any([each.name for each in group]))
 
     def _drawn(
@@ -157,13 +157,13 @@ class DrawnSamples:
     ) -> dict[str, Any]:
         """Return the samples that are drawn in some round, be they inside or not."""
         normal = [self._normal(self._places[each.name], chunk, number)[part] for each in group]
-        found = {}
+        results = {}
         for each, row in zip(group, root, strict=True):
             mixed = sum(weight * some for weight, some in zip(row, normal, strict=True))
             mixed = np.reshape(mixed, (-1, *(1,) * self._axes))
             with np.errstate(over="ignore"):
-                found[each.name] = each.value + each.sigma * mixed
-        return found
+                results[each.name] = each.value + each.sigma * mixed
+        return results
 
     def _normal(self, place: int, chunk: int, number: int) -> npt.NDArray[np.float64]:
         own = np.random.SeedSequence(self._seed, spawn_key=(place, chunk, number))

@@ -121,11 +121,11 @@ class BlockStore:
         """Tell whether a block is there."""
         return (self.folder / _mark(number)).exists()
 
-    def keep(self, number: int, found: Mapping[str, Any]) -> None:
+    def keep(self, number: int, results: Mapping[str, Any]) -> None:
         """Write a block, and then mark it as done."""
         with self._writing():
             stamps = {}
-            for name, (region, values) in found.items():
+            for name, (region, values) in results.items():
                 metadata = (self.folder / name / ".zarray").read_bytes()
                 for file, content in chunk_files(metadata, region, values):
                     put_file(self.folder / name / file, content)

@@ -60,10 +60,10 @@ def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool | T
     tell = progress if callable(progress) else progress_line if progress else None
     if place.suffix == ".nc":
         return kept_in_netcdf(job, place, scheduler, tell)
-    found: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))
-    for each in found.variables.values():
+    result: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))
+    for each in result.variables.values():
         each.encoding = {}  # How it is packed here is for this version of Zarr alone.
-    return found
+    return result
 
 
 @dataclass(frozen=True)
@@ -243,9 +243,9 @@ def kept_in_netcdf(
         # Another run that was faster has put the file there, and removed the store.
         if not file.exists():
             raise
-    found = _opened(file, identity)
+    result = _opened(file, identity)
     _remove(place)
-    return found
+    return result
 
 
 def _remove(store: Path) -> None:
@@ -278,13 +278,13 @@ def _opened(file: Path, identity: str) -> xr.Dataset:
     if not file.is_file():
         raise ParameterError(_TAKEN.format(file, "is no file"))
     try:
-        found = xr.open_dataset(file, engine="h5netcdf", chunks={})
+        result = xr.open_dataset(file, engine="h5netcdf", chunks={})
     except _FAULTS:
         raise ParameterError(_TAKEN.format(file, "is no NetCDF file, or a damaged one")) from None
-    if found.attrs.pop(_IDENTITY, None) != identity:
-        found.close()
+    if result.attrs.pop(_IDENTITY, None) != identity:
+        result.close()
         raise ParameterError(_TAKEN.format(file, "holds something else"))
-    return found
+    return result
 
 
 _WIDTH = 40

@@ -236,9 +236,9 @@ def _sigma(inputs: Inputs, name: str, sigma: Any) -> Any:
         kind = "complex" if array.dtype.kind == "c" else "no number"
         raise ParameterError(f"{what} is {kind}, {shown(sigma)}; give a number of 0 or more")
     if np.any(bad := ~(np.isfinite(array) & (array >= 0.0))):
-        found = format_quantity(float(array[bad].ravel()[0]), unit)
+        result = format_quantity(float(array[bad].ravel()[0]), unit)
         raise ParameterError(
-            f"{what} is {found}{first_place(bad)}; give a finite number of 0 or more"
+            f"{what} is {result}{first_place(bad)}; give a finite number of 0 or more"
         )
     return array.astype(np.float64)
 
@@ -285,20 +285,20 @@ class PropagateOptions:
 
     def faults(self) -> list[str]:
         """Return what is wrong with them, a sentence each."""
-        found = unknown("method", self.method, METHODS)
+        result = unknown("method", self.method, METHODS)
         if self.composer is not None and not isinstance(self.composer, Composer):
-            found.append(f"composer must be an op.Composer(...), not {shown(self.composer)}")
+            result.append(f"composer must be an op.Composer(...), not {shown(self.composer)}")
         if self.samples is not None and not is_whole(self.samples, _FEWEST, _MOST):
-            found.append(
+            result.append(
                 f"samples must be a whole number within {_FEWEST} .. {_MOST:,}, "
                 f"not {shown(self.samples)}"
             )
         if self.seed is not None:
-            found += whole_number("seed", self.seed, 0)
+            result += whole_number("seed", self.seed, 0)
         drawn = [name for name in ("samples", "seed") if getattr(self, name) is not None]
         if drawn and not unknown("method", self.method, METHODS) and not self.draws:
-            found.append(
+            result.append(
                 f"method='{self.method}' draws no samples; leave {' and '.join(drawn)} out, or "
                 f"write method='monte-carlo'"
             )
-        return found
+        return result

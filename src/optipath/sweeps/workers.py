@@ -43,8 +43,8 @@ def check_scheduler(scheduler: Any) -> None:
         if "://" not in scheduler and (faults := unknown("scheduler", scheduler, SCHEDULERS)):
             raise JobError(f"{faults[0]}; the address of a cluster begins with 'tcp://'")
         return
-    found = sys.modules.get("distributed")
-    if found is None or not isinstance(scheduler, found.Client):
+    result = sys.modules.get("distributed")
+    if result is None or not isinstance(scheduler, result.Client):
         raise JobError(
             f"a scheduler is one of {', '.join(SCHEDULERS)}, a distributed.Client or the address "
             f"of a cluster, not {shown(scheduler)}; of a cluster, give cluster.get_client()"
@@ -74,11 +74,11 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
 
 def active_client() -> Any:
     """Return the client of a cluster that is active in this process, or None."""
-    found = sys.modules.get("distributed")
-    if found is None:
+    result = sys.modules.get("distributed")
+    if result is None:
         return None
     try:
-        return found.default_client()
+        return result.default_client()
     except ValueError:
         return None
 

@@ -299,10 +299,10 @@ def real_number(number: Any) -> float | None:
     if not isinstance(number, Real) or isinstance(number, (bool, np.bool_, np.timedelta64)):
         return None
     try:
-        found = float(number)
+        result = float(number)
     except (OverflowError, ValueError):
         return None
-    return found if math.isfinite(found) else None
+    return result if math.isfinite(result) else None
 
 
 def _named(other: Any) -> str:

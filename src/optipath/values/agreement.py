@@ -84,10 +84,10 @@ class Agreement:
         shapes = {str(place): array.shape for place, array in enumerate(arrays)}
         if any(array.dtype.kind not in "iuf" for array in arrays) or broadcast_fault(shapes):
             return ""
-        found = self._first_misfit(arrays)
-        if found is None:
+        result = self._first_misfit(arrays)
+        if result is None:
             return ""
-        at, misfit = found
+        at, misfit = result
         varying = [place for place, array in enumerate(arrays) if np.any(array != array.flat[0])]
         return self.sentence(*misfit, varying=varying) + _path_text(arrays, at)
 
@@ -125,11 +125,11 @@ def first_faults(
     agreements: Iterable[Agreement], given: Mapping[str, Resolved] = NOTHING
 ) -> list[str]:
     """Say what does not fit, but for what may only follow from another of these faults."""
-    found = [(law, fault) for law in agreements if (fault := law.fault(given))]
-    spoilt = {what for law, _ in found for what in law.spoils}
-    first = [fault for law, fault in found if spoilt.isdisjoint(law.rests_on)]
+    results = [(law, fault) for law in agreements if (fault := law.fault(given))]
+    spoilt = {what for law, _ in results for what in law.spoils}
+    first = [fault for law, fault in results if spoilt.isdisjoint(law.rests_on)]
     # In a ring, each may follow from the one before.
-    return first or [fault for _, fault in found[:1]]
+    return first or [fault for _, fault in results[:1]]
 
 
 def _path_text(arrays: list[Any], at: int) -> str:

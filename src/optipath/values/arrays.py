@@ -237,10 +237,10 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
     >>> joint_shape((3, 1), (), (4,))
     (3, 4)
     """
-    found = _joint(shapes)
-    if found is None or len(found) > MOST_AXES or prod(found) > MOST_PATHS:
+    result = _joint(shapes)
+    if result is None or len(result) > MOST_AXES or prod(result) > MOST_PATHS:
         raise ShapeError(*broadcast_fault({f"array {n}": s for n, s in enumerate(shapes, 1)}))
-    return found
+    return result
 
 
 def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
@@ -250,16 +250,16 @@ def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
     arrays do not broadcast together: delta (7,), rho (4,);
     make their axes equal or 1, as x[:, None] does
     """
-    found = _joint(shapes.values())
-    if found is None:
+    result = _joint(shapes.values())
+    if result is None:
         named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
         cure = "make their axes equal or 1, as x[:, None] does"
         return [f"arrays do not broadcast together: {named}; {cure}"]
-    if len(found) > MOST_AXES:
+    if len(result) > MOST_AXES:
         owner = max(shapes, key=lambda owner: len(shapes[owner]))
-        return [f"{owner} has {len(found)} axes, and a batch has {MOST_AXES} at most; join some"]
-    if prod(found) > MOST_PATHS:
-        paths = f"{prod(found):.2g} paths, of shape {found}"
+        return [f"{owner} has {len(result)} axes, and a batch has {MOST_AXES} at most; join some"]
+    if prod(result) > MOST_PATHS:
+        paths = f"{prod(result):.2g} paths, of shape {result}"
         return [f"a batch has {MOST_PATHS:.2g} paths at most, not {paths}; give fewer values"]
     return []
 
@@ -267,14 +267,14 @@ def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
 def _joint(shapes: Iterable[tuple[int, ...]]) -> tuple[int, ...] | None:
     """Return the shape that shapes broadcast to; None where they do not."""
     several = tuple(shapes)
-    found = [1] * max(map(len, several), default=0)
+    result = [1] * max(map(len, several), default=0)
     for shape in several:
-        for axis, length in enumerate(shape, len(found) - len(shape)):
-            if found[axis] == 1:
-                found[axis] = length
-            elif length not in (1, found[axis]):
+        for axis, length in enumerate(shape, len(result) - len(shape)):
+            if result[axis] == 1:
+                result[axis] = length
+            elif length not in (1, result[axis]):
                 return None
-    return tuple(found)
+    return tuple(result)
 
 
 def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
@@ -479,9 +479,9 @@ def changed(value: T, **others: Any) -> T:
     >>> changed(Material(1.5), k=0.1)
     Material(n=1.5, k=0.1)
     """
-    found = copy(value)
-    vars(found).update(others)
-    return found
+    result = copy(value)
+    vars(result).update(others)
+    return result
 
 
 def same_fields(first: Any, second: Any) -> Any:

@@ -87,14 +87,14 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
     faults += [f"line {number} names '{name}' twice; keep one column" for name in twice]
     if faults:
         raise ParameterError(*first_of(faults), about=str(file))
-    found = []
+    results = []
     for place, (name, unit) in enumerate(heads):
         texts = [_text(line, cells[place], unit, faults) for line, cells in rows]
         numbers = tuple([line for line, _ in rows])
-        found.append(TextColumn(name, unit, tuple(texts), numbers, str(file)))
+        results.append(TextColumn(name, unit, tuple(texts), numbers, str(file)))
     if faults:
         raise ParameterError(*first_of(faults), about=str(file))
-    return found
+    return results
 
 
 def column_for(parameter: Parameter, path: str) -> list[str]:
@@ -241,13 +241,13 @@ def _table(
         faults.append(f"line {number} is the only one; write a line for each wavelength behind it")
     if faults:
         raise ValueFault(*faults)
-    found = _Rows({name: [] for name in names}, signs, number)
+    result = _Rows({name: [] for name in names}, signs, number)
     for row in rows:
-        found.read(row, at, of_axis, places, len(header))
-    found.check_order(of_axis)
-    if found.faults:
-        raise ValueFault(*found.faults)
-    return np.array(found.wavelengths), {name: np.array(v) for name, v in found.columns.items()}
+        result.read(row, at, of_axis, places, len(header))
+    result.check_order(of_axis)
+    if result.faults:
+        raise ValueFault(*result.faults)
+    return np.array(result.wavelengths), {name: np.array(v) for name, v in result.columns.items()}
 
 
 def _joined(
@@ -337,28 +337,28 @@ class _Rows:
             return np.nan
         try:
             text = cell if own else f"{cell} {unit}"
-            found = wavelength_of(text)
-            found = parse_quantity(text, "length") if found is None else found  # type: ignore[assignment]
+            result = wavelength_of(text)
+            result = parse_quantity(text, "length") if result is None else result  # type: ignore[assignment]
         except OptipathError as fault:
             self.faults += [f"line {line}: {sentence}" for sentence in fault.faults]
             return np.nan
-        if not 0.0 < found < np.inf:  # type: ignore[operator]
+        if not 0.0 < result < np.inf:  # type: ignore[operator]
             self.faults.append(f"line {line}: the wavelength is {cell}; give numbers above 0")
-        return found  # type: ignore[return-value]
+        return result  # type: ignore[return-value]
 
     def _number(self, line: int, name: str, cell: str) -> float:
         try:
-            found = float(cell if _is_plain(cell) else "")
+            result = float(cell if _is_plain(cell) else "")
         except ValueError:
             wanted = "is empty" if not cell else f"is {shown(cell)}, which is no number"
             self.faults.append(f"line {line}: {name} {wanted}; write one, such as 1.5")
             return np.nan
-        if not np.isfinite(found):
+        if not np.isfinite(result):
             self.faults.append(f"line {line}: {name} is {cell}; write a number, or leave it out")
-        elif found < 0.0:
+        elif result < 0.0:
             beside = f", {self.signs[name]}" if name in self.signs else ""
             self.faults.append(f"line {line}: {name} is {cell}; write none below 0{beside}")
-        return found
+        return result
 
     def check_order(self, unit: str) -> None:
         """Look whether the wavelengths rise or fall throughout."""
@@ -448,8 +448,8 @@ def axis_of(
 ) -> tuple[int, str]:
     """Return which column has the wavelengths, and in which unit."""
     heads = [_name_and_unit(head) for head in header]
-    found = [place for place, (name, _) in enumerate(heads) if name in _AXES]
-    if not found:
+    results = [place for place, (name, _) in enumerate(heads) if name in _AXES]
+    if not results:
         if has_numbers(header):
             what = f"line {number} has numbers, and no names of columns"
         else:
@@ -458,11 +458,11 @@ def axis_of(
             f"{what}; begin with a line such as '{', '.join(['wavelength (nm)', *names])}'"
         )
         return 0, ""
-    if len(found) > 1:
-        both = listed([f"'{header[place]}'" for place in found])
+    if len(results) > 1:
+        both = listed([f"'{header[place]}'" for place in results])
         faults.append(f"line {number} has {both}; keep one of them")
         return 0, ""
-    name, own = heads[found[0]]
+    name, own = heads[results[0]]
     dimension = _AXES[name]
     units = {
         "length": units_of("length"),
@@ -474,9 +474,9 @@ def axis_of(
     if own and unit and own != _SPELT.get(unit, unit):
         faults.append(f"line {number} has the unit {own}, and unit='{unit}' is given; leave it out")
     own = own or _SPELT.get(unit, unit)
-    cells = [row[found[0]] for row in rows if len(row) > found[0]]
+    cells = [row[results[0]] for row in rows if len(row) > results[0]]
     if not own and cells and unit_of(cells[0]):
-        return found[0], ""
+        return results[0], ""
     other = next((_CALLED[one] for one, those in units.items() if own in those), name)
     if not own:
         likely = "um" if dimension == "length" and _in_micrometres(cells) else known[0]
@@ -493,7 +493,7 @@ def axis_of(
         faults.append(
             f"line {number}: the unit '{own}' of '{name}' is unknown{did_you_mean(own, known)}"
         )
-    return found[0], own
+    return results[0], own
 
 
 def _in_micrometres(cells: Sequence[str]) -> bool:
@@ -532,11 +532,11 @@ def places_of(
 ) -> dict[str, int]:
     """Return which columns have the numbers that are asked for."""
     heads = [_name_and_unit(head)[0] for head in header]
-    found = {}
+    results = {}
     for name in names:
         places = [place for place, head in enumerate(heads) if head == name.lower()]
         if len(places) == 1:
-            found[name] = places[0]
+            results[name] = places[0]
         elif places:
             faults.append(f"line {number} has {len(places)} columns '{name}'; keep one")
         else:
@@ -544,7 +544,7 @@ def places_of(
             cure = f"; or {cures[name]}" if name in cures else ""
             meant = did_you_mean(name, others) if others else ""
             faults.append(f"line {number} names no column '{name}'{meant}{cure}")
-    return found
+    return results
 
 
 def has_numbers(header: list[str]) -> bool:
@@ -580,10 +580,10 @@ def lines_of(file: Path) -> list[Line]:
         return []
     separator = next((each for each in ";\t" if each in lines[0][1]), ",")
     faults: list[str] = []
-    found = [(number, _cells(number, line, separator, faults)) for number, line in lines]
+    results = [(number, _cells(number, line, separator, faults)) for number, line in lines]
     if faults:
         raise ValueFault(*first_of(faults), about=str(file))
-    return found
+    return results
 
 
 def _cells(number: int, line: str, separator: str, faults: list[str]) -> list[str]:

@@ -122,8 +122,8 @@ class Curve(Unchanging, ABC):
         row = -1 if along_one_axis or not self.takes_grid else shape
         rows = [np.ascontiguousarray(number).reshape(row) for number in several]
         with np.errstate(all="ignore"):
-            found = self.numbers(np, *rows)
-        return tuple([np.broadcast_to(part, rows[0].shape).reshape(shape) for part in found])
+            result = self.numbers(np, *rows)
+        return tuple([np.broadcast_to(part, rows[0].shape).reshape(shape) for part in result])
 
     def unreal_of(self, place: int) -> str:
         """Return why the numbers of one of its parts may be none; see `unreal`."""
@@ -210,12 +210,12 @@ class CurveSum(Curve):
 
     def _own(self, arguments: Sequence[Any]) -> list[tuple[Curve, list[Any]]]:
         """Return each curve with its own arguments."""
-        left, found = list(arguments), []
+        left, result = list(arguments), []
         for _, curve, _ in self.terms:
             count = len(curve.arguments())
-            found.append((curve, left[:count]))
+            result.append((curve, left[:count]))
             left = left[count:]
-        return found
+        return result
 
 
 def _written(factor: float, curve: Curve, place: int) -> str:

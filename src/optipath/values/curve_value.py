@@ -79,9 +79,9 @@ class CurveValue(Parameter):
 
     def parts(self, given: Mapping[str, Resolved]) -> tuple[Any, ...]:
         """Return the numbers of all parts of its curve, of which its own are one."""
-        found: tuple[Any, ...]
-        found = self.curve.evaluated(*[_number(one, given) for one in self.given_by])
-        return found
+        results: tuple[Any, ...]
+        results = self.curve.evaluated(*[_number(one, given) for one in self.given_by])
+        return results
 
     def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
         """Return what it is once parameters that it is computed of have values."""
@@ -139,10 +139,10 @@ class CurveValue(Parameter):
         WavelengthRange.of(self.curve).check("the wavelength", where)
         there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
         check_broadcast(there.shapes(known))
-        found = there.computed(known).value
-        check_computed(there.like(self), "", Domain("number"), found, known)
-        found = self.placed(found)
-        return found if is_traced(found) or found.ndim else found.item()
+        result = there.computed(known).value
+        check_computed(there.like(self), "", Domain("number"), result, known)
+        result = self.placed(result)
+        return result if is_traced(result) or result.ndim else result.item()
 
     def _shifted(self, other: Any, sign: float) -> Self:
         """Return a sum with a number, or with what follows from the same wavelength."""
@@ -244,14 +244,14 @@ def check_computed(
         bad = ~np.asarray(domain.allows(np.asarray(placed)))
         if not np.any(bad):
             raise
-        found = float(np.asarray(placed)[bad].ravel()[0])
+        result = float(np.asarray(placed)[bad].ravel()[0])
         known = {**_default_of(value, given or {}), **(given or {})}
         if faults := coefficient_faults(value, known):
             raise ValueFault(*faults) from fault
         at = _wavelength_text(value, bad, known)
         place, cure = other_numbers(value, bad, known)
         what = f"{value.formula_of(value.spoken)}{at}"
-        is_what = f"is {found:.6g}" if np.isfinite(found) else "has no value"
+        is_what = f"is {result:.6g}" if np.isfinite(result) else "has no value"
         wanted = f", and {owner} takes {domain.described()}" if owner else ""
         if takes_0_alone(domain):
             raise ValueFault(f"{what} {is_what}{wanted}") from fault
@@ -289,26 +289,26 @@ def computed_values(
     values: Iterable[CurveValue], given: Mapping[str, Resolved]
 ) -> dict[str, Resolved]:
     """Return the numbers of those values of which all is given; each curve is evaluated once."""
-    found: dict[str, Resolved] = {}
+    results: dict[str, Resolved] = {}
     parts: dict[Any, tuple[Any, ...]] = {}
     for value in values:
         if value.follows(given):
             same = id(value.curve), *map(id, value.given_by)
             if same not in parts:
                 parts[same] = value.parts(given)
-            found[value.name] = Resolved(parts[same][value.place], THERE)
-    return found
+            results[value.name] = Resolved(parts[same][value.place], THERE)
+    return results
 
 
 def parameters_among(values: Iterable[Any]) -> list[Parameter]:
     """Return the parameters among some values, and behind each those that it follows from."""
-    found: list[Parameter] = []
+    results: list[Parameter] = []
     for value in values:
         if isinstance(value, Parameter):
-            found.append(value)
+            results.append(value)
         if isinstance(value, CurveValue):
-            found += value.arguments
-    return found
+            results += value.arguments
+    return results
 
 
 def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:

@@ -62,8 +62,8 @@ class Domain:
             raise ValueFault(f"{owner} {self._no_number(value, array)}")
         self._check_shape(owner, array.shape)
         if np.any(bad := ~self.are_numbers(array)):
-            found = f"{array[bad].ravel()[0]}{first_place(bad)}"
-            raise ValueFault(f"{owner} is {found}; give a {self.of_numbers} {self.name}")
+            result = f"{array[bad].ravel()[0]}{first_place(bad)}"
+            raise ValueFault(f"{owner} is {result}; give a {self.of_numbers} {self.name}")
         self._check_numbers(owner, array, rounding_of(given))
         return array
 

@@ -54,10 +54,10 @@ def bytes_of(file: Path, most: int = LARGEST) -> bytes:
             raise OSError(0, "it is no file")
         if stat.S_ISFIFO(kind):
             os.set_blocking(stream.fileno(), True)
-        found = stream.read(most + 1)
-    if len(found) > most:
+        result = stream.read(most + 1)
+    if len(result) > most:
         raise OSError(0, f"it is larger than {most // 1024**2} MiB")
-    return found
+    return result
 
 
 @contextmanager

@@ -54,13 +54,13 @@ def _apart(function: Callable[..., Any]) -> Callable[..., Any]:
             result = function(*jax.tree_util.tree_unflatten(form, together))
             results, form_of_result = jax.tree_util.tree_flatten(result)
             forms.append(form_of_result)
-            found, plain = _parted(results)
+            outcome, plain = _parted(results)
             known.update(plain)
-            return found
+            return outcome
 
         with _not_inlined():
-            found = jax.jit(of_arrays)(_parted(numbers)[0])
-        together = found | known
+            outcome = jax.jit(of_arrays)(_parted(numbers)[0])
+        together = outcome | known
         in_order = [together[place] for place in range(len(together))]
         return jax.tree_util.tree_unflatten(forms[-1], in_order)
 

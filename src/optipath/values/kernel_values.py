@@ -31,8 +31,8 @@ def kernel_values(
         return _traced_values(factory, numbers)
     given = np.broadcast_arrays(*(np.asarray(number, np.float64) for number in numbers))
     with np.errstate(all="ignore"):
-        found = made(factory, NUMPY)(*given)
-    return tuple(np.array(np.broadcast_to(part, given[0].shape), np.float64) for part in found)
+        result = made(factory, NUMPY)(*given)
+    return tuple(np.array(np.broadcast_to(part, given[0].shape), np.float64) for part in result)
 
 
 def _traced_values(factory: Any, numbers: tuple[Any, ...]) -> tuple[Any, ...]:

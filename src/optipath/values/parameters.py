@@ -402,20 +402,20 @@ def read_specification(parameter: Any) -> dict[str, Any]:
     }
     if named:
         places |= {f"the word '{word}' of parameter '{name}'": (words, word) for word in named}
-    found = {"unit": unit, **limits, "words": {**named} if named else words}
+    results = {"unit": unit, **limits, "words": {**named} if named else words}
     parse = partial(parse_quantity, dimension=dimension)
     for what, (several, key) in places.items():
         with collecting(faults, ParameterError):
             number = numbers_for(what, several[key], parse, ParameterError)
-            (found if several is limits else found["words"])[key] = number
+            (results if several is limits else results["words"])[key] = number
     if faults:
         raise ParameterError(*faults)
     # Whoever binds a value looks at it where it stands.
     if dimension == "angle" and parameter.bound is not True:
         _warn_of(name, limits | _by_phrase(named))
-        if not is_within_a_turn(found["minimum"], found["maximum"]):
+        if not is_within_a_turn(results["minimum"], results["maximum"]):
             warn_of_degrees(f"parameter '{name}'", parameter.default)
-    return found
+    return results
 
 
 def warn_where_it_stands(parameter: Any) -> None:

@@ -52,10 +52,10 @@ def _character(given: Any) -> str:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # Some aliases go, as that of np.floating.
-            found = np.dtype(given)
+            result = np.dtype(given)
     except Exception:  # noqa: BLE001 - it may have a dtype of its own, which may do anything
         return ""
-    return found.char if found.isnative else ""
+    return result.char if result.isnative else ""
 
 
 def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
@@ -234,21 +234,21 @@ def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float
     if isinstance(numbers, np.ndarray):
         numbers = numbers.astype(np.result_type(numbers, np.float64), copy=False)
     with np.errstate(over="ignore"):  # What is not finite is told by who looks at it.
-        found = scale * numbers + offset
-    return found if is_jax(found) else _settled(found, limits, offset)
+        result = scale * numbers + offset
+    return result if is_jax(result) else _settled(result, limits, offset)
 
 
-def _settled(found: Any, limits: tuple[float, float], offset: float) -> Any:
+def _settled(result: Any, limits: tuple[float, float], offset: float) -> Any:
     """Return sums; what is beyond a limit by the rounding of a sum alone, as that limit."""
-    if limits == ENDLESS or np.iscomplexobj(found):
-        return found
+    if limits == ENDLESS or np.iscomplexobj(result):
+        return result
     for limit, beyond in zip(limits, (operator.lt, operator.gt), strict=True):
-        outside = beyond(found, limit)
+        outside = beyond(result, limit)
         if np.any(outside) and math.isfinite(limit):
             apart = _ROUNDINGS * (abs(limit) + abs(offset))
-            settled = np.where(outside & (abs(found - limit) <= apart), limit, found)
-            found = settled if np.ndim(found) else type(found)(settled)
-    return found
+            settled = np.where(outside & (abs(result - limit) <= apart), limit, result)
+            result = settled if np.ndim(result) else type(result)(settled)
+    return result
 
 
 def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:

@@ -110,19 +110,19 @@ def read_entries(
     Units: entries in radians.
     """
     uses = [*uses]
-    found: list[_Entry] = []
+    results: list[_Entry] = []
     faults: list[str] = []
     for entry in entries:
         with collecting(faults):
-            found.append(_read(entry, parameter, unit, uses))
+            results.append(_read(entry, parameter, unit, uses))
     if faults:
         raise ParameterError(*first_of([*dict.fromkeys(faults)]))
-    given = [each.given for each in found]
+    given = [each.given for each in results]
     numbers = np.array(given, object if ABSENT in given else None)
-    if any(isinstance(each.shown, str) for each in found):
-        return AxisValues(np.array([each.text for each in found]), "", numbers)
-    unit = _common_unit(found, parameter)
-    shown = [each.shown if each.unit == unit else in_unit(each.given, unit) for each in found]
+    if any(isinstance(each.shown, str) for each in results):
+        return AxisValues(np.array([each.text for each in results]), "", numbers)
+    unit = _common_unit(results, parameter)
+    shown = [each.shown if each.unit == unit else in_unit(each.given, unit) for each in results]
     return AxisValues(np.array(shown), unit, numbers)
 
 

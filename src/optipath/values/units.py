@@ -108,12 +108,12 @@ def comma_cure(text: str) -> str:
     >>> comma_cure("1,000")
     "its comma may be a decimal point or part thousands; write '1.000' or '1000'"
     """
-    found = without_comma(text)
-    if len(found) > 1:
-        written = " or ".join(f"'{number}'" for number in found)
+    result = without_comma(text)
+    if len(result) > 1:
+        written = " or ".join(f"'{number}'" for number in result)
         return f"its comma may be a decimal point or part thousands; write {written}"
     several = "(a text is one value; several are an array, in Python)"
-    return f"did you mean '{found[0]}'? {several}" if found else ""
+    return f"did you mean '{result[0]}'? {several}" if result else ""
 
 
 # Written so that no text matches in two ways, and long ones take no longer than they are.
@@ -365,8 +365,8 @@ def _candidates(value: float, unit: Unit) -> list[str]:
     else:
         numbers = [f"{value / unit.size:.{digits}g}" for digits in _DIGITS]
     moved = [Decimal(number).scaleb(-unit.power) for number in numbers]
-    found = [text for number in moved for text in (_plainly(number), str(number))]
-    return sorted(found, key=lambda number: _in_base_units(number, unit) != value)
+    results = [text for number in moved for text in (_plainly(number), str(number))]
+    return sorted(results, key=lambda number: _in_base_units(number, unit) != value)
 
 
 def _plainly(number: Decimal) -> str:

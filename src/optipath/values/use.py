@@ -96,13 +96,13 @@ class Use:
         if not is_traced(numbers):
             return True
         placed = value.placed(numbers) if parameter else numbers
-        found = [self.domain.allows(placed)]
+        results = [self.domain.allows(placed)]
         if parameter:
             # What is not looked at, as behind the end of a chain, may be no number.
             unseen = self.domain.takes_any and ~namespace(numbers).isfinite(numbers)
-            found.append(value.allows(numbers) | unseen)
+            results.append(value.allows(numbers) | unseen)
         batch = len(self.batch_shape(numbers))
-        return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
+        return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in results))
 
     def check(self) -> None:
         """Check what is known of the value: all of it, or a parameter's unit and default."""
@@ -293,11 +293,11 @@ def refuse(faults: list[str]) -> None:
 
 def faults_of(uses: Iterable[Use]) -> list[str]:
     """Return what is wrong with the values that are known already, a sentence each."""
-    found: list[str] = []
+    results: list[str] = []
     for use in uses:
-        with collecting(found, ValueFault):
+        with collecting(results, ValueFault):
             use.check()
-    return found
+    return results
 
 
 def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:

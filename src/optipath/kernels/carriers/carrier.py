@@ -69,7 +69,7 @@ class StokesCarrier(Carrier):
 
     def meet(self, solver: SolvedLoop, arriving: Mapping[int, Carried]) -> dict[int, Carried]:
         parts = {k: parts_of(self.xp, state, solver.count(k)) for k, state in arriving.items()}
-        return {k: light_of(self.xp, found) for k, found in solver.lights(parts).items()}
+        return {k: light_of(self.xp, result) for k, result in solver.lights(parts).items()}
 
     def read(self, state: Carried, count: int = 4) -> tuple[Components, Any]:
         read = at_most_polarised(self.xp, leaving(self.xp, state, count))
@@ -105,7 +105,7 @@ class MatrixCarrier(Carrier):
 
     def meet(self, solver: SolvedLoop, arriving: Mapping[int, Components]) -> dict[int, Components]:
         parts = {junction: _parts(s, solver.count(junction)) for junction, s in arriving.items()}
-        return {junction: _whole(found) for junction, found in solver.lights(parts).items()}
+        return {junction: _whole(result) for junction, result in solver.lights(parts).items()}
 
     def read(self, state: Components, count: int = 4) -> tuple[Components, Any]:
         del count

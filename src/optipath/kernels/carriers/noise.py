@@ -90,13 +90,13 @@ class NoiseCarrier(Carrier):
         return Noisy(light, x1 + x2 + more_x, y1 + y2 + more_y)
 
     def meet(self, solver: SolvedLoop, arriving: Mapping[int, Noisy]) -> dict[int, Noisy]:
-        found = self.inner.meet(solver, {k: state.light for k, state in arriving.items()})
+        result = self.inner.meet(solver, {k: state.light for k, state in arriving.items()})
         lit = [self._share(state) for state in arriving.values()]
         # Each unknown is a sum over all of them.
-        share = reduce(self.xp.maximum, lit) + self.eps * sum(map(solver.count, found))
-        brightest = reduce(self.inner.add, found.values())
+        share = reduce(self.xp.maximum, lit) + self.eps * sum(map(solver.count, result))
+        brightest = reduce(self.inner.add, result.values())
         half = 0.5 * share * self._intensity(brightest)
-        return {k: Noisy(s, *self._moved((half, half), brightest, s)) for k, s in found.items()}
+        return {k: Noisy(s, *self._moved((half, half), brightest, s)) for k, s in result.items()}
 
     def read(self, state: Noisy, count: int = 4) -> tuple[Components, Any]:
         del count

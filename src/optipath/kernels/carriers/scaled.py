@@ -80,7 +80,7 @@ class ScaledCarrier(Carrier):
             light = _times_two_to(self.xp, carried, exponent - most)
             parts[junction] = parts_of(self.xp, light, solver.count(junction))
         lights = solver.lights(parts).items()
-        return {k: self._settled(light_of(self.xp, found), most) for k, found in lights}
+        return {k: self._settled(light_of(self.xp, result), most) for k, result in lights}
 
     def _exponent(self, state: ScaledState) -> Any:
         """Return the exponent of light, below all others where it is dark."""

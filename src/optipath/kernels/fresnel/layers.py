@@ -264,10 +264,10 @@ class Rounds:
         """Return how much of the light stays in each layer."""
         if not self.ways:
             return []
-        found = []
+        results = []
         for layer, (way, lights) in enumerate(zip(self.ways, self._lights(), strict=True)):
             sides = self.faces[layer + 1].sides[0], self.faces[layer].sides[1]
-            found.append(
+            results.append(
                 0.0
                 if way is None
                 else reduce(
@@ -278,7 +278,7 @@ class Rounds:
                     ),
                 )
             )
-        return found
+        return results
 
     def _lights(self) -> list[tuple[list[Any], list[Any]]]:
         """Return the light that begins each way down, and each way up, in each layer."""
@@ -292,9 +292,9 @@ class Rounds:
             sizes=[size for _, _, size in columns] if absorbs else None,
         )
         first = [row[0] for row in self.faces[0].sides[0].passed]
-        found = system.solved([*first, *[0.0] * (len(columns) - width)])
+        result = system.solved([*first, *[0.0] * (len(columns) - width)])
         places = range(0, len(columns), 2 * width)
-        return [(found[at : at + width], found[at + width : at + 2 * width]) for at in places]
+        return [(result[at : at + width], result[at + width : at + 2 * width]) for at in places]
 
     def _columns(self) -> Iterator[tuple[dict[int, Any], Any, Any]]:
         """Yield what becomes of a unit of light that goes down, or up, in each layer.

@@ -50,13 +50,13 @@ def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
     crystal = Crystal.named(raw, wavelength)
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
     asked = "" if of_index else _QUANTITIES.get(domain.dimension, "")
-    found = getattr(crystal, asked, None)
-    if found is None:
+    result = getattr(crystal, asked, None)
+    if result is None:
         raise PresetError(
             f"{crystal.label} gives no {domain.name}; it stands for a birefringence, and quartz "
             f"for a rotatory power"
         )
-    return found
+    return result
 
 
 def crystal_of(curve: Curve) -> str:
@@ -118,10 +118,10 @@ def formula_table(curve: Curve, encode: Encode) -> dict[str, Any] | None:
         return None
     given = {name: getattr(curve, name) for name in _coefficients_of(form)}
     table = {name: encode(value, "") for name, value in given.items() if value is not None}
-    found: dict[str, Any] = {form: table, "name": curve.label}
+    results: dict[str, Any] = {form: table, "name": curve.label}
     if curve.span != EVERYWHERE:
-        found["span"] = [encode(end, WAVELENGTH.unit) for end in curve.span]
-    return found
+        results["span"] = [encode(end, WAVELENGTH.unit) for end in curve.span]
+    return results
 
 
 def _coefficients_of(form: str) -> dict[str, Any]:
@@ -135,10 +135,10 @@ def _nested(raw: Any, decode: Decode) -> Any:
     if not isinstance(raw, list):
         return decode(raw, REAL)
     faults = Faults()
-    found = [faults.attempt(f"[{i}]", _nested, entry, decode) for i, entry in enumerate(raw)]
+    results = [faults.attempt(f"[{i}]", _nested, entry, decode) for i, entry in enumerate(raw)]
     if faults:
         raise PresetError(*faults)
-    return found
+    return results
 
 
 def _span(raw: Any, decode: Decode) -> tuple[Any, ...]:
@@ -173,8 +173,8 @@ def material_by_name(
     if faults:
         raise PresetError(*faults)
     texts: dict[str, Any] = {key: raw[key] for key in _TEXTS if key in raw}
-    found = Material.named(raw[NAMED], wavelength=wavelength, **texts, **numbers)
-    return {"n": found.n, "k": found.k}
+    result = Material.named(raw[NAMED], wavelength=wavelength, **texts, **numbers)
+    return {"n": result.n, "k": result.k}
 
 
 def page_table(curve: PageCurve) -> dict[str, Any] | None:
@@ -250,12 +250,12 @@ def decode_curve(
         one = f"{{ n = {{ {form} = ... }} }}"
         raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
     whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
-    found = _parts(whole, form, domain, of_index, parameters, decode)
+    result = _parts(whole, form, domain, of_index, parameters, decode)
     if of_index and _has_k_beside(raw, form):
-        return _with_k(found, raw, form, decode)
+        return _with_k(result, raw, form, decode)
     if of_index:
-        return Material(**found)
-    return _placed(_chosen(found, raw, domain), raw, domain, decode)
+        return Material(**result)
+    return _placed(_chosen(result, raw, domain), raw, domain, decode)
 
 
 def _parts(
@@ -299,16 +299,16 @@ def _has_k_beside(raw: Mapping[str, Any], form: str) -> bool:
 
 
 def _with_k(
-    found: Mapping[str, Any], raw: Mapping[str, Any], form: str, decode: Decode
+    results: Mapping[str, Any], raw: Mapping[str, Any], form: str, decode: Decode
 ) -> Material:
     """Return the material of a formula or of samples of n, with the k that stands beside it."""
-    if "k" in found:
+    if "k" in results:
         raise PresetError(f"'{form}' gives k as well; leave k out")
     faults = Faults()
     k = faults.attempt(".k", decode, raw["k"], K)
     if faults:
         raise PresetError(*faults)
-    return Material(found["n"], k)
+    return Material(results["n"], k)
 
 
 def _at(curve: Curve, when: Any) -> dict[str, Any]:
@@ -317,13 +317,13 @@ def _at(curve: Curve, when: Any) -> dict[str, Any]:
     return dict(zip(curve.parts, curve_values(curve, when), strict=True))
 
 
-def _chosen(found: Mapping[str, Any], raw: Mapping[str, Any], domain: Domain) -> Any:
+def _chosen(results: Mapping[str, Any], raw: Mapping[str, Any], domain: Domain) -> Any:
     """Return the number of a table where one is asked for: of n and k the k for a k, else n."""
-    usual = "k" if domain is K and "k" in found else next(iter(found))
+    usual = "k" if domain is K and "k" in results else next(iter(results))
     part = raw.get("part", usual)
-    if part not in found:
-        raise PresetError(f"'part' is '{part}', but the table has {' and '.join(found)}")
-    return found[part]
+    if part not in results:
+        raise PresetError(f"'part' is '{part}', but the table has {' and '.join(results)}")
+    return results[part]
 
 
 def _together(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode) -> Any:
@@ -334,10 +334,12 @@ def _together(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode)
         many = "two tables" if form == DIFFERENCE else "two tables or more"
         faults.append(f"'{form}' must be a list of {many}, not {shown(terms)}")
         raise PresetError(*faults)
-    found = [faults.attempt(f".{form}[{i}]", decode, term, domain) for i, term in enumerate(terms)]
+    results = [
+        faults.attempt(f".{form}[{i}]", decode, term, domain) for i, term in enumerate(terms)
+    ]
     if faults:
         raise PresetError(*faults)
-    return _placed(reduce(sub if form == DIFFERENCE else add, found), raw, domain, decode)
+    return _placed(reduce(sub if form == DIFFERENCE else add, results), raw, domain, decode)
 
 
 def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, decode: Decode) -> Any:

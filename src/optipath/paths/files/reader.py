@@ -132,7 +132,7 @@ def read(document: Table) -> PathGraph:
 
 def _pair_faults(path: PathGraph, document: Table) -> dict[str, list[str]]:
     """Ask what pairs mean that are given for parameters of complex numbers, by their names."""
-    found: dict[str, list[str]] = {}
+    results: dict[str, list[str]] = {}
     declared = document.get("parameters", {})
     for name, domain in complex_domains(path.graph).items():
         tables = [(f"parameters.{name}", "default", declared.get(name))]
@@ -143,8 +143,8 @@ def _pair_faults(path: PathGraph, document: Table) -> dict[str, list[str]]:
             raw: Any = table.get(key) if isinstance(table, dict) else None
             if pair_in(raw, domain):
                 which = which_pair(raw, domain.complex_parts)
-                found.setdefault(name, []).append(f"{where}.{key}: {which}")
-    return found
+                results.setdefault(name, []).append(f"{where}.{key}: {which}")
+    return results
 
 
 def _elements(
@@ -263,11 +263,13 @@ def _link(
         azimuth = faults.attempt(f"{where}.azimuth", decode, table["azimuth"], ANGLE, parameters)
     known = [key for key, name in ends.items() if name not in lost]
     wrong, graph = Faults(), path.graph
-    found = [wrong.attempt(where, find_port, graph, table[key], out=key == "from") for key in known]
+    results = [
+        wrong.attempt(where, find_port, graph, table[key], out=key == "from") for key in known
+    ]
     if wrong and _is_reversed(path, table):
         wrong = Faults([f"{where} leads from an in-port to an out-port; swap 'from' and 'to'"])
     faults += wrong
-    if len(known) == 2 and None not in found:
+    if len(known) == 2 and None not in results:
         before = len(faults)
         tap = table.get("tap", False)
         faults.attempt(where, path.connect, table["from"], table["to"], azimuth, tap=tap)
@@ -296,7 +298,7 @@ def read_declarations(
     document: dict[str, Any], references: Collection[str], faults: Faults
 ) -> Declarations:
     """Return the parameters that a document declares."""
-    found, tables = Declarations(), document.get("parameters", {})
+    result, tables = Declarations(), document.get("parameters", {})
     readable = tables_of(document, "parameters", faults)
     wavelengths = wavelength_names(document.get("elements"))
     # Without the tables, nobody knows what they have declared.
@@ -304,11 +306,11 @@ def read_declarations(
         table = readable.get(name)
         parameter = None if table is None else read_parameter(name, table, wavelengths, faults)
         if parameter is None:
-            found.doubtful.add(name)
+            result.doubtful.add(name)
             parameter = Parameter(name if name.isidentifier() else "unknown")
-        found[name] = parameter
-    found.doubtful.update(name for name in references if name not in found)
-    return found
+        result[name] = parameter
+    result.doubtful.update(name for name in references if name not in result)
+    return result
 
 
 def tables_of(document: dict[str, Any], section: str, faults: Faults) -> dict[str, Any]:
@@ -329,15 +331,15 @@ def unit_faults(values: Values, parameters: Declarations) -> dict[str, str]:
     for use in values.uses:
         if isinstance(use.value, Parameter):
             asked.setdefault(use.value.name, {}).setdefault(use.domain.dimension, use.owner)
-    found = {}
+    results = {}
     for name, places in asked.items():
         if name not in parameters or name in parameters.doubtful or len(places) > 1:
             continue
         ((dimension, owner),) = places.items()
         unit = parameters[name].unit
         if dimension_of(unit) != dimension:
-            found[name] = f"parameters.{name} {_misfit(unit, dimension, owner)}"
-    return found
+            results[name] = f"parameters.{name} {_misfit(unit, dimension, owner)}"
+    return results
 
 
 def _misfit(unit: str, dimension: str, owner: str) -> str:
@@ -434,13 +436,13 @@ def _unit_fault(where: str, unit: str, table: Mapping[str, Any]) -> str:
     dimensions = [UNITS[name].dimension for name in units.values()]
     if not units or (unit in UNITS and dimension_of(unit) in dimensions):
         return ""
-    text, found = next(iter(units.items()))
+    text, result = next(iter(units.items()))
     if unit and unit not in UNITS:
         return f"{where}: unit '{unit}' is unknown{unit_meant(unit, units_of(dimensions[0]))}"
     if not unit:
-        cure = f'add unit = "{found}", or give pure numbers if it is one'
+        cure = f'add unit = "{result}", or give pure numbers if it is one'
         return f"{where} declares no unit, but its values have one; {cure}"
-    dimension = with_article(dimension_of(found))
+    dimension = with_article(dimension_of(result))
     return f"{where} is in {unit}, but '{text}' is {dimension}; let them agree"
 
 
@@ -459,10 +461,10 @@ def read_element(
         what = f"'kind' must be a text, not {shown(kind)}" if "kind" in named else "kind is missing"
         faults.append(f'{where}: {what}; write kind = "..."')
         return None
-    found = faults.attempt(where, element_class, kind)
-    if found is None:
+    result = faults.attempt(where, element_class, kind)
+    if result is None:
         return None
-    domains = found.domains()
+    domains = result.domains()
     known = ["kind", "frames", *domains]
     if wrong := schema.unknown_keys(table, known, where):
         faults += wrong
@@ -475,19 +477,19 @@ def read_element(
                 values[name] = value
             elif not isinstance(domain, Choice):
                 values[name] = STAND_IN
-        elif found.needs(name):
+        elif result.needs(name):
             faults.append(f"{where}: '{name}' is missing; every {kind} needs one")
             values[name] = STAND_IN
-    what = f"element class {found.__name__}"
+    what = f"element class {result.__name__}"
     # What code of a user's own says of a stand-in is no news.
-    unknown = is_own(found) and any(value is STAND_IN for value in values.values())
+    unknown = is_own(result) and any(value is STAND_IN for value in values.values())
     told = Faults() if unknown else faults
-    return told.attempt(where, lambda: called(what, lambda: found(**values)))
+    return told.attempt(where, lambda: called(what, lambda: result(**values)))
 
 
 def _no_fields(table: Mapping[str, Any]) -> dict[str, Any]:
     """Return what is in a table that no element has a field for, as it has for ``index``."""
-    fields = {name for found in KINDS.values() for name in found.domains()}
+    fields = {name for result in KINDS.values() for name in result.domains()}
     return {key: value for key, value in table.items() if key not in fields}
 
 

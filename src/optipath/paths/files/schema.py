@@ -55,25 +55,25 @@ def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
     {'frames': {}, 'kind': 'source'}
     """
     names = list(known)
-    found = {key: value for key, value in table.items() if key in names}
+    results = {key: value for key, value in table.items() if key in names}
     for key, value in table.items():
         name = key if key in names else closest(key, names)
         if name is None or name == key:
             continue
-        here = found.setdefault(name, value)
+        here = results.setdefault(name, value)
         if here is not value and isinstance(here, dict) and isinstance(value, dict):
-            found[name] = {**value, **here}
-    return found
+            results[name] = {**value, **here}
+    return results
 
 
 def checked(
     where: str, table: dict[str, Any], schema: Mapping[str, Any], faults: list[str]
 ) -> dict[str, Any] | None:
     """Return a table with its keys as they were meant; None where a value has another type."""
-    found = type_faults(where, table, schema)
-    if not found:
+    result = type_faults(where, table, schema)
+    if not result:
         return table
-    faults += found
+    faults += result
     table = as_meant(table, schema)
     return None if type_faults(where, table, schema) else table
 
@@ -84,16 +84,16 @@ def texts_in(raw: Any) -> list[str]:
     >>> texts_in({"index": {"n": "$n1", "k": 0.1}, "range": ["0 deg", "90 deg"]})
     ['0 deg', '90 deg', '$n1']
     """
-    found, left = [], [raw]
+    result, left = [], [raw]
     while left:
         entry = left.pop()
         if isinstance(entry, str):
-            found.append(entry)
+            result.append(entry)
         elif isinstance(entry, dict):
             left += entry.values()
         elif isinstance(entry, list):
             left += reversed(entry)
-    return found
+    return result
 
 
 T = TypeVar("T")

@@ -63,10 +63,10 @@ def decode_spectrum(
     if _WHEN in raw:
         when = faults.attempt(f".{_WHEN}", decode, raw[_WHEN], WAVELENGTH)
     whole = {key: value for key, value in raw.items() if key != _WHEN}
-    found = faults.attempt("", spectrum_of, whole)
-    if faults or found is None:
+    result = faults.attempt("", spectrum_of, whole)
+    if faults or result is None:
         raise PresetError(*[fault.removeprefix(": ") for fault in faults])
-    return found.at(when)
+    return result.at(when)
 
 
 def spectrum_of(raw: Any) -> Spectrum:
@@ -95,10 +95,10 @@ def spectrum_of(raw: Any) -> Spectrum:
         faults.append(f"a table with '{form}' needs '{needed}'")
     if faults:
         raise PresetError(*faults)
-    found = _terms(raw) if form == "sum" else _single(raw, form)
+    result = _terms(raw) if form == "sum" else _single(raw, form)
     if _SCALE in raw:
-        found = found * raw[_SCALE]
-    return found + Spectrum.constant(raw[_OFFSET]) if _OFFSET in raw else found
+        result = result * raw[_SCALE]
+    return result + Spectrum.constant(raw[_OFFSET]) if _OFFSET in raw else result
 
 
 def spectrum_table(spectrum: Spectrum) -> dict[str, Any]:
@@ -119,10 +119,10 @@ def _terms(raw: Mapping[str, Any]) -> Spectrum:
     if not isinstance(terms, list) or not terms:
         raise PresetError(f"'sum' must be a list of tables, not {shown(terms)}")
     faults = Faults()
-    found = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
+    results = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
     if faults:
         raise PresetError(*faults)
-    return reduce(add, found)  # type: ignore[return-value]
+    return reduce(add, results)  # type: ignore[return-value]
 
 
 def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
@@ -223,12 +223,12 @@ def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
     ([5e-07, 5.2e-07], [5e-07])
     """
     entries = _list(raw)
-    found = [_wavelength(entry, place, unit) for place, entry in enumerate(entries)]
+    results = [_wavelength(entry, place, unit) for place, entry in enumerate(entries)]
     if not any(isinstance(entry, str) for entry in entries) and (
-        doubt := unit_doubted(found, unit)
+        doubt := unit_doubted(results, unit)
     ):
         raise PresetError(doubt)
-    return found
+    return results
 
 
 def _wavelength(entry: Any, place: int, unit: Any) -> float:

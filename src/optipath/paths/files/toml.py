@@ -126,31 +126,31 @@ def refuse_unwieldy(text: str) -> None:
     line 1 opens more than 16 brackets in each other; write it flatter
     """
     bare = _SET_ASIDE.sub(_placeholder, text)
-    if found := _DEEP_KEY.search(bare):
+    if result := _DEEP_KEY.search(bare):
         raise PresetError(
-            f"line {_line(bare, found)} has a key of more than {DEEPEST} parts; use fewer dots"
+            f"line {_line(bare, result)} has a key of more than {DEEPEST} parts; use fewer dots"
         )
-    if found := _LONG_WORD.search(bare):
+    if result := _LONG_WORD.search(bare):
         raise PresetError(
-            f"line {_line(bare, found)} has a word of more than {LONGEST_WORD} characters; "
+            f"line {_line(bare, result)} has a word of more than {LONGEST_WORD} characters; "
             f"make it shorter"
         )
     depths = list(accumulate(map(_STEPS.__getitem__, _BRACKET.findall(bare))))
     if max(depths, default=0) > DEEPEST:
-        found = next(islice(_BRACKET.finditer(bare), depths.index(DEEPEST + 1), None))
+        result = next(islice(_BRACKET.finditer(bare), depths.index(DEEPEST + 1), None))
         raise PresetError(
-            f"line {_line(bare, found)} opens more than {DEEPEST} brackets in each other; write "
+            f"line {_line(bare, result)} opens more than {DEEPEST} brackets in each other; write "
             f"it flatter"
         )
 
 
-def _placeholder(found: re.Match[str]) -> str:
+def _placeholder(result: re.Match[str]) -> str:
     # A text may be part of a key, and may have several lines.
-    return "" if found["comment"] else "_" + "\n" * found[0].count("\n")
+    return "" if result["comment"] else "_" + "\n" * result[0].count("\n")
 
 
-def _line(text: str, found: re.Match[str]) -> int:
-    return text.count("\n", 0, found.start()) + 1
+def _line(text: str, result: re.Match[str]) -> int:
+    return text.count("\n", 0, result.start()) + 1
 
 
 _PLACE = re.compile(r"\(at line (\d+), column \d+\)")
@@ -179,14 +179,13 @@ def likely_cure(text: str, reason: str) -> str:
         return _doubled(line)
     if re.search(r"=\s*(None|null|nil)\s*$", line):
         return f"; leave {line.partition('=')[0].strip()} out"
-    found = _ASSIGNMENT.fullmatch(line) if len(line) < _LONGEST else None
-    meant = "" if found is None else _meant(found[3])
-    if found and len(numbers := without_comma(found[3])) > 1:
-        return (
-            f"; a comma may be a point or part thousands: write {found[1]} = {' or '.join(numbers)}"
-        )
-    if found and meant and (meant != found[3] or found[2] == ":"):
-        return f"; write {found[1]} = {meant}"
+    result = _ASSIGNMENT.fullmatch(line) if len(line) < _LONGEST else None
+    meant = "" if result is None else _meant(result[3])
+    if result and len(numbers := without_comma(result[3])) > 1:
+        ways = " or ".join(numbers)
+        return f"; a comma may be a point or part thousands: write {result[1]} = {ways}"
+    if result and meant and (meant != result[3] or result[2] == ":"):
+        return f"; write {result[1]} = {meant}"
     return f"; look at {shown(line)}"
 
 

@@ -162,15 +162,15 @@ def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Pa
         faults.append("a table with 'scale' or 'offset' needs 'parameter', a name")
     elif not isinstance(name, str) or name not in parameters:
         faults.append(f"parameter {shown(name)} is not declared{did_you_mean(name, parameters)}")
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     for key, unit in (("scale", ""), ("offset", domain.unit)):
         if isinstance(raw.get(key), (list, dict)):
             faults.append(f"'{key}' must be one number, not {shown(raw[key])}")
         elif key in raw:
-            found[key] = faults.attempt(f"'{key}'", _number, raw[key], unit)
+            results[key] = faults.attempt(f"'{key}'", _number, raw[key], unit)
     if faults:
         raise PresetError(*faults)
-    return replace(parameters[raw["parameter"]], **found)
+    return replace(parameters[raw["parameter"]], **results)
 
 
 def _parameter(value: Parameter, unit: str) -> Any:
@@ -255,15 +255,15 @@ def decode_list(raw: Any, domain: Domain, decode: Callable[[Any, Domain], Any]) 
             else ("lengths", '["2 mm", "0.1 mm"]')
         )
         raise PresetError(f"{shown(raw)} is no list of {what}; write {example}")
-    faults, found = Faults(), []
+    faults, result = Faults(), []
     for place, entry in enumerate(raw):
         # The medium in front may be misspelt as well.
         of_entry = FOLLOWED_OUTSIDE if of_indices and not place else each
         follows = of_indices and entry == FOLLOWS.word
-        found.append(FOLLOWS if follows else faults.attempt(f"[{place}]", decode, entry, of_entry))
+        result.append(FOLLOWS if follows else faults.attempt(f"[{place}]", decode, entry, of_entry))
     if faults:
         raise PresetError(*faults)
-    return found
+    return result
 
 
 def named(raw: str, domain: Domain) -> Any:
@@ -299,21 +299,21 @@ def references_in(raw: Any) -> set[str]:
     >>> sorted(references_in([mirror, "-$phi"]))
     ['n1', 'phi', 'rho']
     """
-    found, left = set(), [raw]
+    result, left = set(), [raw]
     while left:
         entry = left.pop()
         if isinstance(entry, str):
             sign, dollar, name = entry.partition("$")
             if dollar and sign in ("", "-"):
-                found.add(name)
+                result.add(name)
         elif isinstance(entry, dict):
             left += entry.values()
             multiple = entry.get("parameter")
             if isinstance(multiple, str):
-                found.add(multiple)
+                result.add(multiple)
         elif isinstance(entry, list):
             left += entry
-    return found
+    return result
 
 
 def wavelength_names(raw: Any) -> set[str]:
@@ -324,15 +324,15 @@ def wavelength_names(raw: Any) -> set[str]:
     >>> sorted(wavelength_names([{"wavelength": "$lam"}, {"thickness": "$d"}]))
     ['lam', 'wavelength']
     """
-    found, left = {"wavelength"}, [raw]
+    result, left = {"wavelength"}, [raw]
     while left:
         entry = left.pop()
         if isinstance(entry, dict):
-            found |= references_in(entry["wavelength"]) if "wavelength" in entry else set()
+            result |= references_in(entry["wavelength"]) if "wavelength" in entry else set()
             left += entry.values()
         elif isinstance(entry, list):
             left += entry
-    return found
+    return result
 
 
 _NUMBER = r"\d+\.?\d*(?:e[-+]?\d+)?|\.\d+(?:e[-+]?\d+)?"
@@ -361,20 +361,20 @@ def table_for(text: str) -> str:
     text = text.strip()
     if first := _OFFSET_FIRST.fullmatch(text):
         text = f"{first[2].replace('+', '')}{first[3]} + {first[1].strip()}"
-    found = _AFFINE_TEXT.fullmatch(text)
-    if found is None:
+    result = _AFFINE_TEXT.fullmatch(text)
+    if result is None:
         return '{ parameter = "NAME", scale = 0.5, offset = ... }'
-    scale = float(found["before"] or 1.0) * (-1.0 if found["sign"] else 1.0)
-    number = float(found["behind"] or 1.0)
-    if found["way"] == "*":
+    scale = float(result["before"] or 1.0) * (-1.0 if result["sign"] else 1.0)
+    number = float(result["behind"] or 1.0)
+    if result["way"] == "*":
         scale *= number
     elif number:
         scale /= number
-    row = f'{{ parameter = "{found["name"]}"'
+    row = f'{{ parameter = "{result["name"]}"'
     if scale != 1.0:
         row += f", scale = {scale:.12g}"
-    if found["offset"]:
-        offset = (found["plus"].replace("+", "") + found["offset"]).strip()
+    if result["offset"]:
+        offset = (result["plus"].replace("+", "") + result["offset"]).strip()
         row += f', offset = "{offset}"' if offset[-1].isalpha() else f", offset = {offset}"
     return row + " }"
 

@@ -152,11 +152,11 @@ def _fit_rows(
     step, row = room.width / each, room.height / rows
     per_unit = max(min(step, (row - lines) / (_ABOVE + _BELOW)), 1.0)
     row = min(row, lines + _ROOMY * per_unit)
-    found = in_rows(flat, scene, each, (step / per_unit, row / per_unit))
+    result = in_rows(flat, scene, each, (step / per_unit, row / per_unit))
     spare = (room.height - rows * row) / 2.0
     first = np.array([room.x0 + step / 2.0, room.y1 - spare - _ABOVE * per_unit])
     _set_limits(ax, np.zeros(2), first, per_unit)
-    return found
+    return result
 
 
 def _fit_plane(ax: Axes, flat: FlatSheet, room: Bbox) -> None:
@@ -377,7 +377,7 @@ def values_below(element: Element) -> list[str]:
     >>> values_below(op.Retarder(retardance="90 deg", angle=op.Parameter("a", 0.0, bound=True)))
     ['a = 0 deg', 'retardance 90 deg']
     """
-    domains, found = element.domains(), []
+    domains, result = element.domains(), []
     for name in _FIELDS:
         value: Any = getattr(element, name, None)
         if name not in domains or not isinstance(value, Parameter | float | int):
@@ -385,13 +385,13 @@ def values_below(element: Element) -> list[str]:
         if name == "angle" and isinstance(element, Medium) and not has_axis(element):
             continue
         if isinstance(value, Parameter) or value != 0.0 or name in _ALWAYS:
-            found.append(_text(element, name, value, domains[name].unit))
+            result.append(_text(element, name, value, domains[name].unit))
     incidence, turn = angles_in_chain(element)
     if incidence is not None:
-        found.append(told_incidence(incidence, number(incidence)).text)
+        result.append(told_incidence(incidence, number(incidence)).text)
     if isinstance(turn, Parameter | float | int) and (isinstance(turn, Parameter) or turn != 0.0):
-        found.append(_text(element, "azimuth", turn, "deg"))
-    return found
+        result.append(_text(element, "azimuth", turn, "deg"))
+    return result
 
 
 def _text(element: Element, name: str, value: Any, unit: str) -> str:

@@ -79,16 +79,16 @@ def lines_of(scene: Scene, view: View) -> list[Array]:
 
     Shape: returns (points, 2).
     """
-    found = [np.array([ray.tail, ray.head]) for ray in scene.rays]
-    found += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
-    found += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
-    found += [outline(scene, node) for node in scene.nodes if node.normal is not None]
-    found += [axis_line(scene, node) for node in scene.nodes if node.axis is not None]
-    found += [_normal(scene, node) for node in scene.nodes if node.role == "surface"]
+    results = [np.array([ray.tail, ray.head]) for ray in scene.rays]
+    results += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
+    results += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
+    results += [outline(scene, node) for node in scene.nodes if node.normal is not None]
+    results += [axis_line(scene, node) for node in scene.nodes if node.axis is not None]
+    results += [_normal(scene, node) for node in scene.nodes if node.role == "surface"]
     for frame in drawn_frames(scene):
         x, y, _ = frame.at + _FRAME * scene.unit * frame.axes
-        found.append(np.array([x, frame.at, y]))
-    return [view.points(line) for line in found]
+        results.append(np.array([x, frame.at, y]))
+    return [view.points(line) for line in results]
 
 
 def drawn_frames(scene: Scene) -> list[SceneFrame]:
@@ -100,21 +100,21 @@ def drawn_frames(scene: Scene) -> list[SceneFrame]:
 def key_to(scene: Scene) -> list[Artist]:
     """Return what a key shows of the lines and faces that are drawn."""
     s = "surface" in {node.role for node in scene.nodes}
-    found: list[Artist] = [
+    results: list[Artist] = [
         Line2D([], [], color=X_COLOUR, lw=1.6, label="x of a frame" + " (s)" * s),
         Line2D([], [], color=Y_COLOUR, lw=1.6, label="y" + " (p)" * s),
     ]
     if any(_has_ellipse(ray) for ray in scene.rays):
-        found.append(Line2D([], [], color=ELLIPSE, lw=1.4, label="polarisation"))
+        results.append(Line2D([], [], color=ELLIPSE, lw=1.4, label="polarisation"))
     if scene.planes:
-        found.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
+        results.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
     if any(ray.tap for ray in scene.rays):
-        found.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
+        results.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
     if any(ray.is_dark and not ray.leaves for ray in scene.rays):
-        found.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
+        results.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
     if any(ray.leaves for ray in scene.rays):
-        found.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
-    return found
+        results.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
+    return results
 
 
 def _faces(ax: Axes, scene: Scene, view: View) -> None:
@@ -452,9 +452,9 @@ def _outlines(solid: Patch) -> list[Path]:
 
 def _dense(line: Array, apart: float = 4.0) -> Array:
     """Return points along a line of pixels that are so far apart at most."""
-    found = [line[:1]]
+    results = [line[:1]]
     for tail, head in pairwise(line):
         count = max(int(np.linalg.norm(head - tail) / apart), 1)
         share = np.arange(1, count + 1)[:, np.newaxis] / count
-        found.append(tail + share * (head - tail))
-    return np.concatenate(found)
+        results.append(tail + share * (head - tail))
+    return np.concatenate(results)

@@ -156,9 +156,9 @@ def _fit(ax: Axes, scene: Scene, view: View, room: Bbox) -> None:
 
 def _labels(scene: Scene, view: View, size: float) -> list[Label]:
     bold = {"fontsize": size * 1.1, "fontweight": "bold", "color": INK}
-    found = [Label(node.name, view.points(node.at), bold) for node in scene.nodes]
+    results = [Label(node.name, view.points(node.at), bold) for node in scene.nodes]
     style = {"fontsize": size, "color": ANGLE_INK}
-    return found + [Label(a.text, view.points(a.at), style, _LEADS_SOON) for a in scene.angles]
+    return results + [Label(a.text, view.points(a.at), style, _LEADS_SOON) for a in scene.angles]
 
 
 _LEADS_SOON = 0.7

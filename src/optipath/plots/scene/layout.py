@@ -84,13 +84,13 @@ def scene_with(told: ToldPath) -> Scene:
 
 
 def _nodes(told: ToldPath, placing: Placing) -> list[SceneNode]:
-    found = []
+    results = []
     order = dict.fromkeys([*(name for name, _ in told.wiring.order), *placing.at])
     for name in order:
         posture, kind = placing.postures[name], placing.wiring.elements[name].kind
         stands = placing.at[name], posture.normal, posture.across
-        found.append(SceneNode(name, kind, *stands, posture.role, _axis(placing, name)))
-    return found
+        results.append(SceneNode(name, kind, *stands, posture.role, _axis(placing, name)))
+    return results
 
 
 def _axis(placing: Placing, name: str) -> Array | None:
@@ -130,7 +130,7 @@ def drawn_link(placing: Placing, each: LightOnLink) -> DrawnLink:
 
 def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
     """Return a rectangle for each plane of incidence, which reaches as far as the links."""
-    found = []
+    results = []
     for name, element in placing.wiring.elements.items():
         posture, at = placing.postures[name], placing.at[name]
         if not isinstance(element, BoundaryElement | ChainVertex) or posture.normal is None:
@@ -145,23 +145,23 @@ def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
         foot = min([0.0, *heights]) * posture.normal
         if abs(posture.axes["in"][:, 2] @ across) > _NO_PLANE:
             corners = np.array([foot - side, foot + side, top + side, top - side])
-            found.append(ScenePlane(name, at + corners))
-    return found
+            results.append(ScenePlane(name, at + corners))
+    return results
 
 
 def _frames(placing: Placing, lit: dict[str, LightOnLink]) -> list[SceneFrame]:
     """Return the frames of the ports that light passes, beside their nodes."""
-    found: dict[str, SceneFrame] = {}
+    results: dict[str, SceneFrame] = {}
     for each in lit.values():
         drawn, aside = drawn_link(placing, each), _FRAMES_AT * placing.unit
         away = aside * drawn.axes[:, 2]
         port = f"{each.start}.{each.leaves}"
-        found.setdefault(port, SceneFrame(port, drawn.tail + away, drawn.axes.T))
+        results.setdefault(port, SceneFrame(port, drawn.tail + away, drawn.axes.T))
         if each.end:
             port = f"{each.end}.{each.enters}"
             axes = placing.axes_entering((each.start, each.end, (each.leaves, each.enters)))
-            found.setdefault(port, SceneFrame(port, drawn.head - away, axes.T))
-    return [*found.values()]
+            results.setdefault(port, SceneFrame(port, drawn.head - away, axes.T))
+    return [*results.values()]
 
 
 _AT_SURFACE, _ABOUT_RAY, _ON_PLATE = 0.32, 0.3, 0.3
@@ -176,18 +176,18 @@ _OF_AXES = "angle", "dichroic_angle"
 
 def scene_angles(told: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
     """Return the angles of a path that have names, node by node as light travels."""
-    found: list[SceneAngle] = []
+    results: list[SceneAngle] = []
     names = dict.fromkeys(name for name, _ in told.wiring.order)
     for name in names:
         for link in placing.links:
             if link[1] == name:
-                found += _azimuths(placing, link)
+                results += _azimuths(placing, link)
         element = placing.wiring.elements[name]
         if isinstance(element, BoundaryElement | ChainVertex):
-            found += _incidences(placing, name, element)
+            results += _incidences(placing, name, element)
         elif placing.postures[name].role == "plate":
-            found += _axes(placing, name, element)
-    return tuple(found)
+            results += _axes(placing, name, element)
+    return tuple(results)
 
 
 def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
@@ -234,8 +234,8 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
         if isinstance(value, Parameter):
             told = told_angle(value)
             angle = number(value) if told.there else 0.0
-            found = _turn(told, placing.at[name], (x, y), angle, size, "axis")
-            yield found if told.there else found._replace(arc=found.arc[:0], at=placing.at[name])
+            result = _turn(told, placing.at[name], (x, y), angle, size, "axis")
+            yield result if told.there else result._replace(arc=result.arc[:0], at=placing.at[name])
             size *= 1.25
 
 

@@ -281,13 +281,13 @@ def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
     Shape: returns (3, 3).
     """
     element = wiring.elements[name]
-    found = {}
+    results = {}
     for port in (*element.inputs, *element.outputs):
         own = element.own_frame(port)
         frame = own.frame({}) if own is not None else frame_at(wiring, name, port)
         if frame is not None:
-            found[port] = _columns(frame)
-    return found
+            results[port] = _columns(frame)
+    return results
 
 
 def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Posture:
@@ -376,7 +376,7 @@ def legs_beside_chains(wiring: Wiring) -> dict[Link, float]:
 
     Those of chains by angles have no length of their own.
     """
-    found: dict[Link, float] = {}
+    results: dict[Link, float] = {}
     for name in wiring.self_placed:
         element: Any = wiring.elements[name]
         if isinstance(element.vertices, VerticesByAngles):
@@ -387,8 +387,8 @@ def legs_beside_chains(wiring: Wiring) -> dict[Link, float]:
             (place + 1, _links_behind(wiring, name)),
         ):
             length = np.linalg.norm(points[beside] - points[place])
-            found |= dict.fromkeys(links, float(length) / max(len(links), 1))
-    return found
+            results |= dict.fromkeys(links, float(length) / max(len(links), 1))
+    return results
 
 
 def _links_before(wiring: Wiring, name: str) -> list[Link]:

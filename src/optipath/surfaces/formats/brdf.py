@@ -48,9 +48,9 @@ class BrdfOfHemispheres:
                 f"{len(hemispheres) or 'no'} hemisphere is not enough for all incidences; measure "
                 f"at several, such as every 5 deg from 0 to 85 deg"
             )
-        found = tuple(sorted(hemispheres, key=_incidence))
-        first = found[0]
-        for each, before in zip(found[1:], found, strict=False):
+        results = tuple(sorted(hemispheres, key=_incidence))
+        first = results[0]
+        for each, before in zip(results[1:], results, strict=False):
             if not np.array_equal(each.wavelengths, first.wavelengths, equal_nan=True):
                 raise SurfaceError(f"{each} has other wavelengths than {first}")
             if each.seen.beam.sample != first.seen.beam.sample:
@@ -62,7 +62,7 @@ class BrdfOfHemispheres:
                 "the table is of samples that look the same from all sides, and this one is not "
                 "isotropic"
             )
-        return cls(found)
+        return cls(results)
 
     @property
     def wavelengths(self) -> Numbers:
@@ -89,11 +89,11 @@ class BrdfOfHemispheres:
         for number, pixels in enumerate(self._pixels):
             share = np.maximum(1.0 - np.abs(place - number), 0.0)
             near = share > 0.0
-            found = _by_same_facet(
+            result = _by_same_facet(
                 pixels, known[number], to_light[near], half[near], before.x[near]
             )
-            matrices[near] += share[near][:, None, None, None] * found[0]
-            errors[near] += share[near][:, None] * found[1]
+            matrices[near] += share[near][:, None, None, None] * result[0]
+            errors[near] += share[near][:, None] * result[1]
         over = (to_light[:, 2] * to_eye[:, 2])[:, None]
         return matrices / over[..., None, None], errors / over
 
@@ -123,13 +123,13 @@ def _by_same_facet(
     x = np.where(size > 1e-6, x / np.maximum(size, 1e-6), across)
     matrices, errors = pixels.at(eye)
     own = Frame((0.0, 1.0, 0.0), (up, 0.0, level), -light)
-    found = in_frames(
+    result = in_frames(
         Mueller.of(matrices, own, each_wavelength(level_frame(eye))),
         each_wavelength(Frame.from_direction(np.broadcast_to(-light, x.shape), x)),
         each_wavelength(Frame.from_direction(eye, x)),
     )
     both = up * eye[:, 2][:, None]
-    return found * both[..., None, None], errors * both
+    return result * both[..., None, None], errors * both
 
 
 _PARTS = 8
@@ -167,16 +167,16 @@ class LevelPixels:
         brdf, sensor = hemisphere.brdf(), hemisphere.sensor
         there = ~np.isnan(sensor.theta)
         seen = there[..., np.newaxis]
-        found = np.where(seen[..., np.newaxis, np.newaxis], brdf.to_numpy()[0], 0.0)
+        result = np.where(seen[..., np.newaxis, np.newaxis], brdf.to_numpy()[0], 0.0)
         errors = np.where(seen, brdf.se.to_numpy()[0, ..., 0, 0], 0.0)
-        found[..., 1:3, :] = _unturned(sensor, there) @ found[..., 1:3, :]
+        result[..., 1:3, :] = _unturned(sensor, there) @ result[..., 1:3, :]
         if sensor.pixels % 2 and sensor.pixels > 1:
             # Of light about the normal all that is linear is lost; its neighbours have it.
             middle = sensor.pixels // 2
             beside = [(middle - 1, middle), (middle + 1, middle)]
             beside += [(middle, middle - 1), (middle, middle + 1)]
-            found[middle, middle] = np.mean([found[place] for place in beside], axis=0)
-        return cls(sensor, there.astype(float), found, errors)
+            result[middle, middle] = np.mean([result[place] for place in beside], axis=0)
+        return cls(sensor, there.astype(float), result, errors)
 
     def at(self, directions: Numbers) -> tuple[Numbers, Numbers]:
         """Return what there is in directions, in their level frames, from the nearest four pixels.
@@ -185,18 +185,18 @@ class LevelPixels:
         """
         pixels = self.sensor.pixels
         across, up = (each - 0.5 for each in self.sensor.at(directions))
-        found = np.zeros((len(directions), *self.matrices.shape[2:]))
-        errors, total = np.zeros(found.shape[:2]), np.zeros(len(directions))
+        result = np.zeros((len(directions), *self.matrices.shape[2:]))
+        errors, total = np.zeros(result.shape[:2]), np.zeros(len(directions))
         for row in (np.floor(up), np.floor(up) + 1.0):
             for column in (np.floor(across), np.floor(across) + 1.0):
                 i, j = (np.clip(each, 0, pixels - 1).astype(int) for each in (row, column))
                 share = (1.0 - np.abs(up - row)) * (1.0 - np.abs(across - column))
                 share *= self.there[i, j]
-                found += share[:, None, None, None] * self.matrices[i, j]
+                result += share[:, None, None, None] * self.matrices[i, j]
                 errors += share[:, None] * self.errors[i, j]
                 total += share
         total = np.where(total > 0.0, total, 1.0)[:, None]
-        return found / total[..., None, None], errors / total
+        return result / total[..., None, None], errors / total
 
 
 def level_frame(z: Numbers) -> Frame:

@@ -47,18 +47,18 @@ def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
     names = [f"M{row}{column}" for row in range(4) for column in range(4)]
     numbers = {"scalar": ["scalar"], "polarized": names, "both": [*names, "scalar"]}
     what = "sum over the photons of a part, as counted: of Mueller matrices and the scalar"
-    found: xr.Dataset = hemisphere.dataset.assign(
+    result: xr.Dataset = hemisphere.dataset.assign(
         sums=(_SUMS, parts.sums, {"long_name": what, "units": "1"}),
         part_photons=("part", parts.photons, {"long_name": "photons of a part", "units": "1"}),
         index_n=("wavelength", indices.n.ravel(), {"long_name": "n of the last medium"}),
         index_k=("wavelength", indices.k.ravel(), {"long_name": "k of the last medium"}),
     )
-    found = found.assign_coords(number=numbers[hemisphere.seen.polarized])
+    result = result.assign_coords(number=numbers[hemisphere.seen.polarized])
     attributes = {name: _attribute(each) for name, each in hemisphere.dataset.attrs.items()}
-    found.attrs = attributes | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
+    result.attrs = attributes | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
     # Words of a fixed length are in the specifications of all forms.
-    texts = {name: each.astype(str) for name, each in found.coords.items() if each.dtype == object}
-    return found.assign_coords(texts)
+    texts = {name: each.astype(str) for name, each in result.coords.items() if each.dtype == object}
+    return result.assign_coords(texts)
 
 
 def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
@@ -69,9 +69,9 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
             f"it has layout {told['layout']}, but this version reads layout {LAYOUT}; load it by "
             f"optipath {dataset.attrs['optipath_version']}"
         )
-    found = sample_of(told["sample"], sample)
+    result = sample_of(told["sample"], sample)
     seen = SensedBeam(
-        _beam(dataset, told, found),
+        _beam(dataset, told, result),
         Sensor(told["pixels"], told["projection"], told["parts"]),
         told["polarized"],
         told["events"],
@@ -154,11 +154,11 @@ def sample_of(kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSam
     if unknown.why:
         return unknown
     try:
-        found = sample_of_text(unknown.to_toml(), Path("the sample of a hemisphere"))
+        result = sample_of_text(unknown.to_toml(), Path("the sample of a hemisphere"))
     except OptipathError as fault:
         return replace(unknown, why=str(fault))
-    if _digest(found) == unknown.digest:
-        return found
+    if _digest(result) == unknown.digest:
+        return result
     return replace(
         unknown, why="this optipath reads its text in another way than the one that wrote it"
     )
@@ -185,10 +185,10 @@ def _digest(sample: Sample) -> str:
         text = plain.to_toml()
     except SurfaceError:
         text = repr(plain)
-    found = sha256(text.encode())
+    result = sha256(text.encode())
     for field in _heights(sample):
-        found.update(repr((field.size, field.periodic)).encode() + field.heights.tobytes())
-    return found.hexdigest()
+        result.update(repr((field.size, field.periodic)).encode() + field.heights.tobytes())
+    return result.hexdigest()
 
 
 @dataclass(frozen=True, repr=False)
@@ -266,9 +266,9 @@ def read_dataset(place: Path) -> xr.Dataset:
     """Return all of what a file or folder holds."""
     is_netcdf = place.suffix == ".nc"
     engine: Any = {"engine": "h5netcdf"} if is_netcdf else {"engine": "zarr", "consolidated": True}
-    with xr.open_dataset(place, chunks=None, **engine) as found:
-        found.attrs[MEASUREMENT]  # Before any of its numbers is read.
-        return found.load()
+    with xr.open_dataset(place, chunks=None, **engine) as result:
+        result.attrs[MEASUREMENT]  # Before any of its numbers is read.
+        return result.load()
 
 
 def _chunks(dataset: xr.Dataset) -> tuple[int, ...]:

@@ -73,14 +73,14 @@ save it with a name that ends in .zarr or .nc, and load that
             read_dataset,
         )
     try:
-        found = hemisphere_of(read_dataset(place), sample)
+        result = hemisphere_of(read_dataset(place), sample)
     except OptipathError as fault:
         raise SurfaceError(*fault.faults, about=f"'{place}'") from None
     except Exception:  # noqa: BLE001 - damaged files make their readers raise anything
         raise SurfaceError(
             f"'{place}' is no hemisphere, or a damaged one; load what Hemisphere.save has written"
         ) from None
-    return found
+    return result
 
 
 def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -> None:
@@ -170,11 +170,11 @@ def _channels(
     light: npt.NDArray[np.float32], wavelengths: npt.NDArray[np.float64]
 ) -> dict[str, npt.NDArray[np.float32]]:
     """Return channels by their names: a layer for each Stokes component."""
-    found = {"Y": light[..., 0].mean(axis=-1)}
+    results = {"Y": light[..., 0].mean(axis=-1)}
     for place, wavelength in enumerate(wavelengths):
         name = "Y" if np.isnan(wavelength) else _name(wavelength)
-        found |= {f"S{each}.{name}": light[:, :, place, each] for each in range(4)}
-    return {name: np.ascontiguousarray(each) for name, each in found.items()}
+        results |= {f"S{each}.{name}": light[:, :, place, each] for each in range(4)}
+    return {name: np.ascontiguousarray(each) for name, each in results.items()}
 
 
 def _name(wavelength: float) -> str:

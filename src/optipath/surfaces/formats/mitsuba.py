@@ -139,11 +139,11 @@ def _nanometres(wavelengths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint16]:
     """Return the wavelengths as the file has them."""
     if np.isnan(wavelengths).any():
         return np.array([_ANY], np.uint16)
-    found = wavelengths / _NANOMETRE
-    whole = np.round(found)
-    if np.any(np.abs(found - whole) > 1e-6) or np.any(whole < 1) or np.any(whole > _LONGEST):
+    result = wavelengths / _NANOMETRE
+    whole = np.round(result)
+    if np.any(np.abs(result - whole) > 1e-6) or np.any(whole < 1) or np.any(whole > _LONGEST):
         raise SurfaceError(
-            f"wavelengths are {found.tolist()} nm; the table has whole nanometres from 1 to "
+            f"wavelengths are {result.tolist()} nm; the table has whole nanometres from 1 to "
             f"{_LONGEST}"
         )
     if whole.size > _MOST or np.any(np.diff(whole) <= 0.0):
@@ -165,13 +165,13 @@ def _tensors(
     shape = (*map(len, axes), len(colours))
     written = f"{description}\nwritten by optipath {version('optipath')}"
     text = np.frombuffer(written.encode(), np.uint8)
-    found = {"description": Tensor.of(text), "wvls": Tensor.of(colours)}
+    results = {"description": Tensor.of(text), "wvls": Tensor.of(colours)}
     for name, each in axes._asdict().items():
-        found[name] = Tensor.of(each.astype(np.float32)[np.newaxis])
-    found["M"] = Tensor("float32", (*shape, 4, 4), _matrices(axes, table, errors))
+        results[name] = Tensor.of(each.astype(np.float32)[np.newaxis])
+    results["M"] = Tensor("float32", (*shape, 4, 4), _matrices(axes, table, errors))
     if isinstance(table, BrdfOfHemispheres):
-        found["M00_se"] = Tensor("float32", shape, errors)
-    return found
+        results["M00_se"] = Tensor("float32", shape, errors)
+    return results
 
 
 def _matrices(
@@ -183,13 +183,13 @@ def _matrices(
     for turn in range(len(axes.phi_d)):
         there, before, behind = axes.frames(turn)
         matrices, noise = table.at(before, behind)
-        found = np.full((*there.shape, *matrices.shape[1:]), np.nan, np.float32)
-        found[there] = changed_matrix("mitsuba", matrices)
+        result = np.full((*there.shape, *matrices.shape[1:]), np.nan, np.float32)
+        result[there] = changed_matrix("mitsuba", matrices)
         if noise is not None:
-            spread = np.full(found.shape[:3], np.nan, np.float32)
+            spread = np.full(result.shape[:3], np.nan, np.float32)
             spread[there] = noise
             errors.append(spread)
-        yield found
+        yield result
 
 
 def _measured(brdf: Any) -> str:
@@ -214,7 +214,7 @@ class GivenBrdf:
 
         Shapes: before, behind (n,); returns matrices (n, wavelengths, 4, 4).
         """
-        found = []
+        results = []
         for wavelength in self.wavelengths:
             at = {} if np.isnan(wavelength) else {"wavelength": float(wavelength)}
             brdf = self.function(before.z, behind.z, **at)
@@ -224,8 +224,8 @@ class GivenBrdf:
                     f"brdf returns {what}; for {len(before.x)} directions it must return an "
                     f"op.Mueller of shape {before.x.shape[:-1]}"
                 )
-            found.append(in_frames(brdf, before, behind))
-        return np.stack(found, axis=1), None
+            results.append(in_frames(brdf, before, behind))
+        return np.stack(results, axis=1), None
 
 
 _HEAD = b"tensor_file\0" + bytes([1, 0])

@@ -114,20 +114,20 @@ def _told(known: npt.NDArray[np.float64]) -> str:
 Numbers = npt.NDArray[np.float64]
 
 
-def following(found: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:
+def following(result: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:
     """Return a function that returns arrays, or refuses what is returned.
 
     >>> following(lambda light: None)(np.eye(4))
     Traceback (most recent call last):
     optipath.errors.SurfaceError: what is estimated is None; let the function return real numbers
     """
-    if not callable(found):
+    if not callable(result):
         raise SurfaceError(
-            f"found is {shown(found)}; give a function of the light that returns real numbers"
+            f"found is {shown(result)}; give a function of the light that returns real numbers"
         )
 
     def numbers(light: Numbers) -> Numbers:
-        value = found(light)
+        value = result(light)
         try:
             array = np.asarray(value)
         except (TypeError, ValueError):  # rows of several lengths

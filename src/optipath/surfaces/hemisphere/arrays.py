@@ -25,18 +25,18 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     Units: the result in radians.
     """
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     if polarized != "scalar":
-        found |= _with_error("mueller", (*PIXELS, "out", "in"), hemisphere.mueller, _MUELLER)
+        results |= _with_error("mueller", (*PIXELS, "out", "in"), hemisphere.mueller, _MUELLER)
     if polarized != "polarized":
-        found |= _with_error("scalar", PIXELS, hemisphere.scalar, _SCALAR)
+        results |= _with_error("scalar", PIXELS, hemisphere.scalar, _SCALAR)
     if polarized == "both":
-        found |= _with_error("difference", PIXELS, hemisphere.difference, _DIFFERENCE)
-    found["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
+        results |= _with_error("difference", PIXELS, hemisphere.difference, _DIFFERENCE)
+    results["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
     area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
-    found["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
+    results["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
     return xr.Dataset(
-        found, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
+        results, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
     )
 
 
@@ -45,8 +45,8 @@ _SCALAR = "share of the light that goes into the pixel, without polarisation"
 _DIFFERENCE = "share of unpolarised light that goes into the pixel, less that without polarisation"
 
 
-def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict[str, Any]:
-    value, error = found
+def _with_error(name: str, dims: tuple[str, ...], result: Any, what: str) -> dict[str, Any]:
+    value, error = result
     told = {"units": "1"}
     return {
         name: (dims, value, {"long_name": what, **told}),
@@ -113,8 +113,8 @@ def difference_map(
     """Return what polarisation makes of each pixel."""
     mask = PixelMask(brighter_than, noise, known_to)
     at, what = hemisphere.side(side), _MEASURES[measure]
-    found = hemisphere.own.estimate(lambda light: what.made(_relative(hemisphere, light)))
-    value, error = (each[at] for each in found)
+    result = hemisphere.own.estimate(lambda light: what.made(_relative(hemisphere, light)))
+    value, error = (each[at] for each in result)
     if noise is not None and np.isnan(error).all():
         raise SurfaceError(
             f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
@@ -200,7 +200,7 @@ def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]
     towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
     across = {"long_name": "place on the sensor, across the plane of incidence"}
     angle = {"units": "rad"}
-    found = {
+    results = {
         "side": ("side", np.array(hemisphere.seen.sides, object)),
         "y": ("y", sensor.coordinates, across | place),
         "x": ("x", sensor.coordinates, towards | place),
@@ -214,4 +214,4 @@ def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]
         "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),
         "phi": (("y", "x"), sensor.phi, {"long_name": "azimuth from x to y"} | angle),
     }
-    return {name: each for name, each in found.items() if {each[0]} <= {*dims, ("y", "x")}}
+    return {name: each for name, each in results.items() if {each[0]} <= {*dims, ("y", "x")}}

@@ -86,7 +86,7 @@ class SensedBeam:
         progress: Callable[[int], None] | None = None,
     ) -> PartSums:
         """Walk the photons of a chunk, and sum them up in their order."""
-        found, add = PartSums.none(self.shape), pixel_code()
+        result, add = PartSums.none(self.shape), pixel_code()
         kept = [int(self.polarized != other) for other in ("scalar", "polarized")]
         lights = self.beam.indices.n.size
         wanted = min(photons, CHUNK * (number + 1))
@@ -96,13 +96,13 @@ class SensedBeam:
             for seen in walked:
                 arrays = map(address, (seen.places, seen.turns, seen.ends))
                 size = len(seen.places)
-                add(*arrays, size, lights, len(self.beam.states), *kept, address(found.sums))
-                pixels = seen.places[seen.places >= 0] % found.counts.size
-                found.counts.reshape(-1)[:] += np.bincount(pixels, minlength=found.counts.size)
-                found.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)
+                add(*arrays, size, lights, len(self.beam.states), *kept, address(result.sums))
+                pixels = seen.places[seen.places >= 0] % result.counts.size
+                result.counts.reshape(-1)[:] += np.bincount(pixels, minlength=result.counts.size)
+                result.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)
                 if progress is not None:
                     progress(size)
-        return found
+        return result
 
     def _seen(self, number: int, photons: int) -> _Seen:
         """Walk a block."""
@@ -164,25 +164,25 @@ class PartSums(NamedTuple):
         signs = np.append(_MIRRORED, 1.0)[-numbers if numbers == 1 else slice(numbers)]
         return self._replace(sums=0.5 * (self.sums + self.sums[:, :, ::-1] * signs))
 
-    def estimate(self, found: Callable[[Numbers], Numbers]) -> tuple[Numbers, Numbers]:
+    def estimate(self, result: Callable[[Numbers], Numbers]) -> tuple[Numbers, Numbers]:
         """Return what follows from the light of the pixels, and its standard error.
 
         The jackknife: the spread of what follows where one part after the other is left out
         (B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, eq. 3.13).
         """
-        found = following(found)
+        result = following(result)
         total, photons = self.sums.sum(axis=0), self.photons.sum()
         if not photons:
             with np.errstate(invalid="ignore", divide="ignore"):
-                value = found(total)
+                value = result(total)
             return value, np.zeros_like(value)
         with np.errstate(invalid="ignore", divide="ignore"):
-            value = found(total / photons)
+            value = result(total / photons)
             # Of the differences from the whole, since the squares of the values cancel.
             mean, square, parts = np.zeros_like(value), np.zeros_like(value), 0
             for part, size in zip(self.sums, self.photons, strict=True):
                 if size:
-                    apart = found((total - part) / (photons - size)) - value
+                    apart = result((total - part) / (photons - size)) - value
                     mean, square, parts = mean + apart, square + apart * apart, parts + 1
             if parts < 2:
                 return value, np.full_like(value, np.nan)

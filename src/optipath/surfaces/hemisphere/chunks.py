@@ -169,11 +169,11 @@ class ChunkJob:
             )
         # Chunks that are walked at one time have other surfaces in turn, each set kept by a sample.
         own = replace(self.seen.beam, sample=copy(self.seen.beam.sample))
-        found = replace(self.seen, beam=own).chunk(number, self.photons, self.threads)
+        result = replace(self.seen, beam=own).chunk(number, self.photons, self.threads)
         return {
             name: (
                 (slice(number, number + 1), *(slice(0, size) for size in each.shape)),
                 each[np.newaxis],
             )
-            for name, each in zip(PartSums._fields, found, strict=True)
+            for name, each in zip(PartSums._fields, result, strict=True)
         }

@@ -43,7 +43,7 @@ def reflected_once(
     lights = indices.n.size
     total = np.zeros((*(2 * [seen.sensor.pixels]), lights, 4, 4))
     for directions, areas in pixel_points(seen.sensor, points):
-        found = single_scattering(
+        result = single_scattering(
             below,
             alpha[0],
             down,
@@ -53,5 +53,5 @@ def reflected_once(
             masking=masking,
         )
         weight = (areas * directions[..., 2])[..., np.newaxis, np.newaxis, np.newaxis]
-        total += (found @ comes).matrix * weight
+        total += (result @ comes).matrix * weight
     return total

@@ -188,9 +188,9 @@ class Hemisphere:
         1.0
         """
         state = _state(source)
-        found = self.own.estimate(lambda light: self.matrices(light) @ state)
+        result = self.own.estimate(lambda light: self.matrices(light) @ state)
         what = "Stokes vector of the light that goes into the pixel"
-        return self._array("stokes", found, what, "1", ("out",), source=state)
+        return self._array("stokes", result, what, "1", ("out",), source=state)
 
     def dop(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
         """Return the degree of polarisation of each pixel; NaN where no light falls.
@@ -311,11 +311,11 @@ class Hemisphere:
             )
         if faults or alpha is None:
             raise SurfaceError(*faults)
-        found = reflected_once(self.seen, alpha, masking, int(points))[np.newaxis]
+        result = reflected_once(self.seen, alpha, masking, int(points))[np.newaxis]
         return pixel_array(
             self,
             "single_scattering",
-            found,
+            result,
             "Mueller matrix of light that is reflected once, by the analytic model",
             "1",
             ("out", "in"),
@@ -499,7 +499,7 @@ error at most 0.2 of the difference, or at most 0.001
 
     def estimate_toward(
         self,
-        found: Callable[[Numbers], Any],
+        result: Callable[[Numbers], Any],
         direction: Any,
         side: str = "reflected",
         wavelength: Any = None,
@@ -532,7 +532,7 @@ error at most 0.2 of the difference, or at most 0.001
         >>> print(0.0 < error < 0.1 * share)
         True
         """
-        follows, pixels = following(found), self._toward(direction, side, wavelength)
+        follows, pixels = following(result), self._toward(direction, side, wavelength)
         return pixels.estimate(lambda light: follows(self.matrices(light)))
 
     def frames_toward(self, direction: Any, side: str = "reflected") -> dict[str, Frame]:
@@ -728,7 +728,7 @@ error at most 0.2 of the difference, or at most 0.001
     def _array(
         self,
         name: str,
-        found: tuple[Numbers, Numbers],
+        results: tuple[Numbers, Numbers],
         what: str,
         units: str,
         more: tuple[str, ...] = (),
@@ -737,7 +737,7 @@ error at most 0.2 of the difference, or at most 0.001
         """Return numbers with their names, units and errors."""
         from optipath.surfaces.hemisphere.arrays import pixel_array  # noqa: PLC0415 - an extra
 
-        value, error = found
+        value, error = results
         return pixel_array(self, name, value, what, units, more, error=error, **told)
 
     def _difference(self, measure: str, *given: Any) -> xr.DataArray:
@@ -754,9 +754,9 @@ error at most 0.2 of the difference, or at most 0.001
         light = wavelength_place(self.wavelengths, wavelength)
         sums = self.own.sums[:, place, :, :, light]
         pixels = [self.sensor.around(z) for z in frame.z.reshape(-1, 3)]
-        found = [sums[:, rows, columns].sum(axis=1) for rows, columns in pixels]
+        results = [sums[:, rows, columns].sum(axis=1) for rows, columns in pixels]
         shape = (len(sums), *frame.z.shape[:-1], sums.shape[-1])
-        seen: PartSums = self.own._replace(sums=np.stack(found, axis=1).reshape(shape))
+        seen: PartSums = self.own._replace(sums=np.stack(results, axis=1).reshape(shape))
         return seen
 
     def _warn_next_to_normal(self, direction: Any, side: str) -> None:

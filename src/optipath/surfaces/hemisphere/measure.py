@@ -184,7 +184,7 @@ def _summed(
     seen: SensedBeam, photons: int, threads: int, progress: Callable[[int, int], None] | None
 ) -> PartSums:
     """Walk all chunks; each is summed up by itself, and they are added in their order."""
-    found, done = PartSums.none(seen.shape), 0
+    result, done = PartSums.none(seen.shape), 0
 
     def tell(walked: int) -> None:
         nonlocal done
@@ -193,8 +193,8 @@ def _summed(
             progress(done, photons)
 
     for number in range(-(-photons // CHUNK)):
-        found.add(seen.chunk(number, photons, threads, tell))
-    return found
+        result.add(seen.chunk(number, photons, threads, tell))
+    return result
 
 
 def _faults(photons: Any, events: Any, polarized: Any, threads: Any) -> list[str]:

@@ -258,9 +258,9 @@ def _rim(lines: Numbers) -> Numbers:
         np.clip(((each + 1.0) * (0.5 * pixels)).astype(int), 0, pixels - 1)
         for each in (np.cos(middle), np.sin(middle))
     )
-    found = np.zeros((pixels, pixels))
-    np.add.at(found, (row, column), np.diff(angles))
-    return found
+    result = np.zeros((pixels, pixels))
+    np.add.at(result, (row, column), np.diff(angles))
+    return result
 
 
 def pixel_points(sensor: Sensor, points: int) -> Iterator[tuple[Numbers, Numbers]]:

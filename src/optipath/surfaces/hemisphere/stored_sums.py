@@ -40,7 +40,7 @@ def kept_sums(
     job.seen.beam.sample.fields()
     folder = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
     there = [zarr.open_array(str(folder / name), mode="r") for name in PartSums._fields]
-    found = PartSums.none(job.seen.shape)
+    result = PartSums.none(job.seen.shape)
     for number in range(job.blocks):
-        found.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type]
-    return found
+        result.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type]
+    return result

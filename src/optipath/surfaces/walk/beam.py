@@ -132,13 +132,13 @@ class PhotonBeam:
             own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
             last = wanted - first if first <= wanted else -1
             place = address(ends) + keeps * first * ends.strides[0]
-            found = code(
+            result = code(
                 *kept.of(surface).addresses,
                 *before,
                 *(size, self.most_events, last if last < size else -1),
                 *(*behind, address(own), to_record, place, int(keeps)),
             )
-            if not found:
+            if not result:
                 raise SurfaceError(
                     "photons meet nothing of the sample: its finite fields are too small for this "
                     "incidence; give larger or periodic ones"
@@ -228,13 +228,13 @@ def given_state(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, 
 
 def _one(name: str, value: Any, domain: Domain) -> Any:
     """Return one number of a domain, or one vector, as Python has it."""
-    found = np.asarray(domain.check(name, value))
-    if found.shape != domain.tail:
+    result = np.asarray(domain.check(name, value))
+    if result.shape != domain.tail:
         raise SurfaceError(
-            f"{name} has the shape {found.shape}; photons come one way at a time, so give one "
+            f"{name} has the shape {result.shape}; photons come one way at a time, so give one "
             f"{domain.name}"
         )
-    return tuple(found.tolist()) if domain.tail else float(found)
+    return tuple(result.tolist()) if domain.tail else float(result)
 
 
 class WalkedBlock(NamedTuple):

@@ -88,15 +88,15 @@ def _digest() -> str:
 
 def digest_of(rooms: Iterable[str]) -> str:
     """Return a hash of all sources in some folders of the library."""
-    found, here = hashlib.sha256(), files("optipath")
+    result, here = hashlib.sha256(), files("optipath")
     for room in rooms:
-        _add(found, here.joinpath(*room.split("/")))
-    return found.hexdigest()
+        _add(result, here.joinpath(*room.split("/")))
+    return result.hexdigest()
 
 
-def _add(found: hashlib._Hash, folder: Traversable) -> None:
+def _add(result: hashlib._Hash, folder: Traversable) -> None:
     for entry in sorted(folder.iterdir(), key=lambda each: each.name):
         if entry.is_dir() and entry.name != "__pycache__":
-            _add(found, entry)
+            _add(result, entry)
         elif entry.name.endswith(".py"):
-            found.update(entry.name.encode() + b"\0" + entry.read_bytes())
+            result.update(entry.name.encode() + b"\0" + entry.read_bytes())

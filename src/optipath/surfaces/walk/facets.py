@@ -156,8 +156,8 @@ def facet_event(
 @nb.njit(error_model="numpy")
 def _act(lights: Any, at: int, cos2: float, sin2: float, numbers: Any) -> None:
     """Turn one light into the plane of incidence, and let a Mueller matrix act on it."""
-    found = acted(lights[at], lights[at + 1], lights[at + 2], lights[at + 3], cos2, sin2, *numbers)
-    lights[at], lights[at + 1], lights[at + 2], lights[at + 3] = found
+    result = acted(lights[at], lights[at + 1], lights[at + 2], lights[at + 3], cos2, sin2, *numbers)
+    lights[at], lights[at + 1], lights[at + 2], lights[at + 3] = result
 
 
 def compiled_kernel(
@@ -259,9 +259,9 @@ def uniform(state: Any) -> float:
     """
     right, left, around, back = _SHIFTS
     a, b, c, counter = state[0], state[1], state[2], state[3]
-    found = a + b + counter
+    result = a + b + counter
     state[0] = b ^ (b >> right)
     state[1] = c + (c << left)
-    state[2] = ((c << around) | (c >> back)) + found
+    state[2] = ((c << around) | (c >> back)) + result
     state[3] = counter + _ONE
-    return np.float64(found >> right) * _STEP
+    return np.float64(result >> right) * _STEP

@@ -76,12 +76,14 @@ def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> 
 
 def _standing(fields: Sequence[HeightField], given: Sequence[bool]) -> list[int]:
     """Return how each mesh stands; those that are given stay in register with the first of them."""
-    found = [SHIFTED if field.periodic else ENDED for field in fields]
-    places = [place for place, is_given in enumerate(given) if is_given and found[place] == SHIFTED]
+    results = [SHIFTED if field.periodic else ENDED for field in fields]
+    places = [
+        place for place, is_given in enumerate(given) if is_given and results[place] == SHIFTED
+    ]
     for place in places:
         if fields[place].size == fields[places[0]].size:
-            found[place] = IN_REGISTER
-    return found
+            results[place] = IN_REGISTER
+    return results
 
 
 _MORE = 8
@@ -118,8 +120,8 @@ class KeptMeshes:
 
 def kept_meshes(sample: Sample) -> KeptMeshes:
     """Return those that are kept with a sample."""
-    found: KeptMeshes = vars(sample).setdefault("_packed", KeptMeshes(sample))
-    return found
+    result: KeptMeshes = vars(sample).setdefault("_packed", KeptMeshes(sample))
+    return result
 
 
 SHIFT = 2
@@ -148,15 +150,15 @@ def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64
     [0. 3.] [0. 3.]
     """
     corners = np.stack([vertices[:-1, :-1], vertices[1:, :-1], vertices[:-1, 1:], vertices[1:, 1:]])
-    found = [np.stack([corners.min(axis=0), corners.max(axis=0)], axis=-1)]
+    results = [np.stack([corners.min(axis=0), corners.max(axis=0)], axis=-1)]
     for _ in range(levels_of(vertices.shape[1] - 1, vertices.shape[0] - 1)):
-        low, high = found[-1][..., 0], found[-1][..., 1]
-        found.append(
+        low, high = results[-1][..., 0], results[-1][..., 1]
+        results.append(
             np.stack(
                 [_blocks(low, np.minimum, np.inf), _blocks(high, np.maximum, -np.inf)], axis=-1
             )
         )
-    return found
+    return results
 
 
 def _blocks(
