@@ -12,10 +12,11 @@ from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
 from reprlib import Repr
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+    from contextlib import AbstractContextManager
 
 
 _LONGEST = 600
@@ -173,6 +174,19 @@ def collecting(
         yield
     except error as fault:
         faults += [about + sentence for sentence in fault.faults]
+
+
+T = TypeVar("T")
+
+
+@contextmanager
+def having(variable: ContextVar[T], value: T) -> Iterator[None]:
+    """Let a variable have a value inside."""
+    token = variable.set(value)
+    try:
+        yield
+    finally:
+        variable.reset(token)
 
 
 def did_you_mean(word: object, known: Iterable[str]) -> str:
@@ -341,19 +355,14 @@ def looks_left() -> bool:
     return _looks_left.get() > 0
 
 
-@contextmanager
-def few_suggestions(most: int = 20) -> Iterator[None]:
+def few_suggestions(most: int = 20) -> AbstractContextManager[None]:
     """Let misspelt words be looked for so often inside, and no more: each look takes its time.
 
     >>> with few_suggestions(1):
     ...     [closest(word, ["in", "out"]) for word in ("ou", "outt")]
     ['out', None]
     """
-    token = _looks_left.set(most)
-    try:
-        yield
-    finally:
-        _looks_left.reset(token)
+    return having(_looks_left, most)
 
 
 def _bare(word: str) -> str:

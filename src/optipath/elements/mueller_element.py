@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
@@ -15,8 +15,7 @@ from optipath.kernels.catalog import MATRIX
 from optipath.light.decompositions import reciprocal, tolerance_for, tolerance_of
 from optipath.light.passive import are_passive, cure_of, problem_of
 from optipath.materials.quantities import Angle, Quantity, YesOrNo
-from optipath.values.arrays import read_only
-from optipath.values.domains import Domain
+from optipath.values.domains import PhysicalDomain
 from optipath.values.messages import cure
 from optipath.values.operands import Operation
 from optipath.values.parameters import Parameter
@@ -83,19 +82,8 @@ class MuellerElement(Element, kind="mueller"):
 
 
 @dataclass(frozen=True)
-class MatrixDomain(Domain):
+class MatrixDomain(PhysicalDomain):
     """Mueller matrices of passive elements, beyond the rounding of their precision; or any."""
-
-    physical: bool = True
-
-    @property
-    def unphysical(self) -> Domain:
-        """The domain of matrices as they are measured, and of amplifiers."""
-        return replace(self, physical=False)
-
-    def kept(self, value: Any) -> Any:
-        """Return a value that nobody can change, in the precision by which it is judged."""
-        return read_only(value, widened=False)
 
     def allows(self, numbers: Any) -> Any:
         finite = super().allows(numbers).all(axis=(-1, -2))

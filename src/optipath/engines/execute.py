@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from optipath.engines.program import LoopSolver, Result
+from optipath.kernels.linear_solve import is_zero
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -152,7 +151,7 @@ def _evaluated(
     for taken in takes:
         if taken not in program.taken_by_several:
             del results[taken]
-    kernel, left = evaluation.kernel.specialised(given, _vanishes)
+    kernel, left = evaluation.kernel.specialised(given, is_zero)
     numbers = kernel.made_for(carrier.xp)(*left)
     structure = evaluation.kernel.structure
     if evaluation.presence is None or structure is None:
@@ -160,8 +159,3 @@ def _evaluated(
     present, where = operands[evaluation.presence], carrier.xp.where
     pairs = zip(numbers, structure.identity, strict=True)
     return tuple(where(present, number, nothing) for number, nothing in pairs)
-
-
-def _vanishes(number: Any) -> bool:
-    """Tell whether a number is one for the whole batch, known, and 0."""
-    return isinstance(number, (float, np.floating)) and number == 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import KW_ONLY, dataclass
 from functools import reduce
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -181,27 +182,18 @@ _APART = 1e-6
 """How far the squares of a cosine and a sine may be from 1 together."""
 
 
+@dataclass(eq=False, repr=False)
 class SymbolicInputs:
     """Makes the symbols of a program's operands."""
 
-    def __init__(
-        self,
-        recorder: Recorder,
-        forms: Mapping[InputKey, str],
-        limits: Mapping[Hashable, Limits],
-        *,
-        axes: Mapping[str, frozenset[int]],
-        known: Callable[[Any], Any] | None = None,
-        single: bool = False,
-        counted: bool = False,
-    ) -> None:
-        self.recorder = recorder
-        self.forms = forms
-        self.limits = limits
-        self.axes = axes
-        self.known = known
-        self.single = single
-        self.counted = counted
+    recorder: Recorder
+    forms: Mapping[InputKey, str]
+    limits: Mapping[Hashable, Limits]
+    _: KW_ONLY
+    axes: Mapping[str, frozenset[int]]
+    known: Callable[[Any], Any] | None = None
+    single: bool = False
+    counted: bool = False
 
     @property
     def primitives(self) -> Primitives:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import KW_ONLY, dataclass
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
@@ -35,6 +36,7 @@ def _operator(operation: str, *, reflected: bool = False) -> Callable[..., Any]:
     return method
 
 
+@dataclass(eq=False, repr=False, slots=True)
 class Symbol:
     """An elementwise operation on other symbols and on numbers, recorded and not done.
 
@@ -42,28 +44,17 @@ class Symbol:
     engines make code of it.
     """
 
-    __slots__ = ("axes", "index", "kind", "operands", "operation", "positive", "recorder")
     __array_ufunc__ = None  # So that NumPy's scalars leave operators to this class.
     __hash__ = None  # type: ignore[assignment] # Nor is it looked up in place of a number.
 
-    def __init__(
-        self,
-        recorder: Record,
-        operation: str,
-        operands: tuple[Any, ...],
-        kind: str,
-        *,
-        axes: frozenset[int],
-        index: int,
-        positive: bool = False,
-    ) -> None:
-        self.recorder = recorder
-        self.operation = operation
-        self.operands = operands
-        self.kind = kind
-        self.axes = axes
-        self.index = index
-        self.positive = positive
+    recorder: Record
+    operation: str
+    operands: tuple[Any, ...]
+    kind: str
+    _: KW_ONLY
+    axes: frozenset[int]
+    index: int
+    positive: bool = False
 
     @property
     def uniform(self) -> bool:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.errors import ParameterError, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, index_of
 from optipath.values.arrays import entries_of, first_place, read_only
-from optipath.values.domains import Domain, in_unit_of, pair_in
+from optipath.values.domains import Domain, OptionalDomain, in_unit_of, pair_in
 from optipath.values.jax_values import namespace
 from optipath.values.messages import cure
 from optipath.values.precision import held
@@ -218,22 +218,16 @@ class FollowedLitIndex(Followed, LitIndexDomain):
     """The same, or that of the boundary before."""
 
 
-class OptionalLitIndex(LitIndexDomain):
+class OptionalLitIndex(OptionalDomain, LitIndexDomain):
     """The same, or none."""
-
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        return [] if value is None else super().parts(name, value)
 
 
 class FollowedOutside(Followed, OutsideDomain):
     """The same, or that of the boundary before."""
 
 
-class OptionalOutside(OutsideDomain):
+class OptionalOutside(OptionalDomain, OutsideDomain):
     """The same, or none."""
-
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        return [] if value is None else super().parts(name, value)
 
 
 class LitBehind(OutsideDomain):
@@ -317,6 +311,16 @@ class InnerDomain(OutsideDomain):
         )
 
 
+def _entries_in(value: Any, *kinds: type) -> tuple[Any, ...] | None:
+    """Return the entries of a list; None of what validation is to name."""
+    if not isinstance(value, (list, tuple, *kinds)):
+        return None
+    try:
+        return entries_of("", "", value)
+    except ValueFault:
+        return None
+
+
 @dataclass(frozen=True)
 class IndicesDomain(Domain):
     """Indices of the media of a stack, the front medium first and the substrate last."""
@@ -328,12 +332,9 @@ class IndicesDomain(Domain):
         return False
 
     def read(self, owner: str, value: Any) -> Any:
-        if not isinstance(value, (list, tuple)):
+        if (listed := _entries_in(value)) is None:
             return value
-        try:
-            entries = [*enumerate(entries_of(owner, "indices", value))]
-        except ValueFault:
-            return value  # For validation to name.
+        entries = [*enumerate(listed)]
         for place in (place for place, index in entries if place and index is FOLLOWS):
             raise ValueFault(
                 f"{owner}[{place}] cannot be FOLLOWS; only {owner}[0], the medium in front, can be "
@@ -343,12 +344,8 @@ class IndicesDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return the indices one by one, since each may be an array of its own."""
-        if not isinstance(value, (list, tuple, np.ndarray)):
+        if (entries := _entries_in(value, np.ndarray)) is None:
             return value
-        try:
-            entries = entries_of("", "indices", value)
-        except ValueFault:
-            return value  # For validation to name.
         if len(entries) > MOST_MEDIA:
             return value
         return tuple(_plain_index(read_only(index)) for index in entries)
@@ -405,22 +402,14 @@ class LengthsDomain(Domain):
         return False
 
     def read(self, owner: str, value: Any) -> Any:
-        if not isinstance(value, (list, tuple)):
+        if (entries := _entries_in(value)) is None:
             return value
-        try:
-            entries = [*enumerate(entries_of(owner, "lengths", value))]
-        except ValueFault:
-            return value  # For validation to name.
-        return [LENGTH_OF_LAYER.read(f"{owner}[{place}]", length) for place, length in entries]
+        return [LENGTH_OF_LAYER.read(f"{owner}[{i}]", one) for i, one in enumerate(entries)]
 
     def kept(self, value: Any) -> Any:
         """Return the lengths one by one, since each may be an array of its own."""
-        if not isinstance(value, (list, tuple, np.ndarray)):
+        if (entries := _entries_in(value, np.ndarray)) is None:
             return value
-        try:
-            entries = entries_of("", "lengths", value)
-        except ValueFault:
-            return value  # For validation to name.
         return tuple(in_unit_of(read_only(length), LENGTH_OF_LAYER) for length in entries)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:

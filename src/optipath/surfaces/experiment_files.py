@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import OptipathError, PresetError, SurfaceError, did_you_mean, listed, shown
-from optipath.paths.files.schema import FORMAT, Faults, as_meant, type_faults
+from optipath.paths.files.schema import FORMAT, Faults, as_meant, readable, type_faults
 from optipath.paths.files.toml import file_of, names_in, parsed, presets_folder, text_of
 from optipath.surfaces.published_experiment import Experiment, Measurement, Walks
 from optipath.surfaces.reproduction import ANY_AZIMUTH, MEASURES
@@ -243,9 +243,3 @@ def _range(given: Any) -> tuple[float, float]:
     if least is None or largest is None or least > largest:
         raise SurfaceError(f"{shown(given)} is neither a number nor [LEAST, LARGEST]")
     return least, largest
-
-
-def readable(table: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
-    """Return what a table has by keys that are known or meant, where it is of the right type."""
-    meant = as_meant(table, schema)
-    return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import OptipathError, PresetError, SurfaceError, few_suggestions, shown
 from optipath.materials.index_domains import INDEX
-from optipath.paths.files.schema import FORMAT, Faults, as_meant, joined, type_faults
+from optipath.paths.files.schema import FORMAT, Faults, as_meant, joined, readable, type_faults
 from optipath.paths.files.toml import file_of, names_in, parsed, presets_folder, text_of
 from optipath.paths.files.values import decode, references_in
 from optipath.surfaces.height_field import HeightField
@@ -113,7 +113,7 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
         faults.append(f"the sample: 'format' is missing; add format = {FORMAT}")
     if not as_meant(document, TOP).get("layers"):
         faults.append("the sample has no layers; add a table [[layers]] for each, from the top")
-    given = _readable(document, TOP)
+    given = readable(document, TOP)
     tables = given.pop("layers", [])
     outside = faults.attempt("outside", _index, given.pop("outside", 1.0))
     given |= {"outside": 1.0 if outside is None else outside}
@@ -131,7 +131,7 @@ def _layer(where: str, table: Any, folder: Path, faults: Faults) -> SampleLayer:
         faults.append(f"{where} must be a table headed [[layers]], not {shown(table)}")
         return SampleLayer(_INDEX, _ROUGHNESS)
     faults += type_faults(where, table, LAYER)
-    given = _readable(table, LAYER)
+    given = readable(table, LAYER)
     if "index" not in given:
         faults.append(f"{where}: 'index' is missing; write that of the medium below")
     index = faults.attempt(f"{where}.index", _index, given.get("index", _INDEX))
@@ -139,12 +139,6 @@ def _layer(where: str, table: Any, folder: Path, faults: Faults) -> SampleLayer:
     if "heights" in given or "heights" not in as_meant(table, LAYER):
         rough = faults.attempt(where, roughness_of_table, given, folder)
     return SampleLayer(_INDEX if index is None else index, *(rough or (_ROUGHNESS,)))
-
-
-def _readable(table: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
-    """Return what a table has by keys that are known or meant, where it is of the right type."""
-    meant = as_meant(table, schema)
-    return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}
 
 
 def _index(raw: Any) -> Any:

@@ -491,22 +491,24 @@ def _may_be_a_state(value: Any) -> bool:
 
 
 @dataclass(frozen=True)
-class StokesDomain(Domain):
-    """Stokes vectors that light can have; none at all is unpolarised light."""
+class PhysicalDomain(Domain):
+    """Numbers that are possible together, beyond the rounding of their precision; or any."""
 
     physical: bool = True
 
     @property
     def unphysical(self) -> Domain:
-        """The domain of Stokes vectors as they are measured."""
+        """The domain of what is measured, and of amplifiers."""
         return replace(self, physical=False)
-
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        return [] if value is None else super().parts(name, value)
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change, in the precision by which it is judged."""
         return read_only(value, widened=False)
+
+
+@dataclass(frozen=True)
+class StokesDomain(PhysicalDomain, OptionalDomain):
+    """Stokes vectors that light can have; none at all is unpolarised light."""
 
     def allows(self, numbers: Any) -> Any:
         finite = super().allows(numbers).all(axis=-1)

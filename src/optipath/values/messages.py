@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
-from optipath.errors import ParameterError, did_you_mean, shown
+from optipath.errors import ParameterError, did_you_mean, having, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Sequence
+    from contextlib import AbstractContextManager
 
 
 _IN_FILE: ContextVar[bool] = ContextVar("_IN_FILE", default=False)
@@ -18,34 +18,19 @@ _IN_FIELDS: ContextVar[bool] = ContextVar("_IN_FIELDS", default=False)
 _OPTIONS: ContextVar[Mapping[str, str] | None] = ContextVar("_OPTIONS", default=None)
 
 
-@contextmanager
-def of_files() -> Iterator[None]:
+def of_files() -> AbstractContextManager[None]:
     """Let all cures inside be written as preset files write them."""
-    token = _IN_FILE.set(True)
-    try:
-        yield
-    finally:
-        _IN_FILE.reset(token)
+    return having(_IN_FILE, value=True)
 
 
-@contextmanager
-def of_fields() -> Iterator[None]:
+def of_fields() -> AbstractContextManager[None]:
     """Let all values inside be given in fields of their own, as on a page."""
-    token = _IN_FIELDS.set(True)
-    try:
-        yield
-    finally:
-        _IN_FIELDS.reset(token)
+    return having(_IN_FIELDS, value=True)
 
 
-@contextmanager
-def of_options(options: Mapping[str, str]) -> Iterator[None]:
+def of_options(options: Mapping[str, str]) -> AbstractContextManager[None]:
     """Let all arguments inside be named as options of a command line."""
-    token = _OPTIONS.set(options)
-    try:
-        yield
-    finally:
-        _OPTIONS.reset(token)
+    return having(_OPTIONS, options)
 
 
 def argument(name: str, value: str = "") -> str:
@@ -141,16 +126,11 @@ def check_named(
 UNITS_ARE_WRITTEN: ContextVar[bool] = ContextVar("UNITS_ARE_WRITTEN", default=False)
 
 
-@contextmanager
-def units_are_written() -> Iterator[None]:
+def units_are_written() -> AbstractContextManager[None]:
     """Let no number inside be taken for one of degrees: all come from texts with units.
 
     >>> with units_are_written():
     ...     print(UNITS_ARE_WRITTEN.get())
     True
     """
-    token = UNITS_ARE_WRITTEN.set(True)
-    try:
-        yield
-    finally:
-        UNITS_ARE_WRITTEN.reset(token)
+    return having(UNITS_ARE_WRITTEN, value=True)

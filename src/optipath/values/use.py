@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, ValueFault, collecting
+from optipath.errors import OptipathError, ParameterError, ValueFault, collecting, having
 from optipath.values.angles import is_of_an_angle, meant_in_degrees, warn_of_degrees
 from optipath.values.arrays import as_given
 from optipath.values.curve_value import CurveValue, check_computed
-from optipath.values.domains import Domain, in_unit_of
+from optipath.values.domains import Domain, OptionalDomain, in_unit_of
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.messages import units_are_written
 from optipath.values.parameters import (
@@ -204,11 +204,8 @@ def checked_later() -> Iterator[None]:
     ...     Attenuator(1.5).faults("filter")
     ['filter.transmittance is 1.5; give a real fraction within 0 .. 1']
     """
-    token = _is_checked_later.set(True)
-    try:
+    with having(_is_checked_later, value=True):
         yield
-    finally:
-        _is_checked_later.reset(token)
 
 
 def is_checked_later() -> bool:
@@ -344,12 +341,9 @@ class AxisDomain(Domain):
         return super().parse(text)
 
 
-class OptionalAxisDomain(AxisDomain):
+class OptionalAxisDomain(OptionalDomain, AxisDomain):
     """The same, or none.
 
     >>> OptionalAxisDomain("angle", "angle").parts("dichroic_angle", None)
     []
     """
-
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        return [] if value is None else super().parts(name, value)

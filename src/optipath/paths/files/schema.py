@@ -66,6 +66,12 @@ def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
     return results
 
 
+def readable(table: Mapping[str, Any], schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a table has by keys that are known or meant, where it is of the right type."""
+    meant = as_meant(table, schema)
+    return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}
+
+
 def checked(
     where: str, table: dict[str, Any], schema: Mapping[str, Any], faults: list[str]
 ) -> dict[str, Any] | None:
