@@ -335,17 +335,19 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     >>> closest("--plot", ["--delta"]), closest("10", ["1", "2"]), closest("n12", ["n1", "n2"])
     (None, None, None)
     """
-    left, asked = _looks_left.get(), _bare(word)
+    left, request = _looks_left.get(), _bare(word)
     _looks_left.set(left - 1)
     if left <= 0 or len(word) > _LONGEST_WORD:
         return None
     words = [*known][:_MOST_WORDS]
     by_bare = {_bare(name): name for name in reversed(words) if len(name) <= _LONGEST_WORD}
-    begun = [name for name in by_bare if name.startswith(asked)] if len(asked) >= _BEGINNING else []
-    if len(begun) > 1 and asked not in by_bare:
+    begun = (
+        [name for name in by_bare if name.startswith(request)] if len(request) >= _BEGINNING else []
+    )
+    if len(begun) > 1 and request not in by_bare:
         return None
-    for result in get_close_matches(asked, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
-        if result == asked or not _too_short(asked, result):
+    for result in get_close_matches(request, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
+        if result == request or not _too_short(request, result):
             return by_bare[result]
     return None
 
@@ -370,9 +372,11 @@ def _bare(word: str) -> str:
     return word.lower().lstrip(_SIGNS)
 
 
-def _too_short(asked: str, result: str) -> bool:
-    letters = ["".join(c for c in word if not c.isdigit()) for word in (asked, result)]
-    return max(map(len, (asked, result))) < 3 or (letters[0] == letters[1] and len(letters[0]) < 3)
+def _too_short(request: str, result: str) -> bool:
+    letters = ["".join(c for c in word if not c.isdigit()) for word in (request, result)]
+    return max(map(len, (request, result))) < 3 or (
+        letters[0] == letters[1] and len(letters[0]) < 3
+    )
 
 
 EXTRAS = {

@@ -73,12 +73,12 @@ def _opened(chosen: Chosen) -> PathGraph:
     if case not in path.cases:
         return chosen.path()  # None is given, or one that is refused.
     known = path.parameters
-    kept = {
+    stored = {
         name: value
         for name, value in path.cases[case].values.items()
         if dimension_of(known[name].unit) != "angle" or known[name].optional
     }
-    return bound_preset(path, chosen.preset, None, beside(chosen.opened, kept, chosen.values))
+    return bound_preset(path, chosen.preset, None, beside(chosen.opened, stored, chosen.values))
 
 
 def _tables(report: Report) -> list[Table]:

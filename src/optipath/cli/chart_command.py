@@ -82,10 +82,10 @@ def option_faults(
     """Return what does not go with ``--near``, a sentence each."""
     if not near:
         return []
-    given = {"--engine": bool(engines), "--quick": quick, "--peers": peers is not None}
+    arguments = {"--engine": bool(engines), "--quick": quick, "--peers": peers is not None}
     return [
         f"{name} is for times, and --near measures none; leave one of them out"
-        for name, is_given in given.items()
+        for name, is_given in arguments.items()
         if is_given
     ]
 
@@ -194,20 +194,20 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
     from optipath.lab.chart_file import chart_text  # noqa: PLC0415
 
     draw, save, interrupted = plots.chart, plots.save, False
-    kept: dict[str, Any] = {}
+    stored: dict[str, Any] = {}
     try:
         with told_progress() as tell:
-            kept.update(measure(tell, kept.update))
+            stored.update(measure(tell, stored.update))
     except KeyboardInterrupt:
-        if not kept:
+        if not stored:
             raise
         interrupted = True
-        done = kept["regions"]
+        done = stored["regions"]
         say(f"interrupted: {done['measured']} of {done['of']} steps are measured, and are kept")
     if data is not None:
-        write(data, chart_text(kept).encode())
+        write(data, chart_text(stored).encode())
         say(f"wrote {data}")
-    picture = draw(kept, peers=peers)
+    picture = draw(stored, peers=peers)
     save(picture, out, _DOTS)
     say(f"wrote {out}")
     if interrupted:

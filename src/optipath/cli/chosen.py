@@ -62,9 +62,9 @@ class Chosen:
         """The words that were given for choices of places, by name."""
         return {name: self.values[name] for name in self.opened.choices if name in self.values}
 
-    def path(self, reads: str | None = None, beside: Collection[str] = ()) -> PathGraph:
+    def path(self, reads: str | None = None, others: Collection[str] = ()) -> PathGraph:
         """Return the path, bound to single values, and with other readings if they are given."""
-        varied = {*self.axes, *beside}
+        varied = {*self.axes, *others}
         bound = bound_preset(self.opened, self.preset, self.case, self.values, varied)
         return bound if reads is None else bound.reading(reads)
 
@@ -78,9 +78,9 @@ def chosen_by(
 ) -> list[Chosen]:
     """Return what the options give, for each case that is asked for."""
     faults = [*of_options]
-    given = {name: _once(name, several, faults) for name, several in texts.items() if several}
-    uses = Values(path.graph).uses if given else ()
-    values = {name: _value(path, name, given, uses, faults) for name in given}
+    arguments = {name: _once(name, several, faults) for name, several in texts.items() if several}
+    uses = Values(path.graph).uses if arguments else ()
+    values = {name: _value(path, name, arguments, uses, faults) for name in arguments}
     sound = {name: value for name, value in values.items() if value is not None}
     if not faults:
         take_extinctions(uses, sound)
@@ -151,12 +151,12 @@ def _once(name: str, several: Sequence[str], faults: list[str]) -> str:
 def _value(
     path: PathGraph,
     name: str,
-    given: Mapping[str, str],
+    arguments: Mapping[str, str],
     uses: Sequence[Use],
     faults: list[str],
 ) -> Any:
     """Return what the text of an option stands for; None where it is faulty."""
-    text = given[name]
+    text = arguments[name]
     if name in path.choices:
         words = path.choices[name].behind
         if text not in words and any(each in text for each in ",:@"):
@@ -169,13 +169,13 @@ def _value(
     parameter = path.parameters.get(name, WAVELENGTH)
     with collecting(faults):
         if is_material(parameter, text, uses):
-            beside = extinction_beside(uses, name)
-            k = _value(path, beside, given, uses, faults) if beside in given else None
-            option = f"--{_flag(beside)}" if beside else ""
+            other = extinction_beside(uses, name)
+            k = _value(path, other, arguments, uses, faults) if other in arguments else None
+            option = f"--{_flag(other)}" if other else ""
             if isinstance(k, AxisValues):
                 faults.append(f"{option} takes one value beside --{_flag(name)} {text}; give one")
             elif k is not None:
-                path.parameters[beside].resolve(k)
+                path.parameters[other].resolve(k)
             return None if faults else material_named(f"--{_flag(name)}", text, option, k)
         if several := axis_given(parameter, text, uses):
             return several
@@ -197,19 +197,19 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     name = WAVELENGTH.name
     if name not in values or name in path.parameters:
         return
-    media = {given: value for given, value in values.items() if isinstance(value, Material)}
+    media = {argument: value for argument, value in values.items() if isinstance(value, Material)}
     try:
         needed = name in path.bind(**media).parameters
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        given = values[name]
-        several = isinstance(given, AxisValues)
-        WAVELENGTH.resolve(given.given if several else given)
+        argument = values[name]
+        several = isinstance(argument, AxisValues)
+        WAVELENGTH.resolve(argument.given if several else argument)
         if several:
-            values[name] = IdleValues(*given)
+            values[name] = IdleValues(*argument)
         else:
             del values[name]
-        told = "all is the same along it" if several else f"--{name} is not used"
-        told = f"optipath: nothing in '{preset}' depends on the wavelength; {told}"
-        click.echo(printable(told), err=True)
+        message = "all is the same along it" if several else f"--{name} is not used"
+        message = f"optipath: nothing in '{preset}' depends on the wavelength; {message}"
+        click.echo(printable(message), err=True)

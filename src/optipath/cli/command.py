@@ -205,11 +205,11 @@ def _terminate(number: int, _: object) -> NoReturn:
     raise SystemExit(128 + number)
 
 
-def _unraisable(lost: sys.UnraisableHookArgs) -> None:
+def _unraisable(missing: sys.UnraisableHookArgs) -> None:
     # Compiled code that calls Python back, such as LLVM, would go on.
-    if lost.exc_type in (KeyboardInterrupt, SystemExit):
+    if missing.exc_type in (KeyboardInterrupt, SystemExit):
         stop()
-    sys.__unraisablehook__(lost)
+    sys.__unraisablehook__(missing)
 
 
 def import_own(name: str) -> None:

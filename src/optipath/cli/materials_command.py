@@ -90,11 +90,11 @@ def _materials(
 ) -> None:
     """List materials by name, or tell n and k of one with --at."""
     if wavelengths:
-        told = told_at(" ".join(words), page, wavelengths, incidence, {"n": n, "k": k})
-        say_json(told.as_json()) if as_json else told.print(digits)
+        message = told_at(" ".join(words), page, wavelengths, incidence, {"n": n, "k": k})
+        say_json(message.as_json()) if as_json else message.print(digits)
         return
-    given = {"--page": page, "--incidence": incidence != "0", "--n": n is not None}
-    for option in [name for name, there in {**given, "--k": k is not None}.items() if there]:
+    arguments = {"--page": page, "--incidence": incidence != "0", "--n": n is not None}
+    for option in [name for name, there in {**arguments, "--k": k is not None}.items() if there]:
         raise click.UsageError(f"{option} goes with --at; write --at '550 nm' as well")
     # Of vacuum no page is needed.
     vacuum = alike(" ".join(words)) == VACUUM

@@ -56,11 +56,11 @@ def _left_over(word: str, words: Sequence[str], flags: Mapping[str, bool]) -> st
 
     at = words.index(word)
     flag, value = ("", "", *words[:at])[-2:]
-    name, _, given = word.partition("=")
+    name, _, argument = word.partition("=")
     if (meant := f"--{name.lstrip(_DASHES)}") in flags:
         behind = [one for one in words[at + 1 : at + 2] if not one.startswith("--")]
-        given = "" if flags[meant] else shlex.quote(given or "".join(behind) or "VALUE")
-        return f"'{word}' is no option; write {meant} {given}".rstrip()
+        argument = "" if flags[meant] else shlex.quote(argument or "".join(behind) or "VALUE")
+        return f"'{word}' is no option; write {meant} {argument}".rstrip()
     if value.startswith("--") and value.endswith("="):
         return f"'{word}' is cut off from {value}; write {value[:-1]} {shlex.quote(word)}"
     if value.startswith("--") and "=" in value:

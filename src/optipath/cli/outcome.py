@@ -90,13 +90,13 @@ class Outcome:
     @property
     def materials(self) -> dict[str, Any]:
         """The materials that were given, with n and k at each wavelength; {} without any."""
-        if not (given := list(materials_among(self.chosen.values))):
+        if not (argument := list(materials_among(self.chosen.values))):
             return {}
         known = self.path.parameters
         wavelength = known[WAVELENGTH.name].default if WAVELENGTH.name in known else None
         along = [axis.given for axis in self.grid.axes if axis.name == WAVELENGTH.name]
         wavelength = along[0] if along else wavelength
-        results = {name: material_as_json(label, one, wavelength) for name, label, one in given}
+        results = {name: material_as_json(label, one, wavelength) for name, label, one in argument}
         return {"materials": results}
 
     @property
@@ -175,11 +175,11 @@ def _axes_as_json(grid: SweepGrid) -> dict[str, Any]:
 
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
     published, light = outcome.published(name), outcome.lights[name]
-    told: dict[str, Any] = {
+    messages: dict[str, Any] = {
         key: plain(getattr(light, key.lower()), unit) for key, (_, unit) in TOLD.items()
     }
-    told["units"] = {key: unit for key, (_, unit) in TOLD.items() if unit}
-    results = {"stokes": plain(light.stokes), "polarization": told}
+    messages["units"] = {key: unit for key, (_, unit) in TOLD.items() if unit}
+    results = {"stokes": plain(light.stokes), "polarization": messages}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
         results["log10_intensity"] = plain(light.log10_intensity)
@@ -208,12 +208,12 @@ def print_given(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> No
     """Print what a run was given."""
     console.print(title(outcome.chosen.title, outcome.path.description))
     table = Table(box=None, show_header=False)
-    given = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
+    arguments = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
     for name, parameter in outcome.single.items():
-        if name in given:
+        if name in arguments:
             continue
         table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
-    for name, label in given.items():
+    for name, label in arguments.items():
         table.add_row(*map(cell, (name, label, outcome.chosen.opened.parameters[name].help)))
     for name, word in outcome.chosen.places.items():
         table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))
@@ -357,16 +357,16 @@ def point_table(
     light: Light,
     grid: SweepGrid,
     numbers: Numbers,
-    told: Mapping[str, tuple[str, str]] | None = None,
+    messages: Mapping[str, tuple[str, str]] | None = None,
 ) -> Table:
     """Return a table with a row for each point of a grid."""
-    told = told or {}
+    messages = messages or {}
     columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
-    columns += [heading(word, unit) for word, unit in told.values()]
+    columns += [heading(word, unit) for word, unit in messages.values()]
     table = headed(*columns, box=None, title=cell(title), title_justify="left", title_style="")
     for column in table.columns:
         column.justify = "right"
-    more = [_degrees(getattr(light, key.lower()), unit) for key, (_, unit) in told.items()]
+    more = [_degrees(getattr(light, key.lower()), unit) for key, (_, unit) in messages.items()]
     for index in islice(np.ndindex(grid.shape), MOST_ROWS):
         values = _values_at(grid, index, numbers.digits)
         behind = (numbers.state(float(each[index])) for each in more)

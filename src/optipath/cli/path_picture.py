@@ -233,7 +233,8 @@ class NodeBox:
     def outlet_places(self, y: float) -> list[tuple[str, float, float]]:
         """Return each outlet with its height, and how long its arrow is."""
         return [
-            (told, y + _OUTLET * (number + 1), _ARROW) for number, told in enumerate(self.outlets)
+            (message, y + _OUTLET * (number + 1), _ARROW)
+            for number, message in enumerate(self.outlets)
         ]
 
 
@@ -243,7 +244,7 @@ def node_box(
     """Return the box of a node."""
     texts = lines_of(name, _CELLS - 4), lines_of(element.kind, _CELLS)
     values = [line for each in element_values(element) for line in lines_of(each, _CELLS)]
-    told = [f"{drawable(port)}: leaves the path" for port in outlets]
+    messages = [f"{drawable(port)}: leaves the path" for port in outlets]
     below, above = _slots(leaving), _slots(entering)
     widths = [text_width(line, NAME) for line in texts[0]]
     widths += [text_width(line, SMALL) for line in (*texts[1], *values)]
@@ -255,17 +256,17 @@ def node_box(
         for slots, labels in ((below, leaving), (above, entering))
         for (_, label), place in zip(labels, slots.values(), strict=True)
     ]
-    beside = [_ARROW + _BESIDE + text_width(one, SMALL) for one in told]
+    others = [_ARROW + _BESIDE + text_width(one, SMALL) for one in messages]
     return NodeBox(
         *texts,
         values,
         "inner" if element.inputs and element.outputs else "end" if element.inputs else "source",
-        told,
+        messages,
         below,
         above,
         width,
-        max(height, _OUTLET * (len(told) + 1)),
-        Extent(width / 2, max(width / 2 + max(beside, default=0.0), *labelled, 0.0)),
+        max(height, _OUTLET * (len(messages) + 1)),
+        Extent(width / 2, max(width / 2 + max(others, default=0.0), *labelled, 0.0)),
     )
 
 
@@ -612,12 +613,12 @@ class _Drawn:
             self.page, "rect", {"x": f"{x:g}", "y": f"{y:g}", **size, "class": f"box {box.role}"}
         )
         box.draw(self.page, x, y)
-        for told, height, length in box.outlet_places(y):
+        for message, height, length in box.outlet_places(y):
             begin = x + box.width
             drawn = f"M{begin:g} {height:g}H{begin + length:g}"
             attributes = {"d": drawn, "class": "link", "marker-end": "url(#head)"}
             SubElement(self.page, "path", attributes)
-            add_text(self.page, told, begin + length + 6, height + 4, SMALL, "faint")
+            add_text(self.page, message, begin + length + 6, height + 4, SMALL, "faint")
 
 
 def _page(path: PathGraph, name: str) -> Tag:
@@ -625,8 +626,8 @@ def _page(path: PathGraph, name: str) -> Tag:
     page = Tag("svg", {"xmlns": "http://www.w3.org/2000/svg", "width": "0", "height": "0"})
     page.attrib |= labelled
     SubElement(page, "title", {"id": "title"}).text = f"The path {drawable(name)}"
-    told = [drawable(line) for line in (path.description, *draw(path).splitlines())]
-    SubElement(page, "desc", {"id": "description"}).text = "\n".join(told)
+    messages = [drawable(line) for line in (path.description, *draw(path).splitlines())]
+    SubElement(page, "desc", {"id": "description"}).text = "\n".join(messages)
     SubElement(page, "style").text = _STYLE
     head = {"id": "head", "viewBox": "0 0 10 10", "refX": "9", "refY": "5", "orient": "auto"}
     marker = SubElement(page, "marker", {**head, "markerWidth": "7", "markerHeight": "7"})

@@ -179,82 +179,86 @@ class PlotKind(NamedTuple):
     counts: range = range(1)
 
 
-def drawn(asked: PlotRequest) -> Any:
+def drawn(request: PlotRequest) -> Any:
     """Return the picture that is asked for, with its title."""
     import numpy as np  # noqa: PLC0415 - the command line starts without
 
     from optipath.plots.text import missing_letters_as_boxes  # noqa: PLC0415 - an extra
 
     with missing_letters_as_boxes():
-        first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
+        first: Any = np.array(KINDS[request.kind].draw(request), object).flat[0]
     figure = first.figure
-    draw_title(figure, asked.title)
+    draw_title(figure, request.title)
     return figure
 
 
-def _ellipse(asked: PlotRequest) -> Any:
+def _ellipse(request: PlotRequest) -> Any:
     from optipath.plots import ellipse  # noqa: PLC0415 - an extra
     from optipath.plots.axes import own_panel  # noqa: PLC0415 - ditto
 
-    lights, count = asked.path.trace_all(), len(asked.ends)
+    lights, count = request.path.trace_all(), len(request.ends)
     if count == 1:
-        return ellipse({asked.end: lights[asked.end]})
+        return ellipse({request.end: lights[request.end]})
     panel = own_panel(None, (1, count), (5.0 * count, 5.8))
-    for name, ax in zip(asked.ends, panel.flat, strict=True):
+    for name, ax in zip(request.ends, panel.flat, strict=True):
         ellipse(lights[name], ax, labels=name)
     return panel
 
 
-def _poincare(asked: PlotRequest) -> Any:
-    if not asked.axes:
+def _poincare(request: PlotRequest) -> Any:
+    if not request.axes:
         from optipath.plots import poincare_path  # noqa: PLC0415 - an extra
 
-        return poincare_path(asked.path)
+        return poincare_path(request.path)
     from optipath.plots.poincare_sphere import parameter_trail  # noqa: PLC0415 - ditto
 
-    ((name, values),) = asked.axes.items()
-    return parameter_trail(asked.path, name, asked.end, _texts(values))
+    ((name, values),) = request.axes.items()
+    return parameter_trail(request.path, name, request.end, _texts(values))
 
 
-def _stokes(asked: PlotRequest) -> Any:
+def _stokes(request: PlotRequest) -> Any:
     from optipath.plots import stokes  # noqa: PLC0415 - an extra
     from optipath.plots.light_texts import MOST  # noqa: PLC0415 - ditto
 
-    if len(asked.ends) > MOST:
+    if len(request.ends) > MOST:
         raise ParameterError(
-            f"the path has {len(asked.ends)} detectors, and their bars are told apart up to "
-            f"{MOST}; add --detector {asked.ends[0]}"
+            f"the path has {len(request.ends)} detectors, and their bars are told apart up to "
+            f"{MOST}; add --detector {request.ends[0]}"
         )
-    lights = asked.path.trace_all()
-    published = {name: asked.published[name] for name in asked.ends if name in asked.published}
-    return stokes({name: lights[name] for name in asked.ends}, published=published or None)
+    lights = request.path.trace_all()
+    published = {
+        name: request.published[name] for name in request.ends if name in request.published
+    }
+    return stokes({name: lights[name] for name in request.ends}, published=published or None)
 
 
-def _mueller(asked: PlotRequest) -> Any:
+def _mueller(request: PlotRequest) -> Any:
     from optipath.plots import mueller  # noqa: PLC0415 - an extra
     from optipath.plots.axes import own_panel  # noqa: PLC0415 - ditto
 
-    program = asked.path.compose().program
-    ways = [(source, end) for end in asked.ends for source in program.sources]
+    program = request.path.compose().program
+    ways = [(source, end) for end in request.ends for source in program.sources]
     if len(ways) == 1:
-        return mueller(asked.path.mueller(*ways[0]))
+        return mueller(request.path.mueller(*ways[0]))
     panel = own_panel(None, (1, len(ways)), (5.6 * len(ways), 5.4))
     for (source, end), ax in zip(ways, panel.flat, strict=True):
-        mueller(asked.path.mueller(source, end), ax)
+        mueller(request.path.mueller(source, end), ax)
         ax.set_title(f"{source} to {end}\n{ax.get_title()}", parse_math=False)
     return panel
 
 
-def _curve(asked: PlotRequest) -> Any:
+def _curve(request: PlotRequest) -> Any:
     from optipath.plots import curve, quantity_map  # noqa: PLC0415 - an extra
 
-    (x, values), *other = asked.axes.items()
+    (x, values), *other = request.axes.items()
     if not other:
-        return curve(asked.path, x, asked.quantities, values=_texts(values), detector=asked.end)
+        return curve(
+            request.path, x, request.quantities, values=_texts(values), detector=request.end
+        )
     ((y, y_values),) = other
-    (quantity,) = asked.quantities
-    given: Any = {"x_values": _texts(values), "y_values": _texts(y_values)}
-    return quantity_map(asked.path, x, y, quantity, detector=asked.end, **given)
+    (quantity,) = request.quantities
+    argument: Any = {"x_values": _texts(values), "y_values": _texts(y_values)}
+    return quantity_map(request.path, x, y, quantity, detector=request.end, **argument)
 
 
 def _texts(values: AxisValues | None) -> Any:
@@ -264,22 +268,22 @@ def _texts(values: AxisValues | None) -> Any:
     return [f"{number} {values.unit}" for number in values.shown.tolist()]
 
 
-def _geometry(asked: PlotRequest) -> Any:
+def _geometry(request: PlotRequest) -> Any:
     from optipath.plots import geometry  # noqa: PLC0415 - an extra
 
-    return geometry(asked.path)
+    return geometry(request.path)
 
 
-def _bench(asked: PlotRequest) -> Any:
+def _bench(request: PlotRequest) -> Any:
     from optipath.plots import bench  # noqa: PLC0415 - an extra
 
-    return bench(asked.path)
+    return bench(request.path)
 
 
-def _energy(asked: PlotRequest) -> Any:
+def _energy(request: PlotRequest) -> Any:
     from optipath.plots import energy  # noqa: PLC0415 - an extra
 
-    return energy(asked.path)
+    return energy(request.path)
 
 
 KINDS = {
@@ -320,17 +324,17 @@ OUT = click.Option(
 )
 
 
-def _plot(chosen: Chosen, *, kind: str, out: Path, **asked: Any) -> None:
+def _plot(chosen: Chosen, *, kind: str, out: Path, **requests: Any) -> None:
     """Draw a preset, or a TOML file, and its light into a file."""
     # Before anything is computed: it tells whether what draws is there.
     from optipath.plots import save  # noqa: PLC0415 - an extra
 
-    save(drawn(request_of(chosen, kind, KINDS[kind].counts, **asked)), out)
+    save(drawn(request_of(chosen, kind, KINDS[kind].counts, **requests)), out)
     say(f"wrote {out}")
 
 
-def _faults(*, kind: str | None, out: Path | None, **asked: Any) -> list[str]:
-    faults = _kind_faults(kind, asked)
+def _faults(*, kind: str | None, out: Path | None, **requests: Any) -> list[str]:
+    faults = _kind_faults(kind, requests)
     if out is None:
         return [*faults, "--out is missing, and a picture is drawn into a file; add --out plot.png"]
     try:
@@ -343,13 +347,13 @@ def _faults(*, kind: str | None, out: Path | None, **asked: Any) -> list[str]:
     return faults
 
 
-def _kind_faults(kind: str | None, asked: Mapping[str, Any]) -> list[str]:
+def _kind_faults(kind: str | None, requests: Mapping[str, Any]) -> list[str]:
     if kind is None:
         return [f"--kind is missing; say what is drawn, one of {', '.join(KINDS)}"]
     return [
         f"--{option} is of {' or '.join(takers)}, and --kind {kind} has none; leave it out"
         for option in ("x", "y", "detector")
-        if asked[option] not in (None, ()) and option not in KINDS[kind].takes
+        if requests[option] not in (None, ()) and option not in KINDS[kind].takes
         for takers in [[name for name, one in KINDS.items() if option in one.takes]]
     ]
 
@@ -401,7 +405,7 @@ def title_of(chosen: Chosen, **others: str | None) -> str:
     'npgr026, case 8, delta 30 deg, reads intensity'
     """
     labels = {name: label for name, label, _ in materials_among(chosen.values)}
-    told = [chosen.title]
+    messages = [chosen.title]
     for name, value in chosen.values.items():
         parameter = chosen.opened.parameters.get(name, WAVELENGTH)
         if isinstance(value, float):
@@ -410,5 +414,5 @@ def title_of(chosen: Chosen, **others: str | None) -> str:
             text = labels.get(name, value)
         else:
             text = parameter.text(value)
-        told.append(f"{name} {text}")
-    return ", ".join([*told, *(f"{name} {text}" for name, text in others.items() if text)])
+        messages.append(f"{name} {text}")
+    return ", ".join([*messages, *(f"{name} {text}" for name, text in others.items() if text)])

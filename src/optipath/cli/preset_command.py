@@ -95,14 +95,14 @@ class PresetGroup(WholeHelp):
                 f"command line; rename it in the file"
             )
 
-        def callback(*, cases: tuple[str, ...], **given: Any) -> None:
-            options = {name: given.pop(name) for name in names}
+        def callback(*, cases: tuple[str, ...], **argument: Any) -> None:
+            options = {name: argument.pop(name) for name in names}
             if self.several is None:
                 one_case(self.name or "", path, cases)
-            asked = cases_of(cmd_name, path, cases)
-            chosen = chosen_by(cmd_name, path, asked, given, self.faults(**options))
+            request = cases_of(cmd_name, path, cases)
+            chosen = chosen_by(cmd_name, path, request, argument, self.faults(**options))
             if not self.ranges:
-                refuse_axes(self.name or "", given, chosen[0].axes)
+                refuse_axes(self.name or "", argument, chosen[0].axes)
             if self.several is not None and asks_for_several(cases):
                 self.several(chosen, **options)
             else:
@@ -138,8 +138,8 @@ def case_option(path: PathGraph, *, several: bool) -> click.Option:
     """Return the option of the cases of a path."""
     cases = printable(", ".join(path.cases))
     more = f"; may be given several times, or {ALL}" if several and cases else ""
-    told = f"Named set of values: {cases or 'none in this preset'}{more}."
-    return click.Option(["--case", "cases"], metavar="NAME", multiple=True, help=told)
+    message = f"Named set of values: {cases or 'none in this preset'}{more}."
+    return click.Option(["--case", "cases"], metavar="NAME", multiple=True, help=message)
 
 
 def no_preset() -> click.UsageError:

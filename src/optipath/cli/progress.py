@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 @contextmanager
 def progress_bar(total: float, *, remaining: bool = False) -> Iterator[Callable[..., None]]:
     """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
-    told = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+    messages = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
     left = (TextColumn("left:"), TimeRemainingColumn()) if remaining else ()
     console = PlainConsole(stderr=True)
     if not console.is_terminal:  # Older versions of rich end even a bar that is not shown.
         yield lambda *_, **_change: None
         return
-    with Progress(*told, *left, console=console, transient=True) as bar:
+    with Progress(*messages, *left, console=console, transient=True) as bar:
         task = bar.add_task("", total=total)
 
         def tell(what: str, **change: Any) -> None:

@@ -132,22 +132,22 @@ def print_reproduced(
 def _table(several: Sequence[Reproduced]) -> Table:
     rows = [[*_row(one)] for one in several]
     # Columns without any entry tell nothing.
-    kept = [at for at in range(len(_COLUMNS)) if any(row[at] for row in rows)]
-    table = headed(*(_COLUMNS[at] for at in kept), box=None)
+    stored = [at for at in range(len(_COLUMNS)) if any(row[at] for row in rows)]
+    table = headed(*(_COLUMNS[at] for at in stored), box=None)
     for row in rows:
-        table.add_row(*(cell(row[at]) for at in kept))
+        table.add_row(*(cell(row[at]) for at in stored))
     return table
 
 
 def _row(one: Reproduced) -> Iterator[str]:
-    asked = one.measurement
-    mesh = f", {asked.walks.cells} cells" if asked.walks.cells else ""
-    yield asked.measure
-    yield f"{asked.walks.incidence}{mesh}"
+    request = one.measurement
+    mesh = f", {request.walks.cells} cells" if request.walks.cells else ""
+    yield request.measure
+    yield f"{request.walks.incidence}{mesh}"
     yield (
         ""
-        if asked.published is None
-        else " to ".join(dict.fromkeys(f"{number:g}" for number in asked.published))
+        if request.published is None
+        else " to ".join(dict.fromkeys(f"{number:g}" for number in request.published))
     )
     yield "none" if np.isnan(one.found.value) else measured(one.found.value, one.found.error)
     yield _AGREES[one.agrees]
@@ -165,16 +165,16 @@ def reproduced_as_json(experiment: Experiment, results: Sequence[Reproduced]) ->
 
 
 def _as_json(one: Reproduced) -> dict[str, Any]:
-    asked = one.measurement
+    request = one.measurement
     return {
-        "measure": asked.measure,
-        "text": asked.text,
-        "incidence": asked.walks.incidence,
-        "wavelengths": [*asked.walks.wavelengths],
-        "cells": asked.walks.cells,
-        "stokes": [*asked.stokes],
-        "published": None if asked.published is None else [*asked.published],
-        "within": asked.within,
+        "measure": request.measure,
+        "text": request.text,
+        "incidence": request.walks.incidence,
+        "wavelengths": [*request.walks.wavelengths],
+        "cells": request.walks.cells,
+        "stokes": [*request.stokes],
+        "published": None if request.published is None else [*request.published],
+        "within": request.within,
         "value": plain(np.asarray(one.found.value)),
         "standard_error": plain(np.asarray(one.found.error)),
         "agrees": one.agrees,

@@ -48,8 +48,8 @@ def draw_map(
     """Walk photons from one direction, and draw what goes into each direction."""
     if out is None:
         raise click.UsageError("--map draws into a file; name it, --out map.png")
-    for name, given in (("--json", as_json), ("--tolerance", options["tolerance"])):
-        if given:
+    for name, argument in (("--json", as_json), ("--tolerance", options["tolerance"])):
+        if argument:
             raise click.UsageError(f"{name} is of tables, and --map draws; leave one of them out")
     check_form(out)
     check_place(out)
@@ -122,8 +122,8 @@ def _surface(
             raise click.UsageError("--decide and --map are two questions; ask one at a time")
         draw_map(sample, quantity, side, out, as_json=as_json, **options)
     elif out is not None or (side != "reflected" and not decide):
-        told = "--out is" if out is not None else "--side is of --decide, and"
-        raise click.UsageError(f"{told} of a map; say of what, --map S0")
+        message = "--out is" if out is not None else "--side is of --decide, and"
+        raise click.UsageError(f"{message} of a map; say of what, --map S0")
     elif decide:
         # Neither a list of samples nor an energy needs it.
         from optipath.cli.surface_output import print_choices  # noqa: PLC0415
@@ -188,16 +188,16 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
 def _list_samples(*, as_json: bool) -> None:
     context = click.get_current_context()
     options = [one for one in context.command.params if one.name not in ("sample", "as_json")]
-    given = [
+    arguments = [
         one.opts[0]
         for one in options
         if context.get_parameter_source(one.name or "") is not ParameterSource.DEFAULT
     ]
     descriptions = sample_descriptions()
-    if given:
+    if arguments:
         names = ", ".join(descriptions)
         raise click.UsageError(
-            f"SAMPLE is missing, beside {listed(given)}; give a file or one of: {names}"
+            f"SAMPLE is missing, beside {listed(arguments)}; give a file or one of: {names}"
         )
     if as_json:
         say_json(descriptions)

@@ -77,11 +77,11 @@ def _walked(outcome: EnergyOutcome) -> str:
     said = f"{energy.photons:,} photons on {surfaces}, seed {beam.seed}, {outcome.seconds:.1f} s"
     if outcome.interrupted:
         said += f"; interrupted, {outcome.given.wanted:,} were wanted"
-    lost = {
+    missing = {
         "beside the field": energy.sideways,
         f"after {_counted(beam.most_events)}": energy.stuck,
     }
-    return said + "".join([f"; {count:,} lost {how}" for how, count in lost.items() if count])
+    return said + "".join([f"; {count:,} lost {how}" for how, count in missing.items() if count])
 
 
 def _text(values: AxisValues) -> str:
@@ -138,33 +138,33 @@ class EnergyOutcome:
     interrupted: bool
 
 
-def walked(given: GivenWalk, progress: Callable[[int, int], None]) -> EnergyOutcome:
+def walked(argument: GivenWalk, progress: Callable[[int, int], None]) -> EnergyOutcome:
     """Return what photons tell; where Ctrl-C comes, what those tell that have been walked."""
     begin, interrupted = perf_counter(), False
     try:
-        walk_wanted(given.run, given.wanted, given.tolerance, progress)
+        walk_wanted(argument.run, argument.wanted, argument.tolerance, progress)
     except KeyboardInterrupt:
-        if not given.run.photons:
+        if not argument.run.photons:
             raise
         interrupted = True
-    return EnergyOutcome(given, given.run.energy, perf_counter() - begin, interrupted)
+    return EnergyOutcome(argument, argument.run.energy, perf_counter() - begin, interrupted)
 
 
 def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:
     """Return an outcome as JSON can hold it, with all digits."""
-    given, beam = outcome.given, outcome.given.run.beam
-    units = {"incidence": given.incidence.unit, "azimuth": "deg"}
+    argument, beam = outcome.given, outcome.given.run.beam
+    units = {"incidence": argument.incidence.unit, "azimuth": "deg"}
     results: dict[str, Any] = {
-        "incidence": plain(given.incidence.shown),
+        "incidence": plain(argument.incidence.shown),
         "azimuth": plain(beam.azimuth, "deg"),
         "stokes": [*beam.states[0]],
     }
-    if given.wavelengths is not None:
-        results["wavelength"] = plain(given.wavelengths.shown)
-        units["wavelength"] = given.wavelengths.unit
+    if argument.wavelengths is not None:
+        results["wavelength"] = plain(argument.wavelengths.shown)
+        units["wavelength"] = argument.wavelengths.unit
     results |= {"units": units, "seed": beam.seed}
-    if given.tolerance is not None:
-        results["tolerance"] = given.tolerance
+    if argument.tolerance is not None:
+        results["tolerance"] = argument.tolerance
     results |= {"interrupted": outcome.interrupted, "seconds": outcome.seconds}
     return {**results, **_json_numbers(asdict(outcome.energy))}
 

@@ -162,9 +162,9 @@ def option_faults(
             f"address of a cluster, such as tcp://127.0.0.1:8786"
         )
     idle = {"--chunks": chunks, "--scheduler": scheduler}
-    if not is_of_blocks(out) and (given := [name for name, value in idle.items() if value]):
+    if not is_of_blocks(out) and (argument := [name for name, value in idle.items() if value]):
         faults.append(
-            f"{listed(given)} belong{'s' * (len(given) == 1)} to a sweep that is written by "
+            f"{listed(argument)} belong{'s' * (len(argument) == 1)} to a sweep that is written by "
             f"blocks; add --out FILE.zarr or FILE.nc, or leave it out"
         )
     return faults
@@ -207,12 +207,12 @@ def _sweep(
     **options: Any,
 ) -> None:
     """Trace the light of a preset, or of a TOML file, for every combination of some values."""
-    beside = coords_names(coords)
-    if twice := [name for name in beside if name in chosen.values]:
+    other = coords_names(coords)
+    if twice := [name for name in other if name in chosen.values]:
         flags = listed([f"--{name.replace('_', '-')}" for name in twice])
         raise ParameterError(f"{flags} and --coords both give values; leave one of them out")
-    path = chosen.path(reads, beside)
-    refuse_arrays(path, [*chosen.axes, *beside])
+    path = chosen.path(reads, other)
+    refuse_arrays(path, [*chosen.axes, *other])
     composer = Composer(**options)
     plan = composer.compose(path)
     together = [*zip_groups(zip).values()]
@@ -247,8 +247,10 @@ def _sweep(
 
 def _no_axis(known: Iterable[str]) -> str:
     flags = [f"--{name.replace('_', '-')} START:STOP:COUNT" for name in known][:1]
-    given = " or ".join([*flags, "--coords FILE.csv"])
-    return f"a sweep has an axis at least; give {given}, or write 'optipath run' for single values"
+    argument = " or ".join([*flags, "--coords FILE.csv"])
+    return (
+        f"a sweep has an axis at least; give {argument}, or write 'optipath run' for single values"
+    )
 
 
 sweep = PresetGroup(
@@ -306,14 +308,14 @@ def sizes_text(grid: SweepGrid) -> str:
 
 def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
     """Return a row for each point, with as many quantities of light as the terminal is wide."""
-    given = f"light at {name}", outcome.lights[name], outcome.grid, numbers
+    arguments = f"light at {name}", outcome.lights[name], outcome.grid, numbers
     for count in range(len(TOLD), 0, -1):
-        table = point_table(*given, dict(islice(TOLD.items(), count)))
+        table = point_table(*arguments, dict(islice(TOLD.items(), count)))
         if console.measure(table, options=console.options.update(width=_WIDEST)).maximum <= (
             console.width
         ):
             return table
-    return point_table(*given)
+    return point_table(*arguments)
 
 
 def _summary(outcome: Outcome, numbers: Numbers) -> Table:
@@ -334,20 +336,20 @@ def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
     """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes."""
     counts: list[tuple[int, int]] = []
     # A file is written once all are there.
-    kept = place_of_blocks(store) if ending_of(store) == ".nc" else store
+    stored = place_of_blocks(store) if ending_of(store) == ".nc" else store
     try:
         with progress_bar(1.0) as show:
 
             def tell(done: int, total: int) -> None:
                 if not counts and done:
-                    _say(f"{_counted(done, total)} in {kept} already")
+                    _say(f"{_counted(done, total)} in {stored} already")
                 counts.append((done, total))
                 show(f"{done} of {total} blocks", completed=done / total)
 
             yield tell
     except KeyboardInterrupt:
         if counts and counts[-1][0]:
-            _say(f"{_counted(*counts[-1])} in {kept}; the same command goes on from there")
+            _say(f"{_counted(*counts[-1])} in {stored}; the same command goes on from there")
         raise
 
 

@@ -99,7 +99,7 @@ class Builder:
     def _evaluation(self, operation: Operation, presence: Operand | None = None) -> int:
         key = id(operation), id(presence)
         if key not in self._place_of:
-            given = [
+            arguments = [
                 Result(self._evaluation(argument.operation), argument.place)
                 if type(argument) is ResultOf
                 else self._operand(argument)
@@ -107,7 +107,7 @@ class Builder:
             ]
             there = None if presence is None else self._operand(presence)
             kernel: Any = operation.kernel
-            evaluation = Evaluation(kernel, tuple(given), there)
+            evaluation = Evaluation(kernel, tuple(arguments), there)
             index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
             if index == len(self.evaluations):
                 self.evaluations.append(evaluation)

@@ -139,14 +139,17 @@ class Composer:
             raise ComposerError(*faults)
 
     def _tolerance_faults(self, model: str, composing: str) -> list[str]:
-        given = self.tolerance
-        if given is None:
+        argument = self.tolerance
+        if argument is None:
             return []
-        is_number = isinstance(given, Real) and type(given).__name__ not in ("bool", "timedelta64")
-        if not is_number or not 0.0 < given < 1.0:
+        is_number = isinstance(argument, Real) and type(argument).__name__ not in (
+            "bool",
+            "timedelta64",
+        )
+        if not is_number or not 0.0 < argument < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
             return [
-                f"tolerance must be {allowed}, not {shown(given)}; leave it out for exact plans"
+                f"tolerance must be {allowed}, not {shown(argument)}; leave it out for exact plans"
             ]
         if model == "full" or composing == "jones":
             what = "model 'full'" if model == "full" else "composing='jones'"

@@ -47,14 +47,14 @@ def with_followed(
     for name in names:
         if not faults.get(name):
             result.nodes[name]["element"] = taking.elements[name]
-    told = [fault for several in faults.values() for fault in several]
-    going_round = [name for name in faults if not told and taking.elements[name].followed()]
-    told += [
+    messages = [fault for several in faults.values() for fault in several]
+    going_round = [name for name in faults if not messages and taking.elements[name].followed()]
+    messages += [
         f"'{name}' takes over (FOLLOWS) what the boundaries before it take over, too; give it at "
         f"one of them"
         for name in going_round
     ]
-    return result, told
+    return result, messages
 
 
 def _filled(element: Any) -> set[str]:

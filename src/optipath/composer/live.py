@@ -73,10 +73,10 @@ class Live:
 
     def _backward(self, light: int) -> Iterable[int]:
         sources = self.sources[light]
-        asked = set().union(*[sources[row] for row in self.needed[light]])
-        before = [i for i in self.program.steps[light].inputs if not asked <= self.needed[i]]
+        request = set().union(*[sources[row] for row in self.needed[light]])
+        before = [i for i in self.program.steps[light].inputs if not request <= self.needed[i]]
         for source in before:
-            self.needed[source] |= asked
+            self.needed[source] |= request
         return before
 
 
@@ -175,15 +175,15 @@ def known_numbers(
     operands = [number_of(operand) for operand in program.operands]
     outcomes: list[tuple[float, ...] | None] = []
     for evaluation in program.evaluations:
-        given: list[float | None] = []
+        arguments: list[float | None] = []
         for argument in evaluation.arguments:
             if isinstance(argument, Result):
                 results = outcomes[argument.evaluation]
-                given.append(None if results is None else results[argument.place])
+                arguments.append(None if results is None else results[argument.place])
             else:
-                given.append(operands[argument])
-        unknown = None in given or program.loops
-        outcomes.append(None if unknown else _evaluated(evaluation.kernel, tuple(given)))
+                arguments.append(operands[argument])
+        unknown = None in arguments or program.loops
+        outcomes.append(None if unknown else _evaluated(evaluation.kernel, tuple(arguments)))
     return operands, outcomes
 
 
@@ -194,13 +194,13 @@ def entries_of_evaluations(program: Program) -> list[Entries]:
     known = [0.0 if n is None and vanishes(o) else _zero_or_one(n) for o, n in pairs]
     results: list[Entries] = []
     for evaluation, result in zip(program.evaluations, evaluated, strict=True):
-        given = [
+        arguments = [
             _zero_or_one(_result(program, results, argument))
             if isinstance(argument, Result)
             else known[argument]
             for argument in evaluation.arguments
         ]
-        results.append(_entries(evaluation.kernel, result, tuple(given)))
+        results.append(_entries(evaluation.kernel, result, tuple(arguments)))
         if evaluation.presence is not None and evaluation.kernel.structure is not None:
             results[-1] = _as_it_may_be_absent(results[-1])
     return results
@@ -230,13 +230,13 @@ def _zero_or_one(number: Entry) -> Entry:
 def _entries(kernel: Kernel, result: tuple[float, ...] | None, known: tuple[Entry, ...]) -> Entries:
     structure, xp = kernel.structure, SYMBOLIC if result is None else FLOAT
     recorder = Recorder(np.dtype(np.float64))
-    given = [
+    arguments = [
         recorder.input(str(place)) if number is None else np.float64(number)
         for place, number in enumerate(known)
     ]
     try:
         with np.errstate(all="ignore"):  # Of no paths at all, every number is 0.
-            numbers: Any = kernel.made_for(SYMBOLIC)(*given) if result is None else result
+            numbers: Any = kernel.made_for(SYMBOLIC)(*arguments) if result is None else result
         rows = (numbers,) if structure is None else structure.rows(xp, numbers)
         return tuple([tuple(map(_known, row)) for row in rows])
     except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers

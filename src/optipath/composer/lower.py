@@ -87,9 +87,9 @@ class _Lowering:
         for name, port in self.wiring.ends:
             element = self.wiring.elements[name]
             reads = getattr(element, "reads", "stokes")
-            kept = detectors if element.detects else dumps
+            stored = detectors if element.detects else dumps
             light, frame = self._read_of(name, port), self._reading_frame(name, port)
-            kept[name] = Reading(light, frame, _COMPONENTS[reads])
+            stored[name] = Reading(light, frame, _COMPONENTS[reads])
         return self.builder.program(self.sources, detectors, dumps, self._links())
 
     def _read_of(self, name: str, port: str) -> int:

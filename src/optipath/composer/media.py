@@ -310,10 +310,12 @@ class SameMedium(Agreement):
 
     def _cure(self, n: float, k: float = 0.0) -> str:
         value: Any = self.operands[1].value
-        given = value.formula if isinstance(value, Parameter) else self.field
+        argument = value.formula if isinstance(value, Parameter) else self.field
         if not k:
-            return f"{given} = {n:.12g}"
-        return cure(f"{given} = {n:.12g}{k:+.12g}j", f"{given} = {{ n = {n:.12g}, k = {k:.12g} }}")
+            return f"{argument} = {n:.12g}"
+        return cure(
+            f"{argument} = {n:.12g}{k:+.12g}j", f"{argument} = {{ n = {n:.12g}, k = {k:.12g} }}"
+        )
 
 
 def _called(number: str) -> str:
@@ -417,19 +419,19 @@ class SnellsLaw(Agreement):
             cures = [*self._angles(angle1, n1, n2), *cures]
         digits = digits_until(lambda d: f"{here:.{d}g}" != f"{there:.{d}g}")
         sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
-        given = text_of(self.operands[3], math.degrees(angle2), " deg")
-        given += f" in n = {text_of(self.operands[4], n2)}"
+        argument = text_of(self.operands[3], math.degrees(angle2), " deg")
+        argument += f" in n = {text_of(self.operands[4], n2)}"
         if k2:
-            given += f" and k = {text_of(self.operands[5], k2)}"
+            argument += f" and k = {text_of(self.operands[5], k2)}"
         if turns:
             turned = turn_text(self.operands[6:], turns)
-            given += f"; their planes of incidence are one where azimuths come to {turned}"
+            argument += f"; their planes of incidence are one where azimuths come to {turned}"
         if self.follows:
             return (
                 f"light of '{self.leaves}' enters '{self.enters}', but '{own}' has taken its "
                 f"incidence over (FOLLOWS) from other light: n sin(incidence) is {sines} "
-                f"({given}); light of several directions merges there: give each light a face of "
-                f"its own"
+                f"({argument}); light of several directions merges there: give each light a "
+                f"face of its own"
             )
         if self.may_be_told:
             why = (
@@ -441,7 +443,7 @@ class SnellsLaw(Agreement):
             why = "light goes to and fro between them, so they are parallel"
         return (
             f"light of '{self.leaves}' enters '{self.enters}', but n sin(incidence) is {sines} "
-            f"({given}); give '{own}' an incidence of {', or '.join(cures)} ({why})"
+            f"({argument}); give '{own}' an incidence of {', or '.join(cures)} ({why})"
         )
 
     def _angles(self, angle: float, n: float, own_n: float) -> list[str]:

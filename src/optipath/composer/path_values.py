@@ -154,7 +154,7 @@ class Values:
         faulty: set[str] = set()
         looked_at = set()
         ranges, out_of = [], set()
-        told: set[str] = set()
+        messages: set[str] = set()
         some_taken_over = TAKEN_OVER in self.graph.graph
         for use in sorted(self.uses, key=self._is_taken_over) if some_taken_over else self.uses:
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
@@ -174,9 +174,9 @@ class Values:
                 faulty.add(_named(use))
                 out_of.add(use.domain)
                 bare = {sentence: sentence.replace(use.owner, "") for sentence in fault.faults}
-                if not self._is_taken_over(use) or not told.issuperset(bare.values()):
+                if not self._is_taken_over(use) or not messages.issuperset(bare.values()):
                     results += fault.faults
-                told.update(bare.values())
+                messages.update(bare.values())
         sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
         return [
             *results,
@@ -282,12 +282,12 @@ def value_faults(graph: nx.MultiDiGraph) -> list[str]:
 
 def range_faults(uses: Iterable[Use]) -> Iterator[str]:
     """Yield a sentence for each parameter at no value of which all curves are known."""
-    asked: dict[str, list[tuple[tuple[float, float], WavelengthRange]]] = {}
+    requests: dict[str, list[tuple[tuple[float, float], WavelengthRange]]] = {}
     for use in uses:
         if use.is_open and isinstance(use.domain, WavelengthRange):
             span = use.value.span_for(*use.domain.interval)
-            asked.setdefault(use.value.name, []).append((span, use.domain))
-    for name, ranges in asked.items():
+            requests.setdefault(use.value.name, []).append((span, use.domain))
+    for name, ranges in requests.items():
         (least, above) = max(ranges, key=lambda one: one[0][0])
         (most, below) = min(ranges, key=lambda one: one[0][1])
         if is_within(least[0], (0.0, most[1])):

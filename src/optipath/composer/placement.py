@@ -86,10 +86,10 @@ def _self_placed_faults(wiring: Wiring, link: Link) -> list[str]:
         fault = wiring.elements[end].fault_behind(wiring.elements[start])
         return [f"{text} {fault}"] if fault else []
     if any(placed):
-        given, own = (end, start) if placed[0] else (start, end)
-        if wiring.graph.nodes[given]["frames"]:
-            problem = f"'{given}' has world frames of its own, and '{own}' those of its vertices"
-            return [f"{text}: {problem}; place '{given}' relatively"]
+        argument, own = (end, start) if placed[0] else (start, end)
+        if wiring.graph.nodes[argument]["frames"]:
+            problem = f"'{argument}' has world frames of its own, and '{own}' those of its vertices"
+            return [f"{text}: {problem}; place '{argument}' relatively"]
     return []
 
 

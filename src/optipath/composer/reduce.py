@@ -137,8 +137,8 @@ def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
     """Return a program with the cheapest kernel for what is known of its arguments."""
     cheaper: dict[int | None, Operation] = {}
     for place, evaluation in enumerate(program.evaluations):
-        given = program.operations[place].arguments
-        kernel, arguments = evaluation.kernel.specialised(given, _vanishes)
+        argument = program.operations[place].arguments
+        kernel, arguments = evaluation.kernel.specialised(argument, _vanishes)
         kernel = kernel.never_less(arguments, _span)
         if kernel is not evaluation.kernel:
             cheaper[place] = Operation(kernel, arguments)

@@ -136,11 +136,11 @@ def _reach_faults(wiring: Wiring, unsure: set[str]) -> Iterator[str]:
         if name not in unsure
     }
     dark = [name for name, each in ports.items() if not wiring.lit.intersection(each)]
-    lost = [name for name, each in ports.items() if not wiring.useful.intersection(each)]
+    missing = [name for name, each in ports.items() if not wiring.useful.intersection(each)]
     for name in _firsts(wiring.graph.subgraph(dark)):
         entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
         yield f"node '{name}' is reached by no source; link one to {entries}"
-    for name in _firsts(wiring.graph.subgraph({*lost} - {*dark}).reverse()):
+    for name in _firsts(wiring.graph.subgraph({*missing} - {*dark}).reverse()):
         exits = " or ".join(f"'{name}.{port}'" for port in wiring.elements[name].outputs)
         yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
 

@@ -270,12 +270,12 @@ def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
     return results
 
 
-def among(ways: Ways, kept: set[Port]) -> Ways:
+def among(ways: Ways, stored: set[Port]) -> Ways:
     """Return the ways between some ports alone."""
     return {
-        port: [later for later in onwards if later in kept]
+        port: [later for later in onwards if later in stored]
         for port, onwards in ways.items()
-        if port in kept
+        if port in stored
     }
 
 

@@ -56,9 +56,9 @@ def mueller_alone(
         if not isinstance(port, str):
             raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
     leaves = leaves or element.natural
-    for given in placed:
-        if given is not None and not isinstance(given, Frame):
-            raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
+    for argument in placed:
+        if argument is not None and not isinstance(argument, Frame):
+            raise PathError(f"a frame of {owner} must be a Frame, not {shown(argument)}")
     pairs = ((enters, frame_in), (leaves, frame_out))
     frames = {port: frame for port, frame in pairs if frame is not None}
     batch = checked_alone(element, enters, frames)

@@ -167,25 +167,25 @@ class WorldAngle(Agreement):
         return (self.owner,)
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        result, *given = numbers
-        front, behind = angles_of(xp, *given)
-        single = [is_single(xp, number) for number in given]
+        result, *argument = numbers
+        front, behind = angles_of(xp, *argument)
+        single = [is_single(xp, number) for number in argument]
         last = xp.where(sum(single) > 0, _LAST_SINGLE_DIGITS, _LAST_DIGITS)
         # An angle next to grazing has fewer digits than its sine.
         cosine = xp.maximum(xp.minimum(xp.cos(front), xp.cos(behind)), xp.sqrt(last))
         allowed = max(_ROUNDING, self.rounding) + last / cosine
         differs = abs(result - self._expected(front, behind)) > allowed
-        return ~differs | xp.isnan(sum(given))
+        return ~differs | xp.isnan(sum(argument))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
-        result, *given = numbers
-        front, behind = angles_of(np, *given)
+        result, *argument = numbers
+        front, behind = angles_of(np, *argument)
         there, expected = _degrees(result), _degrees(self._expected(front, behind))
         incidence, *indices = self.operands[1:]
-        angle = text_of(incidence, math.degrees(given[0]), " deg")
+        angle = text_of(incidence, math.degrees(argument[0]), " deg")
         open_ones = [] if incidence.known else [angle]
-        parts = zip(indices, given[1:], strict=True)
+        parts = zip(indices, argument[1:], strict=True)
         open_ones += [_index_text(o, number) for o, number in parts if _is_told(o, number)]
         by = f" ({', '.join(open_ones)})" if open_ones else ""
         if self._is_passing:
@@ -216,8 +216,8 @@ class WorldAngle(Agreement):
 
 def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[WorldAngle]:
     """Yield what must hold between the frames of a boundary and its values."""
-    given = operands_of(element)
-    if any(operand.value is FOLLOWS for operand in given):
+    argument = operands_of(element)
+    if any(operand.value is FOLLOWS for operand in argument):
         return  # What it takes over is looked at.
     for enters, leaves in (
         ("in", "reflected"),
@@ -229,12 +229,12 @@ def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Itera
             first, second = frames[enters], frames[leaves]
             bounces = (enters, leaves) in (("in", "reflected"), ("back", "transmitted"))
             angle = (incidence_between if bounces else angle_between)(first, second)
-            needed = given
+            needed = argument
             if (enters, leaves) == ("in", "reflected"):
                 # What is behind is of no account in front.
-                needed = (*given[:3], *map(operand_of, (1.0, 0.0)), *given[5:])
-                if len(given) == 5:
-                    needed = (given[0], *map(operand_of, (1.0, 0.0, 1.0, 0.0)))
+                needed = (*argument[:3], *map(operand_of, (1.0, 0.0)), *argument[5:])
+                if len(argument) == 5:
+                    needed = (argument[0], *map(operand_of, (1.0, 0.0, 1.0, 0.0)))
             yield WorldAngle(
                 (operand_of(angle), *needed), owner, enters, leaves, first.rounding_to(second)
             )

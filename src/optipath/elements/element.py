@@ -520,8 +520,8 @@ def with_values(element: E, **values: Any) -> E:
     >>> with_values(Rotator(0.5), angle=-0.5)
     Rotator(angle=-0.5)
     """
-    kept = {name: read_only(value, widened=False) for name, value in values.items()}
-    result = not_known_sound(changed(element, **kept))
+    stored = {name: read_only(value, widened=False) for name, value in values.items()}
+    result = not_known_sound(changed(element, **stored))
     if faults := result.faults(element.kind or type(element).__name__):
         raise PathError(*(f"on the way back, {fault}" for fault in faults))
     return result

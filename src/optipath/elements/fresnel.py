@@ -128,9 +128,9 @@ def _fresnel(
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
     shape = check_broadcast(shapes)
     # Adding 0 turns -0 into 0.
-    given = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))
+    arguments = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))
     with np.errstate(all="ignore"):
-        kernel, left = kernel.specialised([np.asarray(x, kind) for x in given], _vanishes)
+        kernel, left = kernel.specialised([np.asarray(x, kind) for x in arguments], _vanishes)
         numbers = kernel.made_for(NUMPY)(*left)
         (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
     return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))

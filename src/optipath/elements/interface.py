@@ -117,8 +117,8 @@ class Interface(BoundaryElement, kind="interface"):
         angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         before = self._index_of_angle(angle)
         behind = (second, first) if before else (first, second)
-        given = first, second, *before, *angle
-        reflect, transmit = [_between(family, *given) for family in _FROM_FRONT]
+        arguments = first, second, *before, *angle
+        reflect, transmit = [_between(family, *arguments) for family in _FROM_FRONT]
         reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
         through_back = transmit
         if not (vanishes(first[1]) and vanishes(second[1])):
@@ -199,8 +199,8 @@ class Mirror(Element, kind="mirror"):
         super().__post_init__()
         # What is wrong with the one that is given is told of that alone.
         if len(missing) == 1 and not self.faults(""):
-            (given,) = _IDEAL.keys() - missing
-            object.__setattr__(self, missing[0], read_only(-getattr(self, given)))
+            (argument,) = _IDEAL.keys() - missing
+            object.__setattr__(self, missing[0], read_only(-getattr(self, argument)))
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""

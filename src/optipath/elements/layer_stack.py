@@ -215,9 +215,9 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         pairs = [numbers_of(index, INDEX) for index in self._media]
         for place in self._absorbing(pairs):
             assert lengths is not None  # noqa: S101 - without, none is known to absorb
-            beside = [number for pair in pairs[place - 1 : place + 2] for number in pair]
-            given = (*beside, lengths[place - 1], self.wavelength, n0, incidence)
-            yield FadingLayer(tuple(map(operand_of, given)), f"{owner}.indices[{place}]")
+            others = [number for pair in pairs[place - 1 : place + 2] for number in pair]
+            arguments = (*others, lengths[place - 1], self.wavelength, n0, incidence)
+            yield FadingLayer(tuple(map(operand_of, arguments)), f"{owner}.indices[{place}]")
 
     def _films(self) -> Iterator[ThinLayer]:
         """Yield what is warned of where it does not hold of a layer: that it is no film."""
@@ -225,28 +225,30 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
             return
         layers = zip(self._media[1:-1], self.lengths, strict=False)
         for place, (index, length) in enumerate(layers, 1):
-            given = (numbers_of(index, INDEX)[0], length, self.wavelength)
-            yield ThinLayer(tuple(map(operand_of, given)), f"layer {place} of a LayerStack")
+            arguments = (numbers_of(index, INDEX)[0], length, self.wavelength)
+            yield ThinLayer(tuple(map(operand_of, arguments)), f"layer {place} of a LayerStack")
 
     def _operation(self, wanted: str, enters: str) -> Operation:
         """Return what the stack does to light from one side."""
         pairs = [numbers_of(index, INDEX) for index in self._media]
         absorbing, measured, last = self._absorbing(pairs), "in front", pairs[-1][1]
         lengths: Any = self.lengths
-        given = [(place, pairs[place][1], lengths[place - 1]) for place in absorbing]
+        arguments = [(place, pairs[place][1], lengths[place - 1]) for place in absorbing]
         if enters == "back":
-            given = [(len(pairs) - 1 - place, *of_layer) for place, *of_layer in given[::-1]]
+            arguments = [
+                (len(pairs) - 1 - place, *of_layer) for place, *of_layer in arguments[::-1]
+            ]
             pairs, measured, last = pairs[::-1], "behind", 0.0
         before: tuple[Any, ...] = ()
         if self.incidence_in is not None:
             before, measured = numbers_of(self.incidence_in, OPTIONAL_OUTSIDE)[:1], "before"
-        places, extinctions, of_layers = zip(*given, strict=True) if given else ((), (), ())
+        places, extinctions, of_layers = zip(*arguments, strict=True) if arguments else ((), (), ())
         numbers = (
             *(n for n, _ in pairs),
             last,
             *extinctions,
             *of_layers,
-            *([self.wavelength] if given else []),
+            *([self.wavelength] if arguments else []),
             *before,
             *(Operand(self.incidence, part) for part in ("cos", "sin")),
         )
@@ -315,9 +317,9 @@ class FadingLayer(Agreement):
             # Most are far thicker, and nobody need look at their faces.
             if np.all(enough):
                 return enough
-        left, lost = self._passing(xp, *numbers)
-        kept = [lost + left * share for share in self._beside(xp, *numbers)]
-        gains = [share < -_ROUNDING for share in kept]
+        left, missing = self._passing(xp, *numbers)
+        stored = [missing + left * share for share in self._beside(xp, *numbers)]
+        gains = [share < -_ROUNDING for share in stored]
         return ~((k > 0.0) & (gains[0] | gains[1] | gains[2] | gains[3]))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
@@ -341,28 +343,28 @@ class FadingLayer(Agreement):
         """Return what of light is left behind the layer, and what is not."""
         *_, n, k, _, _, length, wavelength, n0, angle = numbers
         with np.errstate(all="ignore"):
-            left, lost = attenuation(of_module(xp))(
+            left, missing = attenuation(of_module(xp))(
                 n, k, length, wavelength, n0, xp.cos(angle), xp.sin(angle)
             )
-        return left, lost
+        return left, missing
 
     @staticmethod
     def _beside(xp: Any, *numbers: Any) -> tuple[Any, ...]:
         """Return 1 - R - T of s and of p, lit from within, at the face above and at that below."""
         (*above, n, k), below = numbers[:4], numbers[4:6]
         n0, angle = numbers[8:]
-        given = n0, xp.cos(angle), xp.sin(angle)
-        beside = interference(of_module(xp))
+        arguments = n0, xp.cos(angle), xp.sin(angle)
+        other = interference(of_module(xp))
         with np.errstate(all="ignore"):
-            return *beside(*above, n, k, *given)[2:], *beside(n, k, *below, *given)[:2]
+            return *other(*above, n, k, *arguments)[2:], *other(n, k, *below, *arguments)[:2]
 
     @staticmethod
     def _wave(*numbers: Any) -> tuple[Any, Any]:
         """Return the real and the imaginary part of g."""
         *_, n, k, _, _, _, _, n0, angle = numbers
         with np.errstate(all="ignore"):
-            given = n, k, n, k, n0, np.cos(angle), np.sin(angle)
-            at = inhomogeneous_boundary(of_module(np))(*given)
+            arguments = n, k, n, k, n0, np.cos(angle), np.sin(angle)
+            at = inhomogeneous_boundary(of_module(np))(*arguments)
             return at.p / at.n1 * n, at.fades / at.n1 * n
 
 
@@ -391,13 +393,13 @@ class ThinLayer(Agreement):
             f"LayerStack adds intensities; give the r_s and r_p of a film to a Mirror"
         )
 
-    def fault(self, given: Mapping[str, Resolved] = NOTHING) -> str:
+    def fault(self, arguments: Mapping[str, Resolved] = NOTHING) -> str:
         """Warn of a thin layer, which is no fault."""
-        if super().fault(given):
+        if super().fault(arguments):
             warnings.warn(self.sentence(), CoherenceWarning, stacklevel=calls_up())
         return ""
 
-    def inside(self, given: Mapping[str, Resolved]) -> Any:
+    def inside(self, arguments: Mapping[str, Resolved]) -> Any:
         """Return that any layer is allowed."""
-        del given
+        del arguments
         return True

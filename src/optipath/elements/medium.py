@@ -184,12 +184,14 @@ class Medium(Element, kind="medium"):
         """
         k = read_only(_EXTINCTION.read("k", k))
         wavelength = read_only(WAVELENGTH.read("wavelength", wavelength))
-        given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, WAVELENGTH)}
-        faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
+        arguments = {"k": (k, _EXTINCTION), "wavelength": (wavelength, WAVELENGTH)}
+        faults = [
+            f for name, (v, domain) in arguments.items() for f in _value_faults(name, v, domain)
+        ]
         faults += [cls._option_fault(name) for name in others if name not in cls._others()]
         if faults:
             raise ValueFault(*faults)
-        check_broadcast({name: np.shape(value) for name, (value, _) in given.items()})
+        check_broadcast({name: np.shape(value) for name, (value, _) in arguments.items()})
         return cls(length, _absorption(k, wavelength), **others)
 
     @classmethod

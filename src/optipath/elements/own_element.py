@@ -72,10 +72,10 @@ class OwnWays:
         open_ones = [operand.value for operand in self.operands if not operand.known]
         return {parameter.name: parameter.unit for parameter in open_ones}
 
-    def are_known(self, given: Collection[str] = ()) -> bool:
+    def are_known(self, arguments: Collection[str] = ()) -> bool:
         """Tell whether all of them are numbers already, with those of parameters that are given."""
         return all(
-            not operand.traced and (operand.known or operand.value.name in given)
+            not operand.traced and (operand.known or operand.value.name in arguments)
             for operand in self.operands
         )
 
@@ -351,8 +351,8 @@ def _rows_faults(owner: str, rows: Any, names: list[str]) -> Iterator[str]:
     elif first == "self":
         yield f"{what} takes self; {static}: mueller_rows(xp, ...)"
     else:
-        given = [name for name in names if name in taken]
-        if given != [name for name in taken if name in names]:
+        arguments = [name for name in names if name in taken]
+        if arguments != [name for name in taken if name in names]:
             yield (
                 f"{what} takes {listed(taken)}, but values come in the order of the fields, "
                 f"{listed(names)}; take them in that order"
@@ -438,9 +438,9 @@ def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
     return entries
 
 
-def _check_array(what: str, given: Any, values: tuple[Any, ...], shape: tuple[int, ...]) -> None:
+def _check_array(what: str, argument: Any, values: tuple[Any, ...], shape: tuple[int, ...]) -> None:
     """Refuse an array in place of rows, or of a row, that may have paths among its axes."""
-    own = getattr(given, "shape", ())
+    own = getattr(argument, "shape", ())
     many = " for many paths" if any(getattr(value, "shape", ()) for value in values) else ""
     # Of four paths, it may have the right shape all the same.
     if own and (many or own != shape):

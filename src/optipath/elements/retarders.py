@@ -263,11 +263,11 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
 
     def __post_init__(self) -> None:
         """Ask besides whether three numbers are the vector."""
-        given = self.s1
+        argument = self.s1
         super().__post_init__()
-        asked = FIRST_ROTATION_ANGLE.doubt("EllipticalRetarder s1", given)
-        if asked and self._is_of_one_component:
-            raise ValueFault(asked)
+        request = FIRST_ROTATION_ANGLE.doubt("EllipticalRetarder s1", argument)
+        if request and self._is_of_one_component:
+            raise ValueFault(request)
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every number; beside others, three of s1 are no vector."""

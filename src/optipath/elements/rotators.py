@@ -95,12 +95,14 @@ class FaradayRotator(Element, kind="faraday-rotator"):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value; an angle beside another, or a factor that is missing, is refused."""
         yield from super().quantities()
-        given = [name for name in _FACTORS if getattr(self, name) is not None]
-        if self.angle is not None and given:
-            why = f"is given beside {listed(given)}; {_CURE}"
+        arguments = [name for name in _FACTORS if getattr(self, name) is not None]
+        if self.angle is not None and arguments:
+            why = f"is given beside {listed(arguments)}; {_CURE}"
             yield "angle", self.angle, Refused("angle", why=why)
-        elif self.angle is None and len(given) < len(_FACTORS):
-            missing = [name for name in _FACTORS if name not in given] if given else ["angle"]
+        elif self.angle is None and len(arguments) < len(_FACTORS):
+            missing = (
+                [name for name in _FACTORS if name not in arguments] if arguments else ["angle"]
+            )
             why = f"is missing; {_CURE}"
             yield from ((name, None, Refused(name, why=why)) for name in missing)
 

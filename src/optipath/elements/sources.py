@@ -59,9 +59,9 @@ class Source(Element, kind="source"):
 
     def __post_init__(self) -> None:
         """Ask besides whether four numbers are a state."""
-        given = self.intensity
+        argument = self.intensity
         super().__post_init__()
-        if self.stokes is None and (doubt := INTENSITY.doubt("Source intensity", given)):
+        if self.stokes is None and (doubt := INTENSITY.doubt("Source intensity", argument)):
             raise ValueFault(doubt)
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:

@@ -125,10 +125,10 @@ def vertices_from_angles(
            [0., 1., 1.]])
     """
     chain = VerticesByAngles(incidences, turns)  # type: ignore[arg-type]
-    given = {name: domain.check(name, angle) for name, angle, domain in chain.parts("vertices")}
-    batch = check_broadcast({name: angle.shape for name, angle in given.items()})
+    arguments = {name: domain.check(name, angle) for name, angle, domain in chain.parts("vertices")}
+    batch = check_broadcast({name: angle.shape for name, angle in arguments.items()})
     count, cos, sin = len(chain.incidences), cosine(NUMPY), sine(NUMPY)
-    pairs = [part for angle in given.values() for part in (cos(angle), sin(angle))]
+    pairs = [part for angle in arguments.values() for part in (cos(angle), sin(angle))]
     numbers = PointsByAngles(count, 0, count + 1)(NUMPY)(*pairs)
     points = np.stack([np.broadcast_to(number, batch) for number in numbers], axis=-1)
     return points.reshape(*batch, count + 2, 3)
@@ -178,9 +178,9 @@ class VerticesDomain(Domain):
         >>> VERTICES.kept(np.eye(3, dtype=np.uint8)).dtype
         dtype('float64')
         """
-        kept = read_only(value)
-        whole = isinstance(kept, np.ndarray) and kept.dtype.kind in "iu"
-        return read_only(kept.astype(np.float64)) if whole else kept
+        stored = read_only(value)
+        whole = isinstance(stored, np.ndarray) and stored.dtype.kind in "iu"
+        return read_only(stored.astype(np.float64)) if whole else stored
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         if self.takes_any and not is_traced(value):
@@ -208,8 +208,8 @@ class VerticesDomain(Domain):
         if not len(bad):
             return ""
         chain, vertex = int(bad[0, 0]), int(bad[0, 1])
-        where, given = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
-        return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {given}; give finite coordinates"
+        where, argument = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
+        return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {argument}; give finite coordinates"
 
     def allows(self, numbers: Any) -> Any:
         """Return which chains of an array are allowed."""

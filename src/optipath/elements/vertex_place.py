@@ -100,8 +100,8 @@ class PlaceInChain:
             )
         if not is_whole(self.number, most=self.count or _MOST):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
-            given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
-            result.append(f"{owner}.place must be a whole number{up_to}, not {given}")
+            argument = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
+            result.append(f"{owner}.place must be a whole number{up_to}, not {argument}")
         return result
 
     @property
@@ -367,21 +367,21 @@ def normal_faults(
     ['the normal of vertex 1 has no length; give one with a direction of its own']
     """
     try:
-        given = as_given("the array of normals", normals)
+        argument = as_given("the array of normals", normals)
     except ValueFault as fault:
         return list(fault.faults)
-    if given.dtype.kind not in "iuf":
+    if argument.dtype.kind not in "iuf":
         return [f"normals must be real numbers, not {shown(normals)}"]
-    if given.shape[-2:] != (count, 3):
-        return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
-    tolerance = max(_TOLERANCE, 2.0 * rounding_of(given))
-    given = as_doubles(given)
+    if argument.shape[-2:] != (count, 3):
+        return [f"normals must have shape (..., {count}, 3), not {argument.shape}"]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(argument))
+    argument = as_doubles(argument)
     if chains is None:
-        return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
+        return _own_faults(argument.reshape(-1, count, 3), argument.shape[:-2])
     sides = np.ones((count, 2)) if sides is None else sides
     shapes = {
         "vertices": chains.shape[:-2],
-        "normals": given.shape[:-2],
+        "normals": argument.shape[:-2],
         "materials": sides.shape[:-2],
     }
     try:
@@ -389,17 +389,17 @@ def normal_faults(
     except ShapeError as fault:
         return list(fault.faults)
     chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
-    given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
+    argument = np.broadcast_to(argument, (*batch, count, 3)).reshape(-1, count, 3)
     sides = np.broadcast_to(sides, (*batch, count, 2)).reshape(-1, count, 2)
     doubted = [
         piece
-        for piece in pieces_of(len(given))
-        if not _surely_along(chains[piece], given[piece], sides[piece])
+        for piece in pieces_of(len(argument))
+        if not _surely_along(chains[piece], argument[piece], sides[piece])
     ]
     if not doubted:
         return []
-    whole = chains, given, sides
-    return _own_faults(given, batch) or _off_faults(whole, batch, doubted, tolerance)
+    whole = chains, argument, sides
+    return _own_faults(argument, batch) or _off_faults(whole, batch, doubted, tolerance)
 
 
 def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_]:
@@ -538,20 +538,22 @@ class VertexFrame:
         values = (operand.value for operand in self._views)
         return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
 
-    def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
+    def frame(
+        self, arguments: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray
+    ) -> Frame:
         """Return the frame: x across the plane of incidence, and turned from there.
 
         Shape: returns (..., 3).
         """
         if any(operand.traced for operand in self._views) or any(
-            is_traced(given[name].value) for name in self.names
+            is_traced(arguments[name].value) for name in self.names
         ):
             raise FrameError(
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        points = {id(o): cut(_doubles(o, given)) for o in self.points.operands}
-        turns = [cut(_doubles(operand, given)) for operand in self.turns]
+        points = {id(o): cut(_doubles(o, arguments)) for o in self.points.operands}
+        turns = [cut(_doubles(operand, arguments)) for operand in self.turns]
         shape = joint_shape(*(number.shape for number in (*points.values(), *turns)))
         with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
             planes = self.points.planes(REFLECTED if self.leaves else ARRIVING)
@@ -569,8 +571,8 @@ class VertexFrame:
         return *self.points.operands, *self.turns
 
 
-def _doubles(operand: Operand, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
-    return operand.numbers(given).astype(np.float64, copy=False)
+def _doubles(operand: Operand, arguments: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
+    return operand.numbers(arguments).astype(np.float64, copy=False)
 
 
 def _vectors(components: Any, shape: tuple[int, ...]) -> Any:

@@ -257,8 +257,8 @@ class Vertex(ChainVertex, kind="vertex"):
         of_angles = isinstance(self.vertices, VerticesByAngles)
         if self.bad == "mask" or self.front is FOLLOWS or of_angles:
             return ()
-        given = *map(operand_of, self._given), *self.in_chain.points_around().arguments
-        return (EventFits(given, owner),)
+        arguments = *map(operand_of, self._given), *self.in_chain.points_around().arguments
+        return (EventFits(arguments, owner),)
 
     @property
     def event_here(self) -> Operand:

@@ -111,8 +111,8 @@ class CodeCache:
                 return MachineCode(code)
             except (RuntimeError, ValueError):
                 self.tell("a file of compiled code cannot be run; it is compiled anew")
-        kept = "; what is compiled is kept" if self._can_keep() else ""
-        self.tell(f"compiling for Numba, which takes some seconds a path{kept}")
+        stored = "; what is compiled is kept" if self._can_keep() else ""
+        self.tell(f"compiling for Numba, which takes some seconds a path{stored}")
         code = compiled(text)
         self.keep(text, code)
         return MachineCode(code)

@@ -65,7 +65,12 @@ class ArrayPath(Protocol):
     """
 
     def __call__(
-        self, rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
+        self,
+        rows: tuple[int, int],
+        columns: tuple[int, int],
+        arguments: list[Any],
+        out: Any,
+        at: int,
     ) -> bool:
         """Fill a range of the results."""
 

@@ -142,7 +142,7 @@ def _evaluated(
     for taken in takes:
         if taken not in results:
             results[taken] = _evaluated(program, taken, operands, carrier, results)
-    given = [
+    arguments = [
         results[argument.evaluation][argument.place]
         if type(argument) is Result
         else operands[argument]  # type: ignore[index]
@@ -151,7 +151,7 @@ def _evaluated(
     for taken in takes:
         if taken not in program.taken_by_several:
             del results[taken]
-    kernel, left = evaluation.kernel.specialised(given, is_zero)
+    kernel, left = evaluation.kernel.specialised(arguments, is_zero)
     numbers = kernel.made_for(carrier.xp)(*left)
     structure = evaluation.kernel.structure
     if evaluation.presence is None or structure is None:

@@ -89,6 +89,6 @@ def source(formula: Formula) -> str:
             lines.append(f"t{step.index} = {text}")
     results = ", ".join(map(written, formula.results))
     lines += [f"if {written(formula.holds)}:", f"    return ({results},)", "return None"]
-    given = ", ".join(f"t{s.index}" for s in formula.inputs)
+    argument = ", ".join(f"t{s.index}" for s in formula.inputs)
     body = "".join(f"    {line}\n" for line in lines)
-    return f"def path({given}):\n{body}"
+    return f"def path({argument}):\n{body}"

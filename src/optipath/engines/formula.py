@@ -97,14 +97,14 @@ class Formula:
     def whole_of(self, left: Symbol) -> Symbol:
         """Return the input of which something is left."""
         # Symbols of earlier stages are no texts, and record what they are compared with.
-        given = (symbol for symbol in self.inputs if symbol.operation == "input")
-        return next(symbol for symbol in given if symbol.operands == left.operands)
+        arguments = (symbol for symbol in self.inputs if symbol.operation == "input")
+        return next(symbol for symbol in arguments if symbol.operands == left.operands)
 
     @cached_property
     def steps(self) -> tuple[Symbol, ...]:
         """The operations on what is given."""
-        given = {symbol.index for symbol in (*self.inputs, *self.lefts)}
-        return tuple(symbol for symbol in self.needed if symbol.index not in given)
+        arguments = {symbol.index for symbol in (*self.inputs, *self.lefts)}
+        return tuple(symbol for symbol in self.needed if symbol.index not in arguments)
 
     @cached_property
     def computed(self) -> tuple[Symbol, ...]:

@@ -45,13 +45,13 @@ class JaxPath:
         self._known_traced = any(operand.traced for operand in program.operands)
 
     def lights(
-        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], given: Mapping[str, Any]
+        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], arguments: Mapping[str, Any]
     ) -> tuple[list[Any], Any]:
         """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
 
         A component that is not read is NaN, and so is light that gains going round.
         """
-        values, absent = self._split(resolved, given)
+        values, absent = self._split(resolved, arguments)
         with self._precision(values):
             run = self._traced_lights if self._known_traced else self._lights
             result, sound = run(values, batch=batch, absent=absent)
@@ -61,12 +61,12 @@ class JaxPath:
         self,
         resolved: Mapping[str, Resolved],
         batch: tuple[int, ...],
-        given: Mapping[str, Any],
+        arguments: Mapping[str, Any],
         source: str,
         reading: str,
     ) -> Any:
         """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
-        values, absent = self._split(resolved, given)
+        values, absent = self._split(resolved, arguments)
         with self._precision(values):
             run = self._traced_matrix if self._known_traced else self._matrix
             return run(values, batch=batch, absent=absent, source=source, reading=reading)
@@ -178,7 +178,7 @@ class JaxPath:
         return operand.evaluated(JAX, self._number(raw))
 
     def _split(
-        self, resolved: Mapping[str, Resolved], given: Mapping[str, Any]
+        self, resolved: Mapping[str, Resolved], arguments: Mapping[str, Any]
     ) -> tuple[dict[str, Any], frozenset[str]]:
         """Return the values, and the names of what is not there at all.
 
@@ -199,7 +199,7 @@ class JaxPath:
             if operand.known or operand.part == "present":
                 continue
             name, key = operand.value.name, operand.input_key
-            pair, angle = given.get(name), values[name]
+            pair, angle = arguments.get(name), values[name]
             if key.is_affine and not is_jax(angle):
                 # What it is a multiple of, JAX would round before.
                 angle = values[str(key)] = operand.placed(angle)

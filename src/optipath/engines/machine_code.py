@@ -71,10 +71,10 @@ def _typing(context: Any) -> Any:
     """
     result, known = copy(context), {}
 
-    def resolved(function: Any, given: Any, named: Any) -> Any:
-        key = function, given, *named.items()
+    def resolved(function: Any, argument: Any, named: Any) -> Any:
+        key = function, argument, *named.items()
         if key not in known:
-            known[key] = context.resolve_function_type(function, given, named)
+            known[key] = context.resolve_function_type(function, argument, named)
         return known[key]
 
     result.resolve_function_type = resolved
@@ -123,10 +123,10 @@ class MachineCode:
             self._engine.get_function_address(about["name"])
         )
 
-    def __call__(self, *given: Any) -> int:
+    def __call__(self, *arguments: Any) -> int:
         """Return the integer that the function gives for numbers and addresses."""
         result = ctypes.c_int64()
-        if self._function(ctypes.addressof(result), self._raised, *given):
+        if self._function(ctypes.addressof(result), self._raised, *arguments):
             raise RuntimeError("compiled code has failed")
         return result.value
 

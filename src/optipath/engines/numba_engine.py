@@ -71,12 +71,12 @@ def _compiled(formula: Formula, cache: CodeCache) -> ArrayPath:
     shape, kind = (len(_splits(formula)[0]), _BLOCK), formula.dtype
 
     def path(
-        rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
+        rows: tuple[int, int], columns: tuple[int, int], arguments: list[Any], out: Any, at: int
     ) -> bool:
         own = np.empty(shape, kind) if shape[0] else out
-        places = list(given)
+        places = list(arguments)
         for place in arrays:
-            places[place] = address(given[place])
+            places[place] = address(arguments[place])
         first, last = address(own), address(out)
         return function(*rows, *columns, *places, first, last, out.shape[1], at) != 0
 
@@ -126,11 +126,11 @@ def source(formula: Formula) -> str:
         "return 1 if good else 0",
     ]
     kind = formula.dtype.name
-    given = [f"a{s.index}: '{_kind(formula, s)}'" for s in formula.inputs]
+    arguments = [f"a{s.index}: '{_kind(formula, s)}'" for s in formula.inputs]
     places = ", ".join(f"{name}: 'int64'" for name in ("top", "bottom", "start", "stop"))
     ends = f"own: '*{kind}', out: '*{kind}', paths: 'int64', at: 'int64'"
     head = _HEAD.format(dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp")
-    text = f"def path({', '.join([places, *given, ends])}):"
+    text = f"def path({', '.join([places, *arguments, ends])}):"
     return "\n".join([head + text, *indented(*lines), ""])
 
 
@@ -198,11 +198,11 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
 def _left(left: Symbol, angle: str) -> list[str]:
     """Return the lines that compute what is left of an angle, in double precision."""
     formula = left_formula(left.operation)
-    (given,) = formula.inputs
+    (argument,) = formula.inputs
 
     def written(operand: Any) -> str:
         if not isinstance(operand, Symbol):
             return repr(operand.item())
-        return f"d{left.index}_{operand.index}" if operand is not given else angle
+        return f"d{left.index}_{operand.index}" if operand is not argument else angle
 
     return assignments(formula.steps, written)

@@ -12,24 +12,24 @@ from numba.extending import intrinsic
 
 @intrinsic
 def _bits_of(typing: Any, number: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
-        return builder.bitcast(given[0], ir.IntType(64))
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.bitcast(argument[0], ir.IntType(64))
 
     return nb.int64(nb.float64), generate
 
 
 @intrinsic
 def _number_of(typing: Any, bits: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
-        return builder.bitcast(given[0], ir.DoubleType())
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.bitcast(argument[0], ir.DoubleType())
 
     return nb.float64(nb.int64), generate
 
 
 @intrinsic
 def _fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
-        return builder.fma(*given)
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.fma(*argument)
 
     return a(a, a, a), generate
 
@@ -38,8 +38,8 @@ def _fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as num
 def chosen(typing: Any, condition: Any, yes: Any, no: Any) -> Any:  # noqa: ARG001 - as numba calls it
     """Return one of two numbers, without a branch for Numba to follow."""
 
-    def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
-        return builder.select(*given)
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.select(*argument)
 
     return yes(condition, yes, yes), generate
 

@@ -47,9 +47,9 @@ def _compiled(formula: Formula) -> ArrayPath:
 
     @np.errstate(all="ignore")
     def path(
-        rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
+        rows: tuple[int, int], columns: tuple[int, int], arguments: list[Any], out: Any, at: int
     ) -> bool:
-        known = dict(zip(indices, given, strict=True))
+        known = dict(zip(indices, arguments, strict=True))
         uniform = [*_prologue(formula, known), *writer.constants.values()]
         (top, bottom), (start, stop), width = rows, columns, columns[1] - columns[0]
         alone = bottom - top == 1
@@ -71,7 +71,7 @@ def _compiled(formula: Formula) -> ArrayPath:
             }
             arrays = [
                 n[cut[place]].reshape(shape) if place == "cell" else n[cut[place]]
-                for place, n in zip(places, given, strict=True)
+                for place, n in zip(places, arguments, strict=True)
                 if place != "one"
             ]
             own = [buffer[:tall, :long].reshape(shape) for buffer in free]
@@ -188,8 +188,8 @@ class BlockWriter:
         lines = []
         if condition.index not in self._masks:
             mask = self._masks[condition.index] = self._buffer("mask")
-            given = self._read(condition)
-            seen = f"{given}_" if given in self.buffers else f"{given}.view(numpy.int8)"
+            argument = self._read(condition)
+            seen = f"{argument}_" if argument in self.buffers else f"{argument}.view(numpy.int8)"
             lines.append(f"negative({seen}, {mask}, dtype=I)")
         mask = self._masks[condition.index]
         first, second = self._bits(yes), self._bits(no)

@@ -228,10 +228,10 @@ class SymbolicInputs:
             return form == ONE if form in (ONE, ABSENT) else self._input(str(key), form, "bool")
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
-        given = self._given(key, form)
+        argument = self._given(key, form)
         if operand.part in ("cos", "sin") and not self.counted:
-            return self._circular(operand, form, given)
-        return operand.evaluated(self.primitives, given)
+            return self._circular(operand, form, argument)
+        return operand.evaluated(self.primitives, argument)
 
     def _input(self, name: str, form: str, kind: str = "float", left: str = "") -> Any:
         axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
@@ -239,7 +239,7 @@ class SymbolicInputs:
 
     def _given(self, key: InputKey, form: str) -> Any:
         low, high = key.limits_in(self.limits)
-        given = self._input(str(key), form)
+        argument = self._input(str(key), form)
         if form == WIDE:
             # What is looked at is the number that is given, not what is left of it.
             most = float(np.finfo(np.float64).max)
@@ -247,11 +247,11 @@ class SymbolicInputs:
         elif form != ONE or self.single:
             most = float(np.finfo(self.recorder.dtype).max)
             kind = self.recorder.dtype.type
-            self.recorder.require(kind(max(low, -most)) <= given)
-            self.recorder.require(given <= kind(min(high, most)))
+            self.recorder.require(kind(max(low, -most)) <= argument)
+            self.recorder.require(argument <= kind(min(high, most)))
         # From here on it is known, and no longer asked.
-        given.positive = low >= 0.0
-        return given
+        argument.positive = low >= 0.0
+        return argument
 
     def _of_pair(self, operand: Operand) -> Any:
         """Return what an operand sees of an angle that is given by its cosine and sine."""
@@ -267,11 +267,11 @@ class SymbolicInputs:
         kind = self.recorder.dtype.type
         if self.forms[key] == WIDE:
             self.recorder.wide[str(key)] = least, 1.0
-        given = self._input(str(key), self.forms[key])
-        self.recorder.require(kind(least) <= given)
-        self.recorder.require(given <= kind(1.0))
-        given.positive = least == 0.0
-        return given
+        argument = self._input(str(key), self.forms[key])
+        self.recorder.require(kind(least) <= argument)
+        self.recorder.require(argument <= kind(1.0))
+        argument.positive = least == 0.0
+        return argument
 
     def _circular(self, operand: Operand, form: str, angle: Any) -> Any:
         kind, negative = self.recorder.dtype, operand.value.is_negative

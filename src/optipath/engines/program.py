@@ -271,8 +271,8 @@ class LoopSolver:
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
         """Return the parts of the light at each junction, for those of what arrives at some."""
-        given = self.scattered(arriving)
-        result = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
+        argument = self.scattered(arriving)
+        result = self._system.solved([argument.get(i, 0.0) for i in range(len(self.unknowns))])
         self.found = [result if is_zero(result) else self.rounded(result) for result in result]
         lights: dict[int, Parts] = dict.fromkeys(self.loop.junctions, ())
         for (junction, _), number in zip(self.unknowns, self.found, strict=True):

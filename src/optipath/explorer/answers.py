@@ -54,26 +54,28 @@ class PageAnswers:
             "units": _units_as_json(),
         }
 
-    def open(self, given: Any) -> dict[str, Any]:
+    def open(self, argument: Any) -> dict[str, Any]:
         """Return what the page is told of a path."""
         with self._answering():
-            asked = asked_state(given, ("places",))
+            request = asked_state(argument, ("places",))
             return _or_faults(
-                lambda: {"faults": [], **path_as_json(read_path(self._presets, asked))}
+                lambda: {"faults": [], **path_as_json(read_path(self._presets, request))}
             )
 
-    def trace(self, given: Any) -> dict[str, Any]:
+    def trace(self, argument: Any) -> dict[str, Any]:
         """Return what the page shows of a state."""
-        with self._answering() as told:
-            asked = asked_state(given, _STATE)
-            result = _or_faults(lambda: traced_as_json(read_state(self._presets, asked)))
-            return result if result["faults"] else result | {"notes": [*result["notes"], *told()]}
+        with self._answering() as message:
+            request = asked_state(argument, _STATE)
+            result = _or_faults(lambda: traced_as_json(read_state(self._presets, request)))
+            return (
+                result if result["faults"] else result | {"notes": [*result["notes"], *message()]}
+            )
 
-    def export(self, given: Any) -> dict[str, Any]:
+    def export(self, argument: Any) -> dict[str, Any]:
         """Return a state as a file, and what it is called."""
         with self._answering():
-            asked = asked_state(given, (*_STATE, "form"), ("form",))
-            return _or_faults(lambda: exported_as_json(self._presets, asked))
+            request = asked_state(argument, (*_STATE, "form"), ("form",))
+            return _or_faults(lambda: exported_as_json(self._presets, request))
 
     @contextmanager
     def _answering(self) -> Iterator[Any]:
@@ -115,23 +117,23 @@ _ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
 _ODD = re.compile(r"[^A-Za-z0-9_-]+")
 
 
-def exported_as_json(presets: ExploredPresets, asked: AskedState) -> dict[str, Any]:
+def exported_as_json(presets: ExploredPresets, request: AskedState) -> dict[str, Any]:
     """Return a state as a file."""
-    state = read_state(presets, asked)
+    state = read_state(presets, request)
     traced(state)  # What cannot be traced is no file either.
     curve_detector(state)
-    if asked.form == "toml":
+    if request.form == "toml":
         text = _toml(state)
-    elif asked.form == "python":
-        text = python_lines(state, presets.source(asked.preset))
+    elif request.form == "python":
+        text = python_lines(state, presets.source(request.preset))
     else:
-        text = _table(state, asked.curve)
-    name = "-".join([asked.preset.removesuffix(".toml"), *_case_words(asked)])
-    return {"faults": [], "name": f"{_ODD.sub('-', name)}.{_ENDINGS[asked.form]}", "text": text}
+        text = _table(state, request.curve)
+    name = "-".join([request.preset.removesuffix(".toml"), *_case_words(request)])
+    return {"faults": [], "name": f"{_ODD.sub('-', name)}.{_ENDINGS[request.form]}", "text": text}
 
 
-def _case_words(asked: AskedState) -> list[str]:
-    return [] if asked.case is None else ["case", asked.case]
+def _case_words(request: AskedState) -> list[str]:
+    return [] if request.case is None else ["case", request.case]
 
 
 def _table(state: ReadState, curve: AskedCurve | None) -> str:
@@ -164,13 +166,13 @@ for name in {ends}:
 
 def python_lines(state: ReadState, source: str) -> str:
     """Return lines of Python for a state."""
-    given = {name: repr(word) for name, word in state.asked.places.items()}
-    given |= {name: _value(state, name, value) for name, value in state.given.items()}
-    own = {name: text for name, text in given.items() if name in _OF_LOADING}
+    values_given = {name: repr(word) for name, word in state.asked.places.items()}
+    values_given |= {name: _value(state, name, value) for name, value in state.given.items()}
+    own = {name: text for name, text in values_given.items() if name in _OF_LOADING}
     arguments = [repr(source)]
     if state.asked.case is not None:
         arguments.append(f"case={state.asked.case!r}")
-    arguments += _by_name({name: text for name, text in given.items() if name not in own})
+    arguments += _by_name({name: text for name, text in values_given.items() if name not in own})
     loaded = f"path = op.load_preset({', '.join(arguments)})"
     if len(loaded) > 88:
         inner = "".join(f"    {each},\n" for each in arguments)
@@ -181,11 +183,11 @@ def python_lines(state: ReadState, source: str) -> str:
     return f"import optipath as op\n\n{loaded}\n{_PRINTED.format(ends=ends)}"
 
 
-def _by_name(given: Mapping[str, str]) -> list[str]:
+def _by_name(arguments: Mapping[str, str]) -> list[str]:
     """Return arguments; in one mapping those whose names Python keeps for itself."""
-    kept = [f"{name!r}: {text}" for name, text in given.items() if iskeyword(name)]
-    plain = [f"{name}={text}" for name, text in given.items() if not iskeyword(name)]
-    return [*plain, f"**{{{', '.join(kept)}}}"] if kept else plain
+    stored = [f"{name!r}: {text}" for name, text in arguments.items() if iskeyword(name)]
+    plain = [f"{name}={text}" for name, text in arguments.items() if not iskeyword(name)]
+    return [*plain, f"**{{{', '.join(stored)}}}"] if stored else plain
 
 
 def _value(state: ReadState, name: str, value: Any) -> str:

@@ -96,8 +96,8 @@ def _told(parameter: Parameter, default: str) -> dict[str, Any]:
 def _case(explored: ExploredPath, name: str, case: Case) -> dict[str, Any]:
     known = explored.parameters
     values = {
-        given: known[given].text(value) if given in known else str(value)
-        for given, value in case.values.items()
+        argument: known[argument].text(value) if argument in known else str(value)
+        for argument, value in case.values.items()
     }
     published = {end: [*stokes] for end, stokes in case.published.items()}
     return {"name": name, "values": values, "note": case.note, "published": published}
@@ -129,12 +129,12 @@ def quantities_as_json() -> list[dict[str, str]]:
 def end_as_json(light: Light, published: Sequence[float] | None) -> dict[str, Any]:
     """Return the light at a detector."""
     texts = PRINTED.stokes(light)
-    told = [f"{number:g}" for number in published] if published else None
+    message = [f"{number:g}" for number in published] if published else None
     return {
         "stokes": plain(light.stokes),
         "texts": texts,
         "published": list(published) if published else None,
-        "published_texts": told,
+        "published_texts": message,
         "quantities": _quantities(light, texts),
         "poincare": poincare(light),
         "ellipse": _ellipse(light),
@@ -172,8 +172,8 @@ def _quantities(light: Light, stokes: Sequence[str]) -> list[dict[str, Any]]:
         number = plain(np.asarray(quantity.of(light), float), unit)
         state = PRINTED.state(math.nan if number is None else number)
         text = stokes[int(component)] if component.isdigit() else state
-        told = {"name": quantity.variable, "label": quantity.name, "unit": unit}
-        results.append({**told, "number": number, "text": text})
+        messages = {"name": quantity.variable, "label": quantity.name, "unit": unit}
+        results.append({**messages, "number": number, "text": text})
     return results
 
 
@@ -206,8 +206,8 @@ def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any
         for each in result.links
         if each.end
     ]
-    given = sum(float(power) for power in result.given.values())
-    told = [
+    argument = sum(float(power) for power in result.given.values())
+    messages = [
         *(f"{node} takes {_text(power)}" for node, power in result.taken.items() if power),
         *(f"{_text(power)} leaves at {name}" for name, power in result.left.items() if power),
         *(f"{node} gets {_text(power)}" for node, power in result.ended.items()),
@@ -218,7 +218,7 @@ def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any
         "taken": [{"node": node} | _power(power) for node, power in result.taken.items()],
         "leaves": [{"name": name} | _power(power) for name, power in result.left.items()],
         "ends": [{"node": node} | _power(power) for node, power in result.ended.items()],
-        "text": f"Sources give {_text(given)}; {listed(told)}.",
+        "text": f"Sources give {_text(argument)}; {listed(messages)}.",
         "notes": [*result.notes],
     }
 

@@ -169,10 +169,10 @@ class ExploredPresets:
         preset: str,
         places: Mapping[str, str],
         materials: Mapping[str, Any] = MappingProxyType({}),
-        told: tuple[str, ...] = (),
+        messages: tuple[str, ...] = (),
     ) -> ExploredPath:
         """Return a path, composed once for everything that is chosen before."""
-        key = preset, *sorted(places.items()), told
+        key = preset, *sorted(places.items()), messages
         if key not in self._paths:
             path = self.base(preset)
             path = path.with_defaults(**places) if places else path

@@ -255,8 +255,8 @@ class PageHandler(BaseHTTPRequestHandler):
     def _tell(self, error: Exception) -> None:
         """Write a fault of the program's own where it runs, and nowhere else."""
         with suppress(OSError, ValueError):
-            told = f"optipath: fault of the explorer: {type(error).__name__}: {error}"
-            sys.stderr.write(printable(" ".join(told.split())) + "\n")
+            message = f"optipath: fault of the explorer: {type(error).__name__}: {error}"
+            sys.stderr.write(printable(" ".join(message.split())) + "\n")
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
         """Refuse what is no request at all, without repeating any of it."""
@@ -392,14 +392,14 @@ _DEEPEST = 8
 _TEXTS = re.compile(r'"(?:[^"\\]|\\.)*"?', re.DOTALL)
 
 
-def read_json(given: bytes) -> Any:
+def read_json(argument: bytes) -> Any:
     """Return what a JSON text says.
 
     >>> read_json(b'{"preset": "malus"}')
     {'preset': 'malus'}
     """
     try:
-        text = given.decode()
+        text = argument.decode()
     except UnicodeDecodeError as fault:
         raise _refused(f"is no UTF-8 from byte {fault.start} on; send JSON in UTF-8") from None
     if _depth(text) > _DEEPEST:

@@ -73,57 +73,61 @@ class AskedState:
     form: str = ""
 
 
-def asked_state(given: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
+def asked_state(argument: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
     """Return what a request asks for.
 
     >>> asked_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
     {'angle': '30 deg'}
     """
     names = ("preset", *allowed)
-    if not isinstance(given, dict):
+    if not isinstance(argument, dict):
         raise ParameterError(
-            f"a request is an object with {listed([*names])}, not {_as_json(given)}"
+            f"a request is an object with {listed([*names])}, not {_as_json(argument)}"
         )
-    faults = [sentence for name in given for sentence in unknown("name", name, names)]
-    faults += [f"{name} is missing; give it" for name in ("preset", *needed) if name not in given]
+    faults = [sentence for name in argument for sentence in unknown("name", name, names)]
+    faults += [
+        f"{name} is missing; give it" for name in ("preset", *needed) if name not in argument
+    ]
     read: dict[str, Any] = {}
     for name in names:
-        if name in given and (name in needed or name == "preset" or given[name] is not None):
+        if name in argument and (name in needed or name == "preset" or argument[name] is not None):
             with collecting(faults, ParameterError):
-                read[name] = _READERS[name](name, given[name])
+                read[name] = _READERS[name](name, argument[name])
     if faults:
         raise ParameterError(*faults)
     return AskedState(**read)
 
 
-def _text(name: str, given: Any) -> str:
-    if not isinstance(given, str):
-        raise ParameterError(f"{name} must be a text, not {_as_json(given)}")
-    if len(given) > _LONGEST:
-        raise ParameterError(f"{name} has {len(given)} characters; {_LONGEST} are the most")
-    return given
+def _text(name: str, argument: Any) -> str:
+    if not isinstance(argument, str):
+        raise ParameterError(f"{name} must be a text, not {_as_json(argument)}")
+    if len(argument) > _LONGEST:
+        raise ParameterError(f"{name} has {len(argument)} characters; {_LONGEST} are the most")
+    return argument
 
 
-def _as_json(given: Any) -> str:
+def _as_json(argument: Any) -> str:
     """Return what was sent as JSON writes it, cut where it is long; texts as sentences quote."""
-    if isinstance(given, str):
-        return shown(given)
-    text = printable(json.dumps(given, ensure_ascii=False))
+    if isinstance(argument, str):
+        return shown(argument)
+    text = printable(json.dumps(argument, ensure_ascii=False))
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
 
 
-def _texts(name: str, given: Any) -> dict[str, str]:
-    if not isinstance(given, dict) or len(given) > _MOST:
-        what = f"an object of {len(given)}" if isinstance(given, dict) else _as_json(given)
+def _texts(name: str, argument: Any) -> dict[str, str]:
+    if not isinstance(argument, dict) or len(argument) > _MOST:
+        what = f"an object of {len(argument)}" if isinstance(argument, dict) else _as_json(argument)
         raise ParameterError(f"{name} must be an object of at most {_MOST} texts, not {what}")
-    return {key: _text(f"{name}.{shown(key)[1:-1]}", value) for key, value in given.items()}
+    return {key: _text(f"{name}.{shown(key)[1:-1]}", value) for key, value in argument.items()}
 
 
 def _words(known: Sequence[str] | None) -> Any:
-    def read(name: str, given: Any) -> tuple[str, ...]:
-        if not isinstance(given, list) or len(given) > _MOST:
-            raise ParameterError(f"{name} must be a list of texts, not {_as_json(given)}")
-        words = tuple(dict.fromkeys(_text(f"{name}[{at}]", each) for at, each in enumerate(given)))
+    def read(name: str, argument: Any) -> tuple[str, ...]:
+        if not isinstance(argument, list) or len(argument) > _MOST:
+            raise ParameterError(f"{name} must be a list of texts, not {_as_json(argument)}")
+        words = tuple(
+            dict.fromkeys(_text(f"{name}[{at}]", each) for at, each in enumerate(argument))
+        )
         if known is not None and (faults := [s for w in words for s in unknown(name, w, known)]):
             raise ParameterError(*faults)
         return words
@@ -131,31 +135,31 @@ def _words(known: Sequence[str] | None) -> Any:
     return read
 
 
-def _form(name: str, given: Any) -> str:
-    if faults := unknown(name, _text(name, given), FORMS):
+def _form(name: str, argument: Any) -> str:
+    if faults := unknown(name, _text(name, argument), FORMS):
         raise ParameterError(*faults)
-    return str(given)
+    return str(argument)
 
 
-def _count(name: str, given: Any) -> int:
-    if type(given) is not int or not 2 <= given <= MOST_POINTS:
+def _count(name: str, argument: Any) -> int:
+    if type(argument) is not int or not 2 <= argument <= MOST_POINTS:
         what = f"a whole number from 2 to {MOST_POINTS}"
-        raise ParameterError(f"{name} must be {what}, not {_as_json(given)}")
-    return given
+        raise ParameterError(f"{name} must be {what}, not {_as_json(argument)}")
+    return argument
 
 
-def _curve(name: str, given: Any) -> AskedCurve:
+def _curve(name: str, argument: Any) -> AskedCurve:
     readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words(None)}
-    if not isinstance(given, dict):
+    if not isinstance(argument, dict):
         raise ParameterError(
-            f"{name} must be an object with {listed([*readers])}, not {_as_json(given)}"
+            f"{name} must be an object with {listed([*readers])}, not {_as_json(argument)}"
         )
-    faults = [s for key in given for s in unknown(f"name in {name}", key, [*readers])]
-    faults += [f"{name}.{key} is missing; give it" for key in readers if key not in given]
+    faults = [s for key in argument for s in unknown(f"name in {name}", key, [*readers])]
+    faults += [f"{name}.{key} is missing; give it" for key in readers if key not in argument]
     read: list[Any] = []
     for key, reader in readers.items():
         with collecting(faults, ParameterError):
-            read.append(reader(f"{name}.{key}", given[key]) if key in given else None)
+            read.append(reader(f"{name}.{key}", argument[key]) if key in argument else None)
     if faults:
         raise ParameterError(*faults)
     return AskedCurve(*read)
@@ -188,8 +192,8 @@ class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call 
 
     def __init__(self, faults: Iterable[FieldFault]) -> None:
         # One line each, whatever stands in the names that they quote.
-        told = [(field, printable(" ".join(text.split()))) for field, text in faults]
-        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(told)]
+        messages = [(field, printable(" ".join(text.split()))) for field, text in faults]
+        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(messages)]
         super().__init__(*[fault.sentence for fault in self.faults])
 
 
@@ -226,18 +230,18 @@ class ReadState:
         return [FieldFault(_field(sentence, known) or other, sentence) for sentence in error.faults]
 
 
-def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
+def read_state(presets: ExploredPresets, request: AskedState) -> ReadState:
     """Return what the texts of the page stand for."""
     faults: list[FieldFault] = []
-    explored, places = _opened(presets, asked, faults)
+    explored, places = _opened(presets, request, faults)
     cases = explored.path.cases
-    known = cases[asked.case].values if asked.case in cases else {}
-    given = {
+    known = cases[request.case].values if request.case in cases else {}
+    arguments = {
         name: value
-        for name, text in asked.values.items()
-        if (value := _value(explored, name, asked.values, faults)) is not None
+        for name, text in request.values.items()
+        if (value := _value(explored, name, request.values, faults)) is not None
     }
-    state = ReadState(asked, explored, explored, places, {}, given)
+    state = ReadState(request, explored, explored, places, {}, arguments)
     known = {name: value for name, value in known.items() if name not in places}
     try:
         state = _placed(presets, state, known)
@@ -248,38 +252,38 @@ def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
     return state
 
 
-def read_path(presets: ExploredPresets, asked: AskedState) -> ExploredPath:
+def read_path(presets: ExploredPresets, request: AskedState) -> ExploredPath:
     """Return the path that is asked for, its places chosen, and no values looked at."""
     faults: list[FieldFault] = []
-    explored, _ = _opened(presets, asked, faults)
+    explored, _ = _opened(presets, request, faults)
     if faults:
         raise FieldFaults(faults)
     return explored
 
 
 def _opened(
-    presets: ExploredPresets, asked: AskedState, faults: list[FieldFault]
+    presets: ExploredPresets, request: AskedState, faults: list[FieldFault]
 ) -> tuple[ExploredPath, dict[str, str]]:
     """Return the path with its places, those of the case among them, as far as there are any."""
     try:
-        base = presets.base(asked.preset)
+        base = presets.base(request.preset)
     except OptipathError as error:
         raise FieldFaults(FieldFault("preset", each) for each in error.faults) from None
-    case = base.cases.get(asked.case or "")
-    if case is None and asked.case is not None:
-        wrong = unknown(f"case of '{asked.preset}'", asked.case, base.cases)
+    case = base.cases.get(request.case or "")
+    if case is None and request.case is not None:
+        wrong = unknown(f"case of '{request.preset}'", request.case, base.cases)
         faults += [FieldFault("case", sentence) for sentence in wrong]
     known = {} if case is None else case.values
     places = {name: str(word) for name, word in known.items() if name in base.choices}
-    places |= _places(base.choices, asked.places, faults)
-    return presets.explored(asked.preset, places), places
+    places |= _places(base.choices, request.places, faults)
+    return presets.explored(request.preset, places), places
 
 
 def _places(
-    choices: Mapping[str, Any], given: Mapping[str, str], faults: list[FieldFault]
+    choices: Mapping[str, Any], arguments: Mapping[str, str], faults: list[FieldFault]
 ) -> dict[str, str]:
     results = {}
-    for name, word in given.items():
+    for name, word in arguments.items():
         if wrong := unknown("choice", name, choices) or unknown(name, word, choices[name].behind):
             faults += [FieldFault(name if name in choices else None, each) for each in wrong]
         else:
@@ -288,10 +292,10 @@ def _places(
 
 
 def _value(
-    explored: ExploredPath, name: str, given: Mapping[str, str], faults: list[FieldFault]
+    explored: ExploredPath, name: str, arguments: Mapping[str, str], faults: list[FieldFault]
 ) -> Any:
     """Return what the text of a field stands for; None where it is faulty."""
-    known, text = explored.parameters, given[name].strip()
+    known, text = explored.parameters, arguments[name].strip()
     if name in explored.path.choices:
         faults.append(FieldFault(name, f"'{name}' is a choice of places; give it among places"))
         return None
@@ -304,7 +308,7 @@ def _value(
             faults.append(FieldFault(name, explored.plan.inputs.unknown(name)))
             return None
         if is_material(parameter, text, explored.uses):
-            return _material(explored, name, text, given)
+            return _material(explored, name, text, arguments)
         return single_text(explored, parameter, text)
     except OptipathError as error:
         faults += [FieldFault(name, sentence) for sentence in error.faults]
@@ -319,32 +323,37 @@ def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:
     return value
 
 
-def _material(explored: ExploredPath, name: str, text: str, given: Mapping[str, str]) -> Material:
+def _material(
+    explored: ExploredPath, name: str, text: str, arguments: Mapping[str, str]
+) -> Material:
     k = extinction_beside(explored.uses, name)
-    own = single_text(explored, explored.parameters[k], given[k]) if k in given else None
+    own = single_text(explored, explored.parameters[k], arguments[k]) if k in arguments else None
     return material_named(name, text, k, own)
 
 
 def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]) -> ReadState:
     """Return the state with materials in their places, and looked at as a whole."""
-    given, explored, notes = dict(state.given), state.explored, []
-    values = beside(explored.path, known, given)
+    argument, explored, notes = dict(state.given), state.explored, []
+    values = beside(explored.path, known, argument)
     if media := {name: m for name, m in values.items() if isinstance(m, Material)}:
         within = given_by_materials(explored.path.graph, media)
-        kept = {*media, *within}
+        stored = {*media, *within}
         for name in within:
             values.pop(name, None)
-            given.pop(name, None)
-        told = tuple(f"{name}={text}" for name, text in state.asked.values.items())
-        told = (state.asked.case or "", *(each for each in told if each.partition("=")[0] in kept))
-        explored = presets.explored(state.asked.preset, state.places, media, told)
+            argument.pop(name, None)
+        messages = tuple(f"{name}={text}" for name, text in state.asked.values.items())
+        messages = (
+            state.asked.case or "",
+            *(each for each in messages if each.partition("=")[0] in stored),
+        )
+        explored = presets.explored(state.asked.preset, state.places, media, messages)
         values = {name: value for name, value in values.items() if name not in media}
     name = WAVELENGTH.name
     if name in values and name not in explored.parameters:
         notes.append("nothing depends on the wavelength here; it is not used")
-        del values[name], given[name]
+        del values[name], argument[name]
     explored.plan.inputs.resolve(values)
-    return replace(state, explored=explored, values=values, given=given, notes=tuple(notes))
+    return replace(state, explored=explored, values=values, given=argument, notes=tuple(notes))
 
 
 def _field(sentence: str, known: Collection[str]) -> str | None:

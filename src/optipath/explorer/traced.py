@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 def traced_as_json(state: ReadState) -> dict[str, Any]:
     """Return what the page shows of a state."""
-    explored, asked = state.explored, state.asked
+    explored, request = state.explored, state.asked
     lights = traced(state)
     results: dict[str, Any] = {
         "faults": [],
@@ -54,7 +54,7 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     results |= {"model": plan.model, "method": plan.method}
     results["engine"] = " and ".join(plan.answers.ran_by)
     results |= _curve(state)
-    want = asked.want
+    want = request.want
     results["scene"] = _scene(path, state, results["notes"]) if "scene" in want else None
     results["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
     results["explanation"] = explored.explanation if "explanation" in want else None
@@ -63,10 +63,10 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
 
 def _curve(state: ReadState) -> dict[str, Any]:
     """Return the curve, or what is wrong with it, on which nothing else depends."""
-    asked = state.asked.curve
+    request = state.asked.curve
     try:
         detector = curve_detector(state)
-        curve = None if asked is None else curve_as_json(state, asked, detector)
+        curve = None if request is None else curve_as_json(state, request, detector)
     except FieldFaults as result:
         return {"curve": None, "curve_faults": [fault._asdict() for fault in result.faults]}
     return {"curve": curve, "curve_faults": []}
@@ -129,8 +129,8 @@ def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
             "unit": WAVELENGTH.unit,
             "word": None,
         }
-    if given := state.materials:
-        results |= _materials(state, given)
+    if argument := state.materials:
+        results |= _materials(state, argument)
     return results
 
 
@@ -140,18 +140,24 @@ def _single(value: Any) -> Any:
     return value.item() if is_number else value
 
 
-def _materials(state: ReadState, given: dict[str, Any]) -> dict[str, dict[str, Any]]:
+def _materials(state: ReadState, arguments: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """Return the materials that are given, each with its n and k, and what k they stand for."""
     light = state.explored.parameters.get(WAVELENGTH.name)
     at = None if light is None else state.values.get(WAVELENGTH.name, light.default)
     plain = {"number": None, "unit": "", "word": None}
     results = {}
-    for name, label, material in materials_among(given):
-        told = material_as_json(label, material, at)
+    for name, label, material in materials_among(arguments):
+        message = material_as_json(label, material, at)
         text = state.asked.values[name].strip()
-        results[name] = {**plain, "text": text, "material": label, "n": told["n"], "k": told["k"]}
+        results[name] = {
+            **plain,
+            "text": text,
+            "material": label,
+            "n": message["n"],
+            "k": message["k"],
+        }
         for k in given_by_materials(state.base.path.graph, {name: material}):
-            number = told["k"] if isinstance(told["k"], float) else None
+            number = message["k"] if isinstance(message["k"], float) else None
             text = "" if number is None else PRINTED.text(number)
             results[k] = {**plain, "text": text, "number": number, "by": name}
     return results
@@ -186,18 +192,18 @@ _SEVERAL = ":,@"
 """What stands in a text of several values, or names a file, of which none is ever read."""
 
 
-def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[str, Any]:
+def curve_as_json(state: ReadState, request: AskedCurve, detector: str) -> dict[str, Any]:
     """Return a curve for the page."""
     explored = state.explored
     axes: tuple[SweepAxis, ...] = ()
     try:
-        grid = curve_grid(state, asked)
+        grid = curve_grid(state, request)
         axes = grid.axes
-        key = detector, asked, *sorted(grid.fixed.items())
-        lines = explored.kept_curve(key, lambda: _lines(explored.plan, grid, asked.y, detector))
+        key = detector, request, *sorted(grid.fixed.items())
+        lines = explored.kept_curve(key, lambda: _lines(explored.plan, grid, request.y, detector))
     except OptipathError as error:
-        told = [_by_value(sentence, axes) for sentence in error.faults]
-        raise FieldFaults(FieldFault("curve", each) for each in told) from None
+        messages = [_by_value(sentence, axes) for sentence in error.faults]
+        raise FieldFaults(FieldFault("curve", each) for each in messages) from None
     (axis,) = axes
     return {
         "x": axis.shown.tolist(),
@@ -208,27 +214,27 @@ def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[st
     }
 
 
-def curve_grid(state: ReadState, asked: AskedCurve) -> SweepGrid:
+def curve_grid(state: ReadState, request: AskedCurve) -> SweepGrid:
     """Return the grid of a curve, beside which everything has one value."""
-    explored, name = state.explored, asked.x
+    explored, name = state.explored, request.x
     opened = explored.plan.inputs.open
-    faults = [s for y in asked.y for s in unknown("quantity", y, _NAMES)]
+    faults = [s for y in request.y for s in unknown("quantity", y, _NAMES)]
     faults += unknown("parameter of the curve", name, opened)
     if not faults:
-        faults += _end_faults(state, opened[name], asked)
+        faults += _end_faults(state, opened[name], request)
     if faults:
         raise FieldFaults(FieldFault("curve", each) for each in faults)
-    text = f"{asked.first}:{asked.last}:{asked.count}"
-    unit = "" if unit_of(asked.first) else opened[name].unit
+    text = f"{request.first}:{request.last}:{request.count}"
+    unit = "" if unit_of(request.first) else opened[name].unit
     values = read_axis_text(text, opened[name], unit, explored.uses)
     assert values is not None  # noqa: S101 - which it is not for three parts
-    fixed = {given: value for given, value in state.values.items() if given != name}
+    fixed = {argument: value for argument, value in state.values.items() if argument != name}
     return SweepGrid((sweep_axis(explored.parameters, name, values),), fixed)
 
 
-def _end_faults(state: ReadState, parameter: Parameter, asked: AskedCurve) -> list[str]:
+def _end_faults(state: ReadState, parameter: Parameter, request: AskedCurve) -> list[str]:
     faults: list[str] = []
-    for text in (asked.first, asked.last):
+    for text in (request.first, request.last):
         if any(sign in text for sign in _SEVERAL) or text in parameter.all_words:
             faults.append(f"{shown(text)} is no end of a curve; give one number, with a unit")
             continue
@@ -265,6 +271,6 @@ def _lines(
     lines = []
     for quantity in (_NAMES[name] for name in names):
         numbers = np.broadcast_to(np.asarray(quantity.shown_of(light), float), grid.shape)
-        told = {"name": quantity.variable, "label": quantity.name, "unit": quantity.shown_unit}
-        lines.append({**told, "values": plain(numbers)})
+        messages = {"name": quantity.variable, "label": quantity.name, "unit": quantity.shown_unit}
+        lines.append({**messages, "values": plain(numbers)})
     return lines

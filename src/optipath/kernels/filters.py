@@ -213,10 +213,10 @@ def _shared(xp: Primitives) -> KernelFunction:
     def shared(r: Any, t: Any) -> tuple[Any, ...]:
         one, other = minimum(r, INFINITE), minimum(t, INFINITE)
         leak = where(r < INFINITE, 1.0 / one, 0.0)
-        kept, of_other = ((ratio - 1.0) / ratio for ratio in (one, other))
+        stored, of_other = ((ratio - 1.0) / ratio for ratio in (one, other))
         # 1 - 1/(r t), as a sum of what is not negative.
-        most = of_other / (of_other + kept * where(t < INFINITE, 1.0 / other, 0.0))
+        most = of_other / (of_other + stored * where(t < INFINITE, 1.0 / other, 0.0))
         across = where(r < INFINITE, 1.0 / sqrt(one), 0.0)
-        return most, most * leak, 0.5 * most * kept, most * across
+        return most, most * leak, 0.5 * most * stored, most * across
 
     return shared

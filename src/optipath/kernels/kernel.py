@@ -171,14 +171,14 @@ def in_words(what: str, error: BaseException) -> OptipathError:
 def called(
     what: str,
     function: Callable[..., T],
-    *given: Any,
+    *arguments: Any,
     left: tuple[type[Exception], ...] = (),
 ) -> T:
     """Return what code of a user's own gives, which raises errors of the library alone."""
-    kept: tuple[type[Exception], ...] = (MemoryError, OptipathError, Warning, *left)
+    stored: tuple[type[Exception], ...] = (MemoryError, OptipathError, Warning, *left)
     try:
-        return function(*given)
-    except kept:
+        return function(*arguments)
+    except stored:
         raise
     except (Exception, SystemExit) as error:
         raise in_words(what, error) from error

@@ -164,8 +164,8 @@ class WithZero:
         """Make the kernel in terms of these primitives."""
         kernel, place = self.factory(xp), self.place
 
-        def with_zero(*given: Any) -> tuple[Any, ...]:
+        def with_zero(*argument: Any) -> tuple[Any, ...]:
             # Not a plain 0: its precision is that of the others.
-            return kernel(*given[:place], 0.0 * given[0], *given[place:])
+            return kernel(*argument[:place], 0.0 * argument[0], *argument[place:])
 
         return with_zero

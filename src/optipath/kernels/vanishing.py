@@ -55,6 +55,6 @@ def _taken_as_0(xp: Primitives, condition: Any, number: Any) -> Any:
     return xp.where(condition, 0.0, number)
 
 
-def vanishes(number: Any, beside: Any) -> Any:
+def vanishes(number: Any, other: Any) -> Any:
     """Tell whether a number is no more than the rounding of another."""
-    return beside + number == beside
+    return other + number == other

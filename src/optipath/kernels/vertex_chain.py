@@ -90,8 +90,8 @@ def legs(xp: Primitives) -> Callable[..., list[Leg]]:
             squared = dot(along, along)
             inverse = 1.0 / sqrt(squared)
             # Both limits are 0 in single precision, which has none of the other numbers.
-            kept = (squared > _LEAST) & (inverse > _INVERSE)
-            inverse = where(kept, inverse, nan)
+            stored = (squared > _LEAST) & (inverse > _INVERSE)
+            inverse = where(stored, inverse, nan)
             results.append(Leg(along, inverse, times(inverse, along)))
         return results
 

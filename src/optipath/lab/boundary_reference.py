@@ -188,10 +188,10 @@ def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) ->
     return _exact("transmitted", n, k, cos, sin, n1)
 
 
-def _exact(way: str, *given: float) -> Exact:
-    spread = sum(abs(int(mpmath.log10(x))) for x in map(mpmath.mpf, given) if x)
+def _exact(way: str, *arguments: float) -> Exact:
+    spread = sum(abs(int(mpmath.log10(x))) for x in map(mpmath.mpf, arguments) if x)
     with mpmath.workdps(WORKING_DIGITS + 4 * spread):
-        n, k, c, s, n1 = map(mpmath.mpf, given)
+        n, k, c, s, n1 = map(mpmath.mpf, arguments)
         m = mpmath.mpc(n, k) / n1
         values = _values(way, m, c, s)
         # The condition from a difference so small that half of the digits stay.

@@ -118,8 +118,8 @@ def path_chart(
     plans = [runner.compose(graph) for runner in runners]
     _time(results, [partial(plan.run_all, **values) for plan in plans], effort, progress)
     program = Composer(engine="numpy").compose(graph).program
-    given, _ = plans[0].inputs.resolve(values)
-    arrays = sum(operand.numbers(given).size > 1 for operand in program.operands)
+    argument, _ = plans[0].inputs.resolve(values)
+    arrays = sum(operand.numbers(argument).size > 1 for operand in program.operands)
     least = limits(arrays + 4 * len(program.readings), slow_operations(program))
     words = {name: p.text(p.default) for name, p in path.parameters.items()}
     made = {"parameters": words, **_chart(title, results, least, effort)}
@@ -331,8 +331,8 @@ _INNER, _OUTER = 2048, 4_000_000
 
 def processor() -> str:
     """Return what the processor calls itself."""
-    told = Path("/proc/cpuinfo")
-    lines = told.read_text(encoding="utf-8").splitlines() if told.exists() else []
+    message = Path("/proc/cpuinfo")
+    lines = message.read_text(encoding="utf-8").splitlines() if message.exists() else []
     names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     return next(names, platform.processor() or platform.machine())
 

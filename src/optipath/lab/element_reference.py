@@ -145,10 +145,10 @@ def _(element: Waveplate, _: Coupling, read: Reader) -> Jones:
 
 @jones.register
 def _(element: CircularPolarizer, _: Coupling, read: Reader) -> Jones:
-    kept, lost = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
+    stored, missing = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
     # The field (1, i) has S3 > 0.
     i = mpmath.mpc(0, 1 if element.handedness == "right" else -1)
-    both, apart = (kept + lost) / 2, i * (kept - lost) / 2
+    both, apart = (stored + missing) / 2, i * (stored - missing) / 2
     return (both, -apart), (apart, both)
 
 
@@ -254,8 +254,8 @@ def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]
 
 @mueller.register
 def _(element: Depolarizer, _: Coupling, read: Reader) -> list[list[Any]]:
-    kept = 1 - read.real(element.depolarization)
-    return mpmath.diag([1, kept, kept, kept]).tolist()  # type: ignore[no-any-return]
+    stored = 1 - read.real(element.depolarization)
+    return mpmath.diag([1, stored, stored, stored]).tolist()  # type: ignore[no-any-return]
 
 
 @mueller.register

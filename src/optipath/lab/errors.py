@@ -152,8 +152,8 @@ def trials(
     count: int,
 ) -> Iterator[Trial]:
     """Yield the path as given, and in every region if it has interfaces."""
-    given = path.graph.copy()
-    yield Trial(AS_GIVEN, given, tuple(exact_batch(given)))
+    argument = path.graph.copy()
+    yield Trial(AS_GIVEN, argument, tuple(exact_batch(argument)))
     for region in regions if interfaces(path) else ():
         yield trial(path, region, dtype, count)
 
@@ -183,10 +183,10 @@ def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
     off = errors(result, exact, dtype, against_first=True)
     # Light that a precision cannot hold is lost, however small the step of its last place.
     least = exactly(np.finfo(dtype).tiny)
-    lost = [
+    missing = [
         not row[0] and 0 < light.stokes[0] < least for row, light in zip(result, exact, strict=True)
     ]
-    off.componentwise[lost] = off.normwise[lost] = np.inf
+    off.componentwise[missing] = off.normwise[missing] = np.inf
     return off
 
 

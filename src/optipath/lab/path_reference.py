@@ -44,8 +44,8 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     >>> [float(component) for component in lights["eye"].stokes]
     [0.5, 0.5, 0.0, 0.0]
     """
-    given = _single(path, parameters)
-    return _exact(_wiring(path.graph), given, (), ())
+    argument = _single(path, parameters)
+    return _exact(_wiring(path.graph), argument, (), ())
 
 
 def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
@@ -57,27 +57,27 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
     >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]
     [0.5, 0.5, 0.0, 0.0]
     """
-    given = _single(path, parameters)
+    argument = _single(path, parameters)
     wiring = _wiring(path.graph)
-    with mpmath.workdps(_digits(wiring, Reader(given, (), ()))):
-        return _Walk(wiring, Reader(given, (), ())).stokes()
+    with mpmath.workdps(_digits(wiring, Reader(argument, (), ()))):
+        return _Walk(wiring, Reader(argument, (), ())).stokes()
 
 
 def _single(path: PathGraph, parameters: Mapping[str, Any]) -> Mapping[str, Resolved]:
     if not isinstance(path, PathGraph):
         raise PathError(f"a reference is of a PathGraph, not of {shown(path)}")
-    given, batch = path.compose().inputs.resolve(parameters)
+    argument, batch = path.compose().inputs.resolve(parameters)
     if batch:
         raise ParameterError(f"a reference takes single values, not a batch of shape {batch}")
-    return given
+    return argument
 
 
 def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str, ExactLight]]:
     """Yield the light at every detector and dump, for each of a batch in C order."""
-    given, batch = Values(graph).inputs().resolve(parameters)
+    argument, batch = Values(graph).inputs().resolve(parameters)
     wiring = _wiring(graph)
     for at in np.ndindex(batch):
-        yield _exact(wiring, given, batch, at)
+        yield _exact(wiring, argument, batch, at)
 
 
 def _wiring(graph: nx.MultiDiGraph) -> Wiring:
@@ -85,15 +85,15 @@ def _wiring(graph: nx.MultiDiGraph) -> Wiring:
 
 
 def _exact(
-    wiring: Wiring, given: Mapping[str, Resolved], batch: tuple[int, ...], at: tuple[int, ...]
+    wiring: Wiring, arguments: Mapping[str, Resolved], batch: tuple[int, ...], at: tuple[int, ...]
 ) -> dict[str, ExactLight]:
-    scout = Reader(given, batch, at)
+    scout = Reader(arguments, batch, at)
     with mpmath.workdps(_digits(wiring, scout)):
-        values = _Walk(wiring, Reader(given, batch, at)).stokes()
+        values = _Walk(wiring, Reader(arguments, batch, at)).stokes()
         step = mpmath.mpf(10) ** -(DIGITS // 2 + scout.decades)
         conditions = {name: [0.0] * 4 for name in values}
         for angle in range(scout.count):
-            moved = _Walk(wiring, Reader(given, batch, at, angle, step)).stokes()
+            moved = _Walk(wiring, Reader(arguments, batch, at, angle, step)).stokes()
             for name, before in values.items():
                 for i, (old, new) in enumerate(zip(before, moved[name], strict=True)):
                     conditions[name][i] += abs(float((new / old - 1) / step)) if old else 0.0
@@ -130,15 +130,15 @@ class _Walk:
     def _go_round(self, loop: Stretch) -> None:
         """Solve for the light where it meets, in all four components."""
         arriving = [added(self._lights(junction)) for junction in loop.junctions]
-        given = [part for light in arriving for part in stokes_of(light)]
-        size = len(given)
+        arguments = [part for light in arriving for part in stokes_of(light)]
+        size = len(arguments)
         system = mpmath.eye(size)
         for column in range(size):
             unit = [mpmath.mpf(row == column) for row in range(size)]
             back = self._once_round(loop, unit)
             for row in range(size):
                 system[row, column] -= back[row]
-        self._once_round(loop, _solved(system, given))
+        self._once_round(loop, _solved(system, arguments))
 
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
         """Return what the light at the junctions brings back to them."""
@@ -225,15 +225,15 @@ class _Walk:
         return not all(self.read.pick(value.present) for value in resolved)
 
 
-def _solved(system: Any, given: list[Any]) -> list[Any]:
+def _solved(system: Any, arguments: list[Any]) -> list[Any]:
     """Return the unknowns of a system; those that nothing reaches are 0."""
-    lit = [place for place, number in enumerate(given) if number]
+    lit = [place for place, number in enumerate(arguments) if number]
     for column in lit:
-        lit += [row for row in range(len(given)) if row not in lit and system[row, column]]
-    result = [mpmath.mpf(0)] * len(given)
+        lit += [row for row in range(len(arguments)) if row not in lit and system[row, column]]
+    result = [mpmath.mpf(0)] * len(arguments)
     if lit:
         part = mpmath.matrix([[system[row, column] for column in lit] for row in lit])
-        numbers = mpmath.lu_solve(part, mpmath.matrix([given[row] for row in lit]))
+        numbers = mpmath.lu_solve(part, mpmath.matrix([arguments[row] for row in lit]))
         for place, number in zip(lit, numbers, strict=True):
             result[place] = number
     return result

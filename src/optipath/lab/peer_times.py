@@ -99,9 +99,9 @@ def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
                 f"{what} of '{name}' is {_told(raced)}, and that of the chart {_told(charted)}; "
                 f"run the race and the chart on one machine, one after the other"
             )
-    given = chart.get("parameters", {})
+    argument = chart.get("parameters", {})
     results = [
-        entry["results"] for entry in race["contests"].values() if _is_of(entry["path"], given)
+        entry["results"] for entry in race["contests"].values() if _is_of(entry["path"], argument)
     ]
     if not results and not faults:
         raced = " or ".join(
@@ -129,8 +129,8 @@ def _told(value: Any) -> str:
     return "not told" if value is None else shown(value)
 
 
-def _is_of(path: Mapping[str, Any], given: Mapping[str, str]) -> bool:
-    return all(given.get(name) == str(value) for name, value in path.items())
+def _is_of(path: Mapping[str, Any], arguments: Mapping[str, str]) -> bool:
+    return all(arguments.get(name) == str(value) for name, value in path.items())
 
 
 def _is_shared(entry: Mapping[str, Any], engine: str) -> bool:

@@ -210,17 +210,17 @@ def worst(
     kernel = family.by_method(method)
     kind = np.float64 if dtype == "float32" else np.longdouble
     units: Floats = rng.random((region.dimensions, _CHILDREN))
-    kept, known, best = units[:, :0], np.empty(0), (-1.0, units[:, :1])
+    stored, known, best = units[:, :0], np.empty(0), (-1.0, units[:, :1])
     for generation in range(1, generations + 1):
         samples = region.at(units, dtype)
         scores = _scores(component, matrix_numbers(kernel, samples), samples, family, kind)
-        known, kept = np.append(known, scores), np.append(kept, units, axis=1)
+        known, stored = np.append(known, scores), np.append(stored, units, axis=1)
         order = np.argsort(-known)[:_KEPT]
-        known, kept = known[order], kept[:, order]
-        best = max(best, (float(known[0]), kept[:, :1]), key=lambda pair: pair[0])
-        units = _children(rng, kept)
+        known, stored = known[order], stored[:, order]
+        best = max(best, (float(known[0]), stored[:, :1]), key=lambda pair: pair[0])
+        units = _children(rng, stored)
         if generation % _LIFE == 0:  # A climb that has come to its top begins elsewhere.
-            units, known, kept = rng.random(units.shape), known[:0], kept[:, :0]
+            units, known, stored = rng.random(units.shape), known[:0], stored[:, :0]
     return _measured(kernel, region.at(best[1], dtype), component, what, dtype)
 
 
@@ -281,9 +281,9 @@ def _ulp(number: Floats, dtype: Any) -> Floats:
 
 def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype: str) -> WorstCase:
     result, place = matrix_numbers(kernel, sample), "ABCS".index(component[0])
-    given = [part[0] for part in sample]
+    arguments = [part[0] for part in sample]
     with mpmath.workdps(WORKING_DIGITS):
-        exact = REFERENCES[what](*map(exactly, given))
+        exact = REFERENCES[what](*map(exactly, arguments))
         value, condition = exact.values[place], exact.conditions[place]
         has_zeros = component[0] == "C" and what == "reflection"
         near = has_zeros and is_near_double_zero(exact.values[0], value, condition)
@@ -293,4 +293,4 @@ def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype:
             off = float(errors(result, [exact], dtype).componentwise[0, place])
         if near != (component == "C near 0"):
             off = 0.0
-    return WorstCase(off, *map(float, given))
+    return WorstCase(off, *map(float, arguments))

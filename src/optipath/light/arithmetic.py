@@ -136,8 +136,8 @@ def handed_out(component: Any) -> Any:
     """
     if isinstance(component, float):
         return np.array(component)
-    kept = is_traced(component) or component.size > _COPIED
-    return locked(component) if kept else np.array(component)
+    stored = is_traced(component) or component.size > _COPIED
+    return locked(component) if stored else np.array(component)
 
 
 def stacked_components(components: tuple[Any, Any, Any, Any]) -> Array:

@@ -383,23 +383,23 @@ def nearest_physical(matrix: Array) -> Array:
     """
     parts, power = scaled(matrix)
     values, vectors = np.linalg.eigh(gathered(parts))
-    kept = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
-    positive = kept @ np.swapaxes(vectors.conj(), -1, -2)
+    stored = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
+    positive = stored @ np.swapaxes(vectors.conj(), -1, -2)
     result = (positive.reshape(*parts.shape[:-2], 16) @ TO_MUELLER).real
     return unscaled(matrix, result.reshape(parts.shape), power)
 
 
-def _tolerance(given: Any, matrix: Array) -> float:
+def _tolerance(argument: Any, matrix: Array) -> float:
     """Return the tolerance of `is_physical`, by the precision of the matrix if none is given."""
-    if given is None:
+    if argument is None:
         return tolerance_for(matrix)
-    check_known("the tolerance of is_physical", given)
-    number = array_of("the tolerance of is_physical", given)
+    check_known("the tolerance of is_physical", argument)
+    number = array_of("the tolerance of is_physical", argument)
     if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
         return float(number)
     raise ValueFault(
-        f"the tolerance of is_physical must be a finite number >= 0, not {shown(given)}; leave it "
-        f"out to allow for rounding"
+        f"the tolerance of is_physical must be a finite number >= 0, not {shown(argument)}; "
+        f"leave it out to allow for rounding"
     )
 
 

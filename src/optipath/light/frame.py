@@ -75,8 +75,8 @@ class Frame(Unchanging):
                 f"the rounding of a frame must be a number from 0 to {_COARSEST}, not "
                 f"{shown(rounding)}; leave it out for axes of doubles"
             )
-        given = zip("xyz", (x, y, z), strict=True)
-        axes = [vectors(f"axis {name} of a frame", axis) for name, axis in given]
+        argument = zip("xyz", (x, y, z), strict=True)
+        axes = [vectors(f"axis {name} of a frame", axis) for name, axis in argument]
         self._set(axes, max(float(rounding), rounding_in(x, y, z)))
 
     def _set(self, axes: list[npt.NDArray[np.float64]], rounding: float) -> None:
@@ -179,14 +179,14 @@ class Frame(Unchanging):
         >>> Frame().rotated([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).x
         array([0., 1., 0.])
         """
-        given = as_given("a rotation", rotation, FrameError)
-        matrix = floats("a rotation", given)
+        argument = as_given("a rotation", rotation, FrameError)
+        matrix = floats("a rotation", argument)
         if matrix.shape[-2:] != (3, 3):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
         axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
         frame = Frame.__new__(Frame)
-        frame._set(axes, max(self.rounding, rounding_of(given)))  # noqa: SLF001 - its own
+        frame._set(axes, max(self.rounding, rounding_of(argument)))  # noqa: SLF001 - its own
         return frame
 
     def reversed(self) -> Frame:
@@ -318,13 +318,13 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return array
 
 
-def rounding_in(*given: npt.ArrayLike) -> float:
+def rounding_in(*arguments: npt.ArrayLike) -> float:
     """Return the rounding of vectors of which any has less precision than double; else 0.
 
     >>> rounding_in([0, 0, 1], np.ones(3, np.float32)) == 2.0**-23
     True
     """
-    return max(rounding_of(as_given("a vector", value, FrameError)) for value in given)
+    return max(rounding_of(as_given("a vector", value, FrameError)) for value in arguments)
 
 
 def floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -441,9 +441,9 @@ def _axis(
     check_broadcast({"direction": k.shape[:-1], "keep": keep.z.shape[:-1]})
     # Only the frame of this very light says what is kept; the others keep nothing.
     z = np.where(parallel[..., np.newaxis], k, keep.z)
-    kept = Frame.from_direction(z, keep.x)
-    keep.turn_to(Frame(kept.x, kept.y, kept.z, rounding))
-    return np.where(parallel[..., np.newaxis], kept.x, x)
+    stored = Frame.from_direction(z, keep.x)
+    keep.turn_to(Frame(stored.x, stored.y, stored.z, rounding))
+    return np.where(parallel[..., np.newaxis], stored.x, x)
 
 
 def _cross(a: Any, b: Any) -> npt.NDArray[np.float64]:

@@ -157,10 +157,10 @@ def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array, exponen
     return results.astype(stokes.dtype)
 
 
-def _edges(given: Any) -> Array:
+def _edges(argument: Any) -> Array:
     """Return the edges of bins that somebody gives, in metres."""
-    check_known("the edges of bins", given)
-    return np.asarray(Wavelength("edges").resolve(given).value, np.float64)
+    check_known("the edges of bins", argument)
+    return np.asarray(Wavelength("edges").resolve(argument).value, np.float64)
 
 
 def _widths_of(results: Array, grid: Array) -> Array:
@@ -208,9 +208,9 @@ def _response_at(response: Any, grid: Array) -> Any:
 
 def _frame_without(light: Light, axis: int) -> Any:
     """Return the frame of light along an axis, which must be one."""
-    kept = light._kept_frame("frame")  # noqa: SLF001
-    if not callable(kept) and kept.z.ndim == 1:
-        return kept
+    stored = light._kept_frame("frame")  # noqa: SLF001
+    if not callable(stored) and stored.z.ndim == 1:
+        return stored
     frame = light.frame
     if frame.z.ndim == 1:
         return frame

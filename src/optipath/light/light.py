@@ -238,8 +238,8 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(right.stokes, right.handedness)
         [ 1.  0.  0. -1.] -1
         """
-        given = real_array("a Stokes vector", stokes, (4,))
-        return cls(changed_stokes(convention, given), frame, **options)
+        argument = real_array("a Stokes vector", stokes, (4,))
+        return cls(changed_stokes(convention, argument), frame, **options)
 
     @property
     def S0(self) -> Array:  # noqa: N802 - as everybody writes it
@@ -314,13 +314,13 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         (array([5.e-07, 6.e-07]), array(6.e-07))
         """
         own = self.__dict__
-        kept = own.get("_wavelength")
-        if callable(kept):
-            result = kept()
+        stored = own.get("_wavelength")
+        if callable(stored):
+            result = stored()
             if result is None:
                 return None  # What is kept says which ones are in doubt.
-            own["_wavelength"] = kept = result
-        return kept
+            own["_wavelength"] = stored = result
+        return stored
 
     @property
     def normalized(self) -> Array:
@@ -725,8 +725,8 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     def origin(self, wavelength: Any = ...) -> dict[str, Any]:
         """Return what light that is made of this one has of it, by the names of `Light.of`."""
-        kept = self.kept_wavelength if wavelength is ... else wavelength
-        return {"measured": self.is_measured, "wavelength": kept}
+        stored = self.kept_wavelength if wavelength is ... else wavelength
+        return {"measured": self.is_measured, "wavelength": stored}
 
     def __add__(self, other: object) -> Light:
         """Return both lights together, incoherently, in the frame of this one.
@@ -802,11 +802,11 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             return getattr(ufunc, method)(*numbers, **options)
         return refuse_call(ufunc.__name__ if method == "__call__" else f"{ufunc.__name__}.{method}")
 
-    def __array_function__(self, function: Any, _: Any, given: Any, options: Any) -> Any:
+    def __array_function__(self, function: Any, _: Any, argument: Any, options: Any) -> Any:
         """Compare, join and write numbers; refuse what would mix the components."""
         if function.__name__ in TAKES_LIGHT:
             # By NEP 18, what NumPy does without us.
-            return function._implementation(*given, **options)  # noqa: SLF001
+            return function._implementation(*argument, **options)  # noqa: SLF001
         return refuse_call(function.__name__)
 
     def __eq__(self, other: object) -> bool:

@@ -89,8 +89,8 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         if not (isinstance(self.frame_in, Frame) and isinstance(self.frame_out, Frame)):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
         matrix = real_array("a Mueller matrix", self.matrix, (4, 4))
-        kept = matrix if is_jax(matrix) else read_only(matrix, widened=False)
-        vars(self).update(matrix=kept, _given=True)
+        stored = matrix if is_jax(matrix) else read_only(matrix, widened=False)
+        vars(self).update(matrix=stored, _given=True)
 
     @classmethod
     def of(
@@ -156,10 +156,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> Mueller.from_("mitsuba", quarter).matrix[3]
         array([0., 0., 1., 0.])
         """
-        given = real_array("a Mueller matrix", matrix, (4, 4))
+        argument = real_array("a Mueller matrix", matrix, (4, 4))
         frames = {"frame_in": frame_in, "frame_out": frame_out}
         own = {name: frame for name, frame in frames.items() if frame is not None}
-        return cls(changed_matrix(convention, given), **own)
+        return cls(changed_matrix(convention, argument), **own)
 
     @property
     def diattenuation(self) -> Array:

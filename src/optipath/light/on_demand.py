@@ -38,11 +38,11 @@ class FramesOnDemand:
         self, name: str, batch: tuple[int, ...], change: Callable[[Any], Any]
     ) -> Frame | Callable[[], Frame]:
         """Return what `indexed_frame` does, or what returns it where nobody has to make it."""
-        kept = self._kept_frame(name)
-        if type(kept) is Frame and (
-            kept.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
+        stored = self._kept_frame(name)
+        if type(stored) is Frame and (
+            stored.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
         ):
-            return indexed_frame(kept, batch, change)
+            return indexed_frame(stored, batch, change)
         return lambda: indexed_frame(getattr(self, name), batch, change)
 
     if not TYPE_CHECKING:  # Else any name would do for who checks types.
@@ -141,8 +141,8 @@ def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
     if noise is None or is_traced(stokes):
         return least
     if isinstance(noise, tuple):
-        result, *given = noise
-        noise = result(*given, stokes, exponent)
+        result, *argument = noise
+        noise = result(*argument, stokes, exponent)
     return np.maximum(least, noise)
 
 
@@ -181,12 +181,12 @@ def common_wavelength(light: Any, other: Any) -> Any:
 
 def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
     """Return what returns the wavelengths of a part of the batch; None where there are none."""
-    kept, batch = light.kept_wavelength, light.shape
-    if kept is None or light.wavelengths_in_doubt:
-        return kept
+    stored, batch = light.kept_wavelength, light.shape
+    if stored is None or light.wavelengths_in_doubt:
+        return stored
 
     def part() -> Any:
-        result = kept() if callable(kept) else kept
+        result = stored() if callable(stored) else stored
         if result is None:
             return None
         xp = namespace(result)
@@ -196,7 +196,7 @@ def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
     return part
 
 
-def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
+def wavelengths_for(batch: tuple[int, ...], argument: Any) -> Array:
     """Return wavelengths that somebody gives for light.
 
     Units: given, the result in metres.
@@ -204,7 +204,7 @@ def wavelengths_for(batch: tuple[int, ...], given: Any) -> Array:
     >>> wavelengths_for((2,), ["500 nm", "2.4 eV"]).round(9)
     array([5.00e-07, 5.17e-07])
     """
-    result = Wavelength().resolve(given).value
+    result = Wavelength().resolve(argument).value
     shape = tuple(result.shape)
     if len(shape) > len(batch) or any(
         own not in (1, whole) for own, whole in zip(shape[::-1], batch[::-1], strict=False)

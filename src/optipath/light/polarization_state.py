@@ -169,9 +169,9 @@ def check_physical(stokes: Array) -> None:
     >>> check_physical(np.array([1.0, 0.6, 0.0, np.nan]))
     """
     endless = np.asarray(np.isinf(stokes).any(axis=-1))
-    told = np.where(np.isnan(stokes) | endless[..., np.newaxis], 0.0, stokes)
-    beyond = ~(can_be_light(told, rounding_of(stokes)) | np.isnan(stokes[..., 0]))
-    bad = endless | (told[..., 0] < 0.0) | beyond
+    message = np.where(np.isnan(stokes) | endless[..., np.newaxis], 0.0, stokes)
+    beyond = ~(can_be_light(message, rounding_of(stokes)) | np.isnan(stokes[..., 0]))
+    bad = endless | (message[..., 0] < 0.0) | beyond
     if not bad.any():
         return
     place = tuple(int(i) for i in np.argwhere(bad)[0])

@@ -28,14 +28,14 @@ def text_of(numbers: Any, frame: Frame, exponent: Array) -> str:
     >>> text_of(np.array([1.0, 0.0, 0.0, 0.5]), Frame(), np.array(-5000))
     'Light([1. , 0. , 0. , 0.5], exponent=-5000)'
     """
-    told = [_text(numbers)]
+    messages = [_text(numbers)]
     if frame != Frame():
-        told.append("frame=" + repr(frame))
+        messages.append("frame=" + repr(frame))
     if exponent.any():
-        told.append(f"exponent={_text(exponent)}")
+        messages.append(f"exponent={_text(exponent)}")
     if exponent.size > _SHOWN:
-        told.append(f"shape={exponent.shape}")
-    return f"Light({', '.join(told)})"
+        messages.append(f"shape={exponent.shape}")
+    return f"Light({', '.join(messages)})"
 
 
 def _text(numbers: Any) -> str:

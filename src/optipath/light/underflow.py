@@ -86,17 +86,18 @@ def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     return np.asarray(intensity < np.finfo(intensity.dtype).tiny * UNDERFLOW)
 
 
-def given_exponent(given: Any) -> Array:
+def given_exponent(argument: Any) -> Array:
     """Return the exponent that somebody gives for light, of integers.
 
     >>> given_exponent([-5, 0])
     array([-5,  0])
     """
-    check_known("the exponent of a light", given)
-    exponent = as_given("the exponent of a light", given, ShapeError)
+    check_known("the exponent of a light", argument)
+    exponent = as_given("the exponent of a light", argument, ShapeError)
     if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
         raise ShapeError(
-            f"the exponent of a light must be an integer within -2^40 .. 2^40, not {shown(given)}"
+            "the exponent of a light must be an integer within -2^40 .. 2^40, not "
+            f"{shown(argument)}"
         )
     return exponent
 

@@ -46,16 +46,16 @@ def parts_by_name(
 
     Units: wavelength in metres.
     """
-    given = {part: value for part, value in own.items() if value is not None}
+    arguments = {part: value for part, value in own.items() if value is not None}
     if isinstance(name, str) and alike(name) == VACUUM and not page:
-        return {"n": 1.0, "k": 0.0, **given}
+        return {"n": 1.0, "k": 0.0, **arguments}
     result = named_page(name, page)
-    if result.clear and "k" not in given:
-        given["k"] = 0.0
+    if result.clear and "k" not in arguments:
+        arguments["k"] = 0.0
     else:
         result = result._replace(clear=None)
-    curve = curve_of(result, own=given, interpolation=interpolation, extrapolate=extrapolate)
-    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
+    curve = curve_of(result, own=arguments, interpolation=interpolation, extrapolate=extrapolate)
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **arguments}
 
 
 def parts_of_file(
@@ -70,17 +70,17 @@ def parts_of_file(
 
     Units: wavelength in metres.
     """
-    given = {part: value for part, value in own.items() if value is not None}
+    arguments = {part: value for part, value in own.items() if value is not None}
     file = given_file(path, MaterialError)
     curve = page_curve(
         read_yaml(file, str(file), installed=False),
         file.name,
         str(file),
-        wanted=_wanted(file.name, given),
+        wanted=_wanted(file.name, arguments),
         interpolation=interpolation,
         extrapolate=extrapolate,
     )
-    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **arguments}
 
 
 def curve_of(
@@ -100,7 +100,7 @@ def curve_of(
         about,
         wanted=_wanted(result.name, own),
         within=result.clear,
-        asked={"name": result.name, **{k: v for k, v in how.items() if v != usual[k]}},
+        requests={"name": result.name, **{k: v for k, v in how.items() if v != usual[k]}},
         remedy=f"name another page, or mend a copy of {result.page.file} for Material.from_yaml",
         **how,
     )
@@ -127,7 +127,7 @@ def page_curve(
     interpolation: str = "linear",
     extrapolate: str = "",
     within: tuple[float, float] | None = None,
-    asked: Mapping[str, str] | None = None,
+    requests: Mapping[str, str] | None = None,
     remedy: str = "",
 ) -> PageCurve:
     """Return the curve of a page."""
@@ -149,7 +149,7 @@ def page_curve(
         ]
         clear = None if extrapolate else within
         source = source_of(contents)
-        return PageCurve(label, curves, within=clear, place=about, source=source, asked=asked)
+        return PageCurve(label, curves, within=clear, place=about, source=source, requests=requests)
     except OptipathError as error:
         raise MaterialError(*_cured(error.faults, remedy)) from None
 
@@ -374,8 +374,8 @@ class FoundPage(NamedTuple):
         """Where its numbers are from: the page of a short name and why, else what it is of."""
         if self.curated:
             return "; ".join([self.page.place, self.curated.reference, self.curated.why])
-        told = (self.page.about_book, _RANGE.sub("", self.page.about_page), self.page.divider)
-        return "; ".join(filter(None, told))
+        messages = (self.page.about_book, _RANGE.sub("", self.page.about_page), self.page.divider)
+        return "; ".join(filter(None, messages))
 
     def spans(self) -> dict[str, tuple[float, float]]:
         """Return the wavelengths of n and of k, in metres; nothing if a page cannot be read."""
@@ -395,14 +395,14 @@ def pages_with(words: Sequence[str]) -> list[FoundPage]:
     short = [FoundPage(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
     if not words:
         return short
-    asked = [word.casefold() for word in words]
-    first = [one for one in short if _has(_text(one.page, one.curated), asked)]
+    requests = [word.casefold() for word in words]
+    first = [one for one in short if _has(_text(one.page, one.curated), requests)]
     others = [
         FoundPage(page.place, page)
         for place, page in pages.items()
-        if place not in {one.page.place for one in first} and _has(_text(page), asked)
+        if place not in {one.page.place for one in first} and _has(_text(page), requests)
     ]
-    return first + sorted(others, key=lambda one: one.page.book.casefold() not in asked)
+    return first + sorted(others, key=lambda one: one.page.book.casefold() not in requests)
 
 
 def _has(text: str, words: list[str]) -> bool:

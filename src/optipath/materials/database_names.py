@@ -38,9 +38,9 @@ class NamedPage(NamedTuple):
 
 def named_page(name: str, page: str = "") -> NamedPage:
     """Return the page that a name stands for."""
-    for given in (name, page):
-        if not isinstance(given, str):
-            raise MaterialError(f"a material has a name, such as 'gold', not {shown(given)}")
+    for value_given in (name, page):
+        if not isinstance(value_given, str):
+            raise MaterialError(f"a material has a name, such as 'gold', not {shown(value_given)}")
     curated = curated_names().get(alike(name))
     if curated is not None and not page:
         return of_curated(curated)
@@ -105,7 +105,7 @@ def _underscored(name: str) -> str:
 def _ambiguous(name: str, results: list[CatalogPage]) -> str:
     books = {(page.shelf, page.book) for page in results}
     short = next((one.names[0] for one in CURATED for p in results if p.place == one.place), "")
-    told = [
+    messages = [
         f"'{page.page if len(books) == 1 else page.place}' ({page.about_page})"
         for page in results[:_MOST]
     ]
@@ -113,7 +113,7 @@ def _ambiguous(name: str, results: list[CatalogPage]) -> str:
     how = f"by {argument('page')}" if len(books) == 1 else "in place of it"
     also = f", or say '{short}'" if short else ""
     return (
-        f"'{name}' has {len(results)} pages; name one {how}{also}: {', '.join(told)}{more} "
+        f"'{name}' has {len(results)} pages; name one {how}{also}: {', '.join(messages)}{more} "
         f"('optipath materials {name}' lists them)"
     )
 
@@ -399,8 +399,8 @@ def _pages(catalog: Any) -> Iterator[CatalogPage]:
                 place = f"{shelf['SHELF']}/{book['BOOK']}/{entry['PAGE']}"
                 data = _MISPLACED.get((place, entry["data"]), entry["data"])
                 names = [_untagged(each.get("name", "")) for each in (book, entry)]
-                told = shelf["SHELF"], book["BOOK"], entry["PAGE"], *names, divider, data
-                yield CatalogPage(*told)
+                messages = shelf["SHELF"], book["BOOK"], entry["PAGE"], *names, divider, data
+                yield CatalogPage(*messages)
 
 
 def _with(entries: Any, key: str) -> Iterator[dict[str, Any]]:

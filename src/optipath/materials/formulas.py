@@ -42,8 +42,8 @@ class FormulaCurve(Curve):
 
     parts: tuple[str, ...] = ("n", "k")
 
-    def __init__(self, label: str, span: Any, **given: Any) -> None:
-        vars(self).update(label=label, beyond="take another formula", **given)
+    def __init__(self, label: str, span: Any, **arguments: Any) -> None:
+        vars(self).update(label=label, beyond="take another formula", **arguments)
         faults: list[str] = []
         for name, value, domain in self.arguments():
             with collecting(faults, ValueFault):
@@ -52,7 +52,7 @@ class FormulaCurve(Curve):
             vars(self).update(span=read_span(f"span of {label}", span))
         if faults:
             raise ValueFault(*faults)
-        vars(self).update({name: _as_floats(value) for name, value in given.items()})
+        vars(self).update({name: _as_floats(value) for name, value in arguments.items()})
 
     @abstractmethod
     def arguments(self) -> list[Coefficient]:
@@ -73,12 +73,12 @@ def _check(owner: str, value: Any, domain: Domain) -> None:
         raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
 
 
-def _as_floats(given: Any) -> Any:
+def _as_floats(value_given: Any) -> Any:
     """Return coefficients as floats, so that 2 and 2.0 make equal curves."""
-    if isinstance(given, tuple):
-        return tuple(map(_as_floats, given))
-    is_open = given is None or isinstance(given, Parameter) or is_traced(given)
-    return given if is_open else REAL.check("", given).item() + 0.0
+    if isinstance(value_given, tuple):
+        return tuple(map(_as_floats, value_given))
+    is_open = value_given is None or isinstance(value_given, Parameter) or is_traced(value_given)
+    return value_given if is_open else REAL.check("", value_given).item() + 0.0
 
 
 def read_span(owner: str, span: Any) -> tuple[float, float]:
@@ -213,9 +213,9 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
     >>> several("b", [1.0, 2])
     (1.0, 2)
     """
-    given = values.tolist() if isinstance(values, np.ndarray) else values
-    is_one = isinstance(given, (str, Parameter)) or not hasattr(given, "__iter__")
-    row = () if is_one else tuple(given)
+    value_given = values.tolist() if isinstance(values, np.ndarray) else values
+    is_one = isinstance(value_given, (str, Parameter)) or not hasattr(value_given, "__iter__")
+    row = () if is_one else tuple(value_given)
     if not row:
         raise ValueFault(
             f"{name} must be a row of one coefficient or more, such as [1.0], not {shown(values)}"
@@ -409,5 +409,5 @@ class DispersionFormula(Curve):
 
 def nearest_asked_for() -> str:
     """Return the one way to leave the range of a formula, as a cure."""
-    asked = cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')
-    return asked if argument("extrapolate") else "name another page"
+    request = cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')
+    return request if argument("extrapolate") else "name another page"

@@ -56,15 +56,15 @@ def _number(value: Any) -> Any:
     return array if array.dtype.kind in "biuf" else None
 
 
-def index_of(text: str, asked: str = "") -> complex:
+def index_of(text: str, request: str = "") -> complex:
     """Return the number that a text stands for, which is no name of a material.
 
     >>> index_of("0.2+3.4j")
     (0.2+3.4j)
     """
     if text.strip()[:1].isalpha():
-        asked = asked or f"n and k as numbers, such as {_gold()}"
-        raise UnitError(f"'{text}' is no number; give {asked}")
+        request = request or f"n and k as numbers, such as {_gold()}"
+        raise UnitError(f"'{text}' is no number; give {request}")
     return parse_quantity(text, "")
 
 
@@ -168,8 +168,8 @@ class Material:
         Material 'gold', 500 nm .. 521 nm
         """
         label = label_of("a material", name, "a table of n and k")
-        given = {"wavelengths": wavelengths, "n": n, "k": k}
-        shapes = {name: as_given(f"{name} of {label}", v).shape for name, v in given.items()}
+        arguments = {"wavelengths": wavelengths, "n": n, "k": k}
+        shapes = {name: as_given(f"{name} of {label}", v).shape for name, v in arguments.items()}
         columns: dict[str, Any] = {"n": n if shapes["n"] else np.full(shapes["wavelengths"], n)}
         constant = not shapes["k"]
         if not constant:
@@ -377,8 +377,10 @@ class Material:
         Material 'silver', any wavelength
         """
         label = label_of("a material", name, "a Drude-Lorentz model")
-        given = {"strength": strength, "oscillators": oscillators, "background": background}
-        return cls.of_curve(DrudeLorentz(label, plasma, damping, **given, span=span), wavelength)
+        arguments = {"strength": strength, "oscillators": oscillators, "background": background}
+        return cls.of_curve(
+            DrudeLorentz(label, plasma, damping, **arguments, span=span), wavelength
+        )
 
     @classmethod
     def tauc_lorentz(

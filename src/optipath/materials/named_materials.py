@@ -48,14 +48,14 @@ def extinction_beside(uses: Sequence[Use], name: str) -> str:
     return results.pop() if len(results) == 1 else ""
 
 
-def material_named(option: str, text: str, beside: str = "", k: Any = None) -> Material:
+def material_named(option: str, text: str, other: str = "", k: Any = None) -> Material:
     """Return the material of a name."""
     if "," in text:
         raise ParameterError(
             f"{option} takes one material, and {shown(text)} names several; give one, and write a "
             f"command for each"
         )
-    options = {"page": f"{option} '{text}/PAGE'"} | ({"k": beside} if beside else {})
+    options = {"page": f"{option} '{text}/PAGE'"} | ({"k": other} if other else {})
     try:
         with of_options(options):
             return Material.named(text, k=k)
@@ -90,38 +90,42 @@ def material_as_json(label: str, material: Material, wavelength: Any) -> dict[st
     }
 
 
-def is_curve(given: Any) -> bool:
+def is_curve(argument: Any) -> bool:
     """Return whether something is one curve, or what it comes to at a wavelength."""
-    return isinstance(given, CurveValue) or (isinstance(given, Curve) and len(given.parts) == 1)
+    return isinstance(argument, CurveValue) or (
+        isinstance(argument, Curve) and len(argument.parts) == 1
+    )
 
 
-def is_by_wavelength(given: Any) -> bool:
+def is_by_wavelength(argument: Any) -> bool:
     """Return whether something is put in place of a parameter: a material, or one curve.
 
     >>> is_by_wavelength(Material(1.5)), is_by_wavelength(1.5)
     (True, False)
     """
-    return isinstance(given, Material) or is_curve(given)
+    return isinstance(argument, Material) or is_curve(argument)
 
 
-def waits_for(given: Any) -> Sequence[str]:
+def waits_for(argument: Any) -> Sequence[str]:
     """Return the names of the parameters that a material or curve depends on; else none.
 
     >>> from optipath.values.parameters import Parameter
     >>> waits_for(Material(1.5, Parameter("k"))), waits_for(Material(1.5))
     (['k'], [])
     """
-    if not is_by_wavelength(given):
+    if not is_by_wavelength(argument):
         return []
-    if isinstance(given, Curve):
-        given = curve_values(given, Wavelength())[0]
-    result = parameters_among([given.n, given.k] if isinstance(given, Material) else [given])
+    if isinstance(argument, Curve):
+        argument = curve_values(argument, Wavelength())[0]
+    result = parameters_among(
+        [argument.n, argument.k] if isinstance(argument, Material) else [argument]
+    )
     return [*dict.fromkeys(p.name for p in result if not isinstance(p, CurveValue))]
 
 
-def given_too_late(name: str, given: Any) -> str:
+def given_too_late(name: str, argument: Any) -> str:
     """Return the fault of a material or curve that is given while a path runs; mostly none."""
-    if not (names := waits_for(given)):
+    if not (names := waits_for(argument)):
         return ""
     return (
         f"parameter '{name}' depends on {listed(names)}, and is put in place "

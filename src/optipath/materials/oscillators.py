@@ -63,9 +63,9 @@ class DrudeLorentz(FormulaCurve):
         background: Any = 1.0,
         span: Any = EVERYWHERE,
     ) -> None:
-        given = {"plasma": plasma, "damping": damping, "strength": strength}
+        arguments = {"plasma": plasma, "damping": damping, "strength": strength}
         rows = oscillators_of(label, oscillators, _BOUND)
-        super().__init__(label, span, **given, oscillators=rows, background=background)
+        super().__init__(label, span, **arguments, oscillators=rows, background=background)
 
     def arguments(self) -> list[Coefficient]:
         domains = (NOT_NEGATIVE, NOT_NEGATIVE, POSITIVE)

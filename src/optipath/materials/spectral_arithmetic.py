@@ -286,8 +286,8 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
     except ValueFault as fault:
         if outside is None:
             raise
-        beside = f"outside={shown(outside)} of resample is for what is beyond the new samples"
-        raise ValueFault(*[f"{sentence} ({beside})" for sentence in fault.faults]) from None
+        other = f"outside={shown(outside)} of resample is for what is beyond the new samples"
+        raise ValueFault(*[f"{sentence} ({other})" for sentence in fault.faults]) from None
     return Sampled(places, values, outside, kind.label)
 
 
@@ -302,10 +302,10 @@ def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
     check_known_at(kind, ends[[0, -1]])
     powers = powers_between(kind, ends)
     if outside == "refuse":
-        lost = _power_beyond(kind, ends)
-        if lost > _LOST * (lost + float(powers.sum())):
+        missing = _power_beyond(kind, ends)
+        if missing > _LOST * (missing + float(powers.sum())):
             raise ValueFault(
-                f"{kind.label} has a power of {lost:.6g} beyond the bins, which reach from "
+                f"{kind.label} has a power of {missing:.6g} beyond the bins, which reach from "
                 f"{displayed(float(ends[0]), 'nm')} to {displayed(float(ends[-1]), 'nm')}; give "
                 f"edges around all of it, or outside='drop' to leave that out"
             )
@@ -316,13 +316,13 @@ def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
 
 def _power_beyond(kind: SpectrumKind, ends: np.ndarray[Any, Any]) -> float:
     """Return the power beyond the ends of bins, of what of a spectrum ends somewhere."""
-    lost = 0.0
+    missing = 0.0
     for term in kind.terms:
         low, high = term.extent
         if high < np.inf:
             sides = [(low, min(high, ends[0])), (max(low, ends[-1]), high)]
             rising = [np.array(side) for side in sides if side[0] < side[1]]
-            lost += sum(float(smooth_powers(term, side)[0]) for side in rising)
+            missing += sum(float(smooth_powers(term, side)[0]) for side in rising)
             places = [line for line in term.lines if not ends[0] <= line.wavelength <= ends[-1]]
-            lost += sum(line.power for line in places)
-    return lost
+            missing += sum(line.power for line in places)
+    return missing

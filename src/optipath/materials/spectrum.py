@@ -361,10 +361,10 @@ class Spectrum(Curve):
         """
         if isinstance(wavelength, Parameter):
             return curve_values(self, wavelength)[0]
-        given = known(wavelength)
-        if is_traced(given):
-            return self.numbers(namespace(given), given)[0]
-        places = some_wavelengths("a wavelength", given)
+        argument = known(wavelength)
+        if is_traced(argument):
+            return self.numbers(namespace(argument), argument)[0]
+        places = some_wavelengths("a wavelength", argument)
         check_known_at(self, places)
         return self.evaluated(places)[0]
 
@@ -572,21 +572,21 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
     """
     start, stop = one_wavelength("low", low), one_wavelength("high", high)
     along = one_number("step", step, _STEP)
-    given = f"{displayed(start, 'nm')} .. {displayed(stop, 'nm')}"
+    argument = f"{displayed(start, 'nm')} .. {displayed(stop, 'nm')}"
     if not start < stop:
         raise ValueFault(
-            f"wavelengths {given} do not rise; give the lower end first, and turn what comes of "
+            f"wavelengths {argument} do not rise; give the lower end first, and turn what comes of "
             f"it, [::-1]"
         )
     steps = (stop - start) / along
     count = round(steps)
     if count > _MOST:
-        raise ValueFault(f"wavelengths {given} are {count:.3g} steps; give a larger step")
+        raise ValueFault(f"wavelengths {argument} are {count:.3g} steps; give a larger step")
     if count < 1 or abs(steps - count) > _ROUNDING * max(1, count):
         nearest = displayed(start + max(1, int(steps)) * along, "nm")
         raise ValueFault(
-            f"wavelengths {given} are {steps:.6g} steps of {displayed(along, 'nm')}; give a whole "
-            f"number of steps, as up to {nearest}"
+            f"wavelengths {argument} are {steps:.6g} steps of {displayed(along, 'nm')}; give a "
+            f"whole number of steps, as up to {nearest}"
         )
     first, each = Decimal(repr(start)), Decimal(repr(along))
     results = [float(first + place * each) for place in range(count)]

@@ -221,22 +221,22 @@ class Histogram(SpectrumKind):
         self, edges: Any, powers: Any, outside: Any = None, label: str = "a histogram"
     ) -> None:
         ends, turned = rising_edges(f"edges of {label}", edges)
-        given = several_numbers(f"powers of {label}", powers)
-        if given.shape != (ends.size - 1,):
+        argument = several_numbers(f"powers of {label}", powers)
+        if argument.shape != (ends.size - 1,):
             raise ValueFault(
-                f"{label} has {ends.size} edges and powers of shape {given.shape}; give "
+                f"{label} has {ends.size} edges and powers of shape {argument.shape}; give "
                 f"{ends.size - 1} powers, one for each bin"
             )
-        given = given[::-1].copy() if turned else given
+        argument = argument[::-1].copy() if turned else argument
         # Differences of neighbours are exact, before they are in nanometres.
         widths = np.diff(ends) * NANOMETRES
         vars(self).update(
             label=label,
             edges=locked(ends),
-            powers=locked(given),
+            powers=locked(argument),
             outside=value_outside(label, outside),
             beyond=OUTSIDE,
-            _densities=locked(given / widths),
+            _densities=locked(argument / widths),
         )
 
     _densities: np.ndarray[Any, Any]

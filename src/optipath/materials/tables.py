@@ -94,8 +94,8 @@ class Tabulated(Curve):
     @property
     def content(self) -> tuple[Hashable, ...]:
         numbers = (self.wavelengths, *self.columns)
-        told = (self.label, self.parts, self.interpolation, self.extrapolate)
-        return (*told, *[column.tobytes() for column in numbers])
+        messages = (self.label, self.parts, self.interpolation, self.extrapolate)
+        return (*messages, *[column.tobytes() for column in numbers])
 
     @property
     def known_span(self) -> tuple[float, float]:
@@ -121,21 +121,21 @@ class Tabulated(Curve):
 
 
 def _beyond() -> str:
-    asked = ("extrapolate='nearest' or 'linear'", 'extrapolate = "nearest" or "linear"')
-    return f"ask for {cure(*asked)}" if argument("extrapolate") else "name another page"
+    requests = ("extrapolate='nearest' or 'linear'", 'extrapolate = "nearest" or "linear"')
+    return f"ask for {cure(*requests)}" if argument("extrapolate") else "name another page"
 
 
-def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray[Any, Any]:
+def _samples(label: str, name: str, value_given: Any, faults: list[str]) -> np.ndarray[Any, Any]:
     """Return samples as a copy of their numbers, and tell what is wrong with them."""
     owner = f"{name} of {label}"
     of_wavelengths = name == "wavelengths"
     try:
         parse = WAVELENGTH.parse if of_wavelengths else lambda text: parse_quantity(text, "")
-        array = _real(owner, numbers_for(owner, given, parse))
+        array = _real(owner, numbers_for(owner, value_given, parse))
     except OptipathError as fault:
         faults += fault.faults
     except Exception:  # noqa: BLE001 - what is given may raise anything
-        faults.append(f"{owner} must be a row of real numbers, not {shown(given)}")
+        faults.append(f"{owner} must be a row of real numbers, not {shown(value_given)}")
     else:
         if array.ndim == 1 and array.size:
             if np.any(bad := ~np.isfinite(array)):
@@ -146,8 +146,8 @@ def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray
     return np.zeros(1)
 
 
-def _real(owner: str, given: Any) -> np.ndarray[Any, Any]:
-    array = as_given(owner, given)
+def _real(owner: str, value_given: Any) -> np.ndarray[Any, Any]:
+    array = as_given(owner, value_given)
     if array.dtype.kind not in "iufO":
         raise TypeError
     return array.astype(np.float64)
@@ -263,7 +263,7 @@ class PageCurve(Curve):
         within: tuple[float, float] | None = None,
         place: str = "",
         source: str = "",
-        asked: Mapping[str, str] | None = None,
+        requests: Mapping[str, str] | None = None,
     ) -> None:
         lows, highs = zip(*[curve.span for curve in curves], strict=True)
         low, high = max(lows), min(highs)
@@ -276,7 +276,7 @@ class PageCurve(Curve):
             parts=tuple([part for curve in curves for part in curve.parts]),
             place=place,
             source=source,
-            asked=dict(asked or {}),
+            asked=dict(requests or {}),
             span=(low, high),
             # The one with fewer ways to leave its range has the shorter sentence.
             beyond=min([curve.beyond for curve in curves], key=len),

@@ -98,16 +98,16 @@ def materials_placed(
         if doubts := [doubt for use in places if (doubt := use.doubt(material))]:
             faults.append(doubts[0])
             continue
-        beside = extinctions_beside(uses, name)
-        given: dict[str, Any] = {name: material.n} if beside else {name: material}
-        if beside:
-            given |= {k.name: material.k for k in beside.values() if isinstance(k, Parameter)}
+        other = extinctions_beside(uses, name)
+        arguments: dict[str, Any] = {name: material.n} if other else {name: material}
+        if other:
+            arguments |= {k.name: material.k for k in other.values() if isinstance(k, Parameter)}
         elif not waits_for(material):
             continue  # One complex number.
-        if wrong := _faults(name, material, beside, places, values, uses):
+        if wrong := _faults(name, material, other, places, values, uses):
             faults += wrong
             continue
-        for part, value in given.items():
+        for part, value in arguments.items():
             plain.pop(part, None)
             is_number = not isinstance(value, (Parameter, Material))
             (plain if is_number else placed)[part] = value
@@ -127,7 +127,7 @@ def given_by_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set
 def _faults(
     name: str,
     material: Material,
-    beside: Mapping[str, Any],
+    neighbors: Mapping[str, Any],
     places: Sequence[Use],
     values: Mapping[str, Any],
     uses: Sequence[Use],
@@ -139,7 +139,7 @@ def _faults(
         for use in places
         if not use.value.is_signed or use.value.is_negative
     ]
-    for owner, k in beside.items():
+    for owner, k in neighbors.items():
         if not isinstance(k, Parameter):
             if not same(k, material.k):
                 faults.append(
@@ -156,12 +156,12 @@ def _faults(
                 f"{owner} is {k.formula}, so that no Material can give it; let the parameter "
                 f"'{k.name}' itself stand there, and leave it open"
             )
-        elif others := {use.owner for use in places_of(uses, k.name)} - {*beside}:
+        elif others := {use.owner for use in places_of(uses, k.name)} - {*neighbors}:
             faults.append(
                 f"parameter '{k.name}' stands at {min(others)} besides, of which '{name}' says "
                 f"nothing; use two names"
             )
-    if beside and len({use.owner for use in places}) > len(beside):
+    if neighbors and len({use.owner for use in places}) > len(neighbors):
         faults.append(
             f"parameter '{name}' is n beside a k in one place, and stands without a k in another; "
             f"use two names"
@@ -173,7 +173,7 @@ def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Ca
     """Return the cases of a path in which parameters are there no more."""
     results = {}
     for name, case in cases.items():
-        left = {given: value for given, value in case.values.items() if given in known}
+        left = {argument: value for argument, value in case.values.items() if argument in known}
         same_values = len(left) == len(case.values)
         results[name] = case if same_values else replace(case, values=left, published={}, note="")
     return results
@@ -202,9 +202,9 @@ def _exchanged(value: Any, values: Mapping[str, Any]) -> Any:
         return value.bound_to(values)
     if isinstance(value, Parameter):
         result = values.get(value.name, value)
-        kept = result is value or not isinstance(result, Parameter)
-        if kept or not isinstance(result, CurveValue):
-            return result if kept else result.like(value)
+        stored = result is value or not isinstance(result, Parameter)
+        if stored or not isinstance(result, CurveValue):
+            return result if stored else result.like(value)
         offset = value.scale * result.offset + value.offset
         dimension = value.offset_dimension or result.offset_dimension
         return result.shaped(value.scale * result.scale, offset, dimension)

@@ -69,10 +69,10 @@ def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
     if doubt := INDEX.doubt(owner, medium):
         return [doubt]
     try:
-        kept = kept_value(owner, medium, domain)
+        stored = kept_value(owner, medium, domain)
     except ValueFault as fault:
         return list(fault.faults)
-    return faults_of(Use(name, value, of) for name, value, of in domain.parts(owner, kept))
+    return faults_of(Use(name, value, of) for name, value, of in domain.parts(owner, stored))
 
 
 def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[Any]:
@@ -144,12 +144,12 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
     else:
         ended = has_ended(lengths, letters.shape[-1])
     refracts = letters == ord(REFRACTS)
-    told = refracts | (letters == ord(REFLECTS)) | ended
-    codes = np.empty(told.shape)
+    message = refracts | (letters == ord(REFLECTS)) | ended
+    codes = np.empty(message.shape)
     codes[...] = refracts  # By their numbers, 0 and 1.
     np.copyto(codes, Event.BEHIND, where=ended)
-    if not np.all(told):
-        bad = ~told
+    if not np.all(message):
+        bad = ~message
         chain, place = (int(result[0]) for result in np.nonzero(bad.reshape(-1, bad.shape[-1])))
         letter = np.broadcast_to(letters, codes.shape).reshape(-1, bad.shape[-1])[chain, place]
         result = f"is {shown(chr(letter))}" if letter else "is missing"
@@ -198,11 +198,11 @@ def lengths_given(lengths: Any, count: int) -> Whole:
     return numbers.astype(np.int64)
 
 
-def whole_numbers(what: str, given: Any) -> npt.NDArray[Any]:
+def whole_numbers(what: str, argument: Any) -> npt.NDArray[Any]:
     """Return real numbers, which are to be whole ones."""
-    numbers = as_given(what, given)
+    numbers = as_given(what, argument)
     if numbers.dtype.kind not in "iuf":
-        raise ValueFault(f"{what} must be whole numbers, not {shown(given)}")
+        raise ValueFault(f"{what} must be whole numbers, not {shown(argument)}")
     return numbers
 
 

@@ -61,13 +61,13 @@ def histories(
     """
     faults: list[str] = []
 
-    def attempt(read: Any, *given: Any) -> Any:
+    def attempt(read: Any, *argument: Any) -> Any:
         with collecting(faults):
-            return read(*given)
+            return read(*argument)
 
     chosen = None if ids is None else attempt(rows_of_ids, ids)
     count = len(materials) if chosen is None else chosen.shape[-1]
-    told = None if lengths is None else attempt(lengths_given, lengths, count)
+    message = None if lengths is None else attempt(lengths_given, lengths, count)
     letters = None
     of_text = event_faults(events, count) if isinstance(events, str) and lengths is None else []
     faults += of_text
@@ -75,23 +75,23 @@ def histories(
     if count and not of_text and not (events is None and lengths is None):
         letters = attempt(letters_given, REFLECTS * count if events is None else events, count)
     batches = {"vertices": batch, "ids": None if chosen is None else chosen.shape[:-1]}
-    batches |= {"lengths": getattr(told, "shape", None)}
+    batches |= {"lengths": getattr(message, "shape", None)}
     batches |= {"events": None if letters is None else letters.shape[:-1]}
     faults += broadcast_fault({name: shape for name, shape in batches.items() if shape})
     result = Histories((*materials, *[*materials[-1:]] * count)[:count])
     if faults or not materials:
         return result, list(dict.fromkeys(faults))
-    codes = None if letters is None else attempt(events_of, letters, told)
+    codes = None if letters is None else attempt(events_of, letters, message)
     ended = None if codes is None else codes == Event.BEHIND
     if chosen is not None:
         media = attempt(media_by_ids, materials, attempt(ids_within, chosen, len(materials), ended))
         result = result if media is None else replace(result, materials=media)
     if faults or codes is None:
         return result, faults
-    return _simplest(replace(result, events=codes, ended=ended), told=events is not None), faults
+    return _simplest(replace(result, events=codes, ended=ended), message=events is not None), faults
 
 
-def _simplest(chains: Histories, *, told: bool) -> Histories:
+def _simplest(chains: Histories, *, message: bool) -> Histories:
     """Return histories by letters, where all chains have the same."""
     codes: Any = chains.events
     if np.any(chains.ended):
@@ -100,7 +100,7 @@ def _simplest(chains: Histories, *, told: bool) -> Histories:
     rows = codes.reshape(-1, codes.shape[-1])
     if len(rows) and np.all(rows == rows[0]):
         text = "".join(REFRACTS if code == Event.REFRACTS else REFLECTS for code in rows[0])
-        return replace(chains, events=text if told else None)
+        return replace(chains, events=text if message else None)
     return chains
 
 

@@ -144,14 +144,14 @@ def normals_checked(
     if sides is None:
         fault = "normals that refract are checked against media that are known; leave them out"
         return chains, [fault]
-    given = normals
+    argument = normals
     if chains.ended is not None and points is not None:
         points = _turned_back(points, chains.ended)
-        given = _any_behind_the_end(normals, chains)
-    result = normal_faults(points if bad == "refuse" else None, given, chains.count, sides)
+        argument = _any_behind_the_end(normals, chains)
+    result = normal_faults(points if bad == "refuse" else None, argument, chains.count, sides)
     if bad == "refuse" or result or points is None:
         return chains, result
-    off = are_off(points, np.asarray(given), sides)
+    off = are_off(points, np.asarray(argument), sides)
     return masked(chains, off) if np.any(off) else chains, []
 
 
@@ -183,14 +183,14 @@ def _turned_back(points: Floats, ended: npt.NDArray[np.bool_]) -> Floats:
 
 def _any_behind_the_end(normals: Any, chains: Histories) -> Any:
     try:
-        given = as_given("the array of normals", normals)
+        argument = as_given("the array of normals", normals)
     except ValueFault:
         return normals
     ended: Any = chains.ended
-    if given.shape[-2:] != (chains.count, 3) or given.dtype.kind not in "iuf":
+    if argument.shape[-2:] != (chains.count, 3) or argument.dtype.kind not in "iuf":
         return normals
     try:
-        return np.where(ended[..., np.newaxis], 1.0, given)
+        return np.where(ended[..., np.newaxis], 1.0, argument)
     except ValueError:
         return normals
 
@@ -207,7 +207,7 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: 
     points, front = known(chains), known_index(outside)
     if points is None or front is None:
         return ""
-    events, told = "", ""
+    events, message = "", ""
     for place, material in enumerate(materials):
         behind = known_index(material)
         around = points[..., place : place + 3, :]
@@ -217,12 +217,12 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: 
             events += REFLECTS
             continue
         events += REFRACTS
-        told = told or _readings(place + 1, around, front, behind)
+        message = message or _readings(place + 1, around, front, behind)
         front = behind
-    if not told:
+    if not message:
         return ""
     return (
-        f"{told}; say which, events='{REFLECTS * len(events)}' where it is reflected, "
+        f"{message}; say which, events='{REFLECTS * len(events)}' where it is reflected, "
         f"events='{events}' where it goes through"
     )
 

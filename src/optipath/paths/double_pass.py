@@ -122,14 +122,14 @@ def _turning_faults(last: PathGraph) -> Iterator[str]:
         )
     incidence = getattr(element, "incidence", 0.0)
     if incidence is FOLLOWS or not vanishes(incidence):
-        given = (
+        argument = (
             f"parameter '{incidence.name}'"
             if isinstance(incidence, Parameter)
             else shown(incidence)
         )
         yield (
             f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0, "
-            f"not {given}"
+            f"not {argument}"
         )
 
 

@@ -169,10 +169,10 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
     placed = {*graph.nodes[name]["frames"]} - {*element.inputs, *element.outputs}
     missing = (entered - {*element.inputs}) | (left - {*element.outputs}) | placed
     if missing:
-        lost = listed([f"'{name}.{port}'" for port in sorted(missing)])
+        absent = listed([f"'{name}.{port}'" for port in sorted(missing)])
         ports = [f"'{name}.{port}'" for port in (*element.inputs, *element.outputs)]
         raise PathError(
-            f"the new element of '{name}' has no {lost}, which links or frames use; it has "
+            f"the new element of '{name}' has no {absent}, which links or frames use; it has "
             f"{listed(ports)}: disconnect the others first, or take '{name}' out and add it anew"
         )
     if said := _turned_by_links(graph, name, element):

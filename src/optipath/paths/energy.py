@@ -97,11 +97,11 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     flows = [link for link in links if not link.tap]
     inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
     begin = {node for node, e in wiring.elements.items() if not e.inputs}
-    given = _sums((link.start, link.power) for link in flows if link.start in begin)
+    argument = _sums((link.start, link.power) for link in flows if link.start in begin)
     taken = {node: _taken(node, flows) for node in _in_order(flows) if node in inner}
     left = {link.name: link.power for link in flows if not link.end}
     ended = _sums((link.end, link.power) for link in flows if link.end and link.end not in inner)
-    return EnergyAlong((*links,), given, taken, left, ended, (*_notes(links, taken),))
+    return EnergyAlong((*links,), argument, taken, left, ended, (*_notes(links, taken),))
 
 
 def _power(light: Light) -> npt.NDArray[np.float64]:

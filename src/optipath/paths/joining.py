@@ -46,9 +46,9 @@ def join(
     """Put a graph of elements behind another, in place: its nodes and links, and one link more."""
     faults: list[str] = []
     link = []
-    for given, graph, out in ((leaves, first, True), (None, second, False)):
+    for argument, graph, out in ((leaves, first, True), (None, second, False)):
         with collecting(faults, PathError):
-            link.append(given or _open_port(graph, out=out))
+            link.append(argument or _open_port(graph, out=out))
     names = _names(first, second)
     faults += [
         f"node '{name}' stands on both sides of >>; give one of them another name"

@@ -647,8 +647,8 @@ class PathGraph(Chainable):
             If it is none.
         """
         if not isinstance(composer, Composer):
-            given, example = shown(composer), "op.Composer(engine='numpy')"
-            raise ComposerError(f"a plan is made by a Composer, not {given}; write {example}")
+            argument, example = shown(composer), "op.Composer(engine='numpy')"
+            raise ComposerError(f"a plan is made by a Composer, not {argument}; write {example}")
         if composer not in self._plans:
             self._plans[composer] = composer.compose(self._graph)
         return self._plans[composer]
@@ -790,10 +790,10 @@ class PathGraph(Chainable):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PathGraph):
             return NotImplemented
-        told, also = ((path.description, path.cases, path.choices) for path in (self, other))
+        message, also = ((path.description, path.cases, path.choices) for path in (self, other))
         mine, theirs = self._graph, other._graph
         return (
-            told == also
+            message == also
             and self.loops == other.loops
             and same(dict(mine.nodes.items()), dict(theirs.nodes.items()))
             and same(dict(mine.edges.items()), dict(theirs.edges.items()))

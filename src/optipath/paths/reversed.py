@@ -170,8 +170,8 @@ class _Turning:
 
     def frames(self, name: str) -> dict[str, Frame]:
         """Return the world frames of a node: those of light that goes back."""
-        given = self.wiring.graph.nodes[name]["frames"]
-        results = {self.port(name, port): frame.reversed() for port, frame in given.items()}
+        argument = self.wiring.graph.nodes[name]["frames"]
+        results = {self.port(name, port): frame.reversed() for port, frame in argument.items()}
         if results or self.before[name].outputs:
             return results
         # A detector reads light in the frame that it arrives in; a source has one of its own.
@@ -286,16 +286,16 @@ def reversed_end(element: Element, source: Element | None = None) -> Element:
 
 
 def sources_by_name(
-    given: Any, elements: Mapping[str, Element]
+    arguments: Any, elements: Mapping[str, Element]
 ) -> tuple[dict[str, Element], list[str]]:
     """Return the light that begins at each node, and what is wrong with it, a sentence each."""
     ends = [name for name, element in elements.items() if not element.outputs]
-    if given is None:
+    if arguments is None:
         return {}, []
-    if not isinstance(given, Mapping):
+    if not isinstance(arguments, Mapping):
         detectors = [name for name in ends if elements[name].detects]
         if len(detectors) == 1:
-            given = {detectors[0]: given}
+            arguments = {detectors[0]: arguments}
         else:
             which = f", source={{'{detectors[0]}': ...}}" if detectors else ""
             fault = (
@@ -303,13 +303,13 @@ def sources_by_name(
                 f"{len(detectors)}; give it by name{which}{there_are(ends)}"
             )
             return {}, [fault]
-    strange = [name for name in given if name not in ends]
+    strange = [name for name in arguments if name not in ends]
     faults = [f"source['{name}']: no light ends there{_near(name, ends)}" for name in strange]
-    wrong = {name: one for name, one in given.items() if not _emits(one)}
+    wrong = {name: one for name, one in arguments.items() if not _emits(one)}
     faults += [
         f"source['{name}'] must be a Source, not {shown(one)}" for name, one in wrong.items()
     ]
-    return {name: one for name, one in given.items() if name not in wrong}, faults
+    return {name: one for name, one in arguments.items() if name not in wrong}, faults
 
 
 def _emits(one: Any) -> bool:

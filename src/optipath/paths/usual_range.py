@@ -80,8 +80,8 @@ def _between(parameter: Parameter, limits: tuple[float, float]) -> tuple[float, 
 def _seen(path: PathGraph, parameter: Parameter, uses: list[Use]) -> Iterable[float]:
     """Go through the numbers that the default and the cases have."""
     name = parameter.name
-    given = [parameter.default, *(case.values.get(name) for case in path.cases.values())]
-    for value in given:
+    arguments = [parameter.default, *(case.values.get(name) for case in path.cases.values())]
+    for value in arguments:
         if value is None:
             continue
         value = axes_for(name, value, uses)  # noqa: PLW2901 - the same, as a number

@@ -233,8 +233,8 @@ def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
     shape = np.shape(chain)
     if shape[-2:] == (count + 2, 3) or (not count and len(shape) > 1 and shape[-1] == 3):
         return chain, []
-    given = shape or shown(vertices)
-    return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {given}"]
+    argument = shape or shown(vertices)
+    return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {argument}"]
 
 
 def _for(count: int) -> str:

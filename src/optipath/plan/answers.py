@@ -89,8 +89,8 @@ class Answers:
     def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
         """Return the certificate of every end."""
         self.large_angles.look(parameters)
-        given = self.whole.read_for_bounds(parameters)
-        return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), given, parameters))
+        argument = self.whole.read_for_bounds(parameters)
+        return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), argument, parameters))
 
     def in_frames(
         self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()

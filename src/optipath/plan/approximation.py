@@ -60,21 +60,21 @@ class Approximation(Answering):
         if self.exact.for_jax.is_asked(parameters):
             yield from self.exact.stream(question, size, parameters)
             return
-        given = self.whole.read_for_bounds(parameters)
-        for piece in pieces(given.batch, size):
-            part = given.part(piece.where)
-            yield piece.where, self._of(question, part, parameters, given.paths)
+        argument = self.whole.read_for_bounds(parameters)
+        for piece in pieces(argument.batch, size):
+            part = argument.part(piece.where)
+            yield piece.where, self._of(question, part, parameters, argument.paths)
 
     def errors_for(self, parameters: Mapping[str, Any]) -> Array:
         """Return the largest error of the cheaper model, as a share of the intensity."""
-        given = self.whole.read_for_bounds(parameters)
-        _, errors = self.whole.answer_for(self.errors, given, parameters)
+        argument = self.whole.read_for_bounds(parameters)
+        _, errors = self.whole.answer_for(self.errors, argument, parameters)
         return errors  # type: ignore[no-any-return]
 
     def _of(
         self,
         question: Question,
-        given: ResolvedInputs,
+        arguments: ResolvedInputs,
         parameters: Mapping[str, Any],
         ahead: int = 0,
     ) -> dict[str, Any]:
@@ -84,22 +84,22 @@ class Approximation(Answering):
             return dict(answer)
 
         self._ran = ()
-        scalar, error = self.whole.answer_for(self.errors, given, parameters, ahead=ahead)
+        scalar, error = self.whole.answer_for(self.errors, arguments, parameters, ahead=ahead)
         beyond = ~(error <= self.tolerance)
         share = np.count_nonzero(beyond) / max(beyond.size, 1)
         if share == 1.0:
-            return run(self.exact, given)
+            return run(self.exact, arguments)
         if self.cheap is None:
             self._ran = (self.whole,)
             cheap = {n: ((total, np.nan, np.nan, np.nan), 0) for n, total in scalar.items()}
         else:
-            cheap = run(self.cheap, given)
+            cheap = run(self.cheap, arguments)
         if not share:
             return cheap
         if share > _MOST:
-            whole = run(self.exact, given)
+            whole = run(self.exact, arguments)
             return {n: _mixed(cheap[n], whole[n], beyond, beyond) for n in cheap}
-        some = run(self.exact, given.part((beyond,)))
+        some = run(self.exact, arguments.part((beyond,)))
         return {n: _mixed(cheap[n], some[n], beyond, ...) for n in cheap}
 
 

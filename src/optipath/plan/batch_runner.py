@@ -135,11 +135,11 @@ class BatchRunner:
             if failed:
                 return Results([], out, []), failed
             names = [f"#{symbol.index}" for symbol in formula.computed]
-            kept = (
+            stored = (
                 (row if symbol.kind == "float" else row.astype(symbol.kind)).reshape(shape)
                 for symbol, row in zip(formula.computed, out, strict=True)
             )
-            numbers = {**numbers, **dict(zip(names, kept, strict=True))}
+            numbers = {**numbers, **dict(zip(names, stored, strict=True))}
             axes = {**axes, **dict.fromkeys(names, formula.axes)}
         stage, rows = compiled.stages[-1], compiled.rows
         out = np.empty((compiled.room, layout.paths), stage.formula.dtype)
@@ -250,10 +250,10 @@ class Grid:
 
         Shape: out (results, paths).
         """
-        given, count = list(self.given), piece.stop - piece.start
+        argument, count = list(self.given), piece.stop - piece.start
         for place in self.cells:
             # One number after the other.
-            given[place] = np.ascontiguousarray(given[place][piece.where]).reshape(-1)
+            argument[place] = np.ascontiguousarray(argument[place][piece.where]).reshape(-1)
         if not self.width:
             rows, columns = (0, 1), (0, count)
         elif count < self.width:
@@ -261,4 +261,4 @@ class Grid:
             rows, columns = (row, row + 1), (first, first + count)
         else:
             rows, columns = (piece.start // self.width, piece.stop // self.width), (0, self.width)
-        return self.path(rows, columns, given, out, piece.start)
+        return self.path(rows, columns, argument, out, piece.start)

@@ -94,11 +94,11 @@ def intensity_bounds(
     0.0 2.0
     """
     several = entries_of("diattenuations", "numbers", diattenuations, ParameterError)
-    given = {"source_dop": (source_dop, _DOP)}
-    given |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(several)}
+    arguments = {"source_dop": (source_dop, _DOP)}
+    arguments |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(several)}
     numbers: dict[str, npt.NDArray[Any]] = {}
     faults: list[str] = []
-    for name, (value, domain) in given.items():
+    for name, (value, domain) in arguments.items():
         with collecting(faults, ValueFault):
             numbers[name] = domain.check(name, value)
     if faults:

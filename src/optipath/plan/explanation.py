@@ -354,12 +354,12 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     """Return how often the numbers of each step are computed for a batch."""
     runner.for_jax.refuse_traced(parameters, "evaluations are counted")
     runner.inputs.resolve(parameters)
-    given, program = runner.reader.read(parameters), runner.program
+    argument, program = runner.reader.read(parameters), runner.program
     results: dict[str, int] = {}
     for step in program.steps:
         if step.evaluation is None:
             continue
-        shapes: list[tuple[int, ...]] = [given.batch] if runner.unreduced else []
+        shapes: list[tuple[int, ...]] = [argument.batch] if runner.unreduced else []
         for place in program.given_to[step.evaluation]:
             operand = program.operands[place]
             if operand.known:
@@ -370,7 +370,9 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
                     operand.input_key,
                     *(operand.input_key._replace(part=part) for part in ("cos", "sin")),
                 )
-                shapes += [np.shape(given.numbers[key]) for key in keys if key in given.numbers]
+                shapes += [
+                    np.shape(argument.numbers[key]) for key in keys if key in argument.numbers
+                ]
         count = prod(joint_shape(*shapes))
         # What one element does in several steps goes by one name.
         results[step.label] = max(count, results.get(step.label, 0))

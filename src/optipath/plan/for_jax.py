@@ -57,7 +57,7 @@ class ForJax:
 
     def needs_closer_look(self, sound: Any, resolved: Mapping[str, Resolved]) -> bool:
         """Tell whether hardly any light leaves a loop, of values that are all known."""
-        traces = self.has_traced or any(is_traced(given.value) for given in resolved.values())
+        traces = self.has_traced or any(is_traced(argument.value) for argument in resolved.values())
         return not traces and not np.all(sound)
 
     def nan_outside(self, numbers: Any, resolved: Mapping[str, Resolved], axes: int) -> Any:

@@ -55,14 +55,14 @@ class Inputs:
     per_nanometre: tuple[str, ...] = ()
 
     def resolve(
-        self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
+        self, arguments: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
     ) -> tuple[dict[str, Resolved], tuple[int, ...]]:
         """Return the numbers of every open parameter, and the shape of the batch."""
-        faults = [self.unknown(name) for name in given if name not in self.open]
+        faults = [self.unknown(name) for name in arguments if name not in self.open]
         resolved: dict[str, Resolved] = {}
         unchecked = set()
         for name, parameter in self.open.items():
-            value = given.get(name, parameter.default)
+            value = arguments.get(name, parameter.default)
             if value is None:
                 faults.append(no_value(name))
             elif plain is not None and plain(name, value):
@@ -90,23 +90,23 @@ class Inputs:
                 if name not in unchecked:
                     use.check_given(numbers, present, resolved)
             except OptipathError as fault:
-                value = given.get(name, use.value.default)
-                told = self._of_a_fit(fault.faults, name, value)
+                value = arguments.get(name, use.value.default)
+                message = self._of_a_fit(fault.faults, name, value)
                 # n and k of a material may have one fault.
-                faults += [sentence for sentence in told if sentence not in faults]
+                faults += [sentence for sentence in message if sentence not in faults]
                 refused.add(name)
             else:
                 shape = getattr(numbers, "shape", ())
                 results[name] = shape[: len(shape) - len(use.domain.tail)]
         # As they are given, so that a sentence names them in the order of whoever reads it; what
         # is computed of them has their shapes.
-        shapes = {name: results[name] for name in (*given, *self.open) if name in results}
+        shapes = {name: results[name] for name in (*arguments, *self.open) if name in results}
         shapes = {**self.shapes, **shapes}
         faults += broadcast_fault(shapes)
         laws = self._agreements_of(resolved, seen=plain is None)
         faults = faults or first_faults(laws, resolved)
         if faults and unchecked:
-            return self.resolve(given)  # Tells of ranges, too.
+            return self.resolve(arguments)  # Tells of ranges, too.
         if faults:
             raise ParameterError(*faults)
         return resolved, joint_shape(*shapes.values())
@@ -146,12 +146,12 @@ class Inputs:
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths all values that JAX traces are allowed; True where it has none."""
-        asked: tuple[Use | Agreement, ...] = (
+        requests: tuple[Use | Agreement, ...] = (
             *self.uses,
             *self.known,
             *self._agreements_of(resolved),
         )
-        return reduce(and_, (each.inside(resolved) for each in asked), True)  # noqa: FBT003
+        return reduce(and_, (each.inside(resolved) for each in requests), True)  # noqa: FBT003
 
     def _agreements_of(
         self, resolved: Mapping[str, Resolved], *, seen: bool = True
@@ -233,9 +233,9 @@ class Inputs:
         return unknown_parameter(name, self.open)
 
 
-def _is_complex(given: Resolved) -> bool:
-    kind = getattr(given.value, "dtype", None)
-    return isinstance(given.value, complex) if kind is None else kind.kind == "c"
+def _is_complex(argument: Resolved) -> bool:
+    kind = getattr(argument.value, "dtype", None)
+    return isinstance(argument.value, complex) if kind is None else kind.kind == "c"
 
 
 class LargeAngles:
@@ -258,13 +258,13 @@ class LargeAngles:
         self.looks = bool(self.names or self._turned)
         self._looked_at: set[str] = set()
 
-    def look(self, given: Mapping[str, Any]) -> None:
+    def look(self, arguments: Mapping[str, Any]) -> None:
         """Warn of plain numbers that come to angles beyond a whole turn."""
-        for name in self._turned & given.keys():
-            if may_hold_texts(given[name]):
-                warn_of_two_factors(name, given[name])
+        for name in self._turned & arguments.keys():
+            if may_hold_texts(arguments[name]):
+                warn_of_two_factors(name, arguments[name])
         for name in self.names:
-            value = given.get(name)
+            value = arguments.get(name)
             if value is None or (type(value) is float and -TURN <= value <= TURN):
                 continue
             if type(value) is np.ndarray and value.size and value.dtype.kind == "f":
@@ -273,10 +273,10 @@ class LargeAngles:
                 self._looked_at.add(name)
             warn_of_degrees(f"parameter '{name}'", value)
 
-    def look_at_uncertainties(self, given: Mapping[str, Any]) -> None:
+    def look_at_uncertainties(self, arguments: Mapping[str, Any]) -> None:
         """Warn of standard uncertainties that come to angles beyond a whole turn."""
-        for name in [name for name in given if name in self.names]:
-            warn_of_degrees(f"the standard uncertainty of parameter '{name}'", given[name])
+        for name in [name for name in arguments if name in self.names]:
+            warn_of_degrees(f"the standard uncertainty of parameter '{name}'", arguments[name])
 
 
 def _looks_small(numbers: np.ndarray[Any, Any]) -> bool:

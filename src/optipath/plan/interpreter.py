@@ -78,22 +78,24 @@ class Interpreter:
         return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in result]
 
     def lights(
-        self, given: ResolvedInputs, shared: Shared | None = None
+        self, arguments: ResolvedInputs, shared: Shared | None = None
     ) -> list[tuple[np.ndarray[Any, Any], Any]]:
         """Return Stokes vectors (..., 4) and exponents at every end.
 
         What several parts of a batch have in common may be given, see `shared`.
         """
-        own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
-        return [folded(*light) for light in self._found(given, own)]
+        own = {
+            index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
+        }
+        return [folded(*light) for light in self._found(arguments, own)]
 
-    def shared(self, given: ResolvedInputs) -> Shared:
+    def shared(self, arguments: ResolvedInputs) -> Shared:
         """Return the numbers of evaluations that differ along a few axes of a batch only.
 
         Together they are no more than the light that the batch gives.
         """
-        operands, carrier = self.operands(given), self._carriers[self.carrier]
-        left, result = 4 * given.paths, {}
+        operands, carrier = self.operands(arguments), self._carriers[self.carrier]
+        left, result = 4 * arguments.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
                 shapes = [operands[operand].shape for operand in self.program.given_to[index]]
@@ -102,12 +104,14 @@ class Interpreter:
                 )
                 size = 16 * prod(joint_shape(*shapes))
                 needed = self.program.evaluation_uses[index]
-                if needed and size <= min(left, given.paths):
+                if needed and size <= min(left, arguments.paths):
                     result[index] = evaluated(self.program, index, operands, carrier, self.number)
                     left -= size
         return result
 
-    def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
+    def matrix(
+        self, arguments: ResolvedInputs, source: str, reading: Reading
+    ) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
         none = self.dtype.type(0.0)
         begin, _ = self.program.sources[source]
@@ -117,68 +121,68 @@ class Interpreter:
             dark = {step: (none,) * 4 for step, _ in self.program.sources.values()}
             return {**dark, begin: tuple(columns[:, row] for row in range(4))}
 
-        lights = self._execute(given, self._carriers[MatrixCarrier], emitted)
-        stokes = _stack(lights[reading.light][0], (4, *given.batch), reading, self.dtype)
+        lights = self._execute(arguments, self._carriers[MatrixCarrier], emitted)
+        stokes = _stack(lights[reading.light][0], (4, *arguments.batch), reading, self.dtype)
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
 
-    def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+    def bounds(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
         """Return what `BoundsCarrier` reads at every end, shape (4, ...)."""
-        operands = self.operands(given)
+        operands = self.operands(arguments)
         with np.errstate(all="ignore"):
             matrices = whole_matrices(
                 self.program, operands, self._carriers[MatrixCarrier], self.number
             )
         lacking = what_matrices_lack(self.program, matrices)
         carrier = BoundsCarrier(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
-        result = self._execute(given, carrier, shared=matrices)
+        result = self._execute(arguments, carrier, shared=matrices)
         read = []
         for reading in self.program.readings.values():
-            parts = np.empty((4, *given.batch), self.dtype)
+            parts = np.empty((4, *arguments.batch), self.dtype)
             for row, part in enumerate(result[reading.light][0]):
                 parts[row] = part
             # What is too extreme for floats is bounded by nothing.
-            told = np.all(np.isfinite(parts), axis=0)
-            parts[1] = np.where(told, parts[1], 0.0)
-            parts[2] = np.where(told, parts[2], np.inf)
+            message = np.all(np.isfinite(parts), axis=0)
+            parts[1] = np.where(message, parts[1], 0.0)
+            parts[2] = np.where(message, parts[2], np.inf)
             read.append(parts)
         return read
 
-    def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+    def _found(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
         """Return light and exponents; what is too faint for floats is carried with an exponent."""
-        result = self._stacked(given, self._carriers[self.carrier], shared)
+        result = self._stacked(arguments, self._carriers[self.carrier], shared)
         if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in result):
-            result = self._stacked(given, self._carriers[ScaledCarrier], shared)
+            result = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
         return result
 
-    def _stacked(self, given: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Any]:
-        return self._read(given, self._execute(given, carrier, None, shared))
+    def _stacked(self, arguments: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Any]:
+        return self._read(arguments, self._execute(arguments, carrier, None, shared))
 
-    def _read(self, given: ResolvedInputs, lights: Mapping[int, Any]) -> list[Any]:
+    def _read(self, arguments: ResolvedInputs, lights: Mapping[int, Any]) -> list[Any]:
         """Return the light at every end as Stokes vectors, with exponents."""
         return [
             (
-                _stack(lights[reading.light][0], given.batch, reading, self.dtype),
-                np.broadcast_to(lights[reading.light][1], given.batch),
+                _stack(lights[reading.light][0], arguments.batch, reading, self.dtype),
+                np.broadcast_to(lights[reading.light][1], arguments.batch),
             )
             for reading in self.program.readings.values()
         ]
 
     def _execute(
         self,
-        given: ResolvedInputs,
+        arguments: ResolvedInputs,
         carrier: Carrier,
         emitted: Any = None,
         shared: Shared | None = None,
     ) -> dict[int, Any]:
         solvers: list[LoopSolver] = []
-        begin = emitted and emitted(given)
+        begin = emitted and emitted(arguments)
         with np.errstate(all="ignore"):
-            operands = self.operands(given)
+            operands = self.operands(arguments)
             result = execute(self.program, operands, carrier, begin, self.number, shared, solvers)
-            doubtful = _doubtful(solvers, given.batch)
+            doubtful = _doubtful(solvers, arguments.batch)
             if not np.any(doubtful):
                 return result
-            part = given if np.all(doubtful) else given.part((doubtful,))
+            part = arguments if np.all(doubtful) else arguments.part((doubtful,))
             operands, solvers = self.operands(part), []
             begin = emitted and emitted(part)
             closer = CloserLook(self.program, part, operands, self.dtype)
@@ -187,14 +191,14 @@ class Interpreter:
                 self.program, operands, carrier, begin, self.number, longer, solvers, closer.meet
             )
             check_gains(solvers)
-        return again if part is given else _instead(result, again, doubtful)
+        return again if part is arguments else _instead(result, again, doubtful)
 
     def number(self, number: Any) -> np.ndarray[Any, Any]:
         """Return what a kernel gives in the precision of the plan."""
         # Plain numbers among what kernels give have no precision of their own.
         return np.asarray(number, self.dtype)
 
-    def operands(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+    def operands(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
         """Return the numbers behind the operands of the program."""
         if self._known is None:
             self._known = [
@@ -202,16 +206,16 @@ class Interpreter:
                 for operand in self.program.operands
             ]
         return [
-            self._given(operand, given) if fixed is None else given.cut(fixed)
+            self._given(operand, arguments) if fixed is None else arguments.cut(fixed)
             for fixed, operand in zip(self._known, self.program.operands, strict=True)
         ]
 
-    def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
-        if operand.part == "imag" and given.numbers[operand.input_key] is False:
+    def _given(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
+        if operand.part == "imag" and arguments.numbers[operand.input_key] is False:
             # Not an array, so that kernels see an index that does not absorb.
             return self.dtype.type(0.0)  # type: ignore[no-any-return]
         kind = wide(self.dtype) if operand.part in ("cos", "sin") else None
-        raw = operand.given_in(given.numbers, partial(np.asarray, dtype=kind))
+        raw = operand.given_in(arguments.numbers, partial(np.asarray, dtype=kind))
         return self._cast(operand.evaluated(NUMPY, raw))
 
     def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
@@ -461,12 +465,12 @@ class CloserLook:
     def __init__(
         self,
         program: Program,
-        given: ResolvedInputs,
+        arguments: ResolvedInputs,
         plain: list[np.ndarray[Any, Any]],
         dtype: np.dtype[Any],
     ) -> None:
         self.program = program
-        self.given = given
+        self.given = arguments
         self.plain = plain
         self.dtype = dtype
         self._operands: dict[int, Any] = {}

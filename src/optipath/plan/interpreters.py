@@ -69,51 +69,59 @@ class ReproducibleInterpreter(Interpreter):
         self._carrying = carrying(program, carrier, self.xp, dtype.name)
 
     def lights(
-        self, given: ResolvedInputs, shared: Shared | None = None
+        self, arguments: ResolvedInputs, shared: Shared | None = None
     ) -> list[tuple[np.ndarray[Any, Any], Any]]:
-        own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
-        result = self._found(_as_batch(given), own)
+        own = {
+            index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
+        }
+        result = self._found(_as_batch(arguments), own)
         return [
-            folded(stokes.reshape(*given.batch, 4), np.reshape(exponent, given.batch))
+            folded(stokes.reshape(*arguments.batch, 4), np.reshape(exponent, arguments.batch))
             for stokes, exponent in result
         ]
 
-    def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+    def _found(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
         program, carrier = self._carrying
         if program is self.program:
-            result = self._stacked(given, carrier, shared)
+            result = self._stacked(arguments, carrier, shared)
         else:
             with np.errstate(all="ignore"):
-                lights = execute(program, self.operands(given), carrier, number=self.number)
-            result = self._read(given, lights)
+                lights = execute(program, self.operands(arguments), carrier, number=self.number)
+            result = self._read(arguments, lights)
         if self.carrier is not StokesCarrier:
             return result
         faint = np.any([underflows(stokes[..., 0]) for stokes, _ in result], axis=0)
         if not np.any(faint):
             return result
-        again = self._stacked(given, self._carriers[ScaledCarrier], shared)
+        again = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
         return [
             (np.where(faint[..., np.newaxis], one, other), np.where(faint, power, 0))
             for (other, _), (one, power) in zip(result, again, strict=True)
         ]
 
-    def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
-        return super().matrix(_as_batch(given), source, reading).reshape(*given.batch, 4, 4)
+    def matrix(
+        self, arguments: ResolvedInputs, source: str, reading: Reading
+    ) -> np.ndarray[Any, Any]:
+        return super().matrix(_as_batch(arguments), source, reading).reshape(*arguments.batch, 4, 4)
 
-    def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
-        return [result.reshape(4, *given.batch) for result in super().bounds(_as_batch(given))]
+    def bounds(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+        return [
+            result.reshape(4, *arguments.batch) for result in super().bounds(_as_batch(arguments))
+        ]
 
-    def operands(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+    def operands(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
         # Numbers that are known are no arrays, so that kernels see which of them are 0.
         return [
             number[()] if operand.known else number
-            for operand, number in zip(self.program.operands, super().operands(given), strict=True)
+            for operand, number in zip(
+                self.program.operands, super().operands(arguments), strict=True
+            )
         ]
 
-    def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
-        key, numbers = operand.input_key, given.numbers
+    def _given(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
+        key, numbers = operand.input_key, arguments.numbers
         if operand.part == "present" or numbers.get(key) is False:
-            return super()._given(operand, given)
+            return super()._given(operand, arguments)
         if key not in numbers:
             raw = operand.given_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
             return self._cast(operand.evaluated(self.xp, raw))
@@ -141,9 +149,9 @@ class ReproducibleInterpreter(Interpreter):
         return np.where(small, near, self._cast(far))
 
 
-def _as_batch(given: ResolvedInputs) -> ResolvedInputs:
+def _as_batch(arguments: ResolvedInputs) -> ResolvedInputs:
     """Return what is given, one path as a batch of one."""
-    return given if given.batch else given._replace(batch=(1,))
+    return arguments if arguments.batch else arguments._replace(batch=(1,))
 
 
 _AT_ONCE = 8192
@@ -156,12 +164,14 @@ class NoiseInterpreter(Interpreter):
     def __init__(self, program: Program, dtype: np.dtype[Any]) -> None:
         super().__init__(program, ScaledCarrier, dtype)
 
-    def noise(self, given: ResolvedInputs, reading: Reading, exponent: Array) -> tuple[Any, Any]:
+    def noise(
+        self, arguments: ResolvedInputs, reading: Reading, exponent: Array
+    ) -> tuple[Any, Any]:
         """Return the intensity at an end, and its noise, over two to a power."""
         carrier = NoiseCarrier(NUMPY, self.eps)
-        result = np.zeros((2, *given.batch), self.dtype)
-        for piece in pieces(given.batch, _AT_ONCE):
-            part = given.part(piece.where)
+        result = np.zeros((2, *arguments.batch), self.dtype)
+        for piece in pieces(arguments.batch, _AT_ONCE):
+            part = arguments.part(piece.where)
             lights = self._execute(part, carrier)
             (intensity, noise, _, _), power = lights[reading.light]
             for row, number in enumerate((intensity, noise)):
@@ -169,39 +179,39 @@ class NoiseInterpreter(Interpreter):
                     result[(row, *piece.where)] = np.ldexp(number, power - exponent[piece.where])
         return result[0], result[1]
 
-    def emitted(self, given: ResolvedInputs, source: str) -> Array:
+    def emitted(self, arguments: ResolvedInputs, source: str) -> Array:
         """Return the light that a source emits, as Stokes vectors, in its own shape.
 
         Shape: returns (..., 4).
         """
         evaluation = self.program.steps[self.program.sources[source][0]].evaluation
-        operands, carrier = self.operands(given), self._carriers[self.carrier]
+        operands, carrier = self.operands(arguments), self._carriers[self.carrier]
         if evaluation is None:
             return np.zeros(4)
         numbers = evaluated(self.program, evaluation, operands, carrier)
         parts = np.broadcast_arrays(*numbers, *[0.0] * (4 - len(numbers)))
         return np.stack(parts, axis=-1)
 
-    def most(self, given: ResolvedInputs) -> Any:
+    def most(self, arguments: ResolvedInputs) -> Any:
         """Return more than the noise at any end can be: roundings of all that is emitted.
 
         Each step hands on those of its light and adds its own, as `NoiseCarrier` does; at a
         junction of a loop there are those of all others besides.
         """
-        return self._most(self.operands(given))
+        return self._most(self.operands(arguments))
 
     def most_of_one(self, parameters: Mapping[str, Any]) -> float | None:
         """Return the same where sources emit one number each, plain as it is given; else None."""
         results = {}
         for place, operand in self._emitted.items():
-            given = {}
+            arguments = {}
             if not operand.known:
                 name = operand.value.name
                 number = parameters.get(name, operand.value.default)
                 if type(number) is not float:
                     return None
-                given[name] = Resolved(np.array(number), THERE)
-            results[place] = operand.numbers(given)
+                arguments[name] = Resolved(np.array(number), THERE)
+            results[place] = operand.numbers(arguments)
         most = self._most(results)
         return None if np.ndim(most) else float(most)
 
@@ -254,12 +264,12 @@ def noise_at(
     most = interpreter.most_of_one(parameters)
     if most is not None and not _as_little(stokes, exponent, most).any():
         return result
-    given = answers.whole.reader.read(parameters)
-    given = given.part(where) if where else given
-    doubtful = _as_little(stokes, exponent, interpreter.most(given)).any(axis=-1)
+    argument = answers.whole.reader.read(parameters)
+    argument = argument.part(where) if where else argument
+    doubtful = _as_little(stokes, exponent, interpreter.most(argument)).any(axis=-1)
     if not doubtful.any():
         return result
-    part = given.part((doubtful,)) if given.batch else given
+    part = argument.part((doubtful,)) if argument.batch else argument
     again, noise = interpreter.noise(part, readings[end], exponent[doubtful].reshape(part.batch))
     intensity = stokes[doubtful][..., 0].reshape(part.batch)
     with np.errstate(over="ignore", invalid="ignore"):

@@ -117,9 +117,9 @@ class Search:
         self.as_light = as_light
         self.program = whole.program
         self.carrier = StokesCarrier(NUMPY)
-        given = whole.reader.read(parameters)
-        self.batch = given.batch
-        operands = whole.interpreter.operands(given)
+        argument = whole.reader.read(parameters)
+        self.batch = argument.batch
+        operands = whole.interpreter.operands(argument)
         with np.errstate(all="ignore"):
             self.numbers = [
                 evaluated(self.program, index, operands, self.carrier, whole.interpreter.number)
@@ -211,16 +211,16 @@ class Search:
         waiting = [(-1.0, light) for light in self._ends]
         for _, light in waiting:
             most[light] = 1.0
-        settled: set[int] = set()
+        resolved: set[int] = set()
         while waiting:
             share, light = heappop(waiting)
-            if light in settled:
+            if light in resolved:
                 continue
-            settled.add(light)
+            resolved.add(light)
             evaluation = steps[light].evaluation
             share = -share if evaluation is None else -share * gains[evaluation]
             for before in steps[light].inputs:
-                if share > most[before] and before not in settled:
+                if share > most[before] and before not in resolved:
                     most[before] = share
                     heappush(waiting, (-share, before))
         return most

@@ -43,14 +43,14 @@ class LaterFrame:
     @cached_property
     def _made(self) -> Frame:
         opened = self.inputs.open
-        given = {
+        arguments = {
             name: self.inputs.numbers_for(name, self.parameters.get(name, opened[name].default))
             for name in self.frame.names
         }
         if not self.where:
-            return self.frame.frame(given)
+            return self.frame.frame(arguments)
         _, batch = self.inputs.resolve(self.parameters)
-        return self.frame.frame(given, lambda numbers: sliced(numbers, batch, self.where))
+        return self.frame.frame(arguments, lambda numbers: sliced(numbers, batch, self.where))
 
 
 def kept(value: Any) -> Any:

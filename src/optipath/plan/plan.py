@@ -293,8 +293,8 @@ class Plan:
         """
         from optipath.plan.light_paths import light_paths  # noqa: PLC0415 - not for every import
 
-        given = [value for value in (limit, bounces) if isinstance(value, Mapping)]
-        check_named("paths", (*given, *unnamed), self.inputs.open)
+        arguments = [value for value in (limit, bounces) if isinstance(value, Mapping)]
+        check_named("paths", (*arguments, *unnamed), self.inputs.open)
         answers = self.answers
         answers.large_angles.look(parameters)
         as_light = partial(answers.as_light, parameters)

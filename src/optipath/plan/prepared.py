@@ -106,12 +106,12 @@ class Recipe:
         self,
         prepared: Prepared,
         reader: InputReader,
-        given: ResolvedInputs,
+        arguments: ResolvedInputs,
         parameters: Mapping[str, Any],
     ) -> None:
         self.prepared = prepared
         self.reader = reader
-        self.batch = given.batch
+        self.batch = arguments.batch
         self.names: dict[str, str] = {}
         self.parts: list[InputKey] = []
         self.fixed: dict[str, Any] = dict(prepared.known)
@@ -123,7 +123,7 @@ class Recipe:
             if type(value := parameters.get(use.value.name)) is np.ndarray
             and not reader.is_plain(use.value.name, value)
         ]
-        for key, number in given.numbers.items():
+        for key, number in arguments.numbers.items():
             value = parameters.get(key.name)
             if value is None or type(value) is str or key.part == "present":
                 self.fixed[str(key)] = number
@@ -135,15 +135,17 @@ class Recipe:
                 self.ranges.append((key.name, *reader.inputs.limits[key.name]))
 
     @staticmethod
-    def holds(reader: InputReader, given: ResolvedInputs, parameters: Mapping[str, Any]) -> bool:
+    def holds(
+        reader: InputReader, arguments: ResolvedInputs, parameters: Mapping[str, Any]
+    ) -> bool:
         """Tell whether what was read says as much of the next batch of the same shapes."""
-        if not parameters.keys() <= {key.name for key in given.numbers}:
+        if not parameters.keys() <= {key.name for key in arguments.numbers}:
             return False  # What nothing needs is looked at each time.
-        if any(key.name not in reader.inputs.open for key in given.numbers):
+        if any(key.name not in reader.inputs.open for key in arguments.numbers):
             return False  # As is what follows from others.
         return all(
             isinstance(number, np.ndarray)
-            for key, number in given.numbers.items()
+            for key, number in arguments.numbers.items()
             if type(parameters.get(key.name)) is np.ndarray and key.part not in ("present", "imag")
         )
 

@@ -63,7 +63,7 @@ class Question(ABC):
         """Return the formula of the results, for numbers of some forms."""
 
     @abstractmethod
-    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
         """Return the results step by step.
 
         Shape: returns (results, paths).
@@ -101,8 +101,8 @@ class LightQuestion(Question):
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         return maker.lights(forms, axes=axes, unreduced=maker.unreduced)
 
-    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        result = runner.interpreter.lights(given, shared)
+    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+        result = runner.interpreter.lights(arguments, shared)
         for (stokes, _), count in zip(result, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
             stokes[np.isnan(stokes[..., 0])] = np.nan
@@ -172,9 +172,9 @@ class MatrixQuestion(Question):
             masks=maker.masks,
         )
 
-    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.
-        result = runner.interpreter.matrix(given, self.source, self.reading)
+        result = runner.interpreter.matrix(arguments, self.source, self.reading)
         runner.refuse_infinite(result[..., : self.reading.components, :])
         result[np.isnan(result[..., 0, 0])] = np.nan
         return result.reshape(-1, 16).T
@@ -211,9 +211,11 @@ class BoundsQuestion(Question):
         kind, limits = maker.dtype.name, maker.limits
         return bounds_formula(self.program, kind, forms, limits, axes, self.model)
 
-    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Those of bounds are of another sort.
-        return np.concatenate([rows.reshape(4, -1) for rows in runner.interpreter.bounds(given)])
+        return np.concatenate(
+            [rows.reshape(4, -1) for rows in runner.interpreter.bounds(arguments)]
+        )
 
     def answer(self, results: Results, batch: Batch) -> dict[str, Certificate]:
         each = results.block(0, self.read).reshape(len(self.ends), 4, *batch)
@@ -231,8 +233,8 @@ class ErrorsQuestion(BoundsQuestion):
         super().__init__(program)
         self.read = len(self.ends) + 1
 
-    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        bounds = super().rows(runner, given, shared).reshape(-1, 4, given.paths)
+    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+        bounds = super().rows(runner, arguments, shared).reshape(-1, 4, arguments.paths)
         assert self.model is not None  # noqa: S101 - for mypy
         errors = [Certificate(*result[:3]).error_of(self.model) for result in bounds]
         return np.array([*bounds[:, 0], np.max(errors, axis=0)])

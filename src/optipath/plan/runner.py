@@ -114,15 +114,15 @@ class Runner(Answering):
             raise ParameterError(
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
             )
-        given = self.reader.read(parameters)
-        for piece in pieces(given.batch, size):
-            part = given.part(piece.where)
-            yield piece.where, self.answer_for(question, part, parameters, ahead=given.paths)
+        argument = self.reader.read(parameters)
+        for piece in pieces(argument.batch, size):
+            part = argument.part(piece.where)
+            yield piece.where, self.answer_for(question, part, parameters, ahead=argument.paths)
 
     def answer_for(
         self,
         question: Question,
-        given: ResolvedInputs,
+        arguments: ResolvedInputs,
         parameters: Mapping[str, Any],
         *,
         key: Any = None,
@@ -130,26 +130,26 @@ class Runner(Answering):
     ) -> Any:
         """Return what is asked for numbers that have been read."""
         if self.first_values.ways:
-            kind = (given.forms(self.dtype), given.batch, *parameters)
-            self.first_values.check(kind, lambda: given)
-        floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
-        if floats and not given.batch:
-            lights = self.single.lights(given)
+            kind = (arguments.forms(self.dtype), arguments.batch, *parameters)
+            self.first_values.check(kind, lambda: arguments)
+        floats = question.is_light and self.dtype == np.float64 and arguments.is_of_floats
+        if floats and not arguments.batch:
+            lights = self.single.lights(arguments)
             if lights is not None:
                 self._ran = FLOATS
                 ends = zip(self.program.readings, lights, strict=True)
                 return {name: (light[:4], light[4]) for name, light in ends}
-        known = {name: given.cut(array) for name, array in self.formulas.known_arrays.items()}
-        arrays = {str(key): n for key, n in given.numbers.items() if isinstance(n, np.ndarray)}
-        layout = Layout(given.batch, arrays | known)
-        prepared = Prepared(self._kind(question, given, layout, floats=floats), layout, known)
-        if not given.within(self.inputs.limits):
+        known = {name: arguments.cut(array) for name, array in self.formulas.known_arrays.items()}
+        arrays = {str(key): n for key, n in arguments.numbers.items() if isinstance(n, np.ndarray)}
+        layout = Layout(arguments.batch, arrays | known)
+        prepared = Prepared(self._kind(question, arguments, layout, floats=floats), layout, known)
+        if not arguments.within(self.inputs.limits):
             self.inputs.resolve(parameters)
-        elif key is not None and Recipe.holds(self.reader, given, parameters):
-            recipe = Recipe(prepared, self.reader, given, parameters)
+        elif key is not None and Recipe.holds(self.reader, arguments, parameters):
+            recipe = Recipe(prepared, self.reader, arguments, parameters)
             keep(self._recipes, (question.key, key), recipe)
-        numbers = {str(key): number for key, number in given.numbers.items()} | known
-        return self._run(question, prepared, numbers, parameters, given, ahead)
+        numbers = {str(key): number for key, number in arguments.numbers.items()} | known
+        return self._run(question, prepared, numbers, parameters, arguments, ahead)
 
     def read_for_bounds(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
         """Return what is given, for both the bounds of light and the light."""
@@ -162,10 +162,10 @@ class Runner(Answering):
         return self.reader.read(parameters)
 
     def _kind(
-        self, question: Question, given: ResolvedInputs, layout: Layout, *, floats: bool
+        self, question: Question, arguments: ResolvedInputs, layout: Layout, *, floats: bool
     ) -> BatchKind:
         """Return what this batch has in common with others."""
-        forms = given.forms(self.dtype)
+        forms = arguments.forms(self.dtype)
         key = question.key, forms, layout.key, floats
         result = self._kinds.get(key)
         if result is None:
@@ -180,7 +180,7 @@ class Runner(Answering):
         prepared: Prepared,
         numbers: Mapping[str, Any],
         parameters: Mapping[str, Any],
-        given: ResolvedInputs | None = None,
+        arguments: ResolvedInputs | None = None,
         ahead: int = 0,
     ) -> Any:
         kind, layout = prepared.kind, prepared.layout
@@ -188,7 +188,7 @@ class Runner(Answering):
         stepped = engine == NUMPY_STEPS
 
         def part(piece: Any) -> Array:
-            whole = given or self.reader.read(parameters)
+            whole = arguments or self.reader.read(parameters)
             return question.rows(self, whole.part(piece.where), {})
 
         each = question.numbers(stepped=stepped)
@@ -202,7 +202,7 @@ class Runner(Answering):
                 results = Results.of(rows, question.read, self.dtype)
             elif stepped or engine == FLOATS:
                 self.inputs.resolve(parameters)
-                return self._stepped(question, given or self.reader.read(parameters))
+                return self._stepped(question, arguments or self.reader.read(parameters))
             else:
                 assert kind.batches is not None  # noqa: S101 - or it would not be chosen
                 results = kind.batches.results(
@@ -210,13 +210,13 @@ class Runner(Answering):
                 )
             return question.answer(results, layout.batch)
 
-    def _stepped(self, question: Question, given: ResolvedInputs) -> Any:
+    def _stepped(self, question: Question, arguments: ResolvedInputs) -> Any:
         """Return what is asked for, step by step."""
-        several = given.paths > CACHED and not self.unreduced
-        shared = self.interpreter.shared(given) if several and question.is_light else {}
-        parts = [question.rows(self, part, shared) for part in self.parts(given)]
+        several = arguments.paths > CACHED and not self.unreduced
+        shared = self.interpreter.shared(arguments) if several and question.is_light else {}
+        parts = [question.rows(self, part, shared) for part in self.parts(arguments)]
         rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-        return question.answer(Results.of(rows, question.read, self.dtype), given.batch)
+        return question.answer(Results.of(rows, question.read, self.dtype), arguments.batch)
 
     def _by_jax(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         resolved, batch = self.inputs.resolve(parameters)
@@ -249,11 +249,11 @@ class Runner(Answering):
         """Return a context for so many numbers a path."""
         return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
 
-    def parts(self, given: ResolvedInputs) -> Iterator[ResolvedInputs]:
+    def parts(self, arguments: ResolvedInputs) -> Iterator[ResolvedInputs]:
         """Return what is given in parts that stay in the cache, step after step."""
-        if given.paths <= CACHED:
-            return iter([given])
-        return (given.part(piece.where) for piece in pieces(given.batch, CACHED))
+        if arguments.paths <= CACHED:
+            return iter([arguments])
+        return (arguments.part(piece.where) for piece in pieces(arguments.batch, CACHED))
 
     def refuse_infinite(self, numbers: Array) -> None:
         """Refuse light that is not finite, but for NaN where that says what cannot be."""
@@ -361,8 +361,8 @@ class FirstValues:
         """Refuse what no light can do, found with some of the values that are given."""
         if not self.ways or kind in self._seen:
             return
-        given = read()
-        faults = [fault for way in self.ways for fault in _faults(way, given)]
+        argument = read()
+        faults = [fault for way in self.ways for fault in _faults(way, argument)]
         if faults:
             raise ParameterError(*faults)
         if len(self._seen) >= _MOST_VALUES:
@@ -370,25 +370,27 @@ class FirstValues:
         self._seen.add(kind)
 
 
-def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
+def _faults(way: OwnWays, arguments: ResolvedInputs) -> list[str]:
     """Return what is wrong with a way for a few of the paths, the first and the last among them."""
     units = way.units
-    some = np.unique(np.linspace(0.0, given.paths - 1.0, min(_LOOKED_AT, given.paths)).astype(int))
-    where = np.unravel_index(some, given.batch) if given.batch else ()
+    some = np.unique(
+        np.linspace(0.0, arguments.paths - 1.0, min(_LOOKED_AT, arguments.paths)).astype(int)
+    )
+    where = np.unravel_index(some, arguments.batch) if arguments.batch else ()
 
     def few(number: Any) -> Any:
         several = np.asarray(number)
         if several.ndim:  # One number for all stays one, as elements are given it.
-            several = np.broadcast_to(several, given.batch)[where]
+            several = np.broadcast_to(several, arguments.batch)[where]
         return several if several.dtype == bool else several.astype(np.float64)
 
-    mine = {key: few(n) for key, n in given.numbers.items() if key.name in units}
+    mine = {key: few(n) for key, n in arguments.numbers.items() if key.name in units}
     if any(key.part == "present" and not np.all(number) for key, number in mine.items()):
         return []  # The element is not everywhere there.
 
     def read(operand: Operand) -> Any:
         if operand.known:
-            return few(given.cut(operand.numbers()))
+            return few(arguments.cut(operand.numbers()))
         return operand.evaluated(NUMPY, operand.given_in(mine, np.asarray))
 
     try:

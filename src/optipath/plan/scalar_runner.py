@@ -105,21 +105,21 @@ class ScalarRunner:
         get = numbers.get
         return _called(path, [get(name, default) for name, default in order])
 
-    def lights(self, given: ResolvedInputs) -> Lights | None:
+    def lights(self, arguments: ResolvedInputs) -> Lights | None:
         """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
-        nothing = given.nothing
+        nothing = arguments.nothing
         if nothing not in self.functions:
             self._runs += 1
             if self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT):
-                return self._stepped(given)
+                return self._stepped(arguments)
         function = self.function(nothing)
         if function is None:
-            return self._stepped(given)
+            return self._stepped(arguments)
         if nothing not in self._looked_at:
             self._looked_at.add(nothing)
-            if self._is_default(given) and not self.inputs.agreements and self._defaults_hold():
-                self._default_call = self._unread(given, function)
-        return _called(function.path, [given.numbers[key] for key in function.keys])
+            if self._is_default(arguments) and not self.inputs.agreements and self._defaults_hold():
+                self._default_call = self._unread(arguments, function)
+        return _called(function.path, [arguments.numbers[key] for key in function.keys])
 
     def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         """Return the function for what is not there, as `ResolvedInputs.nothing`, if it can be."""
@@ -127,10 +127,10 @@ class ScalarRunner:
             self.functions[nothing] = self._made(nothing)
         return self.functions[nothing]
 
-    def _stepped(self, given: ResolvedInputs) -> Lights | None:
-        if not given.within(self.inputs.limits):
+    def _stepped(self, arguments: ResolvedInputs) -> Lights | None:
+        if not arguments.within(self.inputs.limits):
             return None
-        return self.interpreter.single(given.numbers)
+        return self.interpreter.single(arguments.numbers)
 
     def _made(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
@@ -144,9 +144,9 @@ class ScalarRunner:
         own = [named[name] for name in names if name in named]
         return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, len(formula.steps))
 
-    def _is_default(self, given: ResolvedInputs) -> bool:
+    def _is_default(self, arguments: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""
-        there = {key.name: n for key, n in given.numbers.items() if key.part == "present"}
+        there = {key.name: n for key, n in arguments.numbers.items() if key.part == "present"}
         opened = self.inputs.open
         return all(n is (opened[name].default != WORD) for name, n in there.items())
 
@@ -157,17 +157,19 @@ class ScalarRunner:
         known = [way for way in self.own_ways if way.are_known(defaults)]
         return not any(way.faults(lambda operand: operand.numbers(defaults)) for way in known)
 
-    def _unread(self, given: ResolvedInputs, function: FloatFunction) -> Any:
+    def _unread(self, arguments: ResolvedInputs, function: FloatFunction) -> Any:
         """Return what `fast_path` needs: the function, and the default of each that it takes."""
-        keys = {str(key): key for key in given.numbers}
-        optional = {key.name for key in given.numbers if key.part == "present"}
+        keys = {str(key): key for key in arguments.numbers}
+        optional = {key.name for key in arguments.numbers if key.part == "present"}
         # A plain float has no imaginary part, and the function has been made for none.
-        parts = Counter(key.name for key in given.numbers if key.part not in ("present", "imag"))
+        parts = Counter(
+            key.name for key in arguments.numbers if key.part not in ("present", "imag")
+        )
         opened = self.inputs.open
         real = {name for name, p in opened.items() if type(p.default) in _REAL}
         following = self.following.defaults if self.following else {}
         real |= {value.name for value in self.inputs.computed}
-        if any(key.part == "imag" and key.name not in real for key in given.numbers):
+        if any(key.part == "imag" and key.name not in real for key in arguments.numbers):
             return None
         order = []
         for key in map(keys.__getitem__, function.names):
@@ -175,13 +177,13 @@ class ScalarRunner:
             if key.part not in ("value", "real") or key.is_affine or key.name not in real:
                 return None
             order.append((key.name, opened[key.name].default if key.name in opened else None))
-        asked = {name for name, _ in order} | following.keys()
-        if any(p.default is None for name, p in opened.items() if name not in asked):
+        request = {name for name, _ in order} | following.keys()
+        if any(p.default is None for name, p in opened.items() if name not in request):
             return None  # What nothing needs must be given all the same.
         return (
             function.path,
             order,
-            frozenset(n for n in asked & opened.keys() if n not in optional and parts[n] <= 1),
+            frozenset(n for n in request & opened.keys() if n not in optional and parts[n] <= 1),
         )
 
 
@@ -207,9 +209,9 @@ class FollowingFloats:
         self._ranges = [inputs.limits[name] for name in self.defaults]
         self._last: tuple[tuple[Any, ...], dict[str, float]] = (), {}
 
-    def beside(self, given: Mapping[str, float]) -> Mapping[str, float] | None:
+    def beside(self, arguments: Mapping[str, float]) -> Mapping[str, float] | None:
         """Return what is given and what follows from it; None where that is to be looked at."""
-        numbers = tuple([given.get(name, default) for name, default in self.defaults.items()])
+        numbers = tuple([arguments.get(name, default) for name, default in self.defaults.items()])
         last, results = self._last
         if numbers != last:
             for number, (low, high) in zip(numbers, self._ranges, strict=True):
@@ -220,4 +222,4 @@ class FollowingFloats:
             computed = computed_values(self.computed, resolved)
             results = {name: of_it.value.item() for name, of_it in computed.items()}
             self._last = numbers, results
-        return {**given, **results}
+        return {**arguments, **results}

@@ -28,32 +28,32 @@ if TYPE_CHECKING:
 Drawn = TypeVar("Drawn", bound=Axes)
 
 
-def own_axes(given: Any, size: tuple[float, float]) -> Axes:
+def own_axes(argument: Any, size: tuple[float, float]) -> Axes:
     """Return the axes that are given, or those of a new figure that no window belongs to."""
-    if given is None:
+    if argument is None:
         return own_lines(Figure(figsize=size, layout="constrained").add_subplot())
-    if not isinstance(given, Axes):
-        raise OptipathError(f"ax is {shown(given)}; give Axes of Matplotlib, or leave it out")
-    if not _is_flat(given):
+    if not isinstance(argument, Axes):
+        raise OptipathError(f"ax is {shown(argument)}; give Axes of Matplotlib, or leave it out")
+    if not _is_flat(argument):
         raise OptipathError(
-            f"ax has the projection '{given.name}', and the picture is a flat one; give plain "
+            f"ax has the projection '{argument.name}', and the picture is a flat one; give plain "
             f"Axes, as figure.add_subplot() makes them, or leave it out"
         )
-    return given
+    return argument
 
 
-def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> Panel:
+def own_panel(argument: Any, shape: tuple[int, int], size: tuple[float, float]) -> Panel:
     """Return the axes that are given, or those of a new figure, row by row."""
-    if given is None:
+    if argument is None:
         panel = Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
         for ax in panel.flat:
             own_lines(ax)
         return panel
-    panel = np.array(given, object)
+    panel = np.array(argument, object)
     if panel.size != shape[0] * shape[1] or not all(map(_is_flat, panel.flat)):
         rows, columns = shape
         raise OptipathError(
-            f"axes are {shown(given)}; give {rows} x {columns} Axes of Matplotlib, as "
+            f"axes are {shown(argument)}; give {rows} x {columns} Axes of Matplotlib, as "
             f"figure.subplots({rows}, {columns}) makes them, or leave them out"
         )
     return panel.reshape(shape)

@@ -124,15 +124,15 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
     frame = ChartFrame.around(chart, list(marks.values()))
     legend = legend_rows(chart, looks, fails=bool(frame.methods))
     notes = [_notes(chart, kind, result) for kind, result in marks.items()]
-    told = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
-    beside = PeerFrame.of(peers) if peers else None
+    message = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
+    other = PeerFrame.of(peers) if peers else None
     below = LINE * 1.15 * len(legend) + 0.1 + LINE * max(map(len, notes)) + EDGE
-    lowest = beside.height + _FOOT + _TITLED if beside else 0.0
+    lowest = other.height + _FOOT + _TITLED if other else 0.0
     below += lowest
-    above = _HEAD + LINE * len(told) + 0.3
+    above = _HEAD + LINE * len(message) + 0.3
     height = below + _FOOT + frame.height + above
     figure = Figure(figsize=(WIDTH, height), dpi=120)
-    _head(figure, chart["title"], told)
+    _head(figure, chart["title"], message)
     axes = []
     for place, (kind, title) in enumerate(_KINDS.items()):
         left = LEFT + place * (panel_width() + GAP)
@@ -151,22 +151,22 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
     top = below - LINE * 1.15 * len(legend) - 0.1
     for place, lines in enumerate(notes):
         _write(figure, lines, EDGE + place * WIDTH / 2, top, looks)
-    if peers and beside:
-        room = LEFT / WIDTH, _FOOT / height, 1 - (LEFT + RIGHT) / WIDTH, beside.height / height
+    if peers and other:
+        room = LEFT / WIDTH, _FOOT / height, 1 - (LEFT + RIGHT) / WIDTH, other.height / height
         axes.append(figure.add_axes(room))
-        draw_peers(axes[-1], peers, beside)
+        draw_peers(axes[-1], peers, other)
         for number, line in enumerate(told_of_peers(peers)):
             y = (lowest - LINE * number) / height
             figure.text(EDGE / WIDTH, y, line, fontsize=POINTS, va="top", color=INK)
     return np.array(axes, object)
 
 
-def _head(figure: Figure, title: str, told: list[str]) -> None:
+def _head(figure: Figure, title: str, messages: list[str]) -> None:
     height = figure.get_figheight()
     words = shortened(f"Speed against accuracy: {title}", WIDTH - 2 * EDGE, _TITLE)
     keywords: dict[str, Any] = {"ha": "center", "va": "top", "color": INK, "parse_math": False}
     figure.text(0.5, 1 - 0.2 / height, words, fontsize=_TITLE, **keywords)
-    for number, line in enumerate(told):
+    for number, line in enumerate(messages):
         y = 1 - (_HEAD + LINE * number - 0.1) / height
         figure.text(0.5, y, line, fontsize=POINTS, **keywords)
 
@@ -294,15 +294,15 @@ def draw_critical(chart: Mapping[str, Any]) -> Panel:
     columns = min(2, len(places))
     rows = -(-len(places) // columns)
     legend = flowing(_legend(methods))
-    told = broken(_caption_of_curves(chart), WIDTH - 2 * EDGE, POINTS)
+    message = broken(_caption_of_curves(chart), WIDTH - 2 * EDGE, POINTS)
     below = LINE * 1.15 * len(legend) + EDGE
-    above = 0.75 + LINE * len(told) + 0.1
+    above = 0.75 + LINE * len(message) + 0.1
     height = below + rows * (_HIGH + _UNDER) + above
     figure = Figure(figsize=(WIDTH, height), dpi=120)
     words: dict[str, Any] = {"ha": "center", "va": "top", "color": INK, "parse_math": False}
     title = shortened(f"Where methods fail: {chart['title']}", WIDTH - 2 * EDGE, 20.0)
     figure.text(0.5, 1 - 0.2 / height, title, fontsize=20.0, **words)
-    for number, line in enumerate(told):
+    for number, line in enumerate(message):
         figure.text(0.5, 1 - (0.65 + LINE * number) / height, line, fontsize=POINTS, **words)
     wide = (WIDTH - _LEFT - EDGE - _BETWEEN * (columns - 1)) / columns
     axes = []

@@ -108,13 +108,13 @@ def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
         if size > 1
     }
     known = [name for each in along.values() for name in each]
-    given = [name for name in names if name is not None]
-    if faults := [one for name in given for one in unknown("coordinate", name, known)]:
+    arguments = [name for name in names if name is not None]
+    if faults := [one for name in arguments for one in unknown("coordinate", name, known)]:
         raise OptipathError(*faults)
     of = {name: dimension for dimension, each in along.items() for name in each}
-    if len({of[name] for name in given}) < len(given):
-        raise OptipathError(f"{listed(given)} are along one dimension; give one of each")
-    rest = [dimension for dimension in along if dimension not in {of[name] for name in given}]
+    if len({of[name] for name in arguments}) < len(arguments):
+        raise OptipathError(f"{listed(arguments)} are along one dimension; give one of each")
+    rest = [dimension for dimension in along if dimension not in {of[name] for name in arguments}]
     free = names.count(None)
     if len(rest) != free:
         raise OptipathError(_wrong_count(dataset, along, rest, len(names)))
@@ -167,8 +167,8 @@ def numbers_of(
     dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
 ) -> npt.NDArray[np.float64]:
     """Return a quantity as it is drawn."""
-    beside = _BESIDE.get(quantity.name, quantity.name)
-    name = beside if beside in dataset.data_vars else quantity.name
+    other = _BESIDE.get(quantity.name, quantity.name)
+    name = other if other in dataset.data_vars else quantity.name
     if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):
         raise OptipathError(*faults)
     dimensions = [dataset.coords[axis.name].dims[0] for axis in axes]

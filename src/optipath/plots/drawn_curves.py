@@ -84,14 +84,14 @@ def _draw(
     values: npt.NDArray[np.float64],
     place: int,
 ) -> list[Any]:
-    given = along
+    argument = along
     if quantity.period:
         along, values = open_at_jumps(along, values, quantity.period)
     marked = np.isfinite(values)
-    if len(given) > _FEW:
+    if len(argument) > _FEW:
         marked &= _is_alone(values)
     dash, colour = (place + place // len(LINES)) % len(DASHES), LINES[place % len(LINES)]
-    if (marked := marked & np.isin(along, given)).any():
+    if (marked := marked & np.isin(along, argument)).any():
         mark: dict[str, Any] = {"marker": _MARKS[place % len(_MARKS)], "markersize": 4.0}
         ax.plot(along[marked], values[marked], color=colour, linestyle="none", **mark)
     style: dict[str, Any] = {"color": colour, "linestyle": DASHES[dash]}
@@ -140,8 +140,10 @@ def tell_missing(ax: Axes, curves: Sequence[Drawn], reads: str) -> None:
     read = [each.name for each in missing if each.is_read(reads)]
     unread = [each.name for each in missing if not each.is_read(reads)]
     lines = [f"{listed(unread)}: not read"] if unread else []
-    told = "\n".join([f"{listed(read)}: the light has none", *lines] if read else lines)
-    ax.text(0.5, 0.5, told, transform=ax.transAxes, ha="center", va="center", color=INK, fontsize=9)
+    message = "\n".join([f"{listed(read)}: the light has none", *lines] if read else lines)
+    ax.text(
+        0.5, 0.5, message, transform=ax.transAxes, ha="center", va="center", color=INK, fontsize=9
+    )
 
 
 _FLIP = 0.05

@@ -123,15 +123,17 @@ def _draw_several(ax: Axes, several: Mapping[str, Light]) -> list[Any]:
     keys: list[Any] = []
     for place, (name, light) in enumerate(several.items()):
         line: dict[str, Any] = {"color": LINES[place], "linestyle": DASHES[place]}
-        told = fitting(ax, f"{name}: {state_text(light)}, {figures_text(light)}", "x-small", less=5)
+        message = fitting(
+            ax, f"{name}: {state_text(light)}, {figures_text(light)}", "x-small", less=5
+        )
         rest = {"edgecolor": LINES[place], "facecolor": "none"} | _DASHED
         circle = draw_unpolarised(ax, light, rest)
         if no_ellipse(light):
             seen = {"color": LINES[place]} | _DASHED if circle else {"linestyle": "none"}
-            keys.append(Line2D([], [], label=told, **seen))
+            keys.append(Line2D([], [], label=message, **seen))
             continue
         curve = draw_ellipse(ax, light, line | {"linewidth": 1.8})
-        curve.set_label(told)
+        curve.set_label(message)
         keys.append(curve)
     if any(unpolarised_share(light) > 0.0 for light in several.values()):
         keys.append(Line2D([], [], label="unpolarised part", color=INK, **_DASHED))

@@ -118,10 +118,10 @@ def _write(ax: Axes, places: EnergyPlaces, rows: Sequence[EnergyRow], result: En
         y = places.level[row.name]
         style: dict[str, Any] = {"va": "center", "color": INK}
         name = ax.text(0.0, y, row.name, ha="right", **style)
-        told = ax.text(0.0, y, _sentence(row, total), ha="left", **style)
+        message = ax.text(0.0, y, _sentence(row, total), ha="left", **style)
         if row.told == "takes":
-            told.set_color(_TAKEN_TEXT)
-        texts.append((name, told))
+            message.set_color(_TAKEN_TEXT)
+        texts.append((name, message))
     notes = [
         ax.text(0.0, -float(len(rows) + at), note, ha="left", va="center", color=INK)
         for at, note in enumerate(result.notes)
@@ -143,18 +143,18 @@ def _fit(
         for text in (*every, *notes):
             text.set_fontsize(size)
         left = max(name.get_window_extent().width for name, _ in texts) + size
-        right = max(told.get_window_extent().width for _, told in texts) + size
+        right = max(message.get_window_extent().width for _, message in texts) + size
         longest = max([note.get_window_extent().width for note in notes], default=0.0)
         middle = whole.width - left - right
         if (middle >= _LEAST_MIDDLE * whole.width and longest <= whole.width) or size < 1.0:
             break
         size *= 0.95
     unit = places.width / middle
-    beside = 0.5 * size * unit
+    other = 0.5 * size * unit
     ax.set_xlim(-left * unit, places.width + right * unit)
-    for name, told in texts:
-        name.set_x(-beside)
-        told.set_x(places.width + beside)
+    for name, message in texts:
+        name.set_x(-other)
+        message.set_x(places.width + other)
         y = name.get_position()[1]
         ax.plot([0.0, places.width], [y, y], color=FAINT, linewidth=0.4, alpha=0.5, zorder=0.5)
     for note in notes:
@@ -248,17 +248,17 @@ class EnergyPlaces:
     def _at(self, link: EnergyLink, name: str, side: float) -> float:
         """Return the x at which a link leaves or enters a bar, beside its neighbours."""
         leaves = side < 0.0
-        beside = [
+        others = [
             each
             for each in self.drawn.links
             if (each.start if leaves else each.end) == name and not each.tap
         ]
-        beside.sort(key=lambda each: each.lane)
+        others.sort(key=lambda each: each.lane)
         row = next(row for row in self.drawn.rows if row.name == name)
         x = self.left[row.lane]
         if leaves and row.told == "takes" and link.lane > row.lane:
             x += row.power
-        for each in beside:
+        for each in others:
             if each is link:
                 return x + link.power / 2
             x += each.power

@@ -50,8 +50,8 @@ class FineSteps(NamedTuple):
         if self.resolved:
             return ""
         count = len(self.values)
-        told = f"it changes faster with {name} than {count} points tell"
-        return f"{told}; give values in a smaller range"
+        message = f"it changes faster with {name} than {count} points tell"
+        return f"{message}; give values in a smaller range"
 
 
 def fine_steps(

@@ -91,16 +91,16 @@ def draw_disc(
     return image
 
 
-def head_panel(axes: Any, given: Any, seen: SeenSide, what: str, hatched: str = "") -> None:
+def head_panel(axes: Any, argument: Any, seen: SeenSide, what: str, hatched: str = "") -> None:
     """Say above discs that are not labelled what is seen, where a caller has not their figure."""
-    if given is None:
-        told = [
+    if argument is None:
+        messages = [
             "rings: 30° and 60° from the normal",
             *(f"+ {each.get_label()}" for each in _keys(seen)),
         ]
-        told += [f"hatched: {hatched}"] if hatched else []
+        messages += [f"hatched: {hatched}"] if hatched else []
         figure = axes.flat[0].figure.figure
-        figure.suptitle(f"{seen.titled(what)}\n{'; '.join(told)}", fontsize="medium")
+        figure.suptitle(f"{seen.titled(what)}\n{'; '.join(messages)}", fontsize="medium")
 
 
 def _draw_rings(ax: Axes, seen: SeenSide, *, labelled: bool) -> None:

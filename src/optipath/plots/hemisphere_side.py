@@ -145,14 +145,14 @@ def seen_sides(
     wavelength: Any,
     source: Any,
     *,
-    beside: Sequence[str] = (),
+    others: Sequence[str] = (),
 ) -> dict[str, SeenSide]:
     """Return the sides that a picture of several samples is asked for.
 
     The wavelength is for those that were measured at several; where none was, for those at one.
     """
     most = max(map(_choices, several.values()))
-    faults = Faults(beside)
+    faults = Faults(others)
     results = {
         name: faults.attempt(
             name,

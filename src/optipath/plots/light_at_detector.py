@@ -63,16 +63,16 @@ def axis_of(
     """
     name, inputs = parameter.name, path.compose().inputs
     if values is None:
-        given = np.linspace(*usual_range(path, name), count)
-        unit, numbers = parameter.unit, given * _size(parameter.unit)
+        argument = np.linspace(*usual_range(path, name), count)
+        unit, numbers = parameter.unit, argument * _size(parameter.unit)
     else:
         read = read_values(inputs, name, values)
         _check_numbers(name, read.shown, read.given, read.unit)
-        given, unit, numbers = read.given, read.unit, np.asarray(read.shown, np.float64)
+        argument, unit, numbers = read.given, read.unit, np.asarray(read.shown, np.float64)
         if unit != parameter.unit and unit in {"rad", "m", "1/m", "rad/m"}:
-            unit, numbers = parameter.unit, given * _size(parameter.unit)
-    default = _default(inputs, parameter, given, numbers)
-    return AlongAxis(name, unit, numbers, parameter.help, default), given
+            unit, numbers = parameter.unit, argument * _size(parameter.unit)
+    default = _default(inputs, parameter, argument, numbers)
+    return AlongAxis(name, unit, numbers, parameter.help, default), argument
 
 
 def _size(unit: str) -> float:
@@ -81,9 +81,9 @@ def _size(unit: str) -> float:
 
 
 def _check_numbers(
-    name: str, numbers: npt.NDArray[Any], given: npt.NDArray[Any], unit: str
+    name: str, numbers: npt.NDArray[Any], argument: npt.NDArray[Any], unit: str
 ) -> None:
-    if numbers.dtype.kind in "USO" or given.dtype.kind == "O":
+    if numbers.dtype.kind in "USO" or argument.dtype.kind == "O":
         words = [each for each in numbers.ravel().tolist() if str(each)[:1].isalpha()]
         raise ParameterError(
             f"parameter '{name}' has the word {shown(words[0] if words else 'none')} among its "
@@ -103,7 +103,7 @@ def _check_numbers(
         )
 
 
-def _default(inputs: Inputs, parameter: Parameter, given: Any, numbers: Numbers) -> float | None:
+def _default(inputs: Inputs, parameter: Parameter, argument: Any, numbers: Numbers) -> float | None:
     """Return where the value by default lies among those that are drawn."""
     default = parameter.default
     if default is None or isinstance(default, str):
@@ -111,17 +111,17 @@ def _default(inputs: Inputs, parameter: Parameter, given: Any, numbers: Numbers)
     value = inputs.open[parameter.name].resolve(default).value
     if np.ndim(value) or np.iscomplexobj(value):
         return None
-    if not np.min(given) <= value <= np.max(given):
+    if not np.min(argument) <= value <= np.max(argument):
         return None
-    order = np.argsort(given)
-    return float(np.interp(float(value), given[order], numbers[order]))
+    order = np.argsort(argument)
+    return float(np.interp(float(value), argument[order], numbers[order]))
 
 
 def quantities_at(
     path: PathGraph,
     detector: Any,
     quantities: Sequence[DrawnQuantity],
-    given: Mapping[str, npt.NDArray[Any]],
+    arguments: Mapping[str, npt.NDArray[Any]],
     fixed: Mapping[str, Any],
     *,
     chosen: bool,
@@ -131,8 +131,8 @@ def quantities_at(
     Shape: given (count,).
     """
     end = _end(path, detector)
-    shape = tuple(map(len, given.values()))
-    spread = dict(zip(given, np.ix_(*given.values()), strict=True))
+    shape = tuple(map(len, arguments.values()))
+    spread = dict(zip(arguments, np.ix_(*arguments.values()), strict=True))
     try:
         light = path.trace_all(**spread, **fixed)[end]
         return end, [np.broadcast_to(q.of(q.light.of(light)), shape) for q in quantities]
@@ -140,7 +140,7 @@ def quantities_at(
         if not chosen:
             raise
         result = np.full((len(quantities), *shape), np.nan)
-        _fill(result, path, end, quantities, given, fixed)
+        _fill(result, path, end, quantities, arguments, fixed)
         if np.isnan(result).all():
             raise
     return end, [*result]
@@ -151,21 +151,21 @@ def _fill(
     path: PathGraph,
     end: str,
     quantities: Sequence[DrawnQuantity],
-    given: Mapping[str, npt.NDArray[Any]],
+    arguments: Mapping[str, npt.NDArray[Any]],
     fixed: Mapping[str, Any],
 ) -> None:
     """Fill in quantities; halves, and halves of these, where the path refuses some values."""
     try:
-        spread = dict(zip(given, np.ix_(*given.values()), strict=True))
+        spread = dict(zip(arguments, np.ix_(*arguments.values()), strict=True))
         light = path.trace_all(**spread, **fixed)[end]
     except ParameterError:
         count, axis = max((count, axis) for axis, count in enumerate(results.shape[1:]))
         if count == 1:
             return
-        name = [*given][axis]
+        name = [*arguments][axis]
         parts = np.array_split(results, 2, axis + 1)
-        for part, values in zip(parts, np.array_split(given[name], 2), strict=True):
-            _fill(part, path, end, quantities, {**given, name: values}, fixed)
+        for part, values in zip(parts, np.array_split(arguments[name], 2), strict=True):
+            _fill(part, path, end, quantities, {**arguments, name: values}, fixed)
     else:
         for place, quantity in enumerate(quantities):
             results[place] = quantity.of(quantity.light.of(light))
@@ -223,8 +223,8 @@ class AlongAxis(NamedTuple):
         """
         unit = "" if self.unit in {"", "1"} else f" ({_SIGNS.get(self.unit, self.unit)})"
         whats = [self.help, self.help.partition(";")[0], self.help.partition(",")[0]]
-        kept = [what for what in dict.fromkeys(whats) if 0 < len(what) <= _LONGEST]
-        said = [what if what.startswith(self.name) else f"{self.name}: {what}" for what in kept]
+        stored = [what for what in dict.fromkeys(whats) if 0 < len(what) <= _LONGEST]
+        said = [what if what.startswith(self.name) else f"{self.name}: {what}" for what in stored]
         return (*(f"{each}{unit}" for each in said), f"{self.name}{unit}")
 
     @property

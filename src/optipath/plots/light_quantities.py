@@ -110,17 +110,17 @@ def drawn_quantities(names: Any) -> list[DrawnQuantity]:
     >>> [each.label for each in drawn_quantities(("s0", "AoP"))]
     ['S0: intensity', 'AoP: angle of polarisation (°)']
     """
-    given = [names] if isinstance(names, str) else names
-    if not isinstance(given, (list, tuple)) or not given:
+    argument = [names] if isinstance(names, str) else names
+    if not isinstance(argument, (list, tuple)) or not argument:
         raise OptipathError(
             f"quantities are {shown(names)}; give a name such as 'S0', or several: ('S0', 'DoLP')"
         )
     known = {each.variable: each for each in _ALL}
     small = {name.lower(): name for name in known}
-    read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in given]
+    read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in argument]
     faults = [sentence for name in read for sentence in unknown("quantity", name, known)]
     if not faults and len({*read}) < len(read):
-        faults = [f"quantities are {shown([*given])}; give each of them once"]
+        faults = [f"quantities are {shown([*argument])}; give each of them once"]
     if faults:
         raise OptipathError(*faults)
     return [DrawnQuantity(known[name]) for name in read]

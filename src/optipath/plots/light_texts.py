@@ -88,16 +88,18 @@ def _names(labels: Any, count: int, otherwise: list[str]) -> list[str]:
     if labels is None:
         return otherwise
     if isinstance(labels, str):
-        given = [labels]
+        arguments = [labels]
     elif isinstance(labels, Sequence) and all(isinstance(each, str) for each in labels):
-        given = list(labels)
+        arguments = list(labels)
     else:
         raise OptipathError(f"labels are {shown(labels)}; give a text for each light")
-    if len(given) != count:
-        raise OptipathError(f"there are {len(given)} labels for {count} lights; give one for each")
-    if len({*given}) < count:
-        raise OptipathError(f"labels {shown(given)} name two lights alike; give each its own")
-    return given
+    if len(arguments) != count:
+        raise OptipathError(
+            f"there are {len(arguments)} labels for {count} lights; give one for each"
+        )
+    if len({*arguments}) < count:
+        raise OptipathError(f"labels {shown(arguments)} name two lights alike; give each its own")
+    return arguments
 
 
 _MINUS = "\N{MINUS SIGN}"
@@ -175,14 +177,14 @@ def figures_text(light: Light) -> str:
     >>> figures_text(op.Light([2.0, 0.0, 0.6, 0.8]))
     'S0 = 2, DoP = 0.5, AoP = 45°, b/a = 0.5'
     """
-    told = [intensity_text(light)]
+    messages = [intensity_text(light)]
     if not np.isnan(light.dop):
-        told.append(f"DoP = {digits(float(light.dop))}")
+        messages.append(f"DoP = {digits(float(light.dop))}")
     if not np.isnan(light.aop):
-        told.append(f"AoP = {angle_text(light)}")
+        messages.append(f"AoP = {angle_text(light)}")
     if light.handedness and not no_ellipse(light):
-        told.append(f"b/a = {digits(abs(float(light.ellipticity)), 3)}")
-    return ", ".join(told)
+        messages.append(f"b/a = {digits(abs(float(light.ellipticity)), 3)}")
+    return ", ".join(messages)
 
 
 def angle_text(light: Light) -> str:

@@ -83,8 +83,8 @@ def mueller(matrix: Mueller, ax: Axes | None = None) -> Axes:
     head(ax, f"M / M00, with M00 = {digits(first)}" if np.isfinite(first) else "M / M00")
     scale.bar(image, ax, "")
     if np.isnan(cells).any():
-        told = "not known (NaN)" if np.isnan(matrix.matrix).any() else "none: M00 is 0, or noise"
-        key_below(ax, [Patch(label=told, **_UNKNOWN)])
+        message = "not known (NaN)" if np.isnan(matrix.matrix).any() else "none: M00 is 0, or noise"
+        key_below(ax, [Patch(label=message, **_UNKNOWN)])
     return ax
 
 

@@ -93,19 +93,19 @@ def curve(
     quantities = drawn_quantities(y)
     units_of(quantities)
     (parameter,) = varied(path, [x], parameters)
-    along, given = axis_of(path, parameter, values, START)
-    told, chosen = "", values is None
-    asked = [*quantities, *drawn_quantities("S0")]
-    end, result = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
+    along, argument = axis_of(path, parameter, values, START)
+    message, chosen = "", values is None
+    requests = [*quantities, *drawn_quantities("S0")]
+    end, result = quantities_at(path, detector, requests, {x: argument}, parameters, chosen=chosen)
     numbers = result[:-1]
     if chosen:
         at = partial(_at, path, detector, x, parameters, quantities)
-        fine = fine_steps(given, np.stack(numbers, axis=1), at, _on_picture(quantities, result))
-        told, numbers = fine.told(x), [*fine.numbers.T]
-        along = along._replace(numbers=np.interp(fine.values, given, along.numbers))
+        fine = fine_steps(argument, np.stack(numbers, axis=1), at, _on_picture(quantities, result))
+        message, numbers = fine.told(x), [*fine.numbers.T]
+        along = along._replace(numbers=np.interp(fine.values, argument, along.numbers))
     ax = own_axes(ax, _SIZE)
-    if told:
-        head(ax, told)
+    if message:
+        head(ax, message)
     drawn = [*zip(quantities, numbers, strict=True)]
     draw_curves(ax, along, drawn, reads=reads_of(path, end))
     return ax
@@ -121,8 +121,8 @@ def _at(
 ) -> Numbers:
     """Return quantities at values of x, NaN where the path takes none of these."""
     try:
-        given = {x: values}
-        result = quantities_at(path, detector, quantities, given, parameters, chosen=True)[1]
+        arguments = {x: values}
+        result = quantities_at(path, detector, quantities, arguments, parameters, chosen=True)[1]
     except ParameterError:
         return np.full((len(values), len(quantities)), np.nan)
     return np.stack(result, axis=1)
@@ -221,9 +221,9 @@ def quantity_map(
     one, other = varied(path, [x, y], parameters)
     along, first = axis_of(path, one, x_values, _COUNT)
     up, second = axis_of(path, other, y_values, _COUNT)
-    given = {x: first, y: second}
+    arguments = {x: first, y: second}
     chosen = x_values is None and y_values is None
-    end, (numbers,) = quantities_at(path, detector, [drawn], given, parameters, chosen=chosen)
+    end, (numbers,) = quantities_at(path, detector, [drawn], arguments, parameters, chosen=chosen)
     ax = own_axes(ax, _MAP_SIZE)
     draw_map(ax, along, up, drawn, numbers, reads=reads_of(path, end))
     return ax
@@ -288,7 +288,7 @@ def _mark_default(ax: Axes, along: AlongAxis, up: AlongAxis) -> None:
             clip_on=False,
             linestyle="none",
         )
-    told = [f"{each.name} {each.default_text}" for each in (along, up)]
+    messages = [f"{each.name} {each.default_text}" for each in (along, up)]
     title = ax.set_title("", fontsize="small", color=INK)
-    wordings = [f"+ by default: {', '.join(told)}", f"+ {', '.join(told)}", "+ by default"]
+    wordings = [f"+ by default: {', '.join(messages)}", f"+ {', '.join(messages)}", "+ by default"]
     fitting_text(title, wordings, ax.get_window_extent().width * 1.1)

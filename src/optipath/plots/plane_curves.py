@@ -110,7 +110,7 @@ def in_plane(
         side,
         wavelength,
         source,
-        beside=positive("known_to", known_to),
+        others=positive("known_to", known_to),
     )
     ax, called = own_axes(ax, (7.0, 4.4)), labels(sides)
     for name, seen in sides.items():

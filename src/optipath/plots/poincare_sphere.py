@@ -172,7 +172,7 @@ def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = Non
     ['angle (°)']
     """
     (parameter,) = varied(path, [name], {})
-    along, given = axis_of(path, parameter, values, START)
+    along, argument = axis_of(path, parameter, values, START)
 
     def light_at(values: npt.NDArray[np.float64]) -> Light:
         return path.trace_all(**{name: values})[detector]
@@ -180,14 +180,14 @@ def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = Non
     def points_at(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         return sphere_point(light_at(values))
 
-    told, numbers = "", along.numbers
+    message, numbers = "", along.numbers
     if values is None:
-        fine = fine_steps(given, points_at(given), points_at, on_picture=np.asarray)
-        told, numbers = fine.told(name), np.interp(fine.values, given, numbers)
-        given = fine.values
-    ax = poincare(light_at(given), by=numbers, label=along.labels[-1])
-    if told:
-        head(ax, "\n".join(filter(None, (ax.get_title(), told))))
+        fine = fine_steps(argument, points_at(argument), points_at, on_picture=np.asarray)
+        message, numbers = fine.told(name), np.interp(fine.values, argument, numbers)
+        argument = fine.values
+    ax = poincare(light_at(argument), by=numbers, label=along.labels[-1])
+    if message:
+        head(ax, "\n".join(filter(None, (ax.get_title(), message))))
     return ax
 
 
@@ -213,23 +213,23 @@ _AXES = ("S1/S0", "right", "top"), ("S2/S0", "left", "top"), ("S3/S0", "center",
 """The names of the axes, and on which side of their ends they stand."""
 
 
-def sphere_axes(given: Any, size: tuple[float, float]) -> Axes3D:
+def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
     """Return axes with a Poincaré sphere, drawn unless it is there already.
 
     S3 > 0 is up; the far half is fainter. The picture stands still, since its halves and its
     names are those of one point of view.
     """
-    if given is None:
-        given = Figure(figsize=size, layout="constrained").add_subplot(projection="3d")
-        own_lines(given)
-    if not isinstance(given, Axes3D):
+    if argument is None:
+        argument = Figure(figsize=size, layout="constrained").add_subplot(projection="3d")
+        own_lines(argument)
+    if not isinstance(argument, Axes3D):
         raise OptipathError(
-            f"ax is {shown(given)}, and a sphere needs axes of three dimensions; give "
+            f"ax is {shown(argument)}, and a sphere needs axes of three dimensions; give "
             'figure.add_subplot(projection="3d"), or leave it out'
         )
-    if not any(line.get_gid() == _MARK for line in given.get_lines()):
-        _draw_sphere(given)
-    return given
+    if not any(line.get_gid() == _MARK for line in argument.get_lines()):
+        _draw_sphere(argument)
+    return argument
 
 
 def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:

@@ -65,7 +65,7 @@ def reflection(
     >>> [text.get_text() for text in ax.get_legend().get_texts()][-2:]
     ['pseudo-Brewster angle 62.01°', 'highest DoLP 67.41°']
     """
-    behind, front, told = _indices(index, outside, wavelength)
+    behind, front, message = _indices(index, outside, wavelength)
     ratio = behind / front
     ax = own_axes(ax, _SIZE)
     incidence = np.linspace(0.0, np.pi / 2, _COUNT)
@@ -88,19 +88,19 @@ def reflection(
         ["angle of incidence (°)", "incidence (°)"],
         ["reflectance, degree of polarisation", "reflectance, DoLP", "R, DoLP"],
     )
-    fitting_text(ax.set_title("", fontsize="medium"), told, ax.get_window_extent().width)
+    fitting_text(ax.set_title("", fontsize="medium"), message, ax.get_window_extent().width)
     legend_above([ax], lines)
     return ax
 
 
 def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float, list[str]]:
     """Return the index behind, that in front, and titles that say both."""
-    given = {"index": index, "outside": outside}
-    media = {name: _medium(name, one) for name, one in given.items()}
+    arguments = {"index": index, "outside": outside}
+    media = {name: _medium(name, one) for name, one in arguments.items()}
     depending = [name for name, one in media.items() if _depends(one)]
     if depending and wavelength is None:
         raise OptipathError(
-            f"{depending[0]} {shown(given[depending[0]])} depends on the wavelength; give one, "
+            f"{depending[0]} {shown(arguments[depending[0]])} depends on the wavelength; give one, "
             f"such as wavelength='550 nm'"
         )
     if wavelength is not None and not depending:
@@ -111,15 +111,15 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
     at = ""
     if depending:
         length, at = _one_wavelength(wavelength)
-        _check_known_there(given, media, length, at)
+        _check_known_there(arguments, media, length, at)
         media = {name: one.at(length) for name, one in media.items()}
     numbers = {name: np.asarray(one.refractive_index) for name, one in media.items()}
     faults = [
-        f"{name} is {shown(given[name])}; a picture is of one index"
+        f"{name} is {shown(arguments[name])}; a picture is of one index"
         for name, number in numbers.items()
         if number.ndim
     ]
-    behind, front = (complex(numbers[name]) if not faults else 1j for name in given)
+    behind, front = (complex(numbers[name]) if not faults else 1j for name in arguments)
     if front.imag <= CLEAR * front.real:
         front = complex(front.real)
     if not faults and (front.imag or not front.real):
@@ -131,12 +131,12 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
     if faults:
         raise OptipathError(*faults)
-    told = [f"n = {number}" for number in _told_apart(behind, front)]
+    messages = [f"n = {number}" for number in _told_apart(behind, front)]
     long = " in ".join(
         f"{one.strip()}{at if name in depending else ''}, {number}" if _is_name(one) else number
-        for (name, one), number in zip(given.items(), told, strict=True)
+        for (name, one), number in zip(arguments.items(), messages, strict=True)
     )
-    return behind, front.real, [f"reflection: {long}", long, " in ".join(told)]
+    return behind, front.real, [f"reflection: {long}", long, " in ".join(messages)]
 
 
 def _depends(medium: Material) -> bool:
@@ -152,10 +152,12 @@ def _one_wavelength(wavelength: Any) -> tuple[float, str]:
     return float(resolved), f" at {parameter.text(float(resolved))}"
 
 
-def _check_known_there(given: Any, media: Mapping[str, Material], length: float, at: str) -> None:
+def _check_known_there(
+    argument: Any, media: Mapping[str, Material], length: float, at: str
+) -> None:
     """Refuse a wavelength at which an index is not known."""
     faults = [
-        f"{name} {shown(given[name])} is not known{at}; give a wavelength within "
+        f"{name} {shown(argument[name])} is not known{at}; give a wavelength within "
         f"{span_text(one.span)}"
         for name, one in media.items()
         if not one.span[0] <= length <= one.span[1]
@@ -164,18 +166,18 @@ def _check_known_there(given: Any, media: Mapping[str, Material], length: float,
         raise OptipathError(*faults)
 
 
-def _medium(name: str, given: Any) -> Material:
+def _medium(name: str, argument: Any) -> Material:
     """Return the medium that an index, a name or a material stands for."""
-    if isinstance(given, Material):
-        return given
-    if _is_name(given):
-        return Material.named(given)
-    number = np.asarray(given_index(name, given))
+    if isinstance(argument, Material):
+        return argument
+    if _is_name(argument):
+        return Material.named(argument)
+    number = np.asarray(given_index(name, argument))
     return Material(number.real.copy(), number.imag.copy())
 
 
-def _is_name(given: Any) -> bool:
-    return isinstance(given, str) and given.strip()[:1].isalpha()
+def _is_name(argument: Any) -> bool:
+    return isinstance(argument, str) and argument.strip()[:1].isalpha()
 
 
 def _told_apart(behind: complex, front: complex) -> tuple[str, str]:
@@ -185,10 +187,10 @@ def _told_apart(behind: complex, front: complex) -> tuple[str, str]:
     (('1.5', '1'), ('1.00001', '1'))
     """
     for digits in range(4, 18):
-        told = _written(behind, digits), _written(front, digits)
-        if told[0] != told[1]:
+        messages = _written(behind, digits), _written(front, digits)
+        if messages[0] != messages[1]:
             break
-    return told
+    return messages
 
 
 def _written(index: complex, digits: int = 4) -> str:

@@ -103,8 +103,8 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     places = np.array([state.point for state in states]).reshape(-1, 3)
     draw_points(ax, places, np.tile(to_rgba(LINES[0]), (len(states), 1)), 5.5)
     keys = [_key(ax, number, link) for number, link in enumerate(links, 1)]
-    told = fitting(ax, _STRAIGHT, "x-small", less=5)
-    line = Line2D([], [], color=FAINT, linestyle=(0, (4, 2)), label=told)
+    message = fitting(ax, _STRAIGHT, "x-small", less=5)
+    line = Line2D([], [], color=FAINT, linestyle=(0, (4, 2)), label=message)
     key_below(ax, [*keys, line, *side_keys(places)], "x-small")
     if states:
         name_points(ax, on_paper(ax, places), [state.name for state in states])

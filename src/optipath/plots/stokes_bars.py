@@ -102,13 +102,13 @@ def stokes(
     'Stokes parameter\n(unit of the source)'
     """
     several = {name: without_noise(each) for name, each in lights_to_draw(light, labels).items()}
-    beside = published_for(published, light, several)
-    power = power_of_ten([*several.values()], beside.values())
+    other = published_for(published, light, several)
+    power = power_of_ten([*several.values()], other.values())
     numbers = {
         name: scaled_to(known(each.mantissa), each.exponent, power)
         for name, each in several.items()
     }
-    printed = {name: scaled_to(each, 0, power) for name, each in beside.items()}
+    printed = {name: scaled_to(each, 0, power) for name, each in other.items()}
     ax = own_axes(ax, (5.6, 4.4))
     keys = _draw_bars(ax, numbers, printed)
     ax.axhline(0.0, color=INK, linewidth=0.8)
@@ -141,10 +141,10 @@ def _draw_bars(ax: Axes, numbers: _ByName, printed: _ByName) -> list[Any]:
         if name in printed:
             ax.plot(middle, printed[name], **_PUBLISHED)
         if name or printed:
-            told = name or "computed"
-            told += ": infinite" if np.isinf(result).any() else ""
-            told += ": not read" if np.isnan(result).all() else ""
-            keys.append(Patch(label=fitting(ax, told, less=5), **style))
+            message = name or "computed"
+            message += ": infinite" if np.isinf(result).any() else ""
+            message += ": not read" if np.isnan(result).all() else ""
+            keys.append(Patch(label=fitting(ax, message, less=5), **style))
     return [*keys, Line2D([], [], label="published", **_PUBLISHED)] if printed else keys
 
 
@@ -154,11 +154,13 @@ def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
     if len(numbers) == 1:
         (result,) = numbers.values()
         texts = [_lines(text, _number(each)) for text, each in zip(texts, result, strict=True)]
-        for given in printed.values():
-            told = [f"({_number(each)})" if np.isfinite(each) else "(none)" for each in given]
-            texts = [_lines(text, each) for text, each in zip(texts, told, strict=True)]
+        for argument in printed.values():
+            messages = [
+                f"({_number(each)})" if np.isfinite(each) else "(none)" for each in argument
+            ]
+            texts = [_lines(text, each) for text, each in zip(texts, messages, strict=True)]
     if printed:
-        apart = np.array([_apart(numbers[name], given) for name, given in printed.items()])
+        apart = np.array([_apart(numbers[name], argument) for name, argument in printed.items()])
         texts = [_lines(text, _largest(each)) for text, each in zip(texts, apart.T, strict=True)]
         legend = _ONE if len(numbers) == 1 else _SEVERAL
         ax.set_xlabel(fitting(ax, legend), fontsize="small")
@@ -179,9 +181,9 @@ def _fit_numbers(ax: Axes) -> None:
         ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
 
 
-def _apart(result: Any, given: Any) -> Any:
+def _apart(result: Any, argument: Any) -> Any:
     """Return differences, 0 where they are rounding of the largest number."""
-    apart = result - given
+    apart = result - argument
     largest = np.max(np.abs(result), initial=0.0, where=np.isfinite(result))
     return np.where(np.abs(apart) <= _ROUNDING * largest, 0.0, apart)
 
@@ -231,15 +233,15 @@ def published_for(
     }
 
 
-def _numbers(what: str, given: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
-    numbers = array_of(what, given, OptipathError)
+def _numbers(what: str, argument: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+    numbers = array_of(what, argument, OptipathError)
     if numbers.shape != shape or numbers.dtype.kind not in "iuf":
         raise OptipathError(
-            f"{what} is {shown(given)}; give S0, S1, S2 and S3, numbers of shape {shape}"
+            f"{what} is {shown(argument)}; give S0, S1, S2 and S3, numbers of shape {shape}"
         )
     if np.isinf(numbers).any():
         raise OptipathError(
-            f"{what} is {shown(given)}, which is not finite; write NaN for what is missing"
+            f"{what} is {shown(argument)}, which is not finite; write NaN for what is missing"
         )
     return numbers.astype(float)
 

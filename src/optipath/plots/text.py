@@ -91,11 +91,11 @@ def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
     letters = (
         72.0 * inches_wide(ax) / (_WIDTH * FontProperties(size=size).get_size_in_points()) - less
     )
-    kept = max(_LEAST, int(letters))
+    stored = max(_LEAST, int(letters))
     # What is equal stays on one line.
     lines = text.replace(" = ", _EQUAL).split("\n")
     broken = "\n".join(
-        fill(line, kept, break_long_words=_EQUAL not in line, break_on_hyphens=False)
+        fill(line, stored, break_long_words=_EQUAL not in line, break_on_hyphens=False)
         for line in lines
     )
     return broken.replace(_EQUAL, " = ")

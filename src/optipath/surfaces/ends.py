@@ -97,7 +97,7 @@ def photon_ends(
         stokes=stokes,
         seed=seed,
         most_events=most_events,
-        beside=whole_number("photons", photons),
+        others=whole_number("photons", photons),
     )
     refuse_too_large(
         (int(photons),),

@@ -76,44 +76,46 @@ def experiment_of_text(text: str, path: Path, name: str) -> Experiment:
 
 def _experiment(document: dict[str, Any], folder: Path, name: str) -> Experiment:
     faults = Faults(type_faults("the experiment", document, TOP))
-    meant, given = as_meant(document, TOP), readable(document, TOP)
+    meant, argument = as_meant(document, TOP), readable(document, TOP)
     faults += [f"the experiment: '{key}' is missing" for key in _NEEDED if key not in meant]
-    if given.get("format", FORMAT) != FORMAT:
-        faults.append(f"format is {given['format']}, but this version reads format {FORMAT}")
+    if argument.get("format", FORMAT) != FORMAT:
+        faults.append(f"format is {argument['format']}, but this version reads format {FORMAT}")
     for key in ("photons", "sensor"):
-        faults += whole_number(key, given[key]) if key in given else []
+        faults += whole_number(key, argument[key]) if key in argument else []
     sample = (
-        faults.attempt("sample", _sample, given["sample"], folder) if "sample" in given else None
+        faults.attempt("sample", _sample, argument["sample"], folder)
+        if "sample" in argument
+        else None
     )
-    wavelengths = tuple(map(str, given.get("wavelengths", ())))
-    if sample is not None and ("wavelengths" in given or "wavelengths" not in meant):
+    wavelengths = tuple(map(str, argument.get("wavelengths", ())))
+    if sample is not None and ("wavelengths" in argument or "wavelengths" not in meant):
         faults.attempt("", _check_wavelengths, sample, wavelengths)
-    tables = given.get("measurements", [])
-    if "measurements" in given and not tables:
+    tables = argument.get("measurements", [])
+    if "measurements" in argument and not tables:
         faults.append("the experiment measures nothing; add a table [[measurements]]")
-    faults += _faults_of_sensor(tables) if "sensor" in given else []
+    faults += _faults_of_sensor(tables) if "sensor" in argument else []
     results: list[Measurement] = []
     for at, table in enumerate(tables):
         made = faults.attempt(f"measurements[{at}]", measurements_of, table, sample, wavelengths)
         results += made or []
     if faults or sample is None:
         raise SurfaceError(*dict.fromkeys(faults))
-    more = {key: given[key] for key in ("photons", "sensor") if key in given}
-    about = given["description"], given["source"], sample
+    more = {key: argument[key] for key in ("photons", "sensor") if key in argument}
+    about = argument["description"], argument["source"], sample
     return Experiment(name, *about, tuple(results), **more)
 
 
-def _sample(given: str, folder: Path) -> Sample:
+def _sample(argument: str, folder: Path) -> Sample:
     """Return a sample by its name, or out of a file beside that of the experiment or below it."""
-    if not given.endswith(".toml"):
-        return load_sample(given)
+    if not argument.endswith(".toml"):
+        return load_sample(argument)
     try:
-        there = (folder / given).resolve().is_relative_to(folder.resolve())
+        there = (folder / argument).resolve().is_relative_to(folder.resolve())
     except (OSError, RuntimeError, ValueError) as error:  # Of links that go round, and of NUL.
-        raise SurfaceError(f"{shown(given)} cannot be read: {error}") from None
+        raise SurfaceError(f"{shown(argument)} cannot be read: {error}") from None
     if not there:
-        raise SurfaceError(f"'{given}' leads out of the folder of the experiment; put it there")
-    return load_sample(folder / given)
+        raise SurfaceError(f"'{argument}' leads out of the folder of the experiment; put it there")
+    return load_sample(folder / argument)
 
 
 def _check_wavelengths(sample: Sample, wavelengths: tuple[str, ...]) -> None:
@@ -157,26 +159,26 @@ def measurements_of(
     if not isinstance(table, dict):
         raise SurfaceError(f"it must be a table headed [[measurements]], not {shown(table)}")
     faults = Faults(type_faults("", table, MEASUREMENT))
-    meant, given = as_meant(table, MEASUREMENT), readable(table, MEASUREMENT)
+    meant, argument = as_meant(table, MEASUREMENT), readable(table, MEASUREMENT)
     faults += [f"'{key}' is missing" for key in _NEEDED_BY_MEASUREMENT if key not in meant]
-    if "measure" in given:
-        faults += _faults_of_measure(given["measure"], meant, wavelengths)
-    faults += _faults_of_limits(given)
+    if "measure" in argument:
+        faults += _faults_of_measure(argument["measure"], meant, wavelengths)
+    faults += _faults_of_limits(argument)
     if "within" in meant and "published" not in meant:
         faults.append("'within' is given, but nothing is 'published'; give both, or leave it out")
-    stokes = tuple(given.get("stokes", UNPOLARISED))
+    stokes = tuple(argument.get("stokes", UNPOLARISED))
     faults.attempt("", given_beam, _PLAIN, 0.0, stokes=stokes)
-    cells = given.get("cells")
+    cells = argument.get("cells")
     faults += _faults_of_cells(cells, sample)
-    angles = given.get("incidence", [])
+    angles = argument.get("incidence", [])
     published = None
-    if "incidence" in given:
+    if "incidence" in argument:
         faults += _faults_of_incidence(angles)
-        published = faults.attempt("published", _published, given.get("published"), len(angles))
+        published = faults.attempt("published", _published, argument.get("published"), len(angles))
     if faults or published is None:
         raise SurfaceError(*dict.fromkeys(faults))
-    about = given["measure"], given["text"]
-    limits: dict[str, Any] = {name: float(given[name]) for name in _LIMITS if name in given}
+    about = argument["measure"], argument["text"]
+    limits: dict[str, Any] = {name: float(argument[name]) for name in _LIMITS if name in argument}
     return [
         Measurement(*about, Walks(angle, wavelengths, cells), number, stokes=stokes, **limits)
         for angle, number in zip(angles, published, strict=True)
@@ -184,7 +186,7 @@ def measurements_of(
 
 
 def _faults_of_measure(
-    measure: str, given: Mapping[str, Any], wavelengths: tuple[str, ...]
+    measure: str, arguments: Mapping[str, Any], wavelengths: tuple[str, ...]
 ) -> Iterator[str]:
     if measure not in MEASURES:
         yield f"measure '{measure}' is unknown{did_you_mean(measure, MEASURES)}"
@@ -192,16 +194,16 @@ def _faults_of_measure(
     if len(wavelengths) > 1 and not MEASURES[measure].several:
         yield f"measure '{measure}' is of one wavelength, but there are {len(wavelengths)}"
     for key in _BY_MEASURE:
-        if key in given and key not in MEASURES[measure].takes:
+        if key in arguments and key not in MEASURES[measure].takes:
             yield f"'{key}' is given, but measure '{measure}' does not depend on it; leave it out"
 
 
-def _faults_of_limits(given: Mapping[str, Any]) -> Iterator[str]:
+def _faults_of_limits(arguments: Mapping[str, Any]) -> Iterator[str]:
     for name in _LIMITS:
-        number, largest = real_number(given.get(name, 0.0)), _LARGEST.get(name)
+        number, largest = real_number(arguments.get(name, 0.0)), _LARGEST.get(name)
         if number is None or number < 0.0 or (largest is not None and number > largest):
             upto = "" if largest is None else f" to {largest:g}, in degrees"
-            yield f"'{name}' is {shown(given[name])}; write a number from 0{upto}"
+            yield f"'{name}' is {shown(arguments[name])}; write a number from 0{upto}"
 
 
 def _faults_of_cells(cells: int | None, sample: Sample | None) -> list[str]:
@@ -237,9 +239,11 @@ def _published(numbers: Any, angles: int) -> list[tuple[float, float] | None]:
     return [_range(number) for number in numbers]
 
 
-def _range(given: Any) -> tuple[float, float]:
-    several = given if isinstance(given, list) and len(given) == 2 else [given, given]
+def _range(argument: Any) -> tuple[float, float]:
+    several = (
+        argument if isinstance(argument, list) and len(argument) == 2 else [argument, argument]
+    )
     least, largest = (real_number(one) for one in several)
     if least is None or largest is None or least > largest:
-        raise SurfaceError(f"{shown(given)} is neither a number nor [LEAST, LARGEST]")
+        raise SurfaceError(f"{shown(argument)} is neither a number nor [LEAST, LARGEST]")
     return least, largest

@@ -95,10 +95,10 @@ def single_scattering(
     >>> single_scattering(1.5, 0.3, down, [up, (0.0, 0.0, 1.0)]).polarizance.round(3)
     array([0.591, 0.143])
     """
-    given = {"index": index, "outside": outside, "alpha": alpha}
-    given |= {} if alpha_y is None else {"alpha_y": alpha_y}
-    given |= {"incoming": incoming, "outgoing": outgoing}
-    media, alphas, before, behind = read_facets(given, masking, wavelength)
+    arguments = {"index": index, "outside": outside, "alpha": alpha}
+    arguments |= {} if alpha_y is None else {"alpha_y": alpha_y}
+    arguments |= {"incoming": incoming, "outgoing": outgoing}
+    media, alphas, before, behind = read_facets(arguments, masking, wavelength)
     kernel, media = _STABLE.specialised(media, _vanishes)
     axes = (before.z, before.x, behind.z, behind.x)
     vectors = (part for axis in axes for part in np.moveaxis(axis, -1, 0))
@@ -144,7 +144,7 @@ class FacetInputs(NamedTuple):
     behind: Frame
 
 
-def read_facets(given: Mapping[str, Any], masking: str, wavelength: Any) -> FacetInputs:
+def read_facets(arguments: Mapping[str, Any], masking: str, wavelength: Any) -> FacetInputs:
     """Return what is given as numbers.
 
     >>> up = {"incoming": (0, 0, -1), "outgoing": (0, 0, 1)}
@@ -153,15 +153,15 @@ def read_facets(given: Mapping[str, Any], masking: str, wavelength: Any) -> Face
     [1.0, 0.5, 2.0]
     """
     faults = Faults(unknown("masking", masking, MASKINGS))
-    if wavelength is not None and not any(map(depends_on_wavelength, given.values())):
+    if wavelength is not None and not any(map(depends_on_wavelength, arguments.values())):
         faults.append("wavelength is given, but no medium depends on it; leave it out")
     numbers: dict[str, Any] = {
-        name: faults.attempt("", _number, name, given[name], wavelength)
+        name: faults.attempt("", _number, name, arguments[name], wavelength)
         for name in _DOMAINS
-        if name in given
+        if name in arguments
     }
-    before: Any = faults.attempt("", frame_along, "incoming", given["incoming"], up=False)
-    behind: Any = faults.attempt("", frame_along, "outgoing", given["outgoing"], up=True)
+    before: Any = faults.attempt("", frame_along, "incoming", arguments["incoming"], up=False)
+    behind: Any = faults.attempt("", frame_along, "outgoing", arguments["outgoing"], up=True)
     if not faults:
         shaped = numbers | {"incoming": before.z[..., 0], "outgoing": behind.z[..., 0]}
         shapes = {name: value.shape for name, value in shaped.items()}
@@ -206,18 +206,18 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
     array([0., 1., 0.])
     """
     check_known(name, direction)
-    given, rounding = vectors(name, direction), rounding_in(direction)
+    argument, rounding = vectors(name, direction), rounding_in(direction)
     # Of components of which each is at most 1, so that no square overflows.
-    size = np.max(np.abs(given), axis=-1, initial=0.0, keepdims=True)
-    given = given / np.where(size > 2.0, size / 2.0, 1.0)
-    length = np.linalg.norm(given, axis=-1)
+    size = np.max(np.abs(argument), axis=-1, initial=0.0, keepdims=True)
+    argument = argument / np.where(size > 2.0, size / 2.0, 1.0)
+    length = np.linalg.norm(argument, axis=-1)
     if np.any(bad := np.abs(length - 1.0) > max(_UNIT, 2.0 * rounding)):
         raise SurfaceError(
             f"{name}{first_place(bad)} is no unit vector; divide it by its length, "
             f"v / np.linalg.norm(v, axis=-1, keepdims=True)"
         )
     # What is one to the last digits keeps them, by which directions next to each other differ.
-    z = given / np.where(np.abs(length - 1.0) > _LAST_DIGITS, length, 1.0)[..., np.newaxis]
+    z = argument / np.where(np.abs(length - 1.0) > _LAST_DIGITS, length, 1.0)[..., np.newaxis]
     _check_side(name, z[..., 2], max(rounding, _LEVEL), up=up)
     x = _across_meridian(z)
     return Frame.trusted(x, np.cross(z, x), z, rounding)

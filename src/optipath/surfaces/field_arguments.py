@@ -128,40 +128,40 @@ def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
     Shape: heights (rows, columns).
     """
     try:
-        given = as_given("the array of heights", heights, SurfaceError)
+        argument = as_given("the array of heights", heights, SurfaceError)
     except SurfaceError as fault:
         faults += fault.faults
         return np.zeros((2, 2))
-    if given.dtype.kind not in "iuf":
-        faults.append(f"heights must be real numbers, not an array of {given.dtype}")
+    if argument.dtype.kind not in "iuf":
+        faults.append(f"heights must be real numbers, not an array of {argument.dtype}")
         return np.zeros((2, 2))
-    if given.ndim != 2:
+    if argument.ndim != 2:
         faults.append(
             f"heights must have two dimensions, rows along y and columns along x, not the shape "
-            f"{given.shape}"
+            f"{argument.shape}"
         )
         return np.zeros((2, 2))
-    kept = np.array(as_doubles(given), order="C")
+    stored = np.array(as_doubles(argument), order="C")
     least = 2 if periodic else 3
-    if min(kept.shape) < least:
+    if min(stored.shape) < least:
         faults.append(
-            f"heights of shape {kept.shape} are too few; give {least} x {least} or more, for "
+            f"heights of shape {stored.shape} are too few; give {least} x {least} or more, for "
             f"2 x 2 cells"
         )
-    if (bad := np.argwhere(~np.isfinite(kept))).size:
+    if (bad := np.argwhere(~np.isfinite(stored))).size:
         row, column = map(int, bad[0])
         faults.append(
-            f"{len(bad)} of {kept.size} heights {'is' if len(bad) == 1 else 'are'} not finite, "
-            f"the first {kept[row, column]} at heights[{row}, {column}]; cut these out, or fill "
+            f"{len(bad)} of {stored.size} heights {'is' if len(bad) == 1 else 'are'} not finite, "
+            f"the first {stored[row, column]} at heights[{row}, {column}]; cut these out, or fill "
             f"them with heights around them"
         )
-    elif (steepest := np.abs(kept).max(initial=0.0)) > _FARTHEST:
+    elif (steepest := np.abs(stored).max(initial=0.0)) > _FARTHEST:
         faults.append(
             f"heights reach {steepest:.3g}; give them in a unit in which they are numbers "
             f"of {_FARTHEST:g} at most"
         )
-    kept.setflags(write=False)
-    return kept
+    stored.setflags(write=False)
+    return stored
 
 
 def _rounded_up(number: float) -> float:

@@ -136,8 +136,8 @@ class HeightField(Unchanging):
         >>> brushed.cells, brushed.isotropic
         ((240, 240), False)
         """
-        given = RandomField.of(alpha, alpha_y, size, cells, waves, seed, periodic=periodic)
-        return cls(given.heights(), given.size, given.periodic, given.alpha)
+        argument = RandomField.of(alpha, alpha_y, size, cells, waves, seed, periodic=periodic)
+        return cls(argument.heights(), argument.size, argument.periodic, argument.alpha)
 
     @classmethod
     def flat(cls) -> HeightField:

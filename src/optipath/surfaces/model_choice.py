@@ -101,24 +101,24 @@ def decide(
         wavelength=wavelengths,
         seed=seed,
         most_events=most_events,
-        beside=faults,
+        others=faults,
     )
     if side == "transmitted" and beam.indices.opaque:
         raise SurfaceError("nothing goes through an opaque sample; give side='reflected'")
     angle = float(np.arctan2(beam.sin, beam.cos))
     smooth = smooth_difference(beam.indices, angle, side)
     change = f"{100.0 * smooth:z.3f} %"
-    told = [f"smooth interfaces, exact: polarisation changes all {side} light by {change}"]
+    messages = [f"smooth interfaces, exact: polarisation changes all {side} light by {change}"]
     if _is_flat(sample):
         model = "scalar" if abs(smooth) <= tolerance else "polarized"
-        told.append("the sample is flat, so that this is all")
-        return ModelChoice(model, float(tolerance), (), smooth, None, None, None, tuple(told))
+        messages.append("the sample is flat, so that this is all")
+        return ModelChoice(model, float(tolerance), (), smooth, None, None, None, tuple(messages))
     if len(sample.layers) > 1 and side == "reflected":
-        told.append(_exit_evidence(sample, angle, wavelengths))
+        messages.append(_exit_evidence(sample, angle, wavelengths))
     walked = {"photons": photons, "wavelengths": wavelengths, "sensor": sensor, "seed": seed}
     walked |= {"azimuth": azimuth, "most_events": most_events, "threads": threads}
     run = PairedRun(sample, angle, cast("PixelMask", mask), side, walked | {"progress": progress})
-    return chosen_model(run, float(tolerance), smooth, told)
+    return chosen_model(run, float(tolerance), smooth, messages)
 
 
 def _exit_evidence(sample: Sample, incidence: float, wavelengths: Any) -> str:
@@ -202,11 +202,11 @@ class ModelChoice:
         """The decision in one sentence."""
         needed = self.model == "polarized" and not self.undecided
         what = "the polarised model is needed" if needed else _TOLD[self.model]
-        told = f"{what} for a tolerance of {100.0 * self.tolerance:g} %"
+        message = f"{what} for a tolerance of {100.0 * self.tolerance:g} %"
         if not self.undecided:
-            return told
+            return message
         which = " or ".join([_NAMES[name] for name in self.undecided])
-        return f"{told}; whether {which} would do, the noise does not tell"
+        return f"{message}; whether {which} would do, the noise does not tell"
 
 
 _TOLD = {
@@ -307,7 +307,7 @@ class PairedRun:
 
 
 def chosen_model(
-    run: PairedRun, tolerance: float, smooth: float, told: Sequence[str]
+    run: PairedRun, tolerance: float, smooth: float, messages: Sequence[str]
 ) -> ModelChoice:
     """Return the simplest model that photons allow."""
     single, multiple, apart, evidence = _single_scattering(run, tolerance)
@@ -318,8 +318,8 @@ def chosen_model(
         f"{_verdict(difference, tolerance)}"
     )
     model = "single-scattering" if single else "scalar" if scalar else "polarized"
-    asked = {"single-scattering": single, "scalar": scalar}
-    undecided = () if single else tuple([name for name, good in asked.items() if good is None])
+    requests = {"single-scattering": single, "scalar": scalar}
+    undecided = () if single else tuple([name for name, good in requests.items() if good is None])
     return ModelChoice(
         model,
         tolerance,
@@ -328,7 +328,7 @@ def chosen_model(
         _known(difference),
         _known(multiple),
         _known(apart),
-        (*told, run.told, *evidence),
+        (*messages, run.told, *evidence),
     )
 
 
@@ -339,7 +339,7 @@ def _single_scattering(
     if reason := _beyond_the_model(run):
         return False, None, None, [f"single scattering: {reason}"]
     multiple, apart = run.multiple, run.beside_model
-    told = [
+    messages = [
         (
             f"of a pixel's light at most {multiple} has met the surface more than once, noise "
             "taken in"
@@ -349,7 +349,7 @@ def _single_scattering(
             f"{_verdict(apart, tolerance)}"
         ),
     ]
-    return _serves(apart, tolerance), multiple, apart, told
+    return _serves(apart, tolerance), multiple, apart, messages
 
 
 def _known(result: LargestOf | None) -> tuple[float, float] | None:
@@ -406,11 +406,11 @@ class LargestOf(NamedTuple):
         0.05 True True
         """
         sizes, known = np.abs(np.ravel(values)), np.ravel(errors)
-        told = ~np.isnan(sizes)
-        if not told.any():
+        message = ~np.isnan(sizes)
+        if not message.any():
             return cls(np.nan, np.nan, 0.0, np.inf)
         # A pixel that is dark at one of several wavelengths has no ratio there.
-        sizes, known = np.where(told, sizes, 0.0), np.where(told, known, np.nan)
+        sizes, known = np.where(message, sizes, 0.0), np.where(message, known, np.nan)
         known = np.where(np.isnan(known), np.inf, known)
         at = int(np.argmax(sizes))
         # The tail of the normal distribution beyond k is below exp(-k^2 / 2).

@@ -330,7 +330,7 @@ def replayed_photon(
         stokes=stokes,
         seed=seed,
         most_events=most_events,
-        beside=whole_number("number", number, 0),
+        others=whole_number("number", number, 0),
     )
     refuse_too_large(
         (beam.most_events + 1,),

@@ -108,8 +108,8 @@ class Sample(Unchanging):
         if faults:
             raise SurfaceError(*faults)
         surfaces, seed = int(self.surfaces), int(self.seed)
-        kept = {"outside": outside, "cells": cells, "surfaces": surfaces, "seed": seed}
-        vars(self).update(kept, layers=layers, periodic=periodic)
+        stored = {"outside": outside, "cells": cells, "surfaces": surfaces, "seed": seed}
+        vars(self).update(stored, layers=layers, periodic=periodic)
 
     @property
     def isotropic(self) -> bool:
@@ -308,8 +308,8 @@ class Sample(Unchanging):
     def _unusual(self) -> dict[str, Any]:
         """Return what is given besides the layers, and is not what it is by default."""
         usual = {each.name: each.default for each in dataclasses.fields(self)}
-        given = {name: getattr(self, name) for name in usual if name != "layers"}
-        return {name: value for name, value in given.items() if value != usual[name]}
+        arguments = {name: getattr(self, name) for name in usual if name != "layers"}
+        return {name: value for name, value in arguments.items() if value != usual[name]}
 
     def __repr__(self) -> str:
         others = [f"{name}={value!r}" for name, value in self._unusual().items()]

@@ -113,13 +113,13 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
         faults.append(f"the sample: 'format' is missing; add format = {FORMAT}")
     if not as_meant(document, TOP).get("layers"):
         faults.append("the sample has no layers; add a table [[layers]] for each, from the top")
-    given = readable(document, TOP)
-    tables = given.pop("layers", [])
-    outside = faults.attempt("outside", _index, given.pop("outside", 1.0))
-    given |= {"outside": 1.0 if outside is None else outside}
+    argument = readable(document, TOP)
+    tables = argument.pop("layers", [])
+    outside = faults.attempt("outside", _index, argument.pop("outside", 1.0))
+    argument |= {"outside": 1.0 if outside is None else outside}
     layers = [_layer(f"layers[{at}]", table, folder, faults) for at, table in enumerate(tables)]
-    given.pop("format", None)
-    made = faults.attempt("", Sample, layers or [(_INDEX, _ROUGHNESS)], **given)
+    argument.pop("format", None)
+    made = faults.attempt("", Sample, layers or [(_INDEX, _ROUGHNESS)], **argument)
     if made is None or faults:
         raise SurfaceError(*faults)
     return made
@@ -131,13 +131,13 @@ def _layer(where: str, table: Any, folder: Path, faults: Faults) -> SampleLayer:
         faults.append(f"{where} must be a table headed [[layers]], not {shown(table)}")
         return SampleLayer(_INDEX, _ROUGHNESS)
     faults += type_faults(where, table, LAYER)
-    given = readable(table, LAYER)
-    if "index" not in given:
+    argument = readable(table, LAYER)
+    if "index" not in argument:
         faults.append(f"{where}: 'index' is missing; write that of the medium below")
-    index = faults.attempt(f"{where}.index", _index, given.get("index", _INDEX))
+    index = faults.attempt(f"{where}.index", _index, argument.get("index", _INDEX))
     rough = None
-    if "heights" in given or "heights" not in as_meant(table, LAYER):
-        rough = faults.attempt(where, roughness_of_table, given, folder)
+    if "heights" in argument or "heights" not in as_meant(table, LAYER):
+        rough = faults.attempt(where, roughness_of_table, argument, folder)
     return SampleLayer(_INDEX if index is None else index, *(rough or (_ROUGHNESS,)))
 
 

@@ -90,64 +90,66 @@ class SampleLayer:
     __hash__ = None  # type: ignore[assignment]
 
 
-def layer_of(owner: str, given: Any, domain: Domain) -> SampleLayer:
+def layer_of(owner: str, arguments: Any, domain: Domain) -> SampleLayer:
     """Return a layer as a sample keeps it."""
-    file = given.file if isinstance(given, SampleLayer) else ""
-    if isinstance(given, SampleLayer):
-        given = given.index, given.roughness
-    if not isinstance(given, (tuple, list)) or len(given) != 2:
+    file = arguments.file if isinstance(arguments, SampleLayer) else ""
+    if isinstance(arguments, SampleLayer):
+        arguments = arguments.index, arguments.roughness
+    if not isinstance(arguments, (tuple, list)) or len(arguments) != 2:
         raise SurfaceError(
-            f"{owner} is {shown(given)}; give a pair of the index of refraction below and the "
+            f"{owner} is {shown(arguments)}; give a pair of the index of refraction below and the "
             f"roughness, such as (1.5, 0.1)"
         )
     faults = Faults()
-    index = faults.attempt("", medium_of, f"{owner}.index", given[0], domain)
-    roughness = faults.attempt("", _roughness_of, f"{owner}.alpha", given[1])
+    index = faults.attempt("", medium_of, f"{owner}.index", arguments[0], domain)
+    roughness = faults.attempt("", _roughness_of, f"{owner}.alpha", arguments[1])
     if faults or index is None or roughness is None:
         raise SurfaceError(*faults)
     return SampleLayer(index, roughness, file)
 
 
-def _roughness_of(owner: str, given: Any) -> Roughness:
+def _roughness_of(owner: str, argument: Any) -> Roughness:
     """Return the roughness along x and y, or heights as they are given."""
-    if isinstance(given, HeightField):
-        return given
-    given = given.tolist() if isinstance(given, np.ndarray) else given
-    both = given if isinstance(given, (tuple, list)) else (given, given)
+    if isinstance(argument, HeightField):
+        return argument
+    argument = argument.tolist() if isinstance(argument, np.ndarray) else argument
+    both = argument if isinstance(argument, (tuple, list)) else (argument, argument)
     if len(both) != 2:
         raise SurfaceError(
-            f"{owner} is {shown(given)}; give one number, a pair along x and y, or heights"
+            f"{owner} is {shown(argument)}; give one number, a pair along x and y, or heights"
         )
     along_x, along_y = [_alpha_of(owner, one) for one in both]
     if (along_x == 0.0) != (along_y == 0.0):
         raise SurfaceError(
-            f"{owner} is {shown(given)}; give two numbers above 0, or 0 for a flat interface"
+            f"{owner} is {shown(argument)}; give two numbers above 0, or 0 for a flat interface"
         )
     return along_x, along_y
 
 
-def _alpha_of(owner: str, given: Any) -> float:
-    if isinstance(given, Parameter) or is_traced(given):
-        what = given.called if isinstance(given, Parameter) else "traced by JAX"
+def _alpha_of(owner: str, argument: Any) -> float:
+    if isinstance(argument, Parameter) or is_traced(argument):
+        what = argument.called if isinstance(argument, Parameter) else "traced by JAX"
         raise SurfaceError(f"{owner} is {what}; give a number, and make a sample for each")
-    result = ALPHA.check(owner, given)
+    result = ALPHA.check(owner, argument)
     if result.ndim:
-        raise SurfaceError(f"{owner} has {shown(given)} for one number; give a pair along x and y")
+        raise SurfaceError(
+            f"{owner} has {shown(argument)} for one number; give a pair along x and y"
+        )
     return float(result)
 
 
-def layers_of(given: Any, faults: Faults) -> tuple[SampleLayer, ...]:
+def layers_of(argument: Any, faults: Faults) -> tuple[SampleLayer, ...]:
     """Return the layers of a sample as it keeps them."""
-    if not isinstance(given, (list, tuple)) or not given:
+    if not isinstance(argument, (list, tuple)) or not argument:
         faults.append(
-            f"layers is {shown(given)}; give a list with a pair for each interface, the index of "
-            f"refraction below it and its roughness, such as [(1.5, 0.1)]"
+            f"layers is {shown(argument)}; give a list with a pair for each interface, the "
+            f"index of refraction below it and its roughness, such as [(1.5, 0.1)]"
         )
         return ()
-    domains = [CLEAR_MEDIUM] * (len(given) - 1) + [BASE]
+    domains = [CLEAR_MEDIUM] * (len(argument) - 1) + [BASE]
     results = [
         faults.attempt("", layer_of, f"layers[{place}]", layer, domain)
-        for place, (layer, domain) in enumerate(zip(given, domains, strict=True))
+        for place, (layer, domain) in enumerate(zip(argument, domains, strict=True))
     ]
     return tuple([layer for layer in results if layer is not None])
 
@@ -287,12 +289,12 @@ def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
 
     Units: wavelength in metres.
     """
-    given = _given(media.values(), wavelength)
+    argument = _given(media.values(), wavelength)
     domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]
     faults = Faults()
     results: dict[str, Parts] = {}
     for (place, medium), domain in zip(media.items(), domains, strict=True):
-        parts = faults.attempt("", _parts_at, place, medium, domain, given)
+        parts = faults.attempt("", _parts_at, place, medium, domain, argument)
         results |= {} if parts is None else {place: parts}
     if not faults:
         faults += _faults_of_several(results)
@@ -300,7 +302,7 @@ def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
         raise SurfaceError(*dict.fromkeys(faults))
     *above, (n, k) = results.values()
     outside, *inner = [float(np.ravel(clear)[0]) for clear, _ in above]
-    shape = np.shape(given[WHEN].value) if given else ()
+    shape = np.shape(argument[WHEN].value) if argument else ()
     return SampleIndices(outside, tuple(inner), _laid_out(n, shape), _laid_out(k, shape))
 
 
@@ -321,31 +323,31 @@ def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     if is_traced(wavelength):
         raise SurfaceError("wavelength is traced by JAX, but samples have no slopes; give a number")
     try:
-        given = Wavelength().resolve(wavelength)
+        argument = Wavelength().resolve(wavelength)
     except OptipathError as error:
         raise SurfaceError(*error.faults) from None
-    if not given.value.size:
+    if not argument.value.size:
         raise SurfaceError("wavelength is empty; give one or more")
-    return {WHEN: given}
+    return {WHEN: argument}
 
 
-def _parts_at(place: str, medium: Any, domain: Domain, given: Mapping[str, Resolved]) -> Parts:
+def _parts_at(place: str, medium: Any, domain: Domain, arguments: Mapping[str, Resolved]) -> Parts:
     """Return n and k of a medium at the wavelengths that are given."""
     if not depends_on_wavelength(medium):
         return np.asarray(np.real(medium)), np.asarray(np.imag(medium))
-    n, k = [_part_at(place, Use(*part), given) for part in domain.parts(place, medium)]
+    n, k = [_part_at(place, Use(*part), arguments) for part in domain.parts(place, medium)]
     domain.check(place, n + 1j * k)
     return n, k
 
 
-def _part_at(place: str, use: Use, given: Mapping[str, Resolved]) -> Any:
+def _part_at(place: str, use: Use, arguments: Mapping[str, Resolved]) -> Any:
     if not isinstance(use.value, CurveValue):
         return np.asarray(use.value)
     when, _ = use.with_arguments()
     # Of n and k of one curve it is told once.
-    replace(when, owner=place).check_given(given[WHEN].value)
-    numbers = use.value.computed(given).value
-    use.check_given(numbers, THERE, given)
+    replace(when, owner=place).check_given(arguments[WHEN].value)
+    numbers = use.value.computed(arguments).value
+    use.check_given(numbers, THERE, arguments)
     return use.value.placed(numbers)
 
 

@@ -149,10 +149,10 @@ def flat_light(seen: SensedBeam) -> PartSums:
     for place, side in enumerate(seen.sides):
         matrices, scalar = _by_stack(seen, side)
         numbers = np.column_stack([matrices.reshape(len(scalar), 16), scalar])
-        kept = {"both": slice(17), "polarized": slice(16), "scalar": slice(16, 17)}
+        stored = {"both": slice(17), "polarized": slice(16), "scalar": slice(16, 17)}
         pixel = seen.sensor.place(_direction(seen, side))
         image = result.sums[0, place].reshape(-1, *seen.shape[-2:])
-        image[pixel] = numbers[:, kept[seen.polarized]]
+        image[pixel] = numbers[:, stored[seen.polarized]]
     return result
 
 

@@ -43,7 +43,7 @@ _LARGE = 1 << 22
 
 def grid_of(
     inputs: Inputs,
-    given: Mapping[str, Any],
+    arguments: Mapping[str, Any],
     zip: Any = (),  # noqa: A002 - as `path.sweep` has it
     coords: Any = None,
     *,
@@ -52,18 +52,18 @@ def grid_of(
     """Return the grid of a sweep."""
     faults: list[str] = []
     besides = given_coords(inputs, coords, faults)
-    twice = [name for name in given if name in besides]
+    twice = [name for name in arguments if name in besides]
     drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
     faults += [
         f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
         for name in twice
     ]
-    several = {name: GivenCoordinate(value) for name, value in given.items()} | besides
+    several = {name: GivenCoordinate(value) for name, value in arguments.items()} | besides
     values = _read(inputs, several, faults)
     dimensions = {name: several[name].dimension or name for name in values}
     own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
     dimensions |= zipped_dimensions(zip, own, {*inputs.open, *values}, faults)
-    along = {name: value.dims[0] for name, value in given.items() if is_labelled(value, axes=1)}
+    along = {name: value.dims[0] for name, value in arguments.items() if is_labelled(value, axes=1)}
     faults += shared_dimensions(along, dimensions)
     faults += _named_as_others(dimensions, values, inputs)
     faults += unnamed_arrays(inputs, several)
@@ -76,8 +76,8 @@ def grid_of(
         half = value.shown.dtype == np.float16
         shown = value.shown.astype(np.float32) if half else value.shown
         if numbers.ndim:
-            told = value._replace(shown=shown)
-            axes.append(sweep_axis(inputs.open, name, told, dimensions[name]))
+            message = value._replace(shown=shown)
+            axes.append(sweep_axis(inputs.open, name, message, dimensions[name]))
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
             labels[name] = shown, value.unit
@@ -98,8 +98,8 @@ def _read(
 ) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
     results = {}
-    told = {n: g.value for n, g in several.items() if not isinstance(g.value, IdleValues)}
-    faults += unknown_names(inputs, told)
+    messages = {n: g.value for n, g in several.items() if not isinstance(g.value, IdleValues)}
+    faults += unknown_names(inputs, messages)
     for name, (value, _) in several.items():
         if name not in inputs.open and not isinstance(value, IdleValues):
             continue
@@ -201,28 +201,30 @@ def zipped_dimensions(
     groups = _groups(zipped, faults)
     results: dict[str, str] = {}
     for dimension, names in groups:
-        told = [
+        messages = [
             f"zip names '{name}', which has no axis of its own{did_you_mean(name, lengths)}"
             for name in names
             if name not in lengths
         ]
-        told += [
+        messages += [
             f"zip names '{name}' twice; write it in one group, once"
             for name in dict.fromkeys(names)
             if name in results or names.count(name) > 1
         ]
         if dimension in parameters:
-            told.append(
+            messages.append(
                 f"zip calls a dimension '{dimension}', which is the name of a parameter; give it "
                 f"another, such as zip={{'point': {(*names,)}}}"
             )
         if dimension in results.values():
-            told.append(f"zip has two dimensions '{dimension}'; name them by zip={{...}}")
-        if not told and len({lengths[name] for name in names}) > 1:
+            messages.append(f"zip has two dimensions '{dimension}'; name them by zip={{...}}")
+        if not messages and len({lengths[name] for name in names}) > 1:
             counted = listed([f"{lengths[name]} of '{name}'" for name in names])
-            told.append(f"zip pairs values one by one, but there are {counted}; give as many each")
-        faults += told
-        if not told:
+            messages.append(
+                f"zip pairs values one by one, but there are {counted}; give as many each"
+            )
+        faults += messages
+        if not messages:
             results |= dict.fromkeys(names, dimension)
     return results
 

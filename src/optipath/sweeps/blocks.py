@@ -59,8 +59,8 @@ def keep_blocks(
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
-    kept = BlockStore.of(job, given_file(store, JobError))
-    done = kept.done(job)
+    stored = BlockStore.of(job, given_file(store, JobError))
+    done = stored.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
     if missing:
@@ -68,20 +68,20 @@ def keep_blocks(
         try:
             with (
                 workers_of(scheduler, len(missing)) as workers,
-                closing(_handed_out(job, kept, missing, workers)) as result,
+                closing(_handed_out(job, stored, missing, workers)) as result,
             ):
                 are_at_work = workers.stay
                 for finished, _ in enumerate(result, len(done) + 1):
                     _tell(progress, finished, job)
         except KeyboardInterrupt:
             # Blocks that were in work have come to their end meanwhile.
-            _tell(progress, sum(map(kept.holds, range(job.blocks))), job)
+            _tell(progress, sum(map(stored.holds, range(job.blocks))), job)
             raise
         except OptipathError:
             if not are_at_work:  # They might write into another job's store of the same name.
-                kept.discard_unused()
+                stored.discard_unused()
             raise
-    return kept.folder
+    return stored.folder
 
 
 def _tell(progress: Callable[[int, int], None] | None, done: int, job: BlockJob) -> None:
@@ -90,7 +90,7 @@ def _tell(progress: Callable[[int, int], None] | None, done: int, job: BlockJob)
 
 
 def _handed_out(
-    job: BlockJob, kept: BlockStore, numbers: list[int], workers: Workers
+    job: BlockJob, stored: BlockStore, numbers: list[int], workers: Workers
 ) -> Generator[int]:
     """Yield the numbers of blocks as they are done, of which a few at a time are handed out."""
     ahead = iter(numbers)
@@ -99,7 +99,7 @@ def _handed_out(
         while True:
             for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
                 part = _sent(job, number)
-                pending[workers.executor.submit(_keep_block, part, kept, number)] = number
+                pending[workers.executor.submit(_keep_block, part, stored, number)] = number
             if not pending:
                 return
             for each in wait(pending, return_when=FIRST_COMPLETED).done:
@@ -117,12 +117,12 @@ def _sent(job: BlockJob, number: int) -> BlockPart:
     return job if part is None else part(number)
 
 
-def _keep_block(job: BlockPart, kept: BlockStore, number: int) -> OptipathError | None:
+def _keep_block(job: BlockPart, stored: BlockStore, number: int) -> OptipathError | None:
     """Compute a block and keep it; return what is wrong, which clusters log where it is raised."""
     try:
         # Another run, or a worker that was thought lost, may have done it.
-        if not kept.holds(number):
-            kept.keep(number, job.compute(number))
+        if not stored.holds(number):
+            stored.keep(number, job.compute(number))
     except OptipathError as fault:
         return fault
     return None
@@ -131,7 +131,7 @@ def _keep_block(job: BlockPart, kept: BlockStore, number: int) -> OptipathError 
 def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
     """Raise what went wrong with a block, as it is or, where its worker was lost, in a sentence."""
     try:
-        told = finished.result()
+        message = finished.result()
     except CancelledError:
         raise JobError(
             f"the cluster was lost while block {number} was computed; start again when it is "
@@ -145,5 +145,5 @@ def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
             f"memory perhaps; make blocks smaller or workers fewer and start again, and what is "
             f"done is not computed again"
         ) from None
-    if told is not None:
-        raise told
+    if message is not None:
+        raise message

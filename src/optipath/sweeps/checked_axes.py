@@ -31,8 +31,8 @@ def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list
     What combinations of values do not fit together is found when they are run.
     """
     faults = broadcast_fault({"a sweep": grid.shape})
-    given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
-    for name, value in given.items():
+    arguments = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
+    for name, value in arguments.items():
         uses = tuple([use for use in inputs.uses if use.value.name == name])
         with collecting(faults):
             if any(use.domain.takes_any for use in uses):
@@ -53,7 +53,7 @@ def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
     return faults
 
 
-def unnamed_arrays(inputs: Inputs, given: Collection[str]) -> list[str]:
+def unnamed_arrays(inputs: Inputs, arguments: Collection[str]) -> list[str]:
     """Return what is wrong with a path that has arrays, of which no axis has the name."""
     faults = [
         f"{owner} has an array of shape {shape}, and no axis has its name; put a Parameter there, "
@@ -62,7 +62,7 @@ def unnamed_arrays(inputs: Inputs, given: Collection[str]) -> list[str]:
         if shape
     ]
     for name, parameter in inputs.open.items():
-        if name in given:
+        if name in arguments:
             continue
         if parameter.default is None and name in KEYWORDS:
             faults.append(
@@ -97,7 +97,7 @@ _OPTIONS = frozenset(each.name for each in fields(Composer)) - {"keep"}
 """Of a composer, which is given besides and not composed by hand."""
 
 
-def unknown_names(inputs: Inputs, given: Mapping[str, Any]) -> list[str]:
+def unknown_names(inputs: Inputs, arguments: Mapping[str, Any]) -> list[str]:
     """Return what is wrong with names that no parameter has.
 
     >>> import optipath as op
@@ -106,13 +106,13 @@ def unknown_names(inputs: Inputs, given: Mapping[str, Any]) -> list[str]:
     ["'engine' and 'dtype' are no parameters of the path; give \
 composer=op.Composer(engine='numba', dtype='float32')"]
     """
-    unknown = [name for name in given if name not in inputs.open]
+    unknown = [name for name in arguments if name not in inputs.open]
     chosen = {*inputs.open, *inputs.bound, *inputs.choices}
     options = [name for name in unknown if name in _OPTIONS and closest(name, chosen) is None]
     faults = [inputs.unknown(name) for name in unknown if name not in options]
     if options:
         names = listed([f"'{name}'" for name in options])
         are = "is no parameter" if len(options) == 1 else "are no parameters"
-        written = ", ".join(f"{name}={shown(given[name])}" for name in options)
+        written = ", ".join(f"{name}={shown(arguments[name])}" for name in options)
         faults.append(f"{names} {are} of the path; give composer=op.Composer({written})")
     return faults

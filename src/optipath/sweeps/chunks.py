@@ -165,8 +165,8 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
 
 def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slice]:
     """Return an index as a slice for each dimension."""
-    told = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
-    return told + [slice(None)] * (len(shape) - len(told))
+    messages = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
+    return messages + [slice(None)] * (len(shape) - len(messages))
 
 
 BLOCK = 1 << 20
@@ -186,8 +186,8 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
             "chunks= and store= cut axes into blocks, and there is no axis; give several values "
             "for a parameter, or leave them out"
         )
-    told = _told(chunks, sizes)
-    results = {name: min(sizes[name], size) for name, size in told.items()}
+    message = _told(chunks, sizes)
+    results = {name: min(sizes[name], size) for name, size in message.items()}
     room = BLOCK // detectors
     for size in results.values():
         room //= size
@@ -207,10 +207,12 @@ def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     )
     if isinstance(chunks, Mapping):
         faults = [fault for name in chunks for fault in unknown("dimension", name, sizes)]
-        given = {name: size for name, size in chunks.items() if name in sizes and not _auto(size)}
-        wrong = [(f"chunks of '{name}'", size) for name, size in given.items()]
+        arguments = {
+            name: size for name, size in chunks.items() if name in sizes and not _auto(size)
+        }
+        wrong = [(f"chunks of '{name}'", size) for name, size in arguments.items()]
     else:
-        faults, given, wrong = [], dict.fromkeys(sizes, chunks), [("chunks", chunks)]
+        faults, arguments, wrong = [], dict.fromkeys(sizes, chunks), [("chunks", chunks)]
     faults += [
         f"{what} cannot be {shown(size)}: {forms}; -1 keeps a dimension whole"
         for what, size in wrong
@@ -218,7 +220,7 @@ def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     ]
     if faults:
         raise ParameterError(*faults)
-    return {name: sizes[name] if size == -1 else int(size) for name, size in given.items()}
+    return {name: sizes[name] if size == -1 else int(size) for name, size in arguments.items()}
 
 
 def _auto(size: Any) -> bool:

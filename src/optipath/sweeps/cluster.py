@@ -38,26 +38,26 @@ def threads_of(client: Client) -> int:
 
 
 @contextmanager
-def client_of(given: str | Client, blocks: int) -> Iterator[Client]:
+def client_of(argument: str | Client, blocks: int) -> Iterator[Client]:
     """Have a client; what is made for it is closed afterwards."""
-    if given == "processes":
+    if argument == "processes":
         with _processes(min(CPU_COUNT, blocks)) as client:
             yield client
-    elif isinstance(given, str):
-        with _reached(given) as client:
+    elif isinstance(argument, str):
+        with _reached(argument) as client:
             yield client
     else:
-        if given.asynchronous:
+        if argument.asynchronous:
             raise JobError(
                 "the client is asynchronous, and blocks are waited for; give "
                 "distributed.Client(client.scheduler.address)"
             )
-        if given.status != "running":
+        if argument.status != "running":
             raise JobError(
-                f"the client of the cluster is {given.status}; give one that is connected, such "
+                f"the client of the cluster is {argument.status}; give one that is connected, such "
                 f"as distributed.Client(address)"
             )
-        yield given
+        yield argument
 
 
 def _reached(address: str) -> Client:

@@ -101,9 +101,9 @@ def _of_file(
     return {column.name: GivenCoordinate(column, dimension) for column in known}
 
 
-def _of_dataset(inputs: Inputs, given: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+def _of_dataset(inputs: Inputs, argument: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
     results = {}
-    coords, order = getattr(given, "coords", given), _order_of_dimensions(given)
+    coords, order = getattr(argument, "coords", argument), _order_of_dimensions(argument)
     # Those of a store that was opened are in the order of the alphabet.
     first = sorted(coords.items(), key=lambda each: min(map(order.index, each[1].dims), default=0))
     for name, array in first:
@@ -121,13 +121,13 @@ def _of_dataset(inputs: Inputs, given: Any, faults: list[str]) -> dict[str, Give
     return results
 
 
-def _order_of_dimensions(given: Any) -> list[Any]:
+def _order_of_dimensions(argument: Any) -> list[Any]:
     """Return the dimensions, as data have them, and then as coordinates do."""
-    data = [*given.data_vars.values()] if hasattr(given, "data_vars") else [given]
+    data = [*argument.data_vars.values()] if hasattr(argument, "data_vars") else [argument]
     data = sorted(
         (each for each in data if hasattr(each, "dims")), key=lambda each: -len(each.dims)
     )
-    several = [*data, *getattr(given, "coords", given).values()]
+    several = [*data, *getattr(argument, "coords", argument).values()]
     return list(dict.fromkeys(dimension for each in several for dimension in each.dims))
 
 
@@ -238,12 +238,12 @@ def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
     try:
         return _read(inputs, name, column.texts)
     except OptipathError as fault:
-        told = [
+        message = [
             f"line {line}: {sentence}"
             for line, text in zip(column.lines, column.texts, strict=True)
             for sentence in _faults(inputs, name, text)
         ] or [*fault.faults]
-    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(told)])
+    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(message)])
 
 
 def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:

@@ -46,8 +46,8 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
     for name, parameter in plan.inputs.open.items():
         if name not in results:
             base = BASE_UNITS.get(plan.inputs.dimensions.get(name, ""), "")
-            given, unit = grid.labels.get(name, (grid.fixed.get(name, parameter.default), base))
-            value = _single(parameter, given)
+            argument, unit = grid.labels.get(name, (grid.fixed.get(name, parameter.default), base))
+            value = _single(parameter, argument)
             results[name] = (), value, _attrs(parameter.help, unit, value)
     return results
 
@@ -72,8 +72,8 @@ def _labels(axis: SweepAxis) -> Any:
 
 def _attrs(name: str, unit: str, value: Any) -> dict[str, str]:
     is_number = np.asarray(value).dtype.kind in "fiu"
-    told = {"long_name": name} if name else {}
-    return told | ({"units": unit or "1"} if is_number else {})
+    message = {"long_name": name} if name else {}
+    return message | ({"units": unit or "1"} if is_number else {})
 
 
 def _single(parameter: Parameter, value: Any) -> Any:
@@ -87,8 +87,8 @@ def _single(parameter: Parameter, value: Any) -> Any:
 
 def _for_files(values: Any) -> npt.NDArray[Any]:
     """Return numbers as they are, and texts as they come back from files: Zarr has no others."""
-    given = np.asarray(values)
-    return given.astype(object) if given.dtype.kind == "U" else given
+    argument = np.asarray(values)
+    return argument.astype(object) if argument.dtype.kind == "U" else argument
 
 
 _COMPONENTS = ("S0", "S1", "S2", "S3")
@@ -106,11 +106,11 @@ def dataset_attributes(
     >>> attributes["method"], attributes["frame"]
     ('stable', 'eye: x = 1, 0, 0; y = 0, 1, 0; z = 0, 0, 1')
     """
-    kept = _KEPT.get(plan.answers)
+    stored = _KEPT.get(plan.answers)
     words = path.description, dict(path.cases)
-    if kept is None or kept[0] != words:
-        kept = _KEPT[plan.answers] = words, _told(path, plan, composer or Composer())
-    return dict(kept[1])
+    if stored is None or stored[0] != words:
+        stored = _KEPT[plan.answers] = words, _told(path, plan, composer or Composer())
+    return dict(stored[1])
 
 
 _KEPT: WeakKeyDictionary[Answers, tuple[Any, dict[str, str | float]]] = WeakKeyDictionary()
@@ -119,12 +119,12 @@ _KEPT: WeakKeyDictionary[Answers, tuple[Any, dict[str, str | float]]] = WeakKeyD
 
 def _told(path: PathGraph, plan: Plan, composer: Composer) -> dict[str, str | float]:
     options = {each.name: getattr(composer, each.name) for each in fields(Composer)}
-    told = {name: value for name, value in options.items() if name not in _NOT_TOLD}
+    messages = {name: value for name, value in options.items() if name not in _NOT_TOLD}
     return {
         "path": _toml(path),
         "explanation": plan.explain(),
         "optipath_version": version("optipath"),
-        **{name: value for name, value in told.items() if value is not None},
+        **{name: value for name, value in messages.items() if value is not None},
         "frame": "\n".join(f"{name}: {_axes(end.frame)}" for name, end in _ends(plan)),
         **_unread(plan),
     }
@@ -156,8 +156,8 @@ def _short(number: float) -> str:
 def _unread(plan: Plan) -> dict[str, str]:
     """Return a sentence of the components that detectors do not read, if there are any."""
     several = [(name, end.components) for name, end in _ends(plan) if end.components < 4]
-    told = [
+    messages = [
         f"{listed(_COMPONENTS[count:])} at {name}, which reads {listed(_COMPONENTS[:count])}"
         for name, count in several
     ]
-    return {"unread": f"NaN: {'; '.join(told)}"} if told else {}
+    return {"unread": f"NaN: {'; '.join(messages)}"} if messages else {}

@@ -111,8 +111,8 @@ def sweep_axis(
 ) -> SweepAxis:
     """Return the axis of a parameter."""
     idle = isinstance(values, IdleValues)
-    told = _IDLE if idle else known[name].help
-    return SweepAxis(name, dimension or name, *values, told, idle)
+    message = _IDLE if idle else known[name].help
+    return SweepAxis(name, dimension or name, *values, message, idle)
 
 
 _LITTLE = 2**26

@@ -135,13 +135,13 @@ def _has_notes(folder: Path, job: BlockJob) -> bool:
     Zarr writes them into both of its files: what is in one alone is damage.
     """
     attrs, result = group_attrs(job), object_of(folder / ".zattrs")
-    told = object_of(folder / ".zmetadata").get("metadata")
+    message = object_of(folder / ".zmetadata").get("metadata")
     needed = {f"{name}/{each}" for name in (*job.arrays, *job.coords) for each in _METADATA}
     return (
-        isinstance(told, dict)
-        and {".zgroup", ".zattrs", *needed} <= told.keys()
+        isinstance(message, dict)
+        and {".zgroup", ".zattrs", *needed} <= message.keys()
         and attrs.items() < result.items()
-        and all(content == object_of(folder / name) for name, content in told.items())
+        and all(content == object_of(folder / name) for name, content in message.items())
     )
 
 

@@ -98,8 +98,8 @@ def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
     """Return what the variable of each quantity is called."""
     taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
     own = [quantity.variable for quantity in (*QUANTITIES, FAINT)]
-    beside = _BESIDE if _BESIDE.keys() & set(taken) else {}
-    names = {name: beside.get(name, name) for name in own}
+    other = _BESIDE if _BESIDE.keys() & set(taken) else {}
+    names = {name: other.get(name, name) for name in own}
     several = len(detectors_of(plan)) > 1
     if faults := [*_faults(taken, {*names.values(), *([DETECTOR] if several else [])})]:
         raise ParameterError(*faults)
@@ -154,12 +154,12 @@ def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
     names = variable_names(grid, plan)
     ends = detectors_of(plan)
     at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
-    told = [
+    messages = [
         heading(names[quantity.variable] + place, quantity.shown_unit)
         for place in at
         for quantity in QUANTITIES
     ]
-    return [_quoted(name) for name in (*[heading(a.name, a.unit) for a in grid.axes], *told)]
+    return [_quoted(name) for name in (*[heading(a.name, a.unit) for a in grid.axes], *messages)]
 
 
 def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Sequence[str]]:

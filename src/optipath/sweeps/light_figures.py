@@ -121,14 +121,14 @@ class LightAt:
 
     def __call__(self, values: Mapping[str, Any]) -> Light:
         """Return the light where some values are others than the best estimates."""
-        given = {**self.exact, **{each.name: each.value for each in self.uncertain}, **values}
-        given = {n: v.item() if _is_one(v) else v for n, v in given.items()}
+        arguments = {**self.exact, **{each.name: each.value for each in self.uncertain}, **values}
+        arguments = {n: v.item() if _is_one(v) else v for n, v in arguments.items()}
         with warnings.catch_warnings():
             # Whoever gave the values has been warned of them.
             warnings.simplefilter("ignore", AngleWarning)
             if len(self.plan.program.detectors) == 1:
-                return self.plan.run(**given)
-            return self.plan.run_all(**given)[self.detector]
+                return self.plan.run(**arguments)
+            return self.plan.run_all(**arguments)[self.detector]
 
     def beside(self, values: Mapping[str, Any], names: Sequence[str]) -> Light:
         """Return the light beside the best estimates; a fault says of which."""

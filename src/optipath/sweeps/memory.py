@@ -101,8 +101,8 @@ class SweptLight:
         """Return the light of a part of what was run, which knows what of it is noise."""
         ran = self.grid.varied
         # Values of the part alone, so that nothing of the whole is looked at for its noise.
-        given = ran.given(region)
-        noise = (noise_at, self.plan.answers, self.detector, given, ())
+        argument = ran.given(region)
+        noise = (noise_at, self.plan.answers, self.detector, argument, ())
 
         def cut(numbers: Any) -> Array:
             return np.broadcast_to(numbers, ran.shape)[tuple(region)]
@@ -226,8 +226,8 @@ def quick_dataset(
         return xr.Dataset(variables, coords, attrs)
     results = {name: _variable(*parts) for name, parts in variables.items()}
     indexes: dict[str, PandasIndex] = {}
-    for name, (dimensions, values, told) in coords.items():
-        alone = {name: _variable(dimensions, values, told)}
+    for name, (dimensions, values, message) in coords.items():
+        alone = {name: _variable(dimensions, values, message)}
         if dimensions == name:
             indexes[name] = PandasIndex(values, name, values.dtype)
             alone = indexes[name].create_variables(alone)

@@ -51,11 +51,13 @@ class PlanRecipe:
         chosen = composer or Composer()
         options = ((each.name, getattr(chosen, each.name)) for each in fields(Composer))
         usual = Composer()
-        told = tuple([(name, value) for name, value in options if value != getattr(usual, name)])
+        messages = tuple(
+            [(name, value) for name, value in options if value != getattr(usual, name)]
+        )
         own = _own_classes(path)
         # Where a class was defined anew since, its kind stands for another one.
         made = path.plan_by(chosen) if own else None
-        return cls(path.to_toml(), told, own, made)
+        return cls(path.to_toml(), messages, own, made)
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave the plan where it was made."""

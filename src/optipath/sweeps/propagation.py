@@ -194,8 +194,8 @@ def text_of_propagation(
         "  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows
     ]
     shape = f", shape {light.shape}" if light.shape else ""
-    given = "; ".join(map(str, uncertain))
-    return "\n".join([f"{method}{shape}: {given}", *lines])
+    argument = "; ".join(map(str, uncertain))
+    return "\n".join([f"{method}{shape}: {argument}", *lines])
 
 
 def _value(values: Any, spread: Any) -> str:
@@ -280,7 +280,7 @@ def _named(where: Any) -> str:
     return listed(names) + (f" (of {count} in {len(paths)} paths)" if len(paths) > 1 else "")
 
 
-def notes_of_lost_figures(lost: Any) -> list[str]:
+def notes_of_lost_figures(missing: Any) -> list[str]:
     """Return what is said of figures that some samples do not have, if there are any.
 
     Shape: lost (..., 10).
@@ -288,12 +288,12 @@ def notes_of_lost_figures(lost: Any) -> list[str]:
     >>> notes_of_lost_figures(np.zeros(10, bool))
     []
     """
-    if not np.any(lost):
+    if not np.any(missing):
         return []
-    return [f"nan: {_named(lost)}: some samples do not have it, as circular light has no AoP"]
+    return [f"nan: {_named(missing)}: some samples do not have it, as circular light has no AoP"]
 
 
-def notes_of_lost_light(lost: Any) -> list[str]:
+def notes_of_lost_light(missing: Any) -> list[str]:
     """Return what is said of light that no float holds, if there is any.
 
     Shape: lost (...).
@@ -301,6 +301,8 @@ def notes_of_lost_light(lost: Any) -> list[str]:
     >>> notes_of_lost_light(np.array(False))
     []
     """
-    count = int(np.count_nonzero(lost))
-    told = f"nan: the light of {count} in {lost.size} paths is too faint or bright for a float"
-    return [told] if count else []
+    count = int(np.count_nonzero(missing))
+    message = (
+        f"nan: the light of {count} in {missing.size} paths is too faint or bright for a float"
+    )
+    return [message] if count else []

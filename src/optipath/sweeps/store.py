@@ -226,8 +226,8 @@ def make_group(job: BlockJob, record: dict[str, Any], about: str, folder: Path) 
     """Write a group with the arrays of a job, its coordinates and its record."""
     folder.mkdir()
     group = zarr.create_group(str(folder), zarr_format=_VERSION, attributes=group_attrs(job))
-    for name, kept in job.arrays.items():
-        _create(group, name, kept)
+    for name, stored in job.arrays.items():
+        _create(group, name, stored)
     for name, whole in job.coords.items():
         _write(group, name, whole)
     zarr.consolidate_metadata(str(folder), zarr_format=_VERSION)
@@ -241,22 +241,22 @@ def make_group(job: BlockJob, record: dict[str, Any], about: str, folder: Path) 
     (folder / FILES).write_bytes(mark_of(about, stamps))
 
 
-def _create(group: zarr.Group, name: str, kept: KeptArray) -> zarr.Array[Any]:
-    dtype = np.dtype(kept.dtype)
+def _create(group: zarr.Group, name: str, stored: KeptArray) -> zarr.Array[Any]:
+    dtype = np.dtype(stored.dtype)
     return group.create_array(
         name,
-        shape=kept.shape,
-        chunks=kept.chunks,
+        shape=stored.shape,
+        chunks=stored.chunks,
         dtype=dtype,
         # xarray takes a fill value for one that is missing, which a number must not be.
         fill_value=np.nan if dtype.kind in "fc" else None,
         config={"write_empty_chunks": True},
-        attributes={**kept.attrs, _DIMENSIONS: list(kept.dims)},
+        attributes={**stored.attrs, _DIMENSIONS: list(stored.dims)},
     )
 
 
 def _write(group: zarr.Group, name: str, whole: WholeArray) -> None:
     shape = whole.values.shape
     chunks = tuple(max(size, 1) for size in shape)
-    kept = KeptArray(whole.dims, shape, chunks, whole.values.dtype.str, whole.attrs)
-    _create(group, name, kept)[...] = whole.values
+    stored = KeptArray(whole.dims, shape, chunks, whole.values.dtype.str, whole.attrs)
+    _create(group, name, stored)[...] = whole.values

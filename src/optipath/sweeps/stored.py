@@ -261,9 +261,9 @@ def _write(file: Path, store: Path, identity: str, chunks: Mapping[str, tuple[in
     draft = file.with_name(f".{secrets.token_hex(8)}.draft")
     encoding = {name: {"chunksizes": sizes} for name, sizes in chunks.items()}
     try:
-        with xr.open_zarr(store) as kept:
-            told = kept.assign_attrs({_IDENTITY: identity})
-            written = told.to_netcdf(draft, engine="h5netcdf", encoding=encoding, compute=False)
+        with xr.open_zarr(store) as stored:
+            message = stored.assign_attrs({_IDENTITY: identity})
+            written = message.to_netcdf(draft, engine="h5netcdf", encoding=encoding, compute=False)
             # One block after another: each is read, written, and forgotten.
             written.compute(scheduler="synchronous")
         if not file.exists():  # It may have come to be there since the sweep began.

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def sweep(
     path: PathGraph,
     unnamed: tuple[object, ...],
-    given: dict[str, Any],
+    arguments: dict[str, Any],
     *,
     zip: Any = (),  # noqa: A002 - as `path.sweep` has it
     coords: Any = None,
@@ -42,14 +42,14 @@ def sweep(
     check_named("sweep", unnamed, plan.inputs.open)
     at_once = place is None and chunks is None
     # A run looks at ranges itself, and what it finds is told by the axes.
-    grid = grid_of(plan.inputs, given, zip, coords, ranges=not at_once)
+    grid = grid_of(plan.inputs, arguments, zip, coords, ranges=not at_once)
     if at_once:
         try:
             return swept_in_memory(path, plan, grid, composer)
         except ParameterError as fault:
-            told = fault
-        grid_of(plan.inputs, given, zip, coords)
-        raise told
+            message = fault
+        grid_of(plan.inputs, arguments, zip, coords)
+        raise message
     from optipath.sweeps.chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
 
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)
@@ -65,9 +65,9 @@ def _plan(path: PathGraph, composer: Composer | None) -> Plan:
     if composer is None:
         return path.compose()
     if not isinstance(composer, Composer):
-        given = shown(composer)
+        argument = shown(composer)
         example = "composer=op.Composer(engine='numpy')"
-        raise ParameterError(f"composer= takes a Composer, not {given}; write {example}")
+        raise ParameterError(f"composer= takes a Composer, not {argument}; write {example}")
     if composer.keep != KEPT[0]:
         raise ParameterError(
             f"a sweep gives the light at detectors, and Composer(keep='{composer.keep}') that on "
@@ -82,10 +82,11 @@ def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
         from optipath.sweeps.stored import place_of_store  # noqa: PLC0415
 
         return place_of_store(store)
-    given = {"scheduler": scheduler is not None, "progress": bool(progress)}
-    if told := [f"{name}=" for name, is_given in given.items() if is_given]:
+    arguments = {"scheduler": scheduler is not None, "progress": bool(progress)}
+    if message := [f"{name}=" for name, is_given in arguments.items() if is_given]:
         raise ParameterError(
-            f"{' and '.join(told)} {'is' if len(told) == 1 else 'are'} for a sweep that is kept; "
+            f"{' and '.join(message)} {'is' if len(message) == 1 else 'are'} for a sweep that "
+            "is kept; "
             f"give store= besides, such as store='sweep.zarr', or let Dask compute what chunks= "
             f"gives: sweep.compute(scheduler=...)"
         )
@@ -134,13 +135,13 @@ class SweepPictures:
         return _drawn("poincare", self._dataset, x, ax, detector)
 
 
-def _drawn(picture: str, *given: Any) -> Any:
+def _drawn(picture: str, *arguments: Any) -> Any:
     from optipath.plots import check_matplotlib  # noqa: PLC0415 - pictures stand above sweeps
 
     check_matplotlib()
     from optipath.plots import dataset_pictures  # noqa: PLC0415 - an extra
 
-    return getattr(dataset_pictures, picture)(*given)
+    return getattr(dataset_pictures, picture)(*arguments)
 
 
 if not hasattr(xr.Dataset, "optipath"):  # Else xarray warns, where this is loaded anew.

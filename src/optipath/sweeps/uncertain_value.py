@@ -79,7 +79,9 @@ _PAIR = 2
 _EXAMPLE = '{("n1", "k1"): 0.3}'
 
 
-def read_correlation(given: Any, names: Sequence[str]) -> tuple[npt.NDArray[np.float64], list[str]]:
+def read_correlation(
+    argument: Any, names: Sequence[str]
+) -> tuple[npt.NDArray[np.float64], list[str]]:
     """Return the matrix of correlation coefficients, and what is wrong with what is given.
 
     Shape: returns matrix (k, k).
@@ -89,13 +91,13 @@ def read_correlation(given: Any, names: Sequence[str]) -> tuple[npt.NDArray[np.f
            [0.5, 1. ]])
     """
     matrix = np.eye(len(names))
-    if given is None:
+    if argument is None:
         return matrix, []
-    if not isinstance(given, Mapping):
-        return matrix, [f"correlation must be a mapping such as {_EXAMPLE}, not {shown(given)}"]
+    if not isinstance(argument, Mapping):
+        return matrix, [f"correlation must be a mapping such as {_EXAMPLE}, not {shown(argument)}"]
     faults: list[str] = []
     seen: set[frozenset[str]] = set()
-    for pair, coefficient in given.items():
+    for pair, coefficient in argument.items():
         if wrong := _wrong(pair, coefficient, names):
             faults.append(wrong)
         elif frozenset(pair) in seen:

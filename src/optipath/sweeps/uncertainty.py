@@ -45,7 +45,7 @@ _BYTES_OF_A_SAMPLE = 2600
 def propagate(
     path: PathGraph,
     unnamed: tuple[object, ...],
-    given: dict[str, Any],
+    arguments: dict[str, Any],
     options: PropagateOptions,
 ) -> Propagation:
     """Return the light of a path with its uncertainty; see `PathGraph.propagate`."""
@@ -53,9 +53,9 @@ def propagate(
     check_named("propagate", unnamed, plan.inputs.open)
     if clashes := options.clashes(plan.inputs):
         raise ParameterError(*clashes)
-    exact, uncertain, faults = read_uncertain(plan.inputs, given)
+    exact, uncertain, faults = read_uncertain(plan.inputs, arguments)
     # A value whose uncertainty cannot be read is one of them all the same.
-    names = [n for n, value in given.items() if isinstance(value, tuple) and n not in exact]
+    names = [n for n, value in arguments.items() if isinstance(value, tuple) and n not in exact]
     correlation, wrong = read_correlation(options.correlation, names)
     faults += options.faults() + wrong
     detector, no_detector = _detector(plan, options.detector)
@@ -63,11 +63,11 @@ def propagate(
     if faults:
         raise ParameterError(*faults)
     composer = options.composer
-    asked = plan if composer is None else path.plan_by(composer)
-    values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in given.items()}
-    asked.answers.large_angles.look(values)
-    asked.answers.large_angles.look_at_uncertainties({n: given[n][1] for n in names})
-    light_at = LightAt(asked, detector, exact, tuple(uncertain))
+    request = plan if composer is None else path.plan_by(composer)
+    values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in arguments.items()}
+    request.answers.large_angles.look(values)
+    request.answers.large_angles.look_at_uncertainties({n: arguments[n][1] for n in names})
+    light_at = LightAt(request, detector, exact, tuple(uncertain))
     light = light_at({})
     if options.draws:
         block = min(options.count, samples_at_once(light.shape)), *light.shape
@@ -81,10 +81,10 @@ def propagate(
         return _to_first_order(smooth, light, correlation, options)
 
 
-def _detector(plan: Plan, asked: Any) -> tuple[str, list[str]]:
+def _detector(plan: Plan, request: Any) -> tuple[str, list[str]]:
     names = tuple(plan.program.detectors)
     try:
-        return only("detector", names, f"propagate(detector='{names[0]}', ...)", asked), []
+        return only("detector", names, f"propagate(detector='{names[0]}', ...)", request), []
     except OptipathError as fault:
         return "", list(fault.faults)
 
@@ -125,15 +125,15 @@ def _by_samples(
 ) -> Propagation:
     count, seed = options.count, options.beginning
     spread, mean, notes = spread_of_samples(light_at, light, correlation, count, seed)
-    lost = _is_lost(light)
-    uncertainties = np.where(lost[..., np.newaxis], np.nan, spread.uncertainties)
+    missing = _is_lost(light)
+    uncertainties = np.where(missing[..., np.newaxis], np.nan, spread.uncertainties)
     return Propagation(
         light=light,
         mean=mean,
-        covariance=np.where(lost[..., np.newaxis, np.newaxis], np.nan, spread.covariance),
+        covariance=np.where(missing[..., np.newaxis, np.newaxis], np.nan, spread.covariance),
         uncertain=light_at.uncertain,
         method=f"Monte Carlo, {count:,} samples, seed {seed}",
-        notes=(*notes_of_lost_light(lost), *notes),
+        notes=(*notes_of_lost_light(missing), *notes),
         uncertainties=uncertainties,
         shares=spread.shares,
         left=np.zeros_like(spread.shares),
@@ -143,26 +143,26 @@ def _by_samples(
 def _is_lost(light: Light) -> npt.NDArray[np.bool_]:
     """Return which light is too faint, or too bright, for a float."""
     s0 = np.asarray(light.stokes)[..., 0]
-    lost = (np.abs(s0) < np.finfo(np.float64).tiny) | np.isinf(s0)
-    return np.asarray(lost & (light.exponent != 0))
+    missing = (np.abs(s0) < np.finfo(np.float64).tiny) | np.isinf(s0)
+    return np.asarray(missing & (light.exponent != 0))
 
 
 _PAIR = 2
 
 
 def read_uncertain(
-    inputs: Inputs, given: Mapping[str, Any]
+    inputs: Inputs, arguments: Mapping[str, Any]
 ) -> tuple[dict[str, Any], list[UncertainValue], list[str]]:
     """Return what is exact, what is uncertain, and what is wrong with either."""
-    faults = unknown_names(inputs, given)
-    known = {name: value for name, value in given.items() if name in inputs.open}
+    faults = unknown_names(inputs, arguments)
+    known = {name: value for name, value in arguments.items() if name in inputs.open}
     exact = {name: value for name, value in known.items() if not isinstance(value, tuple)}
     uncertain: list[UncertainValue] = []
     for name, value in known.items():
         if name not in exact:
             with collecting(faults):
                 uncertain.append(_read(inputs, name, value))
-    if not any(isinstance(value, tuple) for value in given.values()):
+    if not any(isinstance(value, tuple) for value in arguments.values()):
         faults.append(
             "nothing that is given has an uncertainty; give a value and its standard uncertainty, "
             f"such as {_example(inputs)}"
@@ -171,8 +171,8 @@ def read_uncertain(
     try:
         inputs.resolve(values)
     except OptipathError as fault:
-        told = tuple([f"parameter '{n}' has no value" for n in given if n not in values])
-        faults += [sentence for sentence in fault.faults if not sentence.startswith(told)]
+        messages = tuple([f"parameter '{n}' has no value" for n in arguments if n not in values])
+        faults += [sentence for sentence in fault.faults if not sentence.startswith(messages)]
     return exact, uncertain, faults
 
 
@@ -182,10 +182,10 @@ def _example(inputs: Inputs) -> str:
     return f"{next(iter(inputs.open))}=(0.8, 0.001)"
 
 
-def _read(inputs: Inputs, name: str, given: tuple[Any, ...]) -> UncertainValue:
-    if len(given) != _PAIR:
+def _read(inputs: Inputs, name: str, arguments: tuple[Any, ...]) -> UncertainValue:
+    if len(arguments) != _PAIR:
         raise ParameterError(
-            f"parameter '{name}' is a tuple of {len(given)}; a value and its standard "
+            f"parameter '{name}' is a tuple of {len(arguments)}; a value and its standard "
             f"uncertainty are two, and several values without one are a list or an array"
         )
     if inputs.tails.get(name):
@@ -193,7 +193,7 @@ def _read(inputs: Inputs, name: str, given: tuple[Any, ...]) -> UncertainValue:
             f"parameter '{name}' is of several numbers, which have no uncertainty here; give "
             f"them exactly, as a list or an array"
         )
-    value, sigma = _value(inputs, name, given[0]), _sigma(inputs, name, given[1])
+    value, sigma = _value(inputs, name, arguments[0]), _sigma(inputs, name, arguments[1])
     shapes = {f"the values of '{name}'": value.shape, "their uncertainties": sigma.shape}
     if faults := broadcast_fault(shapes):
         raise ParameterError(*faults)

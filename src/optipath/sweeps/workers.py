@@ -54,21 +54,21 @@ def check_scheduler(scheduler: Any) -> None:
 @contextmanager
 def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     """Have those at work whom a scheduler stands for; those who are made for it go afterwards."""
-    given = active_client() or "threads" if scheduler is None else scheduler
-    if given == "synchronous":
+    argument = active_client() or "threads" if scheduler is None else scheduler
+    if argument == "synchronous":
         yield Workers(AtOnce(), lambda: 1)
-    elif given == "threads":
+    elif argument == "threads":
         with ThreadPoolExecutor(CPU_COUNT) as executor:
             yield Workers(executor, lambda: _AHEAD * CPU_COUNT)
     else:
         # It takes a second to import.
         from optipath.sweeps.cluster import client_of, threads_of  # noqa: PLC0415
 
-        with client_of(given, blocks) as client, dask.config.set(_LARGE_JOBS):
+        with client_of(argument, blocks) as client, dask.config.set(_LARGE_JOBS):
             yield Workers(
                 Travelling(client.get_executor(pure=False)),
                 lambda: _AHEAD * threads_of(client),
-                stay=given != "processes",
+                stay=argument != "processes",
             )
 
 

@@ -173,12 +173,12 @@ class Affine:
         UnitError
             If the unit of the offset is unknown, or of another dimension than the value.
         """
-        dimension, given = self.offset_dimension, self.offset
-        if type(given) is type(self.scale) is float and (self.scale, given) == (1.0, 0.0):
-            return self.scale, given, dimension
-        if isinstance(given, str):
-            given, dimension = self.parsed(given)
-        scale, offset = real_number(self.scale), real_number(given)
+        dimension, argument = self.offset_dimension, self.offset
+        if type(argument) is type(self.scale) is float and (self.scale, argument) == (1.0, 0.0):
+            return self.scale, argument, dimension
+        if isinstance(argument, str):
+            argument, dimension = self.parsed(argument)
+        scale, offset = real_number(self.scale), real_number(argument)
         if scale is None or scale == 0.0 or offset is None:
             raise ParameterError(
                 f"parameter '{self.name}' can stand as scale * {self.name} + offset with finite "

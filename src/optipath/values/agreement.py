@@ -72,10 +72,10 @@ class Agreement:
         others = (getattr(self, f.name) for f in fields(self) if f.name != "operands")
         return None if None in keys else (type(self), keys, *others)
 
-    def fault(self, given: Mapping[str, Resolved] = NOTHING) -> str:
+    def fault(self, arguments: Mapping[str, Resolved] = NOTHING) -> str:
         """Say what does not fit; nothing where all does, or cannot be compared."""
         try:
-            numbers = [_number(operand, given) for operand in self.operands]
+            numbers = [_number(operand, arguments) for operand in self.operands]
         except (OptipathError, ArithmeticError, TypeError, ValueError):
             return ""  # What is no number is a fault of its own.
         if any(map(is_traced, numbers)):
@@ -114,18 +114,18 @@ class Agreement:
                 passed += len(bad)
         return None
 
-    def inside(self, given: Mapping[str, Resolved]) -> Any:
+    def inside(self, arguments: Mapping[str, Resolved]) -> Any:
         """Return for which paths numbers fit that JAX traces; True where it traces none."""
-        numbers = [_number(operand, given) for operand in self.operands]
+        numbers = [_number(operand, arguments) for operand in self.operands]
         traced = [number for number in numbers if is_traced(number)]
         return self.fits(namespace(traced[0]), *numbers) if traced else True
 
 
 def first_faults(
-    agreements: Iterable[Agreement], given: Mapping[str, Resolved] = NOTHING
+    agreements: Iterable[Agreement], arguments: Mapping[str, Resolved] = NOTHING
 ) -> list[str]:
     """Say what does not fit, but for what may only follow from another of these faults."""
-    results = [(law, fault) for law in agreements if (fault := law.fault(given))]
+    results = [(law, fault) for law in agreements if (fault := law.fault(arguments))]
     spoilt = {what for law, _ in results for what in law.spoils}
     first = [fault for law, fault in results if spoilt.isdisjoint(law.rests_on)]
     # In a ring, each may follow from the one before.
@@ -139,14 +139,14 @@ def _path_text(arrays: list[Any], at: int) -> str:
     return f" ({place_text(shape, at).strip()}, of {count} paths)" if count > 1 else ""
 
 
-def _number(operand: Operand, given: Mapping[str, Resolved]) -> Any:
+def _number(operand: Operand, arguments: Mapping[str, Resolved]) -> Any:
     """Return what an operand comes to; an angle that is given by its cosine and sine, as one."""
     value: Any = operand.value
     if isinstance(value, Parameter) and not value.bound:
-        angle: Any = given[value.name].value
+        angle: Any = arguments[value.name].value
         if type(angle) is CosSin:
-            given = {value.name: given[value.name]._replace(value=angle.angle)}
-    return operand.evaluated(NUMPY, operand.raw(given))
+            arguments = {value.name: arguments[value.name]._replace(value=angle.angle)}
+    return operand.evaluated(NUMPY, operand.raw(arguments))
 
 
 def text_of(operand: Operand, number: float, unit: str = "") -> str:

@@ -242,11 +242,11 @@ def called(
     >>> called(5.0, "286 deg", "angle", (0.0, 1.6))
     ('5 rad, which is 286.479 deg', "; did you mean '5 deg' or np.radians(5)?")
     """
-    told = _in_few_digits(text, dimension, limits)
+    message = _in_few_digits(text, dimension, limits)
     if dimension != "angle":
-        return told, ""
+        return message, ""
     meant = meant_in_degrees(number, lambda angle: limits[0] <= angle <= limits[1])
-    return (_in_both(number) if meant else told), meant
+    return (_in_both(number) if meant else message), meant
 
 
 def _in_few_digits(text: str, dimension: str, limits: tuple[float, float]) -> str:

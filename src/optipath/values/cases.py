@@ -38,10 +38,10 @@ class Case:
     note: str = ""
 
     def __post_init__(self) -> None:
-        given = {"values": self.values, "published": self.published}
+        arguments = {"values": self.values, "published": self.published}
         faults = [
             f"{name} of a case must be a mapping by names, not {shown(one)}"
-            for name, one in given.items()
+            for name, one in arguments.items()
             if not isinstance(one, Mapping)
         ]
         if not isinstance(self.note, str):

@@ -270,8 +270,8 @@ def _joined(
 
 def _apart(names: Sequence[str], unit: str) -> str:
     """Return code that reads columns at wavelengths of their own."""
-    given = f", unit='{unit}'" if unit else ""
-    one = f"op.Spectrum.from_csv(path, column{given}).at(op.Wavelength())"
+    argument = f", unit='{unit}'" if unit else ""
+    one = f"op.Spectrum.from_csv(path, column{argument}).at(op.Wavelength())"
     return f"op.Material(*[{one} for column in {(*names,)}])"
 
 
@@ -356,8 +356,8 @@ class _Rows:
         if not np.isfinite(result):
             self.faults.append(f"line {line}: {name} is {cell}; write a number, or leave it out")
         elif result < 0.0:
-            beside = f", {self.signs[name]}" if name in self.signs else ""
-            self.faults.append(f"line {line}: {name} is {cell}; write none below 0{beside}")
+            other = f", {self.signs[name]}" if name in self.signs else ""
+            self.faults.append(f"line {line}: {name} is {cell}; write none below 0{other}")
         return result
 
     def check_order(self, unit: str) -> None:

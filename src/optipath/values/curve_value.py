@@ -62,25 +62,25 @@ class CurveValue(Parameter):
             if isinstance(value, Parameter)
         ]
 
-    def follows(self, given: Mapping[str, Resolved]) -> bool:
+    def follows(self, arguments: Mapping[str, Resolved]) -> bool:
         """Tell whether all is given that it is computed of, in one shape, and real."""
-        names = [one.name for one in self.arguments if not one.bound or one.name in given]
-        if any(name not in given or np.iscomplexobj(given[name].value) for name in names):
+        names = [one.name for one in self.arguments if not one.bound or one.name in arguments]
+        if any(name not in arguments or np.iscomplexobj(arguments[name].value) for name in names):
             return False
-        return not broadcast_fault(self.shapes(given))
+        return not broadcast_fault(self.shapes(arguments))
 
-    def shapes(self, given: Mapping[str, Resolved]) -> dict[str, tuple[int, ...]]:
+    def shapes(self, arguments: Mapping[str, Resolved]) -> dict[str, tuple[int, ...]]:
         """Return the shapes of what it is computed of, by name."""
-        return {one.name: np.shape(_number(one, given)) for one in self.arguments}
+        return {one.name: np.shape(_number(one, arguments)) for one in self.arguments}
 
-    def computed(self, given: Mapping[str, Resolved]) -> Resolved:
+    def computed(self, arguments: Mapping[str, Resolved]) -> Resolved:
         """Return its numbers, scale and offset aside."""
-        return Resolved(self.parts(given)[self.place], THERE)
+        return Resolved(self.parts(arguments)[self.place], THERE)
 
-    def parts(self, given: Mapping[str, Resolved]) -> tuple[Any, ...]:
+    def parts(self, arguments: Mapping[str, Resolved]) -> tuple[Any, ...]:
         """Return the numbers of all parts of its curve, of which its own are one."""
         results: tuple[Any, ...]
-        results = self.curve.evaluated(*[_number(one, given) for one in self.given_by])
+        results = self.curve.evaluated(*[_number(one, arguments) for one in self.given_by])
         return results
 
     def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
@@ -95,9 +95,9 @@ class CurveValue(Parameter):
         )
         return _of(self.curve, self.place, given_by).like(self)
 
-    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
+    def argument(self, place: int, arguments: Mapping[str, Resolved]) -> Any:
         """Return the numbers of one of those that it is computed of."""
-        return _number(self.given_by[place], given)
+        return _number(self.given_by[place], arguments)
 
     def check_place(self, owner: str, domain: Domain) -> None:
         super().check_place(owner, domain)
@@ -173,12 +173,12 @@ class CurveValue(Parameter):
         return isinstance(other, CurveValue) and self.name == other.name
 
     def __repr__(self) -> str:
-        given = ", ".join([one.name for one in self.arguments])
+        argument = ", ".join([one.name for one in self.arguments])
         shape = (
             f"{self.scale:g} * " * (self.scale != 1.0),
             f" + {self.offset:g}" * bool(self.offset),
         )
-        return f"<{shape[0]}{shown(self.spoken)[1:-1]}{shape[1]}, by {given}>"
+        return f"<{shape[0]}{shown(self.spoken)[1:-1]}{shape[1]}, by {argument}>"
 
     def __eq__(self, other: object) -> bool:
         return Parameter.__eq__(self, other)
@@ -222,9 +222,9 @@ def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
     return {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
 
 
-def _number(one: Any, given: Mapping[str, Resolved]) -> Any:
+def _number(one: Any, arguments: Mapping[str, Resolved]) -> Any:
     operand = Operand(one)
-    return operand.evaluated(NUMPY, operand.raw(given))
+    return operand.evaluated(NUMPY, operand.raw(arguments))
 
 
 def check_computed(
@@ -232,7 +232,7 @@ def check_computed(
     owner: str,
     domain: Domain,
     numbers: Any,
-    given: Mapping[str, Resolved] | None = None,
+    arguments: Mapping[str, Resolved] | None = None,
 ) -> None:
     """Check what a curve comes to where it stands."""
     placed = value.placed(numbers)
@@ -245,7 +245,7 @@ def check_computed(
         if not np.any(bad):
             raise
         result = float(np.asarray(placed)[bad].ravel()[0])
-        known = {**_default_of(value, given or {}), **(given or {})}
+        known = {**_default_of(value, arguments or {}), **(arguments or {})}
         if faults := coefficient_faults(value, known):
             raise ValueFault(*faults) from fault
         at = _wavelength_text(value, bad, known)
@@ -265,11 +265,11 @@ def takes_0_alone(domain: Domain) -> bool:
     return domain.interval == (0.0, 0.0)
 
 
-def _default_of(value: Any, given: Mapping[str, Resolved]) -> dict[str, Resolved]:
+def _default_of(value: Any, arguments: Mapping[str, Resolved]) -> dict[str, Resolved]:
     return {
         p.name: p.resolve(p.default)
         for p in value.arguments
-        if p.name not in given and p.default is not None
+        if p.name not in arguments and p.default is not None
     }
 
 
@@ -286,16 +286,16 @@ def _wavelength_text(value: Any, bad: Any, known: Mapping[str, Resolved]) -> str
 
 
 def computed_values(
-    values: Iterable[CurveValue], given: Mapping[str, Resolved]
+    values: Iterable[CurveValue], arguments: Mapping[str, Resolved]
 ) -> dict[str, Resolved]:
     """Return the numbers of those values of which all is given; each curve is evaluated once."""
     results: dict[str, Resolved] = {}
     parts: dict[Any, tuple[Any, ...]] = {}
     for value in values:
-        if value.follows(given):
+        if value.follows(arguments):
             same = id(value.curve), *map(id, value.given_by)
             if same not in parts:
-                parts[same] = value.parts(given)
+                parts[same] = value.parts(arguments)
             results[value.name] = Resolved(parts[same][value.place], THERE)
     return results
 
@@ -319,16 +319,16 @@ def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:
 
 def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[str, str]:
     """Return where a curve comes to what is not allowed, and what else to give."""
-    told = []
+    messages = []
     for place, one in enumerate(value.given_by[1:], 1):
         if isinstance(one, Parameter) and not is_traced(number := value.argument(place, known)):
             first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
-            told.append(f"{one.formula} is {first:.6g}")
-    if not told:
+            messages.append(f"{one.formula} is {first:.6g}")
+    if not messages:
         return "", "give another wavelength"
     at = place_text(bad.shape, int(np.argmax(bad)))
     where = f" ({at.strip()}, of {bad.size} paths)" if bad.size > 1 else ""
-    cure = f"give other coefficients ({', '.join(told)}), or another wavelength"
+    cure = f"give other coefficients ({', '.join(messages)}), or another wavelength"
     return where, f"{cure}{_hint(value, known)}"
 
 

@@ -54,8 +54,8 @@ class Domain:
             self._check_shape(owner, value.shape)
             return value  # type: ignore[no-any-return]
         value = self.read(owner, value)
-        given = as_given(owner, value)
-        array = doubles(given, (self.minimum, self.maximum))
+        argument = as_given(owner, value)
+        array = doubles(argument, (self.minimum, self.maximum))
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         if array.dtype.kind not in "fc":
@@ -64,7 +64,7 @@ class Domain:
         if np.any(bad := ~self.are_numbers(array)):
             result = f"{array[bad].ravel()[0]}{first_place(bad)}"
             raise ValueFault(f"{owner} is {result}; give a {self.of_numbers} {self.name}")
-        self._check_numbers(owner, array, rounding_of(given))
+        self._check_numbers(owner, array, rounding_of(argument))
         return array
 
     def _no_number(self, value: Any, array: npt.NDArray[Any]) -> str:
@@ -394,8 +394,8 @@ class WholeNumber(Domain):
         >>> WholeNumber("place").kept(2.0)
         2
         """
-        kept = super().kept(value)
-        return int(kept) if isinstance(kept, float) and kept.is_integer() else kept
+        stored = super().kept(value)
+        return int(stored) if isinstance(stored, float) and stored.is_integer() else stored
 
 
 @dataclass(frozen=True)

@@ -44,8 +44,8 @@ def _apart(function: Callable[..., Any]) -> Callable[..., Any]:
     takes and returns numbers in any nest of tuples; those that are known stay so.
     """
 
-    def called(*given: Any) -> Any:
-        numbers, form = jax.tree_util.tree_flatten(given)
+    def called(*argument: Any) -> Any:
+        numbers, form = jax.tree_util.tree_flatten(argument)
         known: dict[int, Any] = {}
         forms: list[Any] = []
 

@@ -29,10 +29,10 @@ def kernel_values(
     """
     if any(map(is_traced, numbers)):
         return _traced_values(factory, numbers)
-    given = np.broadcast_arrays(*(np.asarray(number, np.float64) for number in numbers))
+    argument = np.broadcast_arrays(*(np.asarray(number, np.float64) for number in numbers))
     with np.errstate(all="ignore"):
-        result = made(factory, NUMPY)(*given)
-    return tuple(np.array(np.broadcast_to(part, given[0].shape), np.float64) for part in result)
+        result = made(factory, NUMPY)(*argument)
+    return tuple(np.array(np.broadcast_to(part, argument[0].shape), np.float64) for part in result)
 
 
 def _traced_values(factory: Any, numbers: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -41,10 +41,10 @@ def _traced_values(factory: Any, numbers: tuple[Any, ...]) -> tuple[Any, ...]:
     from optipath.values.jax_primitives import JAX, sloped, with_slopes  # noqa: PLC0415
 
     kind = jnp.zeros(()).dtype
-    given = jnp.broadcast_arrays(*(jnp.asarray(number, kind) for number in numbers))
-    shape = given[0].shape
+    argument = jnp.broadcast_arrays(*(jnp.asarray(number, kind) for number in numbers))
+    shape = argument[0].shape
     values, slopes = (
         [jnp.broadcast_to(jnp.asarray(part, kind), shape) for part in made(factory, xp)(*of)]
-        for xp, of in ((JAX, JAX.fixed(given)), (sloped(kind), given))
+        for xp, of in ((JAX, JAX.fixed(argument)), (sloped(kind), argument))
     )
     return tuple(map(with_slopes, values, slopes))

@@ -106,11 +106,11 @@ class Operand:
             return sort(numbers[key])
         return tuple(sort(numbers[key._replace(part=part)]) for part in ("cos", "sin"))
 
-    def raw(self, given: Mapping[str, Resolved] = NOTHING) -> Any:
+    def raw(self, arguments: Mapping[str, Resolved] = NOTHING) -> Any:
         """Return the number of the `input_part` in a known value, or among parameters given."""
         value = self.value
         if isinstance(value, Parameter):
-            resolved = value.resolve(value.default) if value.bound else given[value.name]
+            resolved = value.resolve(value.default) if value.bound else arguments[value.name]
             if self.part == "present":
                 return resolved.present
             value = self.placed(resolved.value)
@@ -124,10 +124,10 @@ class Operand:
         return value.placed(numbers)
 
     def numbers(
-        self, given: Mapping[str, Resolved] = NOTHING, kind: np.dtype[Any] = _DOUBLE
+        self, arguments: Mapping[str, Resolved] = NOTHING, kind: np.dtype[Any] = _DOUBLE
     ) -> np.ndarray[Any, Any]:
         """Return this part of the value as an array."""
-        raw = self.raw(given)
+        raw = self.raw(arguments)
         check_known(_BY_ITSELF, raw)
         if self.part in ("cos", "sin"):
             raw = np.asarray(raw).astype(kind)
@@ -248,16 +248,16 @@ class Operation:
             The numbers of the kernel's structure.
         """
         known: dict[int, tuple[Any, ...]] = {}
-        given = []
+        arguments = []
         for argument in self.arguments:
             if isinstance(argument, ResultOf):
                 inner = argument.operation
                 if id(inner) not in known:
                     known[id(inner)] = inner.numbers(xp, read, method)
-                given.append(known[id(inner)][argument.place])
+                arguments.append(known[id(inner)][argument.place])
             else:
-                given.append(read(argument))
-        return self.kernel.by_method(method).made_for(xp)(*given)
+                arguments.append(read(argument))
+        return self.kernel.by_method(method).made_for(xp)(*arguments)
 
     def operands(self) -> Iterator[Operand]:
         """Yield the operands that it is given, and those behind the results that it is given."""

@@ -181,8 +181,8 @@ class Parameter(Affine):
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
-        told = vars(self).keys() - _ASIDE
-        return self is other or all(map(same, *[map(vars(p).get, told) for p in (self, other)]))
+        message = vars(self).keys() - _ASIDE
+        return self is other or all(map(same, *[map(vars(p).get, message) for p in (self, other)]))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
@@ -234,22 +234,22 @@ class Parameter(Affine):
         self._check_range(array)
         return Resolved(array if array.ndim else doubles(array), present)
 
-    def _number_of(self, given: Any) -> Any:
+    def _number_of(self, argument: Any) -> Any:
         """Return the numbers that a `CosSin` or a `Material` stands for; else what is given."""
-        if isinstance(given, CosSin):
-            return self._angle(given)
-        is_index = hasattr(type(given), "refractive_index") and not dimension_of(self.unit)
-        return given.refractive_index if is_index else given
+        if isinstance(argument, CosSin):
+            return self._angle(argument)
+        is_index = hasattr(type(argument), "refractive_index") and not dimension_of(self.unit)
+        return argument.refractive_index if is_index else argument
 
-    def _angle(self, given: CosSin) -> Any:
+    def _angle(self, argument: CosSin) -> Any:
         if dimension_of(self.unit) != "angle":
             raise ParameterError(
                 f"parameter '{self.name}' is no angle, but a cosine and a sine are given; "
                 f"give a number"
             )
-        if not given.is_traced:
-            given.check(f"parameter '{self.name}'")
-        return given.angle
+        if not argument.is_traced:
+            argument.check(f"parameter '{self.name}'")
+        return argument.angle
 
     def parse(self, text: str, default_unit: str = "") -> Any:
         """Return what a text stands for: a word, as it is, or a number.
@@ -337,9 +337,9 @@ class Parameter(Affine):
         number, limits = float(value), (self.minimum, self.maximum)
         plain = dimension_of(self.unit) == "angle" and has_plain_degrees(*limits)
         unit = "" if plain else self.unit
-        given, meant = called(number, format_quantity(number, unit), dimension_of(unit), limits)
+        argument, meant = called(number, format_quantity(number, unit), dimension_of(unit), limits)
         raise ParameterError(
-            f"parameter '{self.name}' is {given}{first_place(bad)}, outside its range; give "
+            f"parameter '{self.name}' is {argument}{first_place(bad)}, outside its range; give "
             f"{format_range(*limits, unit)}{meant}"
         )
 

@@ -19,40 +19,40 @@ DTYPES = ("float64", "float32", "longdouble")
 _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
 
 
-def precision(given: Any) -> np.dtype[Any]:
+def precision(argument: Any) -> np.dtype[Any]:
     """Return the dtype of a name, or of what NumPy takes for one.
 
     >>> precision("float32"), precision("f4"), precision(float)
     (dtype('float32'), dtype('float32'), dtype('float64'))
     """
-    return np.dtype(precision_name(given))
+    return np.dtype(precision_name(argument))
 
 
-def precision_name(given: Any) -> str:
+def precision_name(argument: Any) -> str:
     """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is.
 
     >>> precision_name(np.float32), precision_name("double")
     ('float32', 'float64')
     """
-    known = type(given) is str and given in DTYPES
-    name = given if known else _BY_CHARACTER.get(_character(given))
+    known = type(argument) is str and argument in DTYPES
+    name = argument if known else _BY_CHARACTER.get(_character(argument))
     if name is None:
         first, second, last = DTYPES
         cure = f"give '{first}', '{second}' or '{last}'"
-        raise ComposerError(f"dtype {shown(given)} is unknown; {cure}")
+        raise ComposerError(f"dtype {shown(argument)} is unknown; {cure}")
     if name == "longdouble" and np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
         raise ComposerError("dtype 'longdouble' is no more than float64 here; use 'float64'")
     return name
 
 
-def _character(given: Any) -> str:
+def _character(argument: Any) -> str:
     """Return NumPy's character for a dtype in the order of bytes of the machine, or nothing."""
-    if given is None:  # NumPy takes it for float64.
+    if argument is None:  # NumPy takes it for float64.
         return ""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # Some aliases go, as that of np.floating.
-            result = np.dtype(given)
+            result = np.dtype(argument)
     except Exception:  # noqa: BLE001 - it may have a dtype of its own, which may do anything
         return ""
     return result.char if result.isnative else ""
@@ -246,8 +246,8 @@ def _settled(result: Any, limits: tuple[float, float], offset: float) -> Any:
         outside = beyond(result, limit)
         if np.any(outside) and math.isfinite(limit):
             apart = _ROUNDINGS * (abs(limit) + abs(offset))
-            settled = np.where(outside & (abs(result - limit) <= apart), limit, result)
-            result = settled if np.ndim(result) else type(result)(settled)
+            resolved = np.where(outside & (abs(result - limit) <= apart), limit, result)
+            result = resolved if np.ndim(result) else type(result)(resolved)
     return result
 
 

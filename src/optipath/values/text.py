@@ -117,8 +117,8 @@ def read_entries(
             results.append(_read(entry, parameter, unit, uses))
     if faults:
         raise ParameterError(*first_of([*dict.fromkeys(faults)]))
-    given = [each.given for each in results]
-    numbers = np.array(given, object if ABSENT in given else None)
+    arguments = [each.given for each in results]
+    numbers = np.array(arguments, object if ABSENT in arguments else None)
     if any(isinstance(each.shown, str) for each in results):
         return AxisValues(np.array([each.text for each in results]), "", numbers)
     unit = _common_unit(results, parameter)
@@ -181,8 +181,8 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
             return texts_of_range(text)
         return _listed(text) if "," in text else None
     except UnitError as fault:
-        told = [f"parameter '{parameter.name}': {sentence}" for sentence in fault.faults]
-        raise ParameterError(*told) from None
+        messages = [f"parameter '{parameter.name}': {sentence}" for sentence in fault.faults]
+        raise ParameterError(*messages) from None
 
 
 def column_file(text: str) -> str | None:

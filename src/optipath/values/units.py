@@ -407,8 +407,8 @@ def _mismatch(text: str, number: str, unit: str, dimension: str) -> str:
         return f"'{text}' has the unit '{unit}', but a pure number is asked for; {cure}"
     units = units_of(dimension)
     if not unit:
-        asked = with_article(dimension)
-        return f"'{text}' has no unit, but {asked} is asked for; add one of {', '.join(units)}"
+        request = with_article(dimension)
+        return f"'{text}' has no unit, but {request} is asked for; add one of {', '.join(units)}"
     if unit not in UNITS:
         return f"unit '{unit}' of '{text}' is unknown{unit_meant(unit, units)}"
     return f"'{text}' is no {dimension}; use one of {', '.join(units)}"

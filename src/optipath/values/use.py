@@ -130,13 +130,13 @@ class Use:
         elif default is not None:
             self.check_given(*self.value.resolve(default))
 
-    def doubt(self, given: Any) -> str:
+    def doubt(self, argument: Any) -> str:
         """Ask what a list or a `Material` that is given for the parameter means; mostly nothing."""
-        if hasattr(type(given), "refractive_index") and not self.domain.takes_materials:
-            return self._no_index(given)
-        if not isinstance(given, (list, tuple)):
+        if hasattr(type(argument), "refractive_index") and not self.domain.takes_materials:
+            return self._no_index(argument)
+        if not isinstance(argument, (list, tuple)):
             return ""
-        return self.domain.doubt(f"parameter '{self.value.name}' (at {self.owner})", given)
+        return self.domain.doubt(f"parameter '{self.value.name}' (at {self.owner})", argument)
 
     def _no_index(self, material: Any) -> str:
         return (
@@ -148,12 +148,12 @@ class Use:
         self,
         numbers: float | np.ndarray[Any, Any],
         present: np.ndarray[Any, Any] = THERE,
-        given: Mapping[str, Resolved] | None = None,
+        arguments: Mapping[str, Resolved] | None = None,
     ) -> None:
         """Check numbers given for the parameter that stands here."""
         value = self.value
         if isinstance(value, CurveValue):
-            check_computed(value, self.owner, self.domain, numbers, given)
+            check_computed(value, self.owner, self.domain, numbers, arguments)
             return
         if value.is_signed:
             negative = value.scale < 0.0

@@ -103,8 +103,8 @@ class Wavelength(Parameter):
             object.__setattr__(self, "minimum", low)
             object.__setattr__(self, "maximum", high)
         for field in ("default", "minimum", "maximum"):
-            given = getattr(self, field)
-            if isinstance(given, str) and (read := wavelength_of(given)) is not None:
+            argument = getattr(self, field)
+            if isinstance(argument, str) and (read := wavelength_of(argument)) is not None:
                 object.__setattr__(self, field, read)
         super().__post_init__()
 
@@ -147,7 +147,7 @@ class Wavelength(Parameter):
             ) from error
 
 
-def read_within(span: tuple[float, float], given: Any) -> Any:
+def read_within(span: tuple[float, float], argument: Any) -> Any:
     """Return wavelengths in metres, as long as a curve is known for.
 
     Units: given in metres.
@@ -156,7 +156,7 @@ def read_within(span: tuple[float, float], given: Any) -> Any:
     1.9
     """
     most = max(LONGEST, span[1]) if span[1] < math.inf else LONGEST
-    return Wavelength(maximum=most).resolve(given).value
+    return Wavelength(maximum=most).resolve(argument).value
 
 
 def _written(length: float) -> str:

@@ -61,8 +61,8 @@ class IntensityCarrier(Carrier):
     def read(self, state: Intensities, count: int = 1) -> tuple[Components, Any]:
         del count
         total, over = in_all(state)
-        kept = (total >= self.least) & (over >= self.least)
-        return (self.xp.where(kept, total / over, 0.0), 0.0, 0.0, 0.0), 0
+        stored = (total >= self.least) & (over >= self.least)
+        return (self.xp.where(stored, total / over, 0.0), 0.0, 0.0, 0.0), 0
 
 
 class Boosts(NamedTuple):
@@ -177,9 +177,9 @@ class BoundsCarrier(Carrier):
         least, most = ratio_bounds(self.xp, after)
         before = dop_bound(boosts)
         polarizance = self._share([row[0] for row in rows[1:]], mean)
-        kept = self._share([entry for row in rows[1:] for entry in row[1:]], mean)
+        stored = self._share([entry for row in rows[1:] for entry in row[1:]], mean)
         left = 1.0 - diattenuation * before
-        dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
+        dop = (polarizance + stored * before) / self.xp.where(left > 0.0, left, 1.0)
         dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
         return Bounded(mean * total, lower * least, upper * most, Boosts(dop), excess)
 

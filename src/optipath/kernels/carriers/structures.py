@@ -144,8 +144,8 @@ def rotation_powers(xp: Primitives) -> PowersAction:
         larger = 1.0 + absolute(c)
         most, least = larger * larger, s * s
         forward = c >= 0.0
-        kept, crossed = where(forward, most, least), where(forward, least, most)
-        return kept * x + crossed * y, crossed * x + kept * y, 2.0 * larger * over
+        stored, crossed = where(forward, most, least), where(forward, least, most)
+        return stored * x + crossed * y, crossed * x + stored * y, 2.0 * larger * over
 
     return act
 

@@ -29,8 +29,8 @@ def inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
     """
     boundary, where = inhomogeneous_boundary(xp), xp.where
 
-    def reflect(*given: Any) -> tuple[Any, ...]:
-        at = boundary(*given)
+    def reflect(*argument: Any) -> tuple[Any, ...]:
+        at = boundary(*argument)
         _, entering, small = _powers(where, at)
         Fs = where(entering < 0.6, 1.0 - entering, small)
         return in_plane(where, Fs, slant_of(where, at), at.c)
@@ -47,7 +47,7 @@ def inhomogeneous_transmission(xp: Primitives) -> KernelFunction:
     arXiv:1603.02720, where Tp = |t_p|^2 Re(m2 conj(cos2)) / Re(m1 conj(cos1))).
     """
     boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *given: transmitted(boundary(*given))
+    return lambda *argument: transmitted(boundary(*argument))
 
 
 def transmission_from_behind(xp: Primitives) -> KernelFunction:
@@ -56,7 +56,7 @@ def transmission_from_behind(xp: Primitives) -> KernelFunction:
     The angle is that in front, or in the medium n0.
     """
     boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *given: transmitted(boundary(*given).from_behind(xp.where))
+    return lambda *argument: transmitted(boundary(*argument).from_behind(xp.where))
 
 
 def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any, Any]:
@@ -142,8 +142,8 @@ def interference(xp: Primitives) -> KernelFunction:
     """
     boundary, shares = inhomogeneous_boundary(xp), _shares(xp)
 
-    def both(*given: Any) -> tuple[Any, ...]:
-        at = boundary(*given)
+    def both(*argument: Any) -> tuple[Any, ...]:
+        at = boundary(*argument)
         return *shares(at), *shares(at.from_behind(xp.where))
 
     return both

@@ -165,8 +165,8 @@ def refracted_wave(xp: Primitives) -> KernelFunction:
         along, y = squared_along_normal(xp, n0, inside(c0), s0)
         squared = along(n1)
         # Where all has been reflected before, there is no light, and any angle will do.
-        p, lost = sqrt(maximum(squared, 0.0)), squared < 0.0
-        return p / n1, minimum(y / n1, 1.0), p, where(lost, LOST, along(n))
+        p, missing = sqrt(maximum(squared, 0.0)), squared < 0.0
+        return p / n1, minimum(y / n1, 1.0), p, where(missing, LOST, along(n))
 
     return refracted
 
@@ -330,10 +330,10 @@ def _refracted(xp: Primitives) -> KernelFunction:
         a, b, _ = root(squared - k1 * k1, n1, k1)
         # Where nothing absorbs and all has been reflected before, there is no light, and any
         # angle will do: the right one, as between media that do not absorb.
-        lost = (squared < 0.0) & (k1 <= 0.0)
+        missing = (squared < 0.0) & (k1 <= 0.0)
         s = y / n1
         s = where(absorbs, s, minimum(s, 1.0))
-        return a, where(absorbs, b, 0.0), s, where(lost, LOST, along(n))
+        return a, where(absorbs, b, 0.0), s, where(missing, LOST, along(n))
 
     return refracted
 

@@ -43,8 +43,8 @@ class Stack:
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the kernel in terms of these primitives."""
 
-        def stacked(*given: Any) -> tuple[Any, ...]:
-            pile = self._pile(given)
+        def stacked(*argument: Any) -> tuple[Any, ...]:
+            pile = self._pile(argument)
             faces = [self._face(xp, pile, place) for place in range(len(pile.media) - 1)]
             ways = [self._way(xp, pile, place) for place in range(1, len(pile.media) - 1)]
             lit = [face.unpolarising() for face in faces] if self.unpolarising else faces
@@ -63,9 +63,9 @@ class Stack:
 
         return stacked
 
-    def _pile(self, given: Sequence[Any]) -> _Pile:
+    def _pile(self, arguments: Sequence[Any]) -> _Pile:
         """Return what is given, each where it belongs."""
-        *numbers, c, s = given
+        *numbers, c, s = arguments
         before = (numbers.pop(),) if self.measured == "before" else ()
         count = len(self.absorbing)
         wavelength = numbers.pop() if count else None
@@ -82,32 +82,32 @@ class Stack:
     def _face(self, xp: Primitives, pile: _Pile, place: int) -> Face:
         """Return what the boundary behind a medium does to light from either side."""
         front, behind = pile.media[place : place + 2]
-        given = (*front, *behind, *pile.angle_in(place))
-        reflected = _made(xp, self.reflection, given)
-        passed = back = _made(xp, self.transmission, given)
+        arguments = (*front, *behind, *pile.angle_in(place))
+        reflected = _made(xp, self.reflection, arguments)
+        passed = back = _made(xp, self.transmission, arguments)
         of_front, of_behind = (not is_zero(k) for _, k in (front, behind))
         # No light comes from behind the last.
         if place + 2 == len(pile.media) or not (of_front or of_behind):
             of_behind = False
         else:
-            back = _made(xp, self.from_behind, given)
-        beside: tuple[Any, ...] = (None, None, None, None)
+            back = _made(xp, self.from_behind, arguments)
+        others: tuple[Any, ...] = (None, None, None, None)
         if of_front or of_behind:
-            beside = xp.apart(interference(xp))(*front, *behind, *pile.angle)
+            others = xp.apart(interference(xp))(*front, *behind, *pile.angle)
         return Face(
             reflected,
             passed,
             back,
-            beside[:2] if of_front and place else None,
-            beside[2:] if of_behind else None,
+            others[:2] if of_front and place else None,
+            others[2:] if of_behind else None,
         )
 
     def _way(self, xp: Primitives, pile: _Pile, place: int) -> tuple[Any, Any] | None:
         """Return what is left behind a layer and what is not; nothing where it is lossless."""
         if place not in pile.lengths:
             return None
-        given = *pile.media[place], pile.lengths[place], pile.wavelength, *pile.angle
-        left, absorbed = xp.apart(attenuation(xp))(*given)
+        arguments = *pile.media[place], pile.lengths[place], pile.wavelength, *pile.angle
+        left, absorbed = xp.apart(attenuation(xp))(*arguments)
         return left, absorbed
 
 
@@ -125,9 +125,9 @@ class _Pile(NamedTuple):
         return self.angle[1:] if place == self.measured_at else self.angle
 
 
-def _made(xp: Primitives, kernel: Kernel, given: tuple[Any, ...]) -> tuple[Any, ...]:
+def _made(xp: Primitives, kernel: Kernel, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the five numbers of a boundary, by the cheapest kernel."""
-    cheapest, left = kernel.specialised(given, is_zero)
+    cheapest, left = kernel.specialised(arguments, is_zero)
     numbers: tuple[Any, ...] = xp.apart(cheapest.made_for(xp))(*left)
     return numbers
 
@@ -151,11 +151,11 @@ class Face(NamedTuple):
         """Return a boundary that does to s and to p what this one does to both on average."""
         passed = tuple(grey_block(self.passed))
         back = passed if self.back is self.passed else tuple(grey_block(self.back))
-        beside = (
+        others = (
             None if pair is None else (0.5 * (pair[0] + pair[1]),) * 2
             for pair in (self.beside, self.beside_behind)
         )
-        return Face(tuple(grey_block(self.reflected)), passed, back, *beside)
+        return Face(tuple(grey_block(self.reflected)), passed, back, *others)
 
 
 class Side(NamedTuple):
@@ -177,11 +177,11 @@ class Parts(NamedTuple):
 def along(face: Face, part: int) -> Parts:
     """Return what a boundary does to the intensity along s, or along p."""
 
-    def side(passed: tuple[Any, ...], beside: tuple[Any, Any] | None) -> Side:
+    def side(passed: tuple[Any, ...], others: tuple[Any, Any] | None) -> Side:
         T = passed[part]
-        if beside is None:
+        if others is None:
             return Side(((T,),), (0.0,), ((T,), (0.0,)), ((T,), (0.0,)))
-        stays = beside[part]
+        stays = others[part]
         size = abs(stays)
         return Side(((T,),), (stays,), ((T + stays,), (stays,)), ((T + size,), (size,)))
 
@@ -196,16 +196,16 @@ def across(xp: Primitives, face: Face, sign: Any) -> Parts:
     """
     Fs, Fp, B, *turned = face.reflected
     C, S = (sign * number for number in turned)
-    lost = _beside(xp, Fs, Fp, B, C, S)
+    missing = _beside(xp, Fs, Fp, B, C, S)
 
-    def side(passed: tuple[Any, ...], beside: tuple[Any, Any] | None) -> Side:
+    def side(passed: tuple[Any, ...], others: tuple[Any, Any] | None) -> Side:
         Ts, Tp, D, c, s = passed
-        out, on = lost + 0.5 * (Ts + Tp), lost + _beside(xp, Ts, Tp, D, c, s)
-        if beside is None:
+        out, on = missing + 0.5 * (Ts + Tp), missing + _beside(xp, Ts, Tp, D, c, s)
+        if others is None:
             leaves = (out + S, out - S), (on + S + s, on - S - s)
             return Side(_rows(c, s), (0.0, 0.0), leaves, leaves)
-        stays = 0.5 * (beside[0] + beside[1])
-        size = 0.5 * (abs(beside[0]) + abs(beside[1])) + abs(S)
+        stays = 0.5 * (others[0] + others[1])
+        size = 0.5 * (abs(others[0]) + abs(others[1])) + abs(S)
         sizes = 2 * (out + size,), 2 * (on + size + abs(s),)
         out, on = out + stays, on + stays
         return Side(
@@ -356,12 +356,12 @@ def attenuation(xp: Primitives) -> KernelFunction:
     g = sqrt(m^2 - (n0 sin)^2), the wave along the normal (Byrnes, arXiv:1603.02720, sec. on
     incoherent layers). Where digits of it would be lost to underflow it is 0.
     """
-    wave, where, exp, lost = _decay(xp), xp.where, xp.exp, _one_less_exponential(xp)
+    wave, where, exp, missing = _decay(xp), xp.where, xp.exp, _one_less_exponential(xp)
 
     def attenuate(n: Any, k: Any, length: Any, wavelength: Any, *angle: Any) -> tuple[Any, ...]:
         x = 4.0 * math.pi * wave(n, k, *angle) * (length / wavelength)
         left = exp(-x)
-        return where(left * _LEAST > 0.0, left, 0.0), lost(x, left)
+        return where(left * _LEAST > 0.0, left, 0.0), missing(x, left)
 
     return attenuate
 

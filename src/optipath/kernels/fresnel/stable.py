@@ -117,7 +117,7 @@ def through_and_back(
     """Return P = |g1 + g2|^2, 1 - Fs, and Fs, which has its digits where it is small."""
     P = even + mixed
     # At grazing incidence on an equal medium there is no interface. Asked so that NaN stays NaN.
-    vanishes, lost = P < _EQUAL, mixed - (P - even)
+    vanishes, missing = P < _EQUAL, mixed - (P - even)
     P = where(vanishes, 1.0, P)
     inverse = 1.0 / P
     # A quotient has one rounding less than a product with an inverse.
@@ -125,7 +125,7 @@ def through_and_back(
     small = re * re + im * im
     # What the sum P has lost is known exactly, since its first term is the larger.
     twice = 2.0 * inverse
-    return P, where(vanishes, 1.0, mixed * twice), small - lost * twice * small
+    return P, where(vanishes, 1.0, mixed * twice), small - missing * twice * small
 
 
 def sum_squared(at: Boundary | InhomogeneousBoundary) -> Any:

@@ -194,8 +194,8 @@ def amplitude_inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
     """
     boundary = inhomogeneous_boundary(xp)
 
-    def reflect(*given: Any) -> tuple[Any, ...]:
-        at = boundary(*given)
+    def reflect(*argument: Any) -> tuple[Any, ...]:
+        at = boundary(*argument)
         g1, g2, first, second = _absorbing_waves(at)
         rs = ratio(xp, _less(g1, g2), _plus(g1, g2))
         rp = ratio(xp, _less(first, second), _plus(first, second))
@@ -212,13 +212,13 @@ def amplitude_inhomogeneous_transmission(xp: Primitives) -> KernelFunction:
     T_p = |t_p|^2 Re(m2 conj(g2 / m2)) / Re(m1 conj(g1 / m1)).
     """
     boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *given: transmitted(boundary(*given))
+    return lambda *argument: transmitted(boundary(*argument))
 
 
 def amplitude_transmission_from_behind(xp: Primitives) -> KernelFunction:
     """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` for light from behind."""
     boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *given: transmitted(boundary(*given).from_behind(xp.where))
+    return lambda *argument: transmitted(boundary(*argument).from_behind(xp.where))
 
 
 def _transmitted(xp: Primitives) -> Any:
@@ -269,8 +269,8 @@ def single_amplitudes(xp: Primitives) -> KernelFunction:
     """
     boundary, of_s, of_p = inhomogeneous_boundary(xp), _along_s(xp), _along_p(xp)
 
-    def amplitudes(*given: Any) -> tuple[Any, ...]:
-        at = boundary(*given)
+    def amplitudes(*argument: Any) -> tuple[Any, ...]:
+        at = boundary(*argument)
         rs, ts = of_s(at)
         rp, tp = of_p(at, rs, ts)
         # Adding 0 turns -0 into 0.

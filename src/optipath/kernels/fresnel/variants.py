@@ -76,11 +76,11 @@ def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Fs d, Fp d, d)``, as `inhomogeneous_reflection`."""
     boundary, where = inhomogeneous_boundary(xp), xp.where
 
-    def powers(*given: Any) -> tuple[Any, ...]:
-        at = boundary(*given)
+    def powers(*argument: Any) -> tuple[Any, ...]:
+        at = boundary(*argument)
         P, along = sum_squared(at), slant_of(where, at)
         parted = at.D * at.D + at.v * at.v
-        real = _of_refracted(xp, given[4:], at.p, parted, P * P)
+        real = _of_refracted(xp, argument[4:], at.p, parted, P * P)
         # Out of a medium that absorbs, it may be more than all.
         parted = where(at.kappa > 0.0, parted, real)
         return parted * along.q, parted * along.less, P * P * along.q
@@ -113,9 +113,9 @@ class Compensated:
         """Make the kernel, which rounds what it returns once."""
         kernel, sqrt = self.factory(twice(xp)), DoubleDouble.sqrt
 
-        def rounded_once(*given: Any) -> tuple[Any, ...]:
+        def rounded_once(*argument: Any) -> tuple[Any, ...]:
             # Not a plain 0: the rest has the precision of the number.
-            *media, c, s = (DoubleDouble(xp, number, 0.0 * number) for number in given)
+            *media, c, s = (DoubleDouble(xp, number, 0.0 * number) for number in argument)
             # A cosine and a sine that are rounded belong to no angle; their ratio does.
             length = sqrt(c * c + s * s)
             numbers = kernel(*media, c / length, s / length)
@@ -137,10 +137,10 @@ class AtAngle:
         """Make the kernel."""
         kernel = self.factory(xp)
 
-        def at_angle(*given: Any) -> tuple[Any, ...]:
+        def at_angle(*argument: Any) -> tuple[Any, ...]:
             # That S vanishes where nothing absorbs is known, and C beside it tells all.
-            *numbers, S = kernel(*given)
-            return *numbers_at(xp, given[-2], numbers), S
+            *numbers, S = kernel(*argument)
+            return *numbers_at(xp, argument[-2], numbers), S
 
         return at_angle
 

@@ -49,8 +49,8 @@ def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
     """
     crystal = Crystal.named(raw, wavelength)
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
-    asked = "" if of_index else _QUANTITIES.get(domain.dimension, "")
-    result = getattr(crystal, asked, None)
+    request = "" if of_index else _QUANTITIES.get(domain.dimension, "")
+    result = getattr(crystal, request, None)
     if result is None:
         raise PresetError(
             f"{crystal.label} gives no {domain.name}; it stands for a birefringence, and quartz "
@@ -100,15 +100,15 @@ def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
         for name, usual in known.items()
         if usual is Argument.empty and name not in table
     ]
-    given = {
+    arguments = {
         name: faults.attempt(f".{form}.{name}", _nested, value, decode)
         for name, value in table.items()
     }
     if "span" in raw:
-        given["span"] = faults.attempt(".span", _span, raw["span"], decode)
+        arguments["span"] = faults.attempt(".span", _span, raw["span"], decode)
     if faults:
         raise PresetError(*faults)
-    return FORMULAS[form](raw.get("name", f"the formula '{form}'"), **given)
+    return FORMULAS[form](raw.get("name", f"the formula '{form}'"), **arguments)
 
 
 def formula_table(curve: Curve, encode: Encode) -> dict[str, Any] | None:
@@ -116,8 +116,8 @@ def formula_table(curve: Curve, encode: Encode) -> dict[str, Any] | None:
     form = next((form for form, of in FORMULAS.items() if type(curve) is of), None)
     if form is None:
         return None
-    given = {name: getattr(curve, name) for name in _coefficients_of(form)}
-    table = {name: encode(value, "") for name, value in given.items() if value is not None}
+    arguments = {name: getattr(curve, name) for name in _coefficients_of(form)}
+    table = {name: encode(value, "") for name, value in arguments.items() if value is not None}
     results: dict[str, Any] = {form: table, "name": curve.label}
     if curve.span != EVERYWHERE:
         results["span"] = [encode(end, WAVELENGTH.unit) for end in curve.span]
@@ -186,8 +186,8 @@ def page_table(curve: PageCurve) -> dict[str, Any] | None:
 
 def own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
     """Return which of n and k a table has to say beside the name of a material."""
-    given = {"n": n, "k": k}
-    own = {part: given[part] for part in given if part not in curve.parts}
+    arguments = {"n": n, "k": k}
+    own = {part: arguments[part] for part in arguments if part not in curve.parts}
     try:
         usual = Material.named(**curve.asked)
     except OptipathError:

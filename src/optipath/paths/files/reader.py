@@ -101,11 +101,11 @@ def read(document: Table) -> PathGraph:
     loops = loops if loops in LOOPS else LOOPS[-1]
     path = PathGraph(description, declared=tuple(parameters), loops=loops)
     before = len(faults)
-    lost = _elements(path, document, parameters, faults)
-    suspects = lost | _links(path, document, parameters, lost, faults)
+    missing = _elements(path, document, parameters, faults)
+    suspects = missing | _links(path, document, parameters, missing, faults)
     misplaced = Faults()
     for name, table in tables_of(document, "choices", faults).items():
-        _offer(path, name, table, lost, faults, misplaced)
+        _offer(path, name, table, missing, faults, misplaced)
     values = Values(path.graph)
     unfit = unit_faults(values, parameters)
     faults += unfit.values()
@@ -113,7 +113,7 @@ def read(document: Table) -> PathGraph:
     faults += chain(*pairs.values())
     doubtful = {*parameters.doubtful, *unfit, *pairs, STAND_IN.name}
     known = {**values.parameters, **parameters}
-    _cases(path, document, known, doubtful, values.uses, lost, faults)
+    _cases(path, document, known, doubtful, values.uses, missing, faults)
     if len(faults) == before:
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
@@ -121,7 +121,7 @@ def read(document: Table) -> PathGraph:
             if name not in references and name not in values.parameters
         ]
     if faults:
-        whole = bool(path.graph) and not lost
+        whole = bool(path.graph) and not missing
         partial = partial_faults(path.graph, suspects, doubtful, whole=whole)
         raise PathError(*joined([*faults, *partial]))
     validate(path.graph, values)
@@ -156,15 +156,15 @@ def _elements(
         faults.append("the preset has no elements; add a table [elements.NAME] for each")
     if not isinstance(tables, dict):
         return set()
-    lost = {
+    missing = {
         name for name, table in tables.items() if not _add(path, name, table, parameters, faults)
     }
     # Links to a name that has a dot name but its first part.
-    return lost | {name.partition(".")[0] for name in lost}
+    return missing | {name.partition(".")[0] for name in missing}
 
 
 def _links(
-    path: PathGraph, document: Table, parameters: Declarations, lost: set[str], faults: Faults
+    path: PathGraph, document: Table, parameters: Declarations, missing: set[str], faults: Faults
 ) -> set[str]:
     """Add the links; return the nodes of which some may be missing."""
     links = document.get("links", [])
@@ -172,7 +172,7 @@ def _links(
         return set(path.graph)
     suspects = set()
     for number, table in enumerate(links):
-        suspects |= _link(path, f"links[{number}]", table, parameters, lost, faults)
+        suspects |= _link(path, f"links[{number}]", table, parameters, missing, faults)
     return suspects
 
 
@@ -182,7 +182,7 @@ def _cases(
     parameters: Parameters,
     doubtful: set[str],
     uses: Sequence[Use],
-    lost: set[str],
+    missing: set[str],
     faults: Faults,
 ) -> None:
     ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
@@ -190,7 +190,7 @@ def _cases(
         faults += name_faults(name)
         path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, uses, faults)
         for detector in path.cases[name].published:
-            if detector not in ends and detector not in lost and path.graph:
+            if detector not in ends and detector not in missing and path.graph:
                 cure = did_you_mean(detector, ends)
                 faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
 
@@ -211,7 +211,7 @@ def _add(path: PathGraph, name: str, table: Any, parameters: Parameters, faults:
 
 
 def _offer(
-    path: PathGraph, name: str, table: Table, lost: set[str], faults: Faults, misplaced: Faults
+    path: PathGraph, name: str, table: Table, missing: set[str], faults: Faults, misplaced: Faults
 ) -> None:
     """Offer a choice; what is wrong with its places is told where the links have no fault."""
     where = f"choices.{name}"
@@ -224,7 +224,7 @@ def _offer(
             f'{{ light = "L.out" }}, not {as_toml(behind)}'
         )
     faults += wrong
-    if wrong or lost or not path.graph:
+    if wrong or missing or not path.graph:
         return
     about = table["element"], table["behind"], table.get("help", "")
     choice = faults.attempt(where, PlaceChoice, *about)
@@ -243,7 +243,12 @@ def _are_ports(behind: Table) -> bool:
 
 
 def _link(
-    path: PathGraph, where: str, table: Any, parameters: Parameters, lost: set[str], faults: Faults
+    path: PathGraph,
+    where: str,
+    table: Any,
+    parameters: Parameters,
+    absent: set[str],
+    faults: Faults,
 ) -> set[str]:
     """Add a link; return the nodes whose links are not all there, if it could not be added."""
     if not isinstance(table, dict):
@@ -261,7 +266,7 @@ def _link(
     azimuth = None
     if "azimuth" in table:
         azimuth = faults.attempt(f"{where}.azimuth", decode, table["azimuth"], ANGLE, parameters)
-    known = [key for key, name in ends.items() if name not in lost]
+    known = [key for key, name in ends.items() if name not in absent]
     wrong, graph = Faults(), path.graph
     results = [
         wrong.attempt(where, find_port, graph, table[key], out=key == "from") for key in known
@@ -275,7 +280,7 @@ def _link(
         faults.attempt(where, path.connect, table["from"], table["to"], azimuth, tap=tap)
         return set() if len(faults) == before else set(ends.values())
     # A node that does not exist may be any of those that do.
-    return set(ends.values()) if set(ends.values()) <= {*path.graph, *lost} else set(path.graph)
+    return set(ends.values()) if set(ends.values()) <= {*path.graph, *absent} else set(path.graph)
 
 
 def _is_reversed(path: PathGraph, table: Table) -> bool:
@@ -327,12 +332,12 @@ def tables_of(document: dict[str, Any], section: str, faults: Faults) -> dict[st
 
 def unit_faults(values: Values, parameters: Declarations) -> dict[str, str]:
     """Return the parameters whose unit fits nowhere, with a sentence for each."""
-    asked: dict[str, dict[str, str]] = {}
+    requests: dict[str, dict[str, str]] = {}
     for use in values.uses:
         if isinstance(use.value, Parameter):
-            asked.setdefault(use.value.name, {}).setdefault(use.domain.dimension, use.owner)
+            requests.setdefault(use.value.name, {}).setdefault(use.domain.dimension, use.owner)
     results = {}
-    for name, places in asked.items():
+    for name, places in requests.items():
         if name not in parameters or name in parameters.doubtful or len(places) > 1:
             continue
         ((dimension, owner),) = places.items()
@@ -343,14 +348,14 @@ def unit_faults(values: Values, parameters: Declarations) -> dict[str, str]:
 
 
 def _misfit(unit: str, dimension: str, owner: str) -> str:
-    asked = with_article(dimension) if dimension else "a pure number"
+    request = with_article(dimension) if dimension else "a pure number"
     usual = USUAL_UNITS[dimension]
     if not unit:
         return (
-            f'is used where {asked} is asked for; add unit = "{usual}" or another, and write '
+            f'is used where {request} is asked for; add unit = "{usual}" or another, and write '
             f'its values as in "1 {usual}"'
         )
-    return f"is in {unit}, but {owner} takes {asked}; change its unit or where it is used"
+    return f"is in {unit}, but {owner} takes {request}; change its unit or where it is used"
 
 
 _WITH_UNIT = re.compile(rf"[-+.\d][-+.\deE]*\s*({'|'.join(map(re.escape, UNITS))})", re.ASCII)
@@ -388,10 +393,10 @@ def read_parameter(
     kind = Wavelength if of_light else Parameter
     keys.setdefault("help", "")
     default, bare = None, faults.attempt(where, kind, name, None, **keys)
-    given = table.get("default")
-    waits = isinstance(given, str) and given in words and words[given] is None
-    if given is not None and bare is not None and not waits:
-        default = faults.attempt(f"{where}.default", decode_given, given, bare)
+    argument = table.get("default")
+    waits = isinstance(argument, str) and argument in words and words[argument] is None
+    if argument is not None and bare is not None and not waits:
+        default = faults.attempt(f"{where}.default", decode_given, argument, bare)
     if len(faults) > before:
         return None
     bound = table.get("bound", False)
@@ -431,8 +436,8 @@ def _no_length(where: str, unit: str) -> str:
 
 def _unit_fault(where: str, unit: str, table: Mapping[str, Any]) -> str:
     """Say that no value has the dimension of the unit, if so: it is the unit that is wrong."""
-    given = texts_in([table.get(key) for key in ("default", "range", "words")])
-    units = {text: match[1] for text in given if (match := _WITH_UNIT.fullmatch(text.strip()))}
+    argument = texts_in([table.get(key) for key in ("default", "range", "words")])
+    units = {text: match[1] for text in argument if (match := _WITH_UNIT.fullmatch(text.strip()))}
     dimensions = [UNITS[name].dimension for name in units.values()]
     if not units or (unit in UNITS and dimension_of(unit) in dimensions):
         return ""
@@ -483,8 +488,8 @@ def read_element(
     what = f"element class {result.__name__}"
     # What code of a user's own says of a stand-in is no news.
     unknown = is_own(result) and any(value is STAND_IN for value in values.values())
-    told = Faults() if unknown else faults
-    return told.attempt(where, lambda: called(what, lambda: result(**values)))
+    message = Faults() if unknown else faults
+    return message.attempt(where, lambda: called(what, lambda: result(**values)))
 
 
 def _no_fields(table: Mapping[str, Any]) -> dict[str, Any]:

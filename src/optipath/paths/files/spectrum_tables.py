@@ -136,7 +136,7 @@ def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
             example = f"{raw[key]} nm" if key in ("line", "led", "width") else "..."
             wrong = f"'{key}' is {shown(raw[key])}, but a text is asked for"
             raise PresetError(f'{wrong}; write {key} = "{example}"')
-    given = {key: raw[key] for key in ("power", "outside", "name") if key in raw}
+    arguments = {key: raw[key] for key in ("power", "outside", "name") if key in raw}
     if form in ("wavelengths", "edges"):
         column = _NEEDED[form]
         faults = Faults()
@@ -145,10 +145,10 @@ def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
         if faults:
             raise PresetError(*faults)
         make = Spectrum.sampled if form == "wavelengths" else Spectrum.histogram
-        return make(places, numbers, **given)
+        return make(places, numbers, **arguments)
     if form == "led":
-        return Spectrum.led(raw["led"], raw["width"], **given)
-    made: Spectrum = getattr(Spectrum, form)(raw[form], **given)
+        return Spectrum.led(raw["led"], raw["width"], **arguments)
+    made: Spectrum = getattr(Spectrum, form)(raw[form], **arguments)
     return made
 
 
@@ -200,10 +200,10 @@ def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Doma
     """Return the curve through the samples of a table."""
     faults, domains = Faults(), {"n": N, "k": K, "values": domain}
     of_numbers = columns == ("values",)
-    given = [key for key in columns if key in raw or of_numbers]
+    arguments = [key for key in columns if key in raw or of_numbers]
     axis = faults.attempt(".wavelengths", wavelengths_of, raw["wavelengths"], raw.get("unit"))
     samples = []
-    for key in given:
+    for key in arguments:
         read = faults.attempt(f".{key}", samples_of, raw.get(key), domains[key].unit)
         samples.append(read)
         if read is not None and not of_numbers:
@@ -212,7 +212,7 @@ def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Doma
         raise PresetError(*faults)
     how = {key: raw[key] for key in ("interpolation", "extrapolate") if key in raw}
     usual = f"{domain.name} by wavelength" if of_numbers else "the table"
-    parts = tuple(key.removesuffix("s") for key in given)
+    parts = tuple(key.removesuffix("s") for key in arguments)
     return Tabulated(raw.get("name", usual), parts, axis, samples, **how)
 
 
@@ -265,9 +265,9 @@ def _sample(entry: Any, place: int, unit: str) -> float:
         return number
     number = _real(entry, place)
     if unit:
-        asked = with_article(dimension_of(unit))
+        request = with_article(dimension_of(unit))
         raise UnitError(
-            f'{shown(entry)} has no unit, but {asked} is asked for; write "{entry} {unit}"'
+            f'{shown(entry)} has no unit, but {request} is asked for; write "{entry} {unit}"'
         )
     return number
 

@@ -42,23 +42,25 @@ def names_in(folder: Path) -> list[str]:
     return sorted([path.stem for path in folder.glob("*.toml")])
 
 
-def file_of(given: Any, what: str, folder: Path, see: str) -> Path:
+def file_of(argument: Any, what: str, folder: Path, see: str) -> Path:
     """Return the file that a name or a path stands for, which need not exist if it is a path."""
     names: Sequence[str] = names_in(folder)
-    if isinstance(given, str) and _NAME.fullmatch(given):
-        if given not in names:
-            raise PresetError(f"{what} '{given}' is unknown{did_you_mean(given, names)}")
-        return folder / f"{given}.toml"
+    if isinstance(argument, str) and _NAME.fullmatch(argument):
+        if argument not in names:
+            raise PresetError(f"{what} '{argument}' is unknown{did_you_mean(argument, names)}")
+        return folder / f"{argument}.toml"
     try:
-        path = Path(given)
+        path = Path(argument)
     except TypeError:
-        raise PresetError(f"a {what} is a name or the path of a file, not {shown(given)}") from None
+        raise PresetError(
+            f"a {what} is a name or the path of a file, not {shown(argument)}"
+        ) from None
     if path.suffix.lower() != ".toml":
         cure = did_you_mean(path.stem, names)
         if not cure.startswith("; did you mean"):
             cure = f"; see the names with {see}"
         raise PresetError(
-            f"'{given}' is neither the name of a {what} (a-z, 0-9 and -) nor the path of a "
+            f"'{argument}' is neither the name of a {what} (a-z, 0-9 and -) nor the path of a "
             f".toml file{cure}"
         )
     return path

@@ -232,8 +232,10 @@ def _number(raw: Any, unit: str) -> Any:
     except OverflowError:
         raise UnitError(f"{shown(raw)} is too large a number") from None
     if unit and np.isfinite(number):
-        asked = with_article(dimension_of(unit))
-        raise UnitError(f"{shown(raw)} has no unit, but {asked} is asked for; write '{raw} {unit}'")
+        request = with_article(dimension_of(unit))
+        raise UnitError(
+            f"{shown(raw)} has no unit, but {request} is asked for; write '{raw} {unit}'"
+        )
     return number
 
 

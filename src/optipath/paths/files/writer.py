@@ -71,10 +71,10 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     for name, case in cases.items():
         faults += name_faults(name)
         faults += [
-            f"case '{name}' gives parameter '{given}', which is unknown"
-            f"{did_you_mean(given, parameters)}"
-            for given in case.values
-            if given not in parameters
+            f"case '{name}' gives parameter '{argument}', which is unknown"
+            f"{did_you_mean(argument, parameters)}"
+            for argument in case.values
+            if argument not in parameters
         ]
         tables.append(toml_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
     if faults:

@@ -135,7 +135,7 @@ def _sum(curve: CurveSum, given_by: tuple[Any, ...], unit: str, encode: Encode) 
     return {SUM: terms}
 
 
-def _wavelength(given: Any, encode: Encode) -> dict[str, Any]:
+def _wavelength(argument: Any, encode: Encode) -> dict[str, Any]:
     """Return the key of a wavelength; none for the parameter of that name."""
-    usual = isinstance(given, Parameter) and given.name == WHEN and given.quantity == WHEN
-    return {} if usual else {WHEN: encode(given, WAVELENGTH.unit)}
+    usual = isinstance(argument, Parameter) and argument.name == WHEN and argument.quantity == WHEN
+    return {} if usual else {WHEN: encode(argument, WAVELENGTH.unit)}

@@ -85,11 +85,11 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     >>> sorted(text.get_text().replace("\n", ", ") for text in ax.texts)[0]
     'analyzer, angle = 30 deg'
     """
-    told = ToldPath(path, "bench", values)
-    scene = scene_with(told)
+    message = ToldPath(path, "bench", values)
+    scene = scene_with(message)
     flat = flat_sheet(scene)
     texts = {
-        node.name: [node.name, *values_below(told.wiring.elements[node.name])]
+        node.name: [node.name, *values_below(message.wiring.elements[node.name])]
         for node in scene.nodes
     }
     widest = max(len(line) for lines in texts.values() for line in lines)

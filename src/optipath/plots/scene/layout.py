@@ -63,29 +63,29 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     return scene_with(ToldPath(path, what, values))
 
 
-def scene_with(told: ToldPath) -> Scene:
+def scene_with(message: ToldPath) -> Scene:
     """Return a path with all its values laid out in space."""
-    placing = Placing(told)
-    rays = tuple(_ray(placing, each) for each in told.lights)
+    placing = Placing(message)
+    rays = tuple(_ray(placing, each) for each in message.lights)
     schematic = not all(posture.told for posture in placing.postures.values())
-    angles = scene_angles(told, placing)
+    angles = scene_angles(message, placing)
     lengths = "lengths are chosen: each link is drawn 1 long"
-    notes = [] if told.wiring.self_placed and not placing.by_angles else [lengths]
+    notes = [] if message.wiring.self_placed and not placing.by_angles else [lengths]
     return Scene(
         notes=(*notes, *placing.notes),
         schematic=schematic,
         unit=placing.unit,
-        nodes=tuple(_nodes(told, placing)),
+        nodes=tuple(_nodes(message, placing)),
         rays=rays,
         planes=tuple(_planes(placing, rays)),
-        frames=tuple(_frames(placing, {each.name: each for each in told.lights})),
+        frames=tuple(_frames(placing, {each.name: each for each in message.lights})),
         angles=angles,
     )
 
 
-def _nodes(told: ToldPath, placing: Placing) -> list[SceneNode]:
+def _nodes(message: ToldPath, placing: Placing) -> list[SceneNode]:
     results = []
-    order = dict.fromkeys([*(name for name, _ in told.wiring.order), *placing.at])
+    order = dict.fromkeys([*(name for name, _ in message.wiring.order), *placing.at])
     for name in order:
         posture, kind = placing.postures[name], placing.wiring.elements[name].kind
         stands = placing.at[name], posture.normal, posture.across
@@ -99,8 +99,8 @@ def _axis(placing: Placing, name: str) -> Array | None:
     if posture.role != "plate" or not has_axis(element):
         return None
     angle = element.angle  # type: ignore[attr-defined]
-    told = told_angle(angle)
-    if not told.there:
+    message = told_angle(angle)
+    if not message.there:
         return None
     x, y, _ = posture.axes["in"].T
     turned = number(angle)
@@ -174,10 +174,10 @@ _OF_AXES = "angle", "dichroic_angle"
 """The fields of elements that say how an axis stands to x, or by how much light is turned."""
 
 
-def scene_angles(told: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
+def scene_angles(message: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
     """Return the angles of a path that have names, node by node as light travels."""
     results: list[SceneAngle] = []
-    names = dict.fromkeys(name for name, _ in told.wiring.order)
+    names = dict.fromkeys(name for name, _ in message.wiring.order)
     for name in names:
         for link in placing.links:
             if link[1] == name:
@@ -199,15 +199,15 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
     if not isinstance(element, ChainVertex):
         value = element.incidence
         _, behind = angles_at(element)
-        given = number(value) if isinstance(value, Parameter) else front
-        if abs(given - front) > 1e-9 and abs(given - behind) < 1e-9:
+        argument = number(value) if isinstance(value, Parameter) else front
+        if abs(argument - front) > 1e-9 and abs(argument - behind) < 1e-9:
             out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
             yield _arc(told_angle(value), at, -normal, out, behind, size)
-    elif (given := angles_in_chain(element)[0]) is not None:
-        value = given
-    told = told_incidence(value, front)
+    elif (argument := angles_in_chain(element)[0]) is not None:
+        value = argument
+    message = told_incidence(value, front)
     arriving = -posture.axes["in"][:, 2]
-    yield _arc(told, at, normal, arriving, front, _AT_SURFACE * placing.unit)
+    yield _arc(message, at, normal, arriving, front, _AT_SURFACE * placing.unit)
 
 
 def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
@@ -217,12 +217,12 @@ def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
         _, value = angles_in_chain(wiring.elements[link[1]])
     if not isinstance(value, Parameter):
         return
-    told, drawn = told_angle(value, signed=False), placing.links[link]
+    message, drawn = told_angle(value, signed=False), placing.links[link]
     is_surface = placing.postures[link[1]].role == "surface"
     first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
     centre = drawn.tail + 0.72 * (drawn.head - drawn.tail)
     size = _ABOUT_RAY * placing.unit
-    yield _turn(told, centre, (first, second), number(value), size, "azimuth")
+    yield _turn(message, centre, (first, second), number(value), size, "azimuth")
 
 
 def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
@@ -232,25 +232,29 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
     for field in _OF_AXES:
         value = getattr(element, field, None)
         if isinstance(value, Parameter):
-            told = told_angle(value)
-            angle = number(value) if told.there else 0.0
-            result = _turn(told, placing.at[name], (x, y), angle, size, "axis")
-            yield result if told.there else result._replace(arc=result.arc[:0], at=placing.at[name])
+            message = told_angle(value)
+            angle = number(value) if message.there else 0.0
+            result = _turn(message, placing.at[name], (x, y), angle, size, "axis")
+            yield (
+                result
+                if message.there
+                else result._replace(arc=result.arc[:0], at=placing.at[name])
+            )
             size *= 1.25
 
 
 def _arc(
-    told: ToldAngle, at: Array, first: Array, second: Array, angle: float, size: float
+    message: ToldAngle, at: Array, first: Array, second: Array, angle: float, size: float
 ) -> SceneAngle:
     """Return the arc from one direction to another, which are an angle apart."""
     across = second - (second @ first) * first
     length = np.linalg.norm(across)
     towards = across / length if length > 1e-12 else np.zeros(3)
-    return _turn(told, at, (first, towards), angle, size, "incidence")
+    return _turn(message, at, (first, towards), angle, size, "incidence")
 
 
 def _turn(
-    told: ToldAngle, at: Array, sides: tuple[Array, Array], angle: float, size: float, about: str
+    message: ToldAngle, at: Array, sides: tuple[Array, Array], angle: float, size: float, about: str
 ) -> SceneAngle:
     """Return the arc of a turn from one direction towards another at a right angle to it."""
     first, second = sides
@@ -259,7 +263,7 @@ def _turn(
     # An angle that is not seen has its name where it would open.
     reach = size if abs(angle) > _SEEN else 0.0
     middle = at + reach * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
-    return SceneAngle(told.name, told.text, arc, middle, at, about)
+    return SceneAngle(message.name, message.text, arc, middle, at, about)
 
 
 def angles_in_chain(element: Any) -> tuple[Any, Any]:

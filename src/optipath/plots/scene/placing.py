@@ -62,8 +62,8 @@ class Placing:
     Shape: at (3,).
     """
 
-    def __init__(self, told: ToldPath) -> None:
-        self.wiring = told.wiring
+    def __init__(self, message: ToldPath) -> None:
+        self.wiring = message.wiring
         self.at: dict[str, Array] = {}
         self.postures: dict[str, Posture] = {}
         self.links: dict[Link, DrawnLink] = {}
@@ -307,8 +307,8 @@ def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Postu
         normal = _normal(element, leaves[0], axes["in"], axes[leaves[0]][:, 2])
     elif isinstance(element, ChainVertex):
         normal = _normal_of_vertex(element, axes["in"], axes[leaves[0]][:, 2])
-    told = usual.told or len(axes) > 1
-    return usual._replace(axes={**axes, **others}, normal=normal, across=across, told=told)
+    message = usual.told or len(axes) > 1
+    return usual._replace(axes={**axes, **others}, normal=normal, across=across, told=message)
 
 
 def _normal(element: Element, port: str, arriving: Array, leaves: Array) -> Array:
@@ -382,11 +382,11 @@ def legs_beside_chains(wiring: Wiring) -> dict[Link, float]:
         if isinstance(element.vertices, VerticesByAngles):
             continue
         points, place = chain_points(element), int(element.place)
-        for beside, links in (
+        for other, links in (
             (place - 1, _links_before(wiring, name)),
             (place + 1, _links_behind(wiring, name)),
         ):
-            length = np.linalg.norm(points[beside] - points[place])
+            length = np.linalg.norm(points[other] - points[place])
             results |= dict.fromkeys(links, float(length) / max(len(links), 1))
     return results
 

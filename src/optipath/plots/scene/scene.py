@@ -154,9 +154,9 @@ def _ray(ray: SceneRay) -> dict[str, Any]:
     }
 
 
-def _as_dict(told: Any, *kept: str) -> dict[str, Any]:
+def _as_dict(message: Any, *stored: str) -> dict[str, Any]:
     """Return what is told but for what is kept."""
-    pairs = [(name, value) for name, value in told._asdict().items() if name not in kept]
+    pairs = [(name, value) for name, value in message._asdict().items() if name not in stored]
     return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in pairs}
 
 

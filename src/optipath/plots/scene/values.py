@@ -106,7 +106,7 @@ def told_incidence(value: Any, front: float) -> ToldAngle:
 
     Units: value in radians.
     """
-    told = told_angle(value)
-    if told.name and abs(number(value) - front) <= _SAME_ANGLE:
-        return told
+    message = told_angle(value)
+    if message.name and abs(number(value) - front) <= _SAME_ANGLE:
+        return message
     return ToldAngle("incidence", front if front > _SAME_ANGLE else 0.0)

@@ -173,9 +173,9 @@ class LevelPixels:
         if sensor.pixels % 2 and sensor.pixels > 1:
             # Of light about the normal all that is linear is lost; its neighbours have it.
             middle = sensor.pixels // 2
-            beside = [(middle - 1, middle), (middle + 1, middle)]
-            beside += [(middle, middle - 1), (middle, middle + 1)]
-            result[middle, middle] = np.mean([result[place] for place in beside], axis=0)
+            others = [(middle - 1, middle), (middle + 1, middle)]
+            others += [(middle, middle - 1), (middle, middle + 1)]
+            result[middle, middle] = np.mean([result[place] for place in others], axis=0)
         return cls(sensor, there.astype(float), result, errors)
 
     def at(self, directions: Numbers) -> tuple[Numbers, Numbers]:

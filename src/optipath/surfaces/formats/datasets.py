@@ -63,24 +63,24 @@ def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
 
 def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
     """Return the hemisphere that is in a file."""
-    told = json.loads(dataset.attrs[MEASUREMENT])
-    if told["layout"] != LAYOUT:
+    message = json.loads(dataset.attrs[MEASUREMENT])
+    if message["layout"] != LAYOUT:
         raise SurfaceError(
-            f"it has layout {told['layout']}, but this version reads layout {LAYOUT}; load it by "
-            f"optipath {dataset.attrs['optipath_version']}"
+            f"it has layout {message['layout']}, but this version reads layout {LAYOUT}; load "
+            f"it by optipath {dataset.attrs['optipath_version']}"
         )
-    result = sample_of(told["sample"], sample)
+    result = sample_of(message["sample"], sample)
     seen = SensedBeam(
-        _beam(dataset, told, result),
-        Sensor(told["pixels"], told["projection"], told["parts"]),
-        told["polarized"],
-        told["events"],
+        _beam(dataset, message, result),
+        Sensor(message["pixels"], message["projection"], message["parts"]),
+        message["polarized"],
+        message["events"],
     )
     read = {name: dataset[name].to_numpy() for name in ("sums", "count", "part_photons")}
     sums = PartSums(*read.values())
     if (sums.sums.shape, sums.counts.shape) != (seen.shape, seen.shape[1:4]):
         raise ValueError(sums.sums.shape)
-    return Hemisphere(seen, sums, dataset.wavelength.to_numpy(), told["symmetric"])
+    return Hemisphere(seen, sums, dataset.wavelength.to_numpy(), message["symmetric"])
 
 
 def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
@@ -107,19 +107,19 @@ def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
     }
 
 
-def _beam(dataset: xr.Dataset, told: Mapping[str, Any], sample: Any) -> PhotonBeam:
+def _beam(dataset: xr.Dataset, messages: Mapping[str, Any], sample: Any) -> PhotonBeam:
     n, k = [
-        dataset[name].to_numpy().reshape(told["wavelengths"]) for name in ("index_n", "index_k")
+        dataset[name].to_numpy().reshape(messages["wavelengths"]) for name in ("index_n", "index_k")
     ]
     return PhotonBeam(
         sample,
-        told["cos"],
-        told["sin"],
-        told["azimuth"],
-        SampleIndices(told["outside"], tuple(told["inner"]), n, k),
-        (UNPOLARISED,) if told["polarized"] == "scalar" else STATES,
-        told["seed"],
-        told["most_events"],
+        messages["cos"],
+        messages["sin"],
+        messages["azimuth"],
+        SampleIndices(messages["outside"], tuple(messages["inner"]), n, k),
+        (UNPOLARISED,) if messages["polarized"] == "scalar" else STATES,
+        messages["seed"],
+        messages["most_events"],
     )
 
 
@@ -146,11 +146,11 @@ def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
     return asdict(UnknownSample(why, bool(sample.isotropic), _digest(sample), text))
 
 
-def sample_of(kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSample:
+def sample_of(stored: Mapping[str, Any], argument: Any = None) -> Sample | UnknownSample:
     """Return the sample of a file."""
-    if given is not None:
-        return _known_again(given, kept)
-    unknown = UnknownSample(**kept)
+    if argument is not None:
+        return _known_again(argument, stored)
+    unknown = UnknownSample(**stored)
     if unknown.why:
         return unknown
     try:
@@ -164,12 +164,12 @@ def sample_of(kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSam
     )
 
 
-def _known_again(given: Any, kept: Mapping[str, Any]) -> Sample:
-    if not isinstance(given, Sample):
-        raise SurfaceError(f"sample is {shown(given)}; give the op.Sample that was measured")
-    if _digest(given) != kept["digest"]:
-        raise SurfaceError(f"sample is {given}, which is not the one that was measured")
-    return given
+def _known_again(argument: Any, stored: Mapping[str, Any]) -> Sample:
+    if not isinstance(argument, Sample):
+        raise SurfaceError(f"sample is {shown(argument)}; give the op.Sample that was measured")
+    if _digest(argument) != stored["digest"]:
+        raise SurfaceError(f"sample is {argument}, which is not the one that was measured")
+    return argument
 
 
 def _heights(sample: Sample) -> list[HeightField]:

@@ -91,10 +91,12 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
         with told_of(place, SurfaceError):
             picture.write(place)
     elif place.suffix in _PACKAGES:
-        if given := [n for n, each in {"source": source, "side": side}.items() if each is not None]:
+        if argument := [
+            n for n, each in {"source": source, "side": side}.items() if each is not None
+        ]:
             raise SurfaceError(
                 f"'{place}' is to hold the light of every source on all sides; leave "
-                f"{'= and '.join(given)}= out, or give a name that ends in .exr for a picture"
+                f"{'= and '.join(argument)}= out, or give a name that ends in .exr for a picture"
             )
         write = _writer(hemisphere, place.suffix)
         with told_of(place, SurfaceError):
@@ -189,7 +191,7 @@ def _name(wavelength: float) -> str:
 def _attributes(
     hemisphere: Hemisphere, side: str, state: npt.NDArray[np.float64]
 ) -> dict[str, str]:
-    told = {name: str(each) for name, each in hemisphere.dataset.attrs.items()}
+    messages = {name: str(each) for name, each in hemisphere.dataset.attrs.items()}
     written = f"optipath {version('optipath')}"
     layout = {
         "spectralLayoutVersion": "1.0",
@@ -197,7 +199,7 @@ def _attributes(
         "polarisationHandedness": "right",
     }
     return (
-        told
+        messages
         | layout
         | {
             "software": written,

@@ -27,7 +27,7 @@ _SAME = 1e-9
 """By how much of itself a wavelength may differ from the one that is meant."""
 
 
-def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
+def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
     """Return the frame of light toward a direction, or several.
 
     Shape: given (..., 3).
@@ -36,14 +36,14 @@ def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
     [[ 0.5       0.        0.866025]
      [-0.5       0.        0.866025]]
     """
-    if isinstance(given, Parameter):
+    if isinstance(argument, Parameter):
         raise SurfaceError(
-            f"direction is {given.called}; give a direction, and make an element for each"
+            f"direction is {argument.called}; give a direction, and make an element for each"
         )
     try:
-        if _is_angle(given):
-            given = _in_plane(ANGLE.check("direction", given), azimuth, up=up)
-        frame = frame_along("direction", given, up=up)
+        if _is_angle(argument):
+            argument = _in_plane(ANGLE.check("direction", argument), azimuth, up=up)
+        frame = frame_along("direction", argument, up=up)
     except SurfaceError:
         raise
     except OptipathError as fault:
@@ -53,7 +53,7 @@ def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
     return frame
 
 
-def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
+def wavelength_place(known: npt.NDArray[np.float64], argument: Any) -> int:
     """Return the place of a wavelength among those that have been measured.
 
     Shape: known (wavelengths,). Units: known in metres.
@@ -61,7 +61,7 @@ def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
     >>> wavelength_place(np.array([4e-7, 5e-7]), "500 nm")
     1
     """
-    if given is None:
+    if argument is None:
         if len(known) > 1:
             raise SurfaceError(
                 f"{len(known)} wavelengths have been measured; give one of them, {_told(known)}"
@@ -69,10 +69,11 @@ def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
         return 0
     if np.isnan(known[0]):
         raise SurfaceError(
-            f"wavelength is {shown(given)}, but nothing of the sample depends on it; leave it out"
+            f"wavelength is {shown(argument)}, but nothing of the sample depends on it; leave "
+            "it out"
         )
     try:
-        wanted = np.asarray(Wavelength().resolve(given).value)
+        wanted = np.asarray(Wavelength().resolve(argument).value)
     except OptipathError as fault:
         raise SurfaceError(*fault.faults) from None
     if wanted.ndim:
@@ -86,9 +87,9 @@ def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
     return nearest
 
 
-def _is_angle(given: Any) -> bool:
+def _is_angle(argument: Any) -> bool:
     """Tell whether it is an angle, or several as texts: numbers in a row are a vector."""
-    array = np.asarray(given, dtype=object)
+    array = np.asarray(argument, dtype=object)
     return array.ndim == 0 or isinstance(array.ravel()[0] if array.size else None, str)
 
 

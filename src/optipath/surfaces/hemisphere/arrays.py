@@ -47,10 +47,10 @@ _DIFFERENCE = "share of unpolarised light that goes into the pixel, less that wi
 
 def _with_error(name: str, dims: tuple[str, ...], result: Any, what: str) -> dict[str, Any]:
     value, error = result
-    told = {"units": "1"}
+    messages = {"units": "1"}
     return {
-        name: (dims, value, {"long_name": what, **told}),
-        f"{name}_se": (dims, error, {"long_name": f"standard error of '{name}'", **told}),
+        name: (dims, value, {"long_name": what, **messages}),
+        f"{name}_se": (dims, error, {"long_name": f"standard error of '{name}'", **messages}),
     }
 
 
@@ -125,10 +125,12 @@ def difference_map(
     value, error = (np.where(counts, each, np.nan) for each in (value, error))
     dims = ("y", "x", "wavelength")[: value.ndim]
     se = xr.Variable(dims, error, {"long_name": f"standard error of '{what.called}'", "units": "1"})
-    told: _Told = {"long_name": what.told, "units": "1", "side": side}
-    told |= _mask_attributes(mask, counts, error)
-    told |= _pixel_attributes(hemisphere)
-    return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, told)
+    message: _Told = {"long_name": what.told, "units": "1", "side": side}
+    message |= _mask_attributes(mask, counts, error)
+    message |= _pixel_attributes(hemisphere)
+    return xr.DataArray(
+        value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, message
+    )
 
 
 def _relative(hemisphere: Hemisphere, light: Numbers) -> Numbers:
@@ -182,7 +184,7 @@ def pixel_array(
     more: tuple[str, ...] = (),
     *,
     error: Numbers | None = None,
-    **told: Any,
+    **messages: Any,
 ) -> xr.DataArray:
     """Return what is known of each pixel as an array with names."""
     dims = (*PIXELS, *more)
@@ -190,7 +192,7 @@ def pixel_array(
     known["side"] = "side", known["side"][1][: len(value)]
     if error is not None:
         known["se"] = dims, error, {"long_name": f"standard error of '{name}'", "units": units}
-    about = {"long_name": what, "units": units, "frame": FRAME, **told}
+    about = {"long_name": what, "units": units, "frame": FRAME, **messages}
     return xr.DataArray(value, known, dims, name, about)
 
 

@@ -87,7 +87,7 @@ class SensedBeam:
     ) -> PartSums:
         """Walk the photons of a chunk, and sum them up in their order."""
         result, add = PartSums.none(self.shape), pixel_code()
-        kept = [int(self.polarized != other) for other in ("scalar", "polarized")]
+        stored = [int(self.polarized != other) for other in ("scalar", "polarized")]
         lights = self.beam.indices.n.size
         wanted = min(photons, CHUNK * (number + 1))
         todo = range(CHUNK * number // BLOCK, -(-wanted // BLOCK))
@@ -96,7 +96,7 @@ class SensedBeam:
             for seen in walked:
                 arrays = map(address, (seen.places, seen.turns, seen.ends))
                 size = len(seen.places)
-                add(*arrays, size, lights, len(self.beam.states), *kept, address(result.sums))
+                add(*arrays, size, lights, len(self.beam.states), *stored, address(result.sums))
                 pixels = seen.places[seen.places >= 0] % result.counts.size
                 result.counts.reshape(-1)[:] += np.bincount(pixels, minlength=result.counts.size)
                 result.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)
@@ -207,12 +207,12 @@ class PixelMask:
 
     def __post_init__(self) -> None:
         """Refuse all faults."""
-        given = {"brighter_than": self.brighter_than, "known_to": self.known_to}
+        arguments = {"brighter_than": self.brighter_than, "known_to": self.known_to}
         if self.noise is not None:
-            given["noise"] = self.noise
+            arguments["noise"] = self.noise
         faults = [
             f"{name} is {shown(value)}; give a number from 0, such as {_USUAL[name]:g}"
-            for name, value in given.items()
+            for name, value in arguments.items()
             if not _is_threshold(value)
         ]
         if faults:

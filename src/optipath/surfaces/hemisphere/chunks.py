@@ -129,14 +129,14 @@ class ChunkJob:
         }
         # Codecs take no more than 2 GiB at a time.
         files = {"sums": (1, *pixels, wavelengths, numbers)}
-        told = {"sums": _SUMS, "counts": "photons of a pixel", "photons": "photons of a part"}
+        messages = {"sums": _SUMS, "counts": "photons of a pixel", "photons": "photons of a part"}
         return {
             name: KeptArray(
                 ("chunk", *dims),
                 (self.blocks, *shape),
                 (1, *files.get(name, shape)),
                 dtype,
-                {"long_name": told[name], "units": "1"},
+                {"long_name": messages[name], "units": "1"},
             )
             for name, (dims, shape, dtype) in shapes.items()
         }

@@ -499,7 +499,7 @@ error at most 0.2 of the difference, or at most 0.001
 
     def estimate_toward(
         self,
-        result: Callable[[Numbers], Any],
+        found: Callable[[Numbers], Any],
         direction: Any,
         side: str = "reflected",
         wavelength: Any = None,
@@ -532,7 +532,7 @@ error at most 0.2 of the difference, or at most 0.001
         >>> print(0.0 < error < 0.1 * share)
         True
         """
-        follows, pixels = following(result), self._toward(direction, side, wavelength)
+        follows, pixels = following(found), self._toward(direction, side, wavelength)
         return pixels.estimate(lambda light: follows(self.matrices(light)))
 
     def frames_toward(self, direction: Any, side: str = "reflected") -> dict[str, Frame]:
@@ -732,20 +732,20 @@ error at most 0.2 of the difference, or at most 0.001
         what: str,
         units: str,
         more: tuple[str, ...] = (),
-        **told: Any,
+        **messages: Any,
     ) -> xr.DataArray:
         """Return numbers with their names, units and errors."""
         from optipath.surfaces.hemisphere.arrays import pixel_array  # noqa: PLC0415 - an extra
 
         value, error = results
-        return pixel_array(self, name, value, what, units, more, error=error, **told)
+        return pixel_array(self, name, value, what, units, more, error=error, **messages)
 
-    def _difference(self, measure: str, *given: Any) -> xr.DataArray:
+    def _difference(self, measure: str, *arguments: Any) -> xr.DataArray:
         from optipath.surfaces.hemisphere.arrays import (  # noqa: PLC0415 - an extra
             difference_map,
         )
 
-        return difference_map(self, measure, *given)
+        return difference_map(self, measure, *arguments)
 
     def _toward(self, direction: Any, side: str, wavelength: Any) -> PartSums:
         """Return the sums over the pixels of each direction."""

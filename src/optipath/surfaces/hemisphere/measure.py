@@ -140,7 +140,7 @@ def measure(
         wavelength=wavelengths,
         seed=seed,
         most_events=most_events,
-        beside=faults,
+        others=faults,
     )
     assert pixels is not None  # noqa: S101 - or a fault has been raised
     if mirrors and not sample.isotropic and abs(np.sin(beam.azimuth)) > _IN_PLANE:
@@ -159,8 +159,8 @@ def measure(
         what="hemisphere of {:.3g} numbers",
     )
     # Before photons are walked.
-    kept = () if place is None else ("zarr", "dask", "distributed")
-    need("hemispheres", "numba", "llvmlite", "xarray", *kept)
+    stored = () if place is None else ("zarr", "dask", "distributed")
+    need("hemispheres", "numba", "llvmlite", "xarray", *stored)
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
     when = np.atleast_1d(np.ravel(when))
     is_known = is_flat(seen)

@@ -126,14 +126,14 @@ class PhotonBeam:
         media, base, source = map(address, self._given)
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
         behind = [address(each) for each in (state, starts, lights)]
-        code, kept, to_record = walk_code(), kept_meshes(self.sample), address(record)
+        code, stored, to_record = walk_code(), kept_meshes(self.sample), address(record)
         sums: dict[int, npt.NDArray[np.float64]] = {}
         for first, size, surface in self.portions(number, photons):
             own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
             last = wanted - first if first <= wanted else -1
             place = address(ends) + keeps * first * ends.strides[0]
             result = code(
-                *kept.of(surface).addresses,
+                *stored.of(surface).addresses,
                 *before,
                 *(size, self.most_events, last if last < size else -1),
                 *(*behind, address(own), to_record, place, int(keeps)),
@@ -174,16 +174,16 @@ def given_beam(
     stokes: npt.ArrayLike = UNPOLARISED,
     seed: int = 0,
     most_events: int = 1000,
-    beside: Sequence[str] = (),
+    others: Sequence[str] = (),
 ) -> PhotonBeam:
     """Return the photons that a user asks for."""
     if not isinstance(sample, Sample):
         raise SurfaceError(
-            *beside,
+            *others,
             f"sample is {shown(sample)}; give an op.Sample, such as op.Sample([(1.5, 0.1)]), or "
             f"op.load_sample(name)",
         )
-    faults = Faults(beside)
+    faults = Faults(others)
     incidence = faults.attempt("", _one, "incidence", incidence, INCIDENCE)
     azimuth = faults.attempt("", _one, "azimuth", azimuth, ANGLE)
     if incidence is not None and cos(incidence) < _LEAST_COSINE:
@@ -270,7 +270,7 @@ def walked_in_order(
     No more are handed out than keep all threads at work; who closes the generator stops them.
     """
     walk_code()
-    kept = kept_meshes(beam.sample)
+    stored = kept_meshes(beam.sample)
     executor = ThreadPoolExecutor(threads)
     waiting: deque[Future[Found]] = deque()
     try:
@@ -278,7 +278,7 @@ def walked_in_order(
             size = min(BLOCK, photons - BLOCK * number)
             # Here and not by a thread, whose warnings nobody would know where from.
             for _, _, surface in beam.portions(number, size):
-                kept.of(surface)
+                stored.of(surface)
             waiting.append(executor.submit(work, number, size))
             if len(waiting) > _AHEAD * threads:
                 yield waiting.popleft().result()

@@ -161,7 +161,7 @@ def _act(lights: Any, at: int, cos2: float, sin2: float, numbers: Any) -> None:
 
 
 def compiled_kernel(
-    name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], given: int
+    name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], argument: int
 ) -> Any:
     """Return a kernel as a function of Numba.
 
@@ -170,17 +170,17 @@ def compiled_kernel(
     (-1.0, 0.0)
     """
     space: dict[str, Any] = {**_SPACE, "__name__": __name__}
-    exec(kernel_text(name, kernel, given), space)  # noqa: S102 - our own
+    exec(kernel_text(name, kernel, argument), space)  # noqa: S102 - our own
     # With the flags of the loops that it goes into: nothing is an error, all is a number.
     return nb.njit(space[name], error_model="numpy")
 
 
 def kernel_text(
-    name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], given: int
+    name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], argument: int
 ) -> str:
     """Return the text of what `compiled_kernel` compiles, common terms found once."""
     recorder = Recorder(np.dtype(float))
-    inputs = [recorder.input(f"a{place}") for place in range(given)]
+    inputs = [recorder.input(f"a{place}") for place in range(argument)]
     formula = Formula(recorder.dtype, tuple(kernel(SYMBOLIC)(*inputs)))
     lines = assignments(formula.steps, _written)
     results = ", ".join(map(_written, formula.results))

@@ -44,14 +44,14 @@ class PackedMeshes(NamedTuple):
     extremes: npt.NDArray[np.float64]
 
 
-def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> PackedMeshes:
+def packed_meshes(fields: Sequence[HeightField], arguments: Sequence[bool] = ()) -> PackedMeshes:
     """Return meshes as compiled code takes them, far enough from each other not to touch."""
-    standing = _standing(fields, given)
+    standing = _standing(fields, arguments)
     wholes = np.zeros((len(fields), WHOLES), np.int64)
     numbers = np.zeros((len(fields), NUMBERS))
     heights: list[npt.NDArray[np.float64]] = []
     extremes: list[npt.NDArray[np.float64]] = []
-    lowest, taken, told = 0.0, 0, 0
+    lowest, taken, message = 0.0, 0, 0
     for place, field in enumerate(fields):
         vertices = field.vertices()
         if place:
@@ -62,8 +62,8 @@ def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> 
         levels = pyramid_of(vertices)
         wholes[place, :PYRAMID] = taken, across, down, len(levels) - 1, standing[place]
         for level, values in enumerate(levels[1:], 1):
-            wholes[place, PYRAMID + level] = told
-            told += values.size
+            wholes[place, PYRAMID + level] = message
+            message += values.size
         numbers[place] = *np.divide(field.size, field.cells), lowest, vertices.max()
         taken += vertices.size
         heights.append(vertices.ravel())
@@ -74,11 +74,11 @@ def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> 
     )
 
 
-def _standing(fields: Sequence[HeightField], given: Sequence[bool]) -> list[int]:
+def _standing(fields: Sequence[HeightField], arguments: Sequence[bool]) -> list[int]:
     """Return how each mesh stands; those that are given stay in register with the first of them."""
     results = [SHIFTED if field.periodic else ENDED for field in fields]
     places = [
-        place for place, is_given in enumerate(given) if is_given and results[place] == SHIFTED
+        place for place, is_given in enumerate(arguments) if is_given and results[place] == SHIFTED
     ]
     for place in places:
         if fields[place].size == fields[places[0]].size:
@@ -112,8 +112,10 @@ class KeptMeshes:
             if surface not in self._known:
                 if len(self._known) >= self._sample.surfaces + _MORE:
                     self._known.pop(next(iter(self._known)))
-                given = [isinstance(each.roughness, HeightField) for each in self._sample.layers]
-                meshes = packed_meshes(self._sample.fields(surface), given)
+                arguments = [
+                    isinstance(each.roughness, HeightField) for each in self._sample.layers
+                ]
+                meshes = packed_meshes(self._sample.fields(surface), arguments)
                 self._known[surface] = PlacedMeshes(meshes, tuple(map(address, meshes)))
             return self._known[surface]
 
