@@ -17,7 +17,7 @@ from optipath.kernels.trigonometry import cosine, sine
 from optipath.materials.index_domains import INDEX, LIT_INDEX
 from optipath.materials.quantities import INCIDENCE
 from optipath.values.angles import CosSin, is_angle, within_right_angle
-from optipath.values.arrays import as_given, check_broadcast, first_place
+from optipath.values.arrays import as_argument, check_broadcast, first_place
 from optipath.values.domains import Domain
 from optipath.values.jax_values import check_known, is_traced, namespace
 from optipath.values.kernel_values import kernel_values
@@ -410,7 +410,7 @@ def parts_of(index: Any) -> tuple[Any, Any]:
 
 
 def _given(name: str, value: Any) -> Any:
-    return value if is_traced(value) else as_given(name, COSINE.read(name, value))
+    return value if is_traced(value) else as_argument(name, COSINE.read(name, value))
 
 
 def _cosine_and_sine(xp: Primitives) -> KernelFunction:

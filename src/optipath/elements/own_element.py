@@ -21,7 +21,7 @@ from optipath.light.passive import are_passive, cure_of, gain, problem_of
 from optipath.materials.index_domains import INDEX, INDICES, LENGTH_OF_LAYER, LENGTHS
 from optipath.materials.quantities import REAL, YES_OR_NO
 from optipath.values.agreement import is_single
-from optipath.values.arrays import as_given, same
+from optipath.values.arrays import as_argument, same
 from optipath.values.domains import Domain, StokesDomain
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand, Operation, ResultOf, operand_of
@@ -252,7 +252,7 @@ def _value_fault(value: Any, names: set[str]) -> str:
         return f"parameter '{operand.value.name}', which is in no field; give it to one as well"
     if isinstance(value, (float, Parameter, Operand, ResultOf)) or is_traced(value):
         return ""
-    if as_given("a value for a kernel", value, PathError).dtype.kind in "biufc":
+    if as_argument("a value for a kernel", value, PathError).dtype.kind in "biufc":
         return ""
     return f"{shown(value)}, which is no number; give a number or a parameter"
 

@@ -20,7 +20,7 @@ from optipath.light.frame import Frame
 from optipath.materials.quantities import Quantity
 from optipath.values.agreement import Agreement, text_of
 from optipath.values.arrays import (
-    as_given,
+    as_argument,
     check_broadcast,
     enough_for,
     first_place,
@@ -367,7 +367,7 @@ def normal_faults(
     ['the normal of vertex 1 has no length; give one with a direction of its own']
     """
     try:
-        argument = as_given("the array of normals", normals)
+        argument = as_argument("the array of normals", normals)
     except ValueFault as fault:
         return list(fault.faults)
     if argument.dtype.kind not in "iuf":

@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import LightError, shown
 from optipath.light.array_axes import ArrayAxes
 from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
-from optipath.values.arrays import as_given, locked
+from optipath.values.arrays import as_argument, locked
 from optipath.values.jax_values import is_traced, known, namespace
 from optipath.values.precision import at_least_single, coarser
 
@@ -73,7 +73,7 @@ def factor_of_light(factor: Any, *, dark: bool) -> Any:
     if is_traced(factor):
         array = factor
     else:
-        array = as_given("a factor of light", known(factor), LightError)
+        array = as_argument("a factor of light", known(factor), LightError)
     if array.dtype.kind not in "biuf":
         refuse(f"{shown(factor)} is no real number")
     allowed = (array >= 0.0 if dark else array > 0.0) & (array < np.inf)

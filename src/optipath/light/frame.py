@@ -15,7 +15,7 @@ from optipath.kernels.vectors import Vector, cross, dot
 from optipath.light.underflow import normalise_exponent
 from optipath.materials.quantities import ANGLE
 from optipath.values.angles import warn_of_degrees
-from optipath.values.arrays import Unchanging, array_of, as_given, check_broadcast, read_only
+from optipath.values.arrays import Unchanging, array_of, as_argument, check_broadcast, read_only
 from optipath.values.precision import Array, as_doubles, rounding_of
 
 if TYPE_CHECKING:
@@ -179,7 +179,7 @@ class Frame(Unchanging):
         >>> Frame().rotated([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).x
         array([0., 1., 0.])
         """
-        argument = as_given("a rotation", rotation, FrameError)
+        argument = as_argument("a rotation", rotation, FrameError)
         matrix = floats("a rotation", argument)
         if matrix.shape[-2:] != (3, 3):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
@@ -324,7 +324,7 @@ def rounding_in(*arguments: npt.ArrayLike) -> float:
     >>> rounding_in([0, 0, 1], np.ones(3, np.float32)) == 2.0**-23
     True
     """
-    return max(rounding_of(as_given("a vector", value, FrameError)) for value in arguments)
+    return max(rounding_of(as_argument("a vector", value, FrameError)) for value in arguments)
 
 
 def floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:

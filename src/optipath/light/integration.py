@@ -11,7 +11,7 @@ from optipath.light.on_demand import rounding
 from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
 from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
 from optipath.materials.spectrum import check_response
-from optipath.values.arrays import as_given
+from optipath.values.arrays import as_argument
 from optipath.values.jax_values import check_known, is_traced, known, namespace
 from optipath.values.precision import at_least_single, coarser
 from optipath.values.wavelength import Wavelength
@@ -189,7 +189,7 @@ def _response_at(response: Any, grid: Array) -> Any:
     check_response("the response", response)
     result = response.at(grid) if hasattr(response, "at") and not is_traced(response) else response
     if not is_traced(result):
-        result = as_given("the response", known(result), ShapeError)
+        result = as_argument("the response", known(result), ShapeError)
         if result.dtype.kind not in "biuf":
             raise ShapeError(f"the response must be of real numbers, not {shown(response)}")
     if result.shape not in ((), (len(grid),)):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ShapeError, shown
-from optipath.values.arrays import as_given, same
+from optipath.values.arrays import as_argument, same
 from optipath.values.jax_values import check_known
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ def given_exponent(argument: Any) -> Array:
     array([-5,  0])
     """
     check_known("the exponent of a light", argument)
-    exponent = as_given("the exponent of a light", argument, ShapeError)
+    exponent = as_argument("the exponent of a light", argument, ShapeError)
     if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
         raise ShapeError(
             "the exponent of a light must be an integer within -2^40 .. 2^40, not "

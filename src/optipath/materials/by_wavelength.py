@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import ValueFault, shown
 from optipath.materials.formulas import EVERYWHERE, DrudeRotation, several
 from optipath.materials.tables import Tabulated
-from optipath.values.arrays import as_given, numbers_for
+from optipath.values.arrays import as_argument, numbers_for
 from optipath.values.curve_value import curve_at
 from optipath.values.parameters import label_of
 from optipath.values.units import dimension_of, parse_quantity, unit_of
@@ -69,7 +69,7 @@ def tabulated(
     0.4
     """
     label = label_of("a table", label, "the table")
-    samples = as_given(f"values of {label}", values)
+    samples = as_argument(f"values of {label}", values)
     texts = [entry for entry in samples.ravel().tolist() if isinstance(entry, str)]
     if not dimension_of(unit):
         unit = next(map(unit_of, texts), "")

@@ -12,7 +12,7 @@ from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, Sellmeier
 from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.tables import Tabulated
-from optipath.values.arrays import as_given, broadcast_fault, same, same_fields
+from optipath.values.arrays import as_argument, broadcast_fault, same, same_fields
 from optipath.values.columns import read_columns
 from optipath.values.curve import span_text
 from optipath.values.curve_value import CurveValue, curve_at
@@ -169,7 +169,7 @@ class Material:
         """
         label = label_of("a material", name, "a table of n and k")
         arguments = {"wavelengths": wavelengths, "n": n, "k": k}
-        shapes = {name: as_given(f"{name} of {label}", v).shape for name, v in arguments.items()}
+        shapes = {name: as_argument(f"{name} of {label}", v).shape for name, v in arguments.items()}
         columns: dict[str, Any] = {"n": n if shapes["n"] else np.full(shapes["wavelengths"], n)}
         constant = not shapes["k"]
         if not constant:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, shown, unknown
-from optipath.values.arrays import as_given, first_place, locked, numbers_for
+from optipath.values.arrays import as_argument, first_place, locked, numbers_for
 from optipath.values.curve import Curve, span_text
 from optipath.values.messages import argument, cure
 from optipath.values.units import parse_quantity
@@ -147,7 +147,7 @@ def _samples(label: str, name: str, value_given: Any, faults: list[str]) -> np.n
 
 
 def _real(owner: str, value_given: Any) -> np.ndarray[Any, Any]:
-    array = as_given(owner, value_given)
+    array = as_argument(owner, value_given)
     if array.dtype.kind not in "iufO":
         raise TypeError
     return array.astype(np.float64)

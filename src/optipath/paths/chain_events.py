@@ -10,7 +10,7 @@ from optipath.elements.vertex_chain import of_chain
 from optipath.errors import ValueFault, shown
 from optipath.kernels.vertex_chain import Event
 from optipath.materials.index_domains import CLEAR, INDEX
-from optipath.values.arrays import as_given, first_place
+from optipath.values.arrays import as_argument, first_place
 from optipath.values.use import Use, faults_of, kept_value
 
 if TYPE_CHECKING:
@@ -159,7 +159,7 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
 
 
 def _texts(events: Any) -> npt.NDArray[np.str_]:
-    array = as_given("events", events)
+    array = as_argument("events", events)
     if array.dtype.kind == "O" and all(isinstance(text, str) for text in array.ravel()):
         array = array.astype(str)
     if array.dtype.kind != "U":
@@ -200,7 +200,7 @@ def lengths_given(lengths: Any, count: int) -> Whole:
 
 def whole_numbers(what: str, argument: Any) -> npt.NDArray[Any]:
     """Return real numbers, which are to be whole ones."""
-    numbers = as_given(what, argument)
+    numbers = as_argument(what, argument)
     if numbers.dtype.kind not in "iuf":
         raise ValueFault(f"{what} must be whole numbers, not {shown(argument)}")
     return numbers

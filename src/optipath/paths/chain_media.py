@@ -21,7 +21,7 @@ from optipath.materials.material import Material
 from optipath.paths.chain_events import REFLECTS, REFRACTS, media_in_front
 from optipath.paths.chain_histories import Histories, index_parts, masked
 from optipath.paths.path_graph import PathGraph
-from optipath.values.arrays import as_given, locked
+from optipath.values.arrays import as_argument, locked
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
 
@@ -183,7 +183,7 @@ def _turned_back(points: Floats, ended: npt.NDArray[np.bool_]) -> Floats:
 
 def _any_behind_the_end(normals: Any, chains: Histories) -> Any:
     try:
-        argument = as_given("the array of normals", normals)
+        argument = as_argument("the array of normals", normals)
     except ValueFault:
         return normals
     ended: Any = chains.ended

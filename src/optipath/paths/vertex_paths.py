@@ -14,7 +14,7 @@ from optipath.paths.chain_events import medium_faults, passable
 from optipath.paths.chain_histories import Histories, apart_where_absorbed, histories
 from optipath.paths.chain_media import doubtful_vertex, normals_checked, path_of_chains
 from optipath.paths.path_graph import PathGraph
-from optipath.values.arrays import as_given, entries_of
+from optipath.values.arrays import as_argument, entries_of
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
 from optipath.values.use import checked_later, kept_value
@@ -189,7 +189,7 @@ def _batch_of(vertices: Any) -> tuple[int, ...]:
     if isinstance(vertices, (Parameter, VerticesByAngles)):
         return ()
     try:
-        shape: tuple[int, ...] = np.shape(as_given("the array of vertices", vertices))
+        shape: tuple[int, ...] = np.shape(as_argument("the array of vertices", vertices))
     except (TypeError, ValueError, OptipathError):
         return ()  # A fault of its own.
     return shape[:-2]
@@ -227,7 +227,9 @@ def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
         return vertices, [fault] * (result != count)
     try:
         traced = is_traced(vertices)
-        chain = vertices if traced else VERTICES.kept(as_given("the array of vertices", vertices))
+        chain = (
+            vertices if traced else VERTICES.kept(as_argument("the array of vertices", vertices))
+        )
     except ValueFault as fault:
         return None, list(fault.faults)
     shape = np.shape(chain)

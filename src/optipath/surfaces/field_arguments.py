@@ -12,7 +12,7 @@ import numpy as np
 from optipath.errors import MeshWarning, SurfaceError, did_you_mean, needing, shown
 from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
-from optipath.values.arrays import as_given, enough_for
+from optipath.values.arrays import as_argument, enough_for
 from optipath.values.files import bytes_of, given_file
 from optipath.values.messages import cure
 from optipath.values.precision import as_doubles, is_whole
@@ -128,7 +128,7 @@ def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
     Shape: heights (rows, columns).
     """
     try:
-        argument = as_given("the array of heights", heights, SurfaceError)
+        argument = as_argument("the array of heights", heights, SurfaceError)
     except SurfaceError as fault:
         faults += fault.faults
         return np.zeros((2, 2))

@@ -21,7 +21,7 @@ from optipath.sweeps.coords import (
 )
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin
-from optipath.values.arrays import as_given, locked
+from optipath.values.arrays import as_argument, locked
 from optipath.values.columns import TextColumn
 from optipath.values.jax_values import check_known, known
 from optipath.values.messages import no_value
@@ -159,7 +159,7 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         if several is not None:
             return several
     inputs.ask_in_doubt(name, value)
-    array = as_given(f"parameter '{name}'", known(value), ParameterError)
+    array = as_argument(f"parameter '{name}'", known(value), ParameterError)
     if array.dtype.kind in "UO":
         _of_one_dimension(name, AxisValues(array, "", array))
         return read_entries(array.ravel().tolist(), parameter, "", inputs.uses).reshaped(

@@ -13,7 +13,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.labels import is_variable
-from optipath.values.arrays import as_given
+from optipath.values.arrays import as_argument
 from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
 from optipath.values.text import AxisValues, read_entries
 from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
@@ -182,7 +182,7 @@ def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]
 
     Units: the result in degrees.
     """
-    numbers = as_given(f"parameter '{parameter.name}'", array.values, ParameterError)
+    numbers = as_argument(f"parameter '{parameter.name}'", array.values, ParameterError)
     if numbers.dtype.kind in "UO":
         return read_entries(numbers.ravel().tolist(), parameter, "", uses).reshaped(numbers.shape)
     if numbers.dtype.kind not in "iufc":

@@ -12,7 +12,7 @@ import numpy as np
 from optipath.errors import AngleWarning, OptipathError, ParameterError, UnitError, shown
 from optipath.values.arrays import (
     Unchanging,
-    as_given,
+    as_argument,
     broadcast_fault,
     joint_shape,
     numbers_for,
@@ -155,7 +155,7 @@ def _numbers(name: str, value: Any) -> Any:
     if is_jax(value):
         return value
     value = numbers_for(name, value, _pure, ParameterError)
-    array = as_given(name, value, ParameterError)
+    array = as_argument(name, value, ParameterError)
     if array.dtype.kind not in "iuf":
         raise ParameterError(f"{name} must be real numbers, not {shown(value)}")
     return array.astype(np.float64) if array.dtype.kind in "iu" else array
@@ -297,7 +297,7 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
 def warn_of_two_factors(name: str, value: Any) -> None:
     """Warn of a text in degrees for a parameter of which pi/180 makes radians once more."""
     try:
-        entries = as_given("", value).ravel().tolist()
+        entries = as_argument("", value).ravel().tolist()
     except OptipathError:
         return  # For validation to name.
     units = (UNITS.get(unit_of(entry)) for entry in entries if isinstance(entry, str))
@@ -321,7 +321,7 @@ def largest(value: Any) -> float:
     if value is None or isinstance(value, str) or is_traced(value):
         return 0.0
     try:
-        array = as_given("", value)
+        array = as_argument("", value)
     except OptipathError:
         return 0.0  # For validation to name.
     if array.size > _LOOKED_AT:

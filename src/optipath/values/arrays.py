@@ -74,13 +74,13 @@ def array_of(
     >>> array_of("a turn", [0.5, "none"]).tolist()
     [0.5, 'none']
     """
-    return doubles(as_given(what, value, error), limits)
+    return doubles(as_argument(what, value, error), limits)
 
 
-def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
+def as_argument(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
     """Return an array of a value, in the precision in which it is given.
 
-    >>> as_given("a turn", [0.5, 1.0])
+    >>> as_argument("a turn", [0.5, 1.0])
     array([0.5, 1. ])
     """
     if type(value) in _PLAIN:
@@ -292,7 +292,7 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
     >>> real_array("a Stokes vector", [1, 0, 0, 0], (4,))
     array([1., 0., 0., 0.])
     """
-    array = value if is_jax(value) else as_given(what, value, ShapeError)
+    array = value if is_jax(value) else as_argument(what, value, ShapeError)
     if array.dtype.kind in "iub":
         array = array.astype(np.float64)
     if array.dtype.kind != "f" or array.shape[-len(tail) :] != tail:
@@ -436,7 +436,7 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
     if type(value) in _SCALARS or is_traced(value):
         return value
     try:
-        array = as_given("", value)
+        array = as_argument("", value)
         array = within(array, limits) if array.ndim and not widened else doubles(array, limits)
     except OptipathError:
         # A list is copied all the same.
@@ -516,7 +516,7 @@ def numbers_for(
     if isinstance(value, str):
         return _number(what, value, parse, error)
     try:
-        array = as_given(what, value)
+        array = as_argument(what, value)
     except ValueFault:
         return value  # For validation to name.
     entries = array.astype(object).ravel() if array.dtype.kind in "UO" else np.empty(0)

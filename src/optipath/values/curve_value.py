@@ -10,7 +10,13 @@ import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, ValueFault, shown
 from optipath.kernels.primitives import NUMPY
-from optipath.values.arrays import as_given, broadcast_fault, changed, check_broadcast, place_text
+from optipath.values.arrays import (
+    as_argument,
+    broadcast_fault,
+    changed,
+    check_broadcast,
+    place_text,
+)
 from optipath.values.curve import CurveSum, WavelengthRange, marked_name
 from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import is_traced
@@ -360,7 +366,7 @@ def with_bounds_hint(
 
 def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Domain]) -> bool:
     try:
-        array = as_given("", value)
+        array = as_argument("", value)
     except OptipathError:
         return False
     if array.size != 1 or array.dtype.kind not in "iufc" or not np.all(np.isfinite(array)):

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from optipath.errors import ValueFault, did_you_mean, shown
 from optipath.values.angles import TURN, CosSin, called
-from optipath.values.arrays import as_given, changed, first_place, numbers_for, read_only
+from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
@@ -54,7 +54,7 @@ class Domain:
             self._check_shape(owner, value.shape)
             return value  # type: ignore[no-any-return]
         value = self.read(owner, value)
-        argument = as_given(owner, value)
+        argument = as_argument(owner, value)
         array = doubles(argument, (self.minimum, self.maximum))
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)

@@ -29,7 +29,7 @@ from optipath.values.angles import (
     is_within_a_turn,
     warn_of_degrees,
 )
-from optipath.values.arrays import array_of, as_given, first_place, numbers_for, read_only, same
+from optipath.values.arrays import array_of, as_argument, first_place, numbers_for, read_only, same
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.precision import doubles, traced_within, within
 from optipath.values.units import (
@@ -173,7 +173,7 @@ class Parameter(Affine):
             return self.parse(value)
         if not isinstance(value, (list, tuple)):
             return self._number_of(value)
-        array = as_given(f"parameter '{self.name}'", value, ParameterError)
+        array = as_argument(f"parameter '{self.name}'", value, ParameterError)
         if array.dtype.kind not in "UO":
             return array
         read = [self._as_number(entry) for entry in array.ravel().tolist()]
@@ -221,7 +221,7 @@ class Parameter(Affine):
         if is_traced(raw):
             return Resolved(traced_within(raw, limits), THERE)
         # Arrays stay in the precision in which they are given, by which some are judged.
-        array = within(as_given(f"parameter '{self.name}'", raw, ParameterError), limits)
+        array = within(as_argument(f"parameter '{self.name}'", raw, ParameterError), limits)
         present = np.ones(array.shape, dtype=bool)
         if array.dtype.kind in "USO":
             entries = [self._entry(entry, limits) for entry in array.ravel().tolist()]

@@ -14,7 +14,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, ValueFault, collecting, having
 from optipath.values.angles import is_of_an_angle, meant_in_degrees, warn_of_degrees
-from optipath.values.arrays import as_given
+from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed
 from optipath.values.domains import Domain, OptionalDomain, in_unit_of
 from optipath.values.jax_values import is_traced, namespace
@@ -77,7 +77,7 @@ class Use:
             shape: tuple[int, ...] = numbers.shape
         else:
             try:
-                shape = as_given("", numbers).shape
+                shape = as_argument("", numbers).shape
             except OptipathError:
                 return ()  # What is no array is a fault of its own.
         return shape[: len(shape) - len(self.domain.tail)]
