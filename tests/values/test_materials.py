@@ -200,7 +200,7 @@ def test_birefringence_of_quartz_has_all_its_digits_and_slopes(jax):
 
     quartz = op.Crystal.named("quartz").birefringence
     grid = np.linspace(2e-7, 2e-6, 41)
-    slope = jax.grad(lambda w: quartz.curve.evaluated(w, *quartz.given_by[1:])[0])(4.3e-7)
+    slope = jax.grad(lambda w: quartz.curve.evaluated(w, *quartz.depends_on[1:])[0])(4.3e-7)
     with mpmath.workdps(50):
         np.testing.assert_allclose(quartz.at(grid), [float(exact(float(w))) for w in grid], 2e-15)
         assert float(slope) == pytest.approx(float(mpmath.diff(exact, mpf(4.3e-7))), rel=1e-13)

@@ -128,11 +128,11 @@ class Values:
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
         per_nanometre = {
-            use.value.given_by[0].name: None
+            use.value.depends_on[0].name: None
             for use in self.uses
             if use.domain is SPECTRAL
             and isinstance(use.value, CurveValue)
-            and isinstance(use.value.given_by[0], Parameter)
+            and isinstance(use.value.depends_on[0], Parameter)
         }
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},

@@ -327,7 +327,7 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
         )
     thickness = (whole + phase / _TURN) * where / abs(there)
     when = (
-        birefringence.given_by[0]
+        birefringence.depends_on[0]
         if isinstance(birefringence, CurveValue)
         else WavelengthParameter()
     )

@@ -165,10 +165,10 @@ class Crystal:
         if not all(isinstance(ray, CurveValue) and _is_plain(ray) for ray in rays):
             return rays[0] - rays[1]
         one, other = [ray.curve for ray in rays]
-        if len(one.b) != len(other.b) or rays[0].given_by[0] != rays[1].given_by[0]:
+        if len(one.b) != len(other.b) or rays[0].depends_on[0] != rays[1].depends_on[0]:
             return rays[0] - rays[1]
         curve = BirefringenceCurve(f"the birefringence of {self.label}", one, other)
-        return curve_values(curve, rays[0].given_by[0])[0]
+        return curve_values(curve, rays[0].depends_on[0])[0]
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]

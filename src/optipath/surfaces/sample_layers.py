@@ -257,8 +257,8 @@ def _open_faults(owner: str, value: Any) -> list[str]:
 
 def _open_names(part: Any) -> list[str]:
     """Return the parameters that a number follows from, but for the usual wavelength."""
-    given_by = part.given_by if isinstance(part, CurveValue) else (part,)
-    return [one.name for one in given_by if isinstance(one, Parameter) and one != Wavelength()]
+    depends_on = part.depends_on if isinstance(part, CurveValue) else (part,)
+    return [one.name for one in depends_on if isinstance(one, Parameter) and one != Wavelength()]
 
 
 WHEN = "wavelength"

@@ -226,10 +226,10 @@ def _written(factor: float, curve: Curve, place: int) -> str:
     return f" {sign} {times}{name}"
 
 
-def marked_name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
+def marked_name(curve: Curve, place: int, depends_on: tuple[Any, ...]) -> str:
     """Return a name that nobody can give, and that equal values alone share."""
-    keys = [Operand(one).key() for one in given_by]
-    bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
+    keys = [Operand(one).key() for one in depends_on]
+    bound = [_content(p.default) for p in depends_on if isinstance(p, Parameter) and p.bound]
     mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=8).hexdigest()
     return f"{curve.parts[place]} of {curve.label} [{mark}]"
 

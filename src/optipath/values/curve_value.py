@@ -46,7 +46,7 @@ class CurveValue(Parameter):
 
     curve: Any = field(default=None, repr=False)
     place: int = 0
-    given_by: tuple[Any, ...] = ()
+    depends_on: tuple[Any, ...] = ()
 
     def __post_init__(self) -> None:
         """Take all as it is: nobody but this library makes one."""
@@ -54,7 +54,7 @@ class CurveValue(Parameter):
     @property
     def arguments(self) -> tuple[Parameter, ...]:
         """The parameters that it is computed of."""
-        return tuple([one for one in self.given_by if isinstance(one, Parameter)])
+        return tuple([one for one in self.depends_on if isinstance(one, Parameter)])
 
     def argument_places(self, owner: str) -> list[tuple[str, Any, Domain]]:
         """Return where the parameters stand that it is computed of, and what they may be."""
@@ -64,7 +64,7 @@ class CurveValue(Parameter):
         ]
         return [
             (place, value, domain)
-            for value, (place, domain) in zip(self.given_by, domains, strict=True)
+            for value, (place, domain) in zip(self.depends_on, domains, strict=True)
             if isinstance(value, Parameter)
         ]
 
@@ -86,24 +86,24 @@ class CurveValue(Parameter):
     def parts(self, arguments: Mapping[str, Resolved]) -> tuple[Any, ...]:
         """Return the numbers of all parts of its curve, of which its own are one."""
         results: tuple[Any, ...]
-        results = self.curve.evaluated(*[_number(one, arguments) for one in self.given_by])
+        results = self.curve.evaluated(*[_number(one, arguments) for one in self.depends_on])
         return results
 
     def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
         """Return what it is once parameters that it is computed of have values."""
         if not any(one.name in values for one in self.arguments):
             return self
-        given_by = tuple(
+        depends_on = tuple(
             [
                 values[one.name].like(one) if getattr(one, "name", None) in values else one
-                for one in self.given_by
+                for one in self.depends_on
             ]
         )
-        return _of(self.curve, self.place, given_by).like(self)
+        return _of(self.curve, self.place, depends_on).like(self)
 
     def argument(self, place: int, arguments: Mapping[str, Resolved]) -> Any:
         """Return the numbers of one of those that it is computed of."""
-        return _number(self.given_by[place], arguments)
+        return _number(self.depends_on[place], arguments)
 
     def check_place(self, owner: str, domain: Domain) -> None:
         super().check_place(owner, domain)
@@ -133,7 +133,7 @@ class CurveValue(Parameter):
 
         Units: wavelength in metres.
         """
-        others = self.given_by[1:]
+        others = self.depends_on[1:]
         known = _defaults(others)
         for one in others:
             if isinstance(one, Parameter) and one.name not in known:
@@ -154,10 +154,10 @@ class CurveValue(Parameter):
         """Return a sum with a number, or with what follows from the same wavelength."""
         if not isinstance(other, CurveValue):
             return super()._shifted(other, sign)
-        if self.given_by[0] != other.given_by[0]:
+        if self.depends_on[0] != other.depends_on[0]:
             raise ParameterError(
                 f"{self.spoken} and {other.spoken} follow from two wavelengths, "
-                f"'{self.given_by[0].name}' and '{other.given_by[0].name}'; give both the same one"
+                f"'{self.depends_on[0].name}' and '{other.depends_on[0].name}'; give both the same one"
             )
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
         total = CurveSum(tuple(terms), self.offset + sign * other.offset)
@@ -173,7 +173,7 @@ class CurveValue(Parameter):
                 f"{self.spoken} and {other.spoken} are known at no common wavelength; take curves "
                 f"whose ranges meet"
             )
-        return cast("Self", _of(total, 0, (*self.given_by, *other.given_by[1:])))
+        return cast("Self", _of(total, 0, (*self.depends_on, *other.depends_on[1:])))
 
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name
@@ -198,23 +198,23 @@ def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
 
     Units: wavelength in metres.
     """
-    given_by = (wavelength, *[value for _, value, _ in curve.arguments()])
-    if not any(isinstance(one, Parameter) for one in given_by):
-        return curve.evaluated(*given_by)
-    return tuple([_of(curve, place, given_by) for place in range(len(curve.parts))])
+    depends_on = (wavelength, *[value for _, value, _ in curve.arguments()])
+    if not any(isinstance(one, Parameter) for one in depends_on):
+        return curve.evaluated(*depends_on)
+    return tuple([_of(curve, place, depends_on) for place in range(len(curve.parts))])
 
 
-def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
-    parameters = [one for one in given_by if isinstance(one, Parameter)]
+def _of(curve: Curve, place: int, depends_on: tuple[Any, ...]) -> CurveValue:
+    parameters = [one for one in depends_on if isinstance(one, Parameter)]
     bound = all(one.bound for one in parameters)
     made = CurveValue(
-        marked_name(curve, place, given_by),
+        marked_name(curve, place, depends_on),
         None,
         unit=curve.unit,
         bound=bound,
         curve=curve,
         place=place,
-        given_by=given_by,
+        depends_on=depends_on,
     )
     known = _defaults(parameters)
     if not made.follows(known) or (curve.takes_grid and not bound):
@@ -281,7 +281,7 @@ def _default_of(value: Any, arguments: Mapping[str, Resolved]) -> dict[str, Reso
 
 def _wavelength_text(value: Any, bad: Any, known: Mapping[str, Resolved]) -> str:
     """Return the first wavelength at which a value is not allowed, as a sentence goes on."""
-    wavelength = value.given_by[0]
+    wavelength = value.depends_on[0]
     if isinstance(wavelength, Parameter) and wavelength.name not in known:
         return ""
     number = value.argument(0, known)
@@ -299,7 +299,7 @@ def computed_values(
     parts: dict[Any, tuple[Any, ...]] = {}
     for value in values:
         if value.follows(arguments):
-            same = id(value.curve), *map(id, value.given_by)
+            same = id(value.curve), *map(id, value.depends_on)
             if same not in parts:
                 parts[same] = value.parts(arguments)
             results[value.name] = Resolved(parts[same][value.place], THERE)
@@ -319,14 +319,14 @@ def parameters_among(values: Iterable[Any]) -> list[Parameter]:
 
 def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:
     """Say which coefficients of a curve do not fit to each other, whatever the wavelength."""
-    faults = value.curve.misfits(value.given_by[1:], known)
+    faults = value.curve.misfits(value.depends_on[1:], known)
     return [f"{fault}{_hint(value, known)}" for fault in faults]
 
 
 def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[str, str]:
     """Return where a curve comes to what is not allowed, and what else to give."""
     messages = []
-    for place, one in enumerate(value.given_by[1:], 1):
+    for place, one in enumerate(value.depends_on[1:], 1):
         if isinstance(one, Parameter) and not is_traced(number := value.argument(place, known)):
             first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
             messages.append(f"{one.formula} is {first:.6g}")
@@ -342,7 +342,7 @@ def _hint(value: Any, known: Mapping[str, Resolved]) -> str:
     """Return the hint for a fit, where each coefficient is one number, and one is given."""
     open_ones = [
         value.argument(place, known)
-        for place, one in enumerate(value.given_by[1:], 1)
+        for place, one in enumerate(value.depends_on[1:], 1)
         if isinstance(one, Parameter) and not one.bound
     ]
     return IN_A_FIT * (bool(open_ones) and all(np.size(number) == 1 for number in open_ones))

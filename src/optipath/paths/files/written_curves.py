@@ -38,7 +38,7 @@ def material_table(material: Material, encode: Encode) -> dict[str, Any]:
     """Return the table of a material: of its curve, or of n and k apart."""
     n, k = material.n, material.k
     if isinstance(n, CurveValue) and _are_parts(n, k):
-        return _table(n.curve, n.given_by, "", encode)
+        return _table(n.curve, n.depends_on, "", encode)
     # A page with n or k alone, the other being given beside its name.
     for part, value in (("n", n), ("k", k)):
         if _is_plain(value) and isinstance(value.curve, PageCurve):
@@ -46,7 +46,7 @@ def material_table(material: Material, encode: Encode) -> dict[str, Any]:
             apart = _are_both_curves(n, k) and is_usual_part(curve, part)
             if curve.asked and curve.parts == (part,) and not apart:
                 own = own_part(curve, n, k)
-                named = _table(curve, value.given_by, "", encode)
+                named = _table(curve, value.depends_on, "", encode)
                 return named | {key: encode(each, "") for key, each in own.items()}
     return {"n": encode(n, ""), "k": encode(k, "")}
 
@@ -58,7 +58,7 @@ def _are_parts(n: CurveValue, k: Any) -> bool:
     if not isinstance(k, CurveValue):
         of_page = isinstance(n.curve, PageCurve)
         return not of_page and "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
-    same = k.curve == n.curve and k.given_by == n.given_by and k.curve.parts[k.place] == "k"
+    same = k.curve == n.curve and k.depends_on == n.depends_on and k.curve.parts[k.place] == "k"
     return same and _is_plain(k)
 
 
@@ -73,7 +73,7 @@ def _are_both_curves(n: Any, k: Any) -> bool:
 
 def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]:
     """Return the table of one number by wavelength, or of a multiple of it with an offset."""
-    table = _table(value.curve, value.given_by, unit, encode) | _part(value.curve, value.place)
+    table = _table(value.curve, value.depends_on, unit, encode) | _part(value.curve, value.place)
     if value.scale != 1.0:
         table["scale"] = value.scale
     if value.offset:
@@ -90,11 +90,11 @@ def _part(curve: Curve, place: int) -> dict[str, str]:
     return {} if alone else {"part": curve.parts[place]}
 
 
-def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
+def _table(curve: Curve, depends_on: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
     if name := crystal_of(curve):
-        return {CRYSTAL: name} | _wavelength(given_by[0], encode)
+        return {CRYSTAL: name} | _wavelength(depends_on[0], encode)
     if isinstance(curve, CurveSum):
-        return _sum(curve, given_by, unit, encode)
+        return _sum(curve, depends_on, unit, encode)
     table: dict[str, Any] | None
     if isinstance(curve, Spectrum):
         table = spectrum_table(curve)
@@ -106,7 +106,7 @@ def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -
         table = formula_table(curve, encode)
     if table is None:
         raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
-    return table | _wavelength(given_by[0], encode)
+    return table | _wavelength(depends_on[0], encode)
 
 
 def _samples(curve: Tabulated, unit: str, encode: Encode) -> dict[str, Any]:
@@ -121,9 +121,9 @@ def _samples(curve: Tabulated, unit: str, encode: Encode) -> dict[str, Any]:
     return table | {"name": curve.label}
 
 
-def _sum(curve: CurveSum, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
+def _sum(curve: CurveSum, depends_on: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
     """Return the table of a sum; what is added stands with its first term."""
-    when, *left = given_by
+    when, *left = depends_on
     terms = []
     for factor, one, place in curve.terms:
         count = len(one.arguments())
