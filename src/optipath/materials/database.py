@@ -22,7 +22,7 @@ from optipath.materials.formulas import DispersionFormula, nearest_asked_for
 from optipath.materials.tables import EXTRAPOLATIONS, INTERPOLATIONS, PageCurve, Tabulated
 from optipath.values.curve import span_text
 from optipath.values.curve_value import curve_at
-from optipath.values.files import given_file
+from optipath.values.files import input_file
 from optipath.values.messages import argument
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def parts_of_file(
     Units: wavelength in metres.
     """
     arguments = {part: value for part, value in own.items() if value is not None}
-    file = given_file(path, MaterialError)
+    file = input_file(path, MaterialError)
     curve = page_curve(
         read_yaml(file, str(file), installed=False),
         file.name,

@@ -35,7 +35,7 @@ from optipath.plots.chart_panel import (
 )
 from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.text import broken, shortened, width_of
-from optipath.values.files import given_file
+from optipath.values.files import input_file
 
 if TYPE_CHECKING:
     import os
@@ -89,7 +89,7 @@ def chart(
     if isinstance(measured, Mapping):
         result = checked_chart(measured, "what is given")
     else:
-        file = given_file(measured, OptipathError)
+        file = input_file(measured, OptipathError)
         result = read_chart(_text(file), str(file))
     if result.get("drawn") == CRITICAL:
         if peers is not None:
@@ -97,7 +97,7 @@ def chart(
         return draw_critical(result)
     if peers is None:
         return draw_speed_and_accuracy(result)
-    file = given_file(peers, OptipathError)
+    file = input_file(peers, OptipathError)
     return draw_speed_and_accuracy(result, peer_times(_text(file), str(file), result))
 
 

@@ -13,7 +13,7 @@ from optipath.errors import MeshWarning, SurfaceError, did_you_mean, needing, sh
 from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
 from optipath.values.arrays import as_argument, enough_for
-from optipath.values.files import bytes_of, given_file
+from optipath.values.files import bytes_of, input_file
 from optipath.values.messages import cure
 from optipath.values.precision import as_doubles, is_whole
 
@@ -256,7 +256,7 @@ _LARGEST = 256 * 1024 * 1024
 
 def read_heights(path: str | PathLike[str]) -> Array:
     """Read the heights of a file, row by row."""
-    file = given_file(path, SurfaceError)
+    file = input_file(path, SurfaceError)
     ending = file.suffix.lower()
     if ending not in _READERS:
         raise SurfaceError(

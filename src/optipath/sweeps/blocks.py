@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import JobError, OptipathError
 from optipath.sweeps.store import BlockStore
 from optipath.sweeps.workers import check_scheduler, workers_of
-from optipath.values.files import given_file
+from optipath.values.files import input_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -59,7 +59,7 @@ def keep_blocks(
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
-    stored = BlockStore.of(job, given_file(store, JobError))
+    stored = BlockStore.of(job, input_file(store, JobError))
     done = stored.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)

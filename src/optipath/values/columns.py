@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean, listed, shown
-from optipath.values.files import bytes_of, given_file
+from optipath.values.files import bytes_of, input_file
 from optipath.values.units import (
     UNITS,
     USUAL_UNITS,
@@ -61,7 +61,7 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
     Values are separated by commas, semicolons or tabulators; empty lines and those that begin with
     ``#`` are comments.
     """
-    file = given_file(path, ParameterError)
+    file = input_file(path, ParameterError)
     lines = lines_of(file)
     if not lines:
         raise ParameterError("it is empty; write the names of columns, and lines", about=str(file))
@@ -196,7 +196,7 @@ def read_columns(
     comments. A second first line begins a second table, of the same wavelengths, as files of
     refractiveindex.info have n and k.
     """
-    file = given_file(path)
+    file = input_file(path)
     _check_texts(names, unit)
     lines = lines_of(file)
     if not lines:

@@ -27,10 +27,10 @@ LARGEST = 64 * 1024 * 1024
 """How many bytes a file of text may have."""
 
 
-def given_file(path: Any, error: type[OptipathError] = ValueFault) -> Path:
+def input_file(path: Any, error: type[OptipathError] = ValueFault) -> Path:
     """Return the path of a file that is to be read.
 
-    >>> given_file("lamp.csv").stem
+    >>> input_file("lamp.csv").stem
     'lamp'
     """
     name = fspath(path) if isinstance(path, (str, PathLike)) else path

@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, SurfaceError, needing
 from optipath.surfaces.walk.beam import UNPOLARISED, given_state
-from optipath.values.files import drafted, given_file, told_of
+from optipath.values.files import drafted, input_file, told_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,7 +57,7 @@ def load_hemisphere(path: str | PathLike[str], sample: Sample | None = None) -> 
     optipath.errors.SurfaceError: 'sun.exr' is a picture, which does not hold all of a hemisphere; \
 save it with a name that ends in .zarr or .nc, and load that
     """
-    place = given_file(path, SurfaceError)
+    place = input_file(path, SurfaceError)
     if place.suffix not in _PACKAGES:
         what = "a picture, which does not hold all of" if place.suffix == ".exr" else "no file of"
         raise SurfaceError(
@@ -85,7 +85,7 @@ save it with a name that ends in .zarr or .nc, and load that
 
 def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -> None:
     """Write a hemisphere."""
-    place = given_file(path, SurfaceError)
+    place = input_file(path, SurfaceError)
     if place.suffix == ".exr":
         picture = StokesPicture.of(hemisphere, source, side)
         with told_of(place, SurfaceError):

@@ -15,7 +15,7 @@ from optipath.light.conventions import changed_matrix
 from optipath.light.mueller import Mueller
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.formats.brdf import BrdfOfHemispheres, HalfAngles, in_frames
-from optipath.values.files import given_file, told_of, written_whole
+from optipath.values.files import input_file, told_of, written_whole
 from optipath.values.precision import is_whole
 from optipath.values.wavelength import Wavelength
 
@@ -108,7 +108,7 @@ def write_measured_polarized(
 
 
 def _place(path: Any) -> Any:
-    place = given_file(path, SurfaceError)
+    place = input_file(path, SurfaceError)
     if place.suffix != ".pbsdf":
         raise SurfaceError(f"'{place}' is to be a .pbsdf file; give '{place.stem or 'a'}.pbsdf'")
     return place

@@ -11,7 +11,7 @@ from optipath.errors import OptipathError, SurfaceError, listed, shown
 from optipath.materials.quantities import ANGLE
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.facet_model import frame_along
-from optipath.values.files import given_file
+from optipath.values.files import input_file
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 from optipath.values.wavelength import Wavelength
@@ -164,7 +164,7 @@ in .zarr, such as 'hemisphere.zarr'
             )
         place = None
     else:
-        place = faults.attempt("", given_file, store, SurfaceError)
+        place = faults.attempt("", input_file, store, SurfaceError)
     if place is not None and place.suffix != _ENDING:
         stem = "hemisphere" if place.stem in ("", _ENDING) else place.stem
         faults.append(
