@@ -38,9 +38,9 @@ class NamedPage(NamedTuple):
 
 def named_page(name: str, page: str = "") -> NamedPage:
     """Return the page that a name stands for."""
-    for value_given in (name, page):
-        if not isinstance(value_given, str):
-            raise MaterialError(f"a material has a name, such as 'gold', not {shown(value_given)}")
+    for raw_value in (name, page):
+        if not isinstance(raw_value, str):
+            raise MaterialError(f"a material has a name, such as 'gold', not {shown(raw_value)}")
     curated = curated_names().get(alike(name))
     if curated is not None and not page:
         return of_curated(curated)

@@ -73,12 +73,12 @@ def _check(owner: str, value: Any, domain: Domain) -> None:
         raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
 
 
-def _as_floats(value_given: Any) -> Any:
+def _as_floats(raw_value: Any) -> Any:
     """Return coefficients as floats, so that 2 and 2.0 make equal curves."""
-    if isinstance(value_given, tuple):
-        return tuple(map(_as_floats, value_given))
-    is_open = value_given is None or isinstance(value_given, Parameter) or is_traced(value_given)
-    return value_given if is_open else REAL.check("", value_given).item() + 0.0
+    if isinstance(raw_value, tuple):
+        return tuple(map(_as_floats, raw_value))
+    is_open = raw_value is None or isinstance(raw_value, Parameter) or is_traced(raw_value)
+    return raw_value if is_open else REAL.check("", raw_value).item() + 0.0
 
 
 def read_span(owner: str, span: Any) -> tuple[float, float]:
@@ -213,9 +213,9 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
     >>> several("b", [1.0, 2])
     (1.0, 2)
     """
-    value_given = values.tolist() if isinstance(values, np.ndarray) else values
-    is_one = isinstance(value_given, (str, Parameter)) or not hasattr(value_given, "__iter__")
-    row = () if is_one else tuple(value_given)
+    raw_value = values.tolist() if isinstance(values, np.ndarray) else values
+    is_one = isinstance(raw_value, (str, Parameter)) or not hasattr(raw_value, "__iter__")
+    row = () if is_one else tuple(raw_value)
     if not row:
         raise ValueFault(
             f"{name} must be a row of one coefficient or more, such as [1.0], not {shown(values)}"

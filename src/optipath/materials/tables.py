@@ -125,17 +125,17 @@ def _beyond() -> str:
     return f"ask for {cure(*requests)}" if argument("extrapolate") else "name another page"
 
 
-def _samples(label: str, name: str, value_given: Any, faults: list[str]) -> np.ndarray[Any, Any]:
+def _samples(label: str, name: str, raw_value: Any, faults: list[str]) -> np.ndarray[Any, Any]:
     """Return samples as a copy of their numbers, and tell what is wrong with them."""
     owner = f"{name} of {label}"
     of_wavelengths = name == "wavelengths"
     try:
         parse = WAVELENGTH.parse if of_wavelengths else lambda text: parse_quantity(text, "")
-        array = _real(owner, numbers_for(owner, value_given, parse))
+        array = _real(owner, numbers_for(owner, raw_value, parse))
     except OptipathError as fault:
         faults += fault.faults
     except Exception:  # noqa: BLE001 - what is given may raise anything
-        faults.append(f"{owner} must be a row of real numbers, not {shown(value_given)}")
+        faults.append(f"{owner} must be a row of real numbers, not {shown(raw_value)}")
     else:
         if array.ndim == 1 and array.size:
             if np.any(bad := ~np.isfinite(array)):
@@ -146,8 +146,8 @@ def _samples(label: str, name: str, value_given: Any, faults: list[str]) -> np.n
     return np.zeros(1)
 
 
-def _real(owner: str, value_given: Any) -> np.ndarray[Any, Any]:
-    array = as_argument(owner, value_given)
+def _real(owner: str, raw_value: Any) -> np.ndarray[Any, Any]:
+    array = as_argument(owner, raw_value)
     if array.dtype.kind not in "iufO":
         raise TypeError
     return array.astype(np.float64)

@@ -86,15 +86,15 @@ def no_value(name: str) -> str:
     return f"parameter '{name}' has no value; give one, {how_to_give(name)}"
 
 
-def no_function(name: str, value_given: object, wanted: str) -> list[str]:
+def no_function(name: str, raw_value: object, wanted: str) -> list[str]:
     """Return the sentence for what is no function; none for one, or for None.
 
     >>> no_function("progress", 3, "two numbers"), no_function("progress", print, "two numbers")
     (['progress is 3; give a function of two numbers'], [])
     """
-    if value_given is None or callable(value_given):
+    if raw_value is None or callable(raw_value):
         return []
-    return [f"{name} is {shown(value_given)}; give a function of {wanted}"]
+    return [f"{name} is {shown(raw_value)}; give a function of {wanted}"]
 
 
 PHOTONS_TOLD = "two numbers: how many photons there are, and of how many"
