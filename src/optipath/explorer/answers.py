@@ -166,13 +166,13 @@ for name in {ends}:
 
 def python_lines(state: ReadState, source: str) -> str:
     """Return lines of Python for a state."""
-    values_given = {name: repr(word) for name, word in state.asked.places.items()}
-    values_given |= {name: _value(state, name, value) for name, value in state.given.items()}
-    own = {name: text for name, text in values_given.items() if name in _OF_LOADING}
+    raw_values = {name: repr(word) for name, word in state.asked.places.items()}
+    raw_values |= {name: _value(state, name, value) for name, value in state.given.items()}
+    own = {name: text for name, text in raw_values.items() if name in _OF_LOADING}
     arguments = [repr(source)]
     if state.asked.case is not None:
         arguments.append(f"case={state.asked.case!r}")
-    arguments += _by_name({name: text for name, text in values_given.items() if name not in own})
+    arguments += _by_name({name: text for name, text in raw_values.items() if name not in own})
     loaded = f"path = op.load_preset({', '.join(arguments)})"
     if len(loaded) > 88:
         inner = "".join(f"    {each},\n" for each in arguments)

@@ -110,11 +110,11 @@ class Curve(Unchanging, ABC):
         -------
         tuple of ndarray
         """
-        values_given = [known(number) for number in (wavelength, *arguments)]
-        traced = [number for number in values_given if is_traced(number)]
+        raw_values = [known(number) for number in (wavelength, *arguments)]
+        traced = [number for number in raw_values if is_traced(number)]
         if traced:
-            return self.numbers(namespace(traced[0]), *values_given)
-        several = np.broadcast_arrays(*[np.asarray(number, np.float64) for number in values_given])
+            return self.numbers(namespace(traced[0]), *raw_values)
+        several = np.broadcast_arrays(*[np.asarray(number, np.float64) for number in raw_values])
         shape = several[0].shape
         along_one_axis = max(shape, default=1) == several[0].size
         # Functions of NumPy may do other things to arrays that are no row of numbers. What asks
