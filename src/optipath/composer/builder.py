@@ -166,19 +166,19 @@ class _Chains:
             for light in lights:
                 if light not in junctions:
                     self._waiting[light] = self._of(light, self.old.steps[light])
-            self.builder.close_like(self.old, loop, self._settled)
-        return self.builder.instead_of(self.old, self._settled)
+            self.builder.close_like(self.old, loop, self._resolved)
+        return self.builder.instead_of(self.old, self._resolved)
 
     def _settle_before(self, loop: Loop) -> None:
         """Settle what enters a loop, since its steps stand together."""
         for light in range(loop.start, loop.stop):
             for source in self.old.steps[light].inputs:
                 if source < loop.start:
-                    self._settled(source)
+                    self._resolved(source)
 
     def _of(self, light: int, step: Step) -> tuple[int, list[Item]]:
         if step.evaluation is None:
-            return self.builder.sum(step.label, [self._settled(i) for i in step.inputs]), []
+            return self.builder.sum(step.label, [self._resolved(i) for i in step.inputs]), []
         operation = self.old.operations[step.evaluation]
         if not step.inputs:
             return self.builder.step(step.label, (), operation), []
@@ -187,12 +187,12 @@ class _Chains:
         (before,) = step.inputs
         base, items = self._waiting[before]
         if self.old.light_uses[before] > 1 or not items:
-            return self._settled(before), [item]
+            return self._resolved(before), [item]
         del self._waiting[before]
         items.append(item)
         return base, items
 
-    def _settled(self, light: int) -> int:
+    def _resolved(self, light: int) -> int:
         """Return the new light of an old one, its steps added."""
         base, items = self._waiting[light]
         if items:

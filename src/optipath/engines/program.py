@@ -254,7 +254,7 @@ class LoopSolver:
         self._junctions = frozenset(loop.junctions)
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
-        self.leaves = [self._settled(column.leaves) for column in self.columns]
+        self.leaves = [self._resolved(column.leaves) for column in self.columns]
         self._system = Elimination(
             xp,
             [self.scattered(column.back) for column in self.columns],
@@ -329,12 +329,12 @@ class LoopSolver:
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
         """Return the parts of the lights at some junctions by their place among the unknowns."""
         return {
-            self._place[junction, part]: self._settled(number)
+            self._place[junction, part]: self._resolved(number)
             for junction, parts in lights.items()
             for part, number in enumerate(parts)
         }
 
-    def _settled(self, number: Any) -> Any:
+    def _resolved(self, number: Any) -> Any:
         return 0.0 if is_zero(number) else self.number(number)
 
     def _column(self, junction: int, part: int) -> Column:

@@ -235,10 +235,10 @@ def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float
         numbers = numbers.astype(np.result_type(numbers, np.float64), copy=False)
     with np.errstate(over="ignore"):  # What is not finite is told by who looks at it.
         result = scale * numbers + offset
-    return result if is_jax(result) else _settled(result, limits, offset)
+    return result if is_jax(result) else _resolved(result, limits, offset)
 
 
-def _settled(result: Any, limits: tuple[float, float], offset: float) -> Any:
+def _resolved(result: Any, limits: tuple[float, float], offset: float) -> Any:
     """Return sums; what is beyond a limit by the rounding of a sum alone, as that limit."""
     if limits == ENDLESS or np.iscomplexobj(result):
         return result

@@ -48,21 +48,21 @@ class JonesCarrier(Carrier):
 
     def emit(self, stokes: Components, count: int = 4) -> JonesState:
         del count  # A column is carried whole.
-        return self._settled(_columns(self.xp, carry(self.xp, stokes)), 0)
+        return self._resolved(_columns(self.xp, carry(self.xp, stokes)), 0)
 
     def act(
         self, structure: Structure, numbers: Numbers, state: JonesState, count: int = 4
     ) -> JonesState:
         del count
         columns, exponent = state
-        return self._settled(structure.jones_for(self.xp)(numbers, columns), exponent)
+        return self._resolved(structure.jones_for(self.xp)(numbers, columns), exponent)
 
     def add(self, first: JonesState, second: JonesState) -> JonesState:
         carried, exponent = self._incoherent.add(self._carried(first), self._carried(second))
         # Fields have half the exponent of intensities, which is made even.
         odd = exponent % 2
         carried = tuple(self.xp.ldexp(component, odd) for component in carried)
-        return self._settled(_columns(self.xp, carried), (exponent - odd) // 2)
+        return self._resolved(_columns(self.xp, carried), (exponent - odd) // 2)
 
     def read(self, state: JonesState, count: int = 4) -> tuple[Components, Any]:
         del count
@@ -75,7 +75,7 @@ class JonesCarrier(Carrier):
         carried = self.xp.minimum(x, y), x - y, s2, s3
         return at_most_polarised(self.xp, carried), 2 * exponent
 
-    def _settled(self, columns: Columns, exponent: Any) -> JonesState:
+    def _resolved(self, columns: Columns, exponent: Any) -> JonesState:
         xp = self.xp
         size = reduce(xp.maximum, (xp.absolute(part) for column in columns for part in column))
         shift = xp.scaling(size)

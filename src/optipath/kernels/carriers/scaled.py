@@ -52,13 +52,13 @@ class ScaledCarrier(Carrier):
     """
 
     def emit(self, stokes: Components, count: int = 4) -> ScaledState:
-        return self._settled(carry(self.xp, stokes, count), 0)
+        return self._resolved(carry(self.xp, stokes, count), 0)
 
     def act(
         self, structure: Structure, numbers: Numbers, state: ScaledState, count: int = 4
     ) -> ScaledState:
         carried, exponent = state
-        return self._settled(structure.made_for(self.xp)(numbers, carried, count), exponent)
+        return self._resolved(structure.made_for(self.xp)(numbers, carried, count), exponent)
 
     def add(self, first: ScaledState, second: ScaledState) -> ScaledState:
         (light, exponent), (other, of_other) = first, second
@@ -68,7 +68,7 @@ class ScaledCarrier(Carrier):
         most = self.xp.maximum(exponent, of_other)
         light = _times_two_to(self.xp, light, exponent - most)
         other = _times_two_to(self.xp, other, of_other - most)
-        return self._settled(add(self.xp, light, other), most)
+        return self._resolved(add(self.xp, light, other), most)
 
     def meet(
         self, solver: SolvedLoop, arriving: Mapping[int, ScaledState]
@@ -80,7 +80,7 @@ class ScaledCarrier(Carrier):
             light = _times_two_to(self.xp, carried, exponent - most)
             parts[junction] = parts_of(self.xp, light, solver.count(junction))
         lights = solver.lights(parts).items()
-        return {k: self._settled(light_of(self.xp, result), most) for k, result in lights}
+        return {k: self._resolved(light_of(self.xp, result), most) for k, result in lights}
 
     def _exponent(self, state: ScaledState) -> Any:
         """Return the exponent of light, below all others where it is dark."""
@@ -91,7 +91,7 @@ class ScaledCarrier(Carrier):
         carried, exponent = state
         return stokes_of(self.xp, leaving(self.xp, carried, count)), exponent
 
-    def _settled(self, carried: Carried, exponent: Any) -> ScaledState:
+    def _resolved(self, carried: Carried, exponent: Any) -> ScaledState:
         carried = at_most_polarised(self.xp, carried)
         shift = self.xp.scaling(_size(self.xp, carried))
         return _times_two_to(self.xp, carried, -shift), exponent + shift
