@@ -37,10 +37,10 @@ class Live:
         self.sources = [_sources(each) for each in self.entries]
         self.reached: list[set[int]] = [set() for _ in program.steps]
         self.needed: list[set[int]] = [set() for _ in program.steps]
-        _until_settled(reversed(range(len(program.steps))), self._forward)
+        _until_resolved(reversed(range(len(program.steps))), self._forward)
         for reading in program.readings.values():
             self.needed[reading.light] |= set(range(reading.components))
-        _until_settled(range(len(program.steps)), self._backward)
+        _until_resolved(range(len(program.steps)), self._backward)
 
     @property
     def components(self) -> tuple[tuple[int, ...], ...]:
@@ -107,7 +107,7 @@ def _changed(entries: Entries) -> tuple[tuple[int, int], ...]:
     return tuple((r, c) for r, c in places if entries[r][c] != _IDENTITY[r][c])
 
 
-def _until_settled(lights: Iterable[int], look: Callable[[int], Iterable[int]]) -> None:
+def _until_resolved(lights: Iterable[int], look: Callable[[int], Iterable[int]]) -> None:
     """Look at lights, the last one first, and again at those that the look at another asks for."""
     waiting = dict.fromkeys(lights)
     while waiting:
