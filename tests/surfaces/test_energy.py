@@ -10,7 +10,7 @@ import optipath as op
 from optipath import surfaces
 from optipath.surfaces import HeightField
 from optipath.surfaces.energy_shares import EnergyRun, mean_and_error
-from optipath.surfaces.walk.beam import TURN, given_beam
+from optipath.surfaces.walk.beam import TURN, beam_of
 from rough_samples import fresnel
 from tables import rows, slow
 
@@ -141,7 +141,7 @@ def test_given_maps_of_one_size_stay_in_register():
 
 
 def test_a_run_goes_on_where_it_was_and_what_is_done_stays_when_it_is_interrupted():
-    run = EnergyRun(given_beam(GLASS, "40 deg"), threads=2)
+    run = EnergyRun(beam_of(GLASS, "40 deg"), threads=2)
 
     def interrupt(done, _):
         if done >= 3 * 16384:

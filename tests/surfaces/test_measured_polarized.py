@@ -12,7 +12,7 @@ from measured_tables import GOLD, by_formula, directions
 from optipath.surfaces import Hemisphere, single_scattering, write_measured_polarized
 from optipath.surfaces.hemisphere.beam import STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.sensor import Sensor
-from optipath.surfaces.walk.beam import given_beam
+from optipath.surfaces.walk.beam import beam_of
 from tables import rows
 
 pytest.importorskip("numba")
@@ -115,7 +115,7 @@ def without_noise(incidence, pixels=40, projection="equidistant"):
     """The hemisphere that no end of photons would give, where each meets one facet alone."""
     sample = op.Sample([(GOLD, ALPHA)])
     sensor = Sensor(pixels, projection, PARTS)
-    beam = replace(given_beam(sample, np.radians(incidence)), states=STATES)
+    beam = replace(beam_of(sample, np.radians(incidence)), states=STATES)
     z = np.cos(np.radians(incidence))
     incoming = np.array([np.sqrt(1.0 - z * z), 0.0, -z])
     # Each pixel by its parts, in the frames that they have.

@@ -21,7 +21,7 @@ from optipath.kernels.fresnel.stable import (
 )
 from optipath.kernels.primitives import FLOAT
 from optipath.surfaces.walk import layout
-from optipath.surfaces.walk.beam import given_beam
+from optipath.surfaces.walk.beam import beam_of
 
 SIGMAS = 5.5
 
@@ -90,7 +90,7 @@ def met(n1, n2, base, cos, sin, k, normal, event):
 
 
 def expect_kernels(sample, incidence, photons):
-    beam = given_beam(sample, incidence, 0.3, stokes=ELLIPTICAL)
+    beam = beam_of(sample, incidence, 0.3, stokes=ELLIPTICAL)
     base = beam.indices.n.item(), beam.indices.k.item()
     ends = set()
     for number in range(photons):

@@ -12,7 +12,7 @@ from optipath import surfaces
 from optipath.surfaces.hemisphere.beam import STATES, PartSums, PixelMask, SensedBeam
 from optipath.surfaces.hemisphere.chunks import chunk_identity
 from optipath.surfaces.hemisphere.sensor import pixel_points
-from optipath.surfaces.walk.beam import given_beam
+from optipath.surfaces.walk.beam import beam_of
 from tables import rows
 
 PROJECTIONS = ["equidistant", "equal-area"]
@@ -184,7 +184,7 @@ UPPER, BASE = SAMPLE.layers
 def identity(sample=SAMPLE, incidence="50 deg", photons=100, when=(np.nan,), code="1", **options):
     sensor = options.pop("sensor", surfaces.Sensor(16))
     kinds = options.pop("polarized", "both"), options.pop("events", None)
-    beam = replace(given_beam(sample, incidence, **options), states=STATES)
+    beam = replace(beam_of(sample, incidence, **options), states=STATES)
     return chunk_identity(SensedBeam(beam, sensor, *kinds), np.array(when), photons, code)
 
 

@@ -25,7 +25,7 @@ pytest.importorskip("numba")
 from optipath.surfaces.walk import layout
 from optipath.surfaces.walk import mesh_hit as entry_walk
 from optipath.surfaces.walk import mesh_hit as walk
-from optipath.surfaces.walk.beam import given_beam
+from optipath.surfaces.walk.beam import beam_of
 from optipath.surfaces.walk.facets import LOWER, NO_FACET, UPPER, uniform
 from optipath.surfaces.walk.meshes import packed_meshes
 
@@ -307,7 +307,7 @@ def steep_field(seed, *, periodic):
 
 def first_photon(field, index, seed):
     """Events of the first photon of a seed, and where on the mesh it starts, in cells."""
-    record = given_beam(op.Sample([(index, field)]), 0.8, 0.4, seed=seed).block(0, wanted=0).record
+    record = beam_of(op.Sample([(index, field)]), 0.8, 0.4, seed=seed).block(0, wanted=0).record
     stream = np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(0,)))
     start = np.random.Generator(stream).random(2) * field.cells
     return record[0], record[1 : 1 + int(record[0, layout.EVENTS])], start
@@ -352,6 +352,6 @@ def test_photons_get_stuck_or_lost_and_leave_finite_fields_sideways():
     assert found.lost == pytest.approx(found.stuck / 3, rel=1e-12)
     # Normals of cliffs are of length 1.
     cliffs = HeightField(1e6 * (np.indices((8, 8)).sum(axis=0) % 2), 8.0, periodic=True)
-    record = given_beam(op.Sample([(1j, cliffs)]), 0.1).block(0, wanted=50).record
+    record = beam_of(op.Sample([(1j, cliffs)]), 0.1).block(0, wanted=50).record
     normals = record[1 : 1 + int(record[0, layout.EVENTS]), layout.NORMAL : layout.NORMAL + 3]
     assert np.linalg.norm(normals, axis=-1) == pytest.approx(1.0, abs=1e-15)

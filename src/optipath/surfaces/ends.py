@@ -14,7 +14,7 @@ from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.facets import plane_at_facet
 from optipath.kernels.filters import align
 from optipath.kernels.primitives import NUMPY
-from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, given_beam
+from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, beam_of
 from optipath.surfaces.walk.layout import (
     AZIMUTH,
     CARRIED,
@@ -89,7 +89,7 @@ def photon_ends(
     >>> print(found.directions.shape, found.stokes.shape, np.unique(found.ends))
     (1000, 3) (1000, 4) ['up']
     """
-    beam = given_beam(
+    beam = beam_of(
         sample,
         incidence,
         azimuth,

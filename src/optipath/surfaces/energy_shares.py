@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import PhotonWarning, shown
-from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, given_beam, walked_in_order
+from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, beam_of, walked_in_order
 from optipath.surfaces.walk.layout import (
     COUNT,
     DOWN,
@@ -359,7 +359,7 @@ def given_run(
     faults = _faults("photons", photons, _MOST) + _faults("threads", threads, _MOST_THREADS)
     if tolerance is not None and not _is_error(tolerance):
         faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
-    beam = given_beam(sample, incidence, **light, others=faults)
+    beam = beam_of(sample, incidence, **light, others=faults)
     usual = _USUAL if tolerance is None else _MOST_WITH_TOLERANCE
     run = EnergyRun(beam, processors() if threads is None else int(threads))
     return run, usual if photons is None else int(photons)

@@ -13,7 +13,7 @@ from optipath.surfaces.reproduction import ANY_AZIMUTH, MEASURES
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_files import load_sample
 from optipath.surfaces.sample_layers import depends_on_wavelength
-from optipath.surfaces.walk.beam import UNPOLARISED, given_beam
+from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
 from optipath.values.affine import real_number
 from optipath.values.messages import of_files
 from optipath.values.precision import whole_number
@@ -167,7 +167,7 @@ def measurements_of(
     if "within" in meant and "published" not in meant:
         faults.append("'within' is given, but nothing is 'published'; give both, or leave it out")
     stokes = tuple(argument.get("stokes", UNPOLARISED))
-    faults.attempt("", given_beam, _PLAIN, 0.0, stokes=stokes)
+    faults.attempt("", beam_of, _PLAIN, 0.0, stokes=stokes)
     cells = argument.get("cells")
     faults += _faults_of_cells(cells, sample)
     angles = argument.get("incidence", [])
@@ -221,7 +221,7 @@ def _faults_of_incidence(angles: list[Any]) -> list[str]:
     faults = Faults()
     for angle in angles:
         if isinstance(angle, str):
-            faults.attempt("", given_beam, _PLAIN, angle)
+            faults.attempt("", beam_of, _PLAIN, angle)
         else:
             faults.append(f'incidence: {shown(angle)} is no text; write one such as "60 deg"')
     return faults

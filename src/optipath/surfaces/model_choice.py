@@ -16,7 +16,7 @@ from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.surfaces.hemisphere.measure import measure
 from optipath.surfaces.smooth import smooth_difference, smooth_exit
-from optipath.surfaces.walk.beam import given_beam
+from optipath.surfaces.walk.beam import beam_of
 from optipath.values.messages import PHOTONS_TOLD, no_function
 from optipath.values.precision import whole_number
 
@@ -94,7 +94,7 @@ def decide(
     if side not in _SIDES:
         faults.append(f"no side is called {shown(side)}; give {' or '.join(_SIDES)}")
     mask = faults.attempt("", PixelMask, brighter_than, None)
-    beam = given_beam(
+    beam = beam_of(
         sample,
         incidence,
         azimuth,

@@ -18,7 +18,7 @@ from optipath.kernels.fresnel.boundary import lossless_boundary
 from optipath.kernels.primitives import FLOAT, NUMPY
 from optipath.light.frame import Frame
 from optipath.paths.path_graph import PathGraph
-from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, given_beam
+from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, beam_of
 from optipath.surfaces.walk.layout import (
     COLUMN,
     COS,
@@ -322,7 +322,7 @@ def replayed_photon(
     most_events: int = 1000,
 ) -> Photon:
     """Return one of the photons that `energy` counts, with all that happens to it."""
-    beam = given_beam(
+    beam = beam_of(
         sample,
         incidence,
         azimuth,

@@ -17,7 +17,7 @@ from optipath.surfaces.hemisphere.chunks import ChunkJob
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.smooth import flat_light, is_flat
-from optipath.surfaces.walk.beam import UNPOLARISED, given_beam
+from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
 from optipath.values.arrays import refuse_too_large
 from optipath.values.messages import PHOTONS_TOLD, no_function
 from optipath.values.precision import is_whole, whole_number
@@ -133,7 +133,7 @@ def measure(
     pixels = faults.attempt("", Sensor.of, sensor)
     place = faults.attempt("", given_store, store, scheduler)
     mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)
-    beam = given_beam(
+    beam = beam_of(
         sample,
         incidence,
         azimuth,

@@ -165,7 +165,7 @@ _LEAST_COSINE = 1e-12
 """That of an angle that is 90 deg but for roundings."""
 
 
-def given_beam(
+def beam_of(
     sample: Sample,
     incidence: Any,
     azimuth: Any = 0.0,
