@@ -180,7 +180,7 @@ def refraction_angle(
     """
     for value in (index, incidence, outside):
         check_known("refraction_angle", value)
-    m, front = given_index("index", index), given_index("outside", outside, lit=True)
+    m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
     cos, sin = given_incidence(incidence)
     check_broadcast({"index": m.shape, "incidence": cos.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
@@ -260,7 +260,7 @@ def fresnel_amplitudes(
     >>> print(np.degrees(np.angle(gold.r_s)).round(3), np.degrees(np.angle(gold.r_p)).round(3))
     -142.201 59.497
     """
-    m, front = given_index("index", index), given_index("outside", outside, lit=True)
+    m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
     c, s = given_cosine_and_sine(cos_incidence, sin_incidence)
     check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
@@ -334,7 +334,7 @@ def effective_index(
     >>> print(gold.n.round(6), gold.k.round(6))
     1.034329 2.279161
     """
-    m, front = given_index("index", index), given_index("outside", outside, lit=True)
+    m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
     c, s = given_incidence(incidence)
     check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
@@ -346,7 +346,7 @@ COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
 _APART, _GRAZING = 1e-6, 2.0**-60
 
 
-def given_index(name: str, value: Any, *, lit: bool = False) -> Any:
+def index_argument(name: str, value: Any, *, lit: bool = False) -> Any:
     """Return an index of refraction n + ik; NaN where JAX traces what is none."""
     return number_within(LIT_INDEX if lit else INDEX, name, value)
 

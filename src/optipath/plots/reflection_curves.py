@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.elements.fresnel import fresnel_reflection, given_index
+from optipath.elements.fresnel import fresnel_reflection, index_argument
 from optipath.errors import OptipathError, shown
 from optipath.materials.material import Material
 from optipath.plots.axes import fitting_text, label_axes, legend_above, own_axes
@@ -172,7 +172,7 @@ def _medium(name: str, argument: Any) -> Material:
         return argument
     if _is_name(argument):
         return Material.named(argument)
-    number = np.asarray(given_index(name, argument))
+    number = np.asarray(index_argument(name, argument))
     return Material(number.real.copy(), number.imag.copy())
 
 
