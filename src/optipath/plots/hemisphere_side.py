@@ -15,7 +15,7 @@ from optipath.plots.color_scale import ColourScale
 from optipath.surfaces.hemisphere.beam import SIDES
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import PROJECTIONS
-from optipath.surfaces.walk.beam import given_state
+from optipath.surfaces.walk.beam import state_argument
 from optipath.values.units import displayed
 from optipath.values.wavelength import Wavelength
 
@@ -49,7 +49,7 @@ class SeenSide:
         faults = Faults()
         faults.attempt("", measured.side, side)
         place = None if every else faults.attempt("", _place, measured.wavelengths, wavelength)
-        state = faults.attempt("", given_state, "source", source)
+        state = faults.attempt("", state_argument, "source", source)
         if faults:
             raise SurfaceError(*faults)
         assert state is not None  # noqa: S101 - or a fault has been raised

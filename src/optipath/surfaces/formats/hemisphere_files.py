@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, SurfaceError, needing
-from optipath.surfaces.walk.beam import UNPOLARISED, given_state
+from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
 from optipath.values.files import drafted, input_file, told_of
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ class StokesPicture:
                 "side='reflected' or side='transmitted'"
             )
         place = hemisphere.side(sides[0] if side is None else side)
-        state = np.array(given_state("source", UNPOLARISED if source is None else source))
+        state = np.array(state_argument("source", UNPOLARISED if source is None else source))
         with np.errstate(over="ignore"):
             brdf = hemisphere.brdf().to_numpy()[place]
             light = np.asarray(brdf @ (state / state[0]), np.float32)

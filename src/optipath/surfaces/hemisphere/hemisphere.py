@@ -18,7 +18,7 @@ from optipath.light.light import Light
 from optipath.surfaces.hemisphere.arguments import direction_of, following, wavelength_place
 from optipath.surfaces.hemisphere.facet_model import alpha_of, reflected_once
 from optipath.surfaces.sample import Sample
-from optipath.surfaces.walk.beam import UNPOLARISED, given_state
+from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
 from optipath.sweeps.labels import DERIVED
 from optipath.values.angles import calls_up
 from optipath.values.arrays import first_place, same
@@ -806,7 +806,7 @@ error at most 0.2 of the difference, or at most 0.001
 
 
 def _state(source: npt.ArrayLike) -> Numbers:
-    return np.array(given_state("source", source))
+    return np.array(state_argument("source", source))
 
 
 def _missing(what: str, kind: str) -> str:

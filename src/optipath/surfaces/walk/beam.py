@@ -189,7 +189,7 @@ def beam_of(
     if incidence is not None and cos(incidence) < _LEAST_COSINE:
         faults.append("incidence is 90 deg, along the sample, where no light gets to it; give less")
     faults += whole_number("seed", seed, 0) + whole_number("most_events", most_events)
-    light = faults.attempt("", given_state, "stokes", stokes)
+    light = faults.attempt("", state_argument, "stokes", stokes)
     indices = faults.attempt("", sample.indices, wavelength)
     if faults or indices is None or light is None:
         raise SurfaceError(*faults)
@@ -205,12 +205,12 @@ def beam_of(
     )
 
 
-def given_state(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
+def state_argument(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
     """Return the state of polarisation of the light that falls on a sample.
 
     Shape: stokes (4,).
 
-    >>> given_state("source", [2, 1, 0, 0])
+    >>> state_argument("source", [2, 1, 0, 0])
     (2.0, 1.0, 0.0, 0.0)
     """
     faults = Faults()
