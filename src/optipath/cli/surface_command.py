@@ -54,14 +54,14 @@ def draw_map(
     check_form(out)
     check_place(out)
     # Before photons are walked: these tell whether what draws is there.
-    from optipath.cli.surface_options import given_walks  # noqa: PLC0415 - needs numbers
+    from optipath.cli.surface_options import walk_arguments  # noqa: PLC0415 - needs numbers
     from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
     from optipath.plots.hemisphere_side import QUANTITIES  # noqa: PLC0415 - ditto
     from optipath.plots.light_quantities import named_quantity  # noqa: PLC0415 - ditto
     from optipath.surfaces.hemisphere.measure import measure  # noqa: PLC0415 - needs numbers
 
     walk = _only(
-        given_walks(load_sample(sample), **options), named_quantity(quantity, QUANTITIES), side
+        walk_arguments(load_sample(sample), **options), named_quantity(quantity, QUANTITIES), side
     )
     beam, source = walk.run.beam, walk.run.beam.states[0]
     with photon_bar(walk.direction) as progress:
@@ -158,14 +158,14 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     loaded = load_sample(sample)
     # Neither a list of samples nor a wrong name needs numbers.
     from optipath.cli.progress import photon_bar  # noqa: PLC0415
-    from optipath.cli.surface_options import given_walks  # noqa: PLC0415
+    from optipath.cli.surface_options import walk_arguments  # noqa: PLC0415
     from optipath.cli.surface_output import (  # noqa: PLC0415
         energy_as_json,
         print_energy,
         walked,
     )
 
-    walks = given_walks(loaded, **options)
+    walks = walk_arguments(loaded, **options)
     results: list[EnergyOutcome] = []
     try:
         for walk in walks:

@@ -200,7 +200,7 @@ class GivenWalk:
         return f"incidence {self.incidence.shown.item():g} {self.incidence.unit}"
 
 
-def given_walks(
+def walk_arguments(
     sample: Sample,
     *,
     incidences: Sequence[str],

@@ -11,7 +11,7 @@ import numpy as np
 from optipath.cli.console import PlainConsole, cell, headed, say, say_json, title
 from optipath.cli.outcome import printed_value
 from optipath.cli.progress import photon_bar
-from optipath.cli.surface_options import given_walks
+from optipath.cli.surface_options import walk_arguments
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import plain
 from optipath.surfaces.energy_shares import walk_wanted
@@ -192,7 +192,7 @@ def print_choices(
 ) -> None:
     """Decide for each angle of incidence, and print the decisions with their evidence."""
     loaded = load_sample(sample)
-    walks = given_walks(loaded, **options, tolerance=None, threads=threads)
+    walks = walk_arguments(loaded, **options, tolerance=None, threads=threads)
     if walks[0].run.beam.states[0] != UNPOLARISED:
         raise SurfaceError("--decide is of unpolarised light; leave --stokes out")
     wanted = 0.02 if tolerance is None else tolerance
