@@ -181,7 +181,7 @@ def refraction_angle(
     for value in (index, incidence, outside):
         check_known("refraction_angle", value)
     m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
-    cos, sin = given_incidence(incidence)
+    cos, sin = incidence_argument(incidence)
     check_broadcast({"index": m.shape, "incidence": cos.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
     cos = arriving_cosine(cos, k1)
@@ -335,7 +335,7 @@ def effective_index(
     1.034329 2.279161
     """
     m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
-    c, s = given_incidence(incidence)
+    c, s = incidence_argument(incidence)
     check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
     numbers = n1, k1, *parts_of(m), arriving_cosine(c, k1), s + 0.0
@@ -375,7 +375,7 @@ def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
     return c, s
 
 
-def given_incidence(value: Any) -> tuple[Any, Any]:
+def incidence_argument(value: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine of an incidence that is given as an angle, or a `CosSin`."""
     if isinstance(value, CosSin):
         return given_cosine_and_sine(value.cos, value.sin)
