@@ -14,7 +14,7 @@ from optipath.cli.ranges import axis_given
 from optipath.errors import SurfaceError, listed, shown
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.paths.files.schema import Faults
-from optipath.surfaces.energy_shares import given_run
+from optipath.surfaces.energy_shares import run_arguments
 from optipath.surfaces.sample_files import sample_names
 from optipath.values.parameters import Parameter
 from optipath.values.text import AxisValues, read_entries
@@ -226,7 +226,7 @@ def walk_arguments(
     changes = {name: value for name, value in drawn.items() if value is not None}
     sample = faults.attempt("the sample", dataclasses.replace, sample, **changes) or sample
     runs = [
-        faults.attempt("", partial(given_run, sample, angle.given, **light, **options))
+        faults.attempt("", partial(run_arguments, sample, angle.given, **light, **options))
         for angle in angles
     ]
     if faults:

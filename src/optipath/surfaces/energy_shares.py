@@ -113,7 +113,7 @@ def energy(
     >>> bool(0.001 < found.R_m < 0.005), bool(abs(found.scalar.R + found.scalar.T - 1.0) < 1e-12)
     (True, True)
     """
-    run, most = given_run(
+    run, most = run_arguments(
         sample,
         incidence,
         photons,
@@ -346,7 +346,7 @@ _MOST_WITH_TOLERANCE, _MOST = 1_000_000_000, 1_000_000_000_000
 _MOST_THREADS = 1024
 
 
-def given_run(
+def run_arguments(
     sample: Sample,
     incidence: Any,
     photons: int | None = None,
