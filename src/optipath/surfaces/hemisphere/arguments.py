@@ -145,10 +145,10 @@ def following(result: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:
 _ENDING = ".zarr"
 
 
-def given_store(store: Any, scheduler: Any) -> Path | None:
+def store_argument(store: Any, scheduler: Any) -> Path | None:
     """Return where a measurement is to be kept; None where it is not.
 
-    >>> given_store("hemisphere.nc", None)
+    >>> store_argument("hemisphere.nc", None)
     Traceback (most recent call last):
     optipath.errors.SurfaceError: store 'hemisphere.nc' is no Zarr store; give a name that ends \
 in .zarr, such as 'hemisphere.zarr'

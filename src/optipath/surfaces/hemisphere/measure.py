@@ -11,7 +11,7 @@ from optipath.errors import SurfaceError, need, shown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.energy_shares import processors
-from optipath.surfaces.hemisphere.arguments import given_store
+from optipath.surfaces.hemisphere.arguments import store_argument
 from optipath.surfaces.hemisphere.beam import CHUNK, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.chunks import ChunkJob
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
@@ -131,7 +131,7 @@ def measure(
     faults = Faults(_faults(photons, events, polarized, threads))
     faults += no_function("progress", progress, PHOTONS_TOLD)
     pixels = faults.attempt("", Sensor.of, sensor)
-    place = faults.attempt("", given_store, store, scheduler)
+    place = faults.attempt("", store_argument, store, scheduler)
     mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)
     beam = beam_of(
         sample,
