@@ -43,7 +43,7 @@ from optipath.light.polarization_state import (
     where_there,
 )
 from optipath.light.printed import text_of
-from optipath.light.underflow import folded, given_exponent, same_numbers, times_two_to
+from optipath.light.underflow import exponent_argument, folded, same_numbers, times_two_to
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.precision import at_least_single, coarser
@@ -127,7 +127,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         if not isinstance(frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
         mantissa = real_array("a Stokes vector", stokes, (4,))
-        exponent = given_exponent(exponent)
+        exponent = exponent_argument(exponent)
         batch = check_broadcast(
             {"stokes": mantissa.shape[:-1], "exponent": exponent.shape, "frame": frame.z.shape[:-1]}
         )

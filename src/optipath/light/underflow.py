@@ -86,10 +86,10 @@ def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     return np.asarray(intensity < np.finfo(intensity.dtype).tiny * UNDERFLOW)
 
 
-def given_exponent(argument: Any) -> Array:
+def exponent_argument(argument: Any) -> Array:
     """Return the exponent that somebody gives for light, of integers.
 
-    >>> given_exponent([-5, 0])
+    >>> exponent_argument([-5, 0])
     array([-5,  0])
     """
     check_known("the exponent of a light", argument)
