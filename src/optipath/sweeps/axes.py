@@ -12,8 +12,8 @@ from optipath.plan.inputs import LargeAngles
 from optipath.sweeps.checked_axes import axis_faults, computed_faults, unknown_names, unnamed_arrays
 from optipath.sweeps.coords import (
     GivenCoordinate,
+    coords_axes,
     cure_of_table,
-    given_coords,
     has_coordinates,
     is_labelled,
     read_column,
@@ -51,7 +51,7 @@ def grid_of(
 ) -> SweepGrid:
     """Return the grid of a sweep."""
     faults: list[str] = []
-    besides = given_coords(inputs, coords, faults)
+    besides = coords_axes(inputs, coords, faults)
     twice = [name for name in arguments if name in besides]
     drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
     faults += [

@@ -52,7 +52,7 @@ class GivenCoordinate(NamedTuple):
     dimension: str = ""
 
 
-def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
     """Return what ``coords=`` gives, by name."""
     if coords is None:
         return {}
