@@ -114,7 +114,7 @@ def _place(path: Any) -> Any:
     return place
 
 
-def _table(brdf: Any, wavelengths: Any) -> GivenBrdf | BrdfOfHemispheres:
+def _table(brdf: Any, wavelengths: Any) -> BrdfFunction | BrdfOfHemispheres:
     if isinstance(brdf, (list, tuple)):
         if wavelengths is not None:
             raise SurfaceError("hemispheres have wavelengths of their own; leave wavelengths= out")
@@ -125,7 +125,7 @@ def _table(brdf: Any, wavelengths: Any) -> GivenBrdf | BrdfOfHemispheres:
             f"goes, or a list of hemispheres"
         )
     when = [np.nan] if wavelengths is None else Wavelength().resolve(wavelengths).value
-    return GivenBrdf(brdf, np.atleast_1d(np.ravel(when)))
+    return BrdfFunction(brdf, np.atleast_1d(np.ravel(when)))
 
 
 def _shape_faults(shape: Any) -> list[str]:
@@ -157,7 +157,7 @@ def _nanometres(wavelengths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint16]:
 def _tensors(
     axes: HalfAngles,
     colours: npt.NDArray[np.uint16],
-    table: GivenBrdf | BrdfOfHemispheres,
+    table: BrdfFunction | BrdfOfHemispheres,
     description: str,
 ) -> dict[str, Tensor]:
     """Return the arrays of the file; matrices are computed while they are written."""
@@ -176,7 +176,7 @@ def _tensors(
 
 def _matrices(
     axes: HalfAngles,
-    table: GivenBrdf | BrdfOfHemispheres,
+    table: BrdfFunction | BrdfOfHemispheres,
     errors: list[npt.NDArray[np.float32]],
 ) -> Iterator[npt.NDArray[np.float32]]:
     """Yield the matrices of one phi_d after the other; their errors are kept."""
@@ -200,7 +200,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class GivenBrdf:
+class BrdfFunction:
     """A function of the directions in which light comes and goes.
 
     Units: wavelengths in metres.
