@@ -19,7 +19,7 @@ from optipath.values.files import check_form
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from optipath.cli.surface_options import GivenWalk
+    from optipath.cli.surface_options import WalkArguments
     from optipath.cli.surface_output import EnergyOutcome
     from optipath.plots.hemisphere_side import PixelQuantity
 
@@ -81,7 +81,7 @@ def draw_map(
     say(f"wrote {out}")
 
 
-def _only(walks: list[GivenWalk], drawn: PixelQuantity, side: str) -> GivenWalk:
+def _only(walks: list[WalkArguments], drawn: PixelQuantity, side: str) -> WalkArguments:
     """Return the walk of which a map can be drawn."""
     if len(walks) > 1:
         raise SurfaceError("--map is of one angle of incidence; give --incidence once")

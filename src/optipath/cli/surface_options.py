@@ -185,7 +185,7 @@ def _values(text: str, parameter: Parameter, unit: str) -> AxisValues:
 
 
 @dataclass(frozen=True)
-class GivenWalk:
+class WalkArguments:
     """Photons that fall on a sample from one direction, to be walked."""
 
     incidence: AxisValues
@@ -211,7 +211,7 @@ def walk_arguments(
     cells: str | None,
     sample_seed: int | None,
     **options: Any,
-) -> list[GivenWalk]:
+) -> list[WalkArguments]:
     """Return the walks that options ask for, one for each angle of incidence."""
     faults = Faults()
     angles = faults.attempt("", incidences_of, incidences) or incidences_of(["0"])
@@ -232,6 +232,6 @@ def walk_arguments(
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
     return [
-        GivenWalk(angle, lights, *run, options["tolerance"])
+        WalkArguments(angle, lights, *run, options["tolerance"])
         for angle, run in zip(angles, filter(None, runs), strict=True)
     ]

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from optipath.cli.surface_options import GivenWalk
+    from optipath.cli.surface_options import WalkArguments
     from optipath.surfaces.energy_shares import Energy, EnergyShares
     from optipath.surfaces.model_choice import ModelChoice
     from optipath.values.text import AxisValues
@@ -132,13 +132,13 @@ def _counted(events: int) -> str:
 class EnergyOutcome:
     """What photons have told that fell on a sample from one direction."""
 
-    given: GivenWalk
+    given: WalkArguments
     energy: Energy
     seconds: float
     interrupted: bool
 
 
-def walked(argument: GivenWalk, progress: Callable[[int, int], None]) -> EnergyOutcome:
+def walked(argument: WalkArguments, progress: Callable[[int, int], None]) -> EnergyOutcome:
     """Return what photons tell; where Ctrl-C comes, what those tell that have been walked."""
     begin, interrupted = perf_counter(), False
     try:
@@ -226,7 +226,7 @@ def _plain_pair(pair: tuple[float, float] | None) -> Any:
     return None if pair is None else plain(np.asarray(pair))
 
 
-def _decided(walk: GivenWalk, tolerance: float, **options: Any) -> ModelChoice:
+def _decided(walk: WalkArguments, tolerance: float, **options: Any) -> ModelChoice:
     beam = walk.run.beam
     return decide(
         beam.sample,
