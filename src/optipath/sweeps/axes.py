@@ -11,7 +11,7 @@ from optipath.errors import ParameterError, collecting, did_you_mean, listed, sh
 from optipath.plan.inputs import LargeAngles
 from optipath.sweeps.checked_axes import axis_faults, computed_faults, unknown_names, unnamed_arrays
 from optipath.sweeps.coords import (
-    GivenCoordinate,
+    CoordinateArgument,
     coords_axes,
     cure_of_table,
     has_coordinates,
@@ -58,7 +58,7 @@ def grid_of(
         f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
         for name in twice
     ]
-    several = {name: GivenCoordinate(value) for name, value in arguments.items()} | besides
+    several = {name: CoordinateArgument(value) for name, value in arguments.items()} | besides
     values = _read(inputs, several, faults)
     dimensions = {name: several[name].dimension or name for name in values}
     own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
@@ -94,7 +94,7 @@ def grid_of(
 
 
 def _read(
-    inputs: Inputs, several: Mapping[str, GivenCoordinate], faults: list[str]
+    inputs: Inputs, several: Mapping[str, CoordinateArgument], faults: list[str]
 ) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
     results = {}

@@ -45,14 +45,14 @@ _OPENED = {
 """What reads the coordinates of files that are no tables."""
 
 
-class GivenCoordinate(NamedTuple):
+class CoordinateArgument(NamedTuple):
     """What is given for a parameter, and along which dimension."""
 
     value: Any
     dimension: str = ""
 
 
-def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, CoordinateArgument]:
     """Return what ``coords=`` gives, by name."""
     if coords is None:
         return {}
@@ -66,7 +66,7 @@ def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Giv
         faults += [f"{about}{sentence}" for sentence in fault.faults]
         return {}
     if isinstance(coords, Mapping):
-        return {str(name): GivenCoordinate(value) for name, value in coords.items()}
+        return {str(name): CoordinateArgument(value) for name, value in coords.items()}
     name = next(iter(inputs.open), "delta")
     if cure_of_table(name, coords):
         faults.append(
@@ -83,7 +83,7 @@ def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Giv
 
 def _of_file(
     inputs: Inputs, path: str | PathLike[str], faults: list[str]
-) -> dict[str, GivenCoordinate]:
+) -> dict[str, CoordinateArgument]:
     if (opened := _OPENED.get(PurePath(path).suffix)) is not None:
         raise ParameterError(
             f"coords='{path}' is no CSV file; give what it holds, coords={opened}('{path}')"
@@ -98,10 +98,10 @@ def _of_file(
     names = [column.name for column in columns]
     faults += [f"{path}: {inputs.unknown(name)}" for name in names if name not in inputs.open]
     known = [column for column in columns if column.name in inputs.open]
-    return {column.name: GivenCoordinate(column, dimension) for column in known}
+    return {column.name: CoordinateArgument(column, dimension) for column in known}
 
 
-def _of_dataset(inputs: Inputs, argument: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+def _of_dataset(inputs: Inputs, argument: Any, faults: list[str]) -> dict[str, CoordinateArgument]:
     results = {}
     coords, order = getattr(argument, "coords", argument), _order_of_dimensions(argument)
     # Those of a store that was opened are in the order of the alphabet.
@@ -117,7 +117,7 @@ def _of_dataset(inputs: Inputs, argument: Any, faults: list[str]) -> dict[str, G
                 f"one dimension; leave it out, .drop_vars('{name}'), or make it of one, .stack(...)"
             )
         else:
-            results[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
+            results[str(name)] = CoordinateArgument(array, str(array.dims[0]) if array.dims else "")
     return results
 
 
