@@ -108,7 +108,7 @@ def amplitude_reflection(xp: Primitives) -> KernelFunction:
     return reflect
 
 
-def given_amplitudes(xp: Primitives) -> KernelFunction:
+def plain_amplitudes(xp: Primitives) -> KernelFunction:
     """Make ``(Re rs, Im rs, Re rp, Im rp) -> (Fs, Fp, B, C, S)``.
 
     B = Re((rs - rp) conj(rs + rp)) / 2, which keeps the digits of what is given where the
