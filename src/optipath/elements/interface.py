@@ -10,8 +10,8 @@ from optipath.elements.element import Element
 from optipath.elements.frame_checks import share_x
 from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalog import (
-    GIVEN_AMPLITUDES,
     PHASE_INDEX,
+    PLAIN_AMPLITUDES,
     REFLECTION,
     REFLECTION_FROM_ABSORBING,
     TRANSMISSION,
@@ -205,7 +205,7 @@ class Mirror(Element, kind="mirror"):
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""
         numbers = numbers_of(self.r_s, AMPLITUDE) + numbers_of(self.r_p, AMPLITUDE)
-        reflecting = Operation(GIVEN_AMPLITUDES, numbers)
+        reflecting = Operation(PLAIN_AMPLITUDES, numbers)
         return (Coupling("in", "reflected", (reflecting,), reflects=True),)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
