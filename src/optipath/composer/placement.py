@@ -9,7 +9,7 @@ import numpy as np
 from optipath.composer.wiring import link_text
 from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, shown
-from optipath.kernels.catalog import GIVEN_TURN, TURN
+from optipath.kernels.catalog import PLAIN_TURN, TURN
 from optipath.light.frame import Frame
 from optipath.values.affine import Affine
 from optipath.values.arrays import broadcast_fault
@@ -56,7 +56,7 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
         c, s = arriving.turn_to(expected)
         if np.all(c == 1.0) and np.all(s == 0.0):
             return None
-        return Operation(GIVEN_TURN, (Operand(c), Operand(s)))
+        return Operation(PLAIN_TURN, (Operand(c), Operand(s)))
     azimuth = azimuth_of(wiring, link)
     return None if is_zero(azimuth) else Operation(TURN, (azimuth,))
 

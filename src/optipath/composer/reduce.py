@@ -17,8 +17,8 @@ from optipath.kernels.catalog import (
     ATTENUATOR,
     CONSTANT_BLOCK,
     CONSTANT_DEPOLARIZING_BLOCK,
-    GIVEN_TURN,
     MATRIX,
+    PLAIN_TURN,
     TURN,
     TURN_BACK,
 )
@@ -167,7 +167,7 @@ def _span(argument: Operand | ResultOf) -> tuple[float, float]:
 
 _KERNELS = {
     "scale": ATTENUATOR,
-    "rotation": GIVEN_TURN,
+    "rotation": PLAIN_TURN,
     "full": MATRIX,
     BLOCK.name: CONSTANT_BLOCK,
     DEPOLARIZING_BLOCK.name: CONSTANT_DEPOLARIZING_BLOCK,

@@ -199,7 +199,7 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
 
 TURN = Kernel("turn", ROTATION, filters.turn)
 TURN_BACK = Kernel("turn back", ROTATION, filters.turn_back)
-GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
+PLAIN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, filters.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
 TURN_BESIDE_REFRACTION = Kernel(
