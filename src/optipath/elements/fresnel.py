@@ -124,7 +124,7 @@ def _fresnel(
     for value in (index, cos, sin):
         check_known("Fresnel's equations of a Mueller matrix", value)
     m = INDEX.check("index", index)
-    c, s = given_cosine_and_sine(cos, sin)
+    c, s = plain_cosine_and_sine(cos, sin)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
     shape = check_broadcast(shapes)
     # Adding 0 turns -0 into 0.
@@ -261,7 +261,7 @@ def fresnel_amplitudes(
     -142.201 59.497
     """
     m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
-    c, s = given_cosine_and_sine(cos_incidence, sin_incidence)
+    c, s = plain_cosine_and_sine(cos_incidence, sin_incidence)
     check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
     n1, k1 = parts_of(front)
     numbers = kernel_values(
@@ -359,7 +359,7 @@ def number_within(domain: Domain, name: str, value: Any) -> Any:
     return namespace(numbers).where(domain.allows(numbers), numbers, np.nan)
 
 
-def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
+def plain_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle."""
     cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
     check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
@@ -378,7 +378,7 @@ def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
 def incidence_argument(value: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine of an incidence that is given as an angle, or a `CosSin`."""
     if isinstance(value, CosSin):
-        return given_cosine_and_sine(value.cos, value.sin)
+        return plain_cosine_and_sine(value.cos, value.sin)
     angle = number_within(INCIDENCE, "incidence", value)
     check_broadcast({"incidence": angle.shape})
     cos, sin = kernel_values(_cosine_and_sine, angle)
