@@ -24,7 +24,7 @@ from optipath.materials.named_materials import (
     material_named,
     single_value,
 )
-from optipath.paths.binding import given_by_materials
+from optipath.paths.binding import from_materials
 from optipath.paths.files.presets import beside
 from optipath.values.parameters import unknown_parameter
 
@@ -336,7 +336,7 @@ def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]
     argument, explored, notes = dict(state.given), state.explored, []
     values = beside(explored.path, known, argument)
     if media := {name: m for name, m in values.items() if isinstance(m, Material)}:
-        within = given_by_materials(explored.path.graph, media)
+        within = from_materials(explored.path.graph, media)
         stored = {*media, *within}
         for name in within:
             values.pop(name, None)

@@ -13,7 +13,7 @@ from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, lin
 from optipath.explorer.state import FieldFault, FieldFaults, single_text
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import plain
-from optipath.paths.binding import given_by_materials
+from optipath.paths.binding import from_materials
 from optipath.paths.energy import KEEPING, lights_along
 from optipath.plots.scene.layout import scene_of
 from optipath.sweeps.grid import SweepGrid, sweep_axis
@@ -156,7 +156,7 @@ def _materials(state: ReadState, arguments: dict[str, Any]) -> dict[str, dict[st
             "n": message["n"],
             "k": message["k"],
         }
-        for k in given_by_materials(state.base.path.graph, {name: material}):
+        for k in from_materials(state.base.path.graph, {name: material}):
             number = message["k"] if isinstance(message["k"], float) else None
             text = "" if number is None else PRINTED.text(number)
             results[k] = {**plain, "text": text, "number": number, "by": name}

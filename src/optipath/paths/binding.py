@@ -116,7 +116,7 @@ def materials_placed(
     return plain, placed
 
 
-def given_by_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set[str]:
+def from_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set[str]:
     """Return the parameters that are the k of materials among some values."""
     names = [name for name, value in values.items() if isinstance(value, Material)]
     uses = Values(graph).uses if names else ()

@@ -118,9 +118,9 @@ def bound_preset(
 def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
     """Return values of a case and others, which take precedence: of a `Material`, its k as well."""
     # Not for every import of the library.
-    from optipath.paths.binding import given_by_materials  # noqa: PLC0415
+    from optipath.paths.binding import from_materials  # noqa: PLC0415
 
-    gone = given_by_materials(path.graph, values)
+    gone = from_materials(path.graph, values)
     return {name: value for name, value in known.items() if name not in gone} | {**values}
 
 
