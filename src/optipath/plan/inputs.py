@@ -88,7 +88,7 @@ class Inputs:
             numbers, present = resolved[name]
             try:
                 if name not in unchecked:
-                    use.check_given(numbers, present, resolved)
+                    use.check_arguments(numbers, present, resolved)
             except OptipathError as fault:
                 value = arguments.get(name, use.value.default)
                 message = self._of_a_fit(fault.faults, name, value)

@@ -156,7 +156,7 @@ class Recipe:
                 return None
         try:
             for use in self.whole:
-                use.check_given(parameters[use.value.name])
+                use.check_arguments(parameters[use.value.name])
         except ValueFault:
             return None
         results = dict(self.fixed)

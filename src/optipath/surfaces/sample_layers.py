@@ -345,9 +345,9 @@ def _part_at(place: str, use: Use, arguments: Mapping[str, Resolved]) -> Any:
         return np.asarray(use.value)
     when, _ = use.with_arguments()
     # Of n and k of one curve it is told once.
-    replace(when, owner=place).check_given(arguments[WHEN].value)
+    replace(when, owner=place).check_arguments(arguments[WHEN].value)
     numbers = use.value.computed(arguments).value
-    use.check_given(numbers, THERE, arguments)
+    use.check_arguments(numbers, THERE, arguments)
     return use.value.placed(numbers)
 
 

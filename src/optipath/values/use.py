@@ -126,9 +126,9 @@ class Use:
             raise ValueFault(self._no_index(default))
         if type(default) is float:
             # Whether a number is in the range was asked when the parameter was made.
-            self.check_given(default)
+            self.check_arguments(default)
         elif default is not None:
-            self.check_given(*self.value.resolve(default))
+            self.check_arguments(*self.value.resolve(default))
 
     def doubt(self, argument: Any) -> str:
         """Ask what a list or a `Material` that is given for the parameter means; mostly nothing."""
@@ -144,7 +144,7 @@ class Use:
             f"for an index of refraction; give {self.domain.described()}"
         )
 
-    def check_given(
+    def check_arguments(
         self,
         numbers: float | np.ndarray[Any, Any],
         present: np.ndarray[Any, Any] = THERE,
