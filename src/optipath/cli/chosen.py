@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from optipath.cli.ranges import axis_faults, axis_given
+from optipath.cli.ranges import axis_argument, axis_faults
 from optipath.composer.path_values import Values
 from optipath.errors import (
     OptipathError,
@@ -177,7 +177,7 @@ def _value(
             elif k is not None:
                 path.parameters[other].resolve(k)
             return None if faults else material_named(f"--{_flag(name)}", text, option, k)
-        if several := axis_given(parameter, text, uses):
+        if several := axis_argument(parameter, text, uses):
             return several
         # A bare number may be nanometres, micrometres or electronvolts.
         unit = "" if isinstance(parameter, Wavelength) else parameter.unit

@@ -26,11 +26,11 @@ RANGES = (
 """How an option takes more than one value, for help."""
 
 
-def axis_given(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
+def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
     """Return the values that the text of an option stands for.
 
     >>> from optipath.values.parameters import Parameter
-    >>> axis_given(Parameter("delta", unit="deg"), "0:90:3", ()).shown.tolist()
+    >>> axis_argument(Parameter("delta", unit="deg"), "0:90:3", ()).shown.tolist()
     [0.0, 45.0, 90.0]
     """
     # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.ranges import axis_given
+from optipath.cli.ranges import axis_argument
 from optipath.errors import SurfaceError, listed, shown
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.paths.files.schema import Faults
@@ -142,12 +142,12 @@ def wavelengths_of(text: str | None) -> AxisValues | None:
         return None
     result = _values(text, WAVELENGTH, "")
     _refuse_many("--wavelength", len(result.given))
-    return result if axis_given(WAVELENGTH, text, ()) else result.reshaped(())
+    return result if axis_argument(WAVELENGTH, text, ()) else result.reshaped(())
 
 
 def azimuth_of(text: str) -> float:
     """Return an azimuth in radians."""
-    if axis_given(_AZIMUTH, text, ()) is not None:
+    if axis_argument(_AZIMUTH, text, ()) is not None:
         raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
     return float(_values(text, _AZIMUTH, "deg").given[0])
 
@@ -181,7 +181,7 @@ def _refuse_many(option: str, count: int) -> None:
 
 
 def _values(text: str, parameter: Parameter, unit: str) -> AxisValues:
-    return axis_given(parameter, text, ()) or read_entries([text], parameter, unit)
+    return axis_argument(parameter, text, ()) or read_entries([text], parameter, unit)
 
 
 @dataclass(frozen=True)
