@@ -29,7 +29,7 @@ from optipath.paths.files.schema import FORMAT, Faults, joined, texts_in
 from optipath.paths.files.toml import parsed
 from optipath.paths.files.values import (
     decode,
-    decode_given,
+    decode_argument,
     references_in,
     wavelength_names,
     which_pair,
@@ -396,7 +396,7 @@ def read_parameter(
     argument = table.get("default")
     waits = isinstance(argument, str) and argument in words and words[argument] is None
     if argument is not None and bare is not None and not waits:
-        default = faults.attempt(f"{where}.default", decode_given, argument, bare)
+        default = faults.attempt(f"{where}.default", decode_argument, argument, bare)
     if len(faults) > before:
         return None
     bound = table.get("bound", False)
@@ -546,7 +546,7 @@ def read_case(
             faults.append(f"{where}: parameter '{name}' is unknown{cure}")
             continue
         parameter = parameters[name]
-        value = faults.attempt(f"{where}.{name}", decode_given, raw, parameter, uses)
+        value = faults.attempt(f"{where}.{name}", decode_argument, raw, parameter, uses)
         if value is not None:
             faults.attempt(f"{where}.{name}", parameter.resolve, value)
             values[name] = value

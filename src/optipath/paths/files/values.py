@@ -103,7 +103,7 @@ def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
     )
 
 
-def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
+def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
     """Return a value given for a parameter: a default, or one of a case.
 
     Units: the result in radians.
@@ -117,7 +117,7 @@ def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> An
             said = f"parameter '{parameter.name}': "
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
-        several = [decode_given(entry, parameter, uses) for entry in raw]
+        several = [decode_argument(entry, parameter, uses) for entry in raw]
         return _several(several) if several and {*map(type, several)} == {float} else several
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
