@@ -215,7 +215,7 @@ class Interpreter:
             # Not an array, so that kernels see an index that does not absorb.
             return self.dtype.type(0.0)  # type: ignore[no-any-return]
         kind = wide(self.dtype) if operand.part in ("cos", "sin") else None
-        raw = operand.given_in(arguments.numbers, partial(np.asarray, dtype=kind))
+        raw = operand.number_in(arguments.numbers, partial(np.asarray, dtype=kind))
         return self._cast(operand.evaluated(NUMPY, raw))
 
     def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
@@ -515,7 +515,7 @@ class CloserLook:
             if operand.known:
                 raw = _longer(self.given.cut(np.asarray(operand.raw(), kind)))
             else:
-                raw = operand.given_in(self.given.numbers, lambda n: _longer(np.asarray(n, kind)))
+                raw = operand.number_in(self.given.numbers, lambda n: _longer(np.asarray(n, kind)))
             raw = _of_an_angle(*raw) if isinstance(raw, tuple) else raw
             self._operands[place] = operand.evaluated(_TWICE, raw)
         return self._operands[place]

@@ -123,7 +123,7 @@ class ReproducibleInterpreter(Interpreter):
         if operand.part == "present" or numbers.get(key) is False:
             return super()._given(operand, arguments)
         if key not in numbers:
-            raw = operand.given_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
+            raw = operand.number_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
             return self._cast(operand.evaluated(self.xp, raw))
         number = np.atleast_1d(numbers[key])
         if operand.part in ("cos", "sin"):

@@ -391,7 +391,7 @@ def _faults(way: OwnWays, arguments: ResolvedInputs) -> list[str]:
     def read(operand: Operand) -> Any:
         if operand.known:
             return few(arguments.cut(operand.numbers()))
-        return operand.evaluated(NUMPY, operand.given_in(mine, np.asarray))
+        return operand.evaluated(NUMPY, operand.number_in(mine, np.asarray))
 
     try:
         result = way.faults(read)

@@ -99,7 +99,7 @@ class Operand:
             return made(cosine if self.part == "cos" else sine, xp)(-raw if negative else raw)
         return -raw if negative else raw
 
-    def given_in(self, numbers: Mapping[InputKey, Any], sort: Callable[[Any], Any]) -> Any:
+    def number_in(self, numbers: Mapping[InputKey, Any], sort: Callable[[Any], Any]) -> Any:
         """Return what is given for it among numbers, as `evaluated` takes it."""
         key = self.input_key
         if key in numbers:
