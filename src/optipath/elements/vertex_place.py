@@ -139,7 +139,7 @@ class Coordinates(NamedTuple):
         """All that is given of them."""
         return *self.events, *self.arguments
 
-    def given_to(self, kernel: Kernel, *before: Any) -> Operation:
+    def passed_to(self, kernel: Kernel, *before: Any) -> Operation:
         """Return the operation of a kernel of coordinates."""
         return Operation(kernel, (*before, *self._coordinates(self.points)))
 

@@ -214,7 +214,7 @@ class Vertex(ChainVertex, kind="vertex"):
         """Return the way from ``in`` to ``out``, by reflection or refraction."""
         event, n1, n2, k = self._given
         points = self.in_chain.points_from_start()
-        met = points.given_to(EVENT_AT_VERTEX, n1, n2, k, *self._events)
+        met = points.passed_to(EVENT_AT_VERTEX, n1, n2, k, *self._events)
         n1, n2, *cos_sin = met.results(4)
         operation = Operation(AT_EVENT, (event, n1, n2, k, *cos_sin))
         return (Coupling("in", "out", (operation,)),)
@@ -330,7 +330,7 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""
         index = numbers_of(self.index, self.domains()["index"])
-        cos_sin = self.in_chain.points_around().given_to(INCIDENCE).results(2)
+        cos_sin = self.in_chain.points_around().passed_to(INCIDENCE).results(2)
         operation = Operation(REFLECTION, (self.front, *index, *cos_sin))
         return (Coupling("in", "reflected", (operation,), reflects=True),)
 
@@ -401,7 +401,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the refraction from ``in`` to ``transmitted``."""
         points = self.in_chain.points_around()
-        rarer, denser, *cos_sin = points.given_to(REFRACTION, self.front, self._behind).results(4)
+        rarer, denser, *cos_sin = points.passed_to(REFRACTION, self.front, self._behind).results(4)
         operation = Operation(TRANSMISSION_AT_VERTEX, (rarer, denser, 0.0, *cos_sin))
         return (Coupling("in", "transmitted", (operation,)),)
 

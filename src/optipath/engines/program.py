@@ -136,7 +136,7 @@ class Program:
         return tuple([tuple(dict.fromkeys([r.evaluation for r in several])) for several in results])
 
     @cached_property
-    def given_to(self) -> tuple[tuple[int, ...], ...]:
+    def passed_to(self) -> tuple[tuple[int, ...], ...]:
         """The operands of each evaluation, and of those whose results it is given."""
         results: list[tuple[int, ...]] = []
         for evaluation, takes in zip(self.evaluations, self.takes, strict=True):

@@ -77,7 +77,7 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
 @jones.register
 def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
     points = element.in_chain.points_around()
-    cos, sin = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
+    cos, sin = points.passed_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     m = read.index(element.index) / read.index(element.outside).real
     return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
 
@@ -85,7 +85,7 @@ def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
 @jones.register
 def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
     points = element.in_chain.points_around()
-    half, across = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
+    half, across = points.passed_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     c, s = cos_sin(read.move(2 * mpmath.atan2(half, across), 1))
     before, behind = read.index(element.outside).real, read.index(element.index).real
     if before == behind:

@@ -360,7 +360,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
         if step.evaluation is None:
             continue
         shapes: list[tuple[int, ...]] = [argument.batch] if runner.unreduced else []
-        for place in program.given_to[step.evaluation]:
+        for place in program.passed_to[step.evaluation]:
             operand = program.operands[place]
             if operand.known:
                 array = runner.formulas.known_arrays.get(f".{place}")

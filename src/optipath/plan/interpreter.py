@@ -98,7 +98,7 @@ class Interpreter:
         left, result = 4 * arguments.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
-                shapes = [operands[operand].shape for operand in self.program.given_to[index]]
+                shapes = [operands[operand].shape for operand in self.program.passed_to[index]]
                 shapes += (
                     [] if evaluation.presence is None else [operands[evaluation.presence].shape]
                 )
@@ -498,7 +498,7 @@ class CloserLook:
     def _evaluated(self, index: int) -> Numbers:
         evaluation = self.program.evaluations[index]
         operands = list(self.plain)
-        for place in self.program.given_to[index]:
+        for place in self.program.passed_to[index]:
             operands[place] = self._operand(place)
         try:
             numbers = evaluated(self.program, index, operands, StokesCarrier(_TWICE), _longer)

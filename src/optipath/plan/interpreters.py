@@ -225,7 +225,7 @@ class NoiseInterpreter(Interpreter):
     def _emitted(self) -> dict[int, Operand]:
         """The operands of these, by place."""
         program = self.program
-        places = [place for emission in self._emissions for place in program.given_to[emission]]
+        places = [place for emission in self._emissions for place in program.passed_to[emission]]
         return {place: program.operands[place] for place in places}
 
     def _most(self, operands: Any) -> Any:

@@ -69,7 +69,7 @@ def test_floats_and_arrays_are_given_what_an_earlier_evaluation_comes_to_once():
     execute(by_hand(reflections=2), [*GIVEN, 0.5], StokesCarrier(FLOAT))
     assert CALLS == [0.5]
     program = by_hand()
-    assert set(program.given_to[2]) == {0, 1, 2, 3, 4, 5}
+    assert set(program.passed_to[2]) == {0, 1, 2, 3, 4, 5}
     assert [set(takes) for takes in program.takes] == [set(), set(), {1}, {1}]
 
 
