@@ -22,7 +22,7 @@ from optipath.paths import editing
 from optipath.paths.binding import cases_left
 from optipath.paths.editing import add, connect, disconnect, edit
 from optipath.paths.joining import append, as_chain, join, name_by_kind
-from optipath.paths.place_choice import PlaceChoice, choice_faults, with_given
+from optipath.paths.place_choice import PlaceChoice, choice_faults, with_arguments
 from optipath.paths.port_names import check_port, element_at
 from optipath.paths.reversed import reversed_graph
 from optipath.values.arrays import entries_of, same
@@ -400,7 +400,7 @@ class PathGraph(Chainable):
         if unnamed:
             opened = [name for name, p in self.parameters.items() if not p.bound]
             check_named("bind", unnamed, opened)
-        path = self._with(with_given(self._graph, values, for_good=True))
+        path = self._with(with_arguments(self._graph, values, for_good=True))
         if any(map(is_by_wavelength, values.values())):
             path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
         return path
@@ -422,7 +422,7 @@ class PathGraph(Chainable):
         >>> crossed.trace().intensity, crossed.trace(angle=0.0).intensity
         (array(0.), array(0.5))
         """
-        return self._with(with_given(self._graph, values, for_good=False))
+        return self._with(with_arguments(self._graph, values, for_good=False))
 
     def reading(self, reads: str) -> Self:
         """Return a copy of the path whose detectors and dumps all read this, and no more.

@@ -89,7 +89,7 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool =
     return faults
 
 
-def with_given(
+def with_arguments(
     graph: nx.MultiDiGraph, values: dict[str, Any], *, for_good: bool
 ) -> nx.MultiDiGraph:
     """Return a copy of the graph with nodes in the places chosen, and other values given."""
