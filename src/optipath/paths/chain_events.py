@@ -104,12 +104,12 @@ def _meant(events: Any) -> str:
 _CURE = "give R for each vertex that reflects and T for each that refracts"
 
 
-def letters_given(events: Any, count: int) -> Letters:
+def letters_of(events: Any, count: int) -> Letters:
     """Return the letter of each vertex of each chain, as its number in Unicode; 0 for none.
 
     Shapes: events (..., count); returns (..., count).
 
-    >>> letters_given(["RT", "T"], 2).tolist()
+    >>> letters_of(["RT", "T"], 2).tolist()
     [[82, 84], [84, 0]]
     """
     texts = _texts(events)
@@ -133,7 +133,7 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
 
     Shapes: letters (..., count); lengths (...); returns (..., count).
 
-    >>> events_of(letters_given(["RTR", "T"], 3), None)
+    >>> events_of(letters_of(["RTR", "T"], 3), None)
     array([[0., 1., 0.],
            [1., 2., 2.]])
     """

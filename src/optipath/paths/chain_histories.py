@@ -17,7 +17,7 @@ from optipath.paths.chain_events import (
     event_faults,
     events_of,
     lengths_given,
-    letters_given,
+    letters_of,
     number_of,
     whole_numbers,
 )
@@ -73,7 +73,7 @@ def histories(
     faults += of_text
     # Without materials nothing is known of how many there should be.
     if count and not of_text and not (events is None and lengths is None):
-        letters = attempt(letters_given, REFLECTS * count if events is None else events, count)
+        letters = attempt(letters_of, REFLECTS * count if events is None else events, count)
     batches = {"vertices": batch, "ids": None if chosen is None else chosen.shape[:-1]}
     batches |= {"lengths": getattr(message, "shape", None)}
     batches |= {"events": None if letters is None else letters.shape[:-1]}
@@ -121,7 +121,7 @@ def numbers_of_events(chains: Histories) -> Floats:
     """
     if isinstance(chains.events, np.ndarray):
         return chains.events
-    return events_of(letters_given(chains.events or REFLECTS * chains.count, chains.count), None)
+    return events_of(letters_of(chains.events or REFLECTS * chains.count, chains.count), None)
 
 
 def apart_where_absorbed(chains: Histories) -> Histories:
