@@ -196,7 +196,7 @@ _SMALL = 1e-9
 def print_outcome(outcome: Outcome, digits: int) -> None:
     """Print what a run was given and has found."""
     console, numbers = PlainConsole(), Numbers(digits)
-    print_given(console, outcome, numbers)
+    print_arguments(console, outcome, numbers)
     for name in outcome.lights:
         console.print(_light_table(outcome, name, numbers))
     if outcome.note:
@@ -204,7 +204,7 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
     console.print(cell(ran([outcome])))
 
 
-def print_given(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> None:
+def print_arguments(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> None:
     """Print what a run was given."""
     console.print(title(outcome.chosen.title, outcome.path.description))
     table = Table(box=None, show_header=False)

@@ -20,7 +20,7 @@ from optipath.cli.outcome import (
     outcome_of,
     plane_table,
     point_table,
-    print_given,
+    print_arguments,
     ran,
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
@@ -282,7 +282,7 @@ _WIDEST = 1000
 def print_sweep(outcome: Outcome, digits: int) -> None:
     """Print the light of a sweep, as far as it fits; the rest is for a file."""
     console, numbers = PlainConsole(), Numbers(digits)
-    print_given(console, outcome, numbers)
+    print_arguments(console, outcome, numbers)
     grid = outcome.grid
     is_line = len(grid.shape) == 1
     is_plane = len(grid.axes) == len(grid.shape) == 2
