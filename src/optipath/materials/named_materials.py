@@ -123,7 +123,7 @@ def waits_for(argument: Any) -> Sequence[str]:
     return [*dict.fromkeys(p.name for p in result if not isinstance(p, CurveValue))]
 
 
-def given_too_late(name: str, argument: Any) -> str:
+def passed_too_late(name: str, argument: Any) -> str:
     """Return the fault of a material or curve that is given while a path runs; mostly none."""
     if not (names := waits_for(argument)):
         return ""

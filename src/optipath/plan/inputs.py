@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError
-from optipath.materials.named_materials import given_too_late, of_complex
+from optipath.materials.named_materials import of_complex, passed_too_late
 from optipath.values.agreement import first_faults
 from optipath.values.angles import (
     TURN,
@@ -202,7 +202,7 @@ class Inputs:
 
     def ask_in_doubt(self, name: str, value: Any) -> None:
         """Raise at the first place where a value may be one or several, or is not known yet."""
-        if late := given_too_late(name, value):
+        if late := passed_too_late(name, value):
             raise ParameterError(late)
         for use in self.uses:
             if use.value.name == name and (doubt := use.doubt(value)):
