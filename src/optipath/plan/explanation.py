@@ -343,7 +343,7 @@ def operations(
 ) -> dict[str, int] | None:
     """Return how many operations a path takes in all, and of the dear sorts."""
     formulas = runner.formulas
-    forms = formulas.all_given_as(MANY)
+    forms = formulas.all_passed_as(MANY)
     made = formulas.attempt(
         lambda: formulas.lights(forms, carrier=carrier, counted=True, unreduced=unreduced)
     )

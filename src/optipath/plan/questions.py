@@ -301,14 +301,14 @@ class FormulaMaker:
         own = self.limits
         return lights_formula(self.program, carrier, kind, forms, own, masks=self.masks, **options)
 
-    def all_given_as(self, form: str) -> dict[InputKey, str]:
+    def all_passed_as(self, form: str) -> dict[InputKey, str]:
         """Return one form for every number that is not known."""
         return dict.fromkeys([o.input_key for o in self.program.operands if not o.known], form)
 
     @cached_property
     def length(self) -> int | None:
         """How many operations light takes for real numbers; None where there is no formula."""
-        forms, unreduced = self.all_given_as(ONE), self.unreduced
+        forms, unreduced = self.all_passed_as(ONE), self.unreduced
         forms |= {key: ABSENT for key in forms if key.part == "imag"}
         made = self.attempt(lambda: self.lights(forms, unreduced=unreduced))
         return None if made is None else len(made.steps)
