@@ -180,12 +180,12 @@ def _too_long(texts: npt.NDArray[np.str_], count: int) -> str:
     )
 
 
-def lengths_given(lengths: Any, count: int) -> Whole:
+def lengths_passed(lengths: Any, count: int) -> Whole:
     """Return how many vertices each chain has.
 
     Shape: lengths (...).
 
-    >>> lengths_given([1, 3], 3)
+    >>> lengths_passed([1, 3], 3)
     array([1, 3])
     """
     numbers = whole_numbers("lengths", lengths)

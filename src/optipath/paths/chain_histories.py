@@ -16,7 +16,7 @@ from optipath.paths.chain_events import (
     REFRACTS,
     event_faults,
     events_of,
-    lengths_given,
+    lengths_passed,
     letters_of,
     number_of,
     whole_numbers,
@@ -67,7 +67,7 @@ def histories(
 
     chosen = None if ids is None else attempt(rows_of_ids, ids)
     count = len(materials) if chosen is None else chosen.shape[-1]
-    message = None if lengths is None else attempt(lengths_given, lengths, count)
+    message = None if lengths is None else attempt(lengths_passed, lengths, count)
     letters = None
     of_text = event_faults(events, count) if isinstance(events, str) and lengths is None else []
     faults += of_text
