@@ -81,7 +81,7 @@ def geometry(
     ['delta = 48 deg', 'filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg']
     """
     scene = scene_of(path, "geometry", **values)
-    seen_from = None if view is None else _given_view(view)
+    seen_from = None if view is None else _view_argument(view)
     ax = own_axes(ax, _SIZE)
     ax.set_axis_off()
     figure: Any = ax.figure.figure
@@ -97,7 +97,7 @@ def geometry(
     return ax
 
 
-def _given_view(view: Any) -> View:
+def _view_argument(view: Any) -> View:
     try:
         elevation, azimuth = (float(angle) for angle in view)
     except (TypeError, ValueError):
