@@ -29,7 +29,7 @@ from optipath.lab.chart import (
 )
 from optipath.lab.chart_file import KINDS, chart_text, contenders, read_chart
 from optipath.lab.critical_chart import critical_chart
-from optipath.lab.errors import AS_GIVEN, Errors, interface_errors, path_errors, trials
+from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors, trials
 from optipath.lab.peer_times import peer_times
 from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
@@ -76,7 +76,7 @@ def by_words(chart, *words):
 def test_every_way_is_there_slower_than_the_machine_allows_and_stable_holds(chart):
     found = chart[0]["contenders"]
     assert len(found) == len(contenders(engines=("numpy",)))
-    regions = {AS_GIVEN, *(region.name for region in chart_module.REGIONS)}
+    regions = {AS_PASSED, *(region.name for region in chart_module.REGIONS)}
     for contender in found:
         assert set(contender["errors"]["componentwise"]) == regions
         assert contender["ns"]["median"] >= contender["ns"]["least"] > 0

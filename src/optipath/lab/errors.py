@@ -134,7 +134,7 @@ def _references(
         return tuple(REFERENCES[what](*map(exactly, sample)) for sample in samples)
 
 
-AS_GIVEN = "as given"
+AS_PASSED = "as given"
 
 
 class Trial(NamedTuple):
@@ -153,7 +153,7 @@ def trials(
 ) -> Iterator[Trial]:
     """Yield the path as given, and in every region if it has interfaces."""
     argument = path.graph.copy()
-    yield Trial(AS_GIVEN, argument, tuple(exact_batch(argument)))
+    yield Trial(AS_PASSED, argument, tuple(exact_batch(argument)))
     for region in regions if interfaces(path) else ():
         yield trial(path, region, dtype, count)
 
