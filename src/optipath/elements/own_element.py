@@ -280,7 +280,7 @@ _MEANT = {
 }
 """What is meant by fields that are called like what every element has."""
 
-_GIVEN = ("physical", "straight")
+_OPTIONAL = ("physical", "straight")
 """What each element of a class may be given, with a domain; a class of one kind says it once."""
 
 
@@ -311,7 +311,7 @@ def _faults_of_class(element_class: type[Any], base: type[Any], kind: Any) -> It
         yield f"the kind of element class {name} must be a text, not {shown(kind)}"
     own = {field.name: field.type for field in fields(element_class)}
     for field, annotation in own.items():
-        if hasattr(base, field) and not (field in _GIVEN and annotation not in (bool, "bool")):
+        if hasattr(base, field) and not (field in _OPTIONAL and annotation not in (bool, "bool")):
             yield (
                 f"field '{field}' of element class {name} is called like what every element has; "
                 f"{_MEANT.get(field, '')}give it another name"
