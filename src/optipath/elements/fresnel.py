@@ -361,7 +361,7 @@ def number_within(domain: Domain, name: str, value: Any) -> Any:
 
 def plain_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle."""
-    cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
+    cos, sin = _real_argument("cos_incidence", cos), _real_argument("sin_incidence", sin)
     check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
     traced = is_traced(cos) or is_traced(sin)
     c = number_within(COSINE, "cos_incidence", cos if traced else within_right_angle(cos, sin))
@@ -409,7 +409,7 @@ def parts_of(index: Any) -> tuple[Any, Any]:
     return index.real + 0.0, index.imag + 0.0
 
 
-def _given(name: str, value: Any) -> Any:
+def _real_argument(name: str, value: Any) -> Any:
     return value if is_traced(value) else as_argument(name, COSINE.read(name, value))
 
 
