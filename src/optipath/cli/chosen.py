@@ -21,7 +21,7 @@ from optipath.errors import (
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     WAVELENGTH,
-    extinction_beside,
+    extinction_with,
     is_material,
     material_named,
     single_value,
@@ -169,7 +169,7 @@ def _value(
     parameter = path.parameters.get(name, WAVELENGTH)
     with collecting(faults):
         if is_material(parameter, text, uses):
-            other = extinction_beside(uses, name)
+            other = extinction_with(uses, name)
             k = _value(path, other, arguments, uses, faults) if other in arguments else None
             option = f"--{_flag(other)}" if other else ""
             if isinstance(k, AxisValues):

@@ -15,7 +15,7 @@ from optipath.explorer.as_json import path_as_json
 from optipath.explorer.state import FieldFault, FieldFaults, asked_state, read_path, read_state
 from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
 from optipath.materials.material import Material
-from optipath.materials.named_materials import extinction_beside
+from optipath.materials.named_materials import extinction_with
 from optipath.sweeps.grid import SweepGrid
 from optipath.sweeps.labels import regions, table_columns, table_heads
 from optipath.values.messages import of_fields, of_files, units_are_written
@@ -202,6 +202,6 @@ def _value(state: ReadState, name: str, value: Any) -> str:
 def _material(state: ReadState, name: str) -> str:
     """Return a material by its name, with the k that is given beside it."""
     texts = state.asked.values
-    own = extinction_beside(state.base.uses, name)
+    own = extinction_with(state.base.uses, name)
     k = f", k={float(texts[own])!r}" if own in texts else ""
     return f"op.Material.named({texts[name].strip()!r}{k})"

@@ -19,7 +19,7 @@ from optipath.errors import (
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     WAVELENGTH,
-    extinction_beside,
+    extinction_with,
     is_material,
     material_named,
     single_value,
@@ -326,7 +326,7 @@ def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:
 def _material(
     explored: ExploredPath, name: str, text: str, arguments: Mapping[str, str]
 ) -> Material:
-    k = extinction_beside(explored.uses, name)
+    k = extinction_with(explored.uses, name)
     own = single_text(explored, explored.parameters[k], arguments[k]) if k in arguments else None
     return material_named(name, text, k, own)
 

@@ -42,7 +42,7 @@ def stands_for_index(uses: Sequence[Use], name: str) -> bool:
     return bool(places) and all(use.domain.takes_materials for use in places)
 
 
-def extinction_beside(uses: Sequence[Use], name: str) -> str:
+def extinction_with(uses: Sequence[Use], name: str) -> str:
     """Return the parameter that is the k of an index of which another is n; nothing without one."""
     results = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
     return results.pop() if len(results) == 1 else ""
@@ -67,7 +67,7 @@ def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
     """Take each k out of some values that a material beside it has in place of its own."""
     for name, value in list(values.items()):
         if isinstance(value, Material):
-            values.pop(extinction_beside(uses, name), None)
+            values.pop(extinction_with(uses, name), None)
 
 
 def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Material]]:
