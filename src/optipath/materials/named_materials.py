@@ -44,7 +44,7 @@ def stands_for_index(uses: Sequence[Use], name: str) -> bool:
 
 def extinction_with(uses: Sequence[Use], name: str) -> str:
     """Return the parameter that is the k of an index of which another is n; nothing without one."""
-    results = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
+    results = {k.name for k in extinctions_with(uses, name).values() if isinstance(k, Parameter)}
     return results.pop() if len(results) == 1 else ""
 
 
@@ -158,7 +158,7 @@ def places_of(uses: Iterable[Use], name: str) -> list[Use]:
     return [u for u in uses if isinstance(u.value, Parameter) and u.value.name == name]
 
 
-def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
+def extinctions_with(uses: Iterable[Use], name: str) -> dict[str, Any]:
     """Return what k is wherever a parameter stands as the n of an index."""
     values = {use.owner: use.value for use in uses}
     results: dict[str, Any] = {}

@@ -9,7 +9,7 @@ from optipath.composer.path_values import Values, parameters_of, value_faults
 from optipath.errors import OptipathError, ParameterError
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
-    extinctions_beside,
+    extinctions_with,
     is_by_wavelength,
     of_complex,
     places_of,
@@ -98,7 +98,7 @@ def materials_placed(
         if doubts := [doubt for use in places if (doubt := use.doubt(material))]:
             faults.append(doubts[0])
             continue
-        other = extinctions_beside(uses, name)
+        other = extinctions_with(uses, name)
         arguments: dict[str, Any] = {name: material.n} if other else {name: material}
         if other:
             arguments |= {k.name: material.k for k in other.values() if isinstance(k, Parameter)}
@@ -120,7 +120,7 @@ def from_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set[str
     """Return the parameters that are the k of materials among some values."""
     names = [name for name, value in values.items() if isinstance(value, Material)]
     uses = Values(graph).uses if names else ()
-    results = [k for name in names for k in extinctions_beside(uses, name).values()]
+    results = [k for name in names for k in extinctions_with(uses, name).values()]
     return {k.name for k in results if isinstance(k, Parameter)}
 
 
