@@ -251,7 +251,7 @@ def decode_curve(
         raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
     whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
     result = _parts(whole, form, domain, of_index, parameters, decode)
-    if of_index and _has_k_beside(raw, form):
+    if of_index and _has_own_k(raw, form):
         return _with_k(result, raw, form, decode)
     if of_index:
         return Material(**result)
@@ -284,7 +284,7 @@ def _parts(
         return material_by_name(raw, when, decode)
     if form == CRYSTAL:
         return {CRYSTAL: number_of_crystal(raw[CRYSTAL], domain, when)}
-    if of_index and form == SAMPLES and _has_k_beside(raw, form):
+    if of_index and form == SAMPLES and _has_own_k(raw, form):
         columns = ("n",)
     curve = (
         sampled_curve(raw, columns, domain) if form == SAMPLES else formula_of(raw, form, decode)
@@ -292,7 +292,7 @@ def _parts(
     return _at(curve, when)
 
 
-def _has_k_beside(raw: Mapping[str, Any], form: str) -> bool:
+def _has_own_k(raw: Mapping[str, Any], form: str) -> bool:
     """Tell whether the k of a material stands beside a formula or samples, and is none of it."""
     sampled = form == SAMPLES and isinstance(raw.get("k"), list)
     return form in (SAMPLES, *FORMULAS) and "k" in raw and not sampled
