@@ -34,7 +34,7 @@ from optipath.kernels.catalog import (
     REFLECTION,
     REFRACTION,
     TRANSMISSION_AT_VERTEX,
-    TURN_BESIDE_REFRACTION,
+    TURN_AT_REFRACTION,
     TURN_BETWEEN_PLANES,
 )
 from optipath.kernels.vertex_chain import Event
@@ -119,7 +119,7 @@ class ChainVertex(MediaOfBoundary, Element):
         """Return the turn from the frame in which light leaves the vertex before."""
         # The vertex before is the one that this chain says.
         hardly = self.refracts or getattr(before, "refracts", False)
-        turn = TURN_BESIDE_REFRACTION if hardly else TURN_BETWEEN_PLANES
+        turn = TURN_AT_REFRACTION if hardly else TURN_BETWEEN_PLANES
         return self.in_chain.points_from_start().planes(turn)
 
     def fault_behind(self, before: Element) -> str:
@@ -236,7 +236,7 @@ class Vertex(ChainVertex, kind="vertex"):
     def turn_from(self, before: Element) -> Operation:
         del before  # The one that this chain says; some chains are refracted at either.
         points = self.in_chain.points_from_start()._replace(events=self._events)
-        return points.planes(TURN_BESIDE_REFRACTION)
+        return points.planes(TURN_AT_REFRACTION)
 
     def reversed(self) -> NoReturn:
         """Refuse: chains that end at several places have no one way back.

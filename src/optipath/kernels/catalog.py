@@ -202,7 +202,7 @@ TURN_BACK = Kernel("turn back", ROTATION, filters.turn_back)
 PLAIN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, filters.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
-TURN_BESIDE_REFRACTION = Kernel(
+TURN_AT_REFRACTION = Kernel(
     "turn between planes beside a refraction", ROTATION, TurnBetweenPlanes(across=True)
 )
 INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
