@@ -15,7 +15,7 @@ from optipath.elements.polarizers import along_circular_axes
 from optipath.errors import ValueFault, collecting, did_you_mean
 from optipath.kernels.catalog import (
     ABSORPTION_ALONG,
-    ABSORPTION_BESIDE_DICHROISM,
+    ABSORPTION_WITH_DICHROISM,
     DEPOLARIZATION_ALONG,
     DEPOLARIZING_DICHROISM_ALONG,
     DEXTROROTATION_ALONG,
@@ -373,7 +373,7 @@ def _absorbing(medium: Any, *, dichroic: bool) -> tuple[Operation, ...]:
     is_far = largest(medium.absorption) * largest(medium.length) > _FAR
     count = 3 if is_far else 1
     if dichroic:
-        kernel = THIRD_BESIDE_DICHROISM if is_far else ABSORPTION_BESIDE_DICHROISM
+        kernel = THIRD_BESIDE_DICHROISM if is_far else ABSORPTION_WITH_DICHROISM
         rates = medium.absorption, medium.dichroism, medium.circular_dichroism
         return count * (Operation(kernel, (*rates, medium.length)),)
     kernel = THIRD_OF_ABSORPTION if is_far else ABSORPTION_ALONG

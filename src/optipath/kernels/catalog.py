@@ -230,7 +230,7 @@ FARADAY_ROTATION = Kernel("Faraday rotation", ROTATION, filters.faraday_rotation
 WAVEPLATE = Kernel("wave plate", BLOCK, filters.waveplate)
 POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, filters.polarizing_reflection)
 POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, filters.polarizing_transmission)
-ABSORPTION_BESIDE_DICHROISM = Kernel(
+ABSORPTION_WITH_DICHROISM = Kernel(
     "absorption beside dichroism", SCALE, medium.absorption_beside_dichroism
 )
 THIRD_BESIDE_DICHROISM = Kernel(
