@@ -23,8 +23,8 @@ from optipath.kernels.catalog import (
     DICHROISM_AND_RETARDANCE_ALONG,
     RETARDANCE_ALONG,
     ROTATION_ALONG,
-    THIRD_BESIDE_DICHROISM,
     THIRD_OF_ABSORPTION,
+    THIRD_WITH_DICHROISM,
 )
 from optipath.kernels.medium import LARGEST, LARGEST_DICHROISM
 from optipath.materials.quantities import (
@@ -373,7 +373,7 @@ def _absorbing(medium: Any, *, dichroic: bool) -> tuple[Operation, ...]:
     is_far = largest(medium.absorption) * largest(medium.length) > _FAR
     count = 3 if is_far else 1
     if dichroic:
-        kernel = THIRD_BESIDE_DICHROISM if is_far else ABSORPTION_WITH_DICHROISM
+        kernel = THIRD_WITH_DICHROISM if is_far else ABSORPTION_WITH_DICHROISM
         rates = medium.absorption, medium.dichroism, medium.circular_dichroism
         return count * (Operation(kernel, (*rates, medium.length)),)
     kernel = THIRD_OF_ABSORPTION if is_far else ABSORPTION_ALONG

@@ -233,7 +233,7 @@ POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, filters.polar
 ABSORPTION_WITH_DICHROISM = Kernel(
     "absorption beside dichroism", SCALE, medium.absorption_beside_dichroism
 )
-THIRD_BESIDE_DICHROISM = Kernel(
+THIRD_WITH_DICHROISM = Kernel(
     "a third of absorption beside dichroism", SCALE, medium.third_of_absorption_beside_dichroism
 )
 DICHROISM_ALONG = Kernel("dichroism along the way", BLOCK, medium.dichroism_along)
