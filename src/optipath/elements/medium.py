@@ -217,7 +217,7 @@ class Medium(Element, kind="medium"):
         """
         for name, value, domain in super().quantities():
             if name == "rotation" and not vanishes(self.dextrorotation):
-                yield name, value, ROTATION_BESIDE_DEXTROROTATION
+                yield name, value, ROTATION_WITH_DEXTROROTATION
             elif name in _RATES and overflow(value, self.length):
                 yield name, value, over_a_length(domain, largest(self.length))
             else:
@@ -437,6 +437,6 @@ def _beside(name: str, why: str) -> Beside:
     return Beside(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
 
 
-ROTATION_BESIDE_DEXTROROTATION = _beside(
+ROTATION_WITH_DEXTROROTATION = _beside(
     "rotation", "a dextrorotation, which is the same rotation with the other sign"
 )
