@@ -231,7 +231,7 @@ WAVEPLATE = Kernel("wave plate", BLOCK, filters.waveplate)
 POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, filters.polarizing_reflection)
 POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, filters.polarizing_transmission)
 ABSORPTION_WITH_DICHROISM = Kernel(
-    "absorption beside dichroism", SCALE, medium.absorption_beside_dichroism
+    "absorption beside dichroism", SCALE, medium.absorption_with_dichroism
 )
 THIRD_WITH_DICHROISM = Kernel(
     "a third of absorption beside dichroism", SCALE, medium.third_of_absorption_beside_dichroism

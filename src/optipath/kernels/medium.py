@@ -66,7 +66,7 @@ def _left(xp: Primitives) -> Callable[[Any], Any]:
     return left
 
 
-def absorption_beside_dichroism(xp: Primitives) -> KernelFunction:
+def absorption_with_dichroism(xp: Primitives) -> KernelFunction:
     """Make ``(absorption, dichroism, circular dichroism, length) -> (t,)``.
 
     It is what the least absorbed of all states keeps; what dichroism does besides takes nothing
