@@ -234,7 +234,7 @@ ABSORPTION_WITH_DICHROISM = Kernel(
     "absorption beside dichroism", SCALE, medium.absorption_with_dichroism
 )
 THIRD_WITH_DICHROISM = Kernel(
-    "a third of absorption beside dichroism", SCALE, medium.third_of_absorption_beside_dichroism
+    "a third of absorption beside dichroism", SCALE, medium.third_of_absorption_with_dichroism
 )
 DICHROISM_ALONG = Kernel("dichroism along the way", BLOCK, medium.dichroism_along)
 DEPOLARIZATION_ALONG = Kernel("depolarisation along the way", FULL, medium.depolarization_along)

@@ -75,7 +75,7 @@ def absorption_with_dichroism(xp: Primitives) -> KernelFunction:
     return _least_attenuation(xp, 1.0)
 
 
-def third_of_absorption_beside_dichroism(xp: Primitives) -> KernelFunction:
+def third_of_absorption_with_dichroism(xp: Primitives) -> KernelFunction:
     """Make ``(absorption, dichroism, circular dichroism, length) -> (t,)``, the cube root."""
     return _least_attenuation(xp, 1.0 / 3.0)
 
