@@ -73,7 +73,7 @@ class Placing:
         self._returning: dict[tuple[str, str], tuple[Array, Array]] = {}
         self._begins: dict[tuple[str, str], Array] = {}
         self._aside: dict[tuple[str, str], int] = {}
-        self._legs = legs_beside_chains(self.wiring)
+        self._legs = legs_and_chains(self.wiring)
         self._taps = {*self.wiring.taps}
         self._fix()
         self._follow()
@@ -371,7 +371,7 @@ def chain_points(element: Any) -> Array:
     return np.asarray(Operand(chain).numbers(), float)
 
 
-def legs_beside_chains(wiring: Wiring) -> dict[Link, float]:
+def legs_and_chains(wiring: Wiring) -> dict[Link, float]:
     """Return how long links before and behind chains of points are, which share a leg.
 
     Those of chains by angles have no length of their own.
