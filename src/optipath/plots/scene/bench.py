@@ -115,7 +115,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     if flat.straight:
         _write_below(ax, flat, texts, size)
     else:
-        _write_beside(ax, scene, flat, texts, (size, room))
+        _write_then_move(ax, scene, flat, texts, (size, room))
     return ax
 
 
@@ -232,7 +232,7 @@ def _write_below(ax: Axes, flat: FlatSheet, texts: dict[str, list[str]], size: f
         ax.text(at[0], at[1], "\n".join(lines), color=INK, **style)
 
 
-def _write_beside(
+def _write_then_move(
     ax: Axes,
     scene: Scene,
     flat: FlatSheet,
