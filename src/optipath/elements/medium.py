@@ -414,7 +414,7 @@ def _along(medium: Any, kernel: Kernel, per_metre: Any) -> tuple[Operation, ...]
 
 
 @dataclass(frozen=True)
-class Beside(Domain):
+class ZeroWith(Domain):
     """A quantity that may be nothing but 0 beside another."""
 
     why: str = ""
@@ -433,8 +433,8 @@ class Beside(Domain):
             raise ValueFault(f"{owner} is parameter '{parameter.name}'; give {self.described()}")
 
 
-def _beside(name: str, why: str) -> Beside:
-    return Beside(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
+def _beside(name: str, why: str) -> ZeroWith:
+    return ZeroWith(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
 
 
 ROTATION_WITH_DEXTROROTATION = _beside(
