@@ -433,10 +433,10 @@ class ZeroWith(Domain):
             raise ValueFault(f"{owner} is parameter '{parameter.name}'; give {self.described()}")
 
 
-def _beside(name: str, why: str) -> ZeroWith:
+def _zero_with(name: str, why: str) -> ZeroWith:
     return ZeroWith(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
 
 
-ROTATION_WITH_DEXTROROTATION = _beside(
+ROTATION_WITH_DEXTROROTATION = _zero_with(
     "rotation", "a dextrorotation, which is the same rotation with the other sign"
 )
