@@ -318,14 +318,14 @@ class FadingLayer(Agreement):
             if np.all(enough):
                 return enough
         left, missing = self._passing(xp, *numbers)
-        stored = [missing + left * share for share in self._beside(xp, *numbers)]
+        stored = [missing + left * share for share in self._absorbed_shares(xp, *numbers)]
         gains = [share < -_ROUNDING for share in stored]
         return ~((k > 0.0) & (gains[0] | gains[1] | gains[2] | gains[3]))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying
         *_, n, k, _, _, length, wavelength, _, _ = numbers
-        more = -min(float(share) for share in self._beside(np, *numbers))
+        more = -min(float(share) for share in self._absorbed_shares(np, *numbers))
         fades = float(self._wave(*numbers)[1])
         least = math.log1p(more) * wavelength / (4.0 * math.pi * fades)
         _, _, of_n, of_k, _, _, of_length, of_wavelength, *_ = self.operands
@@ -349,7 +349,7 @@ class FadingLayer(Agreement):
         return left, missing
 
     @staticmethod
-    def _beside(xp: Any, *numbers: Any) -> tuple[Any, ...]:
+    def _absorbed_shares(xp: Any, *numbers: Any) -> tuple[Any, ...]:
         """Return 1 - R - T of s and of p, lit from within, at the face above and at that below."""
         (*above, n, k), below = numbers[:4], numbers[4:6]
         n0, angle = numbers[8:]
