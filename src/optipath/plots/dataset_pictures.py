@@ -74,7 +74,7 @@ def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
 
 
 _DETECTOR = "detector"
-_BESIDE = {"psi": "Psi", "delta": "Delta"}
+_CAPITALIZED = {"psi": "Psi", "delta": "Delta"}
 """What a sweep calls quantities where a parameter has their name."""
 
 _SHORT = (("nm", 1e-5), ("um", 1e-3), ("mm", np.inf))
@@ -167,7 +167,7 @@ def numbers_of(
     dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
 ) -> npt.NDArray[np.float64]:
     """Return a quantity as it is drawn."""
-    other = _BESIDE.get(quantity.name, quantity.name)
+    other = _CAPITALIZED.get(quantity.name, quantity.name)
     name = other if other in dataset.data_vars else quantity.name
     if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):
         raise OptipathError(*faults)
