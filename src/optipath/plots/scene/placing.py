@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 _ASIDE = np.radians([40.0, -40.0, 75.0, -75.0])
 """By how much taps, and lights that meet, are turned out of the way of other light."""
 
-_BESIDE = 0.6
+_SIDEWAYS = 0.6
 """How far light that comes back along its way is drawn beside it."""
 
 _BACK, _ROOM = 3.0, 0.3
@@ -171,7 +171,7 @@ class Placing:
             return self.at[name]
         if (name, port) not in self._begins:
             aside, way = self._returning[name, port]
-            sides = [self.at[name] + _BESIDE * self.unit * each for each in (aside, -aside)]
+            sides = [self.at[name] + _SIDEWAYS * self.unit * each for each in (aside, -aside)]
             free = [self._free(side, way) for side in sides]
             # To where y is, unless another beam or element is there.
             other = free[0] < _ROOM and free[1] > free[0]
