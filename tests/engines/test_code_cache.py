@@ -222,7 +222,7 @@ def test_what_is_removed_meanwhile_is_compiled_and_made_anew(kept, monkeypatch, 
     assert cache.load(TEXT) == CODE
 
 
-BESIDE = f"""
+COMMON_KEYS = f"""
 import sys
 sys.path[:0] = {sys.path!r}
 from optipath.engines.code_cache import CodeCache
@@ -237,7 +237,7 @@ for number in range(60):
 
 
 def test_processes_beside_each_other_do_each_other_no_harm(folder):
-    command = [sys.executable, "-c", BESIDE]
+    command = [sys.executable, "-c", COMMON_KEYS]
     for each in [subprocess.Popen(command, stderr=subprocess.PIPE) for _ in range(3)]:
         _, errors = each.communicate()
         assert each.returncode == 0, errors

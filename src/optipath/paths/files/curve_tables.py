@@ -81,7 +81,7 @@ FORMULAS: dict[str, type[FormulaCurve]] = {
 }
 """The formulas by the keys under which their coefficients stand."""
 
-BESIDE = ("name", "span")
+COMMON_KEYS = ("name", "span")
 """The keys that stand beside that of the formula."""
 
 
@@ -269,7 +269,7 @@ def _parts(
     """Return the numbers that a table gives, by the names of the parts of its curve."""
     columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
     own = {NAMED: OF_PAGES, SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
-    keys = own.get(form, (*BESIDE, "k") if of_index else BESIDE)
+    keys = own.get(form, (*COMMON_KEYS, "k") if of_index else COMMON_KEYS)
     faults = unknown_keys(raw, (form, *keys, WHEN))
     raw = as_meant(raw, (form, *keys, WHEN))
     if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
