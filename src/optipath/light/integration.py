@@ -208,7 +208,7 @@ def _response_at(response: Any, grid: Array) -> Any:
 
 def _frame_without(light: Light, axis: int) -> Any:
     """Return the frame of light along an axis, which must be one."""
-    stored = light._kept_frame("frame")  # noqa: SLF001
+    stored = light._cached_frame("frame")  # noqa: SLF001
     if not callable(stored) and stored.z.ndim == 1:
         return stored
     frame = light.frame

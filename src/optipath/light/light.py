@@ -436,7 +436,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         FrameError
             If the other frame has another direction.
         """
-        if frame is self._kept_frame("frame"):
+        if frame is self._cached_frame("frame"):
             return self
         if isinstance(frame, Frame):
             check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
@@ -457,7 +457,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         nearest = nearest_light(self._numbers)
         origin = self.origin() | {"measured": False}
-        frame = self._kept_frame("frame")
+        frame = self._cached_frame("frame")
         return Light.of(nearest, frame, self.exponent, self._inherited(), **origin)
 
     def to(self, convention: str) -> Array:
@@ -737,7 +737,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             refuse(f"{shown(other)} is no light to be added")
         check_broadcast({"light": self.shape, "other light": other.shape})
         # Frames that are known to be one need not be made.
-        is_one = other._kept_frame("frame") is self._kept_frame("frame")
+        is_one = other._cached_frame("frame") is self._cached_frame("frame")
         aligned = other if is_one else other.in_frame(self.frame)
         if is_traced(self.mantissa) or is_traced(aligned.mantissa):
             one, two = at_least_single(self.stokes), at_least_single(aligned.stokes)
@@ -857,7 +857,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         self, mantissa: Any, exponent: Any = 0, noise: Any = None, other: Any = None
     ) -> Light:
         """Return light of other numbers in the frame of this one, with the other one in it."""
-        frame, origin = self._kept_frame("frame"), self.origin(common_wavelength(self, other))
+        frame, origin = self._cached_frame("frame"), self.origin(common_wavelength(self, other))
         return Light.of(mantissa, frame, exponent, noise, **origin)
 
     def _each(self, change: Callable[[Any], Any]) -> Light:

@@ -328,7 +328,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         -------
         Mueller
         """
-        frames = self._kept_frame("frame_in"), self._kept_frame("frame_out")
+        frames = self._cached_frame("frame_in"), self._cached_frame("frame_out")
         result = self.of(self.matrix, *frames)
         vars(result).update(_noise=noise, _given=given)
         return result
@@ -476,7 +476,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         matrix = known(self.matrix)
         check_broadcast({"matrix": self.shape, "light": light.shape})
         aligned = light.in_frame(self.frame_in)
-        behind = self._kept_frame("frame_out")
+        behind = self._cached_frame("frame_out")
         judged = self.is_given and not light.is_measured
         origin = light.origin()
         if is_traced(matrix) or is_traced(aligned.mantissa):
@@ -502,7 +502,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
         with np.errstate(over="ignore", invalid="ignore"):
             product = matrix @ turn @ before
-        frames = other._kept_frame("frame_in"), self._kept_frame("frame_out")
+        frames = other._cached_frame("frame_in"), self._cached_frame("frame_out")
         noise = noise_of_product(*((m.matrix, m.noise) for m in (self, other)))
         both = Mueller.of(product.astype(coarser(matrix, before), copy=False), *frames)
         return both.with_noise(noise, given=self.is_given or other.is_given)

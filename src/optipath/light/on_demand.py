@@ -29,7 +29,7 @@ class FramesOnDemand:
         for name, frame in frames.items():
             self.__dict__[name if type(frame) is Frame else f"_{name}"] = frame
 
-    def _kept_frame(self, name: str) -> Any:
+    def _cached_frame(self, name: str) -> Any:
         """Return a frame as it is kept, which nobody has to make for it."""
         own = self.__dict__
         return own[name] if name in own else own[f"_{name}"]
@@ -38,7 +38,7 @@ class FramesOnDemand:
         self, name: str, batch: tuple[int, ...], change: Callable[[Any], Any]
     ) -> Frame | Callable[[], Frame]:
         """Return what `indexed_frame` does, or what returns it where nobody has to make it."""
-        stored = self._kept_frame(name)
+        stored = self._cached_frame(name)
         if type(stored) is Frame and (
             stored.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
         ):
