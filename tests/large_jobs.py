@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from optipath.errors import ValueFault
-from optipath.sweeps.jobs import KeptArray, WholeArray
+from optipath.sweeps.jobs import StoredArray, WholeArray
 
 ROWS, COLUMNS = 4, 3
 
@@ -35,8 +35,8 @@ class Powers:
         shape = (ROWS * self.blocks, COLUMNS)
         attrs = {"units": "1", "long_name": "power"}
         return {
-            "power": KeptArray(("number", "exponent"), shape, (2, COLUMNS), attrs=attrs),
-            "total": KeptArray(("block",), (self.blocks,), (1,), "int64"),
+            "power": StoredArray(("number", "exponent"), shape, (2, COLUMNS), attrs=attrs),
+            "total": StoredArray(("block",), (self.blocks,), (1,), "int64"),
         }
 
     @property

@@ -41,11 +41,11 @@ def keep_blocks(
     >>> from types import SimpleNamespace
     >>> import numpy as np
     >>> import xarray as xr
-    >>> from optipath.sweeps.jobs import KeptArray
+    >>> from optipath.sweeps.jobs import StoredArray
     >>> job = SimpleNamespace(
     ...     identity="squares of 0 to 5, in blocks of 2",
     ...     blocks=3,
-    ...     arrays={"square": KeptArray(("number",), (6,), (2,))},
+    ...     arrays={"square": StoredArray(("number",), (6,), (2,))},
     ...     coords={},
     ...     attrs={"title": "squares"},
     ... )

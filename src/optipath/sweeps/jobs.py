@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
-class KeptArray(NamedTuple):
+class StoredArray(NamedTuple):
     """An array that blocks fill, part by part."""
 
     dims: tuple[str, ...]
@@ -61,7 +61,7 @@ class BlockJob(BlockPart, Protocol):
         """How many there are."""
 
     @property
-    def arrays(self) -> Mapping[str, KeptArray]:
+    def arrays(self) -> Mapping[str, StoredArray]:
         """What is kept, by name."""
 
     @property

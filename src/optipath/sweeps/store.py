@@ -23,7 +23,7 @@ from optipath.errors import JobError, StoreWarning
 from optipath.sweeps.jobs import (
     FILES,
     OTHER_PLACE,
-    KeptArray,
+    StoredArray,
     check_files,
     check_record,
     clear,
@@ -241,7 +241,7 @@ def make_group(job: BlockJob, record: dict[str, Any], about: str, folder: Path) 
     (folder / FILES).write_bytes(mark_of(about, stamps))
 
 
-def _create(group: zarr.Group, name: str, stored: KeptArray) -> zarr.Array[Any]:
+def _create(group: zarr.Group, name: str, stored: StoredArray) -> zarr.Array[Any]:
     dtype = np.dtype(stored.dtype)
     return group.create_array(
         name,
@@ -258,5 +258,5 @@ def _create(group: zarr.Group, name: str, stored: KeptArray) -> zarr.Array[Any]:
 def _write(group: zarr.Group, name: str, whole: WholeArray) -> None:
     shape = whole.values.shape
     chunks = tuple(max(size, 1) for size in shape)
-    stored = KeptArray(whole.dims, shape, chunks, whole.values.dtype.str, whole.attrs)
+    stored = StoredArray(whole.dims, shape, chunks, whole.values.dtype.str, whole.attrs)
     _create(group, name, stored)[...] = whole.values

@@ -20,7 +20,7 @@ import xarray as xr
 from optipath.errors import OptipathError, ParameterError, shown
 from optipath.sweeps.blocks import keep_blocks
 from optipath.sweeps.chunks import run_block
-from optipath.sweeps.jobs import KeptArray, WholeArray, place_of_blocks
+from optipath.sweeps.jobs import StoredArray, WholeArray, place_of_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -74,7 +74,7 @@ class SweepJob:
     grid: SweepGrid
     sizes: Mapping[str, int]
     quantities: Mapping[str, LightQuantity]
-    arrays: Mapping[str, KeptArray]
+    arrays: Mapping[str, StoredArray]
     coords: Mapping[str, WholeArray]
     attrs: Mapping[str, Any] = field(default_factory=dict)
 
@@ -88,7 +88,7 @@ class SweepJob:
             )
         dataset, sizes = chunked.dataset, chunked.dataset.chunksizes
         arrays = {
-            str(name): KeptArray(
+            str(name): StoredArray(
                 tuple(map(str, each.dims)),
                 each.shape,
                 tuple([sizes[dimension][0] for dimension in each.dims]),

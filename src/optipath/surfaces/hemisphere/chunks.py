@@ -15,7 +15,7 @@ from optipath.errors import SurfaceError
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.beam import CHUNK, PartSums, SensedBeam
 from optipath.surfaces.walk.code import digest_of
-from optipath.sweeps.jobs import KeptArray, WholeArray
+from optipath.sweeps.jobs import StoredArray, WholeArray
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -119,7 +119,7 @@ class ChunkJob:
         return -(-self.photons // CHUNK)
 
     @property
-    def arrays(self) -> dict[str, KeptArray]:
+    def arrays(self) -> dict[str, StoredArray]:
         """The fields of `PartSums`, with the chunks before all other dimensions."""
         parts, *pixels, wavelengths, numbers = self.seen.shape
         shapes: dict[str, tuple[tuple[str, ...], tuple[int, ...], str]] = {
@@ -131,7 +131,7 @@ class ChunkJob:
         files = {"sums": (1, *pixels, wavelengths, numbers)}
         messages = {"sums": _SUMS, "counts": "photons of a pixel", "photons": "photons of a part"}
         return {
-            name: KeptArray(
+            name: StoredArray(
                 ("chunk", *dims),
                 (self.blocks, *shape),
                 (1, *files.get(name, shape)),
