@@ -18,7 +18,7 @@ from optipath.values.domains import Choice, Domain
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import Parameter
 from optipath.values.precision import held
-from optipath.values.use import kept_value
+from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -69,7 +69,8 @@ class VerticesByAngles:
         for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
             several = entries_of(name, "angles", getattr(self, name), PathError)
             each = tuple(
-                kept_value(f"{name}[{place}]", angle, domain) for place, angle in enumerate(several)
+                stored_value(f"{name}[{place}]", angle, domain)
+                for place, angle in enumerate(several)
             )
             object.__setattr__(self, name, each)
         count, turns = len(self.incidences), len(self.turns)

@@ -11,7 +11,7 @@ from optipath.errors import ValueFault, shown
 from optipath.kernels.vertex_chain import Event
 from optipath.materials.index_domains import CLEAR, INDEX
 from optipath.values.arrays import as_argument, first_place
-from optipath.values.use import Use, faults_of, kept_value
+from optipath.values.use import Use, faults_of, stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,7 +69,7 @@ def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
     if doubt := INDEX.doubt(owner, medium):
         return [doubt]
     try:
-        stored = kept_value(owner, medium, domain)
+        stored = stored_value(owner, medium, domain)
     except ValueFault as fault:
         return list(fault.faults)
     return faults_of(Use(name, value, of) for name, value, of in domain.parts(owner, stored))

@@ -22,7 +22,7 @@ from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
 from optipath.paths.joining import are_alike, name_by_kind, turn_more
 from optipath.paths.port_names import check_port, element_at, find_port, natural_port
-from optipath.values.use import kept_value
+from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -74,7 +74,7 @@ def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap:
     link = _link_of(graph, leaves, enters, faults)
     if graph.has_edge(*link):
         raise PathError(f"link '{link_text(link)}' is there already; remove the second one")
-    turn = kept_value(f"link '{leaves} -> {enters}' azimuth", azimuth, ANGLE)
+    turn = stored_value(f"link '{leaves} -> {enters}' azimuth", azimuth, ANGLE)
     graph.add_edge(*link, azimuth=turn, tap=tap)
 
 

@@ -17,7 +17,7 @@ from optipath.paths.path_graph import PathGraph
 from optipath.values.arrays import as_argument, entries_of
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
-from optipath.values.use import checked_later, kept_value
+from optipath.values.use import checked_later, stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -114,7 +114,7 @@ def path_from_vertices(
     chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))
     points, not_points = _chain(vertices, chains.count)
     of_start = medium_faults("outside", outside, OUTSIDE)
-    start = 1.0 if of_start else kept_value("outside", outside, OUTSIDE)
+    start = 1.0 if of_start else stored_value("outside", outside, OUTSIDE)
     of_bad = unknown("bad", bad, BAD)
     bad = BAD[0] if of_bad else bad
     faults += [*not_points, *of_start, *of_bad]

@@ -232,7 +232,7 @@ def make_sound(
             continue
         owner = f"{type(whole).__name__} {name}"
         try:
-            object.__setattr__(whole, name, kept_value(owner, value, domain))
+            object.__setattr__(whole, name, stored_value(owner, value, domain))
         except ValueFault as fault:
             faults[name] = list(fault.faults)
     if _is_checked_later.get():
@@ -264,7 +264,7 @@ def not_known_sound(whole: T) -> T:
     return whole
 
 
-def kept_value(owner: str, value: Any, domain: Domain) -> Any:
+def stored_value(owner: str, value: Any, domain: Domain) -> Any:
     """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
     if domain.takes_large_angles and not _is_checked_later.get():
         # Of a parameter with a unit, it has been told when it was made.
