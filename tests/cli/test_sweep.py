@@ -10,7 +10,7 @@ import optipath as op
 from optipath.sweeps.labels import regions
 
 ZARR = "sweep malus --angle 0:90:10 --out a.zarr --scheduler synchronous --chunks"
-KEPT = "2 of 4 blocks are in a.zarr"
+KEEPABLE = "2 of 4 blocks are in a.zarr"
 
 
 def test_one_axis_is_a_table_two_are_a_plane_and_regions_cover_a_grid(told, run):
@@ -113,13 +113,13 @@ def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(run, monke
         return computed
 
     compute, numbers = SweepBlock.compute, []
-    for form, count, kept in (("nc", 1, "1 of 4 blocks is in .a.nc.blocks"), ("zarr", 2, KEPT)):
+    for form, count, kept in (("nc", 1, "1 of 4 blocks is in .a.nc.blocks"), ("zarr", 2, KEEPABLE)):
         monkeypatch.setattr(SweepBlock, "compute", interrupted_at(count))
         status, _, err = run(f"{ZARR} 3".replace("zarr", form))
         told = f"optipath: {kept}; the same command goes on from there\n"
         assert (status, err) == (130, f"{told}optipath: interrupted\n")
     monkeypatch.setattr(SweepBlock, "compute", lambda *a: numbers.append(a[1]) or compute(*a))
-    assert run(f"{ZARR} 3")[2] == f"optipath: {KEPT} already\n"
+    assert run(f"{ZARR} 3")[2] == f"optipath: {KEEPABLE} already\n"
     assert numbers == [2, 3]
 
 

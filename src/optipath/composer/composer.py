@@ -16,7 +16,7 @@ from optipath.composer.media import Media
 from optipath.composer.path_values import Values
 from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.validate import refuse_faults
-from optipath.composer.wiring import KEPT, LOOPS, Wiring, link_text
+from optipath.composer.wiring import KEEPABLE, LOOPS, Wiring, link_text
 from optipath.engines.choice import ENGINES, REGISTRY, is_installed
 from optipath.engines.program import MODELS
 from optipath.errors import ComposerError, collecting, shown, unknown
@@ -36,7 +36,7 @@ CHOICES = {
     "engine": ENGINES,
     "composing": ("stokes", "jones"),
     "loops": LOOPS,
-    "keep": KEPT,
+    "keep": KEEPABLE,
 }
 
 

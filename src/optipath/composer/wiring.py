@@ -27,7 +27,7 @@ LOOPS = ("refuse", "sum")
 """What becomes of light that goes round: an error, or the sum over all rounds."""
 
 
-KEPT = ("ends", "all")
+KEEPABLE = ("ends", "all")
 """Which light is kept: that at the ends of a path, or on every link as well."""
 
 
@@ -45,7 +45,7 @@ class Wiring:
     """
 
     def __init__(
-        self, graph: nx.MultiDiGraph, loops: str | None = None, keep: str = KEPT[0]
+        self, graph: nx.MultiDiGraph, loops: str | None = None, keep: str = KEEPABLE[0]
     ) -> None:
         self.graph = graph
         self.keep = keep

@@ -12,7 +12,7 @@ import networkx as nx
 from optipath.composer.composer import Composer
 from optipath.composer.path_values import parameters_of
 from optipath.composer.validate import validate
-from optipath.composer.wiring import KEPT, LOOPS
+from optipath.composer.wiring import KEEPABLE, LOOPS
 from optipath.elements.chaining import Chainable, NamedElement, begun
 from optipath.elements.detectors import Detector
 from optipath.elements.element import Element
@@ -542,7 +542,7 @@ class PathGraph(Chainable):
         plan = self.compose()
         if unnamed:
             _check_named(unnamed, plan)
-        ends = isinstance(keep, str) and keep == KEPT[0]
+        ends = isinstance(keep, str) and keep == KEEPABLE[0]
         if not ends and "keep" not in plan.inputs.open:
             if path := self._with_curves(parameters):
                 return path.trace(keep="all", **parameters)
@@ -824,7 +824,7 @@ class PathGraph(Chainable):
 
     def _keeping(self, keep: str) -> Plan:
         """Return the plan that keeps so much light."""
-        if faults := unknown("keep", keep, KEPT):
+        if faults := unknown("keep", keep, KEEPABLE):
             raise ParameterError(*faults)
         return self.plan_by(Composer(keep=keep))
 
@@ -881,6 +881,6 @@ def path_of(first: Any) -> PathGraph:
 
 def _check_named(unnamed: tuple[Any, ...], plan: Plan) -> None:
     """Refuse values that `PathGraph.trace` is given without a name, and what is to be kept."""
-    if isinstance(unnamed[0], str) and unnamed[0] in KEPT:
+    if isinstance(unnamed[0], str) and unnamed[0] in KEEPABLE:
         raise ParameterError(f"what is kept is given by name: trace(keep={shown(unnamed[0])})")
     check_named("trace", unnamed, plan.inputs.open)

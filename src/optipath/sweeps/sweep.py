@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 from optipath.composer.composer import Composer
-from optipath.composer.wiring import KEPT
+from optipath.composer.wiring import KEEPABLE
 from optipath.errors import ParameterError, shown
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.memory import swept_in_memory
@@ -68,7 +68,7 @@ def _plan(path: PathGraph, composer: Composer | None) -> Plan:
         argument = shown(composer)
         example = "composer=op.Composer(engine='numpy')"
         raise ParameterError(f"composer= takes a Composer, not {argument}; write {example}")
-    if composer.keep != KEPT[0]:
+    if composer.keep != KEEPABLE[0]:
         raise ParameterError(
             f"a sweep gives the light at detectors, and Composer(keep='{composer.keep}') that on "
             f"every link as well; leave keep out, or put a Detector where light is to be read"
