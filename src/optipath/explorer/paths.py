@@ -116,7 +116,7 @@ class ExploredPath:
 FIRST = "npgr026"
 """What the page opens where nobody says."""
 
-_KEPT = 48
+_CACHED = 48
 """How many paths are kept composed."""
 
 
@@ -178,7 +178,7 @@ class ExploredPresets:
             path = path.with_defaults(**places) if places else path
             path = path.bind(**materials) if materials else path
             self._paths[key] = ExploredPath(preset, path)
-            if len(self._paths) > _KEPT:
+            if len(self._paths) > _CACHED:
                 self._paths.popitem(last=False)
         self._paths.move_to_end(key)
         return self._paths[key]
