@@ -152,7 +152,7 @@ def _markdown(table: TextTable) -> str:
 COMPONENTS = ("A", "B", "C", "S", "C near 0")
 """What is searched: the four numbers, C but where its zero is double, and C there."""
 
-_CHILDREN, _KEPT, _LIFE = 1000, 100, 200
+_CHILDREN, _SURVIVORS, _LIFE = 1000, 100, 200
 _STEPS = 2.0**13
 """By how many roundings a tangent is moved to find a condition: next to an angle, too."""
 
@@ -215,7 +215,7 @@ def worst(
         samples = region.at(units, dtype)
         scores = _scores(component, matrix_numbers(kernel, samples), samples, family, kind)
         known, stored = np.append(known, scores), np.append(stored, units, axis=1)
-        order = np.argsort(-known)[:_KEPT]
+        order = np.argsort(-known)[:_SURVIVORS]
         known, stored = known[order], stored[:, order]
         best = max(best, (float(known[0]), stored[:, :1]), key=lambda pair: pair[0])
         units = _children(rng, stored)
