@@ -16,7 +16,7 @@ import optipath as op
 from optipath import surfaces
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.walk import meshes as packed
-from optipath.surfaces.walk.meshes import SHIFT, kept_meshes, levels_of, pyramid_of
+from optipath.surfaces.walk.meshes import SHIFT, cached_meshes, levels_of, pyramid_of
 from tables import rows
 from uncompiled import uncompiled
 
@@ -79,7 +79,7 @@ def test_meshes_go_at_once_with_their_sample():
     gc.disable()  # Nothing goes but what nobody refers to.
     try:
         sample = op.Sample([(1.5, 0.3)], cells=200)
-        meshes = weakref.ref(kept_meshes(sample).of(0).meshes.heights)
+        meshes = weakref.ref(cached_meshes(sample).of(0).meshes.heights)
         assert meshes() is not None
         del sample
         assert meshes() is None

@@ -45,7 +45,7 @@ from optipath.surfaces.walk.layout import (
     SIN,
     SIN_2A,
 )
-from optipath.surfaces.walk.meshes import HIGH, NUMBERS, kept_meshes
+from optipath.surfaces.walk.meshes import HIGH, NUMBERS, cached_meshes
 from optipath.values.arrays import refuse_too_large
 from optipath.values.precision import whole_number
 
@@ -238,7 +238,7 @@ def _on_mesh(
 ) -> Vector:
     """Return a point of the walk as that of a layer's own field, in the cell that was met."""
     field = beam.sample.fields(surface)[layer]
-    top = kept_meshes(beam.sample).of(surface).meshes.numbers[NUMBERS * layer + HIGH]
+    top = cached_meshes(beam.sample).of(surface).meshes.numbers[NUMBERS * layer + HIGH]
     shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
     result: Vector = position + np.array(shift)
     if field.periodic:

@@ -30,7 +30,7 @@ from optipath.surfaces.walk.layout import (
     SUMS,
     UP,
 )
-from optipath.surfaces.walk.meshes import kept_meshes
+from optipath.surfaces.walk.meshes import cached_meshes
 from optipath.values.arrays import same_fields
 from optipath.values.domains import StokesDomain
 from optipath.values.precision import whole_number
@@ -126,7 +126,7 @@ class PhotonBeam:
         media, base, source = map(address, self._given)
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
         behind = [address(each) for each in (state, starts, lights)]
-        code, stored, to_record = walk_code(), kept_meshes(self.sample), address(record)
+        code, stored, to_record = walk_code(), cached_meshes(self.sample), address(record)
         sums: dict[int, npt.NDArray[np.float64]] = {}
         for first, size, surface in self.portions(number, photons):
             own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
@@ -270,7 +270,7 @@ def walked_in_order(
     No more are handed out than keep all threads at work; who closes the generator stops them.
     """
     walk_code()
-    stored = kept_meshes(beam.sample)
+    stored = cached_meshes(beam.sample)
     executor = ThreadPoolExecutor(threads)
     waiting: deque[Future[Found]] = deque()
     try:

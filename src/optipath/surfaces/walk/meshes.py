@@ -120,7 +120,7 @@ class KeptMeshes:
             return self._known[surface]
 
 
-def kept_meshes(sample: Sample) -> KeptMeshes:
+def cached_meshes(sample: Sample) -> KeptMeshes:
     """Return those that are kept with a sample."""
     result: KeptMeshes = vars(sample).setdefault("_packed", KeptMeshes(sample))
     return result
