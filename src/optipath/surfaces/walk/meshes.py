@@ -97,7 +97,7 @@ class PlacedMeshes(NamedTuple):
     addresses: tuple[int, ...]
 
 
-class KeptMeshes:
+class CachedMeshes:
     """Packs what a sample draws, once for all threads, and drops what was packed first."""
 
     def __init__(self, sample: Sample) -> None:
@@ -120,9 +120,9 @@ class KeptMeshes:
             return self._known[surface]
 
 
-def cached_meshes(sample: Sample) -> KeptMeshes:
+def cached_meshes(sample: Sample) -> CachedMeshes:
     """Return those that are kept with a sample."""
-    result: KeptMeshes = vars(sample).setdefault("_packed", KeptMeshes(sample))
+    result: CachedMeshes = vars(sample).setdefault("_packed", CachedMeshes(sample))
     return result
 
 
