@@ -41,7 +41,7 @@ _SUMS = ("part", *PIXELS, "number")
 _LARGEST = 2**63
 
 
-def kept_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
+def stored_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a file, of which `hemisphere_of` makes the hemisphere again."""
     parts, indices = hemisphere.parts, hemisphere.seen.beam.indices
     names = [f"M{row}{column}" for row in range(4) for column in range(4)]

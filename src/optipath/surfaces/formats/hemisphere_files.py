@@ -112,12 +112,12 @@ def _writer(hemisphere: Hemisphere, ending: str) -> Any:
     with needing("files of hemispheres"):
         import_module(_PACKAGES[ending])
         from optipath.surfaces.formats.datasets import (  # noqa: PLC0415 - an extra  # noqa: PLC0415 - an extra
-            kept_hemisphere,
+            stored_hemisphere,
             write_netcdf,
             write_zarr,
         )
     write = {".zarr": write_zarr, ".nc": write_netcdf}[ending]
-    return lambda place: write(kept_hemisphere(hemisphere), place)
+    return lambda place: write(stored_hemisphere(hemisphere), place)
 
 
 _NANOMETRE = 1e-9
