@@ -55,7 +55,9 @@ give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     return place
 
 
-def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool | Tell) -> xr.Dataset:
+def stored_sweep(
+    job: SweepJob, place: Path, scheduler: Any, *, progress: bool | Tell
+) -> xr.Dataset:
     """Compute what is not kept yet of a sweep, and return what is kept."""
     tell = progress if callable(progress) else progress_line if progress else None
     if place.suffix == ".nc":

@@ -55,9 +55,9 @@ def sweep(
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)
     if place is None:
         return chunked.dataset
-    from optipath.sweeps.stored import SweepJob, kept_sweep  # noqa: PLC0415 - Zarr takes its time
+    from optipath.sweeps.stored import SweepJob, stored_sweep  # noqa: PLC0415 - Zarr takes its time
 
-    return kept_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
+    return stored_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
 
 
 def _plan(path: PathGraph, composer: Composer | None) -> Plan:
