@@ -53,7 +53,7 @@ class ExploredPath:
                 self.plan.run_all()
                 self.path.plan_by(KEEPING).run_all()
 
-    def kept_curve(self, key: Hashable, compute: Callable[[], T]) -> T:
+    def stored_curve(self, key: Hashable, compute: Callable[[], T]) -> T:
         """Return what was computed for a key; that of the parameter itself changes no curve."""
         try:
             known = key in self._curves

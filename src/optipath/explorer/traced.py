@@ -200,7 +200,7 @@ def curve_as_json(state: ReadState, request: AskedCurve, detector: str) -> dict[
         grid = curve_grid(state, request)
         axes = grid.axes
         key = detector, request, *sorted(grid.fixed.items())
-        lines = explored.kept_curve(key, lambda: _lines(explored.plan, grid, request.y, detector))
+        lines = explored.stored_curve(key, lambda: _lines(explored.plan, grid, request.y, detector))
     except OptipathError as error:
         messages = [_by_value(sentence, axes) for sentence in error.faults]
         raise FieldFaults(FieldFault("curve", each) for each in messages) from None
