@@ -89,7 +89,7 @@ def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
     beam, sensor = seen.beam, seen.sensor
     return {
         "layout": LAYOUT,
-        "sample": kept_sample(beam.sample),
+        "sample": stored_sample(beam.sample),
         "cos": beam.cos,
         "sin": beam.sin,
         "azimuth": beam.azimuth,
@@ -129,10 +129,10 @@ def _attribute(value: Any) -> Any:
     return str(value) if is_long else value
 
 
-def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
+def stored_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
     """Return what a file keeps of a sample besides its text.
 
-    >>> found = kept_sample(Sample([(1.5, 0.1)]))
+    >>> found = stored_sample(Sample([(1.5, 0.1)]))
     >>> found["why"], sample_of(found)
     ('', Sample([(1.5, 0.1)]))
     """
