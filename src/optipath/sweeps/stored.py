@@ -61,7 +61,7 @@ def stored_sweep(
     """Compute what is not kept yet of a sweep, and return what is kept."""
     tell = progress if callable(progress) else progress_line if progress else None
     if place.suffix == ".nc":
-        return kept_in_netcdf(job, place, scheduler, tell)
+        return stored_in_netcdf(job, place, scheduler, tell)
     result: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))
     for each in result.variables.values():
         each.encoding = {}  # How it is packed here is for this version of Zarr alone.
@@ -225,7 +225,7 @@ _FAULTS = (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeErro
 """What is raised, at various depths, by bytes that are no NetCDF."""
 
 
-def kept_in_netcdf(
+def stored_in_netcdf(
     job: SweepJob, file: Path, scheduler: Any, tell: Callable[[int, int], None] | None
 ) -> xr.Dataset:
     """Return a sweep out of its file, which is written if it is not there.
