@@ -31,7 +31,7 @@ class Paths:
         return self.length
 
     @property
-    def is_kept(self):
+    def is_stored(self):
         self.asked += 1
         return self.kept
 

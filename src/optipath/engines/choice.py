@@ -65,7 +65,7 @@ class Work(Protocol):
         """Return how many operations a path takes; None where no formula can be made."""
 
     @property
-    def is_kept(self) -> bool:
+    def is_stored(self) -> bool:
         """Whether the compiler's code of it is on disk."""
 
 
@@ -116,7 +116,7 @@ class EngineChoice:
         if not self._looked:
             loaded = "llvmlite" in sys.modules
             self._looked = earned > (_LOOKING_AGAIN if loaded else _LOOKING)
-            if self._looked and work.is_kept:
+            if self._looked and work.is_stored:
                 return True
         return earned > _BEGINNING + _COMPILING * operations
 
@@ -124,7 +124,7 @@ class EngineChoice:
 class _Unseen:
     """Paths of which nothing is known but how many operations each takes."""
 
-    has_floats = is_kept = False
+    has_floats = is_stored = False
 
     def __init__(self, length: int | None) -> None:
         self.length = length

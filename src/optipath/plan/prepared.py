@@ -84,7 +84,7 @@ class BatchKind:
         return None if self.batches is None else len(self.batches.formula.steps)
 
     @property
-    def is_kept(self) -> bool:
+    def is_stored(self) -> bool:
         """Whether the compiler's code is on disk."""
         return self.batches is not None and all(
             map(REGISTRY[COMPILER].is_ready, self.batches.parts)
