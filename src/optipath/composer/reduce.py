@@ -224,12 +224,12 @@ class Constant(NamedTuple):
             (c1, s1), (c2, s2) = self.numbers, later.numbers
             return Constant(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
         if sorts == (BLOCK, BLOCK):
-            return _kept(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
+            return _unless_identity(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
         for one, other in ((self, later), (later, self)):
             if one.structure == SCALE and other.structure != ROTATION:
                 t = one.numbers[0]
                 product = tuple(t * number for number in other.numbers)
-                return _kept(Constant(other.structure, product))
+                return _unless_identity(Constant(other.structure, product))
         return None
 
 
@@ -238,11 +238,11 @@ def multiplied(first: Constant, second: Constant) -> Constant | None:
     one, other = first.as_full().numbers, second.as_full().numbers
     rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
     product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)
-    result = _kept(Constant(FULL, product))
+    result = _unless_identity(Constant(FULL, product))
     return result if result and result.lets_through else None
 
 
-def _kept(product: Constant) -> Constant | None:
+def _unless_identity(product: Constant) -> Constant | None:
     """Return a product unless its intensity is so faint, or so large, that it might get lost."""
     first = product.structure.rows(FLOAT, product.numbers)[0][0]
     return product if _LEAST < first < 1.0 / _LEAST else None
