@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from optipath.values.operands import InputKey
 
 
-MOST_KEPT = 64
+MOST_CACHED = 64
 """How many kinds of batches are kept prepared; the oldest goes first."""
 
 
 def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
     """Keep a value with others, the oldest of which go."""
-    for oldest in list(store)[: max(0, len(store) - MOST_KEPT + 1)]:
+    for oldest in list(store)[: max(0, len(store) - MOST_CACHED + 1)]:
         store.pop(oldest, None)
     store[key] = value
 
