@@ -114,10 +114,10 @@ def test_a_folder_that_others_may_write_to_or_replace_is_refused(
     kept, tmp_path, monkeypatch, caplog
 ):
     (tmp_path / "link").symlink_to(kept.parent.parent)
-    for place, told_of in ((kept.parent, "may write"), (kept.parent.parent, "may replace")):
+    for place, message_of in ((kept.parent, "may write"), (kept.parent.parent, "may replace")):
         for mode in (0o720, 0o702):
             place.chmod(mode)
-            assert f"others {told_of}" in refused(caplog)
+            assert f"others {message_of}" in refused(caplog)
         place.chmod(0o702 | stat.S_ISVTX)
         found = None if place == kept.parent else CODE
         assert CodeCache().load(TEXT) == found

@@ -172,7 +172,7 @@ def test_no_text_is_over_another_or_cut_at_either_size(name, size, several, scal
 # Where the power of the light goes.
 
 
-def told_of(ax):
+def message_of(ax):
     """What becomes of light in each row, by its name."""
     texts = [text.get_text() for text in ax.texts]
     return dict(zip(texts[::2], texts[1::2], strict=False))
@@ -193,7 +193,7 @@ def widths(ax):
 
 def test_ribbons_are_as_wide_as_the_intensity_and_rows_say_what_becomes_of_it():
     ax = energy(MALUS, angle="60 deg")
-    assert told_of(ax) == {
+    assert message_of(ax) == {
         "lamp": "gives 1",
         "polarizer": "takes 0.5 (50 %)",
         "analyzer": "takes 0.375 (37.5 %)",
@@ -216,7 +216,7 @@ def test_ribbons_are_as_wide_as_the_intensity_and_rows_say_what_becomes_of_it():
         ax = energy(op.load_preset("npgr026"), intensity=power)
         assert widths(ax) == pytest.approx(plain, rel=1e-9)
         assert max(plain.values()) == pytest.approx(1.0)
-        assert f"gives {power:.3g}" in told_of(ax).values()
+        assert f"gives {power:.3g}" in message_of(ax).values()
         assert faults_of(ax.figure) == []
     # Spikes of what is taken lie over no ribbon.
     ax = energy(op.load_preset("absorbing-pile"))
@@ -231,22 +231,22 @@ def test_ribbons_are_as_wide_as_the_intensity_and_rows_say_what_becomes_of_it():
 
 
 def test_rounding_gains_darkness_several_sources_and_taps_are_told():
-    assert told_of(energy(op.load_preset("senarmont")))["eye"] == "gets 0 (0 %)"
+    assert message_of(energy(op.load_preset("senarmont")))["eye"] == "gets 0 (0 %)"
     gain = op.MuellerElement(2.0 * np.eye(4), physical=False)
     ax = energy(op.Source() >> gain.named("laser") >> op.Detector())
-    assert told_of(ax)["laser"] == "adds 1 (100 %)"
+    assert message_of(ax)["laser"] == "adds 1 (100 %)"
     assert "'laser' gives more light than it gets" in ax.texts[-1].get_text()
     ax = energy(MALUS, intensity=0.0)
-    assert told_of(ax)["eye"] == "gets 0"
+    assert message_of(ax)["eye"] == "gets 0"
     assert faults_of(ax.figure) == []
-    found = told_of(energy(op.load_preset("sky-and-window")))
+    found = message_of(energy(op.load_preset("sky-and-window")))
     assert (found["heaven"], found["lamp"]) == ("gives 10", "gives 2")
     with pytest.raises(op.OptipathError, match=r"a batch of shape \(2,\), and a picture is of one"):
         energy(MALUS, angle=[0.1, 0.2])
     with pytest.raises(op.OptipathError, match="energy is that of a path"):
         energy(op.Polarizer())
     # Taps are dotted and only read.
-    found = told_of(energy(op.load_preset("ellipsometer-pcsa"), n=1.5, k=0.0, theta=0.0))
+    found = message_of(energy(op.load_preset("ellipsometer-pcsa"), n=1.5, k=0.0, theta=0.0))
     # The polariser lets half through, and glass of 1.5 reflects 4 % of that.
     assert (found["S.transmitted"], found["state"]) == ("leaves 0.48 (48 %)", "reads 0.02 (2 %)")
     path = op.Source() >> op.Polarizer("0 deg") >> op.Detector()
@@ -255,7 +255,7 @@ def test_rounding_gains_darkness_several_sources_and_taps_are_told():
     path.connect("polarizer.out", "splitter.in", tap=True)
     path.connect("splitter.transmitted", "probe.in")
     ax = energy(path)
-    found = told_of(ax)
+    found = message_of(ax)
     assert found["splitter"] == "reads 0.5 (50 %)"
     assert found["probe"] == found["splitter.reflected"] == "reads 0.25 (25 %)"
     dotted = [line.get_gid() for line in ax.lines if line.get_linestyle() == ":"]

@@ -34,7 +34,7 @@ from optipath.sweeps.axes import grid_of
 from optipath.sweeps.jobs import place_of_blocks
 from optipath.sweeps.labels import regions, table_columns, table_heads
 from optipath.values.columns import columns_of
-from optipath.values.files import told_of, written_whole
+from optipath.values.files import message_of, written_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -266,7 +266,7 @@ def write_json(file: Path, outcome: Outcome) -> None:
 def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
     """Write a line for each point of a grid, a part of them after the other."""
     columns = table_heads(plan, grid)
-    unwritten = told_of(file, click.ClickException, "")
+    unwritten = message_of(file, click.ClickException, "")
     with unwritten, written_whole(file) as stream, progress_bar(grid.points) as tell:
         stream.write(",".join(columns).encode() + b"\n")
         for region in regions(grid.shape):

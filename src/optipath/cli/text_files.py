@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from optipath.errors import shown
-from optipath.values.files import bytes_of, told_of, write_file
+from optipath.values.files import bytes_of, message_of, write_file
 
 
 class NewFile(click.Path):
@@ -46,5 +46,5 @@ def check_place(file: Path) -> None:
 
 def write(file: Path, content: bytes) -> None:
     """Write a file, whole or not at all."""
-    with told_of(file, click.ClickException, ""):
+    with message_of(file, click.ClickException, ""):
         write_file(file, content)

@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from optipath.errors import OptipathError, shown
 from optipath.plots.colors import LINES, positive
 from optipath.plots.text import missing_letters_as_boxes
-from optipath.values.files import input_file, told_of, write_picture
+from optipath.values.files import input_file, message_of, write_picture
 
 if TYPE_CHECKING:
     import os
@@ -179,5 +179,5 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
         raise OptipathError(*faults)
     figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
     place = input_file(file, OptipathError)
-    with told_of(place, OptipathError), missing_letters_as_boxes():
+    with message_of(place, OptipathError), missing_letters_as_boxes():
         write_picture(figure, place, dots_per_inch)

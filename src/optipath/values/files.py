@@ -61,14 +61,14 @@ def bytes_of(file: Path, most: int = LARGEST) -> bytes:
 
 
 @contextmanager
-def told_of(
+def message_of(
     file: Path,
     error: Callable[[str], Exception],
     cure: str = "; give a name in a folder that takes files",
 ) -> Iterator[None]:
     """Tell what the file system refuses while a file is written.
 
-    >>> with told_of(Path("a.nc"), ValueFault, "; mend it"):
+    >>> with message_of(Path("a.nc"), ValueFault, "; mend it"):
     ...     raise FileNotFoundError(2, "")
     Traceback (most recent call last):
     optipath.errors.ValueFault: 'a.nc' cannot be written: No such file or directory; mend it

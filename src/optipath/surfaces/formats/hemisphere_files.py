@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, SurfaceError, needing
 from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
-from optipath.values.files import drafted, input_file, told_of
+from optipath.values.files import drafted, input_file, message_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -88,7 +88,7 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
     place = input_file(path, SurfaceError)
     if place.suffix == ".exr":
         picture = StokesPicture.of(hemisphere, source, side)
-        with told_of(place, SurfaceError):
+        with message_of(place, SurfaceError):
             picture.write(place)
     elif place.suffix in _PACKAGES:
         if argument := [
@@ -99,7 +99,7 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
                 f"{'= and '.join(argument)}= out, or give a name that ends in .exr for a picture"
             )
         write = _writer(hemisphere, place.suffix)
-        with told_of(place, SurfaceError):
+        with message_of(place, SurfaceError):
             write(place)
     else:
         raise SurfaceError(

@@ -15,7 +15,7 @@ from optipath.light.conventions import changed_matrix
 from optipath.light.mueller import Mueller
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.formats.brdf import BrdfOfHemispheres, HalfAngles, in_frames
-from optipath.values.files import input_file, told_of, written_whole
+from optipath.values.files import input_file, message_of, written_whole
 from optipath.values.precision import is_whole
 from optipath.values.wavelength import Wavelength
 
@@ -103,7 +103,7 @@ def write_measured_polarized(
     if colours is None:
         raise SurfaceError(*faults)
     axes = HalfAngles.of(shape)
-    with told_of(place, SurfaceError), written_whole(place) as stream:
+    with message_of(place, SurfaceError), written_whole(place) as stream:
         write_tensors(stream, _tensors(axes, colours, table, description or _measured(brdf)))
 
 
