@@ -20,7 +20,7 @@ from optipath.plots.scene.scene import (
     ScenePlane,
     SceneRay,
 )
-from optipath.plots.scene.values import ToldAngle, ToldPath, number, told_angle, told_incidence
+from optipath.plots.scene.values import ShownAngle, ToldPath, number, told_angle, told_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -244,7 +244,7 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
 
 
 def _arc(
-    message: ToldAngle, at: Array, first: Array, second: Array, angle: float, size: float
+    message: ShownAngle, at: Array, first: Array, second: Array, angle: float, size: float
 ) -> SceneAngle:
     """Return the arc from one direction to another, which are an angle apart."""
     across = second - (second @ first) * first
@@ -254,7 +254,12 @@ def _arc(
 
 
 def _turn(
-    message: ToldAngle, at: Array, sides: tuple[Array, Array], angle: float, size: float, about: str
+    message: ShownAngle,
+    at: Array,
+    sides: tuple[Array, Array],
+    angle: float,
+    size: float,
+    about: str,
 ) -> SceneAngle:
     """Return the arc of a turn from one direction towards another at a right angle to it."""
     first, second = sides

@@ -23,7 +23,7 @@ _SAME_ANGLE = 1e-9
 """By how much angles differ that are the same but for rounding, in radians."""
 
 
-class ToldAngle(NamedTuple):
+class ShownAngle(NamedTuple):
     """An angle of a path by its name.
 
     Units: angle in radians.
@@ -38,7 +38,7 @@ class ToldAngle(NamedTuple):
     def text(self) -> str:
         """The name, and the value in its unit.
 
-        >>> ToldAngle("tilt", np.pi / 1080.0, unit="arcmin").text
+        >>> ShownAngle("tilt", np.pi / 1080.0, unit="arcmin").text
         'tilt = 10 arcmin'
         """
         value = quantity_text(self.angle, self.unit) if self.there else "none"
@@ -86,22 +86,22 @@ def quantity_text(value: float, unit: str) -> str:
     return f"{in_unit(value, unit) + 0.0:.5g} {unit}".strip()
 
 
-def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
+def told_angle(value: Any, *, signed: bool = True) -> ShownAngle:
     """Return an angle by the name of its parameter, or the formula that stands for a multiple.
 
     Units: value in radians.
     """
     if not isinstance(value, Parameter):
-        return ToldAngle("", number(value))
+        return ShownAngle("", number(value))
     unit = value.unit or "deg"
     if not bool(Operand(value, "present").numbers()):
-        return ToldAngle(value.name, 0.0, there=False, unit=unit)
+        return ShownAngle(value.name, 0.0, there=False, unit=unit)
     if value.is_signed and not (signed and value.is_negative):
-        return ToldAngle(value.name, number(value.alone()), unit=unit)
-    return ToldAngle(value.formula, number(value), unit=unit)
+        return ShownAngle(value.name, number(value.alone()), unit=unit)
+    return ShownAngle(value.formula, number(value), unit=unit)
 
 
-def told_incidence(value: Any, front: float) -> ToldAngle:
+def told_incidence(value: Any, front: float) -> ShownAngle:
     """Return the angle at which light meets a surface, by its name if it is what is given.
 
     Units: value in radians.
@@ -109,4 +109,4 @@ def told_incidence(value: Any, front: float) -> ToldAngle:
     message = told_angle(value)
     if message.name and abs(number(value) - front) <= _SAME_ANGLE:
         return message
-    return ToldAngle("incidence", front if front > _SAME_ANGLE else 0.0)
+    return ShownAngle("incidence", front if front > _SAME_ANGLE else 0.0)
