@@ -19,7 +19,7 @@ from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.scene.drawn_scene import Label, draw_head, draw_turn, outline, place_labels
 from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
 from optipath.plots.scene.placing import angles_at, has_axis
-from optipath.plots.scene.values import ToldPath, number, quantity_text, told_incidence
+from optipath.plots.scene.values import NumberPath, number, quantity_text, told_incidence
 from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
@@ -85,7 +85,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     >>> sorted(text.get_text().replace("\n", ", ") for text in ax.texts)[0]
     'analyzer, angle = 30 deg'
     """
-    message = ToldPath(path, "bench", values)
+    message = NumberPath(path, "bench", values)
     scene = scene_with(message)
     flat = flat_sheet(scene)
     texts = {

@@ -20,7 +20,7 @@ from optipath.plots.scene.scene import (
     ScenePlane,
     SceneRay,
 )
-from optipath.plots.scene.values import ShownAngle, ToldPath, number, told_angle, told_incidence
+from optipath.plots.scene.values import NumberPath, ShownAngle, number, told_angle, told_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -60,10 +60,10 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     >>> [angle.text for angle in scene.angles]
     ['filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg', 'delta = 48 deg']
     """
-    return scene_with(ToldPath(path, what, values))
+    return scene_with(NumberPath(path, what, values))
 
 
-def scene_with(message: ToldPath) -> Scene:
+def scene_with(message: NumberPath) -> Scene:
     """Return a path with all its values laid out in space."""
     placing = Placing(message)
     rays = tuple(_ray(placing, each) for each in message.lights)
@@ -83,7 +83,7 @@ def scene_with(message: ToldPath) -> Scene:
     )
 
 
-def _nodes(message: ToldPath, placing: Placing) -> list[SceneNode]:
+def _nodes(message: NumberPath, placing: Placing) -> list[SceneNode]:
     results = []
     order = dict.fromkeys([*(name for name, _ in message.wiring.order), *placing.at])
     for name in order:
@@ -174,7 +174,7 @@ _OF_AXES = "angle", "dichroic_angle"
 """The fields of elements that say how an axis stands to x, or by how much light is turned."""
 
 
-def scene_angles(message: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
+def scene_angles(message: NumberPath, placing: Placing) -> tuple[SceneAngle, ...]:
     """Return the angles of a path that have names, node by node as light travels."""
     results: list[SceneAngle] = []
     names = dict.fromkeys(name for name, _ in message.wiring.order)

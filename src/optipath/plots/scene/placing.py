@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements.element import Element
     from optipath.light.frame import Frame
-    from optipath.plots.scene.values import ToldPath
+    from optipath.plots.scene.values import NumberPath
 
     Array = npt.NDArray[np.float64]
 
@@ -62,7 +62,7 @@ class Placing:
     Shape: at (3,).
     """
 
-    def __init__(self, message: ToldPath) -> None:
+    def __init__(self, message: NumberPath) -> None:
         self.wiring = message.wiring
         self.at: dict[str, Array] = {}
         self.postures: dict[str, Posture] = {}

@@ -45,7 +45,7 @@ class ShownAngle(NamedTuple):
         return f"{self.name} = {value}" if self.name else value
 
 
-class ToldPath:
+class NumberPath:
     """A path with all its values, one number each."""
 
     def __init__(self, path: PathGraph, what: str, values: dict[str, Any]) -> None:
