@@ -20,7 +20,7 @@ from optipath.plots.scene.scene import (
     ScenePlane,
     SceneRay,
 )
-from optipath.plots.scene.values import NumberPath, ShownAngle, number, told_angle, told_incidence
+from optipath.plots.scene.values import NumberPath, ShownAngle, number, shown_angle, told_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ def _axis(placing: Placing, name: str) -> Array | None:
     if posture.role != "plate" or not has_axis(element):
         return None
     angle = element.angle  # type: ignore[attr-defined]
-    message = told_angle(angle)
+    message = shown_angle(angle)
     if not message.there:
         return None
     x, y, _ = posture.axes["in"].T
@@ -202,7 +202,7 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
         argument = number(value) if isinstance(value, Parameter) else front
         if abs(argument - front) > 1e-9 and abs(argument - behind) < 1e-9:
             out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
-            yield _arc(told_angle(value), at, -normal, out, behind, size)
+            yield _arc(shown_angle(value), at, -normal, out, behind, size)
     elif (argument := angles_in_chain(element)[0]) is not None:
         value = argument
     message = told_incidence(value, front)
@@ -217,7 +217,7 @@ def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
         _, value = angles_in_chain(wiring.elements[link[1]])
     if not isinstance(value, Parameter):
         return
-    message, drawn = told_angle(value, signed=False), placing.links[link]
+    message, drawn = shown_angle(value, signed=False), placing.links[link]
     is_surface = placing.postures[link[1]].role == "surface"
     first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
     centre = drawn.tail + 0.72 * (drawn.head - drawn.tail)
@@ -232,7 +232,7 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
     for field in _OF_AXES:
         value = getattr(element, field, None)
         if isinstance(value, Parameter):
-            message = told_angle(value)
+            message = shown_angle(value)
             angle = number(value) if message.there else 0.0
             result = _turn(message, placing.at[name], (x, y), angle, size, "axis")
             yield (

@@ -86,7 +86,7 @@ def quantity_text(value: float, unit: str) -> str:
     return f"{in_unit(value, unit) + 0.0:.5g} {unit}".strip()
 
 
-def told_angle(value: Any, *, signed: bool = True) -> ShownAngle:
+def shown_angle(value: Any, *, signed: bool = True) -> ShownAngle:
     """Return an angle by the name of its parameter, or the formula that stands for a multiple.
 
     Units: value in radians.
@@ -106,7 +106,7 @@ def told_incidence(value: Any, front: float) -> ShownAngle:
 
     Units: value in radians.
     """
-    message = told_angle(value)
+    message = shown_angle(value)
     if message.name and abs(number(value) - front) <= _SAME_ANGLE:
         return message
     return ShownAngle("incidence", front if front > _SAME_ANGLE else 0.0)
