@@ -19,7 +19,7 @@ from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.scene.drawn_scene import Label, draw_head, draw_turn, outline, place_labels
 from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
 from optipath.plots.scene.placing import angles_at, has_axis
-from optipath.plots.scene.values import NumberPath, number, quantity_text, told_incidence
+from optipath.plots.scene.values import NumberPath, number, quantity_text, shown_incidence
 from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
@@ -388,7 +388,7 @@ def values_below(element: Element) -> list[str]:
             result.append(_text(element, name, value, domains[name].unit))
     incidence, turn = angles_in_chain(element)
     if incidence is not None:
-        result.append(told_incidence(incidence, number(incidence)).text)
+        result.append(shown_incidence(incidence, number(incidence)).text)
     if isinstance(turn, Parameter | float | int) and (isinstance(turn, Parameter) or turn != 0.0):
         result.append(_text(element, "azimuth", turn, "deg"))
     return result
@@ -396,7 +396,7 @@ def values_below(element: Element) -> list[str]:
 
 def _text(element: Element, name: str, value: Any, unit: str) -> str:
     if name == "incidence" and isinstance(element, BoundaryElement):
-        return told_incidence(value, angles_at(element)[0]).text
+        return shown_incidence(value, angles_at(element)[0]).text
     if not isinstance(value, Parameter):
         said = quantity_text(number(value), unit)
         return said if name == "angle" else f"{name} {said}"

@@ -20,7 +20,7 @@ from optipath.plots.scene.scene import (
     ScenePlane,
     SceneRay,
 )
-from optipath.plots.scene.values import NumberPath, ShownAngle, number, shown_angle, told_incidence
+from optipath.plots.scene.values import NumberPath, ShownAngle, number, shown_angle, shown_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -205,7 +205,7 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
             yield _arc(shown_angle(value), at, -normal, out, behind, size)
     elif (argument := angles_in_chain(element)[0]) is not None:
         value = argument
-    message = told_incidence(value, front)
+    message = shown_incidence(value, front)
     arriving = -posture.axes["in"][:, 2]
     yield _arc(message, at, normal, arriving, front, _AT_SURFACE * placing.unit)
 

@@ -101,7 +101,7 @@ def shown_angle(value: Any, *, signed: bool = True) -> ShownAngle:
     return ShownAngle(value.formula, number(value), unit=unit)
 
 
-def told_incidence(value: Any, front: float) -> ShownAngle:
+def shown_incidence(value: Any, front: float) -> ShownAngle:
     """Return the angle at which light meets a surface, by its name if it is what is given.
 
     Units: value in radians.
