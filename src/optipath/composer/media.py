@@ -96,7 +96,7 @@ class Media:
                         ".".join(leaves),
                         ".".join(enters),
                         ends=self._ends(meeting),
-                        may_be_told=self.meetings.may_be_told(meeting),
+                        may_be_shown=self.meetings.may_be_shown(meeting),
                         follows=self._follows(enters[0], "incidence"),
                     )
                     results.setdefault((meeting.sides, keys_of(turns)), law)
@@ -375,7 +375,7 @@ class SnellsLaw(Agreement):
     leaves: str
     enters: str
     ends: tuple[bool, bool] = (False, False)
-    may_be_told: bool = True
+    may_be_shown: bool = True
     follows: bool = False
 
     @property
@@ -433,7 +433,7 @@ class SnellsLaw(Agreement):
                 f"({argument}); light of several directions merges there: give each light a "
                 f"face of its own"
             )
-        if self.may_be_told:
+        if self.may_be_shown:
             why = (
                 f"faces are taken as parallel behind one that refracts; if '{own}' stands at an "
                 f"angle to '{name}', as those of a prism do, say "

@@ -181,7 +181,7 @@ class Meetings:
         face: Any = self.wiring.elements[meeting.enters[0]]
         return face.parallel is False and self._comes_before(meeting)
 
-    def may_be_told(self, meeting: Meeting) -> bool:
+    def may_be_shown(self, meeting: Meeting) -> bool:
         """Tell whether the face that light enters might say ``parallel=False``."""
         return self._comes_before(meeting) and meeting.sides not in self.to_and_fro
 

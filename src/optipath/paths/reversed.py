@@ -93,7 +93,7 @@ class _Turning:
             meeting.leaves[0]
             for meeting in meetings.all
             if getattr(self.before[meeting.enters[0]], "parallel", True) is False
-            and meetings.may_be_told(meeting)
+            and meetings.may_be_shown(meeting)
         }
 
     def _share_arrays(self) -> None:
