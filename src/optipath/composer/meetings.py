@@ -156,7 +156,7 @@ class Meetings:
     @property
     def wedges(self) -> list[Meeting]:
         """The meetings of faces that are told not to be parallel, but get their light back."""
-        return [m for m in self._straight if m.sides in self.to_and_fro and self._is_told(m)]
+        return [m for m in self._straight if m.sides in self.to_and_fro and self._is_shown(m)]
 
     @cached_property
     def _straight(self) -> list[Meeting]:
@@ -170,9 +170,9 @@ class Meetings:
 
     @cached_property
     def _told(self) -> set[frozenset[Port]]:
-        return {meeting.sides for meeting in self._straight if self._is_told(meeting)}
+        return {meeting.sides for meeting in self._straight if self._is_shown(meeting)}
 
-    def _is_told(self, meeting: Meeting) -> bool:
+    def _is_shown(self, meeting: Meeting) -> bool:
         """Tell whether a face says that it is not parallel to the one before.
 
         That is the one whose light enters in front, or behind where no light does so in front, or

@@ -186,7 +186,7 @@ class WorldAngle(Agreement):
         angle = text_of(incidence, math.degrees(argument[0]), " deg")
         open_ones = [] if incidence.known else [angle]
         parts = zip(indices, argument[1:], strict=True)
-        open_ones += [_index_text(o, number) for o, number in parts if _is_told(o, number)]
+        open_ones += [_index_text(o, number) for o, number in parts if _is_shown(o, number)]
         by = f" ({', '.join(open_ones)})" if open_ones else ""
         if self._is_passing:
             return (
@@ -269,7 +269,7 @@ def angles_of(
     return xp.arctan2(s, c), xp.arctan2(across, behind)
 
 
-def _is_told(operand: Operand, number: float) -> bool:
+def _is_shown(operand: Operand, number: float) -> bool:
     """Tell whether a number is given when the path runs; no absorption is none."""
     return not operand.known and (operand.part != "imag" or number != 0.0)
 
