@@ -34,8 +34,8 @@ def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisV
     [0.0, 45.0, 90.0]
     """
     # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.
-    is_told = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
-    unit = "" if is_told else parameter.unit
+    is_shown = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
+    unit = "" if is_shown else parameter.unit
     try:
         return read_axis_text(text, parameter, unit, uses)
     except OptipathError as error:
