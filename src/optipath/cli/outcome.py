@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 # What is told of light besides its Stokes vector, and in which unit.
-TOLD = {
+FIGURES = {
     "dop": ("DoP", ""),
     "dolp": ("DoLP", ""),
     "aop": ("AoP", "deg"),
@@ -176,9 +176,9 @@ def _axes_as_json(grid: SweepGrid) -> dict[str, Any]:
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
     published, light = outcome.published(name), outcome.lights[name]
     messages: dict[str, Any] = {
-        key: plain(getattr(light, key.lower()), unit) for key, (_, unit) in TOLD.items()
+        key: plain(getattr(light, key.lower()), unit) for key, (_, unit) in FIGURES.items()
     }
-    messages["units"] = {key: unit for key, (_, unit) in TOLD.items() if unit}
+    messages["units"] = {key: unit for key, (_, unit) in FIGURES.items() if unit}
     results = {"stokes": plain(light.stokes), "polarization": messages}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
@@ -298,7 +298,7 @@ def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
     """Yield what is told of light besides its components."""
     unread = bool(np.isnan(light.stokes).any())
     partly = " of the polarised part" if float(light.dop) < 1.0 - _SMALL else ""
-    for key, (word, unit) in TOLD.items():
+    for key, (word, unit) in FIGURES.items():
         number = plain(getattr(light, key.lower()), unit)
         if number is not None:
             behind = partly if "ellipsometry" in word else ""
