@@ -201,7 +201,7 @@ class ModelChoice:
     def said(self) -> str:
         """The decision in one sentence."""
         needed = self.model == "polarized" and not self.undecided
-        what = "the polarised model is needed" if needed else _TOLD[self.model]
+        what = "the polarised model is needed" if needed else _REASONS[self.model]
         message = f"{what} for a tolerance of {100.0 * self.tolerance:g} %"
         if not self.undecided:
             return message
@@ -209,7 +209,7 @@ class ModelChoice:
         return f"{message}; whether {which} would do, the noise does not tell"
 
 
-_TOLD = {
+_REASONS = {
     "single-scattering": "the analytic model of single scattering suffices",
     "scalar": "the model without polarisation suffices",
     "polarized": "the polarised model serves",
