@@ -92,7 +92,7 @@ def _for_files(values: Any) -> npt.NDArray[Any]:
 
 
 _COMPONENTS = ("S0", "S1", "S2", "S3")
-_NOT_TOLD = ("threads", "keep")
+_UNREPORTED = ("threads", "keep")
 
 
 def dataset_attributes(
@@ -119,7 +119,7 @@ _KEPT: WeakKeyDictionary[Answers, tuple[Any, dict[str, str | float]]] = WeakKeyD
 
 def _told(path: PathGraph, plan: Plan, composer: Composer) -> dict[str, str | float]:
     options = {each.name: getattr(composer, each.name) for each in fields(Composer)}
-    messages = {name: value for name, value in options.items() if name not in _NOT_TOLD}
+    messages = {name: value for name, value in options.items() if name not in _UNREPORTED}
     return {
         "path": _toml(path),
         "explanation": plan.explain(),
