@@ -17,7 +17,7 @@ from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.surfaces.hemisphere.measure import measure
 from optipath.surfaces.smooth import smooth_difference, smooth_exit
 from optipath.surfaces.walk.beam import beam_of
-from optipath.values.messages import PHOTONS_TOLD, no_function
+from optipath.values.messages import PHOTONS_REPORTED, no_function
 from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def decide(
     ('single-scattering', ())
     """
     faults = Faults(whole_number("photons", photons))
-    faults += no_function("progress", progress, PHOTONS_TOLD)
+    faults += no_function("progress", progress, PHOTONS_REPORTED)
     if not _is_share(tolerance):
         faults.append(
             f"tolerance is {shown(tolerance)}; give one above 0 and below 1, such as 0.02"

@@ -97,7 +97,7 @@ def no_function(name: str, raw_value: object, wanted: str) -> list[str]:
     return [f"{name} is {shown(raw_value)}; give a function of {wanted}"]
 
 
-PHOTONS_TOLD = "two numbers: how many photons there are, and of how many"
+PHOTONS_REPORTED = "two numbers: how many photons there are, and of how many"
 """Of what the function is that is told how far photons have been walked."""
 
 

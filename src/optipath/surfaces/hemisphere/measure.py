@@ -19,7 +19,7 @@ from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.smooth import flat_light, is_flat
 from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
 from optipath.values.arrays import refuse_too_large
-from optipath.values.messages import PHOTONS_TOLD, no_function
+from optipath.values.messages import PHOTONS_REPORTED, no_function
 from optipath.values.precision import is_whole, whole_number
 from optipath.values.wavelength import Wavelength
 
@@ -129,7 +129,7 @@ def measure(
     (('side', 'y', 'x', 'wavelength', 'out', 'in'), {'side': 1, 'y': 16, 'x': 16, 'wavelength': 1})
     """
     faults = Faults(_faults(photons, events, polarized, threads))
-    faults += no_function("progress", progress, PHOTONS_TOLD)
+    faults += no_function("progress", progress, PHOTONS_REPORTED)
     pixels = faults.attempt("", Sensor.of, sensor)
     place = faults.attempt("", store_argument, store, scheduler)
     mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)
