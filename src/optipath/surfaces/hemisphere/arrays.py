@@ -80,7 +80,7 @@ def _toml(hemisphere: Hemisphere) -> str:
         return f"the sample cannot be written here, since it has no form in TOML: {fault}"
 
 
-_Told = dict[str, str | float]
+_Shown = dict[str, str | float]
 
 
 class _Measure(NamedTuple):
@@ -125,7 +125,7 @@ def difference_map(
     value, error = (np.where(counts, each, np.nan) for each in (value, error))
     dims = ("y", "x", "wavelength")[: value.ndim]
     se = xr.Variable(dims, error, {"long_name": f"standard error of '{what.called}'", "units": "1"})
-    message: _Told = {"long_name": what.told, "units": "1", "side": side}
+    message: _Shown = {"long_name": what.told, "units": "1", "side": side}
     message |= _mask_attributes(mask, counts, error)
     message |= _pixel_attributes(hemisphere)
     return xr.DataArray(
@@ -138,7 +138,7 @@ def _relative(hemisphere: Hemisphere, light: Numbers) -> Numbers:
     return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
 
 
-def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numbers) -> _Told:
+def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numbers) -> _Shown:
     known = error[counts & ~np.isnan(error)]
     return {
         "mask": str(mask),
@@ -151,7 +151,7 @@ def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numb
     }
 
 
-def _pixel_attributes(hemisphere: Hemisphere) -> _Told:
+def _pixel_attributes(hemisphere: Hemisphere) -> _Shown:
     sensor = hemisphere.sensor
     return {
         "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",
