@@ -172,14 +172,14 @@ class CodeCache:
 
     def entries(self) -> list[Entry]:
         """Return what is on disk, that which has not been used for longest first."""
-        with self._told_as_fault():
+        with self._reported_as_fault():
             return entries_in(self._folder(), CODE_SUFFIX)
         return []
 
     def clear(self) -> int:
         """Remove what is on disk, drafts too; return how many entries there were."""
         entries = self.entries()
-        with self._told_as_fault():
+        with self._reported_as_fault():
             for entry in (*entries, *entries_in(self._folder(), _DRAFT)):
                 entry.file.unlink(missing_ok=True)
         return len(entries)
@@ -194,7 +194,7 @@ class CodeCache:
         self.tell(f"compiled code is not kept: {self._fault(error)}")
 
     @contextmanager
-    def _told_as_fault(self) -> Iterator[None]:
+    def _reported_as_fault(self) -> Iterator[None]:
         """Raise what is wrong with the folder as a CacheError; that it is not there is no fault."""
         try:
             yield
