@@ -562,7 +562,7 @@ def has_numbers(header: list[str]) -> bool:
 Line: TypeAlias = tuple[int, list[str]]
 """Its number, and what stands in it."""
 
-_MOST_TOLD = 12
+_MOST_REPORTED = 12
 
 
 def lines_of(file: Path) -> list[Line]:
@@ -599,8 +599,8 @@ def _cells(number: int, line: str, separator: str, faults: list[str]) -> list[st
 
 def first_of(faults: list[str]) -> list[str]:
     """Return the first of many faults, and how many more there are."""
-    more = len(faults) - _MOST_TOLD
-    return [*faults[:_MOST_TOLD], *[f"and {more} more"] * (more > 0)]
+    more = len(faults) - _MOST_REPORTED
+    return [*faults[:_MOST_REPORTED], *[f"and {more} more"] * (more > 0)]
 
 
 _DOUBTS = {"um": (100e-6, np.inf, "nm"), "nm": (0.0, 10e-9, "um")}
