@@ -73,7 +73,7 @@ def _is_whole(chart: Any) -> bool:
     try:
         if chart.get("drawn") == CRITICAL:
             return _is_whole_near(chart)
-        _check_told(chart)
+        _check_reported(chart)
         words, sizes, off = [chart["title"]], [chart["fails_above"]], []
         sizes += chart["limits_ns"].values()
         for entry in chart["contenders"]:
@@ -96,7 +96,7 @@ def _is_whole(chart: Any) -> bool:
         return False
 
 
-def _check_told(chart: Any) -> None:
+def _check_reported(chart: Any) -> None:
     """Raise TypeError or KeyError where what a chart may say is said otherwise."""
     if "regions" in chart:
         counts = chart["regions"]["measured"], chart["regions"]["of"]
@@ -114,7 +114,7 @@ def _check_told(chart: Any) -> None:
 
 
 def _is_whole_near(chart: Any) -> bool:
-    _check_told(chart)
+    _check_reported(chart)
     words = [chart["title"], chart["dtype"]]
     sizes, off, lengths = [chart["eps"], chart["fails_above"]], [], []
     for place in chart["places"]:
