@@ -10,7 +10,7 @@ import click
 from optipath.cli.console import say
 from optipath.cli.plot_command import title_of
 from optipath.cli.preset_command import PresetGroup
-from optipath.cli.progress import told_progress
+from optipath.cli.progress import reported_progress
 from optipath.cli.text_files import NewFile, check_place, read_text, write
 from optipath.paths.files.presets import preset_names
 from optipath.values.files import check_form
@@ -196,7 +196,7 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
     draw, save, interrupted = plots.chart, plots.save, False
     stored: dict[str, Any] = {}
     try:
-        with told_progress() as tell:
+        with reported_progress() as tell:
             stored.update(measure(tell, stored.update))
     except KeyboardInterrupt:
         if not stored:

@@ -49,7 +49,7 @@ _STEPS = 10
 
 
 @contextmanager
-def told_progress() -> Iterator[Callable[[str, float], None]]:
+def reported_progress() -> Iterator[Callable[[str, float], None]]:
     """Tell of progress; what is yielded takes what is being done, and the share that is done."""
     if PlainConsole(stderr=True).is_terminal:
         with progress_bar(1.0) as tell:
