@@ -26,7 +26,7 @@ class StrictCommand(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the options; refuse what is left."""
         words = list(args)
-        with unknown_options_told(ctx, words):
+        with unknown_options_reported(ctx, words):
             left = super().parse_args(ctx, args)
         if ctx.resilient_parsing:
             return left
@@ -77,7 +77,7 @@ def _left_over(word: str, words: Sequence[str], flags: Mapping[str, bool]) -> st
 
 
 @contextmanager
-def unknown_options_told(context: click.Context, words: Sequence[str]) -> Iterator[None]:
+def unknown_options_reported(context: click.Context, words: Sequence[str]) -> Iterator[None]:
     """Let what is said of an unknown option name what was meant, and where it stands."""
     try:
         yield
@@ -165,7 +165,7 @@ class WholeHelp(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the options of the group; say of others what was meant."""
-        with unknown_options_told(ctx, [*args]):
+        with unknown_options_reported(ctx, [*args]):
             return super().parse_args(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
