@@ -131,7 +131,7 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
     if faults:
         raise OptipathError(*faults)
-    messages = [f"n = {number}" for number in _told_apart(behind, front)]
+    messages = [f"n = {number}" for number in _distinguished(behind, front)]
     long = " in ".join(
         f"{one.strip()}{at if name in depending else ''}, {number}" if _is_name(one) else number
         for (name, one), number in zip(arguments.items(), messages, strict=True)
@@ -180,10 +180,10 @@ def _is_name(argument: Any) -> bool:
     return isinstance(argument, str) and argument.strip()[:1].isalpha()
 
 
-def _told_apart(behind: complex, front: complex) -> tuple[str, str]:
+def _distinguished(behind: complex, front: complex) -> tuple[str, str]:
     """Return two indices with as many digits as it takes to tell one from the other.
 
-    >>> _told_apart(1.5, 1.0), _told_apart(1.00001, 1.0)
+    >>> _distinguished(1.5, 1.0), _told_apart(1.00001, 1.0)
     (('1.5', '1'), ('1.00001', '1'))
     """
     for digits in range(4, 18):
