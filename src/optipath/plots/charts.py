@@ -155,7 +155,7 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
         room = LEFT / WIDTH, _FOOT / height, 1 - (LEFT + RIGHT) / WIDTH, other.height / height
         axes.append(figure.add_axes(room))
         draw_peers(axes[-1], peers, other)
-        for number, line in enumerate(told_of_peers(peers)):
+        for number, line in enumerate(peers_caption(peers)):
             y = (lowest - LINE * number) / height
             figure.text(EDGE / WIDTH, y, line, fontsize=POINTS, va="top", color=INK)
     return np.array(axes, object)
@@ -273,7 +273,7 @@ def draw_peers(axes: Axes, peers: PeerTimes, frame: PeerFrame) -> None:
     axes.yaxis.set_label_coords(-0.9 / _ROOM, middle)
 
 
-def told_of_peers(peers: PeerTimes) -> list[str]:
+def peers_caption(peers: PeerTimes) -> list[str]:
     """Return what is said above the panel, a sentence each."""
     return [
         "Other software (grey) beside optipath (blue), in one race over random paths;",
