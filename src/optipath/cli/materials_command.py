@@ -90,7 +90,7 @@ def _materials(
 ) -> None:
     """List materials by name, or tell n and k of one with --at."""
     if wavelengths:
-        message = told_at(" ".join(words), page, wavelengths, incidence, {"n": n, "k": k})
+        message = reported_at(" ".join(words), page, wavelengths, incidence, {"n": n, "k": k})
         say_json(message.as_json()) if as_json else message.print(digits)
         return
     arguments = {"--page": page, "--incidence": incidence != "0", "--n": n is not None}
@@ -197,7 +197,7 @@ class MaterialReport:
             say_wrapped(f"{self.place}: {self.source}")
 
 
-def told_at(
+def reported_at(
     name: str, page: str, wavelengths: Sequence[str], incidence: str, own: Mapping[str, Any]
 ) -> MaterialReport:
     """Return what a material is at wavelengths.
