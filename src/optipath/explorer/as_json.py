@@ -35,7 +35,7 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]
     if explored.offers_wavelength:
         light = [in_unit(end, WAVELENGTH.unit) for end in VISIBLE]
-        parameters.append(_told(WAVELENGTH, "") | {"slider": [*light, 1.0], "offered": True})
+        parameters.append(_as_json(WAVELENGTH, "") | {"slider": [*light, 1.0], "offered": True})
     choices = [
         {
             "name": name,
@@ -63,7 +63,7 @@ def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
     low, high = inputs.limits.get(name, (parameter.minimum, parameter.maximum))
     default = parameter.default
     text = "" if default is None else parameter.text(default)
-    return _told(parameter, text) | {
+    return _as_json(parameter, text) | {
         "minimum": plain(low, unit),
         "maximum": plain(high, unit),
         "slider": slider_range(explored, name),
@@ -73,7 +73,7 @@ def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
     }
 
 
-def _told(parameter: Parameter, default: str) -> dict[str, Any]:
+def _as_json(parameter: Parameter, default: str) -> dict[str, Any]:
     dimension = dimension_of(parameter.unit)
     units = units_of(dimension) if dimension else []
     return {
