@@ -315,7 +315,7 @@ def energy_rows(result: EnergyAlong) -> EnergyRows:
     names = _in_order(result.links)
     place = {name: row for row, name in enumerate(names)}
     lanes, ways = _lanes(result.links, place)
-    rows = [EnergyRow(name, lanes[name], *_told(name, result)) for name in names]
+    rows = [EnergyRow(name, lanes[name], *_row_texts(name, result)) for name in names]
     links = [
         EnergyLink(link.start, _end(link), float(link.power), lane, _is_back(link, place), link.tap)
         for link, lane in zip(result.links, ways, strict=True)
@@ -379,7 +379,7 @@ def _free(busy: Iterable[int]) -> int:
     return next(lane for lane in range(len(taken) + 1) if lane not in taken)
 
 
-def _told(name: str, result: EnergyAlong) -> tuple[str, float]:
+def _row_texts(name: str, result: EnergyAlong) -> tuple[str, float]:
     for word, powers in (("gives", result.given), ("leaves", result.left), ("gets", result.ended)):
         if name in powers:
             return word, float(powers[name])
