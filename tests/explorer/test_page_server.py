@@ -14,7 +14,7 @@ from optipath.errors import OptipathError
 from optipath.explorer import server as page_handler
 from optipath.explorer import server as page_servers
 from optipath.explorer.server import HOST, page_files, read_json
-from optipath.explorer.state import AskedCurve, asked_state
+from optipath.explorer.state import RequestedCurve, asked_state
 from optipath.values.units import UNITS
 from tables import rows, slow
 
@@ -271,7 +271,7 @@ def test_what_is_json_and_a_whole_state_are_read_and_all_faults_told_at_once():
     assert asked == ("npgr026", "8", None, ("energy",))
     for count in (2, 181, 2001):
         found = asked_state(MALUS | {"curve": CURVE | {"count": count}}, ALL)
-        assert found.curve == AskedCurve("delta", "0", "90", count, ("S0",))
+        assert found.curve == RequestedCurve("delta", "0", "90", count, ("S0",))
     # All faults of shape are told at once, and what is needed must be there.
     with pytest.raises(OptipathError) as refused:
         asked_state({"case": 8, "want": 3, "x": 1}, ALL)

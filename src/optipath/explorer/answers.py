@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.explorer.paths import ExploredPresets
-    from optipath.explorer.state import AskedCurve, AskedState, ReadState
+    from optipath.explorer.state import AskedState, ReadState, RequestedCurve
 
 
 _WARNINGS = (AngleWarning, LoopWarning)
@@ -136,7 +136,7 @@ def _case_words(request: AskedState) -> list[str]:
     return [] if request.case is None else ["case", request.case]
 
 
-def _table(state: ReadState, curve: AskedCurve | None) -> str:
+def _table(state: ReadState, curve: RequestedCurve | None) -> str:
     """Return what `optipath sweep --out` writes of the curve; without one, the light as a row."""
     plan = state.explored.plan
     try:

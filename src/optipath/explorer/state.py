@@ -49,7 +49,7 @@ _MOST = 500
 
 
 @dataclass(frozen=True)
-class AskedCurve:
+class RequestedCurve:
     """A curve of some quantities over a parameter."""
 
     x: str
@@ -68,7 +68,7 @@ class AskedState:
     places: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, str] = field(default_factory=dict)
     detector: str | None = None
-    curve: AskedCurve | None = None
+    curve: RequestedCurve | None = None
     want: tuple[str, ...] = ()
     form: str = ""
 
@@ -148,7 +148,7 @@ def _count(name: str, argument: Any) -> int:
     return argument
 
 
-def _curve(name: str, argument: Any) -> AskedCurve:
+def _curve(name: str, argument: Any) -> RequestedCurve:
     readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words(None)}
     if not isinstance(argument, dict):
         raise ParameterError(
@@ -162,7 +162,7 @@ def _curve(name: str, argument: Any) -> AskedCurve:
             read.append(reader(f"{name}.{key}", argument[key]) if key in argument else None)
     if faults:
         raise ParameterError(*faults)
-    return AskedCurve(*read)
+    return RequestedCurve(*read)
 
 
 _READERS: dict[str, Any] = {

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from optipath.composer.composer import Composer
-    from optipath.explorer.state import AskedCurve, ReadState
+    from optipath.explorer.state import ReadState, RequestedCurve
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
@@ -192,7 +192,7 @@ _SEVERAL = ":,@"
 """What stands in a text of several values, or names a file, of which none is ever read."""
 
 
-def curve_as_json(state: ReadState, request: AskedCurve, detector: str) -> dict[str, Any]:
+def curve_as_json(state: ReadState, request: RequestedCurve, detector: str) -> dict[str, Any]:
     """Return a curve for the page."""
     explored = state.explored
     axes: tuple[SweepAxis, ...] = ()
@@ -214,7 +214,7 @@ def curve_as_json(state: ReadState, request: AskedCurve, detector: str) -> dict[
     }
 
 
-def curve_grid(state: ReadState, request: AskedCurve) -> SweepGrid:
+def curve_grid(state: ReadState, request: RequestedCurve) -> SweepGrid:
     """Return the grid of a curve, beside which everything has one value."""
     explored, name = state.explored, request.x
     opened = explored.plan.inputs.open
@@ -232,7 +232,7 @@ def curve_grid(state: ReadState, request: AskedCurve) -> SweepGrid:
     return SweepGrid((sweep_axis(explored.parameters, name, values),), fixed)
 
 
-def _end_faults(state: ReadState, parameter: Parameter, request: AskedCurve) -> list[str]:
+def _end_faults(state: ReadState, parameter: Parameter, request: RequestedCurve) -> list[str]:
     faults: list[str] = []
     for text in (request.first, request.last):
         if any(sign in text for sign in _SEVERAL) or text in parameter.all_words:
