@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.explorer.paths import ExploredPresets
-    from optipath.explorer.state import AskedState, ReadState, RequestedCurve
+    from optipath.explorer.state import ReadState, RequestedCurve, RequestedState
 
 
 _WARNINGS = (AngleWarning, LoopWarning)
@@ -117,7 +117,7 @@ _ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
 _ODD = re.compile(r"[^A-Za-z0-9_-]+")
 
 
-def exported_as_json(presets: ExploredPresets, request: AskedState) -> dict[str, Any]:
+def exported_as_json(presets: ExploredPresets, request: RequestedState) -> dict[str, Any]:
     """Return a state as a file."""
     state = read_state(presets, request)
     traced(state)  # What cannot be traced is no file either.
@@ -132,7 +132,7 @@ def exported_as_json(presets: ExploredPresets, request: AskedState) -> dict[str,
     return {"faults": [], "name": f"{_ODD.sub('-', name)}.{_ENDINGS[request.form]}", "text": text}
 
 
-def _case_words(request: AskedState) -> list[str]:
+def _case_words(request: RequestedState) -> list[str]:
     return [] if request.case is None else ["case", request.case]
 
 

@@ -60,7 +60,7 @@ class RequestedCurve:
 
 
 @dataclass(frozen=True)
-class AskedState:
+class RequestedState:
     """What the page shows, or wants to."""
 
     preset: str
@@ -73,7 +73,9 @@ class AskedState:
     form: str = ""
 
 
-def asked_state(argument: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
+def asked_state(
+    argument: Any, allowed: Sequence[str], needed: Sequence[str] = ()
+) -> RequestedState:
     """Return what a request asks for.
 
     >>> asked_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
@@ -95,7 +97,7 @@ def asked_state(argument: Any, allowed: Sequence[str], needed: Sequence[str] = (
                 read[name] = _READERS[name](name, argument[name])
     if faults:
         raise ParameterError(*faults)
-    return AskedState(**read)
+    return RequestedState(**read)
 
 
 def _text(name: str, argument: Any) -> str:
@@ -201,7 +203,7 @@ class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call 
 class ReadState:
     """What the page shows, read."""
 
-    asked: AskedState
+    asked: RequestedState
     base: ExploredPath
     explored: ExploredPath
     places: Mapping[str, str] = field(default_factory=dict)
@@ -230,7 +232,7 @@ class ReadState:
         return [FieldFault(_field(sentence, known) or other, sentence) for sentence in error.faults]
 
 
-def read_state(presets: ExploredPresets, request: AskedState) -> ReadState:
+def read_state(presets: ExploredPresets, request: RequestedState) -> ReadState:
     """Return what the texts of the page stand for."""
     faults: list[FieldFault] = []
     explored, places = _opened(presets, request, faults)
@@ -252,7 +254,7 @@ def read_state(presets: ExploredPresets, request: AskedState) -> ReadState:
     return state
 
 
-def read_path(presets: ExploredPresets, request: AskedState) -> ExploredPath:
+def read_path(presets: ExploredPresets, request: RequestedState) -> ExploredPath:
     """Return the path that is asked for, its places chosen, and no values looked at."""
     faults: list[FieldFault] = []
     explored, _ = _opened(presets, request, faults)
@@ -262,7 +264,7 @@ def read_path(presets: ExploredPresets, request: AskedState) -> ExploredPath:
 
 
 def _opened(
-    presets: ExploredPresets, request: AskedState, faults: list[FieldFault]
+    presets: ExploredPresets, request: RequestedState, faults: list[FieldFault]
 ) -> tuple[ExploredPath, dict[str, str]]:
     """Return the path with its places, those of the case among them, as far as there are any."""
     try:
