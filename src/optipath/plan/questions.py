@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     Batch = tuple[int, ...]
 
 
-class Asked(Protocol):
+class Requested(Protocol):
     """What a question asks: a program that is run step by step, or by JAX."""
 
     interpreter: Interpreter
@@ -63,13 +63,13 @@ class Question(ABC):
         """Return the formula of the results, for numbers of some forms."""
 
     @abstractmethod
-    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
         """Return the results step by step.
 
         Shape: returns (results, paths).
         """
 
-    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return what the user gets of JAX; None where NumPy is to be asked."""
         del runner, resolved, batch, parameters
 
@@ -101,7 +101,7 @@ class LightQuestion(Question):
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         return maker.lights(forms, axes=axes, unreduced=maker.unreduced)
 
-    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
         result = runner.interpreter.lights(arguments, shared)
         for (stokes, _), count in zip(result, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
@@ -109,7 +109,7 @@ class LightQuestion(Question):
         components = [stokes.reshape(-1, 4).T for stokes, _ in result]
         return np.concatenate([*components, *(power.reshape(1, -1) for _, power in result)])
 
-    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
         result, sound = runner.for_jax.path.lights(resolved, batch, parameters)
         if runner.for_jax.needs_closer_look(sound, resolved):
             return None
@@ -172,14 +172,14 @@ class MatrixQuestion(Question):
             masks=maker.masks,
         )
 
-    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.
         result = runner.interpreter.matrix(arguments, self.source, self.reading)
         runner.refuse_infinite(result[..., : self.reading.components, :])
         result[np.isnan(result[..., 0, 0])] = np.nan
         return result.reshape(-1, 16).T
 
-    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
         name = next(n for n, end in self.program.readings.items() if end is self.reading)
         result, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
         if runner.for_jax.needs_closer_look(sound, resolved):
@@ -211,7 +211,7 @@ class BoundsQuestion(Question):
         kind, limits = maker.dtype.name, maker.limits
         return bounds_formula(self.program, kind, forms, limits, axes, self.model)
 
-    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Those of bounds are of another sort.
         return np.concatenate(
             [rows.reshape(4, -1) for rows in runner.interpreter.bounds(arguments)]
@@ -233,7 +233,7 @@ class ErrorsQuestion(BoundsQuestion):
         super().__init__(program)
         self.read = len(self.ends) + 1
 
-    def rows(self, runner: Asked, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
         bounds = super().rows(runner, arguments, shared).reshape(-1, 4, arguments.paths)
         assert self.model is not None  # noqa: S101 - for mypy
         errors = [Certificate(*result[:3]).error_of(self.model) for result in bounds]
