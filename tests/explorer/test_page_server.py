@@ -14,7 +14,7 @@ from optipath.errors import OptipathError
 from optipath.explorer import server as page_handler
 from optipath.explorer import server as page_servers
 from optipath.explorer.server import HOST, page_files, read_json
-from optipath.explorer.state import RequestedCurve, asked_state
+from optipath.explorer.state import RequestedCurve, requested_state
 from optipath.values.units import UNITS
 from tables import rows, slow
 
@@ -266,18 +266,18 @@ def test_what_is_json_and_a_whole_state_are_read_and_all_faults_told_at_once():
     assert read_json(b'{"a":' * 8 + b"1" + b"}" * 8)["a"]
     state = {"preset": "npgr026", "case": "8", "detector": None, "want": ["energy", "energy"]}
     state |= {"places": {"place": "eye"}, "values": {"delta": "48 deg"}, "curve": CURVE}
-    found = asked_state(state, ALL)
+    found = requested_state(state, ALL)
     asked = found.preset, found.case, found.detector, found.want
     assert asked == ("npgr026", "8", None, ("energy",))
     for count in (2, 181, 2001):
-        found = asked_state(MALUS | {"curve": CURVE | {"count": count}}, ALL)
+        found = requested_state(MALUS | {"curve": CURVE | {"count": count}}, ALL)
         assert found.curve == RequestedCurve("delta", "0", "90", count, ("S0",))
     # All faults of shape are told at once, and what is needed must be there.
     with pytest.raises(OptipathError) as refused:
-        asked_state({"case": 8, "want": 3, "x": 1}, ALL)
+        requested_state({"case": 8, "want": 3, "x": 1}, ALL)
     assert len(refused.value.faults) == 4
     with pytest.raises(OptipathError, match="form is missing; give it"):
-        asked_state(MALUS, (*ALL, "form"), ("form",))
+        requested_state(MALUS, (*ALL, "form"), ("form",))
 
 
 @rows(
@@ -305,7 +305,7 @@ def test_what_is_json_and_a_whole_state_are_read_and_all_faults_told_at_once():
 )
 def test_another_shape_is_refused_in_a_sentence(given, told):
     with pytest.raises(OptipathError) as refused:
-        asked_state(given, ALL)
+        requested_state(given, ALL)
     assert told in str(refused.value)
 
 

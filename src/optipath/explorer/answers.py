@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import AngleWarning, LoopWarning, OptipathError, few_suggestions
 from optipath.explorer.as_json import path_as_json
-from optipath.explorer.state import FieldFault, FieldFaults, asked_state, read_path, read_state
+from optipath.explorer.state import FieldFault, FieldFaults, read_path, read_state, requested_state
 from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
 from optipath.materials.material import Material
 from optipath.materials.named_materials import extinction_with
@@ -57,7 +57,7 @@ class PageAnswers:
     def open(self, argument: Any) -> dict[str, Any]:
         """Return what the page is told of a path."""
         with self._answering():
-            request = asked_state(argument, ("places",))
+            request = requested_state(argument, ("places",))
             return _or_faults(
                 lambda: {"faults": [], **path_as_json(read_path(self._presets, request))}
             )
@@ -65,7 +65,7 @@ class PageAnswers:
     def trace(self, argument: Any) -> dict[str, Any]:
         """Return what the page shows of a state."""
         with self._answering() as message:
-            request = asked_state(argument, _STATE)
+            request = requested_state(argument, _STATE)
             result = _or_faults(lambda: traced_as_json(read_state(self._presets, request)))
             return (
                 result if result["faults"] else result | {"notes": [*result["notes"], *message()]}
@@ -74,7 +74,7 @@ class PageAnswers:
     def export(self, argument: Any) -> dict[str, Any]:
         """Return a state as a file, and what it is called."""
         with self._answering():
-            request = asked_state(argument, (*_STATE, "form"), ("form",))
+            request = requested_state(argument, (*_STATE, "form"), ("form",))
             return _or_faults(lambda: exported_as_json(self._presets, request))
 
     @contextmanager

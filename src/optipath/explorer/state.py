@@ -73,12 +73,12 @@ class RequestedState:
     form: str = ""
 
 
-def asked_state(
+def requested_state(
     argument: Any, allowed: Sequence[str], needed: Sequence[str] = ()
 ) -> RequestedState:
     """Return what a request asks for.
 
-    >>> asked_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
+    >>> requested_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
     {'angle': '30 deg'}
     """
     names = ("preset", *allowed)
