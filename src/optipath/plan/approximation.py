@@ -49,7 +49,7 @@ class Approximation(Answering):
         return tuple(dict.fromkeys(engine for one in self._ran for engine in one.ran_by))
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
-        if self.exact.for_jax.is_asked(parameters):
+        if self.exact.for_jax.is_requested(parameters):
             self._ran = (self.exact,)
             return self.exact.answer(question, parameters)
         return self._of(question, self.whole.read_for_bounds(parameters), parameters)
@@ -57,7 +57,7 @@ class Approximation(Answering):
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
-        if self.exact.for_jax.is_asked(parameters):
+        if self.exact.for_jax.is_requested(parameters):
             yield from self.exact.stream(question, size, parameters)
             return
         argument = self.whole.read_for_bounds(parameters)

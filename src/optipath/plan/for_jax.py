@@ -45,7 +45,7 @@ class ForJax:
         """Whether a value of the path is one that JAX traces."""
         return any(operand.traced for operand in self.program.operands)
 
-    def is_asked(self, parameters: Mapping[str, Any]) -> bool:
+    def is_requested(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
         traced = self.has_traced or any(map(_is_of_jax, parameters.values()))
         if traced and self.options.engine not in ("auto", "jax"):

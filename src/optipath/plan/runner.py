@@ -103,14 +103,14 @@ class Runner(Answering):
         numbers = None if recipe is None else recipe.numbers(parameters)
         if recipe is not None and numbers is not None:
             return self._run(question, recipe.prepared, numbers, parameters)
-        if self.for_jax.is_asked(parameters):
+        if self.for_jax.is_requested(parameters):
             return self._by_jax(question, parameters)
         return self.answer_for(question, self.reader.read(parameters), parameters, key=key)
 
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
-        if self.for_jax.is_asked(parameters):
+        if self.for_jax.is_requested(parameters):
             raise ParameterError(
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
             )
