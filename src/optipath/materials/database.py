@@ -18,7 +18,7 @@ from optipath.materials.database_names import (
     named_page,
     read_yaml,
 )
-from optipath.materials.formulas import DispersionFormula, nearest_asked_for
+from optipath.materials.formulas import DispersionFormula, nearest_requested
 from optipath.materials.tables import EXTRAPOLATIONS, INTERPOLATIONS, PageCurve, Tabulated
 from optipath.values.curve import span_text
 from optipath.values.curve_value import curve_at
@@ -197,7 +197,7 @@ def _check_asked(
     if extrapolate == "linear" and any(by_formula):
         faults.append(
             f"{label} is by a formula, which has no straight line beyond its range; "
-            f"{nearest_asked_for()}, or stay within it"
+            f"{nearest_requested()}, or stay within it"
         )
     if faults:
         raise MaterialError(*faults)

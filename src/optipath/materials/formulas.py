@@ -393,7 +393,7 @@ class DispersionFormula(Curve):
             known_span=known_span,
             extrapolate=extrapolate,
             span=(0.0, float("inf")) if extrapolate else known_span,
-            beyond=nearest_asked_for(),
+            beyond=nearest_requested(),
         )
 
     @property
@@ -407,7 +407,7 @@ class DispersionFormula(Curve):
         return (xp.broadcast_to(result, xp.shape(wavelength)),)
 
 
-def nearest_asked_for() -> str:
+def nearest_requested() -> str:
     """Return the one way to leave the range of a formula, as a cure."""
     request = cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')
     return request if argument("extrapolate") else "name another page"
