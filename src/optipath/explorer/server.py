@@ -222,7 +222,7 @@ class PageHandler(BaseHTTPRequestHandler):
 
     def _admitted(self) -> str | None:
         """Return what is asked for; None where nobody may ask, who has been told so then."""
-        place = place_asked(self.path, self.server.token)
+        place = requested_place(self.path, self.server.token)
         refusal = origin_refusal(self.headers, self.server.server_port)
         if place is None or refusal is not None:
             self._refuse(refusal or forbidden())
@@ -313,10 +313,10 @@ class Refusal(NamedTuple):
     sentence: str
 
 
-def place_asked(path: str, token: str) -> str | None:
+def requested_place(path: str, token: str) -> str | None:
     """Return what is asked for below the token; None where the token is not the right one.
 
-    >>> place_asked("/abc/api/open", "abc"), place_asked("/abd/", "abc"), place_asked("/abc", "abc")
+    >>> requested_place("/abc/api/open", "abc"), place_asked("/abd/", "abc"), place_asked("/abc", "abc")
     ('api/open', None, None)
     """
     before, _, behind = path.removeprefix("/").partition("/")
