@@ -140,7 +140,7 @@ def page_curve(
     if lacking := [part for part in wanted if part not in giving]:
         raise MaterialError(*[_lacking(label, part, giving) for part in lacking])
     chosen = {part: entry for part, entry in giving.items() if part in wanted}
-    _check_asked(label, chosen.values(), interpolation, extrapolate)
+    _check_requested(label, chosen.values(), interpolation, extrapolate)
     try:
         curves = [
             entry.curve(label, parts, interpolation, extrapolate)
@@ -180,7 +180,7 @@ def _cured(faults: Iterable[str], remedy: str) -> list[str]:
     return [f"{fault}; {remedy}" if remedy else fault for fault in faults]
 
 
-def _check_asked(
+def _check_requested(
     label: str, entries: Collection[PageEntry], interpolation: str, extrapolate: str
 ) -> None:
     """Refuse what is asked for in vain, or cannot be had."""
