@@ -22,7 +22,7 @@ from optipath.cli.console import (
 from optipath.cli.options import StrictCommand
 from optipath.elements.fresnel import effective_index, fresnel_reflection
 from optipath.errors import MaterialError, OptipathError, collecting, did_you_mean
-from optipath.materials.database import FoundPage, pages_with
+from optipath.materials.database import PageMatch, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
 from optipath.materials.quantities import INCIDENCE as INCIDENCE_DOMAIN
@@ -115,7 +115,7 @@ materials = click.command(
 )(_materials)
 
 
-def _print(results: list[FoundPage], *, vacuum: bool, everything: bool) -> None:
+def _print(results: list[PageMatch], *, vacuum: bool, everything: bool) -> None:
     table = headed("material", "range", "source", box=None)
     for one in results:
         table.add_row(*map(cell, (one.name, _range_text(one), one.described)))
@@ -126,7 +126,7 @@ def _print(results: list[FoundPage], *, vacuum: bool, everything: bool) -> None:
         say(f"\n{len(catalog_pages())} pages of refractiveindex.info: optipath materials WORD")
 
 
-def _range_text(one: FoundPage) -> str:
+def _range_text(one: PageMatch) -> str:
     """Return what is known and where, with as many digits as a list needs."""
     spans = one.spans()
     low, high = (f([s[at] for s in spans.values()], default=0.0) for at, f in ((0, max), (1, min)))
@@ -136,7 +136,7 @@ def _range_text(one: FoundPage) -> str:
     return "; ".join([f"{part} {' .. '.join(span)} {unit}" for part, span in ends.items()])
 
 
-def _as_json(one: FoundPage) -> dict[str, Any]:
+def _as_json(one: PageMatch) -> dict[str, Any]:
     return {
         "name": one.name,
         "names": list(one.curated.names) if one.curated else [one.name],

@@ -362,7 +362,7 @@ _RANGE = re.compile(
 """The range in the title of a page: "n,k 0.188-1.937 um", with a dash."""
 
 
-class FoundPage(NamedTuple):
+class PageMatch(NamedTuple):
     """A page that a search has found."""
 
     name: str
@@ -389,16 +389,16 @@ class FoundPage(NamedTuple):
         return {part: result[part] for part in ("n", "k") if part in result}
 
 
-def pages_with(words: Sequence[str]) -> list[FoundPage]:
+def pages_with(words: Sequence[str]) -> list[PageMatch]:
     """Return the pages in which all of some words occur; those with short names for none."""
     pages = {page.place: page for page in catalog_pages()}
-    short = [FoundPage(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
+    short = [PageMatch(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
     if not words:
         return short
     requests = [word.casefold() for word in words]
     first = [one for one in short if _has(_text(one.page, one.curated), requests)]
     others = [
-        FoundPage(page.place, page)
+        PageMatch(page.place, page)
         for place, page in pages.items()
         if place not in {one.page.place for one in first} and _has(_text(page), requests)
     ]
