@@ -255,7 +255,7 @@ class WalkedBlock(NamedTuple):
 _AHEAD = 4
 """How many blocks a thread are handed out before the first of them is waited for."""
 
-Found = TypeVar("Found")
+Block = TypeVar("Block")
 
 
 def walked_in_order(
@@ -263,8 +263,8 @@ def walked_in_order(
     todo: range,
     photons: int,
     threads: int,
-    work: Callable[[int, int], Found],
-) -> Generator[Found]:
+    work: Callable[[int, int], Block],
+) -> Generator[Block]:
     """Yield what becomes of blocks, in their order, however many threads there are.
 
     No more are handed out than keep all threads at work; who closes the generator stops them.
@@ -272,7 +272,7 @@ def walked_in_order(
     walk_code()
     stored = cached_meshes(beam.sample)
     executor = ThreadPoolExecutor(threads)
-    waiting: deque[Future[Found]] = deque()
+    waiting: deque[Future[Block]] = deque()
     try:
         for number in todo:
             size = min(BLOCK, photons - BLOCK * number)
