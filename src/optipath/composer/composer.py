@@ -216,8 +216,8 @@ class Composer:
             instead = tolerated(exact, self.model, self.tolerance)
             if instead is not None:
                 return exact, instead
-        as_found = self.model == "auto" or exact.unreduced
-        return exact if as_found else by_name(exact, self.model), None
+        unchanged = self.model == "auto" or exact.unreduced
+        return exact if unchanged else by_name(exact, self.model), None
 
 
 @contextmanager
