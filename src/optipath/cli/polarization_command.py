@@ -11,7 +11,7 @@ from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_j
 from optipath.cli.preset_command import PresetGroup
 from optipath.errors import listed
 from optipath.materials.quantities import plain
-from optipath.paths.polarization import polarization as found_for
+from optipath.paths.polarization import polarization as polarization_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -66,7 +66,7 @@ polarization = PresetGroup(
 def _found(path: PathGraph) -> dict[str, Polarization]:
     """Return what polarisation does at every detector."""
     ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
-    return {name: found_for(path, name) for name in ends}
+    return {name: polarization_of(path, name) for name in ends}
 
 
 def _as_json(results: Mapping[str, Polarization]) -> dict[str, Any]:
