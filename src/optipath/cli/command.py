@@ -223,7 +223,7 @@ def import_own(name: str) -> None:
         )
     try:
         # What it prints is no part of what the command finds, which may be read as JSON.
-        with redirect_stdout(sys.stderr), _found_first(Path(name).parent if of_file else Path()):
+        with redirect_stdout(sys.stderr), _first_result(Path(name).parent if of_file else Path()):
             if of_file:
                 _import_file(Path(name))
             else:
@@ -265,7 +265,7 @@ def _import_file(file: Path) -> None:
 
 
 @contextmanager
-def _found_first(folder: Path) -> Iterator[None]:
+def _first_result(folder: Path) -> Iterator[None]:
     """Let modules of a folder be found before all others, as long as one is imported."""
     place = str(folder.resolve())
     sys.path.insert(0, place)
