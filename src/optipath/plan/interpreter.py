@@ -72,7 +72,7 @@ class Interpreter:
 
         None where that takes more care than floats allow.
         """
-        result = self._found(ResolvedInputs(numbers, (1,)), {})
+        result = self._results(ResolvedInputs(numbers, (1,)), {})
         if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in result):
             return None
         return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in result]
@@ -87,7 +87,7 @@ class Interpreter:
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
-        return [folded(*light) for light in self._found(arguments, own)]
+        return [folded(*light) for light in self._results(arguments, own)]
 
     def shared(self, arguments: ResolvedInputs) -> Shared:
         """Return the numbers of evaluations that differ along a few axes of a batch only.
@@ -147,7 +147,7 @@ class Interpreter:
             read.append(parts)
         return read
 
-    def _found(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
         """Return light and exponents; what is too faint for floats is carried with an exponent."""
         result = self._stacked(arguments, self._carriers[self.carrier], shared)
         if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in result):

@@ -74,13 +74,13 @@ class ReproducibleInterpreter(Interpreter):
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
-        result = self._found(_as_batch(arguments), own)
+        result = self._results(_as_batch(arguments), own)
         return [
             folded(stokes.reshape(*arguments.batch, 4), np.reshape(exponent, arguments.batch))
             for stokes, exponent in result
         ]
 
-    def _found(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
         program, carrier = self._carrying
         if program is self.program:
             result = self._stacked(arguments, carrier, shared)
