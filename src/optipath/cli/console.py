@@ -16,7 +16,7 @@ from rich.text import Text
 from optipath.errors import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 
 JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
@@ -144,3 +144,14 @@ def _width() -> int:
     except ValueError:  # COLUMNS may be a number of 5000 digits.
         return 80
     return min(max(columns, _NARROWEST), _WIDEST)
+
+
+def say_descriptions(kind: str, descriptions: Mapping[str, str], *, as_json: bool) -> None:
+    """Print what there is of a kind and what each is, as a table or as JSON."""
+    if as_json:
+        say_json(descriptions)
+        return
+    table = headed(kind, "what it is", box=None)
+    for name, description in descriptions.items():
+        table.add_row(cell(name), cell(description))
+    PlainConsole().print(table)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from optipath.cli.console import JSON, PlainConsole, cell, headed, say, say_json, title
+from optipath.cli.console import JSON, PlainConsole, say, say_descriptions, say_json, title
 from optipath.cli.options import StrictCommand
 from optipath.cli.progress import photon_bar
 from optipath.cli.surface_options import DECIDE, REDRAWING, SAMPLE, WALKING
@@ -199,10 +199,4 @@ def _list_samples(*, as_json: bool) -> None:
         raise click.UsageError(
             f"SAMPLE is missing, beside {listed(arguments)}; give a file or one of: {names}"
         )
-    if as_json:
-        say_json(descriptions)
-        return
-    table = headed("sample", "what it is", box=None)
-    for name, description in descriptions.items():
-        table.add_row(cell(name), cell(description))
-    PlainConsole().print(table)
+    say_descriptions("sample", descriptions, as_json=as_json)

@@ -14,8 +14,8 @@ import numpy as np
 
 from optipath.cli.console import DIGITS, PlainConsole, cell, headed, say, say_json
 from optipath.cli.outcome import (
+    FIGURES,
     MOST_ROWS,
-    TOLD,
     outcome_as_json,
     outcome_of,
     plane_table,
@@ -309,8 +309,8 @@ def sizes_text(grid: SweepGrid) -> str:
 def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
     """Return a row for each point, with as many quantities of light as the terminal is wide."""
     arguments = f"light at {name}", outcome.lights[name], outcome.grid, numbers
-    for count in range(len(TOLD), 0, -1):
-        table = point_table(*arguments, dict(islice(TOLD.items(), count)))
+    for count in range(len(FIGURES), 0, -1):
+        table = point_table(*arguments, dict(islice(FIGURES.items(), count)))
         if console.measure(table, options=console.options.update(width=_WIDEST)).maximum <= (
             console.width
         ):

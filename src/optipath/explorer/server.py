@@ -316,7 +316,8 @@ class Refusal(NamedTuple):
 def requested_place(path: str, token: str) -> str | None:
     """Return what is asked for below the token; None where the token is not the right one.
 
-    >>> requested_place("/abc/api/open", "abc"), place_asked("/abd/", "abc"), place_asked("/abc", "abc")
+    >>> paths = ("/abc/api/open", "/abd/", "/abc")
+    >>> tuple(requested_place(path, "abc") for path in paths)
     ('api/open', None, None)
     """
     before, _, behind = path.removeprefix("/").partition("/")

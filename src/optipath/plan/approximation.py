@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,26 +24,19 @@ _MOST = 0.5
 """From which share of paths that need the exact model it is run for all."""
 
 
+@dataclass(eq=False, repr=False)
 class Approximation(Answering):
     """Runs a model that is not exact, path by path, as far as a tolerance allows.
 
     Two questions in turn: how large the errors are, and what the light is.
     """
 
-    def __init__(
-        self,
-        whole: Runner,
-        errors: Question,
-        exact: Runner,
-        cheap: Runner | None,
-        tolerance: float,
-    ) -> None:
-        self.whole = whole
-        self.errors = errors
-        self.exact = exact
-        self.cheap = cheap
-        self.tolerance = tolerance
-        self._ran: tuple[Runner, ...] = ()
+    whole: Runner
+    errors: Question
+    exact: Runner
+    cheap: Runner | None
+    tolerance: float
+    _ran: tuple[Runner, ...] = ()
 
     @property
     def ran_by(self) -> tuple[str, ...]:

@@ -183,7 +183,7 @@ def _is_name(argument: Any) -> bool:
 def _distinguished(behind: complex, front: complex) -> tuple[str, str]:
     """Return two indices with as many digits as it takes to tell one from the other.
 
-    >>> _distinguished(1.5, 1.0), _told_apart(1.00001, 1.0)
+    >>> _distinguished(1.5, 1.0), _distinguished(1.00001, 1.0)
     (('1.5', '1'), ('1.00001', '1'))
     """
     for digits in range(4, 18):

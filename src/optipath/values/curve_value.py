@@ -157,7 +157,8 @@ class CurveValue(Parameter):
         if self.depends_on[0] != other.depends_on[0]:
             raise ParameterError(
                 f"{self.spoken} and {other.spoken} follow from two wavelengths, "
-                f"'{self.depends_on[0].name}' and '{other.depends_on[0].name}'; give both the same one"
+                f"'{self.depends_on[0].name}' and '{other.depends_on[0].name}'; give both the "
+                "same one"
             )
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
         total = CurveSum(tuple(terms), self.offset + sign * other.offset)
