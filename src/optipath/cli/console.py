@@ -16,7 +16,7 @@ from rich.text import Text
 from optipath.errors import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
 
 JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
@@ -146,7 +146,7 @@ def _width() -> int:
     return min(max(columns, _NARROWEST), _WIDEST)
 
 
-def say_descriptions(kind: str, descriptions: Mapping[str, str], *, as_json: bool) -> None:
+def say_descriptions(kind: str, descriptions: dict[str, str], *, as_json: bool) -> None:
     """Print what there is of a kind and what each is, as a table or as JSON."""
     if as_json:
         say_json(descriptions)
