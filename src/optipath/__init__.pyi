@@ -4,9 +4,10 @@ from optipath import plots as plots
 from optipath import surfaces as surfaces
 from optipath.composer.composer import Composer as Composer
 from optipath.elements.coupling import Coupling as Coupling
-from optipath.elements.detectors import Detector as Detector
-from optipath.elements.detectors import Dump as Dump
 from optipath.elements.element import Element as Element
+from optipath.elements.ends import Detector as Detector
+from optipath.elements.ends import Dump as Dump
+from optipath.elements.ends import Source as Source
 from optipath.elements.fresnel import EffectiveIndex as EffectiveIndex
 from optipath.elements.fresnel import FresnelAmplitudes as FresnelAmplitudes
 from optipath.elements.fresnel import effective_index as effective_index
@@ -30,7 +31,6 @@ from optipath.elements.retarders import Retarder as Retarder
 from optipath.elements.retarders import Waveplate as Waveplate
 from optipath.elements.rotators import FaradayRotator as FaradayRotator
 from optipath.elements.rotators import Rotator as Rotator
-from optipath.elements.sources import Source as Source
 from optipath.elements.splitters import BeamSplitter as BeamSplitter
 from optipath.elements.splitters import Combiner as Combiner
 from optipath.elements.splitters import PolarizingBeamSplitter as PolarizingBeamSplitter

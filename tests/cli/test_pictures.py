@@ -13,7 +13,8 @@ import pytest
 import optipath as op
 from optipath.cli.chosen import Chosen
 from optipath.cli.plot_command import KINDS, drawn, request_of
-from optipath.lab import chart, critical_chart
+from optipath.lab import chart
+from optipath.lab import chart as critical_chart
 from optipath.values.text import AxisValues
 from pictures import faults_of, texts_of
 from tables import slow

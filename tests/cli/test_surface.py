@@ -168,7 +168,7 @@ def test_an_interrupt_tells_what_is_done_and_keeps_directions_and_measurements(r
         return out
 
     with monkeypatch.context() as patch:
-        patch.setattr("optipath.cli.progress.photon_bar", bar)
+        patch.setattr("optipath.cli.console.photon_bar", bar)
         out = interrupted("surface flat.toml --incidence 60")
         assert "32,768 photons on one surface" in out
         assert "; interrupted, 1,000,000 were wanted" in out

@@ -14,23 +14,23 @@ from optipath.engines.numpy_engine import NumpyEngine
 from optipath.kernels.catalog import METHODS, REFLECTION
 from optipath.lab import bench as report
 from optipath.lab import chart as chart_module
-from optipath.lab import critical_chart as module
+from optipath.lab import chart as module
 from optipath.lab.bench import Timing, bench
 from optipath.lab.chart import (
     FULL,
     QUICK,
     Effort,
+    critical_chart,
     expected,
     interface_chart,
     kernel_operations,
     many_paths,
     path_chart,
+    peer_times,
     slow_operations,
 )
 from optipath.lab.chart_file import KINDS, chart_text, contenders, read_chart
-from optipath.lab.critical_chart import critical_chart
 from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors, trials
-from optipath.lab.peer_times import peer_times
 from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
 from pictures import faults_of, texts_of

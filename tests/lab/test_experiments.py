@@ -8,8 +8,7 @@ import pytest
 
 import optipath as op
 from optipath.surfaces.experiment_files import experiment_names, load_experiment
-from optipath.surfaces.published_experiment import Experiment, Measurement, Walks
-from optipath.surfaces.reproduction import MEASURES, reproduce
+from optipath.surfaces.reproduction import MEASURES, Experiment, Measurement, Walks, reproduce
 from tables import rows
 
 AT_60, AT_80 = Walks("60 deg", (), None), Walks("80 deg", (), None)

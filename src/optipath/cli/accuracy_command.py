@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
+from optipath.cli.arguments import read_text, write
 from optipath.cli.console import PlainConsole, cell, headed, say
 from optipath.cli.options import StrictCommand
-from optipath.cli.text_files import read_text, write
 
 SAMPLES = click.Option(
     ["--samples"],

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 from rich.table import Table
 
-from optipath.cli.console import JSON, PlainConsole, say_json
+from optipath.cli.console import JSON, PlainConsole, progress_bar, say_json
 from optipath.cli.preset_command import PresetGroup
-from optipath.cli.progress import progress_bar
 from optipath.lab.bench import duration
 from optipath.paths.files.presets import beside, bound_preset, load_preset
 from optipath.values.units import dimension_of

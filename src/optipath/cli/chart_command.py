@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
-from optipath.cli.console import say
+from optipath.cli.arguments import NewFile, check_place, read_text, write
+from optipath.cli.console import reported_progress, say
 from optipath.cli.plot_command import title_of
 from optipath.cli.preset_command import PresetGroup
-from optipath.cli.progress import reported_progress
-from optipath.cli.text_files import NewFile, check_place, read_text, write
 from optipath.paths.files.presets import preset_names
 from optipath.values.files import check_form
 
@@ -110,12 +109,12 @@ def _chart(
         # The extra 'chart'.
         from optipath.lab.chart import (  # noqa: PLC0415
             FULL,
+            check_race,
+            critical_chart,
             expected,
             path_chart,
         )
         from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
-        from optipath.lab.critical_chart import critical_chart  # noqa: PLC0415
-        from optipath.lab.peer_times import check_race  # noqa: PLC0415
 
         if near:
             return critical_chart(path, title, places_near(near), progress=tell, keep=keep)
@@ -170,9 +169,12 @@ def _without_preset(
             from optipath.lab.chart_file import read_chart  # noqa: PLC0415
 
             return read_chart(read_text(source), str(source))
-        from optipath.lab.chart import FULL, interface_chart  # noqa: PLC0415
+        from optipath.lab.chart import (  # noqa: PLC0415
+            FULL,
+            critical_chart,
+            interface_chart,
+        )
         from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
-        from optipath.lab.critical_chart import critical_chart  # noqa: PLC0415 - ditto
 
         if near:
             return critical_chart(

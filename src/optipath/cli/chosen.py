@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from optipath.cli.ranges import axis_argument, axis_faults
+from optipath.cli.arguments import axis_argument, axis_faults
 from optipath.composer.path_values import Values
 from optipath.errors import (
     OptipathError,

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
+from optipath.cli.arguments import NewFile, check_place, refuse_arrays
 from optipath.cli.console import say
 from optipath.cli.preset_command import READS, PresetGroup
-from optipath.cli.ranges import refuse_arrays
-from optipath.cli.text_files import NewFile, check_place
 from optipath.errors import OptipathError, ParameterError, listed, shown, unknown
 from optipath.materials.named_materials import WAVELENGTH, materials_among
 from optipath.paths.files.presets import preset_of_case

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from optipath.cli.arguments import RANGES, refuse_axes
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
 from optipath.cli.options import StrictCommand, WholeHelp, refuse_outer_options
-from optipath.cli.ranges import RANGES, refuse_axes
 from optipath.composer.composer import CHOICES
 from optipath.errors import OptipathError, PresetError, printable
 from optipath.kernels.catalog import METHODS

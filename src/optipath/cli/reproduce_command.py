@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from optipath.surfaces.published_experiment import Experiment
-    from optipath.surfaces.reproduction import Reproduced
+    from optipath.surfaces.reproduction import Experiment, Reproduced
 
 
 def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
@@ -79,7 +78,7 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
 
 def _run(experiment: Experiment, results: list[Reproduced], **options: Any) -> None:
     """Do an experiment again; what has been found stays where Ctrl-C comes."""
-    from optipath.cli.progress import photon_bar  # noqa: PLC0415
+    from optipath.cli.console import photon_bar  # noqa: PLC0415
     from optipath.surfaces.reproduction import reproduce  # noqa: PLC0415
 
     with photon_bar(experiment.name) as progress:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.cli.arguments import grid_of_axes, refuse_arrays
 from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, say_json
 from optipath.cli.outcome import outcome_as_json, outcome_of, print_cases, print_outcome
 from optipath.cli.preset_command import COMPOSING, PresetGroup
-from optipath.cli.ranges import grid_of_axes, refuse_arrays
 from optipath.composer.composer import Composer
 
 if TYPE_CHECKING:

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from optipath.cli.arguments import NewFile, check_place, write
 from optipath.cli.chosen import one_case
 from optipath.cli.console import PlainConsole, cell, headed, wrapped
 from optipath.cli.options import StrictCommand
 from optipath.cli.path_picture import headings, parameter_rows, path_picture
 from optipath.cli.preset_command import no_preset
-from optipath.cli.text_files import NewFile, check_place, write
 from optipath.errors import shown
 from optipath.paths.drawing import draw
 from optipath.paths.files.presets import load_preset, preset_of_case

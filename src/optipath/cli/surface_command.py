@@ -7,11 +7,18 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from optipath.cli.console import JSON, PlainConsole, say, say_descriptions, say_json, title
+from optipath.cli.arguments import NewFile, check_place
+from optipath.cli.console import (
+    JSON,
+    PlainConsole,
+    photon_bar,
+    say,
+    say_descriptions,
+    say_json,
+    title,
+)
 from optipath.cli.options import StrictCommand
-from optipath.cli.progress import photon_bar
 from optipath.cli.surface_options import DECIDE, REDRAWING, SAMPLE, WALKING
-from optipath.cli.text_files import NewFile, check_place
 from optipath.errors import SurfaceError, listed
 from optipath.surfaces.sample_files import load_sample, sample_descriptions
 from optipath.values.files import check_form
@@ -157,7 +164,7 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     """Walk photons from each direction, and tell of them at once, or all in one JSON object."""
     loaded = load_sample(sample)
     # Neither a list of samples nor a wrong name needs numbers.
-    from optipath.cli.progress import photon_bar  # noqa: PLC0415
+    from optipath.cli.console import photon_bar  # noqa: PLC0415
     from optipath.cli.surface_options import walk_arguments  # noqa: PLC0415
     from optipath.cli.surface_output import (  # noqa: PLC0415
         energy_as_json,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.ranges import axis_argument
+from optipath.cli.arguments import axis_argument
 from optipath.errors import SurfaceError, listed, shown
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.paths.files.schema import Faults

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.cli.console import PlainConsole, cell, headed, say, say_json, title
+from optipath.cli.console import PlainConsole, cell, headed, photon_bar, say, say_json, title
 from optipath.cli.outcome import printed_value
-from optipath.cli.progress import photon_bar
 from optipath.cli.surface_options import walk_arguments
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import plain

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from optipath.cli.console import DIGITS, PlainConsole, cell, headed, say, say_json
+from optipath.cli.arguments import refuse_arrays, write
+from optipath.cli.console import DIGITS, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.outcome import (
     FIGURES,
     MOST_ROWS,
@@ -24,9 +25,6 @@ from optipath.cli.outcome import (
     ran,
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
-from optipath.cli.progress import progress_bar
-from optipath.cli.ranges import refuse_arrays
-from optipath.cli.text_files import write
 from optipath.composer.composer import Composer
 from optipath.errors import OptipathError, ParameterError, listed, printable, shown
 from optipath.light.printed import Numbers

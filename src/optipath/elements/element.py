@@ -1,4 +1,4 @@
-"""Element: what every node of a path is."""
+"""Element: what every node of a path is, and chains of elements by ``>>``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, dataclass_transform, overload
 
 from optipath.elements.alone import mueller_alone
-from optipath.elements.chaining import Chainable, NamedElement
 from optipath.elements.coupling import register
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.known_sizes import vanishes
@@ -19,7 +18,7 @@ from optipath.elements.own_element import (
     rows_kernel,
     same_value,
 )
-from optipath.errors import LightError, OptipathError, PathError, listed, unknown
+from optipath.errors import LightError, OptipathError, PathError, listed, shown, unknown
 from optipath.kernels.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
 from optipath.light.array_axes import why_refused
 from optipath.light.light import Light
@@ -46,6 +45,42 @@ if TYPE_CHECKING:
     from optipath.values.agreement import Agreement
     from optipath.values.domains import Domain
     from optipath.values.operands import Operation
+
+
+class Chainable:
+    """What may stand in a chain such as ``Source() >> Polarizer() >> Detector()``."""
+
+    __slots__ = ()
+
+    def __rshift__(self, behind: Any) -> Any:
+        """Return the path in which light goes on from here to what stands behind."""
+        return begun(self) >> behind
+
+    def __rrshift__(self, before: object) -> Any:
+        """Refuse what is not chainable."""
+        return begun(before)
+
+
+def begun(first: object) -> Any:
+    """Return the path of one element, such as a chain begins with."""
+    if isinstance(first, type) and issubclass(first, Chainable):
+        raise PathError(f"{first.__name__} is a class; write {first.__name__}(...) in a chain")
+    if not isinstance(first, Chainable):
+        raise PathError(
+            f"a chain is made of elements, such as Source() >> Polarizer() >> Detector(), "
+            f"and not of {shown(first)}"
+        )
+    from optipath.paths.path_graph import path_of  # noqa: PLC0415 - paths stand above elements
+
+    return path_of(first)
+
+
+@dataclass(frozen=True)
+class NamedElement(Chainable):
+    """An element and what it is called in a chain."""
+
+    name: str
+    element: Any
 
 
 E = TypeVar("E", bound="Element")

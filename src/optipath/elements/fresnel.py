@@ -20,7 +20,7 @@ from optipath.values.angles import CosSin, is_angle, within_right_angle
 from optipath.values.arrays import as_argument, check_broadcast, first_place
 from optipath.values.domains import Domain
 from optipath.values.jax_values import check_known, is_traced, namespace
-from optipath.values.kernel_values import kernel_values
+from optipath.values.operands import kernel_values
 from optipath.values.precision import precision
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from optipath.elements.coupling import KINDS
-from optipath.elements.detectors import Detector, Dump
+from optipath.elements.ends import Detector, Dump, Source
 from optipath.elements.interface import Interface, Mirror
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
@@ -20,7 +20,6 @@ from optipath.elements.polarizers import (
 )
 from optipath.elements.retarders import EllipticalRetarder, Retarder, Waveplate
 from optipath.elements.rotators import FaradayRotator, Rotator
-from optipath.elements.sources import Source
 from optipath.elements.splitters import BeamSplitter, Combiner, PolarizingBeamSplitter
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
 from optipath.errors import PathError, did_you_mean

@@ -15,7 +15,7 @@ from optipath.engines.program import carrying
 from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, reproducible_symbolic
 from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
 from optipath.kernels.carriers.intensities import BoundsCarrier, largest_error
-from optipath.kernels.coherency import is_physical
+from optipath.kernels.carriers.structures import is_physical
 from optipath.kernels.trigonometry import DIGITS
 from optipath.light.underflow import UNDERFLOW
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE

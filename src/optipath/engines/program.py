@@ -24,7 +24,7 @@ from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.intensities import IntensityCarrier
 from optipath.kernels.carriers.structures import FULL, SCALE
 from optipath.kernels.linear_solve import Elimination, is_zero
-from optipath.kernels.vanishing import not_above_rounding
+from optipath.kernels.primitives import not_above_rounding
 from optipath.values.operands import Operation, ResultOf
 
 if TYPE_CHECKING:

@@ -19,12 +19,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.complex_pairs import hypotenuse
 from optipath.kernels.exponential import scaled_hyperbolic
 from optipath.kernels.filters import retarder, turn, turn_back
+from optipath.kernels.primitives import products
 from optipath.kernels.trigonometry import cosine, sine
-from optipath.kernels.vanishing import products
-from optipath.kernels.vectors import common_size, cross, dot, norm, plus, times
+from optipath.kernels.vectors import common_size, cross, dot, hypotenuse, norm, plus, times
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

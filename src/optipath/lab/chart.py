@@ -1,11 +1,13 @@
-"""Chart of speed against accuracy, measured."""
+"""Charts: speed against accuracy, errors next to critical places, times of other software."""
 
 from __future__ import annotations
 
+import json
 import platform
 from collections import Counter
 from dataclasses import dataclass, replace
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,22 +15,23 @@ import numpy as np
 
 from optipath.composer.composer import Composer
 from optipath.composer.path_values import Values
-from optipath.elements.sources import Source
-from optipath.errors import ComposerError, ParameterError
-from optipath.kernels.catalog import REFLECTION
+from optipath.elements.ends import Source
+from optipath.errors import ComposerError, OptipathError, ParameterError, shown
+from optipath.kernels.catalog import METHODS, REFLECTION
 from optipath.kernels.primitives import Primitives
 from optipath.lab.bench import seconds_of, software
-from optipath.lab.chart_file import FORMAT, KINDS, WORDS, contenders
+from optipath.lab.chart_file import CRITICAL, FORMAT, KINDS, WORDS, contenders, is_number
 from optipath.lab.errors import (
     LIMIT,
     Errors,
     interface_errors,
     matrix_numbers,
     path_errors,
+    trial,
     trials,
     worst_and_median,
 )
-from optipath.lab.regions import REGIONS, in_region, interfaces
+from optipath.lab.regions import REGIONS, in_region, interfaces, places_called
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -38,10 +41,12 @@ if TYPE_CHECKING:
 
     from optipath.engines.program import Program
     from optipath.kernels.kernel import Kernel
+    from optipath.lab.regions import CriticalPlace
     from optipath.paths.path_graph import PathGraph
 
     Progress: TypeAlias = Callable[[str, float], object]
     Keep: TypeAlias = Callable[[dict[str, Any]], object]
+    Measured: TypeAlias = Callable[[CriticalPlace, float], dict[str, Errors]]
 
 
 class Effort(NamedTuple):
@@ -367,3 +372,220 @@ def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
         "memory": 8 * numbers * unit["byte"],
     }
     return {name: ns for name, ns in results.items() if ns > 0.0}
+
+
+DTYPE = "float64"
+DISTANCES = tuple(float(10.0**power) for power in np.arange(-12, -0.75, 0.5))
+"""In radians, from 1e-12 to 1e-1: nearer than that float64 has no angles of its own."""
+
+SAMPLES = 8
+
+
+def critical_chart(
+    path: PathGraph | None,
+    title: str,
+    places: Sequence[str],
+    samples: int = SAMPLES,
+    progress: Callable[[str, float], object] = lambda *_: None,
+    keep: Callable[[dict[str, Any]], object] = lambda _: None,
+) -> dict[str, Any]:
+    """Measure every method at each of many distances from places where some fail.
+
+    In float64, NumPy and Stokes vectors; media and sides are drawn at random.
+    """
+    wanted = places_called(places)
+    measured = _of_interface(samples) if path is None else _of_path(path, title, samples)
+    results: list[dict[str, Any]] = []
+    made = {
+        "format": FORMAT,
+        "drawn": CRITICAL,
+        "title": title,
+        "dtype": DTYPE,
+        "eps": float(np.finfo(DTYPE).eps),
+        "samples": samples,
+        "fails_above": LIMIT,
+        "places": results,
+        "versions": software(["numpy"]),
+    }
+    total = len(wanted) * len(DISTANCES)
+    for number, place in enumerate(wanted):
+        entry: dict[str, Any] = {"name": place.name, "called": place.called, "distances": []}
+        entry["errors"] = {}
+        results.append(entry)
+        # From afar, where nothing fails yet.
+        for step, distance in enumerate(reversed(DISTANCES)):
+            progress(f"near {place.called}", (number * len(DISTANCES) + step) / total)
+            off = measured(place, distance)
+            entry["distances"].append(distance)
+            for method, errors in off.items():
+                own = entry["errors"].setdefault(method, {kind: [] for kind in KINDS})
+                for kind in KINDS:
+                    own[kind].append(worst_and_median(getattr(errors, kind))["worst"])
+            done = number * len(DISTANCES) + step + 1
+            keep({**made, "regions": {"measured": done, "of": total}})
+    return made
+
+
+def _of_interface(samples: int) -> Measured:
+    def measured(place: CriticalPlace, distance: float) -> dict[str, Errors]:
+        region = place.region(distance)
+        # As on a path: where S is exactly 0, its error is told over A.
+        keywords: Any = {"count": samples, "against_first": True}
+        return {name: interface_errors(name, region, DTYPE, **keywords) for name in METHODS}
+
+    return measured
+
+
+def _of_path(path: PathGraph, title: str, samples: int) -> Measured:
+    if not interfaces(path):
+        raise OptipathError(
+            f"'{title}' has no interface that can be put near an angle; chart one that has, or "
+            f"one interface alone with --interface"
+        )
+    runners = {}
+    for method in METHODS:
+        runner = Composer(method, dtype=DTYPE, engine="numpy", composing="stokes")
+        try:
+            runner.compose(path)
+        except ComposerError:
+            continue
+        runners[method] = runner
+
+    def measured(place: CriticalPlace, distance: float) -> dict[str, Errors]:
+        there = trial(path, place.region(distance), DTYPE, samples)
+        return {name: path_errors(runner, there, DTYPE) for name, runner in runners.items()}
+
+    return measured
+
+
+_CURE = "give a file that 'benchmarks/peers/race.py --json' wrote"
+_SHARED = {"optipath, numba": "numba", "optipath, numpy": "numpy"}
+"""Who is in both: the name in a race, and the engine in a chart."""
+
+
+class Racer(NamedTuple):
+    """Who took part in a race."""
+
+    name: str
+    ns: float
+    error: float
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is optipath."""
+        return self.name.split(",")[0] == "optipath"
+
+
+class PeerTimes(NamedTuple):
+    """A race beside a chart."""
+
+    racers: tuple[Racer, ...]
+    shared: str
+    ratio: float
+
+
+def check_race(text: str, name: str) -> None:
+    """Refuse what is no race, before a chart is measured for it."""
+    race = _read(text, name)
+    if race["processor"] != (here := processor()):
+        raise OptipathError(
+            f"the processor of '{name}' is {_told(race['processor'])}, and this one is "
+            f"{_told(here)}; run the race and the chart on one machine, one after the other"
+        )
+
+
+def peer_times(text: str, name: str, chart: Mapping[str, Any]) -> PeerTimes:
+    """Return the times of a race that can be compared with a chart."""
+    return _compared(_read(text, name), name, chart)
+
+
+def _read(text: str, name: str) -> Any:
+    """Return a race in which everything is there that is compared."""
+    try:
+        race = json.loads(text)
+    except (ValueError, RecursionError):
+        raise OptipathError(f"'{name}' is no JSON; {_CURE}") from None
+    if not _is_whole(race):
+        raise OptipathError(f"'{name}' is no whole race of this version; {_CURE}")
+    return race
+
+
+def _is_whole(race: Any) -> bool:
+    try:
+        words = [race["processor"], race["path"]["preset"], *race["software"].values()]
+        sizes, errors = [], []
+        for contest in race["contests"].values():
+            words += contest["path"]
+            words += [entry["contender"] for entry in contest["results"]]
+            sizes += [entry["least"] for entry in contest["results"]]
+            errors += [entry["error"] for entry in contest["results"]]
+        return bool(
+            all(isinstance(word, str) for word in words)
+            and sizes
+            and all(is_number(size) and 1e-30 < size < 1e30 for size in sizes)
+            # One of which no digit is right may be told as NaN.
+            and all(is_number(error) and not error < 0 for error in errors)
+        )
+    except (KeyError, TypeError, AttributeError):
+        return False
+
+
+def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
+    machine, versions = chart.get("machine", {}), chart.get("versions", {})
+    faults = []
+    for what, raced, charted in (
+        ("the processor", race["processor"], machine.get("model")),
+        *((each, race["software"].get(each), versions.get(each)) for each in versions),
+        ("the preset", race["path"]["preset"], chart["title"].partition(",")[0]),
+    ):
+        if raced != charted:
+            faults.append(
+                f"{what} of '{name}' is {_told(raced)}, and that of the chart {_told(charted)}; "
+                f"run the race and the chart on one machine, one after the other"
+            )
+    argument = chart.get("parameters", {})
+    results = [
+        entry["results"] for entry in race["contests"].values() if _is_of(entry["path"], argument)
+    ]
+    if not results and not faults:
+        raced = " or ".join(
+            ", ".join(f"{key} {value}" for key, value in entry["path"].items())
+            for entry in race["contests"].values()
+        )
+        faults.append(f"'{name}' is a race of {raced}, and the chart is of other values")
+    if faults:
+        raise OptipathError(*faults)
+    times = {entry["contender"]: float(entry["least"]) for entry in results[0]}
+    for shared, engine in _SHARED.items():
+        charted = [
+            entry["ns"]["least"] for entry in chart["contenders"] if _is_shared(entry, engine)
+        ]
+        if charted and times.get(shared, 0.0) > 0.0:
+            ratio = charted[0] / times[shared]
+            return PeerTimes(tuple(_racer(entry, ratio) for entry in results[0]), shared, ratio)
+    raise OptipathError(
+        f"'{name}' and the chart share no contender whose times can be compared; measure the "
+        f"chart with engine numpy or numba in float64"
+    )
+
+
+def _told(value: Any) -> str:
+    return "not told" if value is None else shown(value)
+
+
+def _is_of(path: Mapping[str, Any], arguments: Mapping[str, str]) -> bool:
+    return all(arguments.get(name) == str(value) for name, value in path.items())
+
+
+def _is_shared(entry: Mapping[str, Any], engine: str) -> bool:
+    own = entry["method"], entry["dtype"], entry["composing"], entry["engine"]
+    return own == ("stable", "float64", "stokes", engine)
+
+
+def _racer(entry: Mapping[str, Any], ratio: float) -> Racer:
+    error = float(entry["error"])
+    return Racer(
+        str(entry["contender"]),
+        float(entry["least"]) * ratio,
+        min(max(error, 1e-20), 1.0) if isfinite(error) else 1.0,
+    )

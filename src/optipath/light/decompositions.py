@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault, shown
-from optipath.kernels.coherency import FROM_MUELLER, TO_MUELLER
+from optipath.kernels.carriers.structures import FROM_MUELLER, TO_MUELLER
 from optipath.light.polarization_state import norm
 from optipath.light.underflow import normalise_exponent, times_two_to
 from optipath.values.arrays import array_of

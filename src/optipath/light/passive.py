@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import LightError, shown
-from optipath.kernels.coherency import is_physical
+from optipath.kernels.carriers.structures import is_physical
 from optipath.kernels.primitives import FLOAT, NUMPY
 from optipath.light import decompositions
 from optipath.light.decompositions import rounding_of as spacing_of

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.elements.detectors import Detector
-from optipath.elements.sources import Source
+from optipath.elements.ends import Detector, Source
 from optipath.elements.vertex_chain import of_chain, pieces_of
 from optipath.elements.vertex_place import are_off, deviation, normal_faults
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex

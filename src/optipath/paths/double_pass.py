@@ -7,15 +7,14 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from optipath.composer.placement import is_zero
-from optipath.elements.chaining import Chainable, begun
+from optipath.elements.element import Chainable, begun
 from optipath.elements.frame_checks import azimuth_at
 from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_element import couplings_of
 from optipath.errors import PathError, shown
 from optipath.materials.index_domains import FOLLOWS
-from optipath.paths.joining import name_by_kind
+from optipath.paths.joining import name_by_kind, natural_of
 from optipath.paths.path_graph import PathGraph
-from optipath.paths.port_names import natural_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:

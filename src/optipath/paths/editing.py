@@ -14,14 +14,20 @@ from optipath.composer.placement import (
     turn_text,
 )
 from optipath.composer.wiring import Wiring, link_text, taken_out
-from optipath.elements.chaining import NamedElement
-from optipath.elements.element import Element
+from optipath.elements.element import Element, NamedElement
 from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import PathError, collecting, did_you_mean, listed, shown, there_are
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
-from optipath.paths.joining import are_alike, name_by_kind, turn_more
-from optipath.paths.port_names import check_port, element_at, find_port, natural_port
+from optipath.paths.joining import (
+    are_alike,
+    check_port,
+    element_at,
+    find_port,
+    name_by_kind,
+    natural_port,
+    turn_more,
+)
 from optipath.values.use import stored_value
 
 if TYPE_CHECKING:

@@ -13,17 +13,15 @@ from optipath.composer.composer import Composer
 from optipath.composer.path_values import parameters_of
 from optipath.composer.validate import validate
 from optipath.composer.wiring import KEEPABLE, LOOPS
-from optipath.elements.chaining import Chainable, NamedElement, begun
-from optipath.elements.detectors import Detector
-from optipath.elements.element import Element
+from optipath.elements.element import Chainable, Element, NamedElement, begun
+from optipath.elements.ends import Detector
 from optipath.errors import ComposerError, ParameterError, PathError, needing, shown, unknown
 from optipath.materials.named_materials import is_by_wavelength, is_curve
 from optipath.paths import editing
 from optipath.paths.binding import cases_left
 from optipath.paths.editing import add, connect, disconnect, edit
-from optipath.paths.joining import append, as_chain, join, name_by_kind
+from optipath.paths.joining import append, as_chain, check_port, element_at, join, name_by_kind
 from optipath.paths.place_choice import PlaceChoice, choice_faults, with_arguments
-from optipath.paths.port_names import check_port, element_at
 from optipath.paths.reversed import reversed_graph
 from optipath.values.arrays import entries_of, same
 from optipath.values.cases import Case
@@ -33,7 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from os import PathLike
 
-    from optipath.elements.sources import Source
+    from optipath.elements.ends import Source
     from optipath.light.frame import Frame
     from optipath.light.light import Light
     from optipath.light.mueller import Mueller

@@ -11,8 +11,7 @@ from optipath.composer.wiring import Wiring
 from optipath.errors import ParameterError, PathError, collecting, shown, unknown
 from optipath.paths.binding import bind
 from optipath.paths.editing import insert, remove
-from optipath.paths.joining import turn_to, turns_to
-from optipath.paths.port_names import element_at, find_port, natural_port
+from optipath.paths.joining import element_at, find_port, natural_port, turn_to, turns_to
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -14,13 +14,12 @@ from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
 from optipath.composer.wiring import Wiring, fed_by, link_text, without_tap
 from optipath.elements.boundary import BoundaryElement
-from optipath.elements.detectors import Detector, Dump
 from optipath.elements.element import Element
+from optipath.elements.ends import Detector, Dump, Source
 from optipath.elements.known_sizes import vanishes
-from optipath.elements.sources import Source
 from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
-from optipath.paths.port_names import find_port
+from optipath.paths.joining import find_port
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:

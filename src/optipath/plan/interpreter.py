@@ -19,10 +19,13 @@ from optipath.engines.execute import evaluated, execute, whole_matrices
 from optipath.engines.path_formula import slack_of
 from optipath.engines.program import LoopSolver
 from optipath.errors import LoopWarning, ParameterError
-from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
+from optipath.kernels.carriers.carrier import (
+    JonesCarrier,
+    MatrixCarrier,
+    ScaledCarrier,
+    StokesCarrier,
+)
 from optipath.kernels.carriers.intensities import BoundsCarrier
-from optipath.kernels.carriers.jones import JonesCarrier
-from optipath.kernels.carriers.scaled import ScaledCarrier
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.double_double import DoubleDouble, twice
 from optipath.kernels.primitives import NUMPY

@@ -17,9 +17,8 @@ from optipath.engines.formula import (
     of_angle,
 )
 from optipath.engines.program import carrying
-from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
+from optipath.kernels.carriers.carrier import MatrixCarrier, ScaledCarrier, StokesCarrier
 from optipath.kernels.carriers.noise import NoiseCarrier
-from optipath.kernels.carriers.scaled import ScaledCarrier
 from optipath.kernels.exponential import reproducible_numpy
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import DIGITS

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.engines.float_engine import FLOAT_ENGINE
+from optipath.engines.engine import FLOAT_ENGINE
 from optipath.values.curve_value import computed_values
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD

@@ -13,10 +13,10 @@ from optipath.plots.parameter_curves import curve as curve
 from optipath.plots.parameter_curves import quantity_map as quantity_map
 from optipath.plots.plane_curves import in_plane as in_plane
 from optipath.plots.poincare_sphere import poincare as poincare
+from optipath.plots.poincare_sphere import poincare_path as poincare_path
 from optipath.plots.reflection_curves import reflection as reflection
 from optipath.plots.scene.bench import bench as bench
 from optipath.plots.scene.geometry import geometry as geometry
-from optipath.plots.sphere_trail import poincare_path as poincare_path
 from optipath.plots.stokes_bars import stokes as stokes
 
 def check_matplotlib() -> None: ...

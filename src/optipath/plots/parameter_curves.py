@@ -12,8 +12,14 @@ from optipath.errors import ParameterError
 from optipath.plots.axes import fitting_text, label_axes, own_axes
 from optipath.plots.colors import INK
 from optipath.plots.drawn_curves import draw_curves, tell_missing, units_of
-from optipath.plots.fine_steps import START, fine_steps
-from optipath.plots.light_at_detector import axis_of, quantities_at, reads_of, varied
+from optipath.plots.light_at_detector import (
+    START,
+    axis_of,
+    fine_steps,
+    quantities_at,
+    reads_of,
+    varied,
+)
 from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
 from optipath.plots.text import head
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import OptipathError, PresetError, SurfaceError, did_you_mean, listed, shown
 from optipath.paths.files.schema import FORMAT, Faults, as_meant, readable, type_faults
 from optipath.paths.files.toml import file_of, names_in, parsed, presets_folder, text_of
-from optipath.surfaces.published_experiment import Experiment, Measurement, Walks
-from optipath.surfaces.reproduction import ANY_AZIMUTH, MEASURES
+from optipath.surfaces.reproduction import ANY_AZIMUTH, MEASURES, Experiment, Measurement, Walks
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_files import load_sample
 from optipath.surfaces.sample_layers import depends_on_wavelength

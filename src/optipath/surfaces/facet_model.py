@@ -19,7 +19,7 @@ from optipath.surfaces.sample_layers import depends_on_wavelength
 from optipath.values.arrays import check_broadcast, first_place
 from optipath.values.domains import Domain
 from optipath.values.jax_values import check_known, is_traced, namespace
-from optipath.values.kernel_values import kernel_values
+from optipath.values.operands import kernel_values
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:

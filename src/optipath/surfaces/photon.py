@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from optipath.elements.detectors import Detector
+from optipath.elements.ends import Detector, Source
 from optipath.elements.interface import Interface
-from optipath.elements.sources import Source
 from optipath.errors import SurfaceError, shown
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.fresnel.boundary import lossless_boundary

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from optipath.elements.detectors import Detector
+from optipath.elements.ends import Detector, Source
 from optipath.elements.interface import Interface
 from optipath.elements.layer_stack import LayerStack
-from optipath.elements.sources import Source
 from optipath.errors import SurfaceError, shown
 from optipath.materials.quantities import INCIDENCE
 from optipath.paths.path_graph import PathGraph

@@ -11,7 +11,7 @@ from optipath.composer.composer import Composer
 from optipath.errors import OptipathError, ParameterError, collecting, shown, unknown
 from optipath.materials.material import Material
 from optipath.plan.answers import only
-from optipath.sweeps.checked_axes import unknown_names
+from optipath.sweeps.axes import unknown_names
 from optipath.sweeps.first_order import changes_of, nonlinearity_of, slopes_of, spread_of
 from optipath.sweeps.light_figures import LightAt
 from optipath.sweeps.monte_carlo import samples_at_once, spread_of_samples

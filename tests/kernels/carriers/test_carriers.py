@@ -11,12 +11,15 @@ from hypothesis import strategies as st
 import optipath as op
 from optipath.engines.execute import execute
 from optipath.kernels.carriers.carried import add, carry, stokes_of
-from optipath.kernels.carriers.carrier import Carrier, MatrixCarrier, StokesCarrier
+from optipath.kernels.carriers.carrier import (
+    Carrier,
+    JonesCarrier,
+    MatrixCarrier,
+    ScaledCarrier,
+    StokesCarrier,
+)
 from optipath.kernels.carriers.intensities import BoundsCarrier, IntensityCarrier
-from optipath.kernels.carriers.jones import JonesCarrier
-from optipath.kernels.carriers.scaled import ScaledCarrier
-from optipath.kernels.carriers.structures import BLOCK, ROTATION, SCALE
-from optipath.kernels.coherency import is_physical
+from optipath.kernels.carriers.structures import BLOCK, ROTATION, SCALE, is_physical
 from optipath.kernels.primitives import FLOAT, NUMPY
 from optipath.kernels.trigonometry import cosine, sine
 from random_matrices import jones, of_jones, unit_vectors

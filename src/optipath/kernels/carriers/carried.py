@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from optipath.kernels.vanishing import not_below_rounding, products, vanishes
+from optipath.kernels.primitives import not_below_rounding, products, vanishes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -1,14 +1,20 @@
-"""Carriers: how light is carried from element to element, as Stokes vectors or matrix columns."""
+"""Carriers: light along a path as Stokes vectors, matrix or Jones columns, or with an exponent.
+
+What comes out is never polarised by more than 100 %, however long the path; but S1 is the
+difference of the intensities along x and y, and a matrix that depolarises has no place here.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from functools import reduce
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.carriers.carried import (
     Carried,
     Components,
     add,
+    along_axes,
     at_most_polarised,
     carry,
     leaving,
@@ -16,7 +22,8 @@ from optipath.kernels.carriers.carried import (
     parts_of,
     stokes_of,
 )
-from optipath.kernels.vanishing import products
+from optipath.kernels.carriers.structures import Column, Columns
+from optipath.kernels.primitives import products
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -122,3 +129,167 @@ def _whole(parts: Parts) -> Components:
         return parts[0], 0.0, 0.0, 0.0
     x, y, s2, s3 = (*parts, 0.0, 0.0)[:4]
     return x + y, x - y, s2, s3
+
+
+JonesState: TypeAlias = tuple[Columns, Any]
+"""The fields are the first times two to the power of the second."""
+
+
+class JonesCarrier(Carrier):
+    """Carries light as two Jones columns, with an integer exponent.
+
+    >>> from optipath.kernels.carriers.structures import SCALE
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> carrier = JonesCarrier(FLOAT)
+    >>> light = carrier.act(SCALE, (0.25,), carrier.emit((1.0, 0.0, 0.0, 1.0)))
+    >>> stokes, exponent = carrier.read(light)
+    >>> [round(x * 2.0**exponent, 12) for x in stokes]
+    [0.25, 0.0, 0.0, 0.25]
+    """
+
+    def __init__(self, xp: Primitives) -> None:
+        super().__init__(xp)
+        self._incoherent = ScaledCarrier(xp)
+
+    def emit(self, stokes: Components, count: int = 4) -> JonesState:
+        del count  # A column is carried whole.
+        return self._resolved(_columns(self.xp, carry(self.xp, stokes)), 0)
+
+    def act(
+        self, structure: Structure, numbers: Numbers, state: JonesState, count: int = 4
+    ) -> JonesState:
+        del count
+        columns, exponent = state
+        return self._resolved(structure.jones_for(self.xp)(numbers, columns), exponent)
+
+    def add(self, first: JonesState, second: JonesState) -> JonesState:
+        carried, exponent = self._incoherent.add(self._carried(first), self._carried(second))
+        # Fields have half the exponent of intensities, which is made even.
+        odd = exponent % 2
+        carried = tuple(self.xp.ldexp(component, odd) for component in carried)
+        return self._resolved(_columns(self.xp, carried), (exponent - odd) // 2)
+
+    def read(self, state: JonesState, count: int = 4) -> tuple[Components, Any]:
+        del count
+        carried, exponent = self._carried(state)
+        return stokes_of(self.xp, carried), exponent
+
+    def _carried(self, state: JonesState) -> tuple[Carried, Any]:
+        columns, exponent = state
+        x, y, s2, s3 = (sum(parts) for parts in zip(*map(_pure, columns), strict=True))
+        carried = self.xp.minimum(x, y), x - y, s2, s3
+        return at_most_polarised(self.xp, carried), 2 * exponent
+
+    def _resolved(self, columns: Columns, exponent: Any) -> JonesState:
+        xp = self.xp
+        size = reduce(xp.maximum, (xp.absolute(part) for column in columns for part in column))
+        shift = xp.scaling(size)
+        first, second = (tuple(xp.ldexp(part, -shift) for part in column) for column in columns)
+        return (first, second), exponent + shift
+
+
+def _pure(column: Column) -> tuple[Any, ...]:
+    """Return the intensities along x and y, and S2 and S3, of one column."""
+    a, b, c, d = column
+    return a * a + b * b, c * c + d * d, 2.0 * (a * c + b * d), 2.0 * (a * d - b * c)
+
+
+def _columns(xp: Primitives, carried: Carried) -> Columns:
+    """Return the columns of a light: the Cholesky factor of its coherency matrix."""
+    sqrt, where = xp.sqrt, xp.where
+    x, y = along_axes(xp, carried)
+    _, _, s2, s3 = carried
+    re, im = 0.5 * s2, 0.5 * s3
+    along_x = x >= y
+    strong = sqrt(where(along_x, x, y))
+    divisor = where(strong > 0.0, strong, 1.0)
+    re, im = re / divisor, im / divisor
+    rest = sqrt(xp.maximum(where(along_x, y, x) - (re * re + im * im), 0.0))
+    first = (
+        where(along_x, strong, re),
+        where(along_x, 0.0, -im),
+        where(along_x, re, strong),
+        where(along_x, im, 0.0),
+    )
+    # Not a plain 0, which has no precision of its own.
+    none = 0.0 * rest
+    return first, (where(along_x, none, rest), none, where(along_x, rest, none), none)
+
+
+_DARK = -(2**30)
+"""An exponent below those of all light, of the size of integers that scaling gives."""
+
+ScaledState: TypeAlias = tuple[Carried, Any]
+"""The light is the first times two to the power of the second."""
+
+
+class ScaledCarrier(Carrier):
+    """Carries light along long paths.
+
+    After every element the light is brought near 1 and its power of two is kept as an
+    integer; and what rounding has polarised beyond 100 % is taken back, lest it
+    gathers over thousands of elements.
+
+    >>> from optipath.kernels.carriers.structures import SCALE
+    >>> from optipath.kernels.primitives import FLOAT
+    >>> carrier = ScaledCarrier(FLOAT)
+    >>> state = carrier.emit((1.0, 0.0, 0.0, 0.0))
+    >>> for _ in range(4):
+    ...     state = carrier.act(SCALE, (1e-300,), state)
+    >>> _, exponent = carrier.read(state)
+    >>> exponent
+    -3987
+    """
+
+    def emit(self, stokes: Components, count: int = 4) -> ScaledState:
+        return self._resolved(carry(self.xp, stokes, count), 0)
+
+    def act(
+        self, structure: Structure, numbers: Numbers, state: ScaledState, count: int = 4
+    ) -> ScaledState:
+        carried, exponent = state
+        return self._resolved(structure.made_for(self.xp)(numbers, carried, count), exponent)
+
+    def add(self, first: ScaledState, second: ScaledState) -> ScaledState:
+        (light, exponent), (other, of_other) = first, second
+        # Dark light has no exponent of its own.
+        exponent = self.xp.where(_size(self.xp, light) > 0.0, exponent, of_other)
+        of_other = self.xp.where(_size(self.xp, other) > 0.0, of_other, exponent)
+        most = self.xp.maximum(exponent, of_other)
+        light = _times_two_to(self.xp, light, exponent - most)
+        other = _times_two_to(self.xp, other, of_other - most)
+        return self._resolved(add(self.xp, light, other), most)
+
+    def meet(
+        self, solver: SolvedLoop, arriving: Mapping[int, ScaledState]
+    ) -> dict[int, ScaledState]:
+        most = reduce(self.xp.maximum, (self._exponent(state) for state in arriving.values()))
+        most = self.xp.where(most > _DARK, most, 0)
+        parts = {}
+        for junction, (carried, exponent) in arriving.items():
+            light = _times_two_to(self.xp, carried, exponent - most)
+            parts[junction] = parts_of(self.xp, light, solver.count(junction))
+        lights = solver.lights(parts).items()
+        return {k: self._resolved(light_of(self.xp, result), most) for k, result in lights}
+
+    def _exponent(self, state: ScaledState) -> Any:
+        """Return the exponent of light, below all others where it is dark."""
+        carried, exponent = state
+        return self.xp.where(_size(self.xp, carried) > 0.0, exponent, _DARK)
+
+    def read(self, state: ScaledState, count: int = 4) -> tuple[Components, Any]:
+        carried, exponent = state
+        return stokes_of(self.xp, leaving(self.xp, carried, count)), exponent
+
+    def _resolved(self, carried: Carried, exponent: Any) -> ScaledState:
+        carried = at_most_polarised(self.xp, carried)
+        shift = self.xp.scaling(_size(self.xp, carried))
+        return _times_two_to(self.xp, carried, -shift), exponent + shift
+
+
+def _size(xp: Primitives, carried: Carried) -> Any:
+    return reduce(xp.maximum, map(xp.absolute, carried))
+
+
+def _times_two_to(xp: Primitives, carried: Carried, power: Any) -> Any:
+    return tuple(xp.ldexp(component, power) for component in carried)

@@ -15,15 +15,14 @@ from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels.carriers.carried import along_axes, stokes_of
-from optipath.kernels.carriers.carrier import Carrier
-from optipath.kernels.carriers.scaled import ScaledCarrier
+from optipath.kernels.carriers.carrier import Carrier, ScaledCarrier
 from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, POWERS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.kernels.carriers.carried import Components, SolvedLoop
-    from optipath.kernels.carriers.scaled import ScaledState
+    from optipath.kernels.carriers.carrier import ScaledState
     from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.primitives import Primitives
 

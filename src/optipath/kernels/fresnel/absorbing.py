@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.complex_pairs import hypotenuse
 from optipath.kernels.fresnel.boundary import InhomogeneousBoundary, inhomogeneous_boundary
 from optipath.kernels.fresnel.stable import Slant, in_plane, is_there, sum_squared, through_and_back
+from optipath.kernels.vectors import hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.complex_pairs import brought_near_one, complex_root, from_within, hypotenuse
+from optipath.kernels.vectors import brought_near_one, complex_root, from_within, hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable

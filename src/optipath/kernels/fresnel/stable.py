@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.complex_pairs import hypotenuse
 from optipath.kernels.fresnel.boundary import (
     Boundary,
     absorbing_boundary,
     denser_boundary,
     lossless_boundary,
 )
+from optipath.kernels.vectors import hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.complex_pairs import complex_root, hypotenuse
 from optipath.kernels.fresnel.absorbing import phases_through, slant_of
 from optipath.kernels.fresnel.boundary import inhomogeneous_boundary
 from optipath.kernels.fresnel.stable import sum_squared
+from optipath.kernels.vectors import complex_root, hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -35,9 +35,9 @@ from optipath.paths.files.values import (
     which_pair,
 )
 from optipath.paths.files.writer import as_toml, complex_domains
+from optipath.paths.joining import find_port
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.place_choice import PlaceChoice, choice_faults
-from optipath.paths.port_names import find_port
 from optipath.values.cases import Case, name_faults
 from optipath.values.domains import Choice, Domain, pair_in
 from optipath.values.messages import of_files, units_are_written

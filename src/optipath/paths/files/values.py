@@ -23,10 +23,15 @@ from optipath.materials.index_domains import (
 )
 from optipath.materials.material import K, Material
 from optipath.materials.quantities import AMPLITUDE, ANGLE, SpectralDomain
-from optipath.paths.files.curve_tables import FORMS, decode_curve, is_curve
+from optipath.paths.files.curve_tables import (
+    FORMS,
+    decode_curve,
+    is_curve,
+    material_table,
+    number_table,
+)
 from optipath.paths.files.schema import Faults, as_meant, unknown_keys
 from optipath.paths.files.spectrum_tables import decode_spectrum
-from optipath.paths.files.written_curves import material_table, number_table
 from optipath.values.arrays import array_of
 from optipath.values.curve_value import CurveValue
 from optipath.values.domains import (

@@ -19,7 +19,7 @@ from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.scene.drawn_scene import Label, draw_head, draw_turn, outline, place_labels
 from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
 from optipath.plots.scene.placing import angles_at, has_axis
-from optipath.plots.scene.values import NumberPath, number, quantity_text, shown_incidence
+from optipath.plots.scene.scene import NumberPath, number, quantity_text, shown_incidence
 from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter

@@ -13,14 +13,18 @@ from optipath.elements.vertices import ChainVertex
 from optipath.plots.light_texts import ellipse_points
 from optipath.plots.scene.placing import DrawnLink, Placing, angles_at, has_axis, incidence_at
 from optipath.plots.scene.scene import (
+    NumberPath,
     Scene,
     SceneAngle,
     SceneFrame,
     SceneNode,
     ScenePlane,
     SceneRay,
+    ShownAngle,
+    number,
+    shown_angle,
+    shown_incidence,
 )
-from optipath.plots.scene.values import NumberPath, ShownAngle, number, shown_angle, shown_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import numpy as np
 from optipath.composer.placement import azimuth_of, frame_at
 from optipath.composer.wiring import link_text
 from optipath.elements.boundary import BoundaryElement, angles_of, operands_of
-from optipath.elements.detectors import Detector, Terminal
+from optipath.elements.ends import Detector, Terminal
 from optipath.elements.interface import Mirror
 from optipath.elements.medium import Medium
 from optipath.elements.rotators import FaradayRotator, Rotator
@@ -18,7 +18,7 @@ from optipath.elements.vertex_chain import VerticesByAngles, vertices_from_angle
 from optipath.elements.vertices import ChainVertex
 from optipath.kernels.vertex_chain import Event
 from optipath.materials.material import Material
-from optipath.plots.scene.values import number
+from optipath.plots.scene.scene import number
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements.element import Element
     from optipath.light.frame import Frame
-    from optipath.plots.scene.values import NumberPath
+    from optipath.plots.scene.scene import NumberPath
 
     Array = npt.NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""Source: where light begins."""
+"""Ends of light: sources, detectors and dumps."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ from optipath.materials.quantities import (
     INTENSITY,
     NON_NEGATIVE,
     Intensity,
+    Reads,
     Spectral,
     StokesState,
     YesOrNo,
 )
+from optipath.materials.spectrum import check_response
 from optipath.values.operands import Operation
 
 if TYPE_CHECKING:
@@ -84,3 +86,60 @@ class Source(Element, kind="source"):
             kernel = POLARIZED
             arguments += numbers_of(self.stokes, self.domains()["stokes"])
         return (Coupling(None, "out", (Operation(kernel, arguments),)),)
+
+
+class Terminal(Element):
+    """Where light ends; several links may arrive, and their light adds incoherently."""
+
+    outputs: ClassVar[tuple[str, ...]] = ()
+    natural: ClassVar[str] = ""
+    merges: ClassVar[bool] = True
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return no way out."""
+        return ()
+
+
+class Detector(Terminal, kind="detector"):
+    """Reads the light that arrives, in the frame it arrives in.
+
+    Parameters
+    ----------
+    reads : {"stokes", "linear", "intensity"}, optional
+        All four components, S0 to S2, or S0 alone. What is not read is NaN.
+    response : Spectrum, float or array_like, optional
+        What it reads of the light that arrives, at each wavelength of a run; not negative, and of
+        any unit, so that it may be above 1. All of the light, without one.
+
+    Examples
+    --------
+    >>> Detector().reads
+    'stokes'
+    """
+
+    detects: ClassVar[bool] = True
+
+    reads: Reads = "stokes"
+    response: Spectral = None
+
+    def __post_init__(self) -> None:
+        """Refuse besides a spectrum that is power in bins or lines, and no response."""
+        super().__post_init__()
+        check_response("Detector response", self.response)
+
+
+class Dump(Terminal, kind="dump"):
+    """Takes light out of the path on purpose, and counts it.
+
+    Parameters
+    ----------
+    reads : {"stokes", "linear", "intensity"}, optional
+        As `Detector` takes it.
+
+    Examples
+    --------
+    >>> Dump().reads
+    'stokes'
+    """
+
+    reads: Reads = "stokes"

@@ -1,13 +1,17 @@
-"""Ranges, lists and columns of files that are given by options: ``--delta 0:90:91``."""
+"""Arguments of commands: ranges, lists, columns and files."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+import click
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.grid import SweepGrid, sweep_axis
+from optipath.values.files import bytes_of, message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
 
@@ -80,3 +84,41 @@ def refuse_arrays(path: PathGraph, axes: Collection[str]) -> None:
     ]
     if faults:
         raise ParameterError(*faults)
+
+
+class NewFile(click.Path):
+    """The name of a file to be written: not empty, and no folder."""
+
+    def __init__(self) -> None:
+        super().__init__(dir_okay=False, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path; refuse an empty one, which would be the folder one stands in."""
+        if not str(value) or "\0" in str(value):
+            self.fail(f"{shown(str(value))} is no name of a file.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+def read_text(file: Path) -> str:
+    """Return the text of a file."""
+    try:
+        return bytes_of(file).decode("utf-8")
+    except OSError as error:
+        raise click.ClickException(f"'{file}' cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise click.ClickException(f"'{file}' is no text in UTF-8") from None
+
+
+def check_place(file: Path) -> None:
+    """Refuse a file that cannot be written, before the work for it is done."""
+    folder = file.absolute().parent
+    if not folder.is_dir():
+        raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
+    if not all(os.access(place, os.W_OK) for place in (folder, file) if place.exists()):
+        raise click.ClickException(f"'{file}' cannot be written: permission denied")
+
+
+def write(file: Path, content: bytes) -> None:
+    """Write a file, whole or not at all."""
+    with message_of(file, click.ClickException, ""):
+        write_file(file, content)
