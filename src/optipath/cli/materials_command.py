@@ -200,10 +200,7 @@ class MaterialReport:
 def reported_at(
     name: str, page: str, wavelengths: Sequence[str], incidence: str, own: Mapping[str, Any]
 ) -> MaterialReport:
-    """Return what a material is at wavelengths.
-
-    Units: incidence in degrees.
-    """
+    """Return what a material is at wavelengths. Units: incidence in degrees."""
     if not name:
         raise MaterialError("--at needs the name of a material: optipath materials gold --at ...")
     faults: list[str] = []

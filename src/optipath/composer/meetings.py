@@ -284,10 +284,7 @@ class OnePlane(Agreement):
 
 
 def turn_text(operands: Any, turns: Any) -> str:
-    """Write what turns add up to, and whose values they are.
-
-    Units: turns in radians.
-    """
+    """Write what turns add up to, and whose values they are. Units: turns in radians."""
     each = [text_of(o, math.degrees(t), " deg") for o, t in zip(operands, turns, strict=True)]
     if len(each) == 1:
         return each[0]

@@ -65,10 +65,7 @@ def overflow(per_metre: Any, length: Any) -> bool:
 
 
 def over_a_length(domain: Domain, length: float) -> Domain:
-    """Return the domain of what floats hold times a length.
-
-    Units: length in metres.
-    """
+    """Return the domain of what floats hold times a length. Units: length in metres."""
     most = np.finfo(np.float64).max / length
     name = f"{domain.name}, over a length of {length:g} m,"
     return replace(domain, name=name, minimum=max(domain.minimum, -most), maximum=most)

@@ -403,10 +403,7 @@ def normal_faults(
 
 
 def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_]:
-    """Return which chains have a normal that is not along that of its vertex.
-
-    Shape: returns (...).
-    """
+    """Return which chains have a normal that is not along that of its vertex. Shape (...)."""
     count = normals.shape[-2]
     tolerance = max(_TOLERANCE, 2.0 * rounding_of(normals))
     batch = np.broadcast_shapes(chains.shape[:-2], normals.shape[:-2], sides.shape[:-2])

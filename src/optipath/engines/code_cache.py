@@ -242,10 +242,7 @@ CURE = "set OPTIPATH_CACHE to a folder of your own"
 
 
 class Entry(NamedTuple):
-    """A file of the cache.
-
-    Units: used in seconds.
-    """
+    """A file of the cache. Units: used in seconds."""
 
     file: Path
     length: int

@@ -321,10 +321,7 @@ def filtering(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
 
 
 def retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
-    """Return what a retarder does.
-
-    Units: retardance in radians.
-    """
+    """Return what a retarder does. Units: retardance in radians."""
     # The field is exp(-iwt): what falls behind gains a positive phase.
     slow = mpmath.mpc(*cos_sin(retardance))
     return _turned(diagonal(1, slow), read.angle(angle, 2))

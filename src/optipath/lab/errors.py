@@ -114,10 +114,7 @@ def interface_errors(
 
 
 def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
-    """Return (A, B, C, S) as a kernel computes them.
-
-    Shape: returns (samples, 4).
-    """
+    """Return (A, B, C, S) as a kernel computes them. Shape: returns (samples, 4)."""
     outside = np.ones((), samples.n.dtype)
     with np.errstate(all="ignore"):
         numbers = kernel.made_for(NUMPY)(outside, *samples)

@@ -154,10 +154,7 @@ class Reader:
         return cos_sin(exact_angle(angle))[operand.part == "sin"]
 
     def move(self, angle: Any, turns: int) -> Any:
-        """Return an angle, moved if it is the one.
-
-        Units: angle, the result in radians.
-        """
+        """Return an angle, moved if it is the one. Units: angle, the result in radians."""
         self.count += 1
         if self.count - 1 != self.moved:
             return angle

@@ -259,10 +259,7 @@ def interfaces(path: PathGraph) -> list[str]:
 
 @dataclass(frozen=True)
 class CriticalPlace:
-    """An angle of incidence that methods fail next to.
-
-    Units: draw in radians.
-    """
+    """An angle of incidence that methods fail next to. Units: draw in radians."""
 
     name: str
     called: str

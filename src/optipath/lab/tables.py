@@ -172,10 +172,7 @@ ANYWHERE = Region("anywhere", _anywhere)
 
 
 class WorstCase(NamedTuple):
-    """The worst case that was found.
-
-    Units: error in ulp.
-    """
+    """The worst case that was found. Units: error in ulp."""
 
     error: float
     n: float

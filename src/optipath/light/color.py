@@ -195,10 +195,7 @@ _ROUNDING = 1e-6
 
 
 def tristimulus(light: Light, white: Any, observer: str, outside: str) -> Array:
-    """Return X, Y and Z of spectral light; see `Light.to_xyz`.
-
-    Shape: returns (..., 3).
-    """
+    """Return X, Y and Z of spectral light; see `Light.to_xyz`. Shape: returns (..., 3)."""
     standard = observer_called(observer)
     total, power = _sums(light, standard, outside)
     warn_of(light, standard, outside)

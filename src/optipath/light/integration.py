@@ -71,10 +71,7 @@ def _varies(numbers: Array, axis: int) -> bool:
 
 
 def integrated(light: Light, response: Any = None, edges: Any = None) -> tuple[Any, Any, Any, Any]:
-    """Return light added up over its wavelengths, as `Light.of` takes it.
-
-    Shape: returns stokes (..., 4).
-    """
+    """Return light added up over its wavelengths, as `Light.of` takes it. Shape stokes (..., 4)."""
     ends = None if edges is None else _edges(edges)
     one_bin = ends is not None and ends.size == 2
     light, grid, axis = _along_bins(light, one_bin=one_bin)

@@ -202,10 +202,7 @@ def check_becomes_light(matrix: Array, noise: Array, arriving: Array, made: Arra
 
 
 def nan_where_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
-    """Return light that JAX traces, NaN where it is none, with its slopes.
-
-    Shape: returns (..., 4).
-    """
+    """Return light that JAX traces, NaN where it is none, with its slopes. Shape (..., 4)."""
     xp = namespace(made)
     # A product, since a choice would have slopes of 0.
     share = xp.where(becomes_no_light(matrix, noise, arriving, made), np.nan, 1.0)

@@ -42,10 +42,7 @@ def parts_by_name(
     interpolation: str,
     extrapolate: str,
 ) -> dict[str, Any]:
-    """Return n and k of a material by its name.
-
-    Units: wavelength in metres.
-    """
+    """Return n and k of a material by its name. Units: wavelength in metres."""
     arguments = {part: value for part, value in own.items() if value is not None}
     if isinstance(name, str) and alike(name) == VACUUM and not page:
         return {"n": 1.0, "k": 0.0, **arguments}
@@ -210,10 +207,7 @@ _TYPE = re.compile(r"tabulated (nk|n|k)|formula (\d{1,3})")
 
 
 class PageEntry(NamedTuple):
-    """One entry under ``DATA``.
-
-    Units: span, columns in metres.
-    """
+    """One entry under ``DATA``. Units: span, columns in metres."""
 
     kind: str
     parts: tuple[str, ...]

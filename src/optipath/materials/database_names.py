@@ -151,10 +151,7 @@ def _meant(word: str, known: list[str]) -> str:
 
 
 class CuratedName(NamedTuple):
-    """A short name, and the page that it stands for.
-
-    Units: clear in metres.
-    """
+    """A short name, and the page that it stands for. Units: clear in metres."""
 
     names: tuple[str, ...]
     place: str

@@ -35,10 +35,7 @@ EVERYWHERE = (0.0, np.inf)
 
 
 class FormulaCurve(Curve):
-    """n and k by a published formula.
-
-    Units: span in metres.
-    """
+    """n and k by a published formula. Units: span in metres."""
 
     parts: tuple[str, ...] = ("n", "k")
 

@@ -17,10 +17,7 @@ if TYPE_CHECKING:
 
 
 class EmissionLine(NamedTuple):
-    """Power at one wavelength.
-
-    Units: wavelength in metres.
-    """
+    """Power at one wavelength. Units: wavelength in metres."""
 
     wavelength: float
     power: float
@@ -65,10 +62,7 @@ class SpectrumKind(Unchanging, ABC):
 
     @abstractmethod
     def density(self, xp: Any, wavelength: Any) -> Any:
-        """Return its power per nanometre, lines aside.
-
-        Units: wavelength in metres.
-        """
+        """Return its power per nanometre, lines aside. Units: wavelength in metres."""
 
     @abstractmethod
     def times(self, factor: float) -> SpectrumKind:

@@ -186,10 +186,7 @@ def powers_between(kind: SpectrumKind, edges: Array) -> Array:
 
 
 def smooth_powers(kind: SpectrumKind, edges: Array) -> Array:
-    """Return what `powers_between` does, lines aside.
-
-    Shape: returns (n,).
-    """
+    """Return what `powers_between` does, lines aside. Shape: returns (n,)."""
     breaks = kind.breaks
     inner = breaks[(breaks > edges[0]) & (breaks < edges[-1])]
     ends = np.union1d(edges, inner)
@@ -220,10 +217,7 @@ def _by_gauss(kind: SpectrumKind, low: Array, high: Array) -> Array:
 
 
 def power_within(kind: SpectrumKind, low: Any = None, high: Any = None) -> float:
-    """Return the power of a spectrum between two wavelengths.
-
-    Units: low, high in metres.
-    """
+    """Return the power of a spectrum between two wavelengths. Units: low, high in metres."""
     if low is None and high is None and (whole := _whole(kind)) is not None:
         return whole
     least, most = kind.extent
@@ -292,10 +286,7 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
 
 
 def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
-    """Return the power of a spectrum in bins.
-
-    Shape: edges (n + 1,). Units: edges in metres.
-    """
+    """Return the power of a spectrum in bins. Shape: edges (n + 1,). Units: edges in metres."""
     if faults := unknown("outside", outside, _CHOICES):
         raise ValueFault(*faults)
     ends, _ = rising_edges("edges", edges)

@@ -125,10 +125,7 @@ def value_outside(owner: str, outside: Any) -> float | None:
 
 
 def values_at(kind: SpectrumKind, wavelengths: Array) -> Array:
-    """Return what a spectrum is at wavelengths, lines aside.
-
-    Units: wavelengths in metres.
-    """
+    """Return what a spectrum is at wavelengths, lines aside. Units: wavelengths in metres."""
     check_known_at(kind, wavelengths)
     row = np.ascontiguousarray(wavelengths, np.float64).reshape(-1)
     with np.errstate(all="ignore"):
@@ -136,10 +133,7 @@ def values_at(kind: SpectrumKind, wavelengths: Array) -> Array:
 
 
 def check_known_at(kind: SpectrumKind | Curve, wavelengths: Array) -> None:
-    """Raise where a spectrum is not known.
-
-    Units: wavelengths in metres.
-    """
+    """Raise where a spectrum is not known. Units: wavelengths in metres."""
     low, high = kind.span
     known = WavelengthRange("wavelength", "length", low, high, label=kind.label, beyond=kind.beyond)
     known.check("a wavelength", wavelengths)

@@ -105,10 +105,7 @@ def _simplest(chains: Histories, *, message: bool) -> Histories:
 
 
 def masked(chains: Histories, bad: npt.NDArray[np.bool_]) -> Histories:
-    """Return histories in which some chains cannot be.
-
-    Shape: bad (...).
-    """
+    """Return histories in which some chains cannot be. Shape: bad (...)."""
     codes = numbers_of_events(chains)
     return replace(chains, events=np.where(bad[..., np.newaxis], Event.CANNOT, codes))
 

@@ -26,10 +26,7 @@ _ROUNDING = 1e-12
 
 
 class PowerOnLink(NamedTuple):
-    """The power on a link, or at an out-port where light leaves the path.
-
-    Shape: power (...).
-    """
+    """The power on a link, or at an out-port where light leaves the path. Shape: power (...)."""
 
     name: str
     start: str

@@ -78,10 +78,7 @@ class Answers:
         return (self.approximation or self.light).stream(self.question, size, parameters)
 
     def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Any:
-        """Return the Mueller matrices from a source to a reading.
-
-        Shape: returns (..., 4, 4).
-        """
+        """Return the Mueller matrices from a source to a reading. Shape: returns (..., 4, 4)."""
         self.large_angles.look(parameters)
         question = MatrixQuestion(self.plan.whole, source, reading)
         return self.whole.answer(question, parameters)

@@ -64,10 +64,7 @@ class Question(ABC):
 
     @abstractmethod
     def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
-        """Return the results step by step.
-
-        Shape: returns (results, paths).
-        """
+        """Return the results step by step. Shape: returns (results, paths)."""
 
     def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return what the user gets of JAX; None where NumPy is to be asked."""

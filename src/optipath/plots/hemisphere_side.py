@@ -40,10 +40,7 @@ class SeenSide:
     def of(
         cls, measured: Any, side: Any, wavelength: Any, source: Any, *, every: bool = False
     ) -> SeenSide:
-        """Return the side that pictures are asked for.
-
-        Shape: source (4,).
-        """
+        """Return the side that pictures are asked for. Shape: source (4,)."""
         if not isinstance(measured, Hemisphere):
             raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
         faults = Faults()
@@ -195,10 +192,7 @@ def _choices(measured: Any) -> int:
 
 
 class KnownPixels(NamedTuple):
-    """What is known of the pixels of a side.
-
-    Shape: values, errors (rows, columns).
-    """
+    """What is known of the pixels of a side. Shape: values, errors (rows, columns)."""
 
     values: Numbers
     errors: Numbers

@@ -125,10 +125,7 @@ def quantities_at(
     *,
     chosen: bool,
 ) -> tuple[str, list[Numbers]]:
-    """Return quantities of the light at a detector, as they are drawn.
-
-    Shape: given (count,).
-    """
+    """Return quantities of the light at a detector, as they are drawn. Shape: given (count,)."""
     end = _end(path, detector)
     shape = tuple(map(len, arguments.values()))
     spread = dict(zip(arguments, np.ix_(*arguments.values()), strict=True))
@@ -201,10 +198,7 @@ _LONGEST = 60
 
 
 class AlongAxis(NamedTuple):
-    """What goes along an axis.
-
-    Shape: numbers (count,).
-    """
+    """What goes along an axis. Shape: numbers (count,)."""
 
     name: str
     unit: str
@@ -258,10 +252,7 @@ _IN_A_ROW = 4
 
 
 class FineSteps(NamedTuple):
-    """Values along an axis.
-
-    Shapes: values (count,); numbers (count, k).
-    """
+    """Values along an axis. Shapes: values (count,); numbers (count, k)."""
 
     values: Numbers
     numbers: Numbers

@@ -324,10 +324,7 @@ def sphere_point(light: Any) -> npt.NDArray[np.float64]:
 
 
 def draw_points(ax: Axes3D, points: npt.NDArray[np.float64], colours: Any, size: float) -> None:
-    """Draw points on the sphere and within it.
-
-    Shapes: points (n, 3); colours (n, 4).
-    """
+    """Draw points on the sphere and within it. Shapes: points (n, 3); colours (n, 4)."""
     near, colours = is_near(points), np.array(colours, float)
     face = np.where(near[:, np.newaxis], colours, 1.0)
     style: dict[str, Any] = {"s": size**2, "linewidths": 1.3, "depthshade": False, "zorder": 7}
@@ -342,10 +339,7 @@ def draw_steps(
     colours: Any,
     **line: Any,
 ) -> None:
-    """Draw straight lines, fainter on the far half.
-
-    Shapes: starts, ends (n, 3); colours (n, 4).
-    """
+    """Draw straight lines, fainter on the far half. Shapes: starts, ends (n, 3); colours (n, 4)."""
     there = np.isfinite(starts + ends).all(axis=1) & (starts != ends).any(axis=1)
     near = is_near(np.where(there[:, np.newaxis], starts + ends, 0.0))
     for side, alpha in ((there & near, 1.0), (there & ~near, _FAR)):
@@ -358,10 +352,7 @@ def draw_steps(
 
 
 def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D]:
-    """Return the key of hollow points, where there are some.
-
-    Shape: points (n, 3).
-    """
+    """Return the key of hollow points, where there are some. Shape: points (n, 3)."""
     if is_near(points).all():
         return []
     mark: dict[str, Any] = {"marker": "o", "markersize": 5.0, "markerfacecolor": "white"}

@@ -219,10 +219,7 @@ class Reflected(NamedTuple):
 
 
 class MarkedAngle(NamedTuple):
-    """An angle of incidence that has a name.
-
-    Units: angle in radians.
-    """
+    """An angle of incidence that has a name. Units: angle in radians."""
 
     name: str
     angle: float

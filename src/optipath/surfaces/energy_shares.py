@@ -273,10 +273,7 @@ class Energy(EnergyShares):
 
     @classmethod
     def of(cls, beam: PhotonBeam, sums: npt.NDArray[np.float64]) -> Energy:
-        """Return what sums over photons say.
-
-        Shape: sums (surfaces, ends, events, lights, SUMS).
-        """
+        """Return what sums over photons say. Shape: sums (surfaces, ends, events, lights, SUMS)."""
         source, shape = beam.states[0][0], beam.indices.n.shape
         counts = sums[..., 0, COUNT]
         photons = counts.sum(axis=(1, 2))

@@ -123,10 +123,7 @@ def period_faults(alpha: Pair, size: Pair) -> list[str]:
 
 
 def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
-    """Return heights as a read-only copy in float64.
-
-    Shape: heights (rows, columns).
-    """
+    """Return heights as a read-only copy in float64. Shape: heights (rows, columns)."""
     try:
         argument = as_argument("the array of heights", heights, SurfaceError)
     except SurfaceError as fault:

@@ -68,10 +68,7 @@ class RandomField(NamedTuple):
         return cls(rough, sides, meshed, int(waves), sequence, bool(periodic))
 
     def heights(self) -> Array:
-        """Draw the surface, and return the heights of its vertices.
-
-        Shape: returns (rows, columns).
-        """
+        """Draw the surface, and return the heights of its vertices. Shape (rows, columns)."""
         with (
             enough_for(self.cells, _CELL, _FEWER, SurfaceError, "mesh of {:.3g} cells"),
             enough_for(

@@ -285,10 +285,7 @@ class SampleIndices(NamedTuple):
 
 
 def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
-    """Return the indices of media.
-
-    Units: wavelength in metres.
-    """
+    """Return the indices of media. Units: wavelength in metres."""
     argument = _given(media.values(), wavelength)
     domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]
     faults = Faults()

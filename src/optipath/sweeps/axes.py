@@ -134,10 +134,7 @@ def _is_plain(value: Any) -> bool:
 
 
 def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
-    """Return what is given for a parameter.
-
-    Units: value in radians.
-    """
+    """Return what is given for a parameter. Units: value in radians."""
     if value is None:
         raise ParameterError(no_value(name))
     if inputs.tails.get(name):

@@ -178,10 +178,7 @@ def cure_of_table(name: str, value: Any) -> str:
 
 
 def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:
-    """Return the values of an array with a unit.
-
-    Units: the result in degrees.
-    """
+    """Return the values of an array with a unit. Units: the result in degrees."""
     numbers = as_argument(f"parameter '{parameter.name}'", array.values, ParameterError)
     if numbers.dtype.kind in "UO":
         return read_entries(numbers.ravel().tolist(), parameter, "", uses).reshaped(numbers.shape)

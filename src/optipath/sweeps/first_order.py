@@ -268,10 +268,7 @@ _SLOPE_STEPS, _OPERATIONS = 100, 1_000
 
 
 class StokesSlopes(NamedTuple):
-    """Slopes, and how they were found.
-
-    Shape: slopes (..., 4, k).
-    """
+    """Slopes, and how they were found. Shape: slopes (..., 4, k)."""
 
     slopes: npt.NDArray[np.float64]
     method: str

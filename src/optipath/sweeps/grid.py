@@ -89,10 +89,7 @@ _IDLE = "nothing depends on it"
 
 @dataclass(frozen=True)
 class SweepAxis:
-    """The values that one parameter takes in a sweep.
-
-    Shapes: shown (count,); given (count,).
-    """
+    """The values that one parameter takes in a sweep. Shapes: shown (count,); given (count,)."""
 
     name: str
     dimension: str

@@ -217,10 +217,7 @@ class SampleMoments:
         self._crossed: Any = 0.0
 
     def add(self, apart: Array) -> None:
-        """Add a block of samples.
-
-        Shape: apart (samples, ..., 10).
-        """
+        """Add a block of samples. Shape: apart (samples, ..., 10)."""
         with np.errstate(all="ignore"):
             scaled = apart / self._scale
             self._first = _added(self._first, scaled)

@@ -170,10 +170,7 @@ Array: TypeAlias = "np.ndarray[Any, Any]"
 
 @dataclass(frozen=True)
 class CsvColumns:
-    """What stands in a file.
-
-    Shapes: wavelengths (n,); columns (n,). Units: wavelengths in metres.
-    """
+    """What stands in a file. Shapes wavelengths (n,); columns (n,). Units wavelengths in metres."""
 
     title: str
     wavelengths: np.ndarray[Any, Any]

@@ -22,10 +22,7 @@ from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 
 @dataclass(frozen=True)
 class Domain:
-    """Real numbers between two limits, both included.
-
-    Units: minimum, maximum in radians.
-    """
+    """Real numbers between two limits, both included. Units: minimum, maximum in radians."""
 
     complex_parts: ClassVar[tuple[str, ...]] = ()
     of_numbers: ClassVar[str] = "finite"

@@ -105,10 +105,7 @@ def _check_ends(parts: Sequence[str], parameter: Parameter, unit: str) -> None:
 def read_entries(
     entries: Sequence[Any], parameter: Parameter, unit: str = "", uses: Iterable[Use] = ()
 ) -> AxisValues:
-    """Return values of which some are texts.
-
-    Units: entries in radians.
-    """
+    """Return values of which some are texts. Units: entries in radians."""
     uses = [*uses]
     results: list[_Entry] = []
     faults: list[str] = []

@@ -178,10 +178,7 @@ def finite_number(value: Any, unit: str) -> str:
 
 
 class Unit(NamedTuple):
-    """A unit: so many base units, times ten to a power.
-
-    Units: size in degrees.
-    """
+    """A unit: so many base units, times ten to a power. Units: size in degrees."""
 
     dimension: str
     power: int = 0

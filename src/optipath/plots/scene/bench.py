@@ -264,10 +264,7 @@ _SPLITTING = ("beam-splitter", "polarizing-beam-splitter")
 
 
 def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | None) -> None:
-    """Draw the symbol of an element.
-
-    Shapes: at (2,); way (2,); face (3, 2).
-    """
+    """Draw the symbol of an element. Shapes: at (2,); way (2,); face (3, 2)."""
     if node.role == "source":
         _lamp(ax, at)
     elif node.role == "detector":
@@ -415,20 +412,14 @@ _FROM_EDGE = 0.2
 
 
 class FlatRay(NamedTuple):
-    """A ray on a sheet.
-
-    Shapes: pieces (2, 2); middle (2,).
-    """
+    """A ray on a sheet. Shapes: pieces (2, 2); middle (2,)."""
 
     pieces: tuple[Array, ...]
     middle: Array
 
 
 class FlatSheet(NamedTuple):
-    """A scene on a sheet, a link being about 1 long.
-
-    Shapes: sheet (2, 3); at (2,).
-    """
+    """A scene on a sheet, a link being about 1 long. Shapes: sheet (2, 3); at (2,)."""
 
     sheet: Array
     at: dict[str, Array]

@@ -161,10 +161,7 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
 
 
 def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> None:
-    """Draw the head of an arrow.
-
-    Shapes: tip, way (2,); size (2,).
-    """
+    """Draw the head of an arrow. Shapes: tip, way (2,); size (2,)."""
     along = way / np.linalg.norm(way)
     foot, aside = tip - size[0] * along, size[1] * np.array([-along[1], along[0]])
     ax.add_patch(Polygon([tip, foot + aside, foot - aside], ec="none", **style))
@@ -295,10 +292,7 @@ _HALF, _RADIUS = 0.3, 0.24
 
 
 def outline(scene: Scene, node: SceneNode) -> Array:
-    """Return the outline of a surface or a plate.
-
-    Shape: returns (points, 3).
-    """
+    """Return the outline of a surface or a plate. Shape: returns (points, 3)."""
     normal, across = np.asarray(node.normal), np.asarray(node.across)
     along = np.cross(normal, across)
     if node.role == "plate":
@@ -315,10 +309,7 @@ def outline(scene: Scene, node: SceneNode) -> Array:
 
 
 def axis_line(scene: Scene, node: SceneNode) -> Array:
-    """Return the line along the axis of a plate.
-
-    Shape: returns (2, 3).
-    """
+    """Return the line along the axis of a plate. Shape: returns (2, 3)."""
     reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
     return np.array([node.at - reach, node.at + reach])
 
@@ -342,10 +333,7 @@ _APART = np.array([9.0, 5.0])
 
 
 class Label(NamedTuple):
-    """A text, and what it names.
-
-    Shape: at (2,).
-    """
+    """A text, and what it names. Shape: at (2,)."""
 
     text: str
     at: Array

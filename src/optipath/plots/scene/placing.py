@@ -46,10 +46,7 @@ _START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
 
 class DrawnLink(NamedTuple):
-    """A link where it is drawn.
-
-    Shapes: tail, head (3,); axes (3, 3).
-    """
+    """A link where it is drawn. Shapes: tail, head (3,); axes (3, 3)."""
 
     tail: Array
     head: Array
@@ -57,10 +54,7 @@ class DrawnLink(NamedTuple):
 
 
 class Placing:
-    """Where the nodes and links of a path are drawn.
-
-    Shape: at (3,).
-    """
+    """Where the nodes and links of a path are drawn. Shape: at (3,)."""
 
     def __init__(self, message: NumberPath) -> None:
         self.wiring = message.wiring
@@ -163,10 +157,7 @@ class Placing:
                 self.note(f"light that '{name}' sends back is drawn beside the way it came")
 
     def tail_of(self, name: str, port: str) -> Array:
-        """Return where light begins that leaves a port.
-
-        Shape: returns (3,).
-        """
+        """Return where light begins that leaves a port. Shape: returns (3,)."""
         if (name, port) not in self._returning:
             return self.at[name]
         if (name, port) not in self._begins:
@@ -276,10 +267,7 @@ _STRAIGHT_ON = 1e-12
 
 
 def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
-    """Return the axes that ports of a node have in the world.
-
-    Shape: returns (3, 3).
-    """
+    """Return the axes that ports of a node have in the world. Shape: returns (3, 3)."""
     element = wiring.elements[name]
     results = {}
     for port in (*element.inputs, *element.outputs):

@@ -26,10 +26,7 @@ if TYPE_CHECKING:
 
 
 class SceneNode(NamedTuple):
-    """An element where it stands.
-
-    Shapes: at (3,); normal, across (3,); axis (3,).
-    """
+    """An element where it stands. Shapes: at (3,); normal, across (3,); axis (3,)."""
 
     name: str
     kind: str
@@ -69,20 +66,14 @@ class SceneRay(NamedTuple):
 
 
 class ScenePlane(NamedTuple):
-    """A plane of incidence, as a rectangle.
-
-    Shape: corners (4, 3).
-    """
+    """A plane of incidence, as a rectangle. Shape: corners (4, 3)."""
 
     node: str
     corners: Vector
 
 
 class SceneFrame(NamedTuple):
-    """The frame of a port.
-
-    Shapes: at (3,); axes (3, 3).
-    """
+    """The frame of a port. Shapes: at (3,); axes (3, 3)."""
 
     port: str
     at: Vector
@@ -90,10 +81,7 @@ class SceneFrame(NamedTuple):
 
 
 class SceneAngle(NamedTuple):
-    """An angle that has a name.
-
-    Shapes: arc (points, 3); at (3,); centre (3,).
-    """
+    """An angle that has a name. Shapes: arc (points, 3); at (3,); centre (3,)."""
 
     name: str
     text: str
@@ -182,10 +170,7 @@ _SAME_ANGLE = 1e-9
 
 
 class ShownAngle(NamedTuple):
-    """An angle of a path by its name.
-
-    Units: angle in radians.
-    """
+    """An angle of a path by its name. Units: angle in radians."""
 
     name: str
     angle: float

@@ -201,10 +201,7 @@ Numbers = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class BrdfFunction:
-    """A function of the directions in which light comes and goes.
-
-    Units: wavelengths in metres.
-    """
+    """A function of the directions in which light comes and goes. Units: wavelengths in metres."""
 
     function: Callable[..., Any]
     wavelengths: Numbers

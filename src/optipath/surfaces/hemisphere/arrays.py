@@ -20,10 +20,7 @@ if TYPE_CHECKING:
 
 
 def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
-    """Return the Dataset of a hemisphere.
-
-    Units: the result in radians.
-    """
+    """Return the Dataset of a hemisphere. Units: the result in radians."""
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
     results: dict[str, Any] = {}
     if polarized != "scalar":
