@@ -10,7 +10,7 @@ import optipath as op
 from optipath.light.color import DISPLAY_WHITE, FROM_XYZ, adapted, encoded, times
 from tables import rows
 
-FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour" / "colour_science.json"
+FIGURES = Path(__file__).parents[1] / "peers" / "figures" / "colour" / "colour_science.json"
 COMPUTED = json.loads(FIGURES.read_text("utf-8"))
 NM = 1e-9
 GRID = np.arange(380.0, 781.0, 5.0)
