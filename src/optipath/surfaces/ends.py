@@ -38,10 +38,8 @@ if TYPE_CHECKING:
 class PhotonEnds:
     """Where photons have gone, one after the other.
 
-    Their directions are as the sample lies; on an isotropic one, where each photon comes from an
-    azimuth of its own, they are turned back so that all have come along x.
-
-    Shapes: ends (photons,); events (photons,); directions (photons, 3); x (photons, 3); stokes
+    Directions are in the axes of the sample; on an isotropic one, each is turned back so that all
+    photons have come along x. Shapes: ends, events (photons,); directions, x (photons, 3); stokes
     (photons, ..., 4); scalar (photons, ...).
     """
 
@@ -132,7 +130,7 @@ _ACROSS = 0.0, 1.0, 0.0
 
 
 class TurnedDirections(NamedTuple):
-    """Where photons go, as the sample lies; on an isotropic one as if all had come along x.
+    """k, x (photons, 3) and turns (photons, 2); if isotropic, as if all photons had come along x.
 
     Shapes: k, x (photons, 3); turns (photons, 2).
     """
@@ -158,10 +156,7 @@ class TurnedEnds(NamedTuple):
 
 
 def turned_directions(beam: PhotonBeam, results: Numbers) -> TurnedDirections:
-    """Return where photons go, and the frames that belong to their directions.
-
-    Shape: found (photons, ENDS + CARRIED lights).
-    """
+    """Return the directions of found (photons, ENDS + CARRIED lights), and their frames."""
     back = -results[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(results))
     k, old_x = (_turned(results[:, place : place + 3], back) for place in (END_K, END_X))
     _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))

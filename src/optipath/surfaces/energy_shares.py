@@ -170,12 +170,7 @@ Numbers: TypeAlias = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class EnergyShares:
-    """Shares of the light that falls on a sample; with ``_se`` behind, the standard error of each.
-
-    All have the shape of the wavelengths, () where there is one.
-
-    Shape: reflected, transmitted, reflected_se, transmitted_se (events, ...).
-    """
+    """Shares (events, ...) of the incident light by wavelength; ``_se``: their standard errors."""
 
     R_s: Numbers
     R_s_se: Numbers
@@ -232,13 +227,9 @@ def energy_shares(photons: Numbers, total: Numbers, squares: Numbers, whole: flo
 def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[Numbers, Numbers]:
     """Return the mean over photons, and its standard error.
 
-    Where photons fall on several surfaces, their means differ by more than chance: the error is
-    then that of the mean over surfaces (the larger mean square of a one-way analysis of variance;
-    Scheffe, The Analysis of Variance, Wiley 1959, ch. 7).
-
-    Shapes: photons (surfaces,); total, squares (surfaces, ...); returns mean, error (...).
-
-    One of two photons is reflected, on either surface:
+    Where photons fall on several surfaces, the error is that of the mean over surfaces: the larger
+    mean square of a one-way analysis of variance (Scheffe, The Analysis of Variance, Wiley 1959,
+    ch. 7). Shapes: photons (surfaces,); total, squares (surfaces, ...); returns mean, error (...).
 
     >>> one = np.array([1.0, 1.0])
     >>> mean, error = mean_and_error(2.0 * one, one, one)
@@ -260,8 +251,7 @@ def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[
 class Energy(EnergyShares):
     """What becomes of the light that falls on a sample; the shares are those of `EnergyShares`.
 
-    Standard errors are over the photons, and over the realisations of random surfaces that they
-    fell on. Of one surface nothing is known of others; of one photon nothing at all (NaN).
+    Standard errors are over photons and over realizations of random surfaces; of one photon NaN.
     """
 
     scalar: EnergyShares
@@ -387,9 +377,8 @@ _ERRORS, _ROUNDINGS = 6.0, 1e-9
 def checked_energy(run: EnergyRun) -> Energy:
     """Return what is known of a run; warn where light has come to nothing, or out of nothing.
 
-    Light that is trapped goes through many events, and at each its weight is changed by how it is
-    polarised. The few photons that then carry most of it are seldom met: until they are, light is
-    missing, and no standard error knows of it.
+    Few photons may carry most of the trapped light: until one of them is met, light is missing, and
+    no standard error shows it.
     """
     result = run.energy
     if run.beam.indices.opaque:

@@ -196,11 +196,7 @@ _LEVEL = 2.0**-52
 def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
     """Return the frame of light that comes down to a surface, or goes up from it.
 
-    Its x is perpendicular to the meridional plane, along (0, 0, 1) cross direction. Along the
-    normal, where there is no such plane, it is (0, 1, 0), as for light beside it that travels on
-    towards x.
-
-    Shapes: direction (..., 3); returns (...).
+    Its x is along (0, 0, 1) cross direction (..., 3); along the normal it is (0, 1, 0).
 
     >>> frame_along("outgoing", (0.6, 0.0, 0.8), up=True).x
     array([0., 1., 0.])

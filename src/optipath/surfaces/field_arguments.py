@@ -185,11 +185,8 @@ _OF_SMOOTH = 5
 
 
 MISSING = {2: 0.12, 3: 0.066, 4: 0.047, 5: 0.031, 8: 0.013, 16: 0.002}
-"""By cells a correlation length, what share of the light of several events is not transmitted.
-
-Of alpha 1, index 1.5 and an incidence of 1 rad, beside 32 cells on the same 32 surfaces; at alpha
-0.3 it is much the same. docs/surfaces.md has the table, and the command for it.
-"""
+"""By cells a correlation length, the share of the light of several events that is not transmitted
+(alpha 1, index 1.5, incidence 1 rad; docs/surfaces.md has the table)."""
 
 
 def correlation_lengths(

@@ -397,9 +397,7 @@ class LargestOf(NamedTuple):
 
     @classmethod
     def of(cls, values: npt.ArrayLike, errors: npt.ArrayLike) -> Self:
-        """Return the largest size among some numbers.
-
-        Shape: values, errors (...).
+        """Return the largest size among some numbers (...) with errors.
 
         >>> found = LargestOf.of([0.01, -0.05], [0.001, 0.005])
         >>> print(round(found.value, 3), found.is_below(0.07), found.is_above(0.03))

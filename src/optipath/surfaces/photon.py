@@ -176,10 +176,7 @@ Vector = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class PhotonEvent:
-    """A photon meets a facet.
-
-    Vectors have three components, along the x and y of the sample and upwards.
-    """
+    """A photon meets a facet; vectors are along the x and y of the sample and upwards."""
 
     layer: int
     facet: tuple[int, int, int]

@@ -91,8 +91,7 @@ _AT_ONCE = 1 << 20
 class RandomWaves(NamedTuple):
     """Waves ``amplitude * cos(phase + x_number * x + y_number * y)``, a component of an array each.
 
-    Shapes: x_number, y_number (n,); phase, amplitude (n,). Units: x_number, y_number, phase,
-    amplitude in radians.
+    Shapes: x_number, y_number, phase (n,); amplitude (n,), a component of an array each.
     """
 
     x_number: Array
@@ -110,14 +109,11 @@ class RandomWaves(NamedTuple):
     ) -> RandomWaves:
         """Draw waves whose sum has heights of variance 1 and slopes of variance alpha^2 / 2.
 
-        E. Heitz, "Generating procedural Beckmann surfaces" (2015): with U1, U2, U3 uniform,
-        the phase is 2 pi U1, and the wave vector r (alpha_x cos t, alpha_y sin t), t = 2 pi U2,
-        r = sqrt(-ln U3). Three things are done in another way, so that each single surface
-        has the variances, and not only many of them on average. U2 and U3 are spread evenly,
-        along a spiral of golden angles, of which only the beginning is random. With a period,
-        wave vectors are rounded to whole numbers of waves in it, and waves of one wave vector are
-        a single one of their power. The powers are then weighted with a polynomial of the
-        squares of the wave vector, by some per cent, for the variances to be what they should.
+        E. Heitz, "Generating procedural Beckmann surfaces" (2015): with U1, U2, U3 uniform, the
+        phase is 2 pi U1, and the wave vector r (alpha_x cos t, alpha_y sin t), t = 2 pi U2, r =
+        sqrt(-ln U3). For each surface to have these variances itself, U2 and U3 are spread evenly
+        along a spiral of golden angles, periodic waves of equal wave vector are merged, and powers
+        are weighted by a polynomial of the squared wave vector.
 
         >>> drawn = RandomWaves.drawn((0.3, 0.3), 1000, seed=1, period=(200.0, 200.0))
         >>> slopes = (drawn.amplitude * drawn.x_number) ** 2 / 2
@@ -145,13 +141,10 @@ class RandomWaves(NamedTuple):
         return cls(x_number, y_number, phase, np.sqrt(2.0 * powers))
 
     def heights(self, x: Array, y: Array) -> Array:
-        """Return the heights where lines of equal x and of equal y meet.
+        """Return the heights (len(y), len(x)) where lines of equal x and of equal y meet.
 
-        The cosine of a sum is split into products, so that a mesh costs products and no
-        cosines, ``heights[i, j] = sum C[i, m] cos(f[m] x[j]) - S[i, m] sin(f[m] x[j])``, where C
-        and S are sums over the waves of one component f along x.
-
-        Shape: returns (len(y), len(x)).
+        ``heights[i, j] = sum C[i, m] cos(f[m] x[j]) - S[i, m] sin(f[m] x[j])``, where C and S are
+        sums over the waves of one component f along x: products, and no cosines.
         """
         numbers, first = np.unique(self.x_number, return_index=True)
         along = np.multiply.outer(numbers, x)

@@ -26,9 +26,7 @@ if TYPE_CHECKING:
 
 
 def smooth_path(indices: SampleIndices, side: str) -> PathGraph:
-    """Return the path of unpolarised light by way of smooth interfaces, to one side of them.
-
-    Its parameter is the angle of ``incidence``.
+    """Return the path of unpolarized light by way of smooth interfaces; parameter ``incidence``.
 
     >>> from optipath.surfaces.sample import Sample
     >>> path = smooth_path(Sample([(1.5, 0.1), (2.4, 0.1)]).indices(), "reflected")
@@ -47,9 +45,7 @@ def smooth_path(indices: SampleIndices, side: str) -> PathGraph:
 
 
 def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> float:
-    """Return (S0 - U) / U of all unpolarised light that a smooth sample sends to one side.
-
-    Units: incidence in radians.
+    """Return (S0 - U) / U of unpolarized light that a smooth sample sends to one side.
 
     >>> from optipath.surfaces.sample import Sample
     >>> indices = Sample([(1.5, 0.1), (2.4, 0.1)]).indices()
@@ -72,13 +68,8 @@ def smooth_exit(
 ) -> Numbers:
     """Return what polarisation does to light that is reflected once below, and comes out forwards.
 
-    The limit of interfaces that are nearly flat: light is refracted in, reflected by the facet
-    that stands halfway between the ways there and back, and refracted out, all in one plane.
-    Pixels whose light comes so, and not from the topmost interface, tend to it.
-
-    Units: incidence, exit_angle in radians.
-
-    Off n = 2.4 under a layer of 1.5, at 50 and 65 deg of incidence:
+    The limit of nearly flat interfaces: light is refracted in, reflected by the facet halfway
+    between the two directions, and refracted out, all in one plane. Angles in radians.
 
     >>> from optipath.surfaces.sample import Sample
     >>> sample = Sample([(1.5, 0.1), (2.4, 0.1)])
@@ -141,8 +132,7 @@ def is_flat(seen: SensedBeam) -> bool:
 def flat_light(seen: SensedBeam) -> PartSums:
     """Return the light of a flat sample, all of which goes into one pixel of each side.
 
-    Of light that goes to and fro between the interfaces, the sum over all rounds, as a
-    `LayerStack` has it; without polarisation, the same with each interface by its mean.
+    Multiple reflections are summed as by `LayerStack`; without polarization, with mean interfaces.
     """
     result = PartSums.none(seen.shape)
     for place, side in enumerate(seen.sides):

@@ -29,10 +29,8 @@ Numbers = npt.NDArray[np.float64]
 class BrdfOfHemispheres:
     """What hemispheres have measured of an isotropic sample, for light from anywhere.
 
-    Between two incidences, by the share of each: what each of them has where light of its
-    incidence goes that is mirrored by the same facet, so that lobes stay where they are; times
-    cos(theta_i) cos(theta_o), by which the light of facets is divided. Beyond the first and the
-    last incidence it is that of these, by the same facet.
+    Interpolated between incidences at equal half vectors (the same facet), times cos(theta_i)
+    cos(theta_o); beyond the first and the last incidence, it is that of these at the same facet.
     """
 
     hemispheres: tuple[Hemisphere, ...]
@@ -74,11 +72,7 @@ class BrdfOfHemispheres:
         return [LevelPixels.of(each) for each in self.hemispheres]
 
     def at(self, before: Frame, behind: Frame) -> tuple[Numbers, Numbers]:
-        """Return the BRDF for light that comes and goes in frames whose x is across both.
-
-        Shapes: before, behind (n,); returns matrices (n, wavelengths, 4, 4), errors (n,
-        wavelengths).
-        """
+        """Return matrices (n, wavelengths, 4, 4), errors (n, wavelengths); x is across both."""
         to_light, to_eye = -before.z, behind.z
         half = to_light + to_eye
         half = half / np.linalg.norm(half, axis=-1, keepdims=True)
@@ -149,11 +143,8 @@ _ACROSS = np.array([0.0, 1.0, 0.0])
 class LevelPixels:
     """The Mueller matrices of the BRDF in frames that change smoothly from pixel to pixel.
 
-    Those of pixels turn about the normal; x of a level frame is (0, 1, 0), carried from the normal
-    to the direction by the least turn.
-
-    Shapes: there (rows, columns); matrices (rows, columns, wavelengths, 4, 4); errors (rows,
-    columns, wavelengths).
+    x of a level frame is (0, 1, 0), carried from the normal to the direction by the least turn.
+    Shapes: there (rows, columns); matrices (..., wavelengths, 4, 4); errors (..., wavelengths).
     """
 
     sensor: Sensor
@@ -179,10 +170,7 @@ class LevelPixels:
         return cls(sensor, there.astype(float), result, errors)
 
     def at(self, directions: Numbers) -> tuple[Numbers, Numbers]:
-        """Return what there is in directions, in their level frames, from the nearest four pixels.
-
-        Shapes: directions (n, 3); returns matrices (n, wavelengths, 4, 4), errors (n, wavelengths).
-        """
+        """Return matrices (n, wavelengths, 4, 4), errors (n, wavelengths) of the nearest pixels."""
         pixels = self.sensor.pixels
         across, up = (each - 0.5 for each in self.sensor.at(directions))
         result = np.zeros((len(directions), *self.matrices.shape[2:]))
@@ -200,9 +188,7 @@ class LevelPixels:
 
 
 def level_frame(z: Numbers) -> Frame:
-    """Return the frames of light along directions above the horizon that are level.
-
-    Shape: z (..., 3).
+    """Return the level frames of light along directions z (..., 3) above the horizon.
 
     >>> print(level_frame(np.array([[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]])).x)
     [[ 0.   1.   0. ]
@@ -213,10 +199,7 @@ def level_frame(z: Numbers) -> Frame:
 
 
 def in_frames(matrix: Mueller, before: Frame, behind: Frame) -> Numbers:
-    """Return the numbers of Mueller matrices in other frames of the same directions.
-
-    Shapes: matrix (...); returns (..., 4, 4).
-    """
+    """Return Mueller matrices (..., 4, 4) in other frames of the same directions."""
     as_it_is = np.eye(4)
     turned = Mueller.of(as_it_is, behind, behind) @ matrix @ Mueller.of(as_it_is, before, before)
     return np.asarray(turned.matrix)
@@ -225,11 +208,8 @@ def in_frames(matrix: Mueller, before: Frame, behind: Frame) -> Numbers:
 def _unturned(sensor: Sensor, there: npt.NDArray[np.bool_]) -> Numbers:
     """Return by what S1 and S2 of the light of pixels come to be in level frames.
 
-    The inverse of the mean turn from the level frame to the frame of the light over each pixel:
-    next to the normal the latter turns a lot within one, and light that is alike all over it has
-    lost much of its polarisation in the sum.
-
-    Shape: returns (rows, columns, 1, 2, 2).
+    The inverse of the mean turn over each pixel, since next to the normal the frame turns a lot
+    within one pixel. Shape: returns (rows, columns, 1, 2, 2).
     """
     part = ((np.arange(_PARTS) + 0.5) / _PARTS - 0.5) * 2.0 / sensor.pixels
     c, s = np.ones(there.shape), np.zeros(there.shape)
@@ -278,8 +258,8 @@ class HalfAngles(NamedTuple):
     def of(cls, shape: tuple[int, int, int]) -> HalfAngles:
         """Return axes of a shape: whole turns and right angles in equal steps.
 
-        Those of theta_h grow from 0 on, so that they are narrow where lobes are: the square of
-        place / last, as in the table of W. Matusik et al., A Data-Driven Reflectance Model, 2003.
+        Those of theta_h are (place / last)^2, narrow near 0, as in W. Matusik et al., A Data-Driven
+        Reflectance Model, 2003.
 
         >>> axes = HalfAngles.of((5, 3, 4))
         >>> print(np.degrees(axes.theta_h))

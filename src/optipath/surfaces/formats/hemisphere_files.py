@@ -130,10 +130,7 @@ _UNIT = "W.m^-2.sr^-1"
 
 @dataclass(frozen=True)
 class StokesPicture:
-    """What light of one source a hemisphere sends into each direction.
-
-    Shape: channels (pixels, pixels).
-    """
+    """The light of one source by direction; channels (pixels, pixels)."""
 
     channels: Mapping[str, npt.NDArray[np.float32]]
     attributes: Mapping[str, str]

@@ -207,10 +207,7 @@ class BrdfFunction:
     wavelengths: Numbers
 
     def at(self, before: Frame, behind: Frame) -> tuple[Numbers, None]:
-        """Return the BRDF for light that comes and goes in frames.
-
-        Shapes: before, behind (n,); returns matrices (n, wavelengths, 4, 4).
-        """
+        """Return the BRDF (n, wavelengths, 4, 4) for light that comes and goes in frames (n,)."""
         results = []
         for wavelength in self.wavelengths:
             at = {} if np.isnan(wavelength) else {"wavelength": float(wavelength)}

@@ -28,9 +28,7 @@ _SAME = 1e-9
 
 
 def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
-    """Return the frame of light toward a direction, or several.
-
-    Shape: given (..., 3).
+    """Return the frame of light toward a direction, or several (..., 3).
 
     >>> print(direction_of(["30 deg", "-30 deg"], 0.0, up=True).z.round(6))
     [[ 0.5       0.        0.866025]
@@ -54,9 +52,7 @@ def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
 
 
 def wavelength_place(known: npt.NDArray[np.float64], argument: Any) -> int:
-    """Return the place of a wavelength among those that have been measured.
-
-    Shape: known (wavelengths,). Units: known in metres.
+    """Return the place of a wavelength among measured ones, in metres.
 
     >>> wavelength_place(np.array([4e-7, 5e-7]), "500 nm")
     1

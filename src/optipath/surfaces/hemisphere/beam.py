@@ -156,19 +156,15 @@ class PartSums(NamedTuple):
             np.add(mine, its, out=mine)
 
     def mirrored(self) -> PartSums:
-        """Return the means of what there is and its mirror image across the plane of incidence.
-
-        On a sample that is the same in a mirror they have the same expectation, and less noise.
-        """
+        """Return the means of a symmetric sample and its mirror image, which have less noise."""
         numbers = self.sums.shape[-1]
         signs = np.append(_MIRRORED, 1.0)[-numbers if numbers == 1 else slice(numbers)]
         return self._replace(sums=0.5 * (self.sums + self.sums[:, :, ::-1] * signs))
 
     def estimate(self, result: Callable[[Numbers], Numbers]) -> tuple[Numbers, Numbers]:
-        """Return what follows from the light of the pixels, and its standard error.
+        """Return the result of the pixels, and its standard error by the jackknife.
 
-        The jackknife: the spread of what follows where one part after the other is left out
-        (B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, eq. 3.13).
+        B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, eq. 3.13.
         """
         result = following(result)
         total, photons = self.sums.sum(axis=0), self.photons.sum()
@@ -194,8 +190,7 @@ class PartSums(NamedTuple):
 class PixelMask:
     """Pixels that count where light with polarisation and without are compared.
 
-    Dim pixels decide how large the largest difference is, so that none is worth anything without
-    its mask; and the largest of many noisy ones is noise.
+    Without a mask, the largest difference would be that of dim or noisy pixels.
 
     >>> print(PixelMask(brighter_than=0.5, noise=None))
     light without polarisation above 0.5 of the mean over the hemisphere's pixels, any noise
@@ -219,17 +214,11 @@ class PixelMask:
             raise SurfaceError(*faults)
 
     def bright(self, light: Numbers) -> npt.NDArray[np.bool_]:
-        """Return which pixels are bright enough.
-
-        Shapes: light (rows, columns); returns (rows, columns).
-        """
+        """Return which pixels (rows, columns) are bright enough."""
         return np.asarray(light > self.brighter_than * np.nanmean(light))
 
     def known(self, difference: Numbers, error: Numbers) -> npt.NDArray[np.bool_]:
-        """Return which differences are known well enough.
-
-        Shapes: difference, error (...); returns (...).
-        """
+        """Return which differences (...) are known well enough."""
         if self.noise is None:
             return ~np.isnan(difference)
         return np.asarray(error <= np.maximum(self.noise * np.abs(difference), self.known_to))

@@ -43,10 +43,7 @@ def measuring_code() -> str:
 def chunk_identity(
     seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photons: int, code: str
 ) -> str:
-    """Return all of what is measured, a line each, so that the first other one can be told.
-
-    Units: wavelengths in metres.
-    """
+    """Return all of what is measured, a line each; wavelengths in metres."""
     beam = seen.beam
     lines = [
         f"a measurement by optipath {code}, layout {LAYOUT}",
@@ -97,10 +94,7 @@ _SUMS = "sum over photons of the Mueller matrix, row by row, and of the light wi
 
 @dataclass(frozen=True, eq=False)
 class ChunkJob:
-    """A measurement that is walked chunk by chunk and kept; see `BlockJob`.
-
-    Units: wavelengths in metres.
-    """
+    """A measurement computed chunk by chunk, see `BlockJob`; wavelengths in metres."""
 
     seen: SensedBeam
     wavelengths: npt.NDArray[np.float64]

@@ -223,13 +223,10 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 def pixel_areas(pixels: int, cap: Callable[[Numbers], Numbers]) -> Numbers:
-    """Return the solid angle of each pixel of a square that just holds the hemisphere's disc.
+    """Return the solid angles (pixels, pixels) of a square that just holds the hemisphere's disc.
 
-    By Green's theorem, the solid angle of a region is the integral of (1 - cos theta) d phi along
-    its border, and that over r^2 of x dy - y dx: along the sides of the pixels within the disc,
-    and its rim. What neighbours share comes in with both signs, so that all add up to 2 pi.
-
-    Shape: returns (pixels, pixels).
+    By Green's theorem, the integral of (1 - cos theta) / r^2 (x dy - y dx) along the sides of the
+    pixel within the disc, and its rim.
 
     >>> print(pixel_areas(2, np.ones_like) / np.pi)
     [[0.5 0.5]
@@ -264,11 +261,9 @@ def _rim(lines: Numbers) -> Numbers:
 
 
 def pixel_points(sensor: Sensor, points: int) -> Iterator[tuple[Numbers, Numbers]]:
-    """Yield points^2 directions within each pixel, and the solid angles that they stand for.
+    """Yield points^2 directions (pixels, pixels, 3), solid angles (pixels, pixels) in each pixel.
 
-    By the rule of Gauss and Legendre along y, and along what of x is within the hemisphere.
-
-    Shapes: returns directions (pixels, pixels, 3), solid_angles (pixels, pixels).
+    By Gauss-Legendre quadrature along y, and along the part of x within the hemisphere.
 
     >>> from optipath.surfaces.hemisphere.sensor import Sensor
     >>> sensor = Sensor(16, "equal-area")

@@ -55,11 +55,9 @@ TURN = 1 << 19
 
 @dataclass(frozen=True, eq=False)
 class PhotonBeam:
-    """What is needed to walk any block of photons; blocks do not depend on each other.
+    """What is needed to walk any block of photons; block b has the seed of `SeedSequence` child b.
 
-    The sample's surfaces take turns, each for a `PORTION` of photons, and after a `TURN` of them
-    others take their places, so that the error of many photons goes down. Block b has the random
-    numbers of child b of the seed (`numpy.random.SeedSequence`).
+    Surfaces take turns, each for a `PORTION` of photons, and are replaced after a `TURN` of them.
     """
 
     sample: Sample
@@ -206,9 +204,7 @@ def beam_of(
 
 
 def state_argument(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
-    """Return the state of polarisation of the light that falls on a sample.
-
-    Shape: stokes (4,).
+    """Return the Stokes vector (4,) of the light that falls on a sample.
 
     >>> state_argument("source", [2, 1, 0, 0])
     (2.0, 1.0, 0.0, 0.0)
@@ -265,10 +261,7 @@ def walked_in_order(
     threads: int,
     work: Callable[[int, int], Block],
 ) -> Generator[Block]:
-    """Yield what becomes of blocks, in their order, however many threads there are.
-
-    No more are handed out than keep all threads at work; who closes the generator stops them.
-    """
+    """Yield blocks in their order, however many threads; closing the generator stops them."""
     walk_code()
     stored = cached_meshes(beam.sample)
     executor = ThreadPoolExecutor(threads)

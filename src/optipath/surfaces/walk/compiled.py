@@ -98,10 +98,7 @@ def photon_block(
     ends: Any,
     keeps: int,
 ) -> int:
-    """Follow photons, and add up what becomes of them.
-
-    Shapes: sums (OUTCOMES, MOST_COUNTED, count, SUMS); ends (photons, ENDS + CARRIED count).
-    """
+    """Follow photons into sums (OUTCOMES, MOST_COUNTED, count, SUMS), and their ends."""
     cos_i, sin_i, azimuth = beam
     number, misses = 0, 0
     while number < photons and misses < _MOST_MISSES:
@@ -187,9 +184,7 @@ def photon_walk(
 ) -> Any:
     """Follow a photon: the nine steps of M. Wang et al., Optics Express 25(19), 2017.
 
-    Light above a mesh stays above it where it is reflected, and gets below it where it is
-    refracted. It meets the mesh again, but for the facet that it comes from, or goes on
-    to the next one on its side.
+    After a reflection it meets the mesh again, but for the facet it comes from, or the next mesh.
     """
     wholes, numbers = meshes[0], meshes[1]
     layer, side, events = 0, 1.0, 0
@@ -276,11 +271,7 @@ def pixel_sums(
     has_scalar: int,
     sums: Any,
 ) -> int:
-    """Add what each photon carries to the numbers of its pixel, one photon after the other.
-
-    Shapes: turns (photons, 2); ends (photons, ENDS + CARRIED lights states); sums (pixels, lights,
-    numbers).
-    """
+    """Add what each photon carries to its pixel, one by one; sums (pixels, lights, numbers)."""
     numbers = 16 * has_matrix + has_scalar
     for photon in range(photons):
         if places[photon] < 0:

@@ -50,9 +50,8 @@ def facet_gradient(corners: Any, facet: int) -> Any:
 def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float, own: int) -> Any:
     """Return which facet of a cell a ray meets, and where along the ray.
 
-    A facet is met where the ray comes nearer to it, from its side of the surface, and is at its
-    plane or behind it where it leaves the facet. So a ray can slip through no edge: what
-    roundings let past one facet is met by the next.
+    A ray hits where it gets nearer to the plane, or is behind it where it leaves the facet: a ray
+    can slip through no edge.
     """
     _, dx, dy, _ = ray
     enters, leaves = span
@@ -124,11 +123,7 @@ def facet_event(
     count: int,
     state: Any,
 ) -> Any:
-    """Reflect a photon at a facet, or refract it, and all of the lights that ride on it.
-
-    Which of the two is drawn by the mean of the shares of s and p, whatever the polarisation;
-    what is drawn is divided by its probability. An opaque medium reflects always.
-    """
+    """Reflect a photon with probability (Rs + Rp) / 2, else refract it; divide by that share."""
     c, s, sx, sy, sz, cos2, sin2, rx, ry, rz = plane(*k, *x, *normal)
     if n2 == OPAQUE:
         numbers = opaque_reflection(n1, base[0], base[1], c, s)
@@ -252,11 +247,7 @@ _STEP = 2.0**-53
 
 @nb.njit(error_model="numpy")
 def uniform(state: Any) -> float:
-    """Return a number from 0 up to 1, and move the state on by one.
-
-    The number that ``numpy.random.Generator(SFC64).random()`` gives for the same state
-    (C. Doty-Humphrey, PractRand, sfc64).
-    """
+    """Return a number in [0, 1), and advance the state: ``Generator(SFC64).random()`` of NumPy."""
     right, left, around, back = _SHIFTS
     a, b, c, counter = state[0], state[1], state[2], state[3]
     result = a + b + counter

@@ -28,8 +28,7 @@ CELL_X, CELL_Y, LOW, HIGH = range(NUMBERS)
 """The places of the others."""
 
 ENDED, SHIFTED, IN_REGISTER = range(3)
-"""How a mesh stands: it ends at its border; or is periodic, and shifted at random for every photon;
-or periodic, and stays as it is against others of its kind."""
+"""How a mesh ends: at its border; periodic, shifted at random by photon; or periodic and fixed."""
 
 GAP = 2.0
 """The empty space between two meshes, in standard deviations of the rougher one's heights."""
@@ -143,9 +142,7 @@ def levels_of(cells_x: int, cells_y: int) -> int:
 
 
 def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
-    """Return the extremes of a mesh by level, each of shape (rows, columns, 2).
-
-    Shape: vertices (cells_y + 1, cells_x + 1).
+    """Return the extremes by level, (rows, columns, 2), of vertices (cells_y + 1, cells_x + 1).
 
     >>> cells, whole = pyramid_of(np.array([[0.0, 1.0, 0.0], [2.0, 0.0, 3.0]]))
     >>> print(cells[0, 1], whole[0, 0])
