@@ -1,8 +1,7 @@
 """Which engine runs a batch: the one that is asked for, or the one that costs least.
 
-What it costs is counted, not timed, so that the same runs are done by the same engines. One
-operation of one path takes so many seconds as floats, by NumPy, and by Numba; NumPy takes more
-for each operation of a batch, however small, and Numba for compiling it.
+Costs are counted, not timed, so that equal runs choose equal engines: seconds per operation and
+path as floats, by NumPy (plus an overhead per operation and batch) and by Numba (plus compiling).
 """
 
 from __future__ import annotations

@@ -35,27 +35,22 @@ _TROUBLE = (OSError, RuntimeError, CacheError)
 class CodeCache:
     """Keeps what has been compiled, for this process and for the next.
 
-    *It never changes a result.* The key of an entry is a hash of the text, of the sources of
-    what the text calls, of the versions of optipath, Numba, llvmlite, NumPy and Python, of the
-    settings of Numba in the environment, and of the processor with its features. A checksum of
-    the key and of all that follows is checked before anything of it is used; an entry that does
-    not fit is removed, and compiled anew.
+    *It never changes a result.* The key of an entry is a hash of the text, of the sources of what
+    the text calls, of the versions of optipath, Numba, llvmlite, NumPy and Python, of the settings
+    of Numba in the environment, and of the processor with its features. An entry whose checksum of
+    key and content does not fit is removed, and compiled anew.
 
     *It runs nobody else's code.* Entries are machine code, and nothing is ever unpickled. The
-    folder is made for its owner alone. A folder that others own, that others may write to or
-    may put another in place of, and files that others own or may write, are not used. Whoever
-    may write to the folder may run code as its owner: that is what is trusted.
+    folder is made for its owner alone; folders and files that others own, may write or may replace
+    are not used.
 
-    *It never stops a computation.* Whatever is wrong with the folder (none, full, read-only,
-    damaged, of others, emptied meanwhile) is told to the log ``optipath``, once a process, and
-    what is not kept is compiled. Files appear whole under their names; the drafts of processes
-    that were killed are removed by the next.
+    *It never stops a computation.* A fault of the folder is logged to ``optipath``, once a process,
+    and what is not cached is compiled. Files appear whole under their names; the drafts of killed
+    processes are removed by the next.
 
     *It is bounded.* On disk by ``OPTIPATH_CACHE_BYTES`` (128 MiB), in memory by
-    ``OPTIPATH_CACHE_FUNCTIONS`` (256): what has not been used for longest goes first. The
-    memory of a function is free again when no plan holds it either, nor one of the last runners
-    that are kept for equal paths (`runner_for`); of each that a process has compiled itself,
-    some 0.2 MB stay with Numba and LLVM.
+    ``OPTIPATH_CACHE_FUNCTIONS`` (256); the least recently used goes first. Of each function that a
+    process has compiled itself, some 0.2 MB stay with Numba and LLVM.
 
     >>> CodeCache().limit
     134217728
@@ -83,11 +78,7 @@ class CodeCache:
         return whole_number_of_environment("OPTIPATH_CACHE_FUNCTIONS", 256)
 
     def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
-        """Return the function of a text, compiled where it is not kept.
-
-        That something is compiled is told to the log, once, so that nobody wonders what he waits
-        for.
-        """
+        """Return the function of a text, compiled (and logged once) where it is not cached."""
         with self._lock:
             if text not in self._functions:
                 self._functions[text] = self._loaded(text, compiled)
@@ -128,8 +119,7 @@ class CodeCache:
     def has(self, text: str) -> bool:
         """Tell whether the function of a text is kept, in memory or on disk.
 
-        What is on disk is not read. Versions and the processor, which take LLVM to be loaded,
-        are looked at only where there is something of this text.
+        What is on disk is not read, and LLVM is loaded only where there is something of this text.
         """
         if text in self._functions:
             return True

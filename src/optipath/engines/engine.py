@@ -28,9 +28,8 @@ PathT = TypeVar("PathT")
 class Engine(ABC, Generic[FormulaT, PathT]):
     """Makes a function of a formula: the one entry of an engine, in a file of its own.
 
-    An engine takes a `Formula` and gives a function of numbers. JAX alone takes what stands
-    behind it, the steps of the program with their kernels: of a record it would know neither
-    where a kernel ends, which XLA compiles by itself, nor what a slope is at an edge.
+    JAX takes the steps of the program with their kernels instead: of a formula it would know
+    neither where a kernel ends, which XLA compiles by itself, nor what a slope is at an edge.
     """
 
     name: ClassVar[str]
@@ -43,10 +42,7 @@ class Engine(ABC, Generic[FormulaT, PathT]):
         """Return the function of a formula."""
 
     def is_ready(self, formula: FormulaT) -> bool:
-        """Tell whether a formula can be run at once: nothing is left to compile that takes time.
-
-        Of what an extra brings, it is not known unless the engine says so.
-        """
+        """Tell whether a formula runs without compiling; of an extra it is not known here."""
         del formula
         return not self.extra
 
@@ -64,11 +60,10 @@ class Engine(ABC, Generic[FormulaT, PathT]):
 class ArrayPath(Protocol):
     """A formula that can be done to arrays.
 
-    Called with a range of rows and of columns; what is given in the order of the formula's
-    inputs, each a number or an array along one axis: of all rows, of all columns, or of the
-    cells of the range (`Formula.place_of`); an array of shape (results, paths) to be filled;
-    and the column of it for the first cell. Returns whether the formula holds for all of the
-    range. Where the formula has no inner loop of its own, there is one row.
+    Called with a range of rows and of columns; the inputs in the order of the formula, each a
+    number or an array along one axis (`Formula.place_of`); an array of shape (results, paths) to be
+    filled; and its column for the first cell. Returns whether the formula holds for all of the
+    range.
     """
 
     def __call__(
@@ -116,11 +111,7 @@ class FloatEngine(Engine["Formula", "Callable[..., tuple[Any, ...] | None]"]):
     precisions = ("float64",)
 
     def compiled(self, formula: Formula) -> Callable[..., tuple[Any, ...] | None]:
-        """Return a function of floats, in the order of the formula's inputs.
-
-        Its result is None where the formula does not hold; it may raise an ArithmeticError or
-        a ValueError there, too.
-        """
+        """Return a function of floats: None or ArithmeticError, ValueError where it fails."""
         space: dict[str, Any] = dict(_SPACE)
         exec(compile(source(formula), "<formula>", "exec"), space)  # noqa: S102 - our own text
         path: Callable[..., tuple[Any, ...] | None] = space["path"]
@@ -131,10 +122,7 @@ FLOAT_ENGINE = FloatEngine()
 
 
 def source(formula: Formula) -> str:
-    """Return the text of a function ``path(*given)``.
-
-    What is used once stands where it is used, so that of two choices one is computed.
-    """
+    """Return the text of ``path(*given)``; what is used once is inlined, so choices are lazy."""
     texts: dict[int, str] = {}
     depth: dict[int, int] = {}
     lines: list[str] = []

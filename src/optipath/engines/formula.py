@@ -1,7 +1,7 @@
 """Formula: the numbers of a run as one list of operations, staged, as Python text.
 
-Next to a right angle that is all there is of its cosine; a formula of fewer digits is given
-both, the angle rounded and what is left of it.
+Near a right angle, a rounded angle loses the digits of its cosine: a formula of fewer digits is
+given both, the angle rounded and its remainder.
 """
 
 from __future__ import annotations
@@ -147,8 +147,7 @@ class Formula:
 def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Formula, ...]:
     """Return formulas to be done one after the other; the last gives the results.
 
-    What depends on a few axes of the batch only is computed along these alone, by a stage
-    whose results are given to later ones.
+    What depends on a few axes of the batch only is computed along these alone, by an earlier stage.
     """
     known: list[Symbol] = []
     outcomes: list[Formula] = []

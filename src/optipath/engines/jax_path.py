@@ -49,7 +49,7 @@ class JaxPath:
     ) -> tuple[list[Any], Any]:
         """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
 
-        A component that is not read is NaN, and so is light that gains going round.
+        A component that is not read is NaN, and so is light that gains on each round.
         """
         values, absent = self._split(resolved, arguments)
         with self._precision(values):
@@ -180,10 +180,7 @@ class JaxPath:
     def _split(
         self, resolved: Mapping[str, Resolved], arguments: Mapping[str, Any]
     ) -> tuple[dict[str, Any], frozenset[str]]:
-        """Return the values, and the names of what is not there at all.
-
-        Cosines and sines are among them that are given, or of angles that JAX would round.
-        """
+        """Return the values, with cosines and sines of angles, and the names of what is absent."""
         values: dict[str, Any] = {}
         absent = set()
         for name, (value, present) in resolved.items():
@@ -248,8 +245,8 @@ def _place(place: int) -> str:
 class StepByStep(Carrier):
     """Carries light as another carrier does, each element a piece of its own.
 
-    Each component of light enters all those behind an element: in one piece, XLA computes the
-    light in front again for each of them, which is 10^9 times for a filter of four plates.
+    In one piece, XLA would compute the light in front again for each component behind: 10^9 times
+    for a filter of four plates.
     """
 
     def __init__(self, carrier: Carrier) -> None:

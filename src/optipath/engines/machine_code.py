@@ -19,8 +19,7 @@ _PLAIN = {"int64": ctypes.c_int64, "float64": ctypes.c_double}
 def compiled(text: str) -> bytes:
     """Return the machine code of the function ``path`` of a text.
 
-    The annotations of the function say its types as Numba names them; ``*`` stands before the
-    type of an array's numbers. The function returns an integer.
+    Annotations are the types as Numba names them; ``*`` before the type of an array's numbers.
     """
     library, name, kinds = _library(text)
     module = llvm.parse_assembly(library.get_llvm_str())
@@ -65,10 +64,7 @@ def _library(text: str) -> tuple[Any, str, list[str]]:
 
 
 def _typing(context: Any) -> Any:
-    """Return a typing context that looks up an operation on the same types once.
-
-    Numba tries its rules for arrays at every product of two numbers, half of what it does.
-    """
+    """Return a typing context that looks up an operation on the same types once: half the time."""
     result, known = copy(context), {}
 
     def resolved(function: Any, argument: Any, named: Any) -> Any:
@@ -83,10 +79,7 @@ def _typing(context: Any) -> Any:
 
 @cache
 def _codegen() -> Any:
-    """Return what makes code for this processor.
-
-    Not into the engine of Numba, which never frees what it holds.
-    """
+    """Return a generator of code for this processor, apart from Numba's, which never frees it."""
     from numba.core import codegen  # noqa: PLC0415 - not to load code
 
     class Codegen(codegen.JITCPUCodegen):  # type: ignore[misc] # numba has no types

@@ -40,10 +40,7 @@ class NumbaEngine(Engine["Formula", "ArrayPath"]):
     longest = 4000
 
     def compiled(self, formula: Formula) -> ArrayPath:
-        """Return a function that does what a formula says, to arrays.
-
-        Where the user has forbidden Numba to compile (``NUMBA_DISABLE_JIT``), it is NumPy's.
-        """
+        """Return a function of arrays; NumPy's where ``NUMBA_DISABLE_JIT`` forbids compiling."""
         from optipath.engines.code_cache import CODE  # noqa: PLC0415 - not to load it for NumPy
 
         if is_forbidden():
@@ -87,10 +84,8 @@ def _compiled(formula: Formula, cache: CodeCache) -> ArrayPath:
 def source(formula: Formula) -> str:
     """Return the text of a function of what `ArrayPath` takes, arrays by their addresses.
 
-    ``path(top, bottom, start, stop, *given, own, out, paths, at)``; ``own`` has room for what is
-    split, and ``paths`` is the length of the rows of ``out``. One number for the whole batch is
-    done before the loops, one for a row before the inner loop. It is asked for again when it
-    is compiled.
+    ``path(top, bottom, start, stop, *given, own, out, paths, at)``; ``own`` has room for split
+    numbers, and ``paths`` is the row length of ``out``.
     """
     constants: dict[str, str] = {}
 
@@ -171,10 +166,7 @@ def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]
 
 
 def _splits(formula: Formula) -> tuple[list[str], list[str]]:
-    """Return the rooms for numbers of more digits, and the lines that make them.
-
-    In loops of their own, since the widest number in a loop says how many fit at a time.
-    """
+    """Return rooms and lines of split numbers: own loops, as the widest type limits vectors."""
     rooms, loops = [], []
     for symbol in formula.inputs:
         n = symbol.index

@@ -182,7 +182,7 @@ class BlockWriter:
     def _choice(self, step: Symbol) -> list[str]:
         """Return the lines of a choice by the bits: a processor that guesses at each is slow.
 
-        With a mask of ones where the condition is true, ``no ^ ((yes ^ no) & mask)``.
+        ``no ^ ((yes ^ no) & mask)`` with a mask of ones where the condition is true: no branches.
         """
         condition, yes, no = step.operands
         lines = []

@@ -49,10 +49,9 @@ def lights_formula(
 ) -> Formula:
     """Return the formula of the light at every end.
 
-    With `unreduced`, numbers that are known are taken like those that are given, and all
-    four components are computed, read or not. The results are the four components of each
-    reading in turn, else NaN where they are not read, and then the exponents. It holds for values
-    within their limits whose light is finite and not too faint.
+    The four components of each reading in turn, NaN where not read, then the exponents; with
+    `unreduced`, known numbers are taken as inputs, and all components are computed. It holds for
+    values within their limits whose light is finite and not too faint.
     """
     recorder = Recorder(np.dtype(dtype))
     known = recorder.opaque if unreduced else None
@@ -91,8 +90,7 @@ def bounds_formula(
 ) -> Formula:
     """Return the formula of what `BoundsCarrier` reads at every end, four numbers in turn.
 
-    With the name of a model, that of the intensities without polarisation at every end, and
-    of the largest error that the model has at any of them.
+    With a model, that of the unpolarized intensities at every end, and of its largest error.
     """
     recorder = Recorder(np.dtype(dtype))
     operands = SymbolicInputs(recorder, forms, limits, axes=axes)

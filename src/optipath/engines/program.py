@@ -1,11 +1,8 @@
 """Program: a path as an ordered list of steps, with its loops, ready for an engine.
 
-Nothing here knows a graph or an element. Lights are numbered by the step that
-makes them, evaluations and operands by their place in their lists.
-
-Every way round a loop passes a junction, where lights add up. What light at one brings to
-others is found by sending unit lights along the steps between; a system of equations in the
-intensities along x and y, S2 and S3 of all junctions then gives the light at each.
+Lights are numbered by the step that makes them, evaluations and operands by their place. Every loop
+passes a junction, where lights add up; unit lights sent from each junction along the steps give a
+system of equations in the intensities along x and y, S2 and S3 of all junctions.
 """
 
 from __future__ import annotations
@@ -67,10 +64,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Reading:
-    """A light that a detector or a dump takes.
-
-    Its frame is a `Frame`, or what gives one by the values of a run (`elements`' `VertexFrame`).
-    """
+    """A light that a detector or a dump takes; its frame is a `Frame` or a `VertexFrame`."""
 
     light: int
     frame: Any
@@ -288,8 +282,8 @@ class LoopSolver:
     def adds_up(self, slack: float) -> Any:
         """Return whether what has been found is light that can be, but for roundings.
 
-        Where light gains on each round, its rounds have no sum, and what solves the system is no
-        light: a solution x = b + M x that is one is never less than b + M b + ... + M^n b.
+        Where light gains on each round, the sum diverges, and the solution of the system is
+        unphysical: a solution x = b + M x that is one is never less than b + M b + ... + M^n b.
         """
         xp, holds = self.carrier.xp, True
         for junction in self.loop.junctions:
@@ -306,10 +300,10 @@ class LoopSolver:
         return holds
 
     def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:
-        """Return whether no light at any junction, however polarised, gains on its way to others.
+        """Return whether no light at any junction, however polarized, gains on its way to others.
 
-        Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
-        where l3^2 + l4^2 <= l1 l2. Numbers that are looked at in any case are left out.
+        Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; never negative if l3^2 + l4^2
+        <= l1 l2.
         """
         results = []
         for junction in self.loop.junctions:

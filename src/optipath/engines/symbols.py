@@ -38,11 +38,7 @@ def _operator(operation: str, *, reflected: bool = False) -> Callable[..., Any]:
 
 @dataclass(eq=False, repr=False, slots=True)
 class Symbol:
-    """An elementwise operation on other symbols and on numbers, recorded and not done.
-
-    Kernels that are given symbols in place of numbers leave a record of what they compute;
-    engines make code of it.
-    """
+    """An elementwise operation on other symbols and on numbers, recorded and not done."""
 
     __array_ufunc__ = None  # So that NumPy's scalars leave operators to this class.
     __hash__ = None  # type: ignore[assignment] # Nor is it looked up in place of a number.
@@ -246,11 +242,7 @@ UNKNOWN = object()
 
 
 def simplified(operation: str, operands: tuple[Any, ...]) -> Any:
-    """Return the operand or number that an operation comes to, or `UNKNOWN`.
-
-    A product with 0 is 0: a number that is not finite is found out elsewhere, since it
-    reaches the intensity.
-    """
+    """Return the operand or number that an operation comes to, or `UNKNOWN`; 0 x is 0."""
     rule = _RULES.get(operation)
     return UNKNOWN if rule is None else rule(*operands)
 
@@ -431,10 +423,7 @@ SYMBOLIC = Primitives(
 
 @cache
 def reproducible_symbolic(dtype: str) -> Primitives:
-    """Return primitives that record elementary functions as every engine does them alike.
-
-    Angles that are too large for them become a requirement of the record.
-    """
+    """Return recording primitives alike in every engine; large angles become a requirement."""
 
     def small_enough(angle: Any) -> Any:
         if isinstance(angle, Symbol):
