@@ -276,10 +276,7 @@ KEYWORDS = frozenset(PathGraph.sweep.__kwdefaults__ or ())
 
 
 def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list[str]:
-    """Return what is wrong with values of a grid, each axis looked at by itself.
-
-    What combinations of values do not fit together is found when they are run.
-    """
+    """Return what is wrong with values of a grid, each axis by itself."""
     faults = broadcast_fault({"a sweep": grid.shape})
     arguments = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
     for name, value in arguments.items():

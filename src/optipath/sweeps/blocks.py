@@ -30,12 +30,9 @@ def keep_blocks(
 ) -> Path:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
-    A store that was made and has no block yet goes again where an error comes out, so that the job
-    can be mended; but not where workers of a cluster may still be at it. Every block that
-    is done stays, whatever ends the rest: an error of a block, which comes out as
-    it is, Ctrl-C, or a process that is killed. Results go from the workers to the store, and do
-    not come back here. Sums over blocks are made of what the store holds, in the order of blocks,
-    and so do not depend on who was first. Two runs may share a store.
+    The store is removed after an error that left no block, unless cluster workers may still write
+    to it. Every block that is done stays, whatever ends the rest. Sums over blocks are made from
+    the store in the order of blocks, so they do not depend on the order of computing.
 
     >>> from tempfile import TemporaryDirectory
     >>> from types import SimpleNamespace

@@ -134,10 +134,7 @@ class BlockLight:
     ran: tuple[int, ...] | None = None
 
     def of(self, quantity: LightQuantity) -> npt.NDArray[Any]:
-        """Return the numbers of a quantity; of several detectors, along the first axis.
-
-        They are a copy: a view would keep the light alive for as long as anybody has it.
-        """
+        """Return a copy of a quantity's numbers, to free the light; detectors come first."""
         numbers = [
             np.concatenate([np.ravel(quantity.of(light)) for light in several])
             for several in self.lights

@@ -1,8 +1,8 @@
 """First order: the law of propagation of uncertainty, slopes and linearity.
 
-Ridders' method (C. J. F. Ridders, Adv. Eng. Softw. 4, 75 (1982); Numerical Recipes, sec. 5.7): the
-steps become shorter, each quotient is extrapolated with those before, and what is estimated to
-have the least error is kept, of truncation and of rounding, each component of each path by itself.
+Ridders' method (C. J. F. Ridders, Adv. Eng. Softw. 4, 75 (1982); Numerical Recipes, sec. 5.7):
+steps become shorter, each quotient is extrapolated with those before, and the estimate of least
+error (truncation and rounding) is kept, by component and path.
 """
 
 from __future__ import annotations
@@ -31,10 +31,7 @@ _NOISES = 4.0
 
 
 class Spread(NamedTuple):
-    """How figures of light vary.
-
-    Shapes: covariance (..., 4, 4); uncertainties (..., 10); shares (..., 10, k).
-    """
+    """Covariance (..., 4, 4), uncertainties (..., 10), shares (..., 10, k) of figures of light."""
 
     covariance: npt.NDArray[np.float64]
     uncertainties: npt.NDArray[np.float64]
@@ -44,10 +41,7 @@ class Spread(NamedTuple):
 def changes_of(
     light: Light, slopes: Any, uncertain: tuple[UncertainValue, ...], rounding: float
 ) -> npt.NDArray[np.float64]:
-    """Return by how much each figure changes with one standard uncertainty of each value.
-
-    Shapes: slopes (..., 4, k); returns (..., 10, k).
-    """
+    """Return the change (..., 10, k) of each figure by a standard uncertainty of each value."""
     sigmas, scales = (
         np.stack([np.broadcast_to(n, slopes.shape[:-2]) for n in numbers], axis=-1)
         for numbers in ([u.sigma for u in uncertain], [u.scale for u in uncertain])
@@ -72,10 +66,9 @@ def changes_of(
 def spread_of(changes: Any, correlation: npt.NDArray[np.float64]) -> Spread:
     """Return how figures vary that change so much with one standard uncertainty of each value.
 
-    JCGM 100:2008 (GUM), eq. 13, and eq. 10 without correlation; for several figures at once
-    JCGM 102:2011, sec. 6.2. The share of a value is that of its row in the double sum of eq. 13.
-
-    Shapes: changes (..., 10, k); correlation (k, k).
+    JCGM 100:2008 (GUM), eq. 13, and eq. 10 without correlation; for several figures at once JCGM
+    102:2011, sec. 6.2. The share of a value is that of its row in the double sum of eq. 13. Shapes:
+    changes (..., 10, k); correlation (k, k).
 
     >>> changes = np.zeros((10, 2))
     >>> changes[0] = 3.0, 4.0
@@ -109,14 +102,11 @@ STEPS = (1.0, 1.5, 2.0, 2.5, 3.0)
 def nonlinearity_of(
     light_at: LightAt, light: Light, changes: Any, uncertainties: Any, correlation: Any
 ) -> npt.NDArray[np.float64]:
-    """Return what the first order leaves, as a share of the uncertainty.
+    """Return what the first order leaves (..., 10, k), as a share of the uncertainty.
 
-    The path runs with each value up to 3 standard uncertainties up and down, at each pair of values
-    with both changed by one, and with all values changed together in the direction in which each
-    Stokes component changes most. What the slopes did not say counts for the values that were
-    changed; at n uncertainties divided by n squared, so that a curve is the same at all of them.
-
-    Shapes: changes (..., 10, k); uncertainties (..., 10); correlation (k, k); returns (..., 10, k).
+    The path runs with each value up to 3 standard uncertainties up and down, each pair changed by
+    one, and all along the direction in which each Stokes component changes most; the remainder at n
+    uncertainties is divided by n squared, so that a quadratic term counts equally at all of them.
     """
     center, uncertain = figures_of(light), light_at.uncertain
     result, rounding = np.zeros_like(changes), rounding_of(light)
@@ -192,8 +182,7 @@ def _towards(each: UncertainValue, *signs: float) -> Any:
 
 
 _FIRST = 0.0437
-"""The first step, as a share of the value, or of 1: no round one, which a retarder of so many
-waves would repeat itself by."""
+"""The first step, as a share of the value, or of 1: no round one, against periods of retarders."""
 _SHRINK = 1.7
 _STEPS = 46
 _COLUMNS = 9
@@ -206,10 +195,7 @@ _NEAR = 0.01
 
 
 def slopes_by_differences(light_at: LightAt) -> npt.NDArray[np.float64]:
-    """Return the slopes of the Stokes vector along each value that is uncertain.
-
-    Shape: returns (..., 4, k).
-    """
+    """Return the slopes (..., 4, k) of the Stokes vector along each uncertain value."""
     light = light_at({})
     stokes, noise = np.asarray(light.stokes, np.float64), np.asarray(light.noise, np.float64)
     columns = [_slope(light_at, each, stokes, noise) for each in light_at.uncertain]

@@ -17,12 +17,9 @@ if TYPE_CHECKING:
 
 
 def slopes_by_jax(light_at: LightAt) -> npt.NDArray[np.float64]:
-    """Return the slopes of the Stokes vector along each value that is uncertain.
+    """Return the slopes (..., 4, k) of the Stokes vector along each uncertain value, by JAX.
 
-    All at once, one operation after the other: compiling them would take some seconds a path,
-    for slopes that are mostly asked for once.
-
-    Shape: returns (..., 4, k).
+    Not compiled: that would take seconds a path, for slopes mostly needed once.
     """
     uncertain = light_at.uncertain
 

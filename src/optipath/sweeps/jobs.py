@@ -47,9 +47,8 @@ class BlockPart(Protocol):
 class BlockJob(BlockPart, Protocol):
     """A large job, cut into blocks that are computed each by itself, in any order.
 
-    It is pickled to workers, so its fields are plain data; it stays as it is while it runs. One
-    that is large has a method ``part(number)`` besides, which returns the `BlockPart` that is sent
-    in its place.
+    It is pickled to workers, so its fields are plain data. A large one has a method
+    ``part(number)``, which returns the `BlockPart` that is sent in its place.
     """
 
     @property
@@ -130,10 +129,7 @@ def check_files(folder: Path, about: str, job: BlockJob) -> None:
 
 
 def _has_notes(folder: Path, job: BlockJob) -> bool:
-    """Tell whether attributes were added by hand to the group, and nothing else is changed.
-
-    Zarr writes them into both of its files: what is in one alone is damage.
-    """
+    """Tell whether attributes were added by hand to the group, in both of Zarr's files alike."""
     attrs, result = group_attrs(job), object_of(folder / ".zattrs")
     message = object_of(folder / ".zmetadata").get("metadata")
     needed = {f"{name}/{each}" for name in (*job.arrays, *job.coords) for each in _METADATA}
@@ -202,10 +198,7 @@ def stamp_of(content: bytes) -> list[Any]:
 
 
 def content_of(file: Path, most: int = _MOST) -> bytes:
-    """Return what is in a file; nothing of what is no regular file, or a larger one.
-
-    Pipes and devices are not opened: they may never end.
-    """
+    """Return what is in a regular file that is not too large; pipes may never end."""
     try:
         about = file.stat()
         if S_ISREG(about.st_mode) and 0 < about.st_size <= most:

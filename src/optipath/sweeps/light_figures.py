@@ -39,10 +39,7 @@ def figures_of(light: Light) -> npt.NDArray[np.float64]:
 
 
 def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
-    """Return figures less others, of angles the shorter way round.
-
-    Shape: figures, others (..., 10).
-    """
+    """Return differences of figures (..., 10), of angles the shorter way round."""
     result = np.asarray(figures - others)
     for place, period in _PERIODS.items():
         result[..., place] -= period * np.round(result[..., place] / period)
@@ -72,13 +69,7 @@ def place_of(quantity: object) -> int:
 
 
 def gradients_of(light: Light) -> npt.NDArray[np.float64]:
-    """Return the slopes of all figures along the four components.
-
-    At a corner, as that of the degree of polarisation of unpolarised light, they are NaN: there
-    is no slope to the first order.
-
-    Shapes: light (...); returns (..., 10, 4).
-    """
+    """Return the slopes (..., 10, 4) of all figures; NaN at corners, as of unpolarized DoP."""
     stokes = np.asarray(light.stokes, np.float64)
     s0 = stokes[..., 0]
     with np.errstate(all="ignore"):

@@ -67,10 +67,7 @@ _AT_ONCE = 1 << 17
 
 @dataclass(frozen=True, eq=False)
 class SweptLight:
-    """The light of a run at one detector, as it was computed.
-
-    Shapes: stokes (..., 4); exponent (...).
-    """
+    """The light of a run at one detector: stokes (..., 4), exponent (...)."""
 
     plan: Plan
     grid: SweepGrid

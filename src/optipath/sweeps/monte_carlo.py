@@ -40,10 +40,8 @@ def spread_of_samples(
 ) -> tuple[Spread, npt.NDArray[np.float64], list[str]]:
     """Return how the light of samples varies.
 
-    JCGM 101:2008 (Supplement 1 of the GUM), eqs. 16 and 17; for the shares each value varies
-    alone, with the same random numbers (annex B).
-
-    Shapes: correlation (k, k); returns mean (..., 4).
+    JCGM 101:2008 (Supplement 1 of the GUM), eqs. 16 and 17; for the shares each value varies alone,
+    with the same random numbers (annex B). Shapes: correlation (k, k); returns mean (..., 4).
     """
     order = [*light_at.plan.inputs.open]
     places = [order.index(each.name) for each in light_at.uncertain]
@@ -95,12 +93,9 @@ _ROUNDS = 1000
 class DrawnSamples:
     """Samples of some values, one set of random numbers for every path of a batch.
 
-    Where a value would leave its range, it is drawn again, path by path, and with it the values
-    that it is correlated with: what is left is the normal distribution cut off at the ends. The
-    same seed gives each value the same samples, however they are cut into blocks, in whatever
-    order values are given, and whatever else is uncertain that it is not correlated with.
-
-    Shape: correlation (k, k).
+    Values out of range are drawn again with those they correlate with (a truncated normal
+    distribution). The samples of a value depend on the seed and on its correlated values only, not
+    on blocks or the order of values. Shape: correlation (k, k).
     """
 
     def __init__(
@@ -195,12 +190,9 @@ Array = npt.NDArray[np.float64]
 
 
 class SampleMoments:
-    """Sums of what samples of figures differ by from those at the best estimates.
+    """Sums of differences of sampled figures from those at the best estimates.
 
-    One sample is added after the other, so that the sums are the same to the last bit in whatever
-    blocks.
-
-    Shape: intensity (...).
+    Samples are added one by one: the same to the last bit for any blocks.
 
     >>> moments = SampleMoments(1e-200)
     >>> moments.add(np.full((2, 10), [[1e-200], [3e-200]]))

@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlanRecipe:
-    """What a plan is made of, wherever it is to run: texts, and no code.
-
-    Each process makes the plan once, and compiles it or finds its own compiled code.
+    """The texts that a plan is made of, compiled once by each process.
 
     >>> import pickle
     >>> import optipath as op

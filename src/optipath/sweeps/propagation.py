@@ -174,10 +174,7 @@ def text_of_propagation(
     uncertainties: Any,
     shares: Any,
 ) -> str:
-    """Return a table of the quantities of light.
-
-    Shapes: light (...); uncertainties (..., 10); shares (..., 10, k).
-    """
+    """Return a table of the quantities of light with uncertainties (..., 10)."""
     values, names = figures_of(light), [each.name for each in uncertain]
     head = ["", "value", "uncertainty", *names]
     rows = [head]
@@ -238,10 +235,7 @@ _CURE = "method='monte-carlo' needs no slopes"
 def notes_of_first_order(
     light: Light, uncertain: tuple[UncertainValue, ...], uncertainties: Any, left: Any
 ) -> list[str]:
-    """Return what is doubtful to the first order, a sentence each.
-
-    Shapes: uncertainties (..., 10); left (..., 10, k).
-    """
+    """Return what is doubtful to the first order, by what is left (..., 10, k)."""
     notes = [
         f"{each.name} is closer to the ends of its range, {each.range_text}, than its uncertainty, "
         f"and a normal distribution would leave it; {_CURE}, and stays inside"
@@ -281,9 +275,7 @@ def _named(where: Any) -> str:
 
 
 def notes_of_lost_figures(missing: Any) -> list[str]:
-    """Return what is said of figures that some samples do not have, if there are any.
-
-    Shape: lost (..., 10).
+    """Return notes on figures (..., 10) that some samples do not have.
 
     >>> notes_of_lost_figures(np.zeros(10, bool))
     []
@@ -294,9 +286,7 @@ def notes_of_lost_figures(missing: Any) -> list[str]:
 
 
 def notes_of_lost_light(missing: Any) -> list[str]:
-    """Return what is said of light that no float holds, if there is any.
-
-    Shape: lost (...).
+    """Return notes on light that no float holds.
 
     >>> notes_of_lost_light(np.array(False))
     []

@@ -54,11 +54,10 @@ _NAMED = 20
 class BlockStore:
     """The store of a job.
 
-    A block's arrays are written first and its mark last, each file whole or not at all. So whoever
-    is interrupted leaves nothing that passes for a block, and two who do one block at a time write
-    the same bits. The marks, in ``blocks/done``, have the sizes and the digests of the files that
-    the block has written, and a digest of themselves, the job and the number of the block: where
-    any byte of these is another, the block is not done.
+    A block's arrays are written first and its mark last, each file whole or not at all:
+    interruption leaves no false block, and two writers of one block write the same bits. The marks,
+    in ``blocks/done``, have the sizes and digests of the block's files, and a digest of themselves,
+    the job and the block number.
     """
 
     folder: Path
@@ -87,10 +86,7 @@ class BlockStore:
         return f"{name} of {self.seal}"
 
     def done(self, job: BlockJob) -> set[int]:
-        """Return the numbers of the blocks that it holds, each byte of which is looked at.
-
-        The marks of damaged blocks are removed, so that these are computed anew.
-        """
+        """Return the numbers of intact blocks, and remove the marks of damaged ones."""
         try:
             names = {each.name for each in (self.folder / _MARKS).iterdir()}
         except OSError as fault:
@@ -142,10 +138,7 @@ class BlockStore:
                 self.folder.mkdir()
 
     def _make(self, job: BlockJob, record: dict[str, Any]) -> bool:
-        """Make it beside its place and move it there: nobody finds half of it.
-
-        False if another run was faster.
-        """
+        """Make it beside its place and move it there; False if another run was faster."""
         draft = self._draft()
         try:
             make_group(job, record, self.about("files"), draft)
@@ -189,10 +182,7 @@ _METADATA = ".zarray"
 def chunk_files(
     metadata: bytes, region: tuple[slice, ...], values: npt.NDArray[Any]
 ) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of some whole chunks of an array, by Zarr's own codecs.
-
-    Zarr itself may leave half of a file where it is interrupted.
-    """
+    """Yield the files of whole chunks of an array, since Zarr may leave half of a file."""
     buffer = default_buffer_prototype().buffer
     like = zarr.open_array(
         MemoryStore({_METADATA: buffer.from_bytes(metadata)}), zarr_format=2, mode="r"

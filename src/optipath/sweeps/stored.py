@@ -230,9 +230,8 @@ def stored_in_netcdf(
 ) -> xr.Dataset:
     """Return a sweep out of its file, which is written if it is not there.
 
-    The blocks are kept in a Zarr store beside it until all are there, so that this goes on where it
-    was interrupted, too; the file is then written from it block by block, and put into its place.
-    Two runs share that store: who is later opens the file of who was first.
+    Blocks are kept in a Zarr store beside the file until all are there, so that an interrupted run
+    goes on; concurrent runs share that store.
     """
     identity = sha256(job.identity.encode()).hexdigest()
     if file.exists():

@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class UncertainValue(Unchanging):
-    """A value of a parameter, or a batch of them, with its standard uncertainty.
-
-    Units: value, sigma in radians.
+    """A value of a parameter, or a batch of them, with its standard uncertainty; angles in rad.
 
     >>> UncertainValue("k", np.array(0.1), np.array(0.2), 0.0, np.inf, "").leaves_its_range
     True
@@ -82,9 +80,7 @@ _EXAMPLE = '{("n1", "k1"): 0.3}'
 def read_correlation(
     argument: Any, names: Sequence[str]
 ) -> tuple[npt.NDArray[np.float64], list[str]]:
-    """Return the matrix of correlation coefficients, and what is wrong with what is given.
-
-    Shape: returns matrix (k, k).
+    """Return the matrix (k, k) of correlation coefficients, and faults in it.
 
     >>> read_correlation({("n", "k"): 0.5}, ["n", "k"])[0]
     array([[1. , 0.5],

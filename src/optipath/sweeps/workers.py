@@ -97,10 +97,7 @@ class AtOnce(Executor):
 
 
 class Travelling(Executor):
-    """An executor of a cluster that says what is wrong where a worker cannot load what it gets.
-
-    Of what distributed loads itself, nobody is told more than that the worker was lost.
-    """
+    """An executor of a cluster that reports why a worker cannot load its task."""
 
     def __init__(self, executor: Executor) -> None:
         self._executor = executor
