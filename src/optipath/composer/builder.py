@@ -216,9 +216,8 @@ def in_order_of_elimination(
 ) -> dict[int, int]:
     """Return the junctions of a loop in the order of their elimination.
 
-    A junction that is eliminated makes its neighbours neighbours of each other; taking the one
-    with the fewest each time, as Markowitz does (Management Science 3, 1957), keeps them few.
-    In a stack of parallel interfaces it adds layer after layer.
+    Markowitz (Management Science 3, 1957): the junction with the fewest neighbors first, which
+    keeps the fill-in low.
     """
     near = neighbours(steps, start, junctions)
     waiting = [(len(others), junction) for junction, others in near.items()]

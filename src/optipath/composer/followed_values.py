@@ -28,8 +28,8 @@ def with_followed(
 ) -> tuple[nx.MultiDiGraph, list[str]]:
     """Return a graph of elements in which boundaries have what they take over from others.
 
-    The medium in front is that of the boundary whose light enters at ``in``. The incidence is
-    that of a parallel boundary which has refracted the light before, measured where that is.
+    The medium in front is that of the boundary whose light enters at ``in``; the incidence is the
+    refracted angle of a parallel boundary before.
     """
     elements = dict(graph.nodes(data="element"))
     names = [
@@ -159,10 +159,7 @@ def _may_measure(element: Any) -> bool:
 
 
 def _real(index: Any) -> Any:
-    """Return an index without absorption as a real number; any other as it is.
-
-    Of an absorption that is open it takes nothing over: that is compared with what is before.
-    """
+    """Return an index without absorption as a real number; open ones are compared later."""
     k = absorption_of(index) if isinstance(index, Material) else None
     if k is not None and (not k.known or k.traced):
         return Material(index.n)

@@ -169,8 +169,7 @@ def known_numbers(
 ) -> tuple[list[float | None], list[tuple[float, ...] | None]]:
     """Return the number of each operand, and those of each evaluation, as far as known.
 
-    Where light goes round, evaluations may be done in twice the digits, in which what floats
-    give as 0 or 1 may be neither: none is known.
+    In a loop none is known: in twice the digits, what floats give as 0 or 1 may be neither.
     """
     operands = [number_of(operand) for operand in program.operands]
     outcomes: list[tuple[float, ...] | None] = []

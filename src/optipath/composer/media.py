@@ -36,10 +36,7 @@ FOLLOWING = "following"
 
 
 class Media:
-    """The media and the angles at both ends of every way from boundary to boundary.
-
-    What is the same by its structure, such as one parameter, needs no look at its values.
-    """
+    """The media and the angles at both ends of every way from boundary to boundary."""
 
     def __init__(self, wiring: Wiring) -> None:
         self.elements = wiring.elements
@@ -248,7 +245,7 @@ class SameMedium(Agreement):
     """The indices of refraction of two boundaries that face each other are the same.
 
     The operands are n on both sides, and k on both where either may absorb; or k of the first
-    alone, where light must come to the second from a medium that does not absorb.
+    alone.
     """
 
     leaves: str
@@ -327,9 +324,8 @@ def _called(number: str) -> str:
 class SameTurn(Agreement):
     """The turns on one way between two faces come to those on another, there or back.
 
-    These are boundaries, or a boundary and a mirror. All ports of a face share x. A turn counts
-    about the direction in which its light travels, so that a way back undoes a way there by
-    turning as much again. The operands are the turns on both ways.
+    A turn counts about the direction of travel, so that a way back undoes it by as much again. The
+    operands are the turns on both ways, between boundaries, or a boundary and a mirror.
     """
 
     count: int
@@ -368,8 +364,7 @@ _LAST_DIGITS, _LAST_SINGLE_DIGITS = 2.0**-50, 2.0**-22
 class SnellsLaw(Agreement):
     """An incidence at one boundary, and the medium where it is measured; the same at another.
 
-    The operands are angle, n and k of both, and the turns between the two planes of incidence:
-    boundaries whose planes differ are not parallel.
+    The operands are angle, n and k of both, and the turns between the two planes of incidence.
     """
 
     leaves: str

@@ -70,8 +70,7 @@ class Meetings:
     def mirrored(self) -> Iterator[tuple[Meeting, Meeting]]:
         """The ways from a boundary straight to a mirror, each with one straight back to its side.
 
-        All of that lies in one plane. What two mirrors send back may have been turned, and a
-        beam splitter stands at any angle.
+        All in one plane: neither between two mirrors nor by way of a beam splitter.
         """
         elements = self.wiring.elements
         boundaries = [name for name in elements if isinstance(elements[name], MediaOfBoundary)]
@@ -86,10 +85,7 @@ class Meetings:
                             yield there, back
 
     def _of(self, start: Port, *, to_mirrors: bool = False) -> Iterator[Meeting]:
-        """Yield where light goes from a port, through all that keeps it in its medium.
-
-        By default to boundaries, by way of mirrors as well; else straight to mirrors.
-        """
+        """Yield where light goes in one medium: boundaries, also by mirrors; else just mirrors."""
         wiring = self.wiring
         waiting: list[tuple[Port, bool, tuple[Any, ...]]] = [(start, True, ())]
         seen: dict[Port, set[Any]] = {}
@@ -124,8 +120,7 @@ class Meetings:
     def in_layers(self) -> tuple[Meeting, ...]:
         """The meetings of light between parallel faces: one of them has refracted it.
 
-        It stays between them where one of them reflects it, and goes to and fro. Those that a
-        turn gives another plane of incidence are among them, since their angles may be 0.
+        Those whose plane of incidence is turned are among them, since their angles may be 0.
         """
         leaving: dict[Port, list[Meeting]] = {}
         facing = [m for m in self._straight if m.sides not in self._told]
@@ -173,11 +168,7 @@ class Meetings:
         return {meeting.sides for meeting in self._straight if self._is_shown(meeting)}
 
     def _is_shown(self, meeting: Meeting) -> bool:
-        """Tell whether a face says that it is not parallel to the one before.
-
-        That is the one whose light enters in front, or behind where no light does so in front, or
-        none of a face, and none goes to and fro.
-        """
+        """Tell whether a face says that it is not parallel to the one before."""
         face: Any = self.wiring.elements[meeting.enters[0]]
         return face.parallel is False and self._comes_before(meeting)
 
@@ -198,10 +189,7 @@ class Meetings:
         return others and meeting.straight and all(isinstance(e, BoundaryElement) for e in ends)
 
     def _refracted(self, port: Port) -> bool:
-        """Tell whether light at a port has been refracted there.
-
-        In front, where light is reflected too, what comes next stands as it likes.
-        """
+        """Tell whether light at a port has been refracted there, and not reflected as well."""
         name, leaves = port
         lit = self.wiring.lit
         if leaves == "transmitted":

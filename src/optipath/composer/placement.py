@@ -38,10 +38,7 @@ def goes_straight(element: Element, enters: str, leaves: str) -> bool:
 
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
-    """Return the turn of a relatively placed link: its own, or else its element's.
-
-    Units: the result in radians.
-    """
+    """Return the turn of a relatively placed link in rad: its own, or else its element's."""
     own = wiring.graph.edges[link]["azimuth"]
     return azimuth_at(wiring.elements[link[1]], link[2][1]) if own is None else own
 
@@ -187,8 +184,7 @@ def turn_text(turn: Any) -> str:
 def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
     """Return the frame of light at a port that comes from a vertex, or else goes to one.
 
-    Directly, or through elements that let it go straight on, whose links may turn it. Of
-    light that several links bring, or may have brought, nothing is known.
+    Directly, or through elements that let light go straight on; unknown where several links meet.
     """
     if not wiring.self_placed:
         return None

@@ -40,8 +40,7 @@ def link_text(link: Link) -> str:
 class Wiring:
     """A graph of elements seen by its ports, each list of them gathered once.
 
-    Working on ports rather than nodes tells light that passes an element twice, by
-    different ways, from light that goes round in a loop.
+    Ports rather than nodes tell light that passes an element twice from light in a loop.
     """
 
     def __init__(
@@ -162,10 +161,7 @@ class Wiring:
 
     @cached_property
     def stretches(self) -> list[Stretch]:
-        """The ports that light passes, in the order of travel; those of a loop together.
-
-        Those on a way from a start to an end, or all that are lit.
-        """
+        """The ports that light passes (from a start to an end) in order; loops together."""
         wanted = self.lit if self.keep == "all" else self.lit & self.useful
         return stretches(among(self.ports, wanted))
 
@@ -209,10 +205,7 @@ class Stretch(NamedTuple):
 
 
 def stretches(ways: Ways) -> list[Stretch]:
-    """Return the ports in the order of travel, those of a loop together.
-
-    Where nothing else tells, ports come in the order of their names.
-    """
+    """Return the ports in the order of travel, those of a loop together; ties by name."""
     together = cycles(ways)
     came_from = backwards(ways) if together else {}
     loops = {min(ports): _loop(ways, ports, came_from) for ports in together}
@@ -361,8 +354,7 @@ def fed_by(wiring: Wiring, tap: Link) -> set[str]:
 def tap_faults(wiring: Wiring) -> Iterator[str]:
     """Yield a sentence for each tap whose light meets other light, and would count twice.
 
-    What a tap reads is still on its way elsewhere. So it may go to no place that light reaches
-    otherwise: no loop, no Combiner, and no end that is not its own.
+    Its light goes on elsewhere as well, so it may reach no loop, no Combiner, and no other end.
     """
     if not wiring.taps:
         return
