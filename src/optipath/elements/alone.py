@@ -154,10 +154,7 @@ def turned_alone(element: Any, enters: str, before: Frame | None = None) -> Fram
 def absorbed_alone(
     stack: Any, operation: Operation, light: Any, enters: str, method: str
 ) -> npt.NDArray[np.float64]:
-    """Return the share of light that stays in each layer of a stack.
-
-    Shapes: light (..., 4); returns (..., layers).
-    """
+    """Return the share (..., layers) of light that stays in each layer of a stack."""
     if enters not in stack.inputs:
         raise PathError(
             f"{stack.kind} has no in-port {shown(enters)}; light arrives at 'in' or at 'back'"

@@ -30,9 +30,8 @@ if TYPE_CHECKING:
 class FourPort(Element):
     """An element with two sides.
 
-    Light from the front enters at ``in``; what is reflected leaves at ``reflected``, and what
-    passes at ``transmitted``. Light from behind enters at ``back``; what is reflected leaves at
-    ``transmitted``, and what passes at ``reflected``.
+    ``in`` gives ``reflected`` and ``transmitted``; ``back``, from behind, gives ``transmitted`` and
+    ``reflected``.
     """
 
     inputs: ClassVar[tuple[str, ...]] = ("in", "back")
@@ -252,9 +251,7 @@ def operands_of(element: Any) -> tuple[Operand, ...]:
 def angles_of(
     xp: Any, incidence: Any, n1: Any, k1: Any, n: Any, k: Any, *before: Any
 ) -> tuple[Any, Any]:
-    """Return the angles of light in front of a boundary and behind it.
-
-    Units: front, behind in radians.
+    """Return the angles of light in front of a boundary and behind it, in radians.
 
     >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 0.0, 1.5, 0.0)
     >>> print(np.degrees(behind).round(6))

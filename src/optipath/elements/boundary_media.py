@@ -52,12 +52,9 @@ _ROUNDING = 1e-9
 class ArrivingWave(Agreement):
     """A wave in an absorbing medium goes on along the normal at least as fast as it fades.
 
-    Of the wave g along the normal, Im g is at most Re g. Beyond, at grazing incidence, behind
-    total reflection or in a metal, hardly any of the power is carried by the arriving wave alone,
-    and what is let through over what arrives grows without limit.
-
-    The operands are n and k of the medium, those of the one in which the incidence is measured,
-    and the incidence.
+    Im g <= Re g of the wave g along the normal; beyond (grazing, behind total reflection, in
+    metals) transmittance over the arriving wave alone grows without limit. The operands are n and k
+    of the medium, those of the one in which the incidence is measured, and the incidence.
     """
 
     enters: str

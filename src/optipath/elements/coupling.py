@@ -59,9 +59,7 @@ class Coupling:
 
 
 def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
-    """Return operations whose axes stand at an angle to the frame, right-handed from x.
-
-    Units: angle in radians.
+    """Return operations turned by an angle in rad, right-handed from x.
 
     >>> turned(0.0, Operation(TURN, (0.3,)))[0].kernel.name
     'turn'
@@ -74,10 +72,7 @@ def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
 
 
 def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
-    """Return a value as the plain numbers that kernels take.
-
-    An index of refraction is two numbers (n, k), and so is any complex number; a Stokes
-    vector is four, a matrix sixteen, anything else one.
+    """Return a value as real numbers: (n, k) of a complex one, 4 of a vector, 16 of a matrix.
 
     >>> from optipath.materials.index_domains import IndexDomain
     >>> numbers_of(1.5 + 2j, IndexDomain("index"))

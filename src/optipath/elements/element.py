@@ -466,9 +466,7 @@ class Element(Chainable):
     @overload
     def __matmul__(self, other: Light) -> Light: ...
     def __matmul__(self, other: Mueller | Element | Light) -> Mueller | Light:
-        """Return the light behind the element, which stands in the frame that light arrives in.
-
-        Behind another element, or a matrix, it is the Mueller matrix of both.
+        """Return the light behind the element in the frame of arrival; of a matrix, the product.
 
         >>> from optipath import Light, Polarizer
         >>> Polarizer(0.0) @ Light([1.0, 0.0, 0.0, 0.0])

@@ -36,9 +36,7 @@ def share_x(first: Frame, second: Frame) -> bool:
 
 
 def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float64]:
-    """Return the angle of incidence at which light is turned from one direction to another.
-
-    Shape: returns (...). Units: the result in radians.
+    """Return the angle of incidence in rad at which light is turned between directions.
 
     >>> from optipath.light.frame import Frame
     >>> to_the_side = Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
@@ -51,9 +49,7 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
 
 
 def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
-    """Return the angle between the directions of two frames.
-
-    Shape: returns (...). Units: the result in radians.
+    """Return the angle in rad between the directions of two frames.
 
     >>> from optipath.light.frame import Frame
     >>> aside = Frame.from_direction(z=(0, 1, 1), x=(1, 0, 0))
@@ -65,12 +61,7 @@ def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
 
 
 def azimuth_at(element: Any, port: str) -> Any:
-    """Return the azimuth by which a port is turned: that of an element is that of its ``in``.
-
-    Light that comes from behind is in the plane of the element already, or its link says how
-    it stands to it.
-
-    Units: the result in radians.
+    """Return the azimuth in rad of a port; that of an element is that of its ``in``.
 
     >>> from optipath import Interface
     >>> pane = Interface(1.5, 0.8, azimuth=0.3)

@@ -388,8 +388,7 @@ def incidence_argument(value: Any) -> tuple[Any, Any]:
 def arriving_cosine(cos: Any, k1: Any) -> Any:
     """Return the cosine of the angle at which light arrives out of a medium with k = k1.
 
-    At a right angle light arrives out of media that do not absorb alone: the wave along the face
-    grows without limit next to it, and has none that they would share.
+    At a right angle, media must not absorb: the wave along the face grows without limit next to it.
     """
     none = (k1 > 0.0) & (cos <= _GRAZING)
     if is_traced(none):

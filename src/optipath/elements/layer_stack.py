@@ -293,18 +293,15 @@ _ROUNDING = 1e-9
 class FadingLayer(Agreement):
     """Of light that starts through a layer, no more leaves the face that it meets: e (R + T) <= 1.
 
-    e is what of the intensity is left behind the layer, R and T are those of either face, lit from
-    within, of s and of p. In a medium that absorbs, R + T is not 1: next to a surface plasmon, or
-    behind total reflection, it is far more, by the interference of the two waves at the face. As
-    each layer then keeps some light, none comes out of a stack that did not go in.
+    e is the intensity left behind the layer, R and T those of either face from within, of s and p:
+    R + T is far more than 1 next to a plasmon or behind total reflection. As each layer then keeps
+    some light, no stack emits more than it receives.
 
-    With t = Im g / Re g of the wave along the normal, R + T is at most (t + sqrt(1 + t^2))^2, so
-    that a length of wavelength / (2 pi Re g) is enough whatever the media beside are, as asinh(t)
-    is at most t.
+    With t = Im g / Re g of the wave along the normal, R + T <= (t + sqrt(1 + t^2))^2, so that a
+    length of wavelength / (2 pi Re g) is always enough, as asinh(t) <= t.
 
-    The operands are n and k of the medium in front of the layer, of the layer, and of the medium
-    behind, the length, the wavelength, the index of the medium in which the incidence is measured,
-    and the incidence.
+    The operands are n, k in front of the layer, of it, and behind, its length, the wavelength, the
+    index where the incidence is measured, and the incidence.
     """
 
     layer: str

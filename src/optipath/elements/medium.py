@@ -347,8 +347,7 @@ _FAR = 50.0
 def operations_along(medium: Any) -> tuple[Operation, ...]:
     """Return what a `Medium` does along the way, but for what is known to be 0.
 
-    Where dichroism is, the absorption is that of the state that is absorbed least, and what
-    stands beside it takes nothing from that one: no exponential is too large.
+    Absorption is that of the state absorbed least, so that no exponential is too large.
     """
     linear, circular = not vanishes(medium.dichroism), not vanishes(medium.circular_dichroism)
     rotates = not (vanishes(medium.rotation) and vanishes(medium.dextrorotation))

@@ -493,10 +493,7 @@ def coupling_by_rows(element: Any, kernel: Kernel) -> Coupling:
 
 @cache
 def domains_of(element_class: type[Any]) -> dict[str, Domain]:
-    """Return the domain that each field is annotated with, in order.
-
-    Without one it is a real number, or True or False where that is what it says.
-    """
+    """Return the annotated domain of each field in order; by default a real number, or a bool."""
     try:
         hints = get_type_hints(element_class, include_extras=True)
     except NameError as error:

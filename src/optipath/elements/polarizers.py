@@ -150,9 +150,7 @@ _QUARTER, _DIAGONAL = math.pi / 2, math.pi / 4
 
 
 def along_circular_axes(*operations: Operation) -> tuple[Operation, ...]:
-    """Return operations between quarter-wave plates: S3 > 0 takes the place of x, S3 < 0 of y.
-
-    So no digits of light get lost that one of the two hardly lets through.
+    """Return operations between quarter-wave plates: S3 > 0 becomes x, S3 < 0 y, with all digits.
 
     >>> from optipath.kernels.catalog import POLARIZER
     >>> steps = along_circular_axes(Operation(POLARIZER, (1.0, 0.0)))

@@ -299,9 +299,7 @@ _TURN = 2.0 * math.pi
 
 
 def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float, Any, Any]:
-    """Return thickness, birefringence and wavelength of a plate.
-
-    Units: retardance in radians; at, thickness in metres.
+    """Return thickness, birefringence and wavelength of a plate, in metres.
 
     >>> thickness, _, _ = plate_for("90 deg", "589.3 nm", 0.0091, 0)
     >>> round(thickness * 1e6, 3)

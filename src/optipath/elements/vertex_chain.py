@@ -301,9 +301,7 @@ def pieces_of(count: int) -> Iterator[slice]:
 
 
 def vertices_back(owner: str, vertices: Any) -> Any:
-    """Return the points of a chain from its end to its start.
-
-    Shapes: vertices (..., m + 2, 3); returns (..., m + 2, 3).
+    """Return the points (..., m + 2, 3) of a chain from its end to its start.
 
     >>> import numpy as np
     >>> vertices_back("vertex", np.array([[0, 0, 0], [0, 0, 1], [0, 1, 1]])).tolist()

@@ -144,10 +144,7 @@ class Coordinates(NamedTuple):
         return Operation(kernel, (*before, *self._coordinates(self.points)))
 
     def planes(self, kernel: Kernel) -> Operation:
-        """Return the operation of a kernel of planes of incidence, by `OfPlanes`.
-
-        Angles tell a plane where points do not; the points are to be all from the start.
-        """
+        """Return the operation of a kernel of planes of incidence, by points, or else by angles."""
         if self.points is None:
             factory: Any = replace(kernel.factory, events=len(self.events))  # type: ignore[type-var]
             return Operation(replace(kernel, factory=factory), self.operands)
@@ -353,12 +350,10 @@ _STRAIGHT = 1e-7
 def normal_faults(
     chains: Floats | None, normals: Any, count: int, sides: Floats | None = None
 ) -> list[str]:
-    """Return which normals are not along those of their vertices, and by how much.
+    """Return which normals (..., count, 3) are off those of their vertices, and by how much.
 
-    That of a reflection is along the bisector k_out - k_in, and that of a refraction along
-    n2 k_out - n1 k_in; between equal media any will do.
-
-    Shapes: chains (..., count + 2, 3); normals (..., count, 3); sides (..., count, 2).
+    A reflection's is along k_out - k_in, a refraction's along n2 k_out - n1 k_in; between equal
+    media any will do.
 
     >>> chain = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     >>> normal_faults(chain, [[0.0, -2.0, -2.0]], 1)
@@ -463,10 +458,7 @@ def _normal_of(place: int, chain: int, batch: tuple[int, ...]) -> str:
 
 
 def _surely_along(chains: Floats, normals: Floats, sides: Floats) -> bool:
-    """Tell, quickly, whether all normals are along those of their vertices beyond any doubt.
-
-    By sin^2 = 1 - cos^2, whose rounding is far below the square of the tolerance.
-    """
+    """Tell, by sin^2 = 1 - cos^2, whether all normals are along their vertices beyond doubt."""
     # Component by component, each for all chains: sums of rows, and no short last axis.
     points, n, n12 = (
         np.ascontiguousarray(np.moveaxis(each, 0, -1)) for each in (chains, normals, sides)
@@ -489,11 +481,7 @@ def _dot(a: Floats, b: Floats) -> Floats:
 
 
 def _off(chains: Floats, normals: Floats, sides: Floats) -> Floats:
-    """Return the angles between normals and those of the vertices.
-
-    Light that goes straight on has none: surfaces that reflect are all those along it, and
-    those that refract may stand anyhow.
-    """
+    """Return the angles between normals and those of vertices; none where light goes straight."""
     unit = _units(np.diff(chains, axis=-2))
     normal, (n1, n2) = _units(normals), np.moveaxis(sides, -1, 0)
     bisector = n2[..., np.newaxis] * unit[..., 1:, :] - n1[..., np.newaxis] * unit[..., :-1, :]
@@ -516,10 +504,7 @@ _THREE_AXES = 72
 
 @dataclass(frozen=True)
 class VertexFrame:
-    """How light arrives at the last of some vertices, or how it leaves there.
-
-    On its way from there it may be told in a frame that is turned about its direction.
-    """
+    """The frame of light at the last of some vertices, on arrival or departure, or turned."""
 
     points: Coordinates
     leaves: bool
@@ -538,10 +523,7 @@ class VertexFrame:
     def frame(
         self, arguments: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray
     ) -> Frame:
-        """Return the frame: x across the plane of incidence, and turned from there.
-
-        Shape: returns (..., 3).
-        """
+        """Return the frame: x across the plane of incidence, and turned from there."""
         if any(operand.traced for operand in self._views) or any(
             is_traced(arguments[name].value) for name in self.names
         ):

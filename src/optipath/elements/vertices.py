@@ -56,9 +56,8 @@ if TYPE_CHECKING:
 class ChainVertex(MediaOfBoundary, Element):
     """A smooth surface at one vertex of a chain.
 
-    Its frames come from the points: z along the legs, x = k_out cross k_in across the plane
-    of incidence, as `Interface` has it; a link between neighbours of one chain turns the
-    light by them. What stands relatively beside it, stands in the frame of its port.
+    z is along the legs, x = k_out cross k_in across the plane of incidence, as in `Interface`;
+    relative elements take the frame of its port.
     """
 
     straight: ClassVar[bool] = False
