@@ -104,10 +104,7 @@ class Answers:
         return results
 
     def as_light(self, parameters: Mapping[str, Any], stokes: Any, frame: Any) -> Light:
-        """Return light of Stokes vectors by themselves, with the frame and wavelengths of a run.
-
-        Shape: stokes (..., 4).
-        """
+        """Return light of Stokes vectors (..., 4), with the frame and wavelengths of a run."""
         by = self.wavelengths
         later = LaterWavelength(by, self.plan.inputs, parameters) if by else None
         return Light.of(stokes, self.framed(frame, parameters), wavelength=later)

@@ -26,10 +26,7 @@ _MOST = 0.5
 
 @dataclass(eq=False, repr=False)
 class Approximation(Answering):
-    """Runs a model that is not exact, path by path, as far as a tolerance allows.
-
-    Two questions in turn: how large the errors are, and what the light is.
-    """
+    """Runs an inexact model path by path within a tolerance: first its errors, then the light."""
 
     whole: Runner
     errors: Question

@@ -29,10 +29,7 @@ _AT_ONCE = 1 << 16
 
 
 class Results(NamedTuple):
-    """What a formula has come to: for each result a number, or an array over paths.
-
-    Shape: out (rows, paths).
-    """
+    """The results of a formula: numbers, or arrays over paths in rows of ``out``."""
 
     each: list[Any]
     out: Array
@@ -40,28 +37,19 @@ class Results(NamedTuple):
 
     @classmethod
     def of(cls, rows: Array, read: int, dtype: np.dtype[Any]) -> Results:
-        """Return results that stand in rows, so many of them read in the precision of a plan.
-
-        Shape: rows (results, paths).
-        """
+        """Return results of rows (results, paths), so many read in the precision of a plan."""
         out = rows if rows.dtype == dtype else rows[:read].astype(dtype)
         return cls([*out[:read], *rows[read:]], out, [*range(read), *[None] * (len(rows) - read)])
 
     def together(self, start: int, stop: int) -> Array | None:
-        """Return some results as rows of one array, if they stand there one after the other.
-
-        Shape: returns (stop - start, paths).
-        """
+        """Return results (stop - start, paths) as rows of one array, if stored contiguously."""
         first = self.rows[start]
         if first is None or self.rows[start:stop] != list(range(first, first + stop - start)):
             return None
         return self.out[first : first + stop - start]
 
     def block(self, start: int, stop: int) -> Array:
-        """Return some results as rows of one array, copied if need be.
-
-        Shape: returns (stop - start, paths).
-        """
+        """Return results (stop - start, paths) as rows of one array, copied if need be."""
         together = self.together(start, stop)
         if together is not None:
             return together
@@ -246,10 +234,7 @@ class Grid:
             self.given.append(number)
 
     def fill(self, piece: Piece, out: Array) -> bool:
-        """Fill a piece of the results; return whether the formula holds for all of it.
-
-        Shape: out (results, paths).
-        """
+        """Fill a piece of out (results, paths); return whether the formula holds for all of it."""
         argument, count = list(self.given), piece.stop - piece.start
         for place in self.cells:
             # One number after the other.

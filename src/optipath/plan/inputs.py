@@ -164,10 +164,7 @@ class Inputs:
 
     @cached_property
     def limits(self) -> Ranges:
-        """The range of each open parameter, wherever it stands; its own range included.
-
-        That of a multiple with an offset stands beside it, by what `InputKey.quantity` says.
-        """
+        """The range of each open parameter; of a multiple with an offset by `InputKey.quantity`."""
         known = (*self.open.values(), *self.computed)
         result = Ranges({p.name: (p.minimum, p.maximum) for p in known})
         for use in self.uses:
@@ -239,10 +236,9 @@ def _is_complex(argument: Resolved) -> bool:
 
 
 class LargeAngles:
-    """The open parameters of a path that may be angles beyond a whole turn.
+    """The open parameters of a path that may be angles beyond a whole turn, by samples.
 
-    Of the first array for a parameter, a thousand numbers are looked at; of those that follow,
-    which may be many and short, the first, the last, and one between.
+    Up to a thousand of the first array; of later ones the first, the middle and the last.
     """
 
     def __init__(self, inputs: Inputs) -> None:

@@ -1,8 +1,7 @@
 """Interpreter: a program run step by step, loops and physical checks included.
 
-Where little light leaves, what comes back must be known to many more digits than the result:
-1 - gain has lost as many as it has zeros. So the elements of a loop are evaluated, and what
-goes round is summed, in numbers of twice the precision, by the same kernels.
+Where little light leaves a loop, 1 - gain loses digits, so elements of a loop are evaluated and
+summed in twice the precision, by the same kernels.
 """
 
 from __future__ import annotations
@@ -71,10 +70,7 @@ class Interpreter:
         self._known: list[Any] | None = None
 
     def single(self, numbers: Mapping[InputKey, Any]) -> list[tuple[Any, ...]] | None:
-        """Return (S0, S1, S2, S3, exponent) at every end, all numbers being floats.
-
-        None where that takes more care than floats allow.
-        """
+        """Return floats (S0, S1, S2, S3, exponent) at every end; None if floats do not suffice."""
         result = self._results(ResolvedInputs(numbers, (1,)), {})
         if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in result):
             return None
@@ -83,20 +79,14 @@ class Interpreter:
     def lights(
         self, arguments: ResolvedInputs, shared: Shared | None = None
     ) -> list[tuple[np.ndarray[Any, Any], Any]]:
-        """Return Stokes vectors (..., 4) and exponents at every end.
-
-        What several parts of a batch have in common may be given, see `shared`.
-        """
+        """Return Stokes vectors (..., 4) and exponents at every end; for parts, see `shared`."""
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
         return [folded(*light) for light in self._results(arguments, own)]
 
     def shared(self, arguments: ResolvedInputs) -> Shared:
-        """Return the numbers of evaluations that differ along a few axes of a batch only.
-
-        Together they are no more than the light that the batch gives.
-        """
+        """Return evaluations along a few axes of a batch only, no larger than its light."""
         operands, carrier = self.operands(arguments), self._carriers[self.carrier]
         left, result = 4 * arguments.paths, {}
         with np.errstate(all="ignore"):
@@ -261,11 +251,8 @@ def _stack(
 
 
 _GIVEN_AWAY = 10.0
-"""What bounds may be wrong by, over the share by which an eigenvalue is below 0.
-
-M + 4 l diag(1, 0, 0, 0) is physical where M has the eigenvalue -l, and l is at most that share of
-M00: what it adds is counted once for the intensity without polarisation, once for the true one.
-"""
+"""By how much bounds may be wrong, per unit share by which an eigenvalue is below 0: M + 4 l
+diag(1, 0, 0, 0) is physical where M has the eigenvalue -l, once for each of two intensities."""
 
 
 def what_matrices_lack(program: Program, matrices: Mapping[int, Numbers]) -> Any:
@@ -317,10 +304,10 @@ class LargestGain(NamedTuple):
 def check_gains(solvers: Sequence[LoopSolver]) -> None:
     """Refuse light that gains going round; warn where nearly all of it comes back.
 
-    Where no element amplifies, all of some light stays where a pivot is 0. Else the spectral
-    radius of the whole round trip tells; next to 1, whether unpolarised light that is given to
-    every junction adds up to light that can be, which it does where the radius is below 1, and
-    only there (Krein & Rutman, Uspekhi Mat. Nauk 3, 1948).
+    Without amplifiers, some light stays where a pivot is 0. Else the spectral radius of the round
+    trip tells; next to 1, whether unpolarized light given to every junction adds up to physical
+    light, which it does just where the radius is below 1 (Krein & Rutman, Uspekhi Mat. Nauk 3,
+    1948).
     """
     faults = []
     for solver in solvers:
@@ -436,10 +423,7 @@ def _radius(matrices: Array) -> Array:
 
 
 def _condition(matrix: Array) -> float:
-    """Return the condition number of (I - M)^-1 with respect to I and M.
-
-    Unlike that of their difference it sees a loop whose lights all stay alike.
-    """
+    """Return the condition number of (I - M)^-1 with respect to I and M, not to I - M."""
     with np.errstate(all="ignore"):
         sums = np.linalg.pinv(np.eye(len(matrix)) - matrix, rcond=0.0)
     return float((1.0 + np.linalg.norm(matrix, 2)) * np.linalg.norm(sums, 2))
@@ -486,8 +470,7 @@ class CloserLook:
     def evaluations(self) -> dict[int, tuple[np.ndarray[Any, Any], ...]]:
         """Return what every evaluation comes to, rounded, as `execute` may be given it.
 
-        What is reflected at a boundary, what enters a loop there and what comes back then belong
-        to the same boundary: next to a critical angle, each follows every digit of the angle.
+        Reflection, entry and return at a boundary then share each digit of its angle.
         """
         used = (index for index, uses in enumerate(self.program.evaluation_uses) if uses)
         return {index: tuple(map(self._rounded, self.numbers(index))) for index in used}

@@ -53,9 +53,7 @@ def interpreter_for(
 class ReproducibleInterpreter(Interpreter):
     """Runs a program so that a path comes to the same bits alone and in any batch.
 
-    Kernels choose what is cheaper where a number is a plain 0. A number that is given is an array
-    here, be it one alone, so that a path whose index has no absorption at its own wavelength is
-    computed as its neighbours are.
+    A given number is an array here, since kernels choose the cheaper way where one is a plain 0.
     """
 
     def __init__(
@@ -179,10 +177,7 @@ class NoiseInterpreter(Interpreter):
         return result[0], result[1]
 
     def emitted(self, arguments: ResolvedInputs, source: str) -> Array:
-        """Return the light that a source emits, as Stokes vectors, in its own shape.
-
-        Shape: returns (..., 4).
-        """
+        """Return the light that a source emits, as Stokes vectors (..., 4), in its own shape."""
         evaluation = self.program.steps[self.program.sources[source][0]].evaluation
         operands, carrier = self.operands(arguments), self._carriers[self.carrier]
         if evaluation is None:
@@ -192,11 +187,7 @@ class NoiseInterpreter(Interpreter):
         return np.stack(parts, axis=-1)
 
     def most(self, arguments: ResolvedInputs) -> Any:
-        """Return more than the noise at any end can be: roundings of all that is emitted.
-
-        Each step hands on those of its light and adds its own, as `NoiseCarrier` does; at a
-        junction of a loop there are those of all others besides.
-        """
+        """Return an upper bound of the noise at any end: all rounding of what is emitted."""
         return self._most(self.operands(arguments))
 
     def most_of_one(self, parameters: Mapping[str, Any]) -> float | None:
@@ -251,10 +242,7 @@ def noise_at(
     stokes: Array,
     exponent: Array,
 ) -> Array:
-    """Return what is noise in light, wherever a component of it is small enough for that.
-
-    Shapes: stokes (..., 4); exponent (...); returns (...).
-    """
+    """Return what is noise in light, wherever a component of it is small enough for that."""
     result = np.zeros(exponent.shape, stokes.dtype)
     interpreter = answers.noise
     readings = interpreter.program.readings
@@ -280,10 +268,7 @@ def noise_at(
 def matrix_noise_at(
     answers: Any, source: str, end: str, parameters: Mapping[str, Any], matrix: Array
 ) -> Array:
-    """Return the noise in the matrix of a path: that in what a source's light becomes, as a share.
-
-    Shapes: matrix (..., 4, 4); returns (...).
-    """
+    """Return the noise in the matrix of a path: that in a source's light, as a share."""
     interpreter = answers.noise
     traced = is_traced(matrix) or any(map(is_traced, parameters.values()))
     if traced or len(interpreter.program.sources) > 1:

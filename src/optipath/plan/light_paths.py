@@ -90,9 +90,8 @@ _FAINTEST = 1e-200
 """What is not followed any further, as a share of what a source emits."""
 
 _PATIENCE = 1 << 10
-"""How many branches may hope to be brighter than what arrives, one after the other, and more of
-them the longer the path is, before those that have waited longest have their turn: in a loop that
-hardly any light leaves, others would hope for ever."""
+"""How many branches may hope to be brighter than what arrives (more in longer paths), before the
+oldest have their turn: in a loop that hardly any light leaves, others would hope for ever."""
 
 
 @dataclass(order=True)
@@ -202,8 +201,8 @@ class Search:
     def _most_that_arrives(self) -> list[float]:
         """Return the largest share of each light that can get to an end by one way (Dijkstra).
 
-        No way passes a light twice, since rounding makes gains of some that are just above 1;
-        where elements amplify, a way that does may be brighter.
+        No way passes a light twice, as rounding makes gains just above 1; amplifying ones may be
+        brighter.
         """
         steps = self.program.steps
         gains = [self._largest_gain(place) for place in range(len(self.program.evaluations))]

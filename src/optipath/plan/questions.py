@@ -1,7 +1,6 @@
 """Questions to a path: its light, a Mueller matrix, bounds of intensities.
 
-A question says which formula answers it, how it is answered step by step, what JAX is asked,
-and what becomes of the results. How a batch is run is the same for all: see `Runner`.
+A question has its formula, steps, inputs of JAX and results; running is by `Runner`.
 """
 
 from __future__ import annotations
@@ -76,10 +75,7 @@ class Question(ABC):
 
 
 class LightQuestion(Question):
-    """The light by the name of each end, as (Stokes vectors, exponents of two).
-
-    A Stokes vector is an array (..., 4), or a tuple of its four components.
-    """
+    """The light by end: Stokes vectors (..., 4) or tuples, with exponents of two."""
 
     key = "light"
     is_light = True

@@ -112,10 +112,7 @@ class InputReader:
         }
 
     def key(self, parameters: Mapping[str, Any]) -> tuple[Any, ...] | None:
-        """Return what the names, shapes and types of what is given say of how it is run.
-
-        A word stands for itself. None for what must be looked at.
-        """
+        """Return names, shapes and types of inputs, which choose the run; None if that is open."""
         if self.inputs.hidden:
             return None
         results: list[Any] = []
@@ -134,10 +131,7 @@ class InputReader:
         return tuple(results)
 
     def read(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
-        """Return the numbers that are given.
-
-        Ranges of plain floats and arrays of floats are left to be checked by who uses them.
-        """
+        """Return the given numbers; ranges of plain floats and arrays are checked by the caller."""
         resolved, batch = self.inputs.resolve(parameters, self.is_plain)
         numbers: dict[InputKey, Any] = {}
         value: Any
@@ -219,10 +213,7 @@ class RunOptions(NamedTuple):
 
     @property
     def reproducible(self) -> bool:
-        """Whether a path comes to the same bits alone and in any batch, by every engine but JAX.
-
-        Elementary functions are then those of `reproducible`, which there are of this precision.
-        """
+        """Whether a path comes to the same bits alone and in any batch, but with JAX."""
         return self.dtype in DIGITS
 
 

@@ -89,10 +89,7 @@ class ScalarRunner:
         self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
     def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
-        """Return what `lights` gives for plain floats beside defaults, without reading them.
-
-        None where no function has been made, or where it takes more care.
-        """
+        """Return what `lights` gives for plain floats, unread; None where it takes more care."""
         if self._default_call is None:
             return None
         path, order, names = self._default_call
