@@ -29,9 +29,7 @@ _PURE = "pure number"
 
 
 class Affine:
-    """A named value that is given later, and ``scale * value + offset`` in its place.
-
-    It gives a multiple with an offset by arithmetic, and refuses all other arithmetic.
+    """``scale * value + offset`` of a named value that is given later; other arithmetic is refused.
 
     >>> from optipath.values.parameters import Parameter
     >>> (90 - 2 * Parameter("d")).formula

@@ -179,9 +179,7 @@ _MULTIPLES = 10.0
 
 
 def is_within_a_turn(low: Any, high: Any) -> bool:
-    """Tell whether a range has no angle beyond a whole turn.
-
-    Units: low, high in radians.
+    """Tell whether a range, in rad, has no angle beyond a whole turn.
 
     >>> is_within_a_turn(0.0, 1.6), is_within_a_turn(0.0, math.inf)
     (True, False)
@@ -191,9 +189,7 @@ def is_within_a_turn(low: Any, high: Any) -> bool:
 
 
 def has_plain_degrees(low: float, high: float) -> bool:
-    """Tell whether a range of angles was given by plain numbers that were meant in degrees.
-
-    Units: low, high in radians.
+    """Tell whether a range of angles, in rad, was given by plain numbers meant in degrees.
 
     >>> has_plain_degrees(0.0, 80.0), has_plain_degrees(0.0, math.pi)
     (True, False)
@@ -216,9 +212,7 @@ def is_of_an_angle(scale: float) -> bool:
 
 
 def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
-    """Return what a number that is refused as an angle was meant to be, ready to be put behind.
-
-    Units: number, allows in radians.
+    """Return what a number, refused as an angle in rad, was meant to be, as a suffix.
 
     >>> meant_in_degrees(48.0, lambda angle: 0.0 <= angle <= 1.6)
     "; did you mean '48 deg' or np.radians(48)?"
@@ -236,8 +230,6 @@ def called(
     number: float, text: str, dimension: str, limits: tuple[float, float]
 ) -> tuple[str, str]:
     """Return how a number beyond its limits is called, and what it was meant to be.
-
-    Units: number in radians.
 
     >>> called(5.0, "286 deg", "angle", (0.0, 1.6))
     ('5 rad, which is 286.479 deg', "; did you mean '5 deg' or np.radians(5)?")

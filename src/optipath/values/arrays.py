@@ -137,10 +137,7 @@ class _MoreThanNumbers(Exception):  # noqa: N818 - a reason, for the sentence ar
 
 
 def _kinds(value: Any, seen: set[int]) -> set[type]:
-    """Return the types of all numbers in lists in lists; refuse what is more than numbers.
-
-    Each list is looked at once, since it may be in itself.
-    """
+    """Return the types of numbers in nested lists, each read once, as it may contain itself."""
     if not isinstance(value, (list, tuple)):
         if type(value) not in _PLAIN:
             _refuse_more(value)
@@ -425,10 +422,7 @@ def locked(value: Any) -> Any:
 
 
 def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
-    """Return a value that nobody can change: whatever is an array becomes a read-only copy.
-
-    What is a read-only array of its own already stays what it is, and what is no array of
-    numbers or words is kept as given, for validation to name.
+    """Return a value that nobody can change: arrays as read-only copies, the rest as it is.
 
     >>> read_only([1.0, 2.0]).flags.writeable
     False

@@ -56,10 +56,9 @@ class TextColumn(NamedTuple):
 def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[TextColumn]:
     """Return the columns of a file.
 
-    The first line has their names, a unit in parentheses or behind a line: ``delta (deg)``,
-    ``delta [deg]``, ``delta_deg``; or each number has one. The unit ``(1)`` is none.
-    Values are separated by commas, semicolons or tabulators; empty lines and those that begin with
-    ``#`` are comments.
+    The first line has their names with units, ``delta (deg)``, ``delta [deg]`` or ``delta_deg``
+    (``(1)`` is none), or each number has one. Values are separated by commas, semicolons or
+    tabulators; ``#`` begins a comment.
     """
     file = input_file(path, ParameterError)
     lines = lines_of(file)
@@ -187,11 +186,9 @@ def read_columns(
 ) -> CsvColumns:
     """Return the wavelengths and some columns of a file.
 
-    The first line has the names of the columns, a unit in parentheses: ``wavelength (nm)``, ``wl
-    [um]``, ``wavelength_nm``, ``energy (eV)``; or each wavelength has one, ``400 nm``. Values are
-    separated by commas, semicolons or tabulators; empty lines and those that begin with ``#`` are
-    comments. A second first line begins a second table, of the same wavelengths, as files of
-    refractiveindex.info have n and k.
+    As `columns_of`, with a wavelength or an energy first: ``wavelength (nm)``, ``wl [um]``,
+    ``wavelength_nm``, ``energy (eV)``, or ``400 nm`` in each line. A second first line begins a
+    second table of the same wavelengths, as files of refractiveindex.info have n and k.
     """
     file = input_file(path)
     _check_texts(names, unit)
@@ -601,12 +598,8 @@ def first_of(faults: list[str]) -> list[str]:
 
 
 _DOUBTS = {"um": (100e-6, np.inf, "nm"), "nm": (0.0, 10e-9, "um")}
-"""Between which metres all wavelengths of a table in a unit are doubted, and what is meant.
-
-The far infrared is 100 um and more, and 100 to 1000 is what light has in nanometres; X-rays are
-below 10 nm, and 0.1 to 10 is what it has in micrometres. Of other units nothing is doubted: tables
-of X-rays are usual in eV, and those of the far infrared in THz and 1/cm.
-"""
+"""Between which metres wavelengths of a table in a unit are doubted, and what is meant: 100 to 1000
+is light in nm, 0.1 to 10 in um; tables in eV, THz and 1/cm may well be X-rays or far infrared."""
 
 
 def unit_doubted(metres: Sequence[float], unit: str) -> str:

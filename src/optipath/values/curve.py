@@ -29,10 +29,7 @@ if TYPE_CHECKING:
 class Curve(Unchanging, ABC):
     """Numbers by wavelength, elementwise, in vacuum and in metres.
 
-    A subclass says what its numbers are called, which wavelengths it knows and what it
-    comes to there. Two curves of the same content are equal.
-
-    Units: span in metres; unit in radians.
+    A subclass has names, a span in metres and values. Curves of the same content are equal.
     """
 
     parts: tuple[str, ...] = ("value",)
@@ -250,9 +247,7 @@ _ROUNDING = 4.0 * sys.float_info.epsilon
 
 
 def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
-    """Tell which wavelengths are within a range, both ends and their rounding included.
-
-    Units: wavelength in metres.
+    """Tell which wavelengths, in metres, are within a range, its ends and their rounding included.
 
     >>> is_within(830 * 1e-9, (300e-9, 830e-9)), 830 * 1e-9 <= 830e-9
     (True, False)

@@ -40,8 +40,7 @@ _THERE = Wavelength(default=1e-6, maximum=np.inf, bound=True)
 class CurveValue(Parameter):
     """A value that nobody gives: a part of a curve at a wavelength that is given.
 
-    It stands where a `Parameter` does, by a name of its own, and is computed of what is given
-    before anything else is done. Made by `curve_values`.
+    It is used like a `Parameter`, and computed before anything else; made by `curve_values`.
     """
 
     curve: Any = field(default=None, repr=False)
@@ -129,10 +128,7 @@ class CurveValue(Parameter):
         return self.spoken
 
     def at(self, wavelength: Any) -> Any:
-        """Return its numbers at wavelengths, scale and offset applied.
-
-        Units: wavelength in metres.
-        """
+        """Return its numbers at wavelengths in metres, scale and offset applied."""
         others = self.depends_on[1:]
         known = _defaults(others)
         for one in others:
@@ -195,10 +191,7 @@ class CurveValue(Parameter):
 
 
 def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
-    """Return what stands for each part of a curve, at a wavelength that may be a parameter.
-
-    Units: wavelength in metres.
-    """
+    """Return values for each part of a curve, at a wavelength in metres or a parameter."""
     depends_on = (wavelength, *[value for _, value, _ in curve.arguments()])
     if not any(isinstance(one, Parameter) for one in depends_on):
         return curve.evaluated(*depends_on)

@@ -41,10 +41,7 @@ class Domain:
         return self.own_unit or USUAL_UNITS[self.dimension]
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
-        """Return the value as an array of numbers, or say what is wrong with it.
-
-        Shape: returns (..., *tail).
-        """
+        """Return the value as an array (..., *tail), or say what is wrong with it."""
         if self.quickly_allows(value):
             return np.array(value)
         if is_traced(value):
@@ -109,10 +106,7 @@ class Domain:
 
     @property
     def shows_in_light(self) -> bool:
-        """Whether no light is finite where an array of the right shape is not allowed.
-
-        Formulas look at their light anyway, so that nobody needs to look at the array first.
-        """
+        """Whether wrong arrays of the right shape give non-finite light, and need no check."""
         return False
 
     @property
@@ -545,9 +539,7 @@ def surely_light(stokes: npt.NDArray[Any]) -> bool:
 
 
 def can_be_light(stokes: Any, rounding: float) -> Any:
-    """Return which Stokes vectors are polarised by 100 % at most.
-
-    Shapes: stokes (..., 4); returns (...).
+    """Return which Stokes vectors (..., 4) are polarized by 100 % at most.
 
     >>> can_be_light(np.array([[1.0, 0.6, 0.0, 0.8], [1.0, 1.0, 1.0, 1.0]]), 0.0)
     array([ True, False])

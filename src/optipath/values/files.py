@@ -82,10 +82,9 @@ def message_of(
 
 
 def write_file(file: Path, content: bytes) -> None:
-    """Write a file, so that what was there stays until all of the new one is on the disk.
+    """Write a file, so that the old one stays until all of the new one is on the disk.
 
-    A new file has the permissions that the umask leaves, one that is replaced keeps its own. A
-    link is followed; what is no ordinary file, such as ``/dev/stdout``, is written to directly.
+    Permissions are kept, links are followed, and ``/dev/stdout`` and its like are written directly.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:

@@ -36,12 +36,10 @@ def _ldexp(number: Any, power: Any) -> Any:
 
 
 def _apart(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Make a function a piece of its own for XLA, too, and not a part of whatever calls it.
+    """Make a function, of numbers in nested tuples, a piece of its own for XLA.
 
-    On a CPU, XLA fuses all that comes before a result into its loop, again for each result, and
-    computes what is shared by several terms of it again for each: its time grows with the square
-    of what is in one piece, at the least, and with a power of its depth at the worst. The function
-    takes and returns numbers in any nest of tuples; those that are known stay so.
+    Fused, XLA on a CPU computes shared terms again for each result: time grows with the square of
+    the size of a piece at least, and with a power of its depth at the worst.
     """
 
     def called(*argument: Any) -> Any:

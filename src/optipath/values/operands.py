@@ -38,9 +38,7 @@ _COMPARED = 1 << 20
 
 
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
-    """Return a part of numbers, as `Operand` names them.
-
-    Shapes: numbers (..., *tail); returns (...).
+    """Return a part of numbers (..., *tail), as `Operand` names them.
 
     >>> part_of(np.array([[1.0, 2.0], [3.0, 4.0]]), 2, (2, 2))
     array(3.)
@@ -316,8 +314,7 @@ class InputKey(NamedTuple):
 class Ranges(dict["Hashable", "tuple[float, float]"]):
     """The ranges of quantities, by what `InputKey.quantity` says.
 
-    A multiple that no element has as a value, as ``couplings()`` may make one of a field, has the
-    range that follows from that of its parameter.
+    A multiple that is no element's value has the range that follows from that of its parameter.
 
     >>> Ranges({"f": (0.0, 1.0)})["f", -2.0, 1.0]
     (-1.0, 1.0)
@@ -333,10 +330,7 @@ class Ranges(dict["Hashable", "tuple[float, float]"]):
 def kernel_values(
     factory: Callable[[Primitives], Callable[..., tuple[Any, ...]]], *numbers: Any
 ) -> tuple[Any, ...]:
-    """Return what a kernel makes of real numbers.
-
-    Where JAX traces one of them, what comes out is JAX's, with its slopes, in the precision that
-    JAX has; else it is NumPy's in float64.
+    """Return what a kernel makes of real numbers: JAX's where traced, else NumPy's float64.
 
     >>> from optipath.kernels.fresnel.boundary import phase_index
     >>> kernel_values(phase_index, 1.5, 0.0, 1.0, 0.0)

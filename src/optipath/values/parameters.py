@@ -384,8 +384,7 @@ def limit_of(name: str, value: Any) -> float:
 def read_specification(parameter: Any) -> dict[str, Any]:
     """Return the unit, the limits and the words of a parameter, numbers in place of texts.
 
-    The unit is that of the first text that has one, where none is given. A default stays a text,
-    which may be a word.
+    The unit is that of the first text that has one, where none is given; defaults stay texts.
     """
     name, words = parameter.name, parameter.words
     named = words if isinstance(words, dict) else {}

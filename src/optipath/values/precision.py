@@ -68,9 +68,7 @@ def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
 
 
 def coarser(*numbers: Any) -> Any:
-    """Return the dtype of that array which has the least precision, float32 at least.
-
-    It is the precision that what is made of all of them has.
+    """Return the dtype of the array of least precision, float32 at least.
 
     >>> coarser(np.ones(2), np.ones(2, np.float32))
     dtype('float32')
@@ -116,8 +114,7 @@ def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
 def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     """Return numbers of less precision than double as doubles, and others as they are.
 
-    What is beyond a limit by its rounding becomes the limit, as `within` has it; so does what is
-    beyond a right angle, which limits angles of incidence.
+    Numbers beyond a limit or a right angle by their rounding become it, as in `within`.
 
     >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
     True
@@ -142,9 +139,7 @@ def as_doubles(array: Array) -> Array:
 
 
 def within(array: Array, limits: tuple[float, float]) -> Array:
-    """Return numbers; those beyond a limit by its rounding to their precision, as that limit.
-
-    Where there are such, they are doubles at least.
+    """Return numbers, as doubles if some exceed a limit by rounding, those as that limit.
 
     >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
     0.1

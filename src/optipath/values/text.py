@@ -37,10 +37,7 @@ _NUMBER = re.compile(rf"[-+]?{NUMBER}", re.ASCII)
 
 
 class AxisValues(NamedTuple):
-    """The values of one parameter.
-
-    Shapes: shown (count,); given (count,). Units: given in radians.
-    """
+    """Values of a parameter: shown (count,) texts, given (count,) in radians."""
 
     shown: npt.NDArray[Any]
     unit: str
@@ -252,7 +249,7 @@ _LONGEST, _LEAST, _LARGEST = 100, -330, 309
 def texts_of_range(text: str) -> list[str]:
     """Return the values of a range, each as somebody would write it.
 
-    They are evenly spaced in the unit of the ends, exactly, and each is rounded once.
+    Evenly spaced in the unit of the ends, and rounded once.
 
     >>> texts_of_range("0:1:5")
     ['0', '0.25', '0.5', '0.75', '1']

@@ -1,7 +1,6 @@
 """Units: quantities as texts such as "30 deg", read and written exactly.
 
-Inside the library an angle is in radians, a length in metres and a magnetic field in teslas, and
-so is what is given per length and field.
+Base units are radians, metres and teslas, also of what is given per length and field.
 """
 
 from __future__ import annotations
@@ -306,8 +305,6 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
 def in_unit(value: float, unit: str) -> float:
     """Return a number in base units in another unit, without the noise of conversion.
 
-    Units: value in radians.
-
     >>> in_unit(0.8377580409572782, "deg")
     48.0
     >>> in_unit(2e-05, "mm")
@@ -317,9 +314,7 @@ def in_unit(value: float, unit: str) -> float:
 
 
 def format_quantity(value: complex, unit: str) -> str:
-    """Write a number with a unit so that reading it gives the very same number back.
-
-    Units: value in radians.
+    """Write a number in base units so that reading it gives the very same number back.
 
     >>> format_quantity(0.8377580409572782, "deg"), format_quantity(1.33, "")
     ('48 deg', '1.33')
@@ -412,9 +407,7 @@ def _mismatch(text: str, number: str, unit: str, dimension: str) -> str:
 
 
 def displayed(value: float, unit: str) -> str:
-    """Write a number with a unit, to 15 digits.
-
-    Units: value in radians.
+    """Write a number in base units with another unit, to 15 digits.
 
     >>> displayed(math.radians(3.0), "arcmin"), format_quantity(math.radians(3.0), "arcmin")
     ('180 arcmin', '180.00000000000003 arcmin')
@@ -423,9 +416,7 @@ def displayed(value: float, unit: str) -> str:
 
 
 def format_range(low: float, high: float, unit: str) -> str:
-    """Write the limits of a range, or nothing where there are none.
-
-    Units: low, high in radians.
+    """Write the limits of a range in base units, or nothing where there are none.
 
     >>> format_range(0.0, 0.5, "mm"), format_range(0.0, math.inf, "")
     ('0 mm .. 500 mm', '0 or more')

@@ -300,8 +300,7 @@ def faults_of(uses: Iterable[Use]) -> list[str]:
 def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
     """Return what is given for a parameter, with angles for names of axes if it stands as one.
 
-    It is the angle of the parameter itself that has the name, where its negative is the axis: on
-    the way back, an axis stands at ``-a``.
+    A parameter whose negative is the axis, as in double pass, has the name for its own angle.
     """
     if not isinstance(value, (str, list, tuple)):
         return value

@@ -148,9 +148,7 @@ class Wavelength(Parameter):
 
 
 def read_within(span: tuple[float, float], argument: Any) -> Any:
-    """Return wavelengths in metres, as long as a curve is known for.
-
-    Units: given in metres.
+    """Return wavelengths in metres that are within the span of a curve.
 
     >>> print(read_within((44.3e-9, 2.0), "1.9 m"))
     1.9
@@ -190,9 +188,7 @@ _TEXT = re.compile(rf"([-+]?{NUMBER})\s*(\S+)", re.ASCII)
 
 
 def wavelength_of(text: str) -> float | None:
-    """Return the wavelength that a photon energy, a wave number or a frequency stands for.
-
-    Units: the result in metres.
+    """Return the wavelength in metres of a photon energy, a wave number or a frequency.
 
     >>> round(wavelength_of("2.4 eV") * 1e9, 3), wavelength_of("20000 1/cm")
     (516.601, 5e-07)
