@@ -63,10 +63,7 @@ def parts_of_file(
     interpolation: str,
     extrapolate: str,
 ) -> dict[str, Any]:
-    """Return n and k of a material from a YAML file of refractiveindex.info.
-
-    Units: wavelength in metres.
-    """
+    """Return n and k at wavelengths in metres from a YAML file of refractiveindex.info."""
     arguments = {part: value for part, value in own.items() if value is not None}
     file = input_file(path, MaterialError)
     curve = page_curve(

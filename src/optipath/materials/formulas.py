@@ -98,9 +98,7 @@ def read_span(owner: str, span: Any) -> tuple[float, float]:
 
 
 class Sellmeier(FormulaCurve):
-    """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres.
-
-    Units: c in square micrometres; resonances in micrometres.
+    """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres and C in their squares.
 
     >>> from optipath.values.curve_value import curve_values
     >>> float(curve_values(Sellmeier("x", [1.25], [0.0]), 5e-7)[0])
@@ -163,8 +161,6 @@ class Sellmeier(FormulaCurve):
 
 class Cauchy(FormulaCurve):
     """n = A + B / w^2 + C / w^4 + ..., with w in micrometres.
-
-    Units: coefficients in square micrometres.
 
     >>> from optipath.values.curve_value import curve_values
     >>> float(curve_values(Cauchy("x", [1.5, 0.004]), 5e-7)[0])
@@ -252,10 +248,7 @@ _MICROMETRES = 1e6
 
 @dataclass(frozen=True, eq=False)
 class DrudeRotation(Curve):
-    """A constant and the sum of A / (w^2 - C), w in micrometres, times a unit; NaN at a resonance.
-
-    Units: strengths, poles in square micrometres; span in metres.
-    """
+    """A constant and the sum of A / (w^2 - C), w in um, times a unit; NaN at a resonance."""
 
     label: str
     strengths: tuple[float, ...]
@@ -305,10 +298,9 @@ class DrudeRotation(Curve):
 class BirefringenceCurve(Curve):
     """n_e - n_o, by the differences of the coefficients of two formulas of as many terms.
 
-    The two indices share their first digits; subtracted, they lose these, and the retardance of a
-    thick plate would be wrong by as much. With a and b for the extraordinary and the ordinary
-    ray, each pair of terms differs by w^2 ((B_a - B_b) (w^2 - C_b) + B_b (C_a - C_b)) /
-    ((w^2 - C_a) (w^2 - C_b)), and the squares of the indices by the sum of these.
+    Subtracted indices would lose digits. With a and b for the extraordinary and the ordinary ray,
+    each pair of terms differs by w^2 ((B_a - B_b) (w^2 - C_b) + B_b (C_a - C_b)) / ((w^2 - C_a)
+    (w^2 - C_b)), and the squares of the indices by the sum of these.
     """
 
     label: str
@@ -350,9 +342,7 @@ class BirefringenceCurve(Curve):
 
 
 class DispersionFormula(Curve):
-    """The index of refraction by a formula, within the wavelengths for which it was found.
-
-    Units: coefficients in micrometres; known_span in metres.
+    """The index of refraction by a formula in micrometres, within its known span in metres.
 
     >>> silica = [0, 0.6961663, 0.0684043, 0.4079426, 0.1162414, 0.8974794, 9.896161]
     >>> n = DispersionFormula("silica", 1, silica, (0.21e-6, 6.7e-6)).evaluated(589.3e-9)[0]

@@ -25,10 +25,7 @@ class EmissionLine(NamedTuple):
 
 
 class SpectrumKind(Unchanging, ABC):
-    """One way in which power is spread over wavelengths; a `Spectrum` has one.
-
-    Units: span, extent in metres.
-    """
+    """One distribution of power over wavelengths in metres; a `Spectrum` has one."""
 
     is_pointwise: ClassVar[bool] = True
     """Whether what it is at each wavelength says all, so that it can be multiplied by others."""
@@ -146,8 +143,6 @@ NANOMETRES = 1e9
 def grid_fault(wavelengths: Any) -> str:
     """Say why wavelengths are no grid; nothing if they are one.
 
-    Units: wavelengths in metres.
-
     >>> grid_fault([500e-9, 600e-9]), grid_fault(500e-9)
     ('', 'are one wavelength alone')
     """
@@ -167,12 +162,9 @@ def grid_fault(wavelengths: Any) -> str:
 
 
 def grid_edges(wavelengths: Any) -> Any:
-    """Return the edges of the bins of a grid, in nanometres.
+    """Return the edges (n + 1,), in nm, of the bins of a grid (n,) in metres.
 
-    A bin reaches halfway to each neighbour, and ends where the grid does, so that the sum of
-    density times width is the integral by the trapezoidal rule.
-
-    Shapes: wavelengths (n,); returns (n + 1,). Units: wavelengths in metres.
+    Halfway between neighbors, so that density times width sums to the trapezoidal integral.
 
     >>> grid_edges([400e-9, 500e-9, 700e-9]).round(9)
     array([400., 450., 600., 700.])
@@ -185,9 +177,7 @@ def grid_edges(wavelengths: Any) -> Any:
 
 
 def grid_widths(wavelengths: Any) -> Any:
-    """Return the widths of the bins of a grid, in nanometres: weights of the trapezoidal rule.
-
-    Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
+    """Return the bin widths (n,) of a grid, in nm: weights of the trapezoidal rule.
 
     >>> grid_widths([400e-9, 500e-9, 700e-9]).round(9)
     array([ 50., 150., 100.])

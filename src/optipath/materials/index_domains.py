@@ -76,9 +76,8 @@ for _name in _REFUSED.split():
     setattr(Follows, f"__{_name}__", _refused)
 
 FOLLOWS = Follows()
-"""In place of ``outside``: the medium that light comes from. In place of ``incidence``: that of
-the boundary before, refracted by Snell's law. Files write ``"follows"``.
-"""
+"""For ``outside`` the medium of arrival, for ``incidence`` that of the boundary before, refracted
+by Snell's law; in files ``"follows"``."""
 
 
 @dataclass(frozen=True)

@@ -79,10 +79,7 @@ def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Mater
 
 
 def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:
-    """Return what a material is called and comes to, as JSON can hold it.
-
-    Units: wavelength in metres.
-    """
+    """Return the name of a material and its values at wavelengths in metres, for JSON."""
     parts = {part: getattr(material, part) for part in ("n", "k")}
     return {"name": label} | {
         part: plain(value.at(wavelength) if isinstance(value, CurveValue) else value)

@@ -27,20 +27,14 @@ _ROUNDING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Observer:
-    """Colour-matching functions at whole nanometres, cubic between them.
-
-    Shapes: wavelengths (m,); functions (m, 3). Units: wavelengths in nanometres.
-    """
+    """Color-matching functions (m, 3) at whole nanometres (m,), cubic between them."""
 
     name: str
     wavelengths: Array
     functions: Array
 
     def at(self, wavelengths: Array) -> Array:
-        """Return the functions, by the cubic through the four values that are nearest.
-
-        Shapes: wavelengths (n,); returns (n, 3). Units: wavelengths in nanometres.
-        """
+        """Return the functions (n, 3) at wavelengths in nm, by the cubic through four values."""
         place = wavelengths - self.wavelengths[0]
         first = np.clip(np.floor(place).astype(int) - 1, 0, len(self.wavelengths) - 4)
         t = (place - first)[:, np.newaxis]
@@ -51,14 +45,11 @@ class Observer:
         return results
 
     def weights(self, grid: Array, *, nearest: bool = False) -> Array:
-        """Return what light of each wavelength, per nanometre, adds to X, Y and Z.
+        """Return the weights (n, 3), per nm, of wavelengths in nm for X, Y and Z.
 
-        Light is linear between its wavelengths. It is summed up at its own and at those of the
-        observer, each with the bin that reaches halfway to its neighbours; the first and the
-        last one of the observer have a whole nanometre, as in the sums of CIE 15:2018. So light
-        at whole nanometres comes to these sums, and none is lost between them.
-
-        Shapes: grid (n,); returns (n, 3). Units: grid in nanometres.
+        Light, linear between its wavelengths, is summed at its own and the observer's, each with
+        the bin that reaches halfway to its neighbors; the ends of the observer have a whole
+        nanometre, as in the sums of CIE 15:2018, which light at whole nanometres comes to.
         """
         low, high = self.wavelengths[[0, -1]]
         nodes = np.union1d(self.wavelengths, grid[(grid > low) & (grid < high)])
@@ -80,10 +71,7 @@ class Observer:
         return result
 
     def left_out(self, grid: Array) -> float:
-        """Return the largest share of X, Y or Z, of equal energy, beyond some wavelengths.
-
-        Shape: grid (n,). Units: grid in nanometres.
-        """
+        """Return the largest share of X, Y or Z, of equal energy, beyond a grid in nm."""
         outside = (self.wavelengths < grid[0]) | (self.wavelengths > grid[-1])
         shares = self.functions[outside].sum(axis=0) / self.functions.sum(axis=0)
         return float(np.max(shares))

@@ -147,10 +147,7 @@ class TaucLorentz(FormulaCurve):
 
 @dataclass(frozen=True, eq=False)
 class BroadeningLimit(Agreement):
-    """The broadening C is below 2 E0, so that alpha of Jellison and Modine (1996) is real.
-
-    The operands are the energy and the broadening.
-    """
+    """C < 2 E0 of energy and broadening, so that alpha of Jellison and Modine (1996) is real."""
 
     owner: str
 

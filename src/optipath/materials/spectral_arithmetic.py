@@ -170,12 +170,9 @@ _AGREES = 4e-15
 
 
 def powers_between(kind: SpectrumKind, edges: Array) -> Array:
-    """Return the power of a spectrum in bins, its lines included.
+    """Return the power (n,) of a spectrum between edges (n + 1,) in metres, lines included.
 
-    By Gauss and Legendre with 16 nodes on pieces that are halved until halves come to what the
-    whole did; exact, but for rounding, where densities are straight lines.
-
-    Shapes: edges (n + 1,); returns (n,). Units: edges in metres.
+    Gauss-Legendre with 16 nodes on pieces halved until it converges; exact for straight lines.
     """
     result = smooth_powers(kind, edges)
     for line in kind.lines:
@@ -241,10 +238,7 @@ def power_within(kind: SpectrumKind, low: Any = None, high: Any = None) -> float
 
 
 def _whole(kind: SpectrumKind) -> float | None:
-    """Return the power at all wavelengths together, of what is known at all of them.
-
-    None where a term has no end, and no integral either.
-    """
+    """Return the power at all wavelengths; None where a term has no end and no integral."""
     if kind.span != (0.0, np.inf):
         return None
     powers = [_power_of(term) for term in kind.terms]

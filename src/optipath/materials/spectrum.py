@@ -597,11 +597,8 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
 class WidthAtPeak(Domain):
     """Full widths around a peak, in metres.
 
-    A width in photon energy, wave number or frequency is the distance between the wavelengths
-    half of it above and half of it below the peak: for a width d and a peak p, both per metre,
-    d / (p^2 - d^2 / 4).
-
-    Units: peak in metres.
+    A width d in photon energy, wave number or frequency, at a peak p, both per metre, is d / (p^2 -
+    d^2 / 4): half of it above and half of it below the peak.
 
     >>> round(WidthAtPeak("width", "length", peak=620e-9).parse("0.1 eV") * 1e9, 3)
     31.023

@@ -96,10 +96,7 @@ def one_wavelength(owner: str, value: Any) -> float:
 
 
 def rising_edges(owner: str, value: Any) -> tuple[Array, bool]:
-    """Return the edges of bins in metres, rising, and whether they were given falling.
-
-    Shape: returns edges (n + 1,).
-    """
+    """Return rising bin edges (n + 1,) in metres, and whether they were given falling."""
     edges = some_wavelengths(owner, value)
     if edges.ndim != 1 or edges.size < 2:
         raise ValueFault(
@@ -162,13 +159,7 @@ _FOUR_LOG_2 = 4.0 * math.log(2.0)
 
 
 class GaussianLine(SpectrumKind):
-    """A Gaussian along the wavelength, by its full width at half maximum.
-
-    The simplest of the shapes that stand for a diode; its integral over all wavelengths is the
-    power.
-
-    Units: peak, width in metres.
-    """
+    """A Gaussian of a peak and a full width at half maximum in metres, its integral the power."""
 
     peak: float
     width: float
@@ -201,10 +192,7 @@ class GaussianLine(SpectrumKind):
 
 
 class Histogram(SpectrumKind):
-    """Power in bins; its density is the power of a bin by its width.
-
-    Shapes: edges (n + 1,); powers (n,). Units: edges in metres.
-    """
+    """Power (n,) in bins of edges (n + 1,) in metres; its density is power by width."""
 
     is_pointwise: ClassVar[bool] = False
     edges: np.ndarray[Any, Any]
@@ -303,12 +291,9 @@ def called(lines: Sequence[EmissionLine]) -> str:
 
 
 def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> np.ndarray[Any, Any]:
-    """Return the power per nanometre of lines, on the grid of wavelengths of a run.
+    """Return the power per nm (n,) of lines, on the grid (n,) of wavelengths in metres.
 
-    All power of a line stands in the bin that holds it, and bins are those of `grid_edges`; so
-    the integral by the trapezoidal rule is that power on any grid.
-
-    Shapes: wavelengths (n,); returns (n,). Units: wavelengths in metres.
+    A line is within its bin of `grid_edges`, so that the trapezoidal rule gives its power.
 
     >>> density_of_lines([EmissionLine(500e-9, 2.0)], [400e-9, 490e-9, 600e-9]).round(9)
     array([0.  , 0.02, 0.  ])
@@ -347,10 +332,7 @@ HELD = ("nearest", "linear")
 
 
 class Sampled(SpectrumKind):
-    """Densities at samples, linear between them.
-
-    Shapes: wavelengths (n,); values (n,). Units: wavelengths in metres.
-    """
+    """Densities (n,) at wavelengths (n,) in metres, linear between them."""
 
     wavelengths: np.ndarray[Any, Any]
     values: np.ndarray[Any, Any]

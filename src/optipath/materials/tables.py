@@ -26,9 +26,7 @@ EXTRAPOLATIONS = ("", "nearest", "linear")
 
 
 class Tabulated(Curve):
-    """Numbers between samples, at which they are exact.
-
-    Shapes: wavelengths (n,); columns (n,). Units: wavelengths in metres; unit in radians.
+    """Numbers at sampled wavelengths in metres, exact there.
 
     >>> gold = Tabulated("gold", ("n",), ["500 nm", "600 nm"], [[0.9, 0.3]])
     >>> gold.evaluated(5.5e-7)[0].round(12).item()
@@ -205,12 +203,9 @@ def _cubics(
 def monotone_slopes(places: Array, values: Array) -> Array:
     """Return the slopes of a piecewise cubic through samples that overshoots none of them.
 
-    Between two chords it is their weighted harmonic mean, or 0 where one rises and the other
-    falls; at the ends that of a parabola, no more than 3 times the chord (F. N. Fritsch and
-    R. E. Carlson, SIAM J. Numer. Anal. 17, 238, 1980; F. N. Fritsch and J. Butland, SIAM J. Sci.
-    Stat. Comput. 5, 300, 1984).
-
-    Shapes: places (n,); values (n,); returns (n,).
+    The weighted harmonic mean of two chords, or 0 where they differ in sign; at the ends that of a
+    parabola, at most 3 times the chord (F. N. Fritsch and R. E. Carlson, SIAM J. Numer. Anal. 17,
+    238, 1980; F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984).
 
     >>> monotone_slopes(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 1.0]))
     array([1.5, 0. , 0. ])
@@ -240,8 +235,6 @@ def _at_end(step: Any, next_step: Any, chord: Any, next_chord: Any) -> float:
 
 class PageCurve(Curve):
     """Several curves as one, at the wavelengths at which all of them are known.
-
-    Units: within in metres.
 
     >>> from optipath.materials.tables import Tabulated
     >>> n = Tabulated("n", ("n",), [4e-7, 8e-7], [[1.5, 1.3]])
