@@ -78,8 +78,6 @@ def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
 def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[Any]:
     """Return the medium that light comes from at each vertex.
 
-    A pane with an echo in it:
-
     >>> media_in_front("TRT", (1.5, 1.0, 1.0), 1.0)
     [1.0, 1.5, 1.5]
     """
@@ -105,9 +103,7 @@ _CURE = "give R for each vertex that reflects and T for each that refracts"
 
 
 def letters_of(events: Any, count: int) -> Letters:
-    """Return the letter of each vertex of each chain, as its number in Unicode; 0 for none.
-
-    Shapes: events (..., count); returns (..., count).
+    """Return the letters (..., count) of the vertices of chains, in Unicode; 0 for none.
 
     >>> letters_of(["RT", "T"], 2).tolist()
     [[82, 84], [84, 0]]
@@ -129,9 +125,7 @@ def letters_of(events: Any, count: int) -> Letters:
 
 
 def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats:
-    """Return what happens at each vertex of each chain, by numbers of `Event`.
-
-    Shapes: letters (..., count); lengths (...); returns (..., count).
+    """Return the `Event` numbers (..., count) of the vertices of chains.
 
     >>> events_of(letters_of(["RTR", "T"], 3), None)
     array([[0., 1., 0.],
@@ -183,8 +177,6 @@ def _too_long(texts: npt.NDArray[np.str_], count: int) -> str:
 def lengths_passed(lengths: Any, count: int) -> Whole:
     """Return how many vertices each chain has.
 
-    Shape: lengths (...).
-
     >>> lengths_passed([1, 3], 3)
     array([1, 3])
     """
@@ -216,9 +208,7 @@ def number_of(numbers: npt.NDArray[Any], bad: npt.NDArray[np.bool_]) -> str:
 
 
 def has_ended(lengths: Whole, count: int) -> npt.NDArray[np.bool_]:
-    """Return which vertices are behind the end of their chain.
-
-    Shapes: lengths (...); returns (..., count).
+    """Return which vertices (..., count) are behind the end of their chain.
 
     >>> has_ended(np.array([1, 2]), 2).tolist()
     [[False, True], [False, False]]

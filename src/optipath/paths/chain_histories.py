@@ -35,10 +35,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Histories:
-    """What is told of the chains of a batch, besides their points.
-
-    Shapes: events (..., m); ended (..., m).
-    """
+    """Events (..., m) and ends (..., m) of the chains of a batch, besides their points."""
 
     materials: tuple[Any, ...]
     events: str | Floats | None = None
@@ -145,9 +142,7 @@ def rows_of_ids(ids: Any) -> npt.NDArray[Any]:
 
 
 def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray[Any]:
-    """Return which medium stands behind each vertex of each chain.
-
-    Shapes: numbers (..., m); ended (..., m).
+    """Return which medium is behind each vertex (..., m) of each chain.
 
     >>> ended = np.array([[False, False], [False, True]])
     >>> ids_within(np.array([[0, 1], [1, -1]]), 2, ended).tolist()
@@ -170,9 +165,7 @@ def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray
 
 
 def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tuple[Any, ...] | None:
-    """Return the medium behind each vertex, an array over chains for each.
-
-    Shape: ids (..., m).
+    """Return the medium behind each vertex by ids (..., m), an array over chains each.
 
     >>> media_by_ids([1.5, 1.0], np.array([[0, 1], [1, 1]]))
     (array([1.5, 1. ]), array([1., 1.]))

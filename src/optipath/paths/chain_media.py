@@ -59,9 +59,7 @@ def known_index(medium: Any) -> Floats | None:
 
 
 def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | None:
-    """Return the indices in front of the vertices of a chain and behind, as normals need them.
-
-    Shape: returns (..., m, 2).
+    """Return the indices (..., m, 2) in front of and behind the vertices, for normals.
 
     >>> sides_of("RT", (1.5, 1.5), 3.0)
     array([[1. , 1. ],
@@ -107,11 +105,7 @@ class Sides(NamedTuple):
 
 
 def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[Sides]:
-    """Return the media on both sides of each vertex.
-
-    Shape: events (..., m).
-
-    A pane, from which some light comes back:
+    """Return the media on both sides of each vertex of events (..., m).
 
     >>> events = np.array([[1.0, 1.0], [1.0, 0.0]])
     >>> media_along(events, (1.5, 1.2), 1.0)[1].front
@@ -135,10 +129,7 @@ def _unboxed(numbers: Floats) -> Any:
 def normals_checked(
     points: Floats | None, normals: Any, chains: Histories, outside: Any, bad: str
 ) -> tuple[Histories, list[str]]:
-    """Return what is told of chains, and what is wrong with their normals.
-
-    Shapes: points (..., m + 2, 3); normals (..., m, 3).
-    """
+    """Return the arguments of chains (..., m + 2, 3), and faults of normals (..., m, 3)."""
     sides = _sides(chains, outside)
     if sides is None:
         fault = "normals that refract are checked against media that are known; leave them out"
@@ -199,10 +190,7 @@ _TURNED = 2.0**-50
 
 
 def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: Any = None) -> str:
-    """Ask what is meant at a vertex where every chain may be reflected, and refracted as well.
-
-    Shapes: chains (..., m + 2, 3); there (..., m).
-    """
+    """Ask what is meant at a vertex (..., m) with reflection and refraction in each chain."""
     points, front = known(chains), known_index(outside)
     if points is None or front is None:
         return ""

@@ -41,10 +41,7 @@ class PowerOnLink(NamedTuple):
 class EnergyAlong(NamedTuple):
     """Where the power of the light of a path comes from and goes.
 
-    What the sources give is what elements take, what leaves, and what ends: light is neither made
-    nor lost. An element that amplifies takes a negative power, and `notes` tells of it.
-
-    Shapes: given (...); taken (...); left (...); ended (...).
+    Given = taken + left + ended; amplifiers take a negative power, see `notes`.
 
     >>> import optipath as op
     >>> found = energy_along(op.load_preset("malus"), angle="60 deg")
@@ -62,10 +59,7 @@ class EnergyAlong(NamedTuple):
     notes: tuple[str, ...]
 
     def as_json(self) -> dict[str, Any]:
-        """Return the same as texts, numbers, lists and dicts, as JSON has them.
-
-        None stands for a power that is not a number, as of a place that there is not.
-        """
+        """Return the same for JSON; a power that is not a number is None."""
         powers = {
             which: {name: plain(power) for name, power in getattr(self, which).items()}
             for which in ("given", "taken", "left", "ended")

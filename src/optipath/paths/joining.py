@@ -163,12 +163,7 @@ def _add(first: nx.MultiDiGraph, second: nx.MultiDiGraph, names: dict[str, str])
 
 
 def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> None:
-    """Turn what a link leads to by more than it is, in place.
-
-    An azimuth of the element there goes over to its links, since one place has to say it.
-
-    Units: turn in radians.
-    """
+    """Turn what a link leads to by more, in rad; its azimuth goes over to its links."""
     if is_zero(turn):
         return
     before = azimuth_of(Wiring(graph), link)
@@ -189,10 +184,7 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> 
 
 
 def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
-    """Return the turns of a node against the port that light comes from straight on.
-
-    Units: the result in radians.
-    """
+    """Return the turns in rad of a node against the port that light comes straight from."""
     wiring, result, leaves, seen = Wiring(graph), [], "", set()
     while len(links := graph.in_edges(name, keys=True)) == 1:
         (link,) = links
@@ -207,10 +199,7 @@ def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
 
 
 def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
-    """Turn a node, and nothing behind it, until it stands as `turns_to` told elsewhere.
-
-    Units: turns in radians.
-    """
+    """Turn a node, and nothing behind it, until it stands as `turns_to` told elsewhere."""
     (enters,), (passes,) = graph.in_edges(name, keys=True), graph.out_edges(name, keys=True)
     missing = [*turns]
     for turn in turns_to(graph, name):
@@ -226,9 +215,7 @@ def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
 
 
 def are_alike(first: Any, second: Any) -> bool:
-    """Tell whether two turns are the same, but for what turns there and back have rounded off.
-
-    Units: first, second in radians.
+    """Tell whether two turns, in rad, are the same but for rounding there and back.
 
     >>> are_alike(0.7, 0.7 - 0.9 + 0.9), are_alike(0.7, 0.8)
     (True, False)

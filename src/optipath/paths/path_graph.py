@@ -348,8 +348,7 @@ class PathGraph(Chainable):
     def __rshift__(self, behind: Element | NamedElement | Self) -> Self:
         """Return the path in which light goes on from here to what stands behind.
 
-        From the only natural way out that is open, to the only natural way in. Neither side
-        is changed.
+        From the only open natural way out to the only natural way in; neither side changes.
         """
         others: Self = begun(behind)
         if not self._graph or not others._graph:
@@ -836,7 +835,7 @@ class PathGraph(Chainable):
 class Node(Chainable):
     """A named element in its path; ``a >> b`` links the natural way out of a to b.
 
-    What stands in no path yet, an element or a chain of them, is added to the path of a first.
+    An element or a chain in no path yet is added to the path of the first.
     """
 
     path: PathGraph

@@ -177,10 +177,7 @@ def polarising(program: Program) -> dict[str, list[int]]:
 
 
 def without_polarization(program: Program, steps: Iterable[int]) -> Program:
-    """Return a program in which some steps dim all light alike, by their mean.
-
-    Of a stack of layers, each boundary does so.
-    """
+    """Return a program in which some steps, of stacks each boundary, dim by their mean."""
     evaluations, changed = list(program.evaluations), list(program.steps)
     for light in steps:
         step = changed[light]

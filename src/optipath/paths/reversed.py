@@ -107,10 +107,7 @@ class _Turning:
                         self.elements[name] = changed(self.elements[name], **{field: shared})
 
     def port(self, name: str, port: str) -> str:
-        """Return the port by which light leaves a node, on its way back, where it came in; or so.
-
-        It is empty where the element does not say.
-        """
+        """Return the port where reversed light leaves that came in at another; empty if unknown."""
         element = self.before[name]
         if not element.inputs:
             return "in"
@@ -189,10 +186,7 @@ class _Turning:
         return None if own is None and is_zero(azimuth) else azimuth
 
     def _twist(self, link: Link) -> Any:
-        """Return by what a link turns besides, where a vertex has no plane of incidence.
-
-        Such a one has the x of the light that comes to it, which is another on the way back.
-        """
+        """Return the turn by a link at a vertex without plane, whose x is that of arrival."""
         ends = _ends(link)
         placed = [name in self.wiring.self_placed for name, _ in ends]
         others = [self.before[name] for name, _ in ends if name not in self.wiring.self_placed]
@@ -234,8 +228,7 @@ def reversed_choices(
 ) -> dict[str, PlaceChoice]:
     """Return the choices of a path that stay the same choices on the way back.
 
-    They do where nothing is turned between the ports beside each place: a node stands in the
-    frame of the light that comes to it, which is that of the other port on the way back.
+    They do if nothing turns between the ports beside a place: a node has the frame of its arrival.
     """
     choices: dict[str, PlaceChoice] = wiring.graph.graph.get("choices", {})
     movable = {choice.node for choice in choices.values()}

@@ -37,12 +37,8 @@ _ROUND = 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0
 def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
     """Return between which values a parameter is usually looked at.
 
-    The default and the values of all cases lie in it, and it lies where values are allowed: the
-    visible light of a wavelength, a half turn of an axis, an index from 1 to 3, the quadrant of an
-    angle of incidence, and twice the largest value of what has no end. Both ends, and how far they
-    are apart, are numbers that a float has, in the unit of the parameter too.
-
-    Units: the result in radians.
+    It has the default and all cases within allowed values: visible light, a half turn of an axis,
+    an index from 1 to 3, an incidence to 90 degrees, twice the largest value of an open range.
 
     >>> import optipath as op
     >>> path = op.load_preset("glass-slab")

@@ -200,10 +200,7 @@ def own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
 
 
 def is_usual_part(curve: PageCurve, part: str) -> bool:
-    """Tell whether a name by itself gives a curve, with no other part beside it.
-
-    The index of a page without k reaches further, or is had at all, where a k is given.
-    """
+    """Tell whether a name by itself gives a curve: an index without k may reach further."""
     try:
         usual = getattr(Material.named(**curve.asked), part)
     except OptipathError:
@@ -407,10 +404,7 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
 
 
 def _part(curve: Curve, place: int) -> dict[str, str]:
-    """Return which of several numbers is meant, in words: where k stands, it is another by default.
-
-    A name gives n and k, whatever its page has.
-    """
+    """Return the default part of a name's numbers, n or k, in words."""
     alone = len(curve.parts) == 1 and not isinstance(curve, PageCurve)
     return {} if alone else {"part": curve.parts[place]}
 

@@ -47,9 +47,7 @@ def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any])
 
 
 def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
-    """Return a table in which misspelt keys stand under the names that were meant.
-
-    So that what stands there is read, and not called missing as well.
+    """Return a table with misspelled keys under the meant names, not also missing ones.
 
     >>> as_meant({"knd": "source", "frames": {}, "colour": 3}, ["kind", "frames"])
     {'frames': {}, 'kind': 'source'}

@@ -285,9 +285,7 @@ def _real(entry: Any, place: int) -> float:
 
 
 def written_wavelengths(metres: Any) -> dict[str, Any]:
-    """Return wavelengths as a table has them, from which the same numbers are read.
-
-    Shape: metres (n,). Units: metres in metres.
+    """Return wavelengths (n,) in metres as a table has them, which read as the same numbers.
 
     >>> written_wavelengths([5e-07, 5.2e-07])
     {'wavelengths': [500.0, 520.0], 'unit': 'nm'}

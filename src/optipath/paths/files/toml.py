@@ -1,7 +1,6 @@
 """TOML files: by name or path, within limits, with cures for slips.
 
-The time of Python's reader of TOML grows with the square of the parts of a dotted key, and its
-stack with the depth of brackets.
+The time of Python's TOML reader is quadratic in dotted keys, its stack as deep as brackets.
 """
 
 from __future__ import annotations

@@ -60,9 +60,7 @@ _LISTED = (IntensityDomain, FirstComponentDomain)
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
-    """Return the value of an element's field.
-
-    Units: the result in radians.
+    """Return the value of an element's field, in base units.
 
     >>> from optipath.materials.quantities import REAL
     >>> decode([1, 2.5], REAL, {})
@@ -109,10 +107,7 @@ def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
 
 
 def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
-    """Return a value given for a parameter: a default, or one of a case.
-
-    Units: the result in radians.
-    """
+    """Return the value of a parameter, a default or one of a case, in base units."""
     if isinstance(raw, str):
         try:
             value = axes_for(parameter.name, raw, uses)
@@ -324,9 +319,7 @@ def references_in(raw: Any) -> set[str]:
 
 
 def wavelength_names(raw: Any) -> set[str]:
-    """Return the names of the parameters that stand as a wavelength in a part of a document.
-
-    That which is called ``wavelength`` is one of them, since materials take it by themselves.
+    """Return the names of parameters used as a wavelength; ``wavelength`` is always one.
 
     >>> sorted(wavelength_names([{"wavelength": "$lam"}, {"thickness": "$d"}]))
     ['lam', 'wavelength']
