@@ -22,8 +22,7 @@ _APART = 0.07
 class ColourScale(NamedTuple):
     """Which colours numbers have, and which of them a colour bar names.
 
-    Colours are in the order of their lightness, or go apart from white, or round in a circle; who
-    is colour-blind can tell them apart.
+    Colors are ordered by lightness, diverge from white, or are cyclic; color-blind safe.
     """
 
     colours: str

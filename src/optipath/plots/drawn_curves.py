@@ -50,10 +50,7 @@ def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
 def draw_curves(
     ax: Axes, along: AlongAxis, curves: Sequence[Drawn], *, reads: str = "stokes"
 ) -> None:
-    """Draw curves, their axes, and a legend where there are several.
-
-    Points are marked where they are few, or stand alone between gaps.
-    """
+    """Draw curves, axes and a legend; points are marked where few, or alone between gaps."""
     groups = units_of([quantity for quantity, _ in curves])
     order = np.argsort(along.numbers, kind="stable")
     numbers = along.numbers[order]
@@ -151,9 +148,7 @@ _FLIP = 0.05
 
 
 def open_at_jumps(along: Numbers, angles: Numbers, period: float) -> tuple[Numbers, Numbers]:
-    """Return a curve that goes out at one end and comes in at the other, with a gap between.
-
-    Shape: along, angles (count,).
+    """Return a curve of (count,) points with gaps where an angle jumps from end to end.
 
     >>> along, angles = np.array([0.0, 1.0]), np.array([80.0, -80.0])
     >>> [each.tolist() for each in open_at_jumps(along, angles, 180.0)]

@@ -215,10 +215,7 @@ class EnergyPlaces:
         return max(arriving, leaving)
 
     def taken(self, row: EnergyRow) -> npt.NDArray[np.float64] | None:
-        """Return the outline of what an element takes: a spike on the right of what goes on.
-
-        What leaves to the right begins on the right of it, and does not cross it.
-        """
+        """Return the outline of what an element takes: a spike on the right of what goes on."""
         if row.told != "takes":
             return None
         leaving = [link for link in self.drawn.links if link.start == row.name and not link.tap]
@@ -303,8 +300,8 @@ class EnergyRows(NamedTuple):
 def energy_rows(result: EnergyAlong) -> EnergyRows:
     """Return the rows of a path, each element in one of its own, and the lanes of its links.
 
-    Light goes on in the lane of its element, and what parts from it in the next that is free;
-    light that comes back goes up to the right of all others.
+    Light keeps the lane of its element; what splits off takes the next free lane, and what returns,
+    a lane to the right of all others.
 
     >>> import optipath as op
     >>> from optipath.paths.energy import energy_along
@@ -398,9 +395,7 @@ _THICK = 0.25
 
 
 def bent(stations: list[tuple[float, float]]) -> Numbers:
-    """Return a line that goes through stations and is upright in each.
-
-    Shape: returns (..., 2).
+    """Return a line (..., 2) that goes through stations and is upright in each.
 
     >>> bent([(0.0, 0.0), (1.0, -1.0)])[[0, 12, -1]].tolist()
     [[0.0, 0.0], [0.5, -0.5], [1.0, -1.0]]
@@ -413,10 +408,7 @@ def bent(stations: list[tuple[float, float]]) -> Numbers:
 
 
 def ribbon(stations: list[tuple[float, float]], width: float) -> Numbers:
-    """Return the outline of a ribbon through stations, as wide everywhere along x.
-
-    Shape: returns (..., 2).
-    """
+    """Return the outline (..., 2) of a ribbon through stations, as wide everywhere along x."""
     middle = bent(stations)
     half = np.array([width / 2, 0.0])
     return np.concatenate([middle - half, (middle + half)[::-1]])
@@ -425,10 +417,7 @@ def ribbon(stations: list[tuple[float, float]], width: float) -> Numbers:
 def turned_back(
     begin: tuple[float, float], lane: float, end: tuple[float, float], width: float, share: float
 ) -> Numbers:
-    """Return the outline of a ribbon that goes down, up in a lane on the right, and down again.
-
-    Shape: returns (..., 2).
-    """
+    """Return the outline (..., 2) of a ribbon down, up in a lane on the right, and down again."""
     edges = []
     for side, deep in ((-0.5, _DEEP), (0.5, _DEEP - _THICK * share)):
         out, up, into = begin[0] + side * width, lane - side * width, end[0] + side * width

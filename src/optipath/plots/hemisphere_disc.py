@@ -58,10 +58,7 @@ def draw_disc(
 ) -> AxesImage:
     """Draw the pixels of a side within the circle of the horizon, with rings and azimuths.
 
-    Pixels without a value are hatched; the direction in which a smooth sample reflects, or lets
-    through, is marked by a cross.
-
-    Shape: values (rows, columns).
+    Pixels without a value are hatched; a cross marks the specular or refracted direction.
     """
     ax.set_aspect("equal")
     ax.set_axis_off()

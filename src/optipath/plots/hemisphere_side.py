@@ -53,28 +53,19 @@ class SeenSide:
         return cls(measured, side, place, state)
 
     def pixels(self, numbers: Numbers) -> Numbers:
-        """Return what is known of the pixels of this side, NaN beyond the horizon.
-
-        Shapes: numbers (sides, rows, columns, wavelengths, ...); returns (rows, columns, ...).
-        """
+        """Return the pixels (rows, columns, ...) of this side, NaN beyond the horizon."""
         result = numbers[self.measured.side(self.side), :, :, self.place].copy()
         result[self.measured.sensor.solid_angle == 0.0] = np.nan
         return result
 
     def radius(self, theta: float) -> float:
-        """Return how far from the centre of the disc light falls, 1 at the horizon.
-
-        Units: theta in radians.
-        """
+        """Return the distance from the center for theta in radians, 1 at the horizon."""
         projection = PROJECTIONS[self.measured.sensor.projection]
         return float(projection.radius(np.sin(theta), np.cos(theta)))
 
     @property
     def mirrored(self) -> float:
-        """The angle to the normal of light that a smooth sample reflects or lets through, in rad.
-
-        NaN where all of it is totally reflected.
-        """
+        """The specular or refracted angle to the normal, in rad; NaN if totally reflected."""
         beam = self.measured.seen.beam
         if self.side == "reflected":
             return float(np.arctan2(beam.sin, beam.cos))
@@ -144,10 +135,7 @@ def seen_sides(
     *,
     others: Sequence[str] = (),
 ) -> dict[str, SeenSide]:
-    """Return the sides that a picture of several samples is asked for.
-
-    The wavelength is for those that were measured at several; where none was, for those at one.
-    """
+    """Return the sides to draw; a wavelength is for samples measured at several."""
     most = max(map(_choices, several.values()))
     faults = Faults(others)
     results = {

@@ -56,10 +56,7 @@ def varied(
 def axis_of(
     path: PathGraph, parameter: Parameter, values: Any, count: int
 ) -> tuple[AlongAxis, npt.NDArray[Any]]:
-    """Return what goes along an axis: as it is drawn, and as a path takes it.
-
-    Shape: returns given (count,). Units: given in radians.
-    """
+    """Return the values (count,) along an axis: as drawn, and in radians for a path."""
     name, inputs = parameter.name, path.compose().inputs
     if values is None:
         argument = np.linspace(*usual_range(path, name), count)
@@ -277,9 +274,7 @@ def fine_steps(
     numbers_at: Callable[[Numbers], Numbers],
     on_picture: Callable[[Numbers], Numbers],
 ) -> FineSteps:
-    """Halve steps while the middle of what is drawn over them is off the straight line.
-
-    Shapes: values (n,); numbers (n, k).
+    """Halve steps of values (n,) while numbers (n, k) at the middle are off the straight line.
 
     >>> bent = lambda x: np.maximum(x - 1.0, 0.0)[:, np.newaxis]
     >>> x = np.array([0.0, 1.0, 2.0])

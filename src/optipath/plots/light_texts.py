@@ -38,8 +38,6 @@ def known_light(light: Any) -> Light:
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
     """Return one or several lights by their names.
 
-    Shape: light (n,).
-
     >>> [*lights_to_draw(Light([[1.0, 0.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]]))]
     ['light[0]', 'light[1]']
     """
@@ -198,9 +196,7 @@ def angle_text(light: Light) -> str:
 
 
 def ellipse_points(light: Light, count: int = 73) -> npt.NDArray[np.float64]:
-    """Return points of the ellipse of the polarised part of light, in the order of time.
-
-    Shapes: light (...); returns (..., count, 2).
+    """Return points (..., count, 2) of the ellipse of the polarized part, in order of time.
 
     >>> import optipath as op
     >>> ellipse_points(op.Light([1.0, 0.0, 0.0, 1.0]), 5).round(4) + 0.0

@@ -248,10 +248,7 @@ def draw_map(
     *,
     reads: str = "stokes",
 ) -> None:
-    """Draw a map, its colour bar, and a cross where both values are those by default.
-
-    Shape: numbers (along, up).
-    """
+    """Draw a map (along, up), its color bar, and a cross at the default values."""
     columns, rows = np.argsort(along.numbers), np.argsort(up.numbers)
     sorted_numbers = numbers[np.ix_(columns, rows)].T
     scale = quantity.colours(numbers)

@@ -149,8 +149,7 @@ _ROUNDED = 64.0 * np.finfo(float).eps
 class PlaneCut:
     """The light of one side of a measured sample in the plane of incidence.
 
-    It is that of the row of pixels in the plane, or the mean of the two that it lies between, in
-    frames with x perpendicular to the plane.
+    Of the row of pixels in the plane, or the mean of the two beside it; x is across the plane.
     """
 
     seen: SeenSide
@@ -176,10 +175,7 @@ class PlaneCut:
         return own, Frame.from_direction(own.z, (0.0, 1.0, 0.0))
 
     def light(self, numbers: Numbers) -> Light:
-        """Return the light per steradian among the numbers of `PartSums.estimate`.
-
-        Shapes: numbers (sides, rows, columns, wavelengths, numbers); returns (columns,).
-        """
+        """Return the light (columns,) per steradian among the numbers of `PartSums.estimate`."""
         own, plane = self._frames
         matrices = self.seen.measured.matrices(self._pixels(numbers))
         seen = Light.of(matrices @ np.array(self.seen.source), own, measured=True)
@@ -188,10 +184,7 @@ class PlaneCut:
         return Light.of(stokes, Frame(), noise=noise, measured=True)
 
     def scalar(self, numbers: Numbers) -> Numbers:
-        """Return the light per steradian that there is without polarisation.
-
-        Shapes: numbers (sides, rows, columns, wavelengths, numbers); returns (columns,).
-        """
+        """Return the light (columns,) per steradian that there is without polarization."""
         return self._mean(self.seen.measured.intensities(self._pixels(numbers)))
 
     def _pixels(self, numbers: Numbers) -> Numbers:
@@ -218,10 +211,7 @@ class PlaneQuantity(NamedTuple):
     period: float = np.inf
 
     def known(self, cut: PlaneCut, known_to: float | None) -> tuple[Numbers, Numbers]:
-        """Return it with its standard errors, NaN where it is not known.
-
-        Shape: returns value, error (columns,).
-        """
+        """Return values and standard errors (columns,), NaN where not known."""
         if self.variable == "difference" and any(cut.seen.source[1:]):
             raise SurfaceError("difference is of unpolarised light; leave source out")
         own = cut.seen.measured.own

@@ -217,8 +217,8 @@ _AXES = ("S1/S0", "right", "top"), ("S2/S0", "left", "top"), ("S3/S0", "center",
 def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
     """Return axes with a Poincaré sphere, drawn unless it is there already.
 
-    S3 > 0 is up; the far half is fainter. The picture stands still, since its halves and its
-    names are those of one point of view.
+    S3 > 0 is up; the far half is fainter, and the view is fixed, since halves and names depend on
+    it.
     """
     if argument is None:
         argument = Figure(figsize=size, layout="constrained").add_subplot(projection="3d")
@@ -234,9 +234,7 @@ def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
 
 
 def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """Tell which points are on the near half of the sphere.
-
-    Shapes: points (..., 3); returns (...).
+    """Tell which points (..., 3) are on the near half of the sphere.
 
     >>> is_near(np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]))
     array([ True, False])
@@ -245,10 +243,7 @@ def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
 
 
 def on_paper(ax: Axes3D, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Return where points are seen, in the flat coordinates of the axes.
-
-    Shapes: points (n, 3); returns (n, 2).
-    """
+    """Return where points (n, 3) are seen, in the flat coordinates (n, 2) of the axes."""
     return np.stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2], axis=-1)
 
 
@@ -312,9 +307,7 @@ _FAR = 0.45
 
 
 def sphere_point(light: Any) -> npt.NDArray[np.float64]:
-    """Return S1, S2 and S3 over S0; NaN where light is dark or has not been read.
-
-    Shapes: light (...); returns (..., 3).
+    """Return S1, S2 and S3 over S0 (..., 3); NaN where light is dark or has not been read.
 
     >>> import optipath as op
     >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0], exponent=-5000))
@@ -389,12 +382,7 @@ _LEADER: dict[str, Any] = {
 def name_points(
     ax: Axes, points: npt.NDArray[np.float64], names: Sequence[str], size: str = "small"
 ) -> None:
-    """Write names beside points, where neither points nor other texts are, with lines to them.
-
-    Of places that are free, one with few lines behind it is taken.
-
-    Shape: points (n, 2).
-    """
+    """Write names beside points (n, 2), over no point or text and few lines, with lines to them."""
     figure: Any = ax.figure.figure
     figure.draw_without_rendering()
     taken = [text.get_window_extent() for text in ax.texts if text.get_text()]

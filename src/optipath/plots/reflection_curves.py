@@ -207,10 +207,7 @@ _SEEN = 1e-9
 
 
 class Reflected(NamedTuple):
-    """What a boundary reflects of light without polarisation.
-
-    Shapes: s, p, unpolarised (...); dolp (...).
-    """
+    """The reflectances of a boundary for unpolarized light."""
 
     s: Numbers
     p: Numbers
@@ -226,9 +223,7 @@ class MarkedAngle(NamedTuple):
 
 
 def reflected(index: complex, incidence: Numbers) -> Reflected:
-    """Return what a boundary reflects.
-
-    Shape: incidence (...). Units: incidence in radians.
+    """Return what a boundary reflects at an incidence in radians.
 
     >>> found = reflected(1.5, np.array(0.0))
     >>> print(found.s.round(3), found.dolp.round(3))

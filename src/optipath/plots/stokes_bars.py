@@ -207,9 +207,7 @@ def _number(value: float) -> str:
 def published_for(
     published: Any, light: Any, several: Mapping[str, Any]
 ) -> dict[str, npt.NDArray[np.float64]]:
-    """Return published Stokes vectors by the names of the lights that they stand beside.
-
-    Shapes: published (..., 4); returns (4,).
+    """Return published Stokes vectors (4,) by the names of the lights that they belong to.
 
     >>> import optipath as op
     >>> light = op.Light([1.0, 0.5, 0.0, 0.0])
@@ -278,9 +276,7 @@ def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float6
 
 
 def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]:
-    """Return numbers times two to an exponent over a power of ten, be they floats or not.
-
-    Shapes: stokes (4,); returns (4,).
+    """Return numbers (4,) times two to an exponent over a power of ten, be they floats or not.
 
     >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)
     array([ 2.,  0., nan,  1.])

@@ -142,10 +142,7 @@ def _note(ax: Axes, scene: Scene, flat: FlatSheet, size: float) -> float:
 def _fit_rows(
     ax: Axes, scene: Scene, flat: FlatSheet, most: int, where: tuple[Bbox, float]
 ) -> FlatSheet:
-    """Return a straight set-up in rows of so many nodes at most, which fill a part of the axes.
-
-    Below each row there is room for texts, so many pixels high.
-    """
+    """Return a straight set-up in rows of so many nodes at most, with room for texts in pixels."""
     room, lines = where
     rows = -(-len(flat.at) // most)
     each = -(-len(flat.at) // rows)
@@ -287,10 +284,7 @@ def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | 
 
 
 def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> Array:
-    """Draw a dial with what is seen in it when one looks at the source.
-
-    Shapes: at (2,); line (points, 2); returns (points, 2).
-    """
+    """Draw a dial at (2,) with a line (points, 2) as seen by one who looks at the source."""
     _add(ax, Circle(tuple(at), DIAL, fc="white", ec=FAINT, lw=0.7), zorder)
     # Who looks at the source has x to the right where y is up, and z comes to him.
     seen = at + 0.92 * DIAL * np.reshape(line, (-1, 2))
@@ -428,10 +422,7 @@ class FlatSheet(NamedTuple):
     unit: float
 
     def in_dial(self, axes: Array, vectors: Array) -> Array:
-        """Return what lies across light as who looks at the source sees it.
-
-        Shapes: axes (3, 3); vectors (..., 3); returns (..., 2).
-        """
+        """Return transverse vectors (..., 2) as seen by one who looks at the source."""
         right = np.cross(self.sheet[1], self.sheet[0])
         return np.asarray(vectors @ np.array([right, np.cross(axes[2], right)]).T)
 
@@ -487,10 +478,7 @@ def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]
 
 
 def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
-    """Return the way on the sheet in which light arrives at a node, or leaves a source.
-
-    Shape: returns (2,).
-    """
+    """Return the direction (2,) on the sheet of light that reaches a node or leaves a source."""
     rays = [ray for ray in scene.rays if ray.end == node.name]
     rays += [ray for ray in scene.rays if ray.start == node.name]
     return np.asarray(flat.sheet @ rays[0].axes[2] if rays else np.array([1.0, 0.0]))

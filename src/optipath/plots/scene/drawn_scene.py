@@ -75,10 +75,7 @@ _MARKS: dict[str, dict[str, Any]] = {
 
 
 def lines_of(scene: Scene, view: View) -> list[Array]:
-    """Return the lines of a scene that no text should cover, and what is to be seen of it.
-
-    Shape: returns (points, 2).
-    """
+    """Return the lines (points, 2) of a scene that no text should cover, and what is seen of it."""
     results = [np.array([ray.tail, ray.head]) for ray in scene.rays]
     results += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
     results += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
@@ -168,10 +165,7 @@ def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> No
 
 
 def draw_turn(ax: Axes, curve: Array, unit: float, colour: str, zorder: float) -> None:
-    """Draw a head on an ellipse that shows how the field turns, where the ellipse is flattest.
-
-    Shape: curve (points, 2).
-    """
+    """Draw an arrowhead on an ellipse (points, 2) where it is flattest."""
     size = unit * np.array(_TURN)
     narrow = np.linalg.svd(curve[:-1] - curve[:-1].mean(axis=0))[1][1]
     if narrow * np.sqrt(2.0 / len(curve[:-1])) < _NARROW * size[1]:
@@ -222,10 +216,7 @@ _ELEVATIONS, _AZIMUTHS = (15.0, 24.0, 34.0, 46.0), np.arange(-180.0, 180.0, 15.0
 
 
 class View(NamedTuple):
-    """A direction to look from; parallel lines stay parallel.
-
-    Units: elevation, azimuth in degrees.
-    """
+    """A direction of a parallel projection; elevation and azimuth in degrees."""
 
     elevation: float
     azimuth: float
@@ -239,9 +230,7 @@ class View(NamedTuple):
         return np.array([right, up, (flat * c, flat * s, high)])
 
     def points(self, points: Array) -> Array:
-        """Return points of space on the sheet.
-
-        Shapes: points (..., 3); returns (..., 2).
+        """Return points of space (..., 3) on the sheet (..., 2).
 
         >>> View(0.0, -90.0).points(np.array([2.0, 5.0, 3.0])).round(12)
         array([2., 3.])
@@ -344,10 +333,7 @@ class Label(NamedTuple):
 def place_labels(
     ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Patch] = ()
 ) -> None:
-    """Write each text near what it names, over no other text and over few lines.
-
-    Shape: lines (points, 2).
-    """
+    """Write each text near what it names, over no other text and over few lines."""
     filled = [outline for solid in solids for outline in _outlines(solid)]
     crowd = [_dense(ax.transData.transform(line)) for line in lines if len(line)]
     drawn = np.concatenate(crowd) if crowd else np.zeros((0, 2))

@@ -55,9 +55,8 @@ _FRAMES_AT = 0.2
 def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     """Return a path laid out in space.
 
-    What has world frames, or stands at the points of a chain, stands where it stands. All else is
-    laid out by following the light from its source, in the frames of docs/conventions.md: x of a
-    surface is along k_out cross k_in, azimuths turn the frame about the light.
+    World frames and chain points are kept. All else is laid out by following the light from its
+    source, in the frames of docs/conventions.md: x of a surface is along k_out cross k_in.
 
     >>> import optipath as op
     >>> scene = scene_of(op.load_preset("npgr026", case="8"))
@@ -276,9 +275,7 @@ def _turn(
 
 
 def angles_in_chain(element: Any) -> tuple[Any, Any]:
-    """Return the incidence at a surface, and the turn of its plane against that of the one before.
-
-    Units: incidence, turn in radians.
+    """Return the incidence at a surface, and the turn of its plane from the one before, in rad.
 
     >>> import optipath as op
     >>> path = op.load_preset("npgr026-3d")

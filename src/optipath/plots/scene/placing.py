@@ -279,10 +279,7 @@ def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
 
 
 def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Posture:
-    """Return how the ports of a node stand in the world, of which some have axes there.
-
-    Shape: axes (3, 3).
-    """
+    """Return the posture of a node in space, some of whose ports have axes (3, 3) there."""
     element = wiring.elements[name]
     usual = posture_of(element)
     first = next(iter(axes))
@@ -312,8 +309,8 @@ def _normal(element: Element, port: str, arriving: Array, leaves: Array) -> Arra
 def _normal_of_vertex(vertex: Any, arriving: Array, leaves: Array) -> Array:
     """Return the normal of a vertex, across which light is reflected or refracted.
 
-    What refracts stands across n2 k_out - n1 k_in (A. Glassner, ed., An Introduction to Ray
-    Tracing, 1989, ch. 4).
+    Of a refraction along n2 k_out - n1 k_in (A. Glassner, ed., An Introduction to Ray Tracing,
+    1989, ch. 4).
     """
     by_number = "events" in vertex.domains()
     if not vertex.refracts or (by_number and vertex.event_here.numbers() == Event.REFLECTS):
@@ -335,10 +332,7 @@ def _bisector(arriving: Array, leaves: Array) -> Array:
 
 
 def incidence_at(element: Element, posture: Posture) -> float:
-    """Return the angle between the light that arrives at a surface and its normal.
-
-    Units: the result in radians.
-    """
+    """Return the incidence, in radians, of light at a surface with a normal."""
     if not isinstance(element, ChainVertex) and hasattr(element, "incidence"):
         return angles_at(element)[0]
     arrives, normal = posture.axes["in"][:, 2], np.asarray(posture.normal)
@@ -360,10 +354,7 @@ def chain_points(element: Any) -> Array:
 
 
 def legs_and_chains(wiring: Wiring) -> dict[Link, float]:
-    """Return how long links before and behind chains of points are, which share a leg.
-
-    Those of chains by angles have no length of their own.
-    """
+    """Return the lengths of links before and behind chains of points; of angles they have none."""
     results: dict[Link, float] = {}
     for name in wiring.self_placed:
         element: Any = wiring.elements[name]
@@ -407,10 +398,7 @@ _SCHEMATIC = np.pi / 4.0
 
 
 class Posture(NamedTuple):
-    """The frames of the ports of an element, in a basis of its own.
-
-    Shapes: axes (3, 3); normal, across (3,).
-    """
+    """The frames of the ports of an element, in a basis of its own; normal, across (3,)."""
 
     axes: dict[str, Array]
     normal: Array | None

@@ -38,10 +38,7 @@ class SceneNode(NamedTuple):
 
 
 class SceneRay(NamedTuple):
-    """The light of a link, or what leaves the path.
-
-    Shapes: tail, head (3,); axes (3, 3); ellipse (points, 3).
-    """
+    """The light of a link, or what leaves the path; tail, head (3,), ellipse (points, 3)."""
 
     name: str
     start: str
@@ -219,9 +216,7 @@ def number(value: Any) -> float:
 
 
 def quantity_text(value: float, unit: str) -> str:
-    """Return a value as pictures write it: five digits, and the unit.
-
-    Units: value in radians.
+    """Return a value in base units as pictures write it: five digits, and the unit.
 
     >>> quantity_text(-0.0, "deg"), quantity_text(1.164278e-3, "um")
     ('0 deg', '1164.3 um')
@@ -230,10 +225,7 @@ def quantity_text(value: float, unit: str) -> str:
 
 
 def shown_angle(value: Any, *, signed: bool = True) -> ShownAngle:
-    """Return an angle by the name of its parameter, or the formula that stands for a multiple.
-
-    Units: value in radians.
-    """
+    """Return an angle in radians by the name of its parameter, or the formula of a multiple."""
     if not isinstance(value, Parameter):
         return ShownAngle("", number(value))
     unit = value.unit or "deg"
@@ -245,10 +237,7 @@ def shown_angle(value: Any, *, signed: bool = True) -> ShownAngle:
 
 
 def shown_incidence(value: Any, front: float) -> ShownAngle:
-    """Return the angle at which light meets a surface, by its name if it is what is given.
-
-    Units: value in radians.
-    """
+    """Return the incidence in radians at a surface, by its name if it is given."""
     message = shown_angle(value)
     if message.name and abs(number(value) - front) <= _SAME_ANGLE:
         return message
