@@ -23,9 +23,7 @@ _CURE = "light adds up, light + light, and is taken times numbers >= 0, 0.5 * li
 
 
 def sum_of(one: Any, exponent: Any, two: Any, other_exponent: Any) -> tuple[Any, Any]:
-    """Return the sum of two lights, as a mantissa and its exponent.
-
-    Shapes: one, two (..., 4); exponent, other_exponent (...).
+    """Return the sum of two lights (..., 4), as a mantissa and its exponent.
 
     >>> total, power = sum_of(np.eye(4)[0], 0, np.eye(4)[0], 1)
     >>> print(total, power)
@@ -45,9 +43,7 @@ def sum_of(one: Any, exponent: Any, two: Any, other_exponent: Any) -> tuple[Any,
 def product_of(
     numbers: Any, exponent: Any, factor: Any, done: Callable[[Any, Any], Any]
 ) -> tuple[Any, Any, Any, Any]:
-    """Return light times or divided by numbers, as a mantissa and its exponent, and by what.
-
-    Shapes: numbers (..., 4); exponent, factor (...).
+    """Return light (..., 4) times or divided by numbers: mantissa, exponent, and the numbers.
 
     >>> product, power, *_ = product_of(np.eye(4)[0], 0, np.array(6.0), np.multiply)
     >>> print(product, power)
@@ -125,8 +121,6 @@ _COPIED = 1 << 16
 
 def handed_out(component: Any) -> Any:
     """Return a component of light as it is given to whoever asks for it.
-
-    Shapes: component (...); returns (...).
 
     >>> kept = np.ones(3)
     >>> mine = handed_out(kept)

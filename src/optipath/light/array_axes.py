@@ -66,7 +66,7 @@ class ArrayAxes:
     def __getitem__(self, key: Any) -> Self:
         """Return a part of a batch, by an index of its axes: integers, slices, masks.
 
-        Frames that are a batch go along; JAX may trace integers.
+        Frames that are a batch are indexed as well; JAX may trace integers.
 
         >>> from optipath import Light
         >>> lights = Light([[1.0, 0.0, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]])
@@ -136,9 +136,7 @@ class ArrayAxes:
 
 
 def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
-    """Return vectors whose axes but the last are changed, number by number.
-
-    Shapes: numbers (..., n); returns (..., n).
+    """Return vectors (..., n) whose axes but the last are changed, number by number.
 
     >>> each_number(np.eye(3), lambda numbers: numbers[1])
     array([0., 1., 0.])

@@ -215,10 +215,7 @@ def _unscaled(total: Any, power: Any) -> Any:
 
 
 def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> tuple[Any, Any]:
-    """Return X, Y and Z of what is white, as a mantissa and the exponent of its power of two.
-
-    Shape: returns total (..., 3).
-    """
+    """Return X, Y and Z (..., 3) of white, as a mantissa and its exponent of two."""
     if isinstance(white, Light):
         total, power = _sums(white, observer, outside)
     elif isinstance(white, (Spectrum, CurveValue)):
@@ -293,9 +290,7 @@ DISPLAY_WHITE = np.array([0.3127, 0.3290, 0.3583]) / 0.3290
 
 
 def adapted(xyz: Any, white: Any) -> Any:
-    """Return X, Y, Z as they are under the white of a display.
-
-    Shapes: xyz (..., 3); white (..., 3); returns (..., 3).
+    """Return X, Y, Z (..., 3) as they are under the white of a display.
 
     >>> adapted(np.array([0.5, 0.5, 0.5]), np.ones(3)).round(4)
     array([0.4752, 0.5   , 0.5445])
@@ -306,9 +301,7 @@ def adapted(xyz: Any, white: Any) -> Any:
 
 
 def times(matrix: Any, vectors: Any) -> Any:
-    """Return products in an order that does not depend on how many there are.
-
-    Shapes: matrix (3, 3); vectors (..., 3); returns (..., 3).
+    """Return products (..., 3) in an order that does not depend on how many there are.
 
     >>> times(np.eye(3), np.array([1.0, 2.0, 3.0]))
     array([1., 2., 3.])

@@ -1,7 +1,7 @@
 """Conventions of other software and books: signs of Stokes components, psi and Delta.
 
-Each of them differs from ours in the hand of S3, in which axis is called x, or in the direction of
-y: all of these change signs, and nothing else, so that a map is its own inverse.
+They differ from ours in the hand of S3, in which axis is x, or in the direction of y: only signs
+change, so that a map is its own inverse.
 """
 
 from __future__ import annotations
@@ -91,9 +91,7 @@ def signs_of(convention: Any) -> Array:
 
 
 def changed_stokes(convention: Any, stokes: Any) -> Array:
-    """Return Stokes vectors of ours in a convention, or the other way about.
-
-    Shapes: stokes (..., 4); returns (..., 4).
+    """Return Stokes vectors (..., 4) of ours in a convention, or the other way about.
 
     >>> changed_stokes("ellipsometry", np.array([1.0, 0.5, 0.0, 0.25]))
     array([ 1.  , -0.5 ,  0.  , -0.25])
@@ -104,11 +102,7 @@ def changed_stokes(convention: Any, stokes: Any) -> Array:
 
 
 def changed_matrix(convention: Any, matrix: Any) -> Array:
-    """Return Mueller matrices of ours in a convention, or the other way about.
-
-    Both frames change, so that matrices still act on Stokes vectors and on each other.
-
-    Shapes: matrix (..., 4, 4); returns (..., 4, 4).
+    """Return Mueller matrices (..., 4, 4) of ours in a convention, or back: both frames change.
 
     >>> changed_matrix("mitsuba", np.ones((4, 4)))[3]
     array([-1., -1., -1.,  1.])
@@ -118,9 +112,7 @@ def changed_matrix(convention: Any, matrix: Any) -> Array:
 
 
 def changed_delta(convention: Any, delta: Any) -> Array:
-    """Return the ellipsometric Delta of a convention by ours, in (-pi, pi].
-
-    Units: delta, the result in radians.
+    """Return the ellipsometric Delta, in rad, of a convention by ours, in (-pi, pi].
 
     >>> print(changed_delta("tmm", np.radians(150.0)).round(12) == np.radians(30.0).round(12))
     True

@@ -46,8 +46,6 @@ def reciprocal(matrix: Any) -> Any:
 
     De Hoop, Appl. Sci. Res. B 8, 135 (1960); Sekera, J. Opt. Soc. Am. 56, 1732 (1966).
 
-    Shapes: matrix (..., 4, 4); returns (..., 4, 4).
-
     >>> matrix = np.arange(16.0).reshape(4, 4)
     >>> print(reciprocal(matrix)[2])
     [ -2.  -6.  10. -14.]
@@ -106,7 +104,7 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
 def _rounding(matrix: Any, m00: Array, power: Array) -> Array:
     """Return what may be rounding in matrices over M00, shape (..., 1).
 
-    That of the parts, which let 1 through at most, is larger against an M00 that they block.
+    Rounding of the parts, which let 1 through at most, is larger against an M00 that they block.
     """
     least = max(_ROUNDING, 64.0 * rounding_of(matrix))
     blocked = times_two_to(1.0 / np.abs(m00), -power)
@@ -160,9 +158,7 @@ def _bordered(row: Array, column: Array, lower: Array) -> Array:
 def jones_parts(unit: Array, tolerance: Array) -> tuple[Array, Array, Array]:
     """Return which matrices over their M00 are pure, their sqrt(1 - D^2), and their rotations.
 
-    What is pure has but one eigenvalue in its coherency.
-
-    Shapes: unit (..., 4, 4); tolerance (..., 1); returns pure (..., 1), root (..., 1), rotation
+    Pure: one eigenvalue of the coherency. Shapes: returns pure (..., 1), root (..., 1), rotation
     (..., 3, 3).
 
     >>> half_wave = np.diag([1.0, 1.0, -1.0, -1.0])
@@ -191,9 +187,7 @@ _NOTHING = 2.0**-960
 
 
 def least_turn(a: Array, b: Array) -> Array:
-    """Return the rotations by the least angle that turn unit vectors a into b.
-
-    Shapes: a, b (..., 3); returns (..., 3, 3).
+    """Return the rotations (..., 3, 3) by the least angle that turn unit vectors a into b.
 
     >>> least_turn(np.array([1.0, 0.0, 0.0]), np.array([-1.0, 0.0, 0.0])).diagonal()
     array([-1., -1.,  1.])
@@ -213,9 +207,7 @@ def least_turn(a: Array, b: Array) -> Array:
 
 
 def rotation(w: Array, v: Array) -> Array:
-    """Return what the unitary matrices w s_0 + i (v_1 s_1 + ...), of any size, do to S1, S2, S3.
-
-    Shapes: w (...); v (..., 3); returns (..., 3, 3).
+    """Return the rotations (..., 3, 3) of S1, S2, S3 by the unitary w s_0 + i (v_1 s_1 + ...).
 
     >>> rotation(np.array(0.0), np.array([3.0, 0.0, 0.0])).diagonal()
     array([ 1., -1., -1.])
@@ -239,9 +231,7 @@ def size_and_direction(vector: Array) -> tuple[Array, Array]:
 
 
 def outer(a: Array, b: Array) -> Array:
-    """Return the products of each component with each.
-
-    Shapes: a, b (..., 3); returns (..., 3, 3).
+    """Return the products (..., 3, 3) of each component with each.
 
     >>> outer(np.array([1.0, 2.0]), np.array([3.0, 4.0])).tolist()
     [[3.0, 4.0], [6.0, 8.0]]
@@ -276,9 +266,7 @@ def turn_of(retarder: Any) -> tuple[Array, Array]:
 
 
 def scaled(matrix: Any) -> tuple[Array, Array]:
-    """Return matrices over a power of two, in double precision, and its exponent.
-
-    A matrix of which an entry is not known becomes 0, for `unscaled` to give back.
+    """Return matrices over a power of two as doubles, and its exponent; 0 with NaN entries.
 
     >>> [part.tolist() for part in scaled(np.diag([6.0, 3.0, 3.0, 3.0]))][1]
     3
@@ -291,10 +279,7 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
 
 
 def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
-    """Return what was found for scaled matrices in the matrices' own scale.
-
-    Shapes: matrix (..., 4, 4); parts (..., 4, n); power (...); returns (..., 4, n).
-    """
+    """Return parts (..., 4, n) found for scaled matrices in the matrices' own scale."""
     *batch, rows, columns = parts.shape
     result = times_two_to(parts.reshape(*batch, rows * columns), power)
     flat = np.asarray(matrix).reshape(*matrix.shape[:-2], 16)
@@ -341,8 +326,6 @@ def eigenvalues(matrix: Array) -> Array:
 def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
     """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not.
 
-    Shapes: matrix (..., 4, 4); returns (...).
-
     >>> print(is_physical(np.eye(4), 0.0))
     True
     """
@@ -350,9 +333,7 @@ def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
 
 
 def lack(matrix: Array) -> Array:
-    """Return by which share of the largest eigenvalue the least one is below 0; NaN of NaN.
-
-    Infinite where no eigenvalue is above 0, and one below.
+    """Return by which share of the largest eigenvalue the least one is below 0; NaN or inf.
 
     >>> print(lack(np.eye(4)), lack(np.diag([1.0, 1.0, 1.0, -1.0])))
     0.0 1.0

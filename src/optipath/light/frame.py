@@ -305,9 +305,7 @@ def _text(vector: npt.NDArray[np.float64]) -> str:
 
 
 def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return vectors of three finite components.
-
-    Shape: value (..., 3).
+    """Return vectors (..., 3) of finite components.
 
     >>> vectors("a normal", [0, 0, 1])
     array([0., 0., 1.])

@@ -22,10 +22,7 @@ if TYPE_CHECKING:
 
 
 def spectral_axis(light: Light) -> tuple[Array, int]:
-    """Return the wavelengths of light, and the axis of the batch along which they vary.
-
-    Shape: returns grid (n,). Units: grid in metres.
-    """
+    """Return the wavelengths (n,) of light, in metres, and the batch axis along which they vary."""
     wavelength = light.wavelength
     if several := light.wavelengths_in_doubt:
         raise LightError(
@@ -104,11 +101,9 @@ def _along_bins(light: Light, *, one_bin: bool) -> tuple[Light, Array, int]:
 
 
 def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tuple[Any, Any]:
-    """Return sums over an axis of numbers times weights, however faint they are.
+    """Return sums over an axis of numbers (..., k) times weights (n, k), however faint they are.
 
-    The sum is taken by halves, so that it is the same whatever other axes there are.
-
-    Shapes: numbers (..., k); exponent (...); weights (n, k).
+    By halves, so that sums do not depend on other axes.
 
     >>> weighted_sum(np.ones((3, 1)), np.zeros(3, int), np.array([[1.0], [2.0], [1.0]]), 0)
     (array([2.]), array(1))
@@ -141,10 +136,7 @@ def _sum_by_halves(terms: Any) -> Any:
 
 
 def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array, exponent: Array) -> Array:
-    """Return the noise in light that has been added up, of shape (...).
-
-    Shapes: weights (n,); stokes (..., 4); exponent (...); returns (...).
-    """
+    """Return the noise (...) in light that has been added up."""
     shape = [1] * light.ndim
     shape[axis] = len(weights)
     floor = light.noise_floor + rounding(known(light.mantissa))

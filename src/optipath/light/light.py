@@ -729,10 +729,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return {"measured": self.is_measured, "wavelength": stored}
 
     def __add__(self, other: object) -> Light:
-        """Return both lights together, incoherently, in the frame of this one.
-
-        Lights whose wavelengths are known to differ are refused.
-        """
+        """Return the incoherent sum in the frame of this one, if no wavelengths differ."""
         if not isinstance(other, Light):
             refuse(f"{shown(other)} is no light to be added")
         check_broadcast({"light": self.shape, "other light": other.shape})

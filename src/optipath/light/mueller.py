@@ -1,9 +1,8 @@
 """Mueller: a 4x4 matrix between two reference frames, and the three parts that it has.
 
-Figures are read off the entries of a Mueller matrix, shape (..., 4, 4), each over M00.
-They are 0 where M00 is 0, but psi and delta, angles that are not there, NaN; NaN where M00 or
-what an angle is of is no more than noise, as of crossed polarisers, where M00 is infinite or an
-entry they need is not known; and exact in scale.
+Figures are of matrices (..., 4, 4) over M00. Where M00 is 0 they are 0, but psi and delta NaN; they
+are NaN, too, where M00 or the argument of an angle is noise (crossed polarizers), infinite or
+unknown.
 """
 
 from __future__ import annotations
@@ -662,9 +661,7 @@ class LuChipman:
 
 
 def noise_of_product(behind: tuple[Any, Any], before: tuple[Any, Any]) -> Any:
-    """Return the noise in what two matrices make together, shape (...), by running error analysis.
-
-    The noise of each times the other, and the roundings of sums of products of both.
+    """Return the noise in a product of matrices, shape (...), by running error analysis.
 
     >>> one = np.eye(4), 2.0**-52
     >>> print(noise_of_product(one, one) * 2.0**52)

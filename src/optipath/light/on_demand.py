@@ -111,10 +111,7 @@ def inherited_noise(
     stokes: Array,
     exponent: Array,
 ) -> Array:
-    """Return the noise in a mantissa, of shape (...).
-
-    Shapes: stokes (..., 4); exponent (...); returns (...).
-    """
+    """Return the noise (...) in a mantissa."""
     total = np.zeros(exponent.shape, stokes.dtype)
     for light in lights:
         floor, own = light.noise_floor, light.exponent
@@ -130,9 +127,7 @@ def inherited_noise(
 
 
 def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
-    """Return the noise in a mantissa: the rounding of S0 at least.
-
-    Shapes: stokes (..., 4); exponent (...); returns (...).
+    """Return the noise (...) in a mantissa: the rounding of S0 at least.
 
     >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9), np.array(0)))
     1e-09
@@ -197,9 +192,7 @@ def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
 
 
 def wavelengths_for(batch: tuple[int, ...], argument: Any) -> Array:
-    """Return wavelengths that somebody gives for light.
-
-    Units: given, the result in metres.
+    """Return wavelengths, in metres, that somebody gives for light.
 
     >>> wavelengths_for((2,), ["500 nm", "2.4 eV"]).round(9)
     array([5.00e-07, 5.17e-07])

@@ -46,9 +46,7 @@ def gain(matrix: Array) -> Array:
 
 
 def are_passive(matrix: Array, tolerance: float) -> Array:
-    """Tell which matrices a passive element can have, as far as their rounding lets one say.
-
-    Shapes: matrix (..., 4, 4); returns (...).
+    """Tell which matrices (..., 4, 4) a passive element can have, within their rounding.
 
     >>> one, flipped = np.eye(4), np.diag([1.0, 1.0, 1.0, -1.0])
     >>> print(are_passive(np.array([one, 2.0 * one, flipped]), 1e-9))
@@ -77,9 +75,7 @@ def are_passive(matrix: Array, tolerance: float) -> Array:
 
 
 def problem_of(matrix: Array, tolerance: float) -> str:
-    """Return why no passive element has a matrix, as a sentence goes on with it.
-
-    Shape: matrix (4, 4).
+    """Return why no passive element has a matrix (4, 4), as the end of a sentence.
 
     >>> problem_of(2.0 * np.eye(4), 1e-9)[:37]
     'makes light up to 2 times as bright ('
@@ -98,9 +94,7 @@ def problem_of(matrix: Array, tolerance: float) -> str:
 
 
 def cure_of(matrices: Array, tolerance: float) -> str:
-    """Return what is to be given in place of matrices, so that all `are_passive`.
-
-    Shape: matrices (..., 4, 4).
+    """Return a cure for matrices (..., 4, 4) that makes all of them `are_passive`.
 
     >>> cure_of(2.0 * np.eye(4), 1e-9)
     'matrix / 2'
@@ -148,23 +142,18 @@ _CURE = (
 )
 
 _BEYOND = 12.0
-"""By how many times what its coherency lacks, over M00, a matrix takes light beyond 100 %, at most.
-
-Three eigenvalues are negative at most; a Jones matrix of the size of one lets twice as much
-through, and light that it takes away shortens S0 and lengthens (S1, S2, S3) by as much.
-"""
+"""By how many times its lack of coherency over M00 a matrix takes light beyond 100 %, at most: a
+Jones matrix transmits twice its size, 3 may be negative, and S0 shrinks as (S1, S2, S3) grows."""
 
 _LEFT = 16.0
 """How many roundings of 1 are left where matrices that let nothing through were multiplied."""
 
 
 def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
-    """Tell of which light a matrix makes what no light is, beyond the rounding of all three.
+    """Tell which light (..., 4) a matrix makes unphysical, beyond the rounding of all three.
 
-    A matrix that is physical by the default of `Mueller.is_physical` does so of none, nor does one
-    whose entries may be no more than what is left of roundings of 1, as of crossed polarisers.
-
-    Shapes: matrix (..., 4, 4); noise (...); arriving, made (..., 4); returns (...).
+    No matrix does so that `Mueller.is_physical` accepts by default, or whose entries may be
+    rounding only, as of crossed polarizers.
 
     >>> light = np.array([1.0, 0.0, 0.0, 1.0])
     >>> print(becomes_no_light(np.eye(4), 0.0, light, np.array([1.0, 0.0, 0.0, 1.7])))

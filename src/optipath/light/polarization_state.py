@@ -1,9 +1,7 @@
 """Polarization state: degrees and angles of Stokes vectors, and which are physical.
 
-They are read off the vector over S0, so that light of any faintness will do. What light does not
-have is NaN, as what is not known is: dark light has no degree of polarisation, unpolarised light no
-ellipse, circular light no axis; nor has light of which the part in question is no more than noise.
-Slopes that JAX takes are 0 there.
+Read off the vector over S0, at any faintness. Undefined or noise is NaN: DoP of dark light, ellipse
+of unpolarized light, axis of circular light. Slopes of JAX are 0 there.
 """
 
 from __future__ import annotations
@@ -58,9 +56,7 @@ def norm(vector: Array) -> Array:
 
 
 def direction(y: Any, x: Any) -> Any:
-    """Return the angle from x to y in (-pi, pi], whatever signs zeros have; 0 where both are 0.
-
-    Units: the result in radians.
+    """Return the angle in rad from x to y in (-pi, pi], whatever signs zeros have; 0 of 0, 0.
 
     >>> print(direction(np.float64(-0.0), np.float64(-1.0)).round(4))
     3.1416
@@ -72,9 +68,7 @@ def direction(y: Any, x: Any) -> Any:
 
 
 def shares(stokes: Array) -> Array:
-    """Return the Stokes vector over S0; 0 where that is 0.
-
-    Shapes: stokes (..., 4); returns (..., 4).
+    """Return the Stokes vector (..., 4) over S0; 0 where that is 0.
 
     >>> shares(np.array([2.0, 1.0, 0.0, 0.0]))
     array([1. , 0.5, 0. , 0. ])
@@ -83,9 +77,7 @@ def shares(stokes: Array) -> Array:
 
 
 def polarised(stokes: Array) -> tuple[Array, Array, Array]:
-    """Return S1, S2 and S3 over S0.
-
-    Shapes: stokes (..., 4); returns (...).
+    """Return S1, S2 and S3 of (..., 4) over S0.
 
     >>> [part.item() for part in polarised(np.array([2.0, 1.0, 0.0, 0.5]))]
     [0.5, 0.0, 0.25]
@@ -97,8 +89,6 @@ def polarised(stokes: Array) -> tuple[Array, Array, Array]:
 def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
     """Return the same, 0 where they are no more than noise: what has no sign has no angle.
 
-    Shapes: numbers (..., 4); floor (...); returns (...).
-
     >>> [part.item() for part in ellipse_of(np.array([2.0, 1.0, 1e-9, 0.5]), np.array(1e-8))]
     [0.5, 0.0, 0.25]
     """
@@ -109,9 +99,7 @@ def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
 
 
 def minor_over_major(s1: Array, s2: Array, s3: Array) -> Array:
-    """Return the minor axis over the major axis, S3 / (p + hypot(S1, S2)); 0 of no ellipse.
-
-    Shapes: s1, s2, s3 (...); returns (...).
+    """Return the minor over the major axis, S3 / (p + hypot(S1, S2)); 0 of no ellipse.
 
     >>> print(minor_over_major(np.float64(0.3), np.float64(0.0), np.float64(-0.4)))
     -0.5
@@ -124,9 +112,7 @@ def minor_over_major(s1: Array, s2: Array, s3: Array) -> Array:
 
 
 def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Array:
-    """Return a value, NaN where light is dark, or has none of some components, for noise.
-
-    Shapes: value (...); stokes (..., 4); floor (...); returns (...).
+    """Return a value, NaN where light is dark, or some components are noise.
 
     >>> print(where_there(0.5, np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-16), 1, 2))
     nan
@@ -139,9 +125,7 @@ def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Ar
 
 
 def turned_stokes(stokes: Array, turn: Any) -> Array:
-    """Return Stokes vectors in a frame that is turned.
-
-    Shapes: stokes (..., 4); returns (..., 4).
+    """Return Stokes vectors (..., 4) in a frame that is turned.
 
     >>> from optipath.light.frame import Frame
     >>> quarter = Frame().turn_to(Frame().turned(np.pi / 4))
@@ -162,9 +146,7 @@ _CURE = (
 
 
 def check_physical(stokes: Array) -> None:
-    """Refuse Stokes vectors that no light has; NaN is what nobody has read.
-
-    Shape: stokes (..., 4).
+    """Refuse Stokes vectors (..., 4) that no light has; NaN is what nobody has read.
 
     >>> check_physical(np.array([1.0, 0.6, 0.0, np.nan]))
     """
@@ -199,9 +181,7 @@ def problem_of(vector: Array) -> str:
 
 
 def nearest_light(stokes: Any) -> Any:
-    """Return Stokes vectors that light can have: S0 is kept, and S1, S2, S3 are scaled together.
-
-    Shapes: stokes (..., 4); returns (..., 4).
+    """Return physical Stokes vectors (..., 4): S0 is kept, S1, S2, S3 are scaled together.
 
     >>> nearest_light(np.array([[1.0, 3.0, 0.0, 4.0], [-1.0, 0.5, 0.0, 0.0]]))
     array([[1. , 0.6, 0. , 0.8],

@@ -21,9 +21,7 @@ _SHOWN = 6
 
 
 def text_of(numbers: Any, frame: Frame, exponent: Array) -> str:
-    """Return light as one writes it.
-
-    Shapes: numbers (..., 4); exponent (...).
+    """Return light (..., 4) as one writes it.
 
     >>> text_of(np.array([1.0, 0.0, 0.0, 0.5]), Frame(), np.array(-5000))
     'Light([1. , 0. , 0. , 0.5], exponent=-5000)'

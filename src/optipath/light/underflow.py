@@ -24,9 +24,7 @@ _LARGEST = 2.0**40
 
 @np.errstate(under="ignore", over="ignore")
 def times_two_to(parts: Array, power: Any) -> Array:
-    """Return vectors times two to a power.
-
-    Shapes: parts (..., n); power (...); returns (..., n).
+    """Return vectors (..., n) times two to a power.
 
     >>> times_two_to(np.array([1.0, 0.0, 0.0, 0.5]), -1)
     array([0.5 , 0.  , 0.  , 0.25])
@@ -35,11 +33,7 @@ def times_two_to(parts: Array, power: Any) -> Array:
 
 
 def normalise_exponent(parts: Array, exponent: Any) -> tuple[Array, Array]:
-    """Return the same vectors with their largest parts near 1, and the exponent for it.
-
-    Nothing is rounded; NaN is not looked at.
-
-    Shapes: parts (..., n); exponent (...); returns parts (..., n), exponent (...).
+    """Return vectors (..., n) with their largest parts near 1, exactly, and their exponent.
 
     >>> normalise_exponent(np.array([6.0, 0.0, 0.0, 3.0]), 0)
     (array([0.75 , 0.   , 0.   , 0.375]), array(3))
@@ -50,9 +44,7 @@ def normalise_exponent(parts: Array, exponent: Any) -> tuple[Array, Array]:
 
 
 def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
-    """Return the same light without an exponent wherever floats can hold it.
-
-    Shapes: stokes (..., 4); exponent (...); returns stokes (..., 4), exponent (...).
+    """Return the same light (..., 4) without an exponent wherever floats can hold it.
 
     >>> folded(np.array([[0.5, 0, 0, 0], [0.5, 0, 0, 0]]), np.array([1, -5000]))[1]
     array([    0, -5000])
@@ -64,9 +56,7 @@ def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
 
 
 def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
-    """Return the same light in a precision, whatever range that has.
-
-    Shapes: stokes (..., 4); exponent (...); returns stokes (..., 4), exponent (...).
+    """Return the same light (..., 4) in a precision, whatever range that has.
 
     >>> rounded_to(np.dtype("f4"), np.array([1e-300, 0.0, 0.0, 0.0]), 0)[1]
     array(-996)
