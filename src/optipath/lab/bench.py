@@ -143,10 +143,8 @@ def _import(statement: str) -> Callable[[], object]:
 def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
     """Return arrays for the parameters of a plan that are open.
 
-    Angles are drawn from their range, at most a whole turn; where there are none, the
-    other numbers within 10 % of their defaults. What is optional stays as it is by default.
-
-    Shape: returns (count,).
+    Angles are drawn from their range, at most a whole turn; without any, other numbers within 10 %
+    of their defaults.
 
     >>> import optipath as op
     >>> values = random_values(op.load_preset("npgr026").compose(), 5)
@@ -211,10 +209,7 @@ def race(
 
 
 def seconds_of(action: Callable[[], object], calls: int = 1) -> float:
-    """Return the time of one call of an action, the mean of several.
-
-    Units: the result in seconds.
-    """
+    """Return the mean time, in seconds, of one call of an action."""
     begin = perf_counter()
     for _ in range(calls):
         action()

@@ -1,9 +1,7 @@
 """Reference for boundaries and stacks: Fresnel's amplitudes in many digits.
 
-It shares no formula with the kernels.
-
-All is a function of the ratio sin / cos as the floats give it, since a rounded cosine and a
-rounded sine belong to no angle themselves.
+Without a formula of the kernels; all is a function of the ratio sin / cos as floats give it, since
+a rounded cosine and a rounded sine belong to no angle themselves.
 """
 
 from __future__ import annotations
@@ -56,8 +54,8 @@ def along_face(m: Any, angle: Any) -> Any:
 def between(m1: Any, m2: Any, y: Any) -> ExactBoundary:
     """Return what a boundary does to light that comes out of a medium that absorbs.
 
-    What is let through is the power carried behind over that of the arriving wave alone (S. J.
-    Byrnes, arXiv:1603.02720).
+    Transmission is relative to the power of the arriving wave alone (S. J. Byrnes,
+    arXiv:1603.02720).
     """
     g1, g2 = (_root(m * m - y * y) for m in (m1, m2))
     # Cosines, which are complex in either medium.

@@ -244,10 +244,7 @@ def _chart(
 def many_paths(path: PathGraph, count: int) -> tuple[nx.MultiDiGraph, dict[str, Any]]:
     """Return a graph, and values of its parameters, that make a batch of a path.
 
-    Interfaces are drawn from the generic region, each path its own; open parameters that
-    are left are repeated, and so are the intensities of sources.
-
-    Shape: returns (count,).
+    Interfaces are drawn from the generic region; the rest, and source intensities, are repeated.
 
     >>> import optipath as op
     >>> graph, values = many_paths(op.load_preset("malus"), 7)
@@ -345,8 +342,6 @@ def processor() -> str:
 def throughput() -> dict[str, float]:
     """Return the ns of a square root and a division in cache, and the ns a byte from memory.
 
-    float64, one thread, through NumPy's compiled loops.
-
     >>> sorted(throughput())
     ['byte', 'div', 'sqrt']
     """
@@ -389,10 +384,7 @@ def critical_chart(
     progress: Callable[[str, float], object] = lambda *_: None,
     keep: Callable[[dict[str, Any]], object] = lambda _: None,
 ) -> dict[str, Any]:
-    """Measure every method at each of many distances from places where some fail.
-
-    In float64, NumPy and Stokes vectors; media and sides are drawn at random.
-    """
+    """Measure every method (float64, NumPy, Stokes) at many distances from critical places."""
     wanted = places_called(places)
     measured = _of_interface(samples) if path is None else _of_path(path, title, samples)
     results: list[dict[str, Any]] = []

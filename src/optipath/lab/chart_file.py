@@ -148,9 +148,7 @@ WORDS = ("method", "dtype", "engine", "composing")
 def contenders(
     composing: tuple[str, ...] = CHOICES["composing"], engines: tuple[str, ...] = ("numpy", "numba")
 ) -> list[Composer]:
-    """Return all that this machine can run.
-
-    JAX is not among them: it compiles anew for every path that it is given.
+    """Return all that this machine can run, but JAX, which compiles anew for every path.
 
     >>> Composer("stable", engine="numpy", composing="jones") in contenders()
     True

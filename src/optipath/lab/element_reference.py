@@ -1,6 +1,6 @@
 """Reference for elements: Jones matrices in many digits.
 
-Written as matrices that mpmath exponentiates, in place of the closed forms of the kernels.
+Matrices are exponentials by mpmath, in place of the closed forms of the kernels.
 """
 
 from __future__ import annotations

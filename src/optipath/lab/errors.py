@@ -34,10 +34,7 @@ LIMIT = 1000.0
 
 
 class Errors(NamedTuple):
-    """The errors of four numbers, one row a sample; A, B, C, S or S0, S1, S2, S3.
-
-    Shapes: componentwise (samples, 4); normwise (samples,). Units: componentwise, normwise in ulp.
-    """
+    """Componentwise (samples, 4) and normwise (samples,) errors of four numbers, in ulp."""
 
     componentwise: npt.NDArray[np.float64]
     normwise: npt.NDArray[np.float64]
@@ -46,9 +43,7 @@ class Errors(NamedTuple):
 def errors(
     result: npt.NDArray[Any], exact: Iterable[Any], dtype: str, *, against_first: bool = False
 ) -> Errors:
-    """Return the errors of computed numbers.
-
-    Shape: found (samples, 4). Units: against_first in ulp.
+    """Return the errors, in ulp, of computed numbers (samples, 4).
 
     >>> off = errors(np.array([[1.0 + 2e-16, 0, 0, 0]]), [((1, 0, 0, 0), (0, 0, 0, 0))], "float64")
     >>> off.componentwise[0], off.normwise
@@ -188,10 +183,7 @@ def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
 
 
 def _comparable(light: ExactLight, power: int, read: list[bool]) -> ExactLight:
-    """Return a light without two to a power: what is too faint for floats is compared so.
-
-    A component that a detector does not read is 0, and has no error.
-    """
+    """Return a light without its exponent, 0 in components that a detector does not read."""
     parts = zip(light.stokes, read, strict=True)
     # A product would be rounded to the digits that mpmath works with outside of references.
     scaled = (mpmath.ldexp(part, -power) if seen else mpmath.mpf(0) for part, seen in parts)

@@ -44,8 +44,6 @@ def exactly(number: Any) -> Any:
 def exact_angle(angle: float) -> Any:
     """Return an angle; the float nearest to a multiple of 45 degrees is that multiple.
 
-    To the digits that mpmath works with.
-
     >>> with mpmath.workdps(WORKING_DIGITS):
     ...     bool(abs(mpmath.cos(exact_angle(np.pi / 2))) < 1e-99)
     True
@@ -122,26 +120,17 @@ class Reader:
         return mpmath.mpc(self.real(value, "real"), self.real(value, "imag"))
 
     def angle(self, value: Any, turns: int = 1) -> Any:
-        """Return an angle; its tangent, or that of `turns` times it, is what may be moved.
-
-        Units: value, the result in radians.
-        """
+        """Return an angle in rad; its tangent, or that of `turns` times it, may be moved."""
         return self.move(
             exact_angle(float(self.pick(operand_of(value).numbers(self.given)))), turns
         )
 
     def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
-        """Return an angle that grows with a length, both given; else as `angle`.
-
-        Units: per_length, the result in radians; length in metres.
-        """
+        """Return an angle that grows with a length in metres, both given; else as `angle`."""
         return self.near_multiple(self.real(per_length) * self.real(length), turns)
 
     def near_multiple(self, angle: Any, turns: int = 1) -> Any:
-        """Return an angle that is a product; a multiple of 45 degrees is one exactly.
-
-        Units: angle, the result in radians.
-        """
+        """Return an angle in rad that is a product; a multiple of 45 degrees is one exactly."""
         nearest = exact_angle(float(angle))
         # A multiple of 45 degrees is one, however its factors are rounded.
         return self.move(nearest if nearest != float(angle) else angle, turns)

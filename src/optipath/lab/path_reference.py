@@ -49,9 +49,7 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
 
 
 def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
-    """Return the Stokes vector at every detector and dump of a path, as `exact_lights` has it.
-
-    It takes one passage of light, and not one for each angle of the path.
+    """Return `exact_lights` of a path's detectors and dumps by one passage of light.
 
     >>> import optipath as op
     >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]

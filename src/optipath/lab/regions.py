@@ -58,9 +58,7 @@ class Region:
         return self._drawn(Dice(count, lambda: random.random(count), np.finfo(dtype)), dtype)
 
     def at(self, units: Floats, dtype: str = "float64") -> Samples:
-        """Return what comes of numbers within 0 .. 1 in place of random ones.
-
-        Shape: units (dimensions, count).
+        """Return the sample of numbers within 0 .. 1, units (dimensions, count).
 
         >>> REGIONS[0].at(np.full((REGIONS[0].dimensions, 2), 0.5)).n
         array([2.55, 2.55])
@@ -138,10 +136,7 @@ def _beside(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
 
 
 def beside(tangent: Floats, off: Floats) -> tuple[Floats, Floats]:
-    """Return cosine and sine of what is so far from the angle of a tangent.
-
-    Units: off in radians.
-    """
+    """Return cosine and sine at an offset in rad from the angle of a tangent."""
     t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
     return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)
 
@@ -218,10 +213,7 @@ REGIONS: tuple[Region, ...] = (
 
 
 def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.MultiDiGraph:
-    """Return the graph of a path whose interfaces are drawn from a region, each anew.
-
-    Everything else stays. The incidence of an interface that has world frames stays too:
-    they fix it.
+    """Return a path with interfaces drawn from a region, but incidences fixed by world frames.
 
     >>> import optipath as op
     >>> from optipath.lab.regions import REGIONS
@@ -241,11 +233,7 @@ def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.Mul
 
 
 def interfaces(path: PathGraph) -> list[str]:
-    """Return the names of the interfaces of a path whose values nothing ties to those of others.
-
-    Those of stacks are left alone: light from behind needs a medium that does not absorb, and
-    one angle fixes all others, and a medium has two boundaries.
-    """
+    """Return the names of interfaces that share no values with others, unlike those of stacks."""
     lit_behind = {end for _, end, (_, enters) in path.graph.edges(keys=True) if enters == "back"}
     return [
         name
@@ -266,9 +254,7 @@ class CriticalPlace:
     draw: DrawNear
 
     def region(self, distance: float) -> Region:
-        """Return the boundaries at one distance.
-
-        Units: distance in radians.
+        """Return the boundaries at one distance, in radians.
 
         >>> samples = PLACES["grazing"].region(1e-3).samples(2)
         >>> samples.cos

@@ -193,10 +193,9 @@ def worst(
 ) -> WorstCase:
     """Return the worst case of a method in a region, as far as a search finds it.
 
-    The numbers of which a region makes its samples are changed by steps of all sizes; the worst
-    samples have the next generation. While it climbs, the truth comes from the stable formulas
-    in a wider float (`numpy.longdouble` for float64; where that is no wider, nothing is found);
-    the error of what is found is measured against 50 digits.
+    Numbers behind samples are mutated by steps of all sizes, and the worst samples survive. The
+    climb compares with stable formulas in a wider float (`numpy.longdouble` for float64; without
+    one nothing is found); the result is measured against 50 digits.
 
     >>> from optipath.lab.regions import REGIONS
     >>> worst("stable", REGIONS[0], "A", generations=5).error < 16.0
