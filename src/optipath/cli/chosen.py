@@ -190,10 +190,7 @@ def _flag(name: str) -> str:
 
 
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
-    """Say where nothing depends on a wavelength that is among some values.
-
-    A single one is taken out of them; of several, all is the same along them.
-    """
+    """Say where nothing depends on a wavelength; a single one is taken out of the values."""
     name = WAVELENGTH.name
     if name not in values or name in path.parameters:
         return

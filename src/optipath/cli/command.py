@@ -185,10 +185,7 @@ def _print_error(first: str, *others: str) -> None:
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Let Ctrl-C raise KeyboardInterrupt inside, and a request to terminate SystemExit.
-
-    Behind it there is nothing left to interrupt. In a program of others nothing changes.
-    """
+    """Let Ctrl-C raise KeyboardInterrupt inside, and a request to terminate SystemExit."""
     if signal.getsignal(signal.SIGINT) is not stop:
         yield
         return

@@ -1,7 +1,6 @@
 """Ctrl-C while the command ``optipath`` starts: one line, and no traceback of imports.
 
-The package imports this before all else, and this imports only what Python has loaded already:
-NumPy takes longer to import than a user to change their mind.
+The package imports this first, and this only what is loaded already: importing NumPy is slow.
 """
 
 import _signal  # type: ignore[import-not-found]

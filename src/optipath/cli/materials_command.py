@@ -149,11 +149,7 @@ def _as_json(one: PageMatch) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class MaterialReport:
-    """What is told of a material.
-
-    Shape: wavelengths, n, k, reflectance, effective_n, effective_k (n,). Units: span in metres;
-    incidence in radians.
-    """
+    """The report of a material: figures (n,), span in metres, incidence in radians."""
 
     name: str
     place: str

@@ -50,8 +50,8 @@ class GraphLayers:
 def graph_layers(order: Sequence[str], links: Sequence[Link]) -> GraphLayers:
     """Return the layers of a graph.
 
-    A node stands behind all that send light to it, and the items of a layer in such an order
-    that links cross seldom (barycentres: Sugiyama, Tagawa and Toda, IEEE Trans. SMC 11, 109, 1981).
+    Each node is behind all that send it light; few links cross (barycenters: Sugiyama, Tagawa and
+    Toda, IEEE Trans. SMC 11, 109, 1981).
 
     >>> links = [("a", "b", ("out", "in")), ("b", "c", ("out", "in")), ("a", "c", ("left", "in"))]
     >>> graph_layers(["a", "b", "c"], links).rows
@@ -171,10 +171,9 @@ def _linked(
 
 
 def _apart(wanted: Sequence[float], extents: Sequence[Extent], gap: float) -> list[float]:
-    """Return the places nearest to those wanted (least squares) at which nothing overlaps.
+    """Return places nearest to those wanted (least squares) without overlap.
 
-    Of places less the room that all before them take, the order is all that is asked:
-    isotonic regression by pooling adjacent violators.
+    Isotonic regression by pooling adjacent violators, of places less the room before them.
     """
     room = [0.0]
     for before, after in pairwise(extents):
@@ -448,8 +447,7 @@ text { fill: #e8e8e8 } .faint { fill: #b0b0b0 } .page { fill: #16191d }
 def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     """Return the drawing of a path, as SVG.
 
-    Nodes stand below all that send light to them; a tap is dashed, light that goes round is led
-    back at the right. Each text has the width that is reckoned with, whatever the typeface.
+    Nodes are below all that send light to them; taps are dashed, and loops led back at the right.
 
     >>> import optipath as op
     >>> path_picture(op.load_preset("malus"), "malus")[:42]
