@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 class FourPort(Element):
     """An element with two sides.
 
-    ``in`` gives ``reflected`` and ``transmitted``; ``back``, from behind, gives ``transmitted`` and
-    ``reflected``.
+    Light from behind enters at ``back``: what is reflected leaves at ``transmitted``, and what
+    passes at ``reflected``.
     """
 
     inputs: ClassVar[tuple[str, ...]] = ("in", "back")
