@@ -324,9 +324,8 @@ _looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 def closest(word: str, known: Iterable[str]) -> str | None:
     """Return the known word that a misspelt one was meant for; None where none is near.
 
-    The beginning of a known word is meant for that; that of several, for none of them. Words of
-    one or two letters are too short to tell, and numbers are no misspellings of each other, nor
-    are such letters with a number.
+    An unambiguous beginning is meant for its word. Short words (one or two letters) and numbers are
+    no misspellings.
 
     >>> closest("--detla", ["--delta", "--rho"])
     '--delta'
@@ -435,9 +434,8 @@ def public_names(
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package with a stub of its names.
 
-    The stub ``__init__.pyi`` has an import for each public name. It is imported when it is used
-    (PEP 562), with all others of its room: kinds of elements, for one, are known all or none.
-    `needs` raises where packages that they need are missing.
+    The stub ``__init__.pyi`` has an import for each public name, imported on use (PEP 562) with its
+    whole room; `needs` raises where packages are missing.
     """
     space = vars(sys.modules[package])
     loader = space["__spec__"].loader
