@@ -110,10 +110,7 @@ AT_EVENT = KernelFamily(
 
 
 def _from_absorbing(stable: Factory, amplitude: Factory) -> dict[str, Factory]:
-    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)`` of all methods.
-
-    Textbooks print no form by angles: by that method, too, it is the amplitudes.
-    """
+    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)``; textbook ones are of amplitudes."""
     by_amplitudes = Sloped(amplitude, stable)
     return {
         "stable": stable,

@@ -1,10 +1,8 @@
 """Double-double arithmetic: numbers of twice the precision, and kernels computed in them.
 
-Dekker, Numer. Math. 18 (1971); Joldes, Muller & Popescu, ACM Trans. Math. Softw. 44
-(2017), whose algorithms 6 and 11 are the sum and the product here.
-
-Angles and exponents are brought next to 0 by multiples of pi/2 and of ln 2, which are known to
-four and three floats (Cody & Waite, Software Manual for the Elementary Functions, 1980).
+Dekker, Numer. Math. 18 (1971); Joldes, Muller & Popescu, ACM Trans. Math. Softw. 44 (2017),
+algorithms 6 (sum) and 11 (product). Angles and exponents are reduced by multiples of pi/2 and ln 2
+in four and three floats (Cody & Waite, Software Manual for the Elementary Functions, 1980).
 """
 
 from __future__ import annotations
@@ -29,10 +27,7 @@ _ALIKE = 2.0**-102
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DoubleDouble:
-    """high + low, where low is no more than the rounding of high.
-
-    It takes the place of a float in a kernel. Two that are the same to all digits that they
-    have are equal.
+    """high + low, where low is no more than the rounding of high; in kernels, like a float.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> third = 1.0 / DoubleDouble(FLOAT, 3.0)
@@ -212,10 +207,7 @@ def exponential(number: DoubleDouble) -> DoubleDouble:
 
 
 def angle(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble:
-    """Return the angle of a point, by one step from where floats have it.
-
-    Units: the result in radians.
-    """
+    """Return the angle of a point, in rad, by one step from where floats have it."""
     near = DoubleDouble(y.xp, np.arctan2(y.high, x.high))
     s, c = sine(near), cosine(near)
     along = x * c + y * s

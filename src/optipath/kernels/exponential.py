@@ -1,11 +1,8 @@
 """Exponential, hyperbolic and error functions in operations that every engine does alike.
 
-The coefficients are those of fdlibm (Sun Microsystems, 1993, ``e_exp.c``); errors are below
-1 unit in the last place.
-
-Libraries differ in the last bit of sines and exponentials, and so do products that are added
-rounded once or twice. Sums, products, quotients and roots are rounded alike by all, and of these
-alone the functions are made here.
+The coefficients are those of fdlibm (Sun Microsystems, 1993, ``e_exp.c``); errors are below 1 unit
+in the last place. Only sums, products, quotients and roots are used, which all libraries round
+alike, unlike sines, exponentials and fused products.
 """
 
 from __future__ import annotations
@@ -83,8 +80,7 @@ _SINE = (1.0, 6.0, 20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0, 342.0)
 def scaled_hyperbolic(xp: Primitives) -> Callable[[Any, Any], tuple[Any, Any]]:
     """Make ``(x, shift) -> (cosh x exp(-shift), sinh x exp(-shift))`` for |x| <= shift.
 
-    Where |x| is more by a rounding, of which large numbers have large ones, it is taken as shift;
-    its slope stays.
+    |x| above shift by a rounding is taken as shift; its slope stays.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> scaled_hyperbolic(FLOAT)(1e-20, 0.0), scaled_hyperbolic(FLOAT)(1000.0, 1000.0)
@@ -110,8 +106,7 @@ def scaled_hyperbolic(xp: Primitives) -> Callable[[Any, Any], tuple[Any, Any]]:
 
 _STEP = 0.5
 _TERMS = 13
-"""The step between nodes, by which the sum is off by exp(-(pi / step)^2), and how many of them
-have a weight above that."""
+"""The step between nodes, off by exp(-(pi / step)^2), and the number of nodes of more weight."""
 
 _NODES = [(_STEP * (i + 0.5)) ** 2 for i in range(_TERMS)]
 _WEIGHTS = [2.0 * _STEP / pi * exp(-node) for node in _NODES]

@@ -23,11 +23,8 @@ if TYPE_CHECKING:
 def plane_at_facet(xp: Primitives) -> Callable[[Vector, Vector, Vector], tuple[Any, ...]]:
     """Make ``(k, x, normal) -> (cos, sin, s, cos 2a, sin 2a)`` of light that arrives at a facet.
 
-    The normal is on the side of the light, which goes along k in a frame with x. The plane of
-    incidence is across s, along normal cross k; along the normal, s is x. The frame is turned
-    by a from x to s.
-
-    Light that goes down and along x, onto a floor:
+    The normal is on the side of the light. The plane of incidence is across s, along normal cross
+    k; along the normal, s is x. The frame is turned by a from x to s.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> k, y, up = (0.6, 0.0, -0.8), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -84,9 +81,8 @@ def refracted_at_facet(xp: Primitives) -> Callable[..., Vector]:
 class FacetScattering:
     """Makes ``(alpha_x, alpha_y, k_in, x_in, k_out, x_out, n1, n, [k]) -> sixteen numbers``.
 
-    Those of the polarised reflectance distribution, row by row: the Mueller matrix of the facet
-    between two directions, times density / (4 tilt^4) G / (cos_in cos_out). Of each vector there
-    are three numbers.
+    The Mueller matrix of the facet between two directions, row by row, times density / (4 tilt^4) G
+    / (cos_in cos_out); three numbers of each vector.
     """
 
     reflection: Kernel

@@ -118,9 +118,9 @@ def turn_back(xp: Primitives) -> KernelFunction:
 
 
 def align(xp: Primitives) -> KernelFunction:
-    """Make ``(d, e) -> (cos 2a, sin 2a)`` for d = x . x' and e = z . (x cross x').
+    """Make ``(d, e) -> (cos 2a, sin 2a)``, (d - e)(d + e) and 2 d e over d^2 + e^2.
 
-    No angle is formed: (d - e)(d + e) and 2 d e over d^2 + e^2.
+    d = x . x', e = z . (x cross x').
     """
     del xp
 
@@ -150,9 +150,8 @@ def faraday_rotation(xp: Primitives) -> KernelFunction:
 def waveplate(xp: Primitives) -> KernelFunction:
     """Make ``(thickness, birefringence, wavelength) -> (Fs, Fp, B, C, S)``, fast along x.
 
-    The retardance is 2 pi thickness birefringence / wavelength; Born & Wolf, Principles of
-    Optics, sec. 15.4.2. What rounds off it, thousands of radians in a thick plate, is kept
-    beside it, so that cosine and sine have all digits that the three numbers have.
+    The retardance is 2 pi thickness birefringence / wavelength; Born & Wolf, Principles of Optics,
+    sec. 15.4.2. Its rounding, thousands of radians in a thick plate, is kept beside it.
     """
     sin, cos, two_product, without = xp.sin, xp.cos, xp.two_product, _without_trace(xp)
 

@@ -86,11 +86,7 @@ class KernelFamily:
 
 @dataclass(frozen=True)
 class Sloped:
-    """A factory with the slopes of another, which is the same function.
-
-    What loses digits loses those of its slopes, too, and has none where its roots and angles
-    have none. A class, so that plans can be pickled.
-    """
+    """A factory with the slopes of another, more exact one; a class, for plans to be pickled."""
 
     values: Factory
     slopes: Factory

@@ -1,9 +1,8 @@
 """Linear systems of light that adds up in loops, solved without a difference.
 
-Written for (I - M) x = b, where M says what of each unknown comes back as which. An intensity
-that stays is 1 less what goes elsewhere; taken as the sum of all that goes elsewhere, as
-Grassmann, Taksar & Heyman do for Markov chains (Operations Research 33, 1985), it keeps its
-digits however little that is, and no energy gets lost.
+Written for (I - M) x = b, where M says what of each unknown comes back as which. What stays of an
+intensity is 1 less what goes elsewhere, taken as the sum of all that (Grassmann, Taksar & Heyman,
+Operations Research 33, 1985): it keeps its digits, and energy is conserved.
 """
 
 from __future__ import annotations
@@ -31,8 +30,6 @@ _LEAST = 2.0**-53
 
 class Elimination:
     """A system of unknowns, eliminated one after the other, and what its solutions are.
-
-    Of x, 1/4 comes back as y and 3/4 leaves; of y, 1/2 comes back as x, and 1/2 leaves.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> found = Elimination(FLOAT, [{1: 0.25}, {0: 0.5}], [0.75, 0.5], [True, True])

@@ -37,10 +37,7 @@ _LEAST = 2.0**-53
 
 
 def absorption_along(xp: Primitives) -> KernelFunction:
-    """Make ``(absorption, length) -> (t,)``: Beer-Lambert, t = exp(-absorption length).
-
-    Where digits of t would be lost to underflow it is 0, lest what is wrong looks like light.
-    """
+    """Make ``(absorption, length) -> (t,)``: Beer-Lambert, or 0 where digits would underflow."""
     return _attenuation(xp, 1.0)
 
 
@@ -68,8 +65,7 @@ def _left(xp: Primitives) -> Callable[[Any], Any]:
 def absorption_with_dichroism(xp: Primitives) -> KernelFunction:
     """Make ``(absorption, dichroism, circular dichroism, length) -> (t,)``.
 
-    It is what the least absorbed of all states keeps; what dichroism does besides takes nothing
-    from that one. By how much less it is absorbed, `_excess`, has no slope in either.
+    It is what the least absorbed of all states keeps; see `_excess` for its slopes.
     """
     return _least_attenuation(xp, 1.0)
 
@@ -150,8 +146,8 @@ def depolarization_along(xp: Primitives) -> KernelFunction:
 def dichroism_and_retardance_along(xp: Primitives) -> KernelFunction:
     """Make the function of all that a pure medium does at once, the fast axis along x.
 
-    It takes ``(dichroism, circular dichroism, retardance, rotation, dichroic angle, angle,
-    length)``, and returns the sixteen numbers, scaled so that light absorbed least keeps all.
+    ``(dichroism, circular dichroism, retardance, rotation, dichroic angle, angle, length)`` to the
+    sixteen numbers, scaled so that light absorbed least keeps all.
     """
     generator, exponential, excess = _generator(xp), lorentz(xp), _excess(xp)
     return lambda *rates: exponential(*generator(*rates), excess(*rates[:2]) * rates[-1])
@@ -329,10 +325,9 @@ _SQUARINGS, _TERMS = 10, 12
 
 
 def depolarizing_lorentz(xp: Primitives) -> KernelFunction:
-    """Make ``(p1, p2, p3, q1, q2, q3, d, shift) ->`` the sixteen numbers of an exponential.
+    """Make ``(p1, p2, p3, q1, q2, q3, d, shift) ->`` exp(F - diag(0, d, d, d) - shift).
 
-    It is that of F - diag(0, d, d, d) - shift, with the F of `lorentz`; |p| + |q| + d is to be at
-    most `LARGEST`.
+    The sixteen numbers, with the F of `lorentz`; |p| + |q| + d <= `LARGEST`.
     """
     size_of, exp = common_size(xp), xp.exp
     polynomial, times = xp.apart(_polynomial), xp.apart(_times)

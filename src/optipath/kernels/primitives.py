@@ -1,8 +1,4 @@
-"""Primitives: the elementwise functions that kernels are written in, and numbers near 0.
-
-A kernel is made by a factory that takes one of these records, so that one text
-of the physics serves plain floats, NumPy blocks, and engines to come.
-"""
+"""Primitives: the elementwise functions of kernels in every engine, and numbers near 0."""
 
 from __future__ import annotations
 
@@ -21,8 +17,7 @@ T = TypeVar("T")
 class Primitives:
     """The functions a kernel may call, which ``mueller_rows`` is given as ``xp``.
 
-    All are elementwise, and broadcast: numbers may be floats, arrays over paths, values that JAX
-    traces, or symbols that a formula is made of. `docs/own-elements.md` has them as a table.
+    All broadcast, over floats, arrays, JAX's values or symbols; `docs/own-elements.md` has a table.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -192,7 +187,7 @@ def _is_plain_zero(number: Any) -> bool:
 def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
     """Return an intensity, 0 where it is negative by no more than the roundings of a size.
 
-    Matrices of one's own may make light that cannot be; its negative intensities stay.
+    Negative intensities by unphysical matrices of one's own stay.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)

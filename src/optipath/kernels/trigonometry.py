@@ -1,17 +1,12 @@
 """Sine, cosine and arc tangent in operations that every engine does alike.
 
-The libraries that engines stand on take sines one after the other; that alone was most of
-the time of a path. The coefficients are those of fdlibm (Sun Microsystems, 1993, ``k_sin.c``,
-``k_cos.c``); errors are below 2 units in the last place.
+Libraries take sines one by one, most of the time of a path. The coefficients are those of fdlibm
+(Sun Microsystems, 1993, ``k_sin.c``, ``k_cos.c``), and of the Cephes library (Moshier, Methods and
+Programs for Mathematical Functions, 1989, ``atan.c``); errors are below 2 units in the last place.
 
-Pi/2 has no exact float: cos(pi/2) is 6e-17, the rounding of the angle itself. A filter
-at 90 degrees would so let a trace of the wrong component through, which near Brewster's
-angle is all there is. What vanishes when it is added to the angle is no more than the
-angle's own rounding, and is taken as 0, in any precision; at angles so huge that their rounding
-is no longer small nothing is taken away.
-
-The fraction is that of the Cephes library (Moshier, Methods and Programs for Mathematical
-Functions, 1989, ``atan.c``); errors are below 2 units in the last place.
+Pi/2 has no exact float: cos(pi/2) is 6e-17, the rounding of the angle itself, by which a filter at
+90 degrees would let the wrong component through. What vanishes when it is added to the angle is
+taken as 0, but for angles so huge that their rounding is no longer small.
 """
 
 from __future__ import annotations
@@ -80,9 +75,7 @@ DIGITS = {
 
 
 def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
-    """Make ``angle -> left``: what is left of an angle when the nearest right angles are taken off.
-
-    It is 0 where the angle cannot tell itself from a multiple of a right one.
+    """Make ``angle -> left``: the angle less the nearest right angles, 0 if that is its rounding.
 
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
@@ -94,9 +87,7 @@ def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
 
 
 def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
-    """Make ``angle -> left`` for angles within 0 .. pi/2: the angle, or what pi/2 is more than it.
-
-    It is 0 where the angle cannot tell itself from a right one.
+    """Make ``angle -> left`` for angles in 0 .. pi/2: the angle, or pi/2 less it; 0 if rounding.
 
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
@@ -117,7 +108,7 @@ def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
 def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     """Make ``(angle, [left]) -> (sin, cos)`` of an angle of at most `digits.most` in size.
 
-    Of an angle that has been given in more digits, `from_axes` in its own gives what is left.
+    Of an angle that was given in more digits, ``left`` is that of `from_axes` in these.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> any_quadrant(FLOAT, DIGITS["float64"])(2.5)
@@ -142,8 +133,8 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     """Make ``(angle, [left]) -> (sin, cos)`` of an angle within 0 .. pi/2.
 
-    The cosine is 0 where the angle cannot tell itself from a right one. Of an angle that has
-    been given in more digits, `from_nearer_axis` in its own gives what is left.
+    The cosine is 0 where the angle may be a right one. Of an angle that was given in more digits,
+    ``left`` is that of `from_nearer_axis` in these.
 
     >>> import math
     >>> from optipath.kernels.primitives import FLOAT
@@ -222,10 +213,7 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
 
 
 def without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Make a sine or cosine that is 0 where the angle cannot tell it from 0.
-
-    Units: the result in radians.
-    """
+    """Make a sine or cosine that is 0 where the angle cannot tell it from 0."""
     where, below_rounding, fixed = xp.where, xp.below_rounding, xp.fixed
 
     def rounded(angle: Any) -> Any:

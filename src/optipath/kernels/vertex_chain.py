@@ -1,7 +1,7 @@
 """Light along a chain of vertices: legs, incidences, planes of incidence, Snell's law.
 
-A chain is the point where light starts, one for each specular reflection, and the point
-where it ends. The surface at a vertex is perpendicular to the bisector of its two legs.
+The points of a chain are its start, one per specular reflection, and its end. The surface at a
+vertex is perpendicular to the bisector of its two legs.
 """
 
 from __future__ import annotations
@@ -35,10 +35,7 @@ class Leg(NamedTuple):
 
 
 def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
-    """Make ``(x0, y0, z0, ..., z2) -> (cos, sin)`` of the incidence at the middle of three points.
-
-    With unit directions, half of |k_out - k_in| and of |k_out + k_in|: each keeps its digits
-    where it is small.
+    """Make ``(x0, y0, z0, ..., z2) -> (cos, sin)``: half |k_out - k_in| and half |k_out + k_in|.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> incidence(FLOAT)(0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
@@ -74,11 +71,7 @@ def points_of(coordinates: Sequence[Any]) -> list[Vector]:
 
 
 def legs(xp: Primitives) -> Callable[..., list[Leg]]:
-    """Make ``points, ended -> legs``; one that is too short or too long is not finite.
-
-    What has ended, by a condition for each vertex between the points, goes straight on, wherever
-    the points behind it are.
-    """
+    """Make ``points, ended -> legs``, not finite if too short or long; straight after an end."""
     sqrt, where, chosen = xp.sqrt, xp.where, choice(xp)
 
     def between(points: Sequence[Vector], ended: Sequence[Any] = ()) -> list[Leg]:
@@ -119,9 +112,9 @@ def ended(events: Sequence[Any]) -> list[Any]:
 def event_at_vertex(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n2, k, event, ..., x0, y0, z0, ...) -> (n1, n2, cos, sin)``.
 
-    Of some vertices in a row and the points around them; the media and the angle are those at the
-    last vertex, as `incidence_between` or `refracted` says them. No number into a medium that
-    absorbs, and where the event cannot be; behind the end of a chain no point is looked at.
+    Of the last of some vertices: media and angle as `incidence_between` or `refracted` say; NaN
+    into an absorbing medium and for an impossible event. Points behind the end of a chain are not
+    used.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> points = (0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
@@ -157,10 +150,6 @@ _ROUNDINGS = 2.0**-10
 
 def refraction_at_vertex(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n2, x0, y0, z0, ..., z2) -> (rarer, denser, cos, sin)``.
-
-    Of the refraction at the middle of three points, by `refracted`.
-
-    Into glass at 45 degrees:
 
     >>> from math import sqrt
     >>> from optipath.kernels.primitives import FLOAT
@@ -308,9 +297,8 @@ class AxesAtVertex(OfPlanes):
 def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vector]]:
     """Make ``(legs, known) -> x at each vertex``: k_out cross k_in, across the plane of incidence.
 
-    Light along the normal, and light that goes straight through, has no plane of its own. It
-    takes the known x, or else keeps the one that it came with; the first of a chain, one that
-    is perpendicular to it.
+    Light along the normal, or straight through, takes the known x, or else keeps its own; the first
+    of a chain takes one perpendicular to it.
     """
     sqrt, where, chosen = xp.sqrt, xp.where, choice(xp)
 
@@ -349,9 +337,8 @@ def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vec
 class PointsByAngles:
     """Makes ``(cos, sin of each incidence and then of each turn) -> (x, y, z of each point)``.
 
-    Legs are of length 1. The middle one runs from the origin along the world's z, where the
-    points lose no digit of a small angle, and the plane of incidence at its start is the one
-    across the world's x.
+    Legs are of length 1. The middle one runs from the origin along the world's z, where the points
+    lose no digit of a small angle; the plane of incidence at its start is across the world's x.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> PointsByAngles(1, 0, 2)(FLOAT)(0.0, 1.0)

@@ -1,16 +1,13 @@
 """Stokes vectors as kernels carry them: (weak, S1, S2, S3), and in parts that add up.
 
-``weak`` is the smaller of the intensities along x and along y. Behind a crossed filter
-or near Brewster's angle one of the two is tiny, and in S0 its digits would be lost;
-near the normal S1 is tiny, and in the two intensities its digits would be lost. The
-pair (weak, S1) keeps both: S0 = 2 weak + |S1| is a sum of non-negative terms.
+``weak`` is the smaller of the intensities along x and along y. Behind a crossed filter or near
+Brewster's angle it is tiny, and S0 would lose its digits; near the normal S1 is tiny, and two
+intensities would lose its digits. The pair keeps both: S0 = 2 weak + |S1| is a sum of non-negative
+terms.
 
-Where a scene needs no more than the first one, two or three of the four, light is carried as
-these alone; with S1 left out, ``weak`` is half of S0.
-
-Carried light (weak, S1, S2, S3) keeps more digits, but the smaller of two intensities does
-not add up; systems of equations are written in these parts. Light that is carried by its
-intensity alone has one part, S0.
+Light may be carried as the first one, two or three only; without S1, ``weak`` is half of S0.
+Systems of equations are written in parts that add up, as the smaller of two intensities does not;
+light carried by its intensity alone has one part, S0.
 """
 
 from __future__ import annotations
@@ -74,7 +71,7 @@ def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
 def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     """Return light whose S1, S2, S3 are shortened where roundings made them longer than S0.
 
-    Matrices of one's own may make light that cannot be; it stays as it is.
+    Matrices of one's own may make unphysical light, which stays as it is.
 
     >>> from optipath.kernels.primitives import FLOAT
     >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))

@@ -226,9 +226,8 @@ ScaledState: TypeAlias = tuple[Carried, Any]
 class ScaledCarrier(Carrier):
     """Carries light along long paths.
 
-    After every element the light is brought near 1 and its power of two is kept as an
-    integer; and what rounding has polarised beyond 100 % is taken back, lest it
-    gathers over thousands of elements.
+    After every element the light is scaled to near 1 by an integer power of two, and DoP rounded
+    beyond 1 is reset.
 
     >>> from optipath.kernels.carriers.structures import SCALE
     >>> from optipath.kernels.primitives import FLOAT

@@ -136,11 +136,10 @@ class Bounded(NamedTuple):
 
 
 class BoundsCarrier(Carrier):
-    """Carries intensities without polarisation, with bounds of what polarisation does.
+    """Carries unpolarized intensities, with bounds of what polarization does, of physical matrices.
 
-    What is read is the intensity without polarisation, the least and the largest ratio of the true
-    one to it, and the largest degree of polarisation. The bounds hold for
-    physical matrices, which `is_physical` tells.
+    Read are that intensity, the least and the largest ratio of the true one to it, and the largest
+    DoP.
 
     >>> from optipath.kernels.carriers.structures import BLOCK
     >>> from optipath.kernels.primitives import FLOAT

@@ -1,12 +1,11 @@
 """Noise: how much of light that a path leaves may be no more than the rounding of what it took.
 
-Every number is rounded, and light that is sorted out later leaves its roundings behind: behind
-crossed polarisers they are all that there is. A rounding is light of unknown polarisation, so
-each element that follows dims it by its mean, M00, and adds roundings of its own. Where an
-element acts on the intensities along x and along y by themselves, each has its own roundings: what
-is faint since it was weak from the start, as behind two grey filters or near Brewster's angle,
-keeps its digits. What waves that cancel at Brewster's angle itself leave is rounding: its
-amplitude is, and so its share of the intensity is the square of one.
+Light that is filtered later leaves its rounding behind: behind crossed polarizers there is nothing
+else. A rounding is light of unknown polarization, so each element dims it by its mean, M00, and
+adds its own. Where an element acts on the intensities along x and y by themselves, each has its own
+rounding: what is weak from the start, as behind two gray filters or near Brewster's angle, keeps
+its digits. At Brewster's angle itself the amplitude that is left is rounding, and its intensity the
+square of it.
 """
 
 from __future__ import annotations

@@ -1,12 +1,11 @@
 """Structures: the shapes of Mueller matrices, how each acts on light, Cloude's coherency matrix.
 
-A structure knows how many numbers describe it, which of them do nothing, how they act
-on light (its components kept apart, never stacked), and how they look as a matrix.
+A structure knows how many numbers describe it, how they act on light (components apart, never
+stacked), and how they look as a matrix. A phase common to a column is not carried, as it is
+unobservable.
 
-A phase that all of a column has in common is not carried: nothing can see it.
-
-Intensities stand over one denominator, which interfaces multiply: (x, y, over), or (total, over)
-where no more is needed. Nothing here subtracts, but for what matrices of one's own bring along.
+Intensities have one denominator, which interfaces multiply: (x, y, over), or (total, over). Nothing
+here subtracts, but for matrices of one's own.
 
 S. R. Cloude, Optik 75, 26 (1986): a Mueller matrix is physical if no eigenvalue of its
 coherency matrix is negative.
@@ -365,11 +364,8 @@ BLOCK = Structure(
     block_jones,
     grey_block,
 )
-"""(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
-
-Fs = A + B and Fp = A - B act along x and y; each of the three keeps digits that the
-other two have lost.
-"""
+"""(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]]; Fs = A + B acts along x, Fp = A -
+B along y."""
 
 DEPOLARIZING_BLOCK = replace(BLOCK, name="depolarising diattenuator", jones=None)
 """The same with C and S of any size that light allows: incoherent sums of such matrices."""

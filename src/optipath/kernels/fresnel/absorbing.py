@@ -51,10 +51,7 @@ def inhomogeneous_transmission(xp: Primitives) -> KernelFunction:
 
 
 def transmission_from_behind(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` for light from behind.
-
-    The angle is that in front, or in the medium n0.
-    """
+    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` for light from behind."""
     boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
     return lambda *argument: transmitted(boundary(*argument).from_behind(xp.where))
 

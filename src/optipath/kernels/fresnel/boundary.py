@@ -25,8 +25,7 @@ LOST = -1.0
 class Boundary(NamedTuple):
     """What reflection and transmission are made of.
 
-    Indices are divided by a power of two near the largest of them, so that no square
-    overflows; every result is a ratio in which it falls out.
+    Indices are divided by a power of two near the largest: no square overflows, and ratios stay.
     """
 
     p: Any
@@ -50,8 +49,7 @@ class Boundary(NamedTuple):
 def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     """Make ``(n1, n, k, [n0,] cos, sin) -> Boundary``.
 
-    The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
-    refracted the light into n1.
+    The angle is in the medium n1, or in a medium n0 before parallel boundaries.
     """
     wave, root = absorbing_wave(xp), complex_root(xp)
 
@@ -155,8 +153,7 @@ def contrast(where: Callable[..., Any], n1: Any, n: Any, loss: Any) -> Any:
 def refracted_wave(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, n0, cos0, sin0) -> (cos, sin, p, n^2 - y^2)`` for the angle in n1.
 
-    Parallel boundaries have refracted the light from n0 into n1; y = n0 sin0 is what Snell's law
-    keeps.
+    Parallel boundaries refract the light from n0 into n1; y = n0 sin0 is conserved.
     """
     sqrt, where, maximum, minimum = xp.sqrt, xp.where, xp.maximum, xp.minimum
     inside = from_within(xp)
@@ -188,10 +185,7 @@ _LEAST = 2.0**-60
 
 
 class InhomogeneousBoundary(NamedTuple):
-    """What reflection and transmission are made of where the medium in front absorbs.
-
-    Indices are divided by a power of two near the largest of them.
-    """
+    """What reflection and transmission need if the medium in front absorbs; as `Boundary`."""
 
     p: Any
     fades: Any
@@ -238,9 +232,8 @@ class InhomogeneousBoundary(NamedTuple):
 def inhomogeneous_boundary(xp: Primitives) -> Callable[..., InhomogeneousBoundary]:
     """Make ``(n1, k1, n, k, [n0,] cos, sin) -> InhomogeneousBoundary``.
 
-    The angle is the real one in the medium in front, that of the normal to the planes of
-    constant phase; or it is one in a medium n0 that does not absorb, from which parallel
-    boundaries have refracted the light.
+    The angle is that of the normal of constant phase in the medium in front, or one in a
+    transparent medium n0 before parallel boundaries.
     """
     divided, root, inside = brought_near_one(xp), complex_root(xp), from_within(xp, 6)
     by_angle, refracted, absolute = inhomogeneous_wave(xp), _refracted(xp), xp.absolute

@@ -25,11 +25,9 @@ if TYPE_CHECKING:
 class Stack:
     """Makes the kernel of a stack, ``(n, ..., k, [of layers that absorb,] [n0,] cos, sin)``.
 
-    The indices, front medium first and substrate last, are followed by the k of the substrate.
-    Where layers absorb, there follow the k of each of these, then the length of each, and the
-    wavelength in vacuum. Layers are added one after the other; the intensities along s and
-    along p go their own ways, and (S2, S3) together, the complex C + iS of a boundary being what
-    multiplies S2 - iS3.
+    The indices, front medium first and substrate last, are followed by the k of the substrate;
+    where layers absorb, by the k and then the length of each, and the wavelength in vacuum. Layers
+    are added one by one: s, p and (S2, S3) each by itself, the complex C + iS multiplying S2 - iS3.
     """
 
     reflection: Kernel
@@ -299,8 +297,7 @@ class Rounds:
     def _columns(self) -> Iterator[tuple[dict[int, Any], Any, Any]]:
         """Yield what becomes of a unit of light that goes down, or up, in each layer.
 
-        The unknowns are the parts of the light below each boundary but the last, layer by layer:
-        first those that go down, then those that go up.
+        The unknowns are the light below each boundary but the last: first down, then up.
         """
         width, layers = self.width, len(self.ways)
         for layer, way in enumerate(self.ways):
@@ -351,10 +348,9 @@ _ODD = tuple(range(15, 0, -2))
 def attenuation(xp: Primitives) -> KernelFunction:
     """Make ``(n, k, length, wavelength, n0, cos, sin) -> (left, absorbed)``, which add up to 1.
 
-    The angle is that in a medium n0 from which parallel boundaries have refracted the light. Down
-    once through the layer goes left = exp(-x), x = 4 pi Im(g) length / wavelength, with
-    g = sqrt(m^2 - (n0 sin)^2), the wave along the normal (Byrnes, arXiv:1603.02720, sec. on
-    incoherent layers). Where digits of it would be lost to underflow it is 0.
+    The angle is in a medium n0 before parallel boundaries. Once down, left = exp(-x), x = 4 pi
+    Im(g) length / wavelength, with g = sqrt(m^2 - (n0 sin)^2), the wave along the normal (Byrnes,
+    arXiv:1603.02720, sec. on incoherent layers); 0 where it would underflow.
     """
     wave, where, exp, missing = _decay(xp), xp.where, xp.exp, _one_less_exponential(xp)
 

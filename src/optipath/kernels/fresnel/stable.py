@@ -20,16 +20,14 @@ if TYPE_CHECKING:
 
 
 _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
-"""What the first takes to 0 has lost digits; what is below the second has too large an inverse.
+"""What the first takes to 0 has lost digits; below the second, the inverse is too large; squares of
+media that differ by less than the third, with an inverse in float32, are equal.
 
 Media whose squares differ by less than the third, which has an inverse in float32, are equal."""
 
 
 def stable_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
-
-    The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
-    refracted the light into n1.
 
     With p = n1 cos, z = (n1 sin)^2, D = m2^2 - n1^2 and g = a + ib = sqrt(m2^2 - z):
     r_s = -D / (p + g)^2 and r_p / r_s = (z - p g) / (z + p g), which are the

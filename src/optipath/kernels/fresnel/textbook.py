@@ -19,10 +19,9 @@ if TYPE_CHECKING:
 def textbook_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
 
-    The formulas as Wilkie & Weidlich, "Polarised light in computer graphics"
-    (SIGGRAPH Asia courses, 2012), print them, with the relative index. They lose
-    digits near Brewster's angle, near the normal and at grazing incidence.
-    Their phases are those of conj(r), so the sine is taken of d_p - d_s here.
+    As Wilkie & Weidlich, "Polarised light in computer graphics" (SIGGRAPH Asia courses, 2012),
+    print them, with the relative index. They lose digits near Brewster's angle, near the normal and
+    at grazing incidence. Their phases are of conj(r), so the sine is of d_p - d_s here.
     """
     printed, sqrt, atan2, sin, cos = _printed(xp), xp.sqrt, xp.atan2, xp.sin, xp.cos
 
@@ -111,8 +110,7 @@ def amplitude_reflection(xp: Primitives) -> KernelFunction:
 def plain_amplitudes(xp: Primitives) -> KernelFunction:
     """Make ``(Re rs, Im rs, Re rp, Im rp) -> (Fs, Fp, B, C, S)``.
 
-    B = Re((rs - rp) conj(rs + rp)) / 2, which keeps the digits of what is given where the
-    difference of Fs and Fp would lose them.
+    B = Re((rs - rp) conj(rs + rp)) / 2, where Fs - Fp would lose digits.
     """
     del xp
 

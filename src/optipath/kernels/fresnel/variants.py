@@ -1,7 +1,6 @@
 """Variants of Fresnel kernels: powers alone, twice the precision, events and angles of chains.
 
-What an intensity asks of an interface. The denominators of a whole path are multiplied, and
-divided by once, at its end.
+The denominators of a whole path are multiplied, and divided by once, at its end.
 """
 
 from __future__ import annotations
@@ -91,8 +90,7 @@ def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
 def _of_refracted(xp: Primitives, angle: tuple[Any, ...], p: Any, parted: Any, most: Any) -> Any:
     """Return |D|^2, of an angle in n0 no more than |p + g|^4, and that where nothing arrives.
 
-    Next to where all has been reflected before, p and g are what rounding has left of them, and
-    beyond, D is that of two media which light does not get to.
+    Beyond total reflection before, D is that of two media which light does not get to.
     """
     return xp.where(p > 0.0, xp.minimum(parted, most), most) if len(angle) > 2 else parted
 
@@ -158,10 +156,7 @@ def numbers_at(xp: Primitives, cos: Any, numbers: Sequence[Any]) -> list[Any]:
 
 @dataclass(frozen=True)
 class AtEvent:
-    """Makes ``(event, n1, n, [k,] cos, sin) -> (Fs, Fp, B, C, S)`` for an `Event`.
-
-    All of them are NaN where the cosine is.
-    """
+    """Makes ``(event, n1, n, [k,] cos, sin) -> (Fs, Fp, B, C, S)`` of an `Event`; NaN as cos is."""
 
     reflection: Kernel
     transmission: Kernel
