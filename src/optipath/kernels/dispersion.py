@@ -21,9 +21,8 @@ def sellmeier_square(
 ) -> Any:
     """Return n^2 = offset + the sum of B w^2 / (w^2 - C).
 
-    W. Sellmeier, Annalen der Physik 219, 272 (1871); in the form of the catalogues of glass.
-
-    Units: wavelength in micrometres; strengths, poles in square micrometres.
+    W. Sellmeier, Annalen der Physik 219, 272 (1871); in the form of the catalogues of glass. Units:
+    wavelength in micrometres; strengths, poles in square micrometres.
 
     >>> import numpy as np
     >>> b, c = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.560653)
@@ -49,9 +48,8 @@ def index_of_square(xp: Any, square: Any) -> Any:
 def cauchy_index(xp: Any, wavelength: Any, coefficients: Sequence[Any]) -> Any:
     """Return n = A + B / w^2 + C / w^4 + ...
 
-    A.-L. Cauchy, Memoire sur la dispersion de la lumiere (1836).
-
-    Units: wavelength in micrometres; coefficients in square micrometres.
+    A.-L. Cauchy, Memoire sur la dispersion de la lumiere (1836). Units: wavelength in micrometres;
+    coefficients in square micrometres.
 
     >>> import numpy as np
     >>> float(cauchy_index(np, 0.5, [1.5, 0.004]))
@@ -167,10 +165,9 @@ def drude_lorentz_permittivity(
     """Return the permittivity of electrons that are free, and of some bound to an energy each.
 
     eps = background - f0 wp^2 / (w^2 + i g0 w) + the sum of f wp^2 / (w0^2 - w^2 - i g w), of a
-    field exp(-iwt): F. Wooten, Optical Properties of Solids (1972), chapter 3; in the form of
-    A. D. Rakic et al., Appl. Opt. 37, 5271 (1998), eqs. 1 to 3, whose field is exp(+iwt).
-
-    Units: energy in electronvolts.
+    field exp(-iwt): F. Wooten, Optical Properties of Solids (1972), chapter 3; in the form of A. D.
+    Rakic et al., Appl. Opt. 37, 5271 (1998), eqs. 1 to 3, whose field is exp(+iwt). Units: energy
+    in electronvolts.
 
     >>> gold = [(0.024, 0.415, 0.241), (0.010, 0.830, 0.345)]
     >>> real, imaginary = drude_lorentz_permittivity(1.0, 1.0, 9.03, (0.760, 0.053), gold)
@@ -195,9 +192,7 @@ def tauc_lorentz_permittivity(
 
     G. E. Jellison and F. A. Modine, Appl. Phys. Lett. 69, 371 (1996), with the erratum, 2137. The
     logarithms of the real part are taken together, so that what becomes infinite at the gap, and
-    cancels there, does not stand in it.
-
-    Units: energy in electronvolts.
+    cancels there, does not stand in it. Units: energy in electronvolts.
 
     >>> import numpy as np
     >>> silicon = tauc_lorentz_permittivity(np, 3.5, 122.0, 3.45, 2.54, 1.2)

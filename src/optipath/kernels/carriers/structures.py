@@ -364,8 +364,7 @@ BLOCK = Structure(
     block_jones,
     grey_block,
 )
-"""(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]]; Fs = A + B acts along x, Fp = A -
-B along y."""
+"""(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]]; A + B acts along x, A - B on y."""
 
 DEPOLARIZING_BLOCK = replace(BLOCK, name="depolarising diattenuator", jones=None)
 """The same with C and S of any size that light allows: incoherent sums of such matrices."""
