@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 
 _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
 """What the first takes to 0 has lost digits; below the second, the inverse is too large; squares of
-media that differ by less than the third, with an inverse in float32, are equal.
-
-Media whose squares differ by less than the third, which has an inverse in float32, are equal."""
+media that differ by less than the third, with an inverse in float32, are equal."""
 
 
 def stable_reflection(xp: Primitives) -> KernelFunction:
