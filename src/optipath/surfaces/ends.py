@@ -130,7 +130,7 @@ _ACROSS = 0.0, 1.0, 0.0
 
 
 class TurnedDirections(NamedTuple):
-    """k, x (photons, 3) and turns (photons, 2); if isotropic, as if all photons had come along x."""
+    """k, x (photons, 3) and turns (photons, 2); if isotropic, as if all had come along x."""
 
     k: Numbers
     x: Numbers
