@@ -28,8 +28,8 @@ def with_followed(
 ) -> tuple[nx.MultiDiGraph, list[str]]:
     """Return a graph of elements in which boundaries have what they take over from others.
 
-    The medium in front is that of the boundary whose light enters at ``in``; the incidence is the
-    refracted angle of a parallel boundary before.
+    The medium in front is that of the boundary whose light enters at ``in``; the incidence is that
+    of a parallel boundary before, measured in the same medium.
     """
     elements = dict(graph.nodes(data="element"))
     names = [

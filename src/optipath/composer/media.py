@@ -245,7 +245,7 @@ class SameMedium(Agreement):
     """The indices of refraction of two boundaries that face each other are the same.
 
     The operands are n on both sides, and k on both where either may absorb; or k of the first
-    alone.
+    alone, where the medium in front of the second must not absorb.
     """
 
     leaves: str

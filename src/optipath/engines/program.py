@@ -282,8 +282,8 @@ class LoopSolver:
     def adds_up(self, slack: float) -> Any:
         """Return whether what has been found is light that can be, but for roundings.
 
-        Where light gains on each round, the sum diverges, and the solution of the system is
-        unphysical: a solution x = b + M x that is one is never less than b + M b + ... + M^n b.
+        Where light gains on each round, the sum diverges and the solution of the system is
+        unphysical: a physical solution x = b + M x is never less than b + M b + ... + M^n b.
         """
         xp, holds = self.carrier.xp, True
         for junction in self.loop.junctions:

@@ -242,7 +242,10 @@ UNKNOWN = object()
 
 
 def simplified(operation: str, operands: tuple[Any, ...]) -> Any:
-    """Return the operand or number that an operation comes to, or `UNKNOWN`; 0 x is 0."""
+    """Return the operand or number that an operation comes to, or `UNKNOWN`.
+
+    A product with 0 is 0: numbers that are not finite are detected in the intensity they reach.
+    """
     rule = _RULES.get(operation)
     return UNKNOWN if rule is None else rule(*operands)
 

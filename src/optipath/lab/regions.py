@@ -213,7 +213,7 @@ REGIONS: tuple[Region, ...] = (
 
 
 def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.MultiDiGraph:
-    """Return a path with interfaces drawn from a region, but incidences fixed by world frames.
+    """Return a path with interfaces drawn from a region, but for incidences by world frames.
 
     >>> import optipath as op
     >>> from optipath.lab.regions import REGIONS

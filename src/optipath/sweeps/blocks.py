@@ -31,8 +31,9 @@ def keep_blocks(
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
     The store is removed after an error that left no block, unless cluster workers may still write
-    to it. Every block that is done stays, whatever ends the rest. Sums over blocks are made from
-    the store in the order of blocks, so they do not depend on the order of computing.
+    to it. Every block that is done stays, whatever ends the rest, and two runs may share a store.
+    Sums over blocks are made from the store in the order of blocks, so they do not depend on the
+    order of computing.
 
     >>> from tempfile import TemporaryDirectory
     >>> from types import SimpleNamespace

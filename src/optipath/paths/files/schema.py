@@ -47,7 +47,7 @@ def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any])
 
 
 def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
-    """Return a table with misspelled keys under the meant names, not also missing ones.
+    """Return a table with misspelled keys under the meant names, for none to be missing too.
 
     >>> as_meant({"knd": "source", "frames": {}, "colour": 3}, ["kind", "frames"])
     {'frames': {}, 'kind': 'source'}

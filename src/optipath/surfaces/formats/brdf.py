@@ -29,8 +29,8 @@ Numbers = npt.NDArray[np.float64]
 class BrdfOfHemispheres:
     """What hemispheres have measured of an isotropic sample, for light from anywhere.
 
-    Interpolated between incidences at equal half vectors (the same facet), times cos(theta_i)
-    cos(theta_o); beyond the first and the last incidence, it is that of these at the same facet.
+    Interpolated, times cos(theta_i) cos(theta_o), between incidences at equal half vectors (the
+    same facet); beyond the first and the last incidence, it is that of these at the same facet.
     """
 
     hemispheres: tuple[Hemisphere, ...]

@@ -50,8 +50,8 @@ def facet_gradient(corners: Any, facet: int) -> Any:
 def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float, own: int) -> Any:
     """Return which facet of a cell a ray meets, and where along the ray.
 
-    A ray hits where it gets nearer to the plane, or is behind it where it leaves the facet: a ray
-    can slip through no edge.
+    A ray hits where it approaches the plane from its side of the surface, and is at the plane or
+    behind it where it leaves the facet: a ray can slip through no edge.
     """
     _, dx, dy, _ = ray
     enters, leaves = span
