@@ -1,7 +1,7 @@
 """Carriers: light along a path as Stokes vectors, matrix or Jones columns, or with an exponent.
 
-What comes out is never polarised by more than 100 %, however long the path; but S1 is the
-difference of the intensities along x and y, and a matrix that depolarises has no place here.
+Light carried as Jones columns is never polarized by more than 100 %, however long the path; but
+S1 is a difference of intensities along x and y, and no matrix may depolarize.
 """
 
 from __future__ import annotations
