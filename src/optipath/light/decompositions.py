@@ -11,8 +11,8 @@ all over M00, M = M_depolarizer M_retarder M_diattenuator where
 the last by singular values. Sums and differences of p and m' d lose fewer digits. What does not
 depolarise has the parts of its Jones matrix, which lose none where little is let through.
 
-Of a Jones matrix T = c_0 s_0 + ... + c_3 s_3, with its phase such that det T = c_0^2 - c_1^2 - c_2^2 - c_3^2
-is positive, the unitary part of T is, but for its size, Re c_0 s_0 + i (Im c_1 s_1 + ...).
+Of a Jones matrix T = c_0 s_0 + ... + c_3 s_3, with its phase such that its determinant
+c_0^2 - c_1^2 - c_2^2 - c_3^2 is positive, the unitary part is, but for its size, Re c_0 s_0 + i (Im c_1 s_1 + ...).
 
 S. R. Cloude, Optik 75, 26 (1986); Proc. SPIE 1166, 177 (1989).
 """
