@@ -5,8 +5,9 @@ Libraries take sines one by one, most of the time of a path. The coefficients ar
 Programs for Mathematical Functions, 1989, ``atan.c``); errors are below 2 units in the last place.
 
 Right angles: pi/2 has no exact float, and cos(pi/2) is 6e-17, the rounding of the angle itself, by
-which a filter at 90 degrees would let the wrong component through. What vanishes when it is added to the angle is
-taken as 0, but for angles so huge that their rounding is no longer small.
+which a filter at 90 degrees would let the wrong component through. What vanishes when it
+is added to the angle is taken as 0, but for angles so huge that their rounding is no
+longer small.
 """
 
 from __future__ import annotations

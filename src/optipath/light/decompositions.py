@@ -12,7 +12,8 @@ the last by singular values. Sums and differences of p and m' d lose fewer digit
 depolarise has the parts of its Jones matrix, which lose none where little is let through.
 
 Of a Jones matrix T = c_0 s_0 + ... + c_3 s_3, with its phase such that its determinant
-c_0^2 - c_1^2 - c_2^2 - c_3^2 is positive, the unitary part is, but for its size, Re c_0 s_0 + i (Im c_1 s_1 + ...).
+c_0^2 - c_1^2 - c_2^2 - c_3^2 is positive, the unitary part is, but for its
+size, Re c_0 s_0 + i (Im c_1 s_1 + ...).
 
 S. R. Cloude, Optik 75, 26 (1986); Proc. SPIE 1166, 177 (1989).
 """
