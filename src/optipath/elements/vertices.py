@@ -211,7 +211,7 @@ class Vertex(ChainVertex, kind="vertex"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the way from ``in`` to ``out``, by reflection or refraction."""
-        event, n1, n2, k = self._given
+        event, n1, n2, k = self._event_and_media
         points = self.in_chain.points_from_start()
         met = points.passed_to(EVENT_AT_VERTEX, n1, n2, k, *self._events)
         n1, n2, *cos_sin = met.results(4)
@@ -222,7 +222,7 @@ class Vertex(ChainVertex, kind="vertex"):
         """Return the medium of each chain at a port, behind as far as it is known."""
         if port == "in":
             return self.outside
-        event, n1, n2, _ = map(operand_of, self._given)
+        event, n1, n2, _ = map(operand_of, self._event_and_media)
         if not all(operand.known for operand in (n1, n2)) or n1.traced or n2.traced:
             return FOLLOWS
         refracts = event.numbers() == Event.REFRACTS
@@ -256,7 +256,10 @@ class Vertex(ChainVertex, kind="vertex"):
         of_angles = isinstance(self.vertices, VerticesByAngles)
         if self.bad == "mask" or self.front is FOLLOWS or of_angles:
             return ()
-        arguments = *map(operand_of, self._given), *self.in_chain.points_around().arguments
+        arguments = (
+            *map(operand_of, self._event_and_media),
+            *self.in_chain.points_around().arguments,
+        )
         return (EventFits(arguments, owner),)
 
     @property
@@ -273,7 +276,7 @@ class Vertex(ChainVertex, kind="vertex"):
         return Operand(self.events, place, (self.in_chain.count,))
 
     @property
-    def _given(self) -> tuple[Any, Any, Any, Any]:
+    def _event_and_media(self) -> tuple[Any, Any, Any, Any]:
         """The event here, n in front, and n and k behind."""
         n, k = numbers_of(self.index, self.domains()["index"])
         return self.event_here, self.front, n, k
