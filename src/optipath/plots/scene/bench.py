@@ -42,7 +42,7 @@ _POINTS = 8.5
 _LETTER = 0.6
 """How wide a letter is about, in heights of a line."""
 
-_ABOVE, _BELOW, _BESIDE = 0.4, 0.38, np.array([0.8, 0.45])
+_ABOVE, _BELOW, _ASIDE = 0.4, 0.38, np.array([0.8, 0.45])
 """What is free above a beam, between it and names below, and around a plane, in links."""
 
 _ROOMY, _LONGEST = 1.3, 0.45
@@ -160,7 +160,7 @@ def _fit_plane(ax: Axes, flat: FlatSheet, room: Bbox) -> None:
     """Set limits by which a sheet fills a part of the axes, with room for texts beside it."""
     points = np.array([*flat.at.values(), *(p for ray in flat.rays for p in np.vstack(ray.pieces))])
     low, high = points.min(axis=0), points.max(axis=0)
-    wide, tall = high - low + 2.0 * _BESIDE
+    wide, tall = high - low + 2.0 * _ASIDE
     per_unit = min(room.width / wide, room.height / tall, _LONGEST * room.height)
     middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
     _set_limits(ax, (low + high) / 2.0, middle, per_unit)
