@@ -28,7 +28,7 @@ ROW = 0.34
 LINE = 0.28
 
 _STRIP, _MAIN = 0.36, 2.9
-_BESIDE = 0.31
+_SHIFT = 0.31
 """The share of the width, on the left, where words stand and no marks."""
 
 
@@ -106,7 +106,7 @@ class ChartFrame(NamedTuple):
 
 def _times(marked: list[float], limits: list[float]) -> tuple[float, float]:
     first, last = np.log10(min(marked)), np.log10(max(marked) * 1.7)
-    width = max(last - first, 1.0) / (1.0 - _BESIDE)
+    width = max(last - first, 1.0) / (1.0 - _SHIFT)
     begin = min([last - width, *(np.log10(ns / 1.3) for ns in limits)])
     end = max([last, *(np.log10(ns * 1.3) for ns in limits)])
     return float(10.0**begin), float(10.0**end)
