@@ -229,7 +229,7 @@ def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[
             holds = [name for name, marked in where.items() if not marked]
             words = [begin, "all but:", *_listed(holds)]
         else:
-            words = [begin, *_listed([_told(name, where[name], own) for name in failing])]
+            words = [begin, *_listed([_failing_text(name, where[name], own) for name in failing])]
         results += [
             (method if number == 0 else "", line)
             for number, line in enumerate(broken(words, inches, POINTS))
@@ -237,7 +237,7 @@ def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[
     return results
 
 
-def _told(region: str, failing: list[Mark], own: list[Mark]) -> str:
+def _failing_text(region: str, failing: list[Mark], own: list[Mark]) -> str:
     """Return a region, with the precisions that fail there if others hold."""
     dtypes = {mark.dtype for mark in failing}
     if len(failing) == len(own):
