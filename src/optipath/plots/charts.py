@@ -124,7 +124,7 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
     frame = ChartFrame.around(chart, list(marks.values()))
     legend = legend_rows(chart, looks, fails=bool(frame.methods))
     notes = [_notes(chart, kind, result) for kind, result in marks.items()]
-    message = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
+    message = broken(_effort_lines(chart), WIDTH - 2 * EDGE, POINTS)
     other = PeerFrame.of(peers) if peers else None
     below = LINE * 1.15 * len(legend) + 0.1 + LINE * max(map(len, notes)) + EDGE
     lowest = other.height + _FOOT + _TITLED if other else 0.0
@@ -171,7 +171,7 @@ def _head(figure: Figure, title: str, messages: list[str]) -> None:
         figure.text(0.5, y, line, fontsize=POINTS, **keywords)
 
 
-def _told(chart: Mapping[str, Any]) -> list[str]:
+def _effort_lines(chart: Mapping[str, Any]) -> list[str]:
     """Return how much was measured, as far as the chart says so."""
     said = []
     if effort := chart.get("effort"):
