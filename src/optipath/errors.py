@@ -48,11 +48,11 @@ class OptipathError(Exception):
     about = ""
 
     def __init__(self, *faults: str, about: str = "") -> None:
-        short = tuple(map(_told, faults))
+        short = tuple(map(_shortened, faults))
         super().__init__(*short)
         self.faults = short
         if about:
-            self.about = _told(about)
+            self.about = _shortened(about)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its sentences are what it is.
@@ -237,7 +237,7 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def _told(fault: str) -> str:
+def _shortened(fault: str) -> str:
     """Return a sentence on one line, what it quotes cut where it is long."""
     fault = _QUOTED.sub(_cut, printable(fault).replace("\n", "\\n"))
     return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"
