@@ -76,7 +76,7 @@ class Values:
         return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
 
     @cached_property
-    def _given(self) -> list[Use]:
+    def _known_uses(self) -> list[Use]:
         """The parameters where they stand; what follows from others is none of them."""
         return [
             use
@@ -88,7 +88,7 @@ class Values:
     def parameters(self) -> dict[str, Parameter]:
         """The parameters by name: in declared order, then as they are met."""
         results: dict[str, Parameter] = {}
-        for use in self._given:
+        for use in self._known_uses:
             known = results.get(use.value.name)
             taken_over = known is not None and known is not use.value and _yields(known)
             if known is None or (taken_over and not _yields(use.value)):
@@ -190,7 +190,7 @@ class Values:
         for name in self.graph.graph.get("choices", ()):
             if name in self.parameters:
                 yield f"'{name}' is a parameter and a choice; use two names"
-        for use in self._given:
+        for use in self._known_uses:
             name = use.value.name
             known = self.parameters[name]
             alike = use.value is known or use.value.same_specification(known)
