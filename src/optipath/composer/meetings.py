@@ -123,7 +123,7 @@ class Meetings:
         Those whose plane of incidence is turned are among them, since their angles may be 0.
         """
         leaving: dict[Port, list[Meeting]] = {}
-        facing = [m for m in self._straight if m.sides not in self._told]
+        facing = [m for m in self._straight if m.sides not in self._explained]
         for meeting in facing:
             leaving.setdefault(meeting.leaves, []).append(meeting)
         both = self.to_and_fro
@@ -164,7 +164,7 @@ class Meetings:
         return [m for m in self.all if self._of_faces(m) and self._is_in_space(m)]
 
     @cached_property
-    def _told(self) -> set[frozenset[Port]]:
+    def _explained(self) -> set[frozenset[Port]]:
         return {meeting.sides for meeting in self._straight if self._is_shown(meeting)}
 
     def _is_shown(self, meeting: Meeting) -> bool:
