@@ -59,7 +59,7 @@ class CodeCache:
     def __init__(self) -> None:
         self._functions: OrderedDict[str, MachineCode] = OrderedDict()
         self._lock = RLock()
-        self._told: set[str] = set()
+        self._warned: set[str] = set()
         self._tidied: set[Path] = set()
 
     @property
@@ -176,8 +176,8 @@ class CodeCache:
 
     def tell(self, what: str) -> None:
         """Tell the log something, once a process."""
-        if what not in self._told:
-            self._told.add(what)
+        if what not in self._warned:
+            self._warned.add(what)
             _LOGGER.warning(what)
 
     def _tell_of(self, error: BaseException) -> None:
