@@ -199,11 +199,11 @@ class Interpreter:
                 for operand in self.program.operands
             ]
         return [
-            self._given(operand, arguments) if fixed is None else arguments.cut(fixed)
+            self._operand_array(operand, arguments) if fixed is None else arguments.cut(fixed)
             for fixed, operand in zip(self._known, self.program.operands, strict=True)
         ]
 
-    def _given(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
+    def _operand_array(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
         if operand.part == "imag" and arguments.numbers[operand.input_key] is False:
             # Not an array, so that kernels see an index that does not absorb.
             return self.dtype.type(0.0)  # type: ignore[no-any-return]

@@ -115,10 +115,10 @@ class ReproducibleInterpreter(Interpreter):
             )
         ]
 
-    def _given(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
+    def _operand_array(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
         key, numbers = operand.input_key, arguments.numbers
         if operand.part == "present" or numbers.get(key) is False:
-            return super()._given(operand, arguments)
+            return super()._operand_array(operand, arguments)
         if key not in numbers:
             raw = operand.number_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
             return self._cast(operand.evaluated(self.xp, raw))
