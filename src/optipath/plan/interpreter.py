@@ -250,7 +250,7 @@ def _stack(
     return stokes
 
 
-_GIVEN_AWAY = 10.0
+_ALLOWANCE = 10.0
 """By how much bounds may be wrong, per unit share by which an eigenvalue is below 0: M + 4 l
 diag(1, 0, 0, 0) is physical where M has the eigenvalue -l, once for each of two intensities."""
 
@@ -268,7 +268,7 @@ def what_matrices_lack(program: Program, matrices: Mapping[int, Numbers]) -> Any
                 f"eigenvalue of {-np.nanmax(share):.3g} times the largest, so nothing bounds its "
                 f"light; give it Mueller(matrix).nearest_physical().matrix"
             )
-        total = total + _GIVEN_AWAY * len(elements) * share
+        total = total + _ALLOWANCE * len(elements) * share
     return total
 
 
