@@ -296,12 +296,14 @@ def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Arra
         results = np.broadcast_to(array, batch)[where]
     else:
         shape = (1,) * (len(batch) - array.ndim) + array.shape
-        index = [_kept(at, own, whole) for at, own, whole in zip(where, shape, batch, strict=False)]
+        index = [
+            _sliced(at, own, whole) for at, own, whole in zip(where, shape, batch, strict=False)
+        ]
         results = array.reshape(shape)[tuple(index)]
     return results
 
 
-def _kept(at: Any, own: int, whole: int) -> Any:
+def _sliced(at: Any, own: int, whole: int) -> Any:
     """Return the index along an axis, along which the array may be one and the batch not."""
     if own != 1 or whole == 1:
         return at
