@@ -101,7 +101,7 @@ class LaterWavelength:
 
     def __call__(self) -> Any:
         """Return the wavelengths, in metres; they broadcast to the batch. None if in doubt."""
-        return None if self.in_doubt else self._found
+        return None if self.in_doubt else self._wavelength
 
     @property
     def in_doubt(self) -> tuple[str, ...]:
@@ -109,7 +109,7 @@ class LaterWavelength:
         return tuple([one.name for one in self.among]) if len(self.among) > 1 else ()
 
     @cached_property
-    def _found(self) -> Any:
+    def _wavelength(self) -> Any:
         (parameter,) = self.among
         result, present = parameter.resolve(self.parameters.get(parameter.name, parameter.default))
         if not np.all(present):
