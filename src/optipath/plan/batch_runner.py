@@ -89,9 +89,9 @@ class BatchRunner:
         """Return the results, an array over paths or a number each."""
         if self.formula.unread:
             refused()
-        outcome, failed = self._found(self._stages(engine), numbers, layout)
+        outcome, failed = self._rows(self._stages(engine), numbers, layout)
         if failed and len(self.parts) > 1:
-            outcome, failed = self._found(self._stages(engine, in_one=True), numbers, layout)
+            outcome, failed = self._rows(self._stages(engine, in_one=True), numbers, layout)
         if failed:
             refused()
             out = np.empty((len(outcome.each), outcome.out.shape[1]), self.formula.dtype)
@@ -111,7 +111,7 @@ class BatchRunner:
             self._compiled[key] = _Compiled.of(several, self.formula.results, self.read)
         return self._compiled[key]
 
-    def _found(
+    def _rows(
         self, compiled: _Compiled, numbers: Mapping[str, Any], layout: Layout
     ) -> tuple[Results, list[Piece]]:
         """Return the results, and the pieces for which they do not hold."""
