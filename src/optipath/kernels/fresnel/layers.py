@@ -194,11 +194,11 @@ def across(xp: Primitives, face: Face, sign: Any) -> Parts:
     """
     Fs, Fp, B, *turned = face.reflected
     C, S = (sign * number for number in turned)
-    missing = _beside(xp, Fs, Fp, B, C, S)
+    missing = _interference(xp, Fs, Fp, B, C, S)
 
     def side(passed: tuple[Any, ...], others: tuple[Any, Any] | None) -> Side:
         Ts, Tp, D, c, s = passed
-        out, on = missing + 0.5 * (Ts + Tp), missing + _beside(xp, Ts, Tp, D, c, s)
+        out, on = missing + 0.5 * (Ts + Tp), missing + _interference(xp, Ts, Tp, D, c, s)
         if others is None:
             leaves = (out + S, out - S), (on + S + s, on - S - s)
             return Side(_rows(c, s), (0.0, 0.0), leaves, leaves)
@@ -221,7 +221,7 @@ def _both_sides(face: Face, side: Callable[..., Side]) -> tuple[Side, Side]:
     return front, side(face.back, face.beside_behind)
 
 
-def _beside(xp: Primitives, Fs: Any, Fp: Any, B: Any, C: Any, S: Any) -> Any:
+def _interference(xp: Primitives, Fs: Any, Fp: Any, B: Any, C: Any, S: Any) -> Any:
     """Return (Fs + Fp) / 2 - C, where Fs Fp = C^2 + S^2."""
     # Below, the difference has digits enough beside what else leaves.
     both, near = Fs + Fp, C > _LITTLE
