@@ -143,7 +143,7 @@ class Face(NamedTuple):
     passed: tuple[Any, ...]
     back: tuple[Any, ...]
     beside: tuple[Any, Any] | None
-    beside_behind: tuple[Any, Any] | None
+    interference_behind: tuple[Any, Any] | None
 
     def unpolarising(self) -> Face:
         """Return a boundary that does to s and to p what this one does to both on average."""
@@ -151,7 +151,7 @@ class Face(NamedTuple):
         back = passed if self.back is self.passed else tuple(grey_block(self.back))
         others = (
             None if pair is None else (0.5 * (pair[0] + pair[1]),) * 2
-            for pair in (self.beside, self.beside_behind)
+            for pair in (self.beside, self.interference_behind)
         )
         return Face(tuple(grey_block(self.reflected)), passed, back, *others)
 
@@ -216,9 +216,9 @@ def across(xp: Primitives, face: Face, sign: Any) -> Parts:
 def _both_sides(face: Face, side: Callable[..., Side]) -> tuple[Side, Side]:
     """Return what happens to light from in front, and from behind."""
     front = side(face.passed, face.beside)
-    if face.back is face.passed and face.beside is None and face.beside_behind is None:
+    if face.back is face.passed and face.beside is None and face.interference_behind is None:
         return front, front
-    return front, side(face.back, face.beside_behind)
+    return front, side(face.back, face.interference_behind)
 
 
 def _interference(xp: Primitives, Fs: Any, Fp: Any, B: Any, C: Any, S: Any) -> Any:
