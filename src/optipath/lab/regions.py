@@ -129,7 +129,7 @@ def _generic(dice: Dice) -> tuple[Floats, ...]:
     return dice.even(0.1, 5), dice.some(dice.even(0.01, 8)), *_at(angle)
 
 
-def _beside(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
+def _next_to(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
     """Return cos and sin 1e-12 (or some roundings) to 1e-1 rad beside the angle of a tangent."""
     least = max(1e-12, 64.0 * float(dice.precision.eps))
     return beside(tangent, dice.sign() * dice.decades(least, 1e-1))
@@ -143,12 +143,12 @@ def beside(tangent: Floats, off: Floats) -> tuple[Floats, Floats]:
 
 def _brewster(dice: Dice) -> tuple[Floats, ...]:
     n = np.where(dice.sign() > 0, dice.even(1.05, 4), dice.even(0.25, 0.95))
-    return n, np.zeros(1), *_beside(dice, n)
+    return n, np.zeros(1), *_next_to(dice, n)
 
 
 def _critical(dice: Dice, k: Floats) -> tuple[Floats, ...]:
     n = dice.even(0.2, 0.95)
-    return n, k, *_beside(dice, n / np.sqrt((1 - n) * (1 + n)))
+    return n, k, *_next_to(dice, n / np.sqrt((1 - n) * (1 + n)))
 
 
 def _total(dice: Dice, k: Floats) -> tuple[Floats, ...]:
