@@ -481,8 +481,8 @@ def check_race(text: str, name: str) -> None:
     race = _read(text, name)
     if race["processor"] != (here := processor()):
         raise OptipathError(
-            f"the processor of '{name}' is {_told(race['processor'])}, and this one is "
-            f"{_told(here)}; run the race and the chart on one machine, one after the other"
+            f"the processor of '{name}' is {_plain_text(race['processor'])}, and this one is "
+            f"{_plain_text(here)}; run the race and the chart on one machine, one after the other"
         )
 
 
@@ -532,7 +532,7 @@ def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
     ):
         if raced != charted:
             faults.append(
-                f"{what} of '{name}' is {_told(raced)}, and that of the chart {_told(charted)}; "
+                f"{what} of '{name}' is {_plain_text(raced)}, and that of the chart {_plain_text(charted)}; "
                 f"run the race and the chart on one machine, one after the other"
             )
     argument = chart.get("parameters", {})
@@ -561,7 +561,7 @@ def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
     )
 
 
-def _told(value: Any) -> str:
+def _plain_text(value: Any) -> str:
     return "not told" if value is None else shown(value)
 
 
