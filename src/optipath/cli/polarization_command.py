@@ -33,7 +33,7 @@ _SMALL = 1e-12
 
 def _polarization(chosen: Chosen, *, as_json: bool, digits: int) -> None:
     """Show what polarisation does to the intensity, beside the scalar result."""
-    result = _found(chosen.path())
+    result = _polarizations(chosen.path())
     if as_json:
         say_json({"preset": chosen.preset, **_as_json(result)})
     else:
@@ -49,7 +49,7 @@ def _print(chosen: Chosen, results: Mapping[str, Polarization], digits: int) -> 
 
 
 def _polarization_of_several(several: Sequence[Chosen], *, as_json: bool, digits: int) -> None:
-    result = of_each(several, lambda one: _found(one.path()))
+    result = of_each(several, lambda one: _polarizations(one.path()))
     if as_json:
         cases = {case: _as_json(one) for case, one in result.items()}
         say_json({"preset": several[0].preset, "cases": cases})
@@ -63,7 +63,7 @@ polarization = PresetGroup(
 )
 
 
-def _found(path: PathGraph) -> dict[str, Polarization]:
+def _polarizations(path: PathGraph) -> dict[str, Polarization]:
     """Return what polarisation does at every detector."""
     ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
     return {name: polarization_of(path, name) for name in ends}
