@@ -233,9 +233,9 @@ def import_own(name: str) -> None:
                 f"--import: there is no module {shown(name)} in this folder or on Python's path; "
                 f"give its name, or a file such as folder/my_elements.py"
             ) from None
-        raise PathError(_told(name, error)) from error
+        raise PathError(_import_fault(name, error)) from error
     except (Exception, SystemExit) as error:
-        raise PathError(_told(name, error)) from error
+        raise PathError(_import_fault(name, error)) from error
 
 
 def _import_file(file: Path) -> None:
@@ -273,5 +273,5 @@ def _first_result(folder: Path) -> Iterator[None]:
             sys.path.remove(place)
 
 
-def _told(name: str, error: BaseException) -> str:
+def _import_fault(name: str, error: BaseException) -> str:
     return f"--import: {shown(name)} raises {type(error).__name__}: {error}"
