@@ -85,7 +85,7 @@ def unknown_options_reported(context: click.Context, words: Sequence[str]) -> It
         # Of "-delta" click knows no more than "-d".
         whole = [word for word in words if word.startswith(error.option_name)]
         name = whole[0].partition("=")[0] if whole else error.option_name
-        raise click.UsageError(_told(name, words, context), context) from None
+        raise click.UsageError(_option_fault(name, words, context), context) from None
 
 
 def refuse_outer_options(context: click.Context, words: Sequence[str]) -> None:
@@ -98,7 +98,7 @@ def refuse_outer_options(context: click.Context, words: Sequence[str]) -> None:
             raise click.UsageError(f"option '{name}' is unknown here; {line}", context)
 
 
-def _told(name: str, words: Sequence[str], context: click.Context) -> str:
+def _option_fault(name: str, words: Sequence[str], context: click.Context) -> str:
     if line := _outer_line(name, words, context):
         return f"option '{name}' is unknown here; {line}"
     flags = _flags(context.command, context)
