@@ -121,7 +121,7 @@ class PhotonBeam:
         record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
         ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
         azimuth = np.nan if self.sample.isotropic else self.azimuth
-        media, base, source = map(address, self._given)
+        media, base, source = map(address, self._arrays)
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
         behind = [address(each) for each in (state, starts, lights)]
         code, stored, to_record = walk_code(), cached_meshes(self.sample), address(record)
@@ -146,7 +146,7 @@ class PhotonBeam:
         return WalkedBlock(photons, sums, record, starts, lights, ends)
 
     @cached_property
-    def _given(self) -> tuple[npt.NDArray[np.float64], ...]:
+    def _arrays(self) -> tuple[npt.NDArray[np.float64], ...]:
         """Return the media, the base of each light, and what lights are at first."""
         indices = self.indices
         behind = OPAQUE if indices.opaque else float(indices.n.flat[0])
