@@ -68,7 +68,7 @@ def chunk_identity(
 
 def _sample_lines(sample: Sample) -> Iterator[str]:
     for place, layer in enumerate(sample.layers):
-        yield f"layers[{place}]: {_told(layer.roughness)}"
+        yield f"layers[{place}]: {_roughness_text(layer.roughness)}"
     if any(layer.is_random for layer in sample.layers):
         yield f"cells: {sample.cells!r}"
         yield f"periodic: {sample.periodic}"
@@ -80,7 +80,7 @@ def _sensor(sensor: Sensor) -> str:
     return f"{side} x {side} pixels, {sensor.projection}, {int(sensor.parts)} parts"
 
 
-def _told(roughness: Roughness) -> str:
+def _roughness_text(roughness: Roughness) -> str:
     if not isinstance(roughness, HeightField):
         return f"alpha {roughness!r}"
     heights = sha256(roughness.heights.tobytes()).hexdigest()[:16]
