@@ -60,7 +60,7 @@ def wavelength_place(known: npt.NDArray[np.float64], argument: Any) -> int:
     if argument is None:
         if len(known) > 1:
             raise SurfaceError(
-                f"{len(known)} wavelengths have been measured; give one of them, {_told(known)}"
+                f"{len(known)} wavelengths have been measured; give one of them, {_wavelengths_text(known)}"
             )
         return 0
     if np.isnan(known[0]):
@@ -73,12 +73,14 @@ def wavelength_place(known: npt.NDArray[np.float64], argument: Any) -> int:
     except OptipathError as fault:
         raise SurfaceError(*fault.faults) from None
     if wanted.ndim:
-        raise SurfaceError(f"wavelength has the shape {wanted.shape}; give one, {_told(known)}")
+        raise SurfaceError(
+            f"wavelength has the shape {wanted.shape}; give one, {_wavelengths_text(known)}"
+        )
     nearest = int(np.argmin(np.abs(known - wanted)))
     if abs(known[nearest] - wanted) > _SAME * wanted:
         raise SurfaceError(
             f"wavelength {format_quantity(float(wanted), 'nm')} has not been measured; give "
-            f"{_told(known)}"
+            f"{_wavelengths_text(known)}"
         )
     return nearest
 
@@ -102,7 +104,7 @@ def _in_plane(angle: npt.NDArray[np.float64], azimuth: float, *, up: bool) -> An
     return np.stack([sin * np.cos(azimuth), sin * np.sin(azimuth), height], axis=-1) + 0.0
 
 
-def _told(known: npt.NDArray[np.float64]) -> str:
+def _wavelengths_text(known: npt.NDArray[np.float64]) -> str:
     named = [format_quantity(float(each), "nm") for each in known[:6]]
     more = ["..."] if len(known) > 6 else []
     return listed([*named, *more]) if more else " or ".join(named)
