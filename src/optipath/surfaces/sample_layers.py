@@ -286,7 +286,7 @@ class SampleIndices(NamedTuple):
 
 def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
     """Return the indices of media. Units: wavelength in metres."""
-    argument = _given(media.values(), wavelength)
+    argument = _numbers_at(media.values(), wavelength)
     domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]
     faults = Faults()
     results: dict[str, Parts] = {}
@@ -307,7 +307,7 @@ def _laid_out(numbers: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     return np.array(np.broadcast_to(numbers, shape), np.float64)
 
 
-def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
+def _numbers_at(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     """Return the wavelengths that are given; nothing where no medium depends on them."""
     dependent = next(filter(depends_on_wavelength, media), None)
     if wavelength is None and dependent is None:
