@@ -186,7 +186,7 @@ def _heights(table: Mapping[str, Any], folder: Path) -> HeightField:
             "heights, such as size = [100.0, 80.0]"
         )
     name = table["heights"]
-    path = faults.attempt(".heights", _beside, folder, name)
+    path = faults.attempt(".heights", _in_folder, folder, name)
     if faults or path is None:
         raise SurfaceError(*faults)
     size, periodic = table["size"], table.get("periodic", False)
@@ -198,7 +198,7 @@ def _heights(table: Mapping[str, Any], folder: Path) -> HeightField:
     return made
 
 
-def _beside(folder: Path, name: str) -> Path:
+def _in_folder(folder: Path, name: str) -> Path:
     """Return the path of a file of heights, which is in the folder of the sample's."""
     if not _NAME.fullmatch(name) or len(name) > _LONGEST:
         raise SurfaceError(
