@@ -401,7 +401,10 @@ def plane_of_incidence(
     >>> float(meets.incidence) == np.pi / 4, meets.arriving.x, meets.reflected.z.round(3)
     (True, array([0., 1., 0.]), array([0.707, 0.   , 0.707]))
     """
-    k, n = _given("the direction of light", direction), _given("a normal", normal)
+    k, n = (
+        _vector_argument("the direction of light", direction),
+        _vector_argument("a normal", normal),
+    )
     rounding = rounding_in(direction, normal)
     check_broadcast({"direction": k.shape[:-1], "normal": n.shape[:-1]})
     k, n = np.broadcast_arrays(k, n)
@@ -461,7 +464,7 @@ def _length(vector: Any) -> npt.NDArray[np.float64]:
     return np.asarray(np.linalg.norm(vector, axis=-1))
 
 
-def _given(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def _vector_argument(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return vectors over a power of two: exact, and their squares do not overflow."""
     vector = vectors(what, value)
     if not np.all(np.any(vector, axis=-1)):
