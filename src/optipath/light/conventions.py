@@ -87,7 +87,7 @@ def signs_of(convention: Any) -> Array:
     >>> print(signs_of("hecht"))
     [ 1.  1.  1. -1.]
     """
-    return np.array(_found(convention).signs)
+    return np.array(_convention_of(convention).signs)
 
 
 def changed_stokes(convention: Any, stokes: Any) -> Array:
@@ -117,7 +117,7 @@ def changed_delta(convention: Any, delta: Any) -> Array:
     >>> print(changed_delta("tmm", np.radians(150.0)).round(12) == np.radians(30.0).round(12))
     True
     """
-    way = _found(convention).delta
+    way = _convention_of(convention).delta
     if not way:
         having = [name for name, entry in CONVENTIONS.items() if entry.delta]
         raise ValueFault(
@@ -129,7 +129,7 @@ def changed_delta(convention: Any, delta: Any) -> Array:
     return xp.where(result <= -np.pi, np.pi, result)  # type: ignore[no-any-return]
 
 
-def _found(convention: Any) -> Convention:
+def _convention_of(convention: Any) -> Convention:
     if faults := unknown("convention", convention, CONVENTIONS):
         raise ValueFault(*faults)
     return CONVENTIONS[convention]
