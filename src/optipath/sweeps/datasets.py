@@ -109,7 +109,7 @@ def dataset_attributes(
     stored = _KEPT.get(plan.answers)
     words = path.description, dict(path.cases)
     if stored is None or stored[0] != words:
-        stored = _KEPT[plan.answers] = words, _told(path, plan, composer or Composer())
+        stored = _KEPT[plan.answers] = words, _attributes(path, plan, composer or Composer())
     return dict(stored[1])
 
 
@@ -117,7 +117,7 @@ _KEPT: WeakKeyDictionary[Answers, tuple[Any, dict[str, str | float]]] = WeakKeyD
 """By what belongs to one plan alone; telling all of it takes longer than to run 1e6 points."""
 
 
-def _told(path: PathGraph, plan: Plan, composer: Composer) -> dict[str, str | float]:
+def _attributes(path: PathGraph, plan: Plan, composer: Composer) -> dict[str, str | float]:
     options = {each.name: getattr(composer, each.name) for each in fields(Composer)}
     messages = {name: value for name, value in options.items() if name not in _UNREPORTED}
     return {
