@@ -183,7 +183,7 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
             "chunks= and store= cut axes into blocks, and there is no axis; give several values "
             "for a parameter, or leave them out"
         )
-    message = _told(chunks, sizes)
+    message = _sizes_by_name(chunks, sizes)
     results = {name: min(sizes[name], size) for name, size in message.items()}
     room = BLOCK // detectors
     for size in results.values():
@@ -195,7 +195,7 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
     return {name: results[name] for name in sizes}
 
 
-def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
+def _sizes_by_name(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     """Return the sizes that somebody has chosen."""
     if _auto(chunks):
         return {}
