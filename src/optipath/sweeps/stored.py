@@ -170,7 +170,7 @@ def sweep_identity(
     lines += [f"option {name}: {value!r}" for name, value in recipe.options]
     lines += [f"element class {' '.join(each)}" for each in recipe.own]
     lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
-    lines += [f"axis {axis.name}: {_told(axis)}" for axis in grid.axes]
+    lines += [f"axis {axis.name}: {_axis_text(axis)}" for axis in grid.axes]
     lines += [f"chunks of {name}: {size}" for name, size in sizes.items()]
     lines += [f"variable {name}: {each}" for name, each in types.items()]
     return "\n".join([*lines, recipe.text])
@@ -189,7 +189,7 @@ def _python_number(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic | np.ndarray) else value
 
 
-def _told(axis: SweepAxis) -> str:
+def _axis_text(axis: SweepAxis) -> str:
     """Return what tells an axis from all others, to the last bit."""
     ends = f"{axis.shown[0]} to {axis.shown[-1]} {axis.unit}".rstrip()
     digest = sha256()
