@@ -84,7 +84,7 @@ class Reproduced(NamedTuple):
     """A published number, and the one that has been measured."""
 
     measurement: Measurement
-    found: Found
+    found: Measured
     photons: int
 
     @property
@@ -123,7 +123,7 @@ ANY_AZIMUTH = 180.0
 """Within how many degrees of the plane of incidence all pixels are, on either side."""
 
 
-class Found(NamedTuple):
+class Measured(NamedTuple):
     """A number that has been measured."""
 
     value: float
@@ -136,25 +136,25 @@ class Measure(NamedTuple):
     """What is measured, and how."""
 
     told: str
-    of: Callable[[Walked, Measurement], Found]
+    of: Callable[[Walked, Measurement], Measured]
     takes: tuple[str, ...]
     several: bool = False
 
 
-def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement], Found]:
-    def of(walked: Walked, measurement: Measurement) -> Found:
+def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement], Measured]:
+    def of(walked: Walked, measurement: Measurement) -> Measured:
         whole = walked.energy(measurement.stokes)
         energy = whole.scalar if scalar else whole
         if name == "R+T":
             error = np.hypot(energy.absorbed_se, energy.lost_se)
-            return Found(float(energy.R + energy.T), float(error))
-        return Found(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
+            return Measured(float(energy.R + energy.T), float(error))
+        return Measured(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
 
     return of
 
 
-def _largest(name: str) -> Callable[[Walked, Measurement], Found]:
-    def of(walked: Walked, measurement: Measurement) -> Found:
+def _largest(name: str) -> Callable[[Walked, Measurement], Measured]:
+    def of(walked: Walked, measurement: Measurement) -> Measured:
         made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
         with of_files():  # Cures are what the file, or the command, can follow.
             result: xr.DataArray = made(
@@ -167,18 +167,18 @@ def _largest(name: str) -> Callable[[Walked, Measurement], Found]:
         if measurement.azimuth < ANY_AZIMUTH:
             mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
         if np.isnan(value).all():
-            return Found(np.nan, np.nan, mask)
+            return Measured(np.nan, np.nan, mask)
         at = np.unravel_index(np.nanargmax(value), value.shape)
         pixel = f"{theta[at]:.0f} deg, {azimuth[at]:.0f} deg"
-        return Found(float(value[at]), float(result["se"].values[at]), mask, pixel)
+        return Measured(float(value[at]), float(result["se"].values[at]), mask, pixel)
 
     return of
 
 
-def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
+def _mirrored(name: str) -> Callable[[Walked, Measurement], Measured]:
     """Return what is measured in the pixel towards which a mirror would send the light."""
 
-    def of(walked: Walked, measurement: Measurement) -> Found:
+    def of(walked: Walked, measurement: Measurement) -> Measured:
         hemisphere = walked.hemisphere
         beam, sensor = hemisphere.seen.beam, hemisphere.sensor
         at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
@@ -188,26 +188,26 @@ def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
         if name == "aop":
             # The paper folds it: half the arc tangent of |S2 / S1|.
             value = abs(value) if abs(value) <= np.pi / 4.0 else np.pi / 2.0 - abs(value)
-            return Found(float(np.degrees(value)), float(np.degrees(error)), mask)
-        return Found(value, error, mask)
+            return Measured(float(np.degrees(value)), float(np.degrees(error)), mask)
+        return Measured(value, error, mask)
 
     return of
 
 
-def _excess(component: int) -> Callable[[Walked, Measurement], Found]:
-    def of(walked: Walked, _: Measurement) -> Found:
-        return Found(*model_excess(walked.hemisphere, component))
+def _excess(component: int) -> Callable[[Walked, Measurement], Measured]:
+    def of(walked: Walked, _: Measurement) -> Measured:
+        return Measured(*model_excess(walked.hemisphere, component))
 
     return of
 
 
-def _model_s3(walked: Walked, _: Measurement) -> Found:
-    return Found(float(np.max(np.abs(model_of(walked.hemisphere)[..., 3]))), 0.0)
+def _model_s3(walked: Walked, _: Measurement) -> Measured:
+    return Measured(float(np.max(np.abs(model_of(walked.hemisphere)[..., 3]))), 0.0)
 
 
-def _off(walked: Walked, _: Measurement) -> Found:
+def _off(walked: Walked, _: Measurement) -> Measured:
     mask = f"{BLOCKS} x {BLOCKS} blocks of pixels within {FARTHEST:.0f} deg of the normal"
-    return Found(*model_off(walked.once), mask)
+    return Measured(*model_off(walked.once), mask)
 
 
 _SHARES = {
