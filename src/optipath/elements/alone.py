@@ -70,10 +70,10 @@ def mueller_alone(
                 _refuse_unphysical(own_ways(owner, element, entering, method))
                 matrix = coupling.matrix(method)
             found_in = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
-            found_out = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
+            leaving = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
             # An azimuth is in the frames alone.
             matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
-            return Mueller.of(matrix, found_in, found_out)
+            return Mueller.of(matrix, found_in, leaving)
     raise PathError(_no_way(owner, enters, leaves, couplings))
 
 
