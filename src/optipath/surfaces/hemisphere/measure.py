@@ -174,9 +174,11 @@ def measure(
         walking = processors() if threads is None else int(threads)
         sums = _summed(seen, int(photons), walking, progress)
     else:
-        from optipath.surfaces.hemisphere.stored_sums import kept_sums  # noqa: PLC0415 - an extra
+        from optipath.surfaces.hemisphere.stored_sums import sums_in_store  # noqa: PLC0415 - an extra
 
-        sums = kept_sums(ChunkJob(seen, when, int(photons)), place, scheduler, threads, progress)
+        sums = sums_in_store(
+            ChunkJob(seen, when, int(photons)), place, scheduler, threads, progress
+        )
     return Hemisphere(seen, sums, when, bool(mirrors))
 
 

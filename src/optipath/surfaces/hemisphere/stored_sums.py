@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from optipath.surfaces.hemisphere.chunks import ChunkJob
 
 
-def kept_sums(
+def sums_in_store(
     job: ChunkJob,
     store: Path,
     scheduler: Any,
