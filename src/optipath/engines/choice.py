@@ -80,7 +80,7 @@ class EngineChoice:
         self.compiler = COMPILER if engine == "auto" else engine
         self.most = most_operations(engine, dtype) if is_installed(self.compiler) else -1
         self.floats = floats
-        self.settled = NUMPY_STEPS if engine == "jax" else ""
+        self.decided = NUMPY_STEPS if engine == "jax" else ""
         # For how many paths something is made, be it never asked for again.
         self._least = FEW if engine in ("auto", "numpy") else 0
         self._runs = runs
@@ -89,8 +89,8 @@ class EngineChoice:
 
     def of(self, count: int, work: Work, ahead: int = 0) -> str:
         """Return what runs so many paths."""
-        if self.settled:
-            return self.settled
+        if self.decided:
+            return self.decided
         self._runs += 1
         few = self.engine == "auto" and self.floats and count < HANDFUL
         if self._runs > SEVERAL and self.engine == "auto":
@@ -99,12 +99,12 @@ class EngineChoice:
             return NUMPY_STEPS
         operations = work.operations(floats=few)
         if operations is None:
-            self.settled = NUMPY_STEPS
+            self.decided = NUMPY_STEPS
         elif operations <= self.most and self._pays(operations, count, ahead, work):
-            self.settled = self.compiler
+            self.decided = self.compiler
         elif self.engine not in ("auto", "numpy"):
-            self.settled = "numpy"
-        return self.settled or (FLOATS if few else "numpy")
+            self.decided = "numpy"
+        return self.decided or (FLOATS if few else "numpy")
 
     def _pays(self, operations: int, count: int, ahead: int, work: Work) -> bool:
         """Tell whether the compiler is worth its while; one that is asked for by name is."""

@@ -238,7 +238,7 @@ class Runner(Answering):
         if count == 1 and floats:
             return FLOATS
         for kind in self._kinds.values():
-            if kind.choice.settled == kind.choice.compiler:
+            if kind.choice.decided == kind.choice.compiler:
                 return kind.choice.compiler
         length, dtype = self.formulas.length, self.dtype.name
         return default_engine(engine, count, length, floats=floats, dtype=dtype)
