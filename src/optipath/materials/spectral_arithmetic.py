@@ -132,7 +132,7 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
     places = np.unique(
         np.concatenate(
             [kind.wavelengths for kind in sampled]
-            + [kind.peak + kind.width * _AROUND for kind in narrow if _is_lost(kind, sampled[0])]
+            + [kind.peak + kind.width * _AROUND for kind in narrow if _is_missed(kind, sampled[0])]
         )
     )
     places = places[np.diff(places, prepend=0.0) > _ROUNDING * places]
@@ -143,7 +143,7 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
     return places
 
 
-def _is_lost(line: GaussianLine, sampled: Sampled) -> bool:
+def _is_missed(line: GaussianLine, sampled: Sampled) -> bool:
     """Return whether straight lines between samples would not keep the power of a diode."""
     places = sampled.wavelengths[np.abs(sampled.wavelengths - line.peak) < 2.0 * line.width]
     steps = np.diff(

@@ -98,10 +98,10 @@ def _to_first_order(
     slopes, method, rounding = slopes_of(light_at, options.method)
     center = light_at({})
     changes = changes_of(center, slopes, light_at.uncertain, rounding)
-    changes = np.where(_is_lost(light)[..., np.newaxis, np.newaxis], np.nan, changes)
+    changes = np.where(_is_missed(light)[..., np.newaxis, np.newaxis], np.nan, changes)
     spread = spread_of(changes, correlation)
     left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
-    there = np.where(_is_lost(light)[..., np.newaxis], 0.0, spread.uncertainties)
+    there = np.where(_is_missed(light)[..., np.newaxis], 0.0, spread.uncertainties)
     notes = notes_of_first_order(light, light_at.uncertain, there, left)
     mean = np.asarray(light.stokes, np.float64)
     return Propagation(
@@ -110,7 +110,7 @@ def _to_first_order(
         covariance=spread.covariance,
         uncertain=light_at.uncertain,
         method=method,
-        notes=(*notes_of_lost_light(_is_lost(light)), *notes),
+        notes=(*notes_of_lost_light(_is_missed(light)), *notes),
         uncertainties=spread.uncertainties,
         shares=spread.shares,
         left=left,
@@ -125,7 +125,7 @@ def _by_samples(
 ) -> Propagation:
     count, seed = options.count, options.beginning
     spread, mean, notes = spread_of_samples(light_at, light, correlation, count, seed)
-    missing = _is_lost(light)
+    missing = _is_missed(light)
     uncertainties = np.where(missing[..., np.newaxis], np.nan, spread.uncertainties)
     return Propagation(
         light=light,
@@ -140,7 +140,7 @@ def _by_samples(
     )
 
 
-def _is_lost(light: Light) -> npt.NDArray[np.bool_]:
+def _is_missed(light: Light) -> npt.NDArray[np.bool_]:
     """Return which light is too faint, or too bright, for a float."""
     s0 = np.asarray(light.stokes)[..., 0]
     missing = (np.abs(s0) < np.finfo(np.float64).tiny) | np.isinf(s0)
