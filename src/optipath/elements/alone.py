@@ -69,11 +69,11 @@ def mueller_alone(
             with enough_for(batch, _TWO_MATRICES, error=PathError):
                 _refuse_unphysical(own_ways(owner, element, entering, method))
                 matrix = coupling.matrix(method)
-            found_in = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
-            leaving = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
+            arriving = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
+            leaving = _frame_at(element, leaves, frames or {enters: arriving}) or Frame()
             # An azimuth is in the frames alone.
             matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
-            return Mueller.of(matrix, found_in, leaving)
+            return Mueller.of(matrix, arriving, leaving)
     raise PathError(_no_way(owner, enters, leaves, couplings))
 
 

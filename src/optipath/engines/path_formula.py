@@ -226,7 +226,7 @@ class SymbolicInputs:
             return form == ONE if form in (ONE, ABSENT) else self._input(str(key), form, "bool")
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
-        argument = self._given(key, form)
+        argument = self._input_of(key, form)
         if operand.part in ("cos", "sin") and not self.counted:
             return self._circular(operand, form, argument)
         return operand.evaluated(self.primitives, argument)
@@ -235,7 +235,7 @@ class SymbolicInputs:
         axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
         return self.recorder.input(name, kind, axes=axes, left=left)
 
-    def _given(self, key: InputKey, form: str) -> Any:
+    def _input_of(self, key: InputKey, form: str) -> Any:
         low, high = key.limits_in(self.limits)
         argument = self._input(str(key), form)
         if form == WIDE:

@@ -532,7 +532,8 @@ def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
     ):
         if raced != charted:
             faults.append(
-                f"{what} of '{name}' is {_plain_text(raced)}, and that of the chart {_plain_text(charted)}; "
+                f"{what} of '{name}' is {_plain_text(raced)}, and that of the chart "
+                f"{_plain_text(charted)}; "
                 f"run the race and the chart on one machine, one after the other"
             )
     argument = chart.get("parameters", {})

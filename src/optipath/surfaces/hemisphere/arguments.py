@@ -60,7 +60,8 @@ def wavelength_place(known: npt.NDArray[np.float64], argument: Any) -> int:
     if argument is None:
         if len(known) > 1:
             raise SurfaceError(
-                f"{len(known)} wavelengths have been measured; give one of them, {_wavelengths_text(known)}"
+                f"{len(known)} wavelengths have been measured; give one of them, "
+                f"{_wavelengths_text(known)}"
             )
         return 0
     if np.isnan(known[0]):
