@@ -17,6 +17,17 @@ if TYPE_CHECKING:
 
     from optipath.values.parameters import Resolved
 
+__all__ = [
+    "DIGITS",
+    "MANY_DIGITS",
+    "WORKING_DIGITS",
+    "Reader",
+    "cos_sin",
+    "exact_angle",
+    "exactly",
+    "mpmath",
+]
+
 
 with needing("50-digit references"):
     import mpmath
@@ -82,8 +93,6 @@ MANY_DIGITS = Primitives(
     fixed=lambda value: value,
 )
 """For elements of one's own, whose formulas are the only ones there are."""
-
-__all__ = ["DIGITS", "MANY_DIGITS", "WORKING_DIGITS", "cos_sin", "exact_angle", "exactly", "mpmath"]
 
 
 @dataclass

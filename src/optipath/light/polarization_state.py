@@ -87,7 +87,7 @@ def polarised(stokes: Array) -> tuple[Array, Array, Array]:
 
 
 def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
-    """Return the same, 0 where they are no more than noise: what has no sign has no angle.
+    """Return (s1, s2, s3) over S0, 0 where they are no more than noise: without a sign, no angle.
 
     >>> [part.item() for part in ellipse_of(np.array([2.0, 1.0, 1e-9, 0.5]), np.array(1e-8))]
     [0.5, 0.0, 0.25]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, collecting, shown
-from optipath.sweeps.labels import is_variable
+from optipath.sweeps.labels import DETECTOR, is_variable
 from optipath.values.arrays import as_argument
 from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
 from optipath.values.text import AxisValues, read_entries
@@ -29,9 +29,6 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 
-
-DETECTOR = "detector"
-"""The dimension of several detectors in what a sweep returns."""
 
 _ROWS = "point"
 """The dimension along which the columns of a file vary together."""

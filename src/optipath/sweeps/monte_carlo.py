@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from optipath.errors import ParameterError, listed
 from optipath.sweeps.first_order import Spread
+from optipath.sweeps.labels import QUANTITIES
 from optipath.sweeps.light_figures import STOKES, difference, figures_of, rounding_of
 from optipath.sweeps.propagation import notes_of_lost_figures
 from optipath.sweeps.uncertain_value import root_of
@@ -202,7 +203,7 @@ class SampleMoments:
 
     def __init__(self, intensity: Any) -> None:
         power = np.asarray(np.frexp(intensity)[1])[..., np.newaxis]
-        self._scale = np.exp2(np.where(np.arange(10) < STOKES, power, 0))
+        self._scale = np.exp2(np.where(np.arange(len(QUANTITIES)) < STOKES, power, 0))
         self._count = 0
         self._first: Any = 0.0
         self._second: Any = 0.0

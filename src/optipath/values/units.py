@@ -15,169 +15,13 @@ from optipath.errors import UnitError, did_you_mean, shown
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
-
-_LENGTH_NAMES = {"nano": "nm", "micro": "um", "milli": "mm", "centi": "cm", "deci": "dm", "": "m"}
-_ANGLE_NAMES = {
-    "radian": "rad",
-    "milliradian": "mrad",
-    "arcminute": "arcmin",
-    "arcsecond": "arcsec",
-}
-
-_SINGULAR = {
-    **{
-        f"{prefix}{metre}": u for prefix, u in _LENGTH_NAMES.items() for metre in ("meter", "metre")
-    },
-    **_ANGLE_NAMES,
-    "degree": "deg",
-    "micron": "um",
-    "ångström": "angstrom",
-    "angstroem": "angstrom",
-    "angstrom": "angstrom",
-    "tesla": "T",
-    "millitesla": "mT",
-    "gauss": "G",
-    "kilogauss": "kG",
-    "arc minute": "arcmin",
-    "arc second": "arcsec",
-}
-_SIGNS = {"°": "deg", "º": "deg", "'": "arcmin", '"': "arcsec", "µm": "um", "μm": "um", "µ": "um"}
-_SIGNS |= dict.fromkeys(("å", "\u212b"), "angstrom")
-_NAMES = {**_SINGULAR, **{f"{name}s": unit for name, unit in _SINGULAR.items()}, **_SIGNS}
-_NAMES |= {"degs": "deg", "rads": "rad", "mic": "um", "mu": "um"}
-
-_GONS = dict.fromkeys(("gon", "gons", "gradian", "gradians"), "a gon is 0.9 deg")
-_GONS |= dict.fromkeys(
-    ("grad", "grads"), "a grad is 0.9 deg where it is a gon, and 1 deg in German"
-)
-
-
-def usual_name(word: str) -> str:
-    """Return a unit as it is called here; the word itself where it has no other name.
-
-    >>> usual_name("degrees/Millimeter"), usual_name("cm^-1"), usual_name("°"), usual_name("nm")
-    ('deg/mm', '1/cm', 'deg', 'nm')
-    """
-    for power in ("^-1", "**-1", "-1", "⁻¹"):
-        if word.endswith(power):
-            word = f"1/{word.removesuffix(power)}"
-    if word.startswith("per "):
-        word = f"1/{word.removeprefix('per ')}"
-    parts = word.replace(" per ", "/").split("/")
-    return "/".join(_NAMES.get(part.strip().lower(), part.strip()) for part in parts)
-
-
-def unit_meant(word: str, units: Collection[str]) -> str:
-    """Return the cure for an unknown unit, ready to be put behind the fault.
-
-    >>> unit_meant("degrees", ["deg", "rad"]), unit_meant("pints", ["deg", "rad"])
-    ("; did you mean 'deg'?", '; there are: deg, rad')
-    >>> unit_meant("grad", ["deg", "rad"])
-    '; a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg'
-    """
-    name = usual_name(word)
-    if name in units:
-        return f"; did you mean '{name}'?"
-    if name.lower() in _GONS and "deg" in units:
-        return f"; {_GONS[name.lower()]}; write it in deg"
-    return did_you_mean(word, units)
-
-
-_COMMA = re.compile(r"[-+]?\d+,\d+(?:[^\d,][^,]*)?", re.ASCII)
-_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}(?:\D.*)?", re.ASCII)
-
-
-def without_comma(text: str) -> list[str]:
-    """Return the numbers that one with a comma may be meant for; none where it has no comma.
-
-    >>> without_comma("30,5 deg"), without_comma("1,000"), without_comma("1.5")
-    (['30.5 deg'], ['1.000', '1000'], [])
-    """
-    if _COMMA.fullmatch(text) is None:
-        return []
-    ways = (".", "") if _THOUSANDS.fullmatch(text) else (".",)
-    return [text.replace(",", way) for way in ways]
-
-
-def comma_cure(text: str) -> str:
-    """Return the cure for a number with a comma, a part of a sentence; nothing for others.
-
-    >>> comma_cure("30,5 deg")
-    "did you mean '30.5 deg'? (a text is one value; several are an array, in Python)"
-    >>> comma_cure("1,000")
-    "its comma may be a decimal point or part thousands; write '1.000' or '1000'"
-    """
-    result = without_comma(text)
-    if len(result) > 1:
-        written = " or ".join(f"'{number}'" for number in result)
-        return f"its comma may be a decimal point or part thousands; write {written}"
-    several = "(a text is one value; several are an array, in Python)"
-    return f"did you mean '{result[0]}'? {several}" if result else ""
-
-
 # Written so that no text matches in two ways, and long ones take no longer than they are.
 NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
 """The pattern of a number without a sign."""
 
-INFINITE = "inf"
-"""What is written for a ratio without end."""
-
-_RATIO = re.compile(rf"({NUMBER})\s*:\s*({NUMBER})", re.ASCII)
-_LARGEST = 300.0
-"""The largest power of ten that decibels are written down as."""
-
-
-def ratio_of(text: str) -> float | None:
-    """Return the number that a ratio is, or None for a text that is none.
-
-    >>> ratio_of("1000:1"), ratio_of("inf"), ratio_of("20")
-    (1000.0, inf, None)
-    """
-    if text == INFINITE:
-        return math.inf
-    if ":" not in text:
-        return None
-    match = _RATIO.fullmatch(text)
-    wanted, other = map(float, match.groups()) if match else (0.0, 0.0)
-    ratio = wanted / other if other else 0.0
-    if 0.0 < ratio < math.inf:
-        return ratio
-    raise UnitError(f"'{text}' is no ratio of two positive numbers; write one such as '1000:1'")
-
-
-def without_unit(number: str, unit: str) -> str:
-    """Return the cure for a unit where a pure number is asked for; decibels are a ratio.
-
-    >>> without_unit("30", "dB")
-    'write 1000, which is 10 ** (30 / 10), for a ratio of intensities (0.001 for a loss of as much)'
-    >>> without_unit("30", "mm")
-    'leave it out'
-    """
-    if not is_of_decibels(unit) or not abs(power := float(number) / 10.0) < _LARGEST:
-        return "leave it out"
-    loss = f" ({10.0**-power:.10g} for a loss of as much)" if power > 0.0 else ""
-    ratio = f"write {10.0**power:.10g}, which is 10 ** ({number} / 10), for a ratio of intensities"
-    return ratio + loss
-
-
-def is_of_decibels(unit: str) -> bool:
-    """Tell whether what stands behind a number says decibels, which are no unit here."""
-    return unit.lower() == "db"
-
-
-def finite_number(value: Any, unit: str) -> str:
-    """Return what to give in place of a number that is not finite.
-
-    >>> finite_number(math.nan, ""), finite_number(math.inf, "")
-    ('a finite number', 'a finite number, 1e30 for an extinction ratio without end')
-    """
-    if unit or value != math.inf:
-        return "a finite number"
-    return "a finite number, 1e30 for an extinction ratio without end"
-
 
 class Unit(NamedTuple):
-    """A unit: so many base units, times ten to a power. Units: size in degrees."""
+    """A unit: so many base units, times ten to a power."""
 
     dimension: str
     power: int = 0
@@ -447,3 +291,159 @@ def digits_until(holds: Callable[[int], bool], least: int = 10) -> int:
     12
     """
     return next((digits for digits in range(least, _ALL) if holds(digits)), _ALL)
+
+
+INFINITE = "inf"
+"""What is written for a ratio without end."""
+
+_RATIO = re.compile(rf"({NUMBER})\s*:\s*({NUMBER})", re.ASCII)
+_LARGEST = 300.0
+"""The largest power of ten that decibels are written down as."""
+
+
+def ratio_of(text: str) -> float | None:
+    """Return the number that a ratio is, or None for a text that is none.
+
+    >>> ratio_of("1000:1"), ratio_of("inf"), ratio_of("20")
+    (1000.0, inf, None)
+    """
+    if text == INFINITE:
+        return math.inf
+    if ":" not in text:
+        return None
+    match = _RATIO.fullmatch(text)
+    wanted, other = map(float, match.groups()) if match else (0.0, 0.0)
+    ratio = wanted / other if other else 0.0
+    if 0.0 < ratio < math.inf:
+        return ratio
+    raise UnitError(f"'{text}' is no ratio of two positive numbers; write one such as '1000:1'")
+
+
+def without_unit(number: str, unit: str) -> str:
+    """Return the cure for a unit where a pure number is asked for; decibels are a ratio.
+
+    >>> without_unit("30", "dB")
+    'write 1000, which is 10 ** (30 / 10), for a ratio of intensities (0.001 for a loss of as much)'
+    >>> without_unit("30", "mm")
+    'leave it out'
+    """
+    if not is_of_decibels(unit) or not abs(power := float(number) / 10.0) < _LARGEST:
+        return "leave it out"
+    loss = f" ({10.0**-power:.10g} for a loss of as much)" if power > 0.0 else ""
+    ratio = f"write {10.0**power:.10g}, which is 10 ** ({number} / 10), for a ratio of intensities"
+    return ratio + loss
+
+
+def is_of_decibels(unit: str) -> bool:
+    """Tell whether what stands behind a number says decibels, which are no unit here."""
+    return unit.lower() == "db"
+
+
+def finite_number(value: Any, unit: str) -> str:
+    """Return what to give in place of a number that is not finite.
+
+    >>> finite_number(math.nan, ""), finite_number(math.inf, "")
+    ('a finite number', 'a finite number, 1e30 for an extinction ratio without end')
+    """
+    if unit or value != math.inf:
+        return "a finite number"
+    return "a finite number, 1e30 for an extinction ratio without end"
+
+
+_LENGTH_NAMES = {"nano": "nm", "micro": "um", "milli": "mm", "centi": "cm", "deci": "dm", "": "m"}
+_ANGLE_NAMES = {
+    "radian": "rad",
+    "milliradian": "mrad",
+    "arcminute": "arcmin",
+    "arcsecond": "arcsec",
+}
+
+_SINGULAR = {
+    **{
+        f"{prefix}{metre}": u for prefix, u in _LENGTH_NAMES.items() for metre in ("meter", "metre")
+    },
+    **_ANGLE_NAMES,
+    "degree": "deg",
+    "micron": "um",
+    "ångström": "angstrom",
+    "angstroem": "angstrom",
+    "angstrom": "angstrom",
+    "tesla": "T",
+    "millitesla": "mT",
+    "gauss": "G",
+    "kilogauss": "kG",
+    "arc minute": "arcmin",
+    "arc second": "arcsec",
+}
+_SIGNS = {"°": "deg", "º": "deg", "'": "arcmin", '"': "arcsec", "µm": "um", "μm": "um", "µ": "um"}
+_SIGNS |= dict.fromkeys(("å", "\u212b"), "angstrom")
+_NAMES = {**_SINGULAR, **{f"{name}s": unit for name, unit in _SINGULAR.items()}, **_SIGNS}
+_NAMES |= {"degs": "deg", "rads": "rad", "mic": "um", "mu": "um"}
+
+_GONS = dict.fromkeys(("gon", "gons", "gradian", "gradians"), "a gon is 0.9 deg")
+_GONS |= dict.fromkeys(
+    ("grad", "grads"), "a grad is 0.9 deg where it is a gon, and 1 deg in German"
+)
+
+
+def usual_name(word: str) -> str:
+    """Return a unit as it is called here; the word itself where it has no other name.
+
+    >>> usual_name("degrees/Millimeter"), usual_name("cm^-1"), usual_name("°"), usual_name("nm")
+    ('deg/mm', '1/cm', 'deg', 'nm')
+    """
+    for power in ("^-1", "**-1", "-1", "⁻¹"):
+        if word.endswith(power):
+            word = f"1/{word.removesuffix(power)}"
+    if word.startswith("per "):
+        word = f"1/{word.removeprefix('per ')}"
+    parts = word.replace(" per ", "/").split("/")
+    return "/".join(_NAMES.get(part.strip().lower(), part.strip()) for part in parts)
+
+
+def unit_meant(word: str, units: Collection[str]) -> str:
+    """Return the cure for an unknown unit, ready to be put behind the fault.
+
+    >>> unit_meant("degrees", ["deg", "rad"]), unit_meant("pints", ["deg", "rad"])
+    ("; did you mean 'deg'?", '; there are: deg, rad')
+    >>> unit_meant("grad", ["deg", "rad"])
+    '; a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg'
+    """
+    name = usual_name(word)
+    if name in units:
+        return f"; did you mean '{name}'?"
+    if name.lower() in _GONS and "deg" in units:
+        return f"; {_GONS[name.lower()]}; write it in deg"
+    return did_you_mean(word, units)
+
+
+_COMMA = re.compile(r"[-+]?\d+,\d+(?:[^\d,][^,]*)?", re.ASCII)
+_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}(?:\D.*)?", re.ASCII)
+
+
+def without_comma(text: str) -> list[str]:
+    """Return the numbers that one with a comma may be meant for; none where it has no comma.
+
+    >>> without_comma("30,5 deg"), without_comma("1,000"), without_comma("1.5")
+    (['30.5 deg'], ['1.000', '1000'], [])
+    """
+    if _COMMA.fullmatch(text) is None:
+        return []
+    ways = (".", "") if _THOUSANDS.fullmatch(text) else (".",)
+    return [text.replace(",", way) for way in ways]
+
+
+def comma_cure(text: str) -> str:
+    """Return the cure for a number with a comma, a part of a sentence; nothing for others.
+
+    >>> comma_cure("30,5 deg")
+    "did you mean '30.5 deg'? (a text is one value; several are an array, in Python)"
+    >>> comma_cure("1,000")
+    "its comma may be a decimal point or part thousands; write '1.000' or '1000'"
+    """
+    result = without_comma(text)
+    if len(result) > 1:
+        written = " or ".join(f"'{number}'" for number in result)
+        return f"its comma may be a decimal point or part thousands; write {written}"
+    several = "(a text is one value; several are an array, in Python)"
+    return f"did you mean '{result[0]}'? {several}" if result else ""
