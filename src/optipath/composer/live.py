@@ -1,4 +1,4 @@
-"""Live components: which Stokes components each step can have and somebody reads."""
+"""Live components: which Stokes components steps can have and somebody reads; known entries."""
 
 from __future__ import annotations
 

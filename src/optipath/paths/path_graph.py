@@ -538,7 +538,7 @@ class PathGraph(Chainable):
         """
         plan = self.compose()
         if unnamed:
-            _check_named(unnamed, plan)
+            _refuse_unnamed(unnamed, plan)
         ends = isinstance(keep, str) and keep == KEEPABLE[0]
         if not ends and "keep" not in plan.inputs.open:
             if path := self._with_curves(parameters):
@@ -876,7 +876,7 @@ def path_of(first: Any) -> PathGraph:
     return path
 
 
-def _check_named(unnamed: tuple[Any, ...], plan: Plan) -> None:
+def _refuse_unnamed(unnamed: tuple[Any, ...], plan: Plan) -> None:
     """Refuse values that `PathGraph.trace` is given without a name, and what is to be kept."""
     if isinstance(unnamed[0], str) and unnamed[0] in KEEPABLE:
         raise ParameterError(f"what is kept is given by name: trace(keep={shown(unnamed[0])})")
