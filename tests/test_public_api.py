@@ -5,6 +5,7 @@ import runpy
 import subprocess
 import sys
 import tomllib
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
@@ -57,15 +58,31 @@ class Parts(NamedTuple):
     imports: list
     names_from: list
     calls: list
+    classes: list
+    at_once: list
 
     @classmethod
     @functools.cache
     def of(cls, file):
-        nodes = [*ast.walk(ast.parse(file.read_text("utf-8")))]
+        tree = ast.parse(file.read_text("utf-8"))
+        nodes = [*ast.walk(tree)]
+        within = {
+            each
+            for part in nodes
+            if isinstance(part, ast.FunctionDef)
+            or (isinstance(part, ast.If) and ast.unparse(part.test) == "TYPE_CHECKING")
+            for each in ast.walk(part)
+        }
         return cls(
             [node for node in nodes if isinstance(node, ast.Import)],
             [node for node in nodes if isinstance(node, ast.ImportFrom)],
             [node for node in nodes if isinstance(node, ast.Call) and node.args],
+            [node.name for node in nodes if isinstance(node, ast.ClassDef)],
+            [
+                node
+                for node in nodes
+                if isinstance(node, ast.Import | ast.ImportFrom) and node not in within
+            ],
         )
 
     @property
@@ -76,6 +93,26 @@ class Parts(NamedTuple):
 
 def test_every_room_has_its_place():
     assert {room for room, _ in modules()} - {"__init__", "__main__"} == {*ROOMS}
+
+
+def test_no_two_public_classes_have_one_name():
+    found = [name for _, file in modules() for name in Parts.of(file).classes if name[0] != "_"]
+    assert sorted(found) == sorted(set(found))
+
+
+@pytest.mark.parametrize("package", [op, op.plots, op.surfaces])
+def test_names_of_a_stub_are_the_public_ones(package):
+    stub = ast.parse(Path(package.__file__).with_suffix(".pyi").read_text("utf-8"))
+    told = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+    rooms = {"plots", "surfaces"}  # Which are modules.
+    names = [alias.asname for node in told for alias in node.names]
+    assert sorted({*names} - rooms) == sorted(package.__all__)
+    for node in told:
+        for alias in node.names:
+            if alias.name not in rooms:
+                assert getattr(import_module(node.module), alias.name) is getattr(
+                    package, alias.name
+                )
 
 
 def test_all_is_sorted_complete_and_documented():
@@ -166,16 +203,15 @@ def module_of(*parts):
     return next((file for file in found if file.is_file()), None)
 
 
-def imported_by(file):
-    """The files that a file takes names from, in its functions and for its annotations too."""
-    for node in Parts.of(file).own:
-        parts = node.module.split(".")[1:]
+def imported_by(file, *, at_once=False):
+    """The files that a file takes names from: in its functions and for annotations, too."""
+    part = Parts.of(file)
+    for node in part.at_once if at_once else [*part.imports, *part.names_from]:
         for alias in node.names:
-            yield module_of(*parts, alias.name) or module_of(*parts)
-    for node in Parts.of(file).imports:
-        for alias in node.names:
-            if alias.name.startswith("optipath."):
-                yield module_of(*alias.name.split(".")[1:])
+            before = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+            if (before + alias.name).startswith("optipath."):
+                parts = (before + alias.name).split(".")[1:]
+                yield module_of(*parts) or module_of(*parts[:-1])
 
 
 def imports():
@@ -207,10 +243,7 @@ def test_every_listed_call_is_an_import_within_a_function_that_leads_up_or_round
         assert graph.has_edge(lower, upper), (lower, upper)
         led_back = nx.has_path(graph, upper, lower)
         assert led_back or floor(upper) > floor(lower), (lower, upper)
-        body = ast.parse((SOURCE / lower).read_text("utf-8")).body
-        at_once = [ast.unparse(n) for n in body if isinstance(n, ast.Import | ast.ImportFrom)]
-        module = upper.removesuffix("/__init__.py").removesuffix(".py").replace("/", ".")
-        assert not [line for line in at_once if f"optipath.{module} import" in line]
+        assert SOURCE / upper not in imported_by(SOURCE / lower, at_once=True), (lower, upper)
 
 
 def test_packages_list_no_names_of_their_modules():

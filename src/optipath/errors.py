@@ -434,8 +434,9 @@ def public_names(
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package with a stub of its names.
 
-    The stub ``__init__.pyi`` has an import for each public name, imported on use (PEP 562) with its
-    whole room; `needs` raises where packages are missing.
+    The stub ``__init__.pyi`` has an import a line for each public name, which is done when it is
+    used (PEP 562): of `optipath` with all of its room, so that kinds of elements are known all or
+    none, elsewhere alone. `needs` raises where packages are missing.
     """
     space = vars(sys.modules[package])
     loader = space["__spec__"].loader
@@ -449,7 +450,8 @@ def public_names(
             return _other(package, name, public)
         if needs is not None:
             needs()
-        room = home_of[name].split(".")[: package.count(".") + 2]
+        parts = home_of[name].split(".")
+        room = parts[:2] if package == parts[0] else parts
         for each, home in home_of.items():
             if home.split(".")[: len(room)] == room:
                 space[each] = getattr(import_module(home), each)

@@ -165,9 +165,12 @@ def test_an_azimuth_turns_the_frames_of_the_matrix():
 
 
 def test_elements_are_chained_whatever_else_of_the_library_is_imported():
-    code = "from optipath import Detector as D, Source as S; print((S(2.0) >> D()).trace().S0)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "2.0"
+    for home in ("optipath", "optipath.elements.ends"):
+        code = f"from {home} import Detector as D, Source as S; print((S(2.0) >> D()).trace().S0)"
+        done = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        )
+        assert done.stdout.strip() == "2.0"
 
 
 A, B, C = (op.Parameter(name) for name in "abc")

@@ -1,4 +1,4 @@
-"""Questions to a path: its light, a Mueller matrix, bounds of intensities; formulas that answer them.
+"""Questions to a path: light, a Mueller matrix, bounds of intensities; formulas that answer them.
 
 A question has its formula, steps, inputs of JAX and results; running is by `Runner`.
 """

@@ -10,9 +10,7 @@ import numpy as np
 from optipath.elements.layer_stack import LayerStack
 from optipath.errors import SurfaceError, shown
 from optipath.materials.quantities import YES_OR_NO
-from optipath.paths.files.schema import FORMAT, Faults
-from optipath.paths.files.values import encode
-from optipath.paths.files.writer import toml_lines
+from optipath.paths.files.schema import Faults
 from optipath.surfaces.field_arguments import cells_of
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.sample_layers import (
@@ -27,12 +25,12 @@ from optipath.values.parameters import Parameter
 from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     import numpy.typing as npt
 
     from optipath.materials.material import Material
-    from optipath.surfaces.sample_layers import SampleIndices, SampleLayer
+    from optipath.surfaces.sample_layers import SampleIndices
 
 
 _WIDTH = 80.0
@@ -281,6 +279,8 @@ class Sample(Unchanging):
         SurfaceError
             If heights stand in no file, or a material has no form in files.
         """
+        from optipath.surfaces.sample_writer import toml_of  # noqa: PLC0415 - brings graphs
+
         return toml_of({"description": self.description, **self._unusual()}, self.layers)
 
     def _field(self, surface: int, place: int) -> HeightField:
@@ -321,32 +321,3 @@ class Sample(Unchanging):
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
-
-
-def toml_of(options: Mapping[str, Any], layers: Sequence[SampleLayer]) -> str:
-    """Return the text of the file of a sample."""
-    faults = Faults()
-    top = {"format": FORMAT} | {
-        name: value if isinstance(value, bool) else faults.attempt(name, encode, value, "")
-        for name, value in options.items()
-    }
-    rows = [faults.attempt(f"layers[{at}]", _row, layer) for at, layer in enumerate(layers)]
-    if faults:
-        raise SurfaceError(*faults)
-    return "\n".join([toml_lines("", top), *[toml_lines("[[layers]]", row or {}) for row in rows]])
-
-
-def _row(layer: SampleLayer) -> dict[str, Any]:
-    index, rough = {"index": encode(layer.index, "")}, layer.roughness
-    if not isinstance(rough, HeightField):
-        along_x, along_y = rough
-        return index | {"alpha": along_x if along_x == along_y else [along_x, along_y]}
-    if rough.is_flat:
-        return index | {"alpha": 0.0}
-    if not layer.file:
-        raise SurfaceError(
-            "its heights are in no file that it knows of; save them by numpy.save('heights.npy', "
-            'field.heights), and load a sample whose file has heights = "heights.npy"'
-        )
-    row = index | {"heights": layer.file, "size": [*rough.size]}
-    return row | ({"periodic": True} if rough.periodic else {})
