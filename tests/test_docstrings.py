@@ -72,9 +72,30 @@ def lacking(thing, *, bound):
         yield "has no section Returns"
 
 
-def test_public_functions_document_their_arguments_and_results():
+def lacking_of_class(cls):
+    """What the docstrings of a class and of its bases leave out of what makes an object of it."""
+    if issubclass(cls, Warning | Exception):
+        return
+    try:
+        arguments = [*inspect.signature(cls).parameters.values()]
+    except ValueError:  # What is built in says none.
+        return
+    texts = [inspect.cleandoc(base.__doc__ or "") for base in cls.__mro__ if base is not object]
+    named = {
+        n for text in texts for h in ("Parameters", "Attributes") for n in names_under(h, text)
+    }
+    ordinary = {inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY}
+    names = [each.name for each in arguments if each.kind in ordinary]
+    if len(names) > 1 and (missing := [name for name in names if name not in named]):
+        yield f"does not document {', '.join(missing)}"
+
+
+def test_public_names_document_their_arguments_and_results():
     faults = []
     for name, thing in public_objects():
+        if inspect.isclass(thing):
+            faults += [f"{name} {fault}" for fault in lacking_of_class(thing)]
+            continue
         bound = "." in name and not isinstance(thing, staticmethod)
         faults += [f"{name} {fault}" for fault in lacking(thing, bound=bound)]
     assert not faults, "\n".join(sorted(faults))

@@ -41,6 +41,8 @@ class Followed(Domain):
 class Follows:
     """What stands for a value of the boundary before; `FOLLOWS` is the only one.
 
+    Examples
+    --------
     >>> FOLLOWS
     FOLLOWS
     """

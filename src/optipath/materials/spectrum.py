@@ -68,7 +68,14 @@ class Spectrum(Curve):
     a parabola, and is taken as a straight line; so integrals are those of the trapezoids at the
     wavelengths of both, and finer samples, `resample`, bring them closer.
 
-    Shapes: wavelengths (n,); values (n,). Units: wavelengths in metres.
+    Parameters
+    ----------
+    wavelengths : array_like, shape (n,), or SpectrumKind
+        Of the samples, in metres or as texts; or a way in which power is spread, alone.
+    values : array_like, shape (n,), optional
+        Of the samples.
+    outside, name
+        As `sampled` takes them.
 
     Attributes
     ----------

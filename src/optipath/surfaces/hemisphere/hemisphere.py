@@ -70,6 +70,17 @@ class Hemisphere:
     texts, or vectors of shape (..., 3). What goes toward a direction is what falls on its pixel;
     on the border of pixels, on all of them together (`Sensor.around`).
 
+    Attributes
+    ----------
+    seen : SensedBeam
+        What was walked, and how it was seen.
+    parts : PartSums
+        Of the photons, as they were counted.
+    wavelengths : ndarray, shape (wavelengths,)
+        In metres; NaN where the media do not depend on it.
+    symmetric : bool
+        Whether the pixels are means with their mirror images.
+
     Examples
     --------
     >>> from optipath.surfaces.hemisphere.measure import measure
