@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from optipath.lab.chart import processor
+from optipath.lab.bench import processor
 
 ROOT = Path(__file__).parents[1]
 BEGIN = "<!-- how long: python benchmarks/how_long.py --write docs/performance.md -->"

@@ -1,8 +1,7 @@
 """The results as Markdown, and their place in a page."""
 
 from contenders.optipath_engines import REFERENCE
-from optipath.lab.bench import software
-from optipath.lab.chart import processor
+from optipath.lab.bench import processor, software
 
 BEGIN = "<!-- peers: python benchmarks/peers/race.py --write docs/performance.md -->"
 END = "<!-- end of peers -->"

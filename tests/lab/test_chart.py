@@ -26,11 +26,11 @@ from optipath.lab.chart import (
     kernel_operations,
     many_paths,
     path_chart,
-    peer_times,
     slow_operations,
 )
 from optipath.lab.chart_file import KINDS, chart_text, contenders, read_chart
 from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors, trials
+from optipath.lab.peer_times import peer_times
 from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
 from pictures import faults_of, texts_of

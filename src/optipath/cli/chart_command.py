@@ -107,14 +107,9 @@ def _chart(
 
     def measure(tell: Tell, keep: Keep) -> Chart:
         # The extra 'chart'.
-        from optipath.lab.chart import (  # noqa: PLC0415
-            FULL,
-            check_race,
-            critical_chart,
-            expected,
-            path_chart,
-        )
+        from optipath.lab.chart import FULL, critical_chart, expected, path_chart  # noqa: PLC0415
         from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab.peer_times import check_race  # noqa: PLC0415
 
         if near:
             return critical_chart(path, title, places_near(near), progress=tell, keep=keep)
@@ -169,11 +164,7 @@ def _without_preset(
             from optipath.lab.chart_file import read_chart  # noqa: PLC0415
 
             return read_chart(read_text(source), str(source))
-        from optipath.lab.chart import (  # noqa: PLC0415
-            FULL,
-            critical_chart,
-            interface_chart,
-        )
+        from optipath.lab.chart import FULL, critical_chart, interface_chart  # noqa: PLC0415
         from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
 
         if near:

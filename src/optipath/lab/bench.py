@@ -1,4 +1,4 @@
-"""Bench: the report on a path's speed, timings of contenders that take turns."""
+"""Bench: the report on a path's speed, timings of contenders that take turns, this machine."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 from itertools import product
+from pathlib import Path
 from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -227,3 +228,44 @@ def duration(seconds: float) -> str:
         return f"{rounded:,.0f} s"
     sizes = [size for size in _UNITS if rounded >= size] or [min(_UNITS)]
     return f"{rounded / sizes[0]:.3g} {_UNITS[sizes[0]]}"
+
+
+_INNER, _OUTER = 2048, 4_000_000
+
+
+def processor() -> str:
+    """Return what the processor calls itself."""
+    message = Path("/proc/cpuinfo")
+    lines = message.read_text(encoding="utf-8").splitlines() if message.exists() else []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, platform.processor() or platform.machine())
+
+
+def throughput() -> dict[str, float]:
+    """Return the ns of a square root and a division in cache, and the ns a byte from memory.
+
+    >>> sorted(throughput())
+    ['byte', 'div', 'sqrt']
+    """
+    x, y = np.full(_INNER, 1.5), np.empty(_INNER)
+    many, copy = np.ones(_OUTER), np.ones(_OUTER)
+    return {
+        "sqrt": _least_ns(partial(np.sqrt, x, out=y), 200) / _INNER,
+        "div": _least_ns(partial(np.divide, x, x, out=y), 200) / _INNER,
+        # A copy reads and writes every byte once.
+        "byte": _least_ns(partial(np.copyto, copy, many)) / (2 * many.nbytes),
+    }
+
+
+def _least_ns(action: Callable[[], Any], calls: int = 1) -> float:
+    return 1e9 * min(seconds_of(action, calls) for _ in range(9))
+
+
+def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
+    """Return the least ns a path: its roots and divisions, and its numbers in and out."""
+    unit = throughput()
+    results = {
+        "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],
+        "memory": 8 * numbers * unit["byte"],
+    }
+    return {name: ns for name, ns in results.items() if ns > 0.0}

@@ -1,14 +1,11 @@
-"""Charts: speed against accuracy, errors next to critical places, times of other software."""
+"""Charts: speed against accuracy, and errors next to critical places."""
 
 from __future__ import annotations
 
-import json
 import platform
 from collections import Counter
 from dataclasses import dataclass, replace
 from functools import partial
-from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,11 +13,11 @@ import numpy as np
 from optipath.composer.composer import Composer
 from optipath.composer.path_values import Values
 from optipath.elements.ends import Source
-from optipath.errors import ComposerError, OptipathError, ParameterError, shown
+from optipath.errors import ComposerError, OptipathError, ParameterError
 from optipath.kernels.catalog import METHODS, REFLECTION
 from optipath.kernels.primitives import Primitives
-from optipath.lab.bench import seconds_of, software
-from optipath.lab.chart_file import CRITICAL, FORMAT, KINDS, WORDS, contenders, is_number
+from optipath.lab.bench import limits, processor, seconds_of, software
+from optipath.lab.chart_file import CRITICAL, FORMAT, KINDS, WORDS, contenders
 from optipath.lab.errors import (
     LIMIT,
     Errors,
@@ -328,47 +325,6 @@ def _counting(counts: Counter[str]) -> tuple[Primitives, _Counted]:
     return Primitives(sqrt=root, two_product=pair, **functions), number
 
 
-_INNER, _OUTER = 2048, 4_000_000
-
-
-def processor() -> str:
-    """Return what the processor calls itself."""
-    message = Path("/proc/cpuinfo")
-    lines = message.read_text(encoding="utf-8").splitlines() if message.exists() else []
-    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
-    return next(names, platform.processor() or platform.machine())
-
-
-def throughput() -> dict[str, float]:
-    """Return the ns of a square root and a division in cache, and the ns a byte from memory.
-
-    >>> sorted(throughput())
-    ['byte', 'div', 'sqrt']
-    """
-    x, y = np.full(_INNER, 1.5), np.empty(_INNER)
-    many, copy = np.ones(_OUTER), np.ones(_OUTER)
-    return {
-        "sqrt": _least_ns(partial(np.sqrt, x, out=y), 200) / _INNER,
-        "div": _least_ns(partial(np.divide, x, x, out=y), 200) / _INNER,
-        # A copy reads and writes every byte once.
-        "byte": _least_ns(partial(np.copyto, copy, many)) / (2 * many.nbytes),
-    }
-
-
-def _least_ns(action: Callable[[], Any], calls: int = 1) -> float:
-    return 1e9 * min(seconds_of(action, calls) for _ in range(9))
-
-
-def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
-    """Return the least ns a path: its roots and divisions, and its numbers in and out."""
-    unit = throughput()
-    results = {
-        "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],
-        "memory": 8 * numbers * unit["byte"],
-    }
-    return {name: ns for name, ns in results.items() if ns > 0.0}
-
-
 DTYPE = "float64"
 DISTANCES = tuple(float(10.0**power) for power in np.arange(-12, -0.75, 0.5))
 """In radians, from 1e-12 to 1e-1: nearer than that float64 has no angles of its own."""
@@ -448,137 +404,3 @@ def _of_path(path: PathGraph, title: str, samples: int) -> Measured:
         return {name: path_errors(runner, there, DTYPE) for name, runner in runners.items()}
 
     return measured
-
-
-_CURE = "give a file that 'benchmarks/peers/race.py --json' wrote"
-_SHARED = {"optipath, numba": "numba", "optipath, numpy": "numpy"}
-"""Who is in both: the name in a race, and the engine in a chart."""
-
-
-class Racer(NamedTuple):
-    """Who took part in a race."""
-
-    name: str
-    ns: float
-    error: float
-
-    @property
-    def is_own(self) -> bool:
-        """Whether it is optipath."""
-        return self.name.split(",")[0] == "optipath"
-
-
-class PeerTimes(NamedTuple):
-    """A race beside a chart."""
-
-    racers: tuple[Racer, ...]
-    shared: str
-    ratio: float
-
-
-def check_race(text: str, name: str) -> None:
-    """Refuse what is no race, before a chart is measured for it."""
-    race = _read(text, name)
-    if race["processor"] != (here := processor()):
-        raise OptipathError(
-            f"the processor of '{name}' is {_plain_text(race['processor'])}, and this one is "
-            f"{_plain_text(here)}; run the race and the chart on one machine, one after the other"
-        )
-
-
-def peer_times(text: str, name: str, chart: Mapping[str, Any]) -> PeerTimes:
-    """Return the times of a race that can be compared with a chart."""
-    return _compared(_read(text, name), name, chart)
-
-
-def _read(text: str, name: str) -> Any:
-    """Return a race in which everything is there that is compared."""
-    try:
-        race = json.loads(text)
-    except (ValueError, RecursionError):
-        raise OptipathError(f"'{name}' is no JSON; {_CURE}") from None
-    if not _is_whole(race):
-        raise OptipathError(f"'{name}' is no whole race of this version; {_CURE}")
-    return race
-
-
-def _is_whole(race: Any) -> bool:
-    try:
-        words = [race["processor"], race["path"]["preset"], *race["software"].values()]
-        sizes, errors = [], []
-        for contest in race["contests"].values():
-            words += contest["path"]
-            words += [entry["contender"] for entry in contest["results"]]
-            sizes += [entry["least"] for entry in contest["results"]]
-            errors += [entry["error"] for entry in contest["results"]]
-        return bool(
-            all(isinstance(word, str) for word in words)
-            and sizes
-            and all(is_number(size) and 1e-30 < size < 1e30 for size in sizes)
-            # One of which no digit is right may be told as NaN.
-            and all(is_number(error) and not error < 0 for error in errors)
-        )
-    except (KeyError, TypeError, AttributeError):
-        return False
-
-
-def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
-    machine, versions = chart.get("machine", {}), chart.get("versions", {})
-    faults = []
-    for what, raced, charted in (
-        ("the processor", race["processor"], machine.get("model")),
-        *((each, race["software"].get(each), versions.get(each)) for each in versions),
-        ("the preset", race["path"]["preset"], chart["title"].partition(",")[0]),
-    ):
-        if raced != charted:
-            faults.append(
-                f"{what} of '{name}' is {_plain_text(raced)}, and that of the chart "
-                f"{_plain_text(charted)}; "
-                f"run the race and the chart on one machine, one after the other"
-            )
-    argument = chart.get("parameters", {})
-    results = [
-        entry["results"] for entry in race["contests"].values() if _is_of(entry["path"], argument)
-    ]
-    if not results and not faults:
-        raced = " or ".join(
-            ", ".join(f"{key} {value}" for key, value in entry["path"].items())
-            for entry in race["contests"].values()
-        )
-        faults.append(f"'{name}' is a race of {raced}, and the chart is of other values")
-    if faults:
-        raise OptipathError(*faults)
-    times = {entry["contender"]: float(entry["least"]) for entry in results[0]}
-    for shared, engine in _SHARED.items():
-        charted = [
-            entry["ns"]["least"] for entry in chart["contenders"] if _is_shared(entry, engine)
-        ]
-        if charted and times.get(shared, 0.0) > 0.0:
-            ratio = charted[0] / times[shared]
-            return PeerTimes(tuple(_racer(entry, ratio) for entry in results[0]), shared, ratio)
-    raise OptipathError(
-        f"'{name}' and the chart share no contender whose times can be compared; measure the "
-        f"chart with engine numpy or numba in float64"
-    )
-
-
-def _plain_text(value: Any) -> str:
-    return "not told" if value is None else shown(value)
-
-
-def _is_of(path: Mapping[str, Any], arguments: Mapping[str, str]) -> bool:
-    return all(arguments.get(name) == str(value) for name, value in path.items())
-
-
-def _is_shared(entry: Mapping[str, Any], engine: str) -> bool:
-    own = entry["method"], entry["dtype"], entry["composing"], entry["engine"]
-    return own == ("stable", "float64", "stokes", engine)
-
-
-def _racer(entry: Mapping[str, Any], ratio: float) -> Racer:
-    error = float(entry["error"])
-    return Racer(
-        str(entry["contender"]),
-        float(entry["least"]) * ratio,
-        min(max(error, 1e-20), 1.0) if isfinite(error) else 1.0,
-    )

@@ -12,8 +12,8 @@ from matplotlib.ticker import LogLocator
 
 from optipath.errors import OptipathError, shown
 from optipath.lab.bench import duration
-from optipath.lab.chart import peer_times
 from optipath.lab.chart_file import CRITICAL, checked_chart, read_chart
+from optipath.lab.peer_times import peer_times
 from optipath.plots.chart_panel import (
     EDGE,
     GAP,
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optipath.lab.chart import PeerTimes
+    from optipath.lab.peer_times import PeerTimes
     from optipath.plots.axes import Panel
     from optipath.plots.chart_panel import Mark
 
