@@ -85,11 +85,6 @@ class Parts(NamedTuple):
             ],
         )
 
-    @property
-    def own(self):
-        """The imports from the library."""
-        return [node for node in self.names_from if (node.module or "").startswith("optipath.")]
-
 
 def test_every_room_has_its_place():
     assert {room for room, _ in modules()} - {"__init__", "__main__"} == {*ROOMS}
