@@ -13,6 +13,7 @@ from optipath.plots.drawn_curves import draw_curves, units_of
 from optipath.plots.light_at_detector import AlongAxis
 from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
 from optipath.plots.parameter_curves import draw_map
+from optipath.sweeps.labels import CAPITALIZED, DETECTOR
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
@@ -73,29 +74,25 @@ def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
     return sphere(Light(stokes), ax, by=along.numbers, label=along.labels[-1])
 
 
-_DETECTOR = "detector"
-_CAPITALIZED = {"psi": "Psi", "delta": "Delta"}
-"""What a sweep calls quantities where a parameter has their name."""
-
 _SHORT = (("nm", 1e-5), ("um", 1e-3), ("mm", np.inf))
 """The units in which lengths in metres are shown, each up to some length."""
 
 
 def at_detector(dataset: Any, detector: str | None) -> Any:
     """Return what a Dataset has at one detector."""
-    known = [str(name) for name in np.atleast_1d(dataset.get(_DETECTOR, ()))]
+    known = [str(name) for name in np.atleast_1d(dataset.get(DETECTOR, ()))]
     if detector is None:
-        if _DETECTOR in dataset.dims and len(known) > 1:
+        if DETECTOR in dataset.dims and len(known) > 1:
             raise OptipathError(
                 f"the Dataset has the detectors {listed(known)}; say which, by "
                 f"detector='{known[0]}'"
             )
-        return dataset.squeeze(_DETECTOR) if _DETECTOR in dataset.dims else dataset
+        return dataset.squeeze(DETECTOR) if DETECTOR in dataset.dims else dataset
     if not known:
         raise OptipathError("the Dataset is of one detector, which it does not name; leave it out")
     if faults := unknown("detector", detector, known):
         raise OptipathError(*faults)
-    return dataset.sel(detector=detector) if _DETECTOR in dataset.dims else dataset
+    return dataset.sel(detector=detector) if DETECTOR in dataset.dims else dataset
 
 
 def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
@@ -167,7 +164,7 @@ def numbers_of(
     dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
 ) -> npt.NDArray[np.float64]:
     """Return a quantity as it is drawn."""
-    other = _CAPITALIZED.get(quantity.name, quantity.name)
+    other = CAPITALIZED.get(quantity.name, quantity.name)
     name = other if other in dataset.data_vars else quantity.name
     if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):
         raise OptipathError(*faults)

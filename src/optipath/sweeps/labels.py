@@ -75,7 +75,7 @@ FAINT = LightQuantity(
 DETECTOR = "detector"
 """The dimension of several detectors."""
 
-_CAPITALIZED = {"psi": "Psi", "delta": "Delta"}
+CAPITALIZED = {"psi": "Psi", "delta": "Delta"}
 """What both ellipsometric angles are called where a parameter has the name of one."""
 
 
@@ -86,7 +86,7 @@ def is_variable(name: str) -> bool:
     (True, True, False)
     """
     own = {quantity.variable for quantity in (*QUANTITIES, FAINT)}
-    return name.partition(" at ")[0] in {*own, *_CAPITALIZED.values()}
+    return name.partition(" at ")[0] in {*own, *CAPITALIZED.values()}
 
 
 def detectors_of(plan: Plan) -> tuple[str, ...]:
@@ -98,7 +98,7 @@ def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
     """Return what the variable of each quantity is called."""
     taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
     own = [quantity.variable for quantity in (*QUANTITIES, FAINT)]
-    other = _CAPITALIZED if _CAPITALIZED.keys() & set(taken) else {}
+    other = CAPITALIZED if CAPITALIZED.keys() & set(taken) else {}
     names = {name: other.get(name, name) for name in own}
     several = len(detectors_of(plan)) > 1
     if faults := [*_faults(taken, {*names.values(), *([DETECTOR] if several else [])})]:
