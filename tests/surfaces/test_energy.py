@@ -3,6 +3,9 @@
 Statistical tests have fixed seeds, and would fail by chance once in a million of other seeds.
 """
 
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -28,6 +31,21 @@ def test_the_same_seed_gives_the_same_bits_by_any_number_of_threads_and_another_
     for name in ("R_s", "R_m", "T_s", "T_m", "R_se", "reflected", "transmitted_se"):
         assert all(np.array_equal(getattr(first, name), getattr(one, name)) for one in others), name
     assert surfaces.energy(GLASS, "50 deg", photons=photons, seed=8).R != first.R
+
+
+def test_blocks_that_begin_at_the_same_time_have_the_bits_of_a_block_by_itself():
+    sample = op.Sample([(1.5, 0.5), (0.5 + 2.1j, 0.3)], surfaces=1)
+    alone = beam_of(sample, "60 deg").block(1, 64, keeps=True).ends
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(8) as threads:
+            for _ in range(50):
+                block = beam_of(sample, "60 deg").block
+                begun = [threads.submit(block, 1, 64, keeps=True) for _ in range(8)]
+                assert all(np.array_equal(each.result().ends, alone) for each in begun)
+    finally:
+        sys.setswitchinterval(interval)
 
 
 @pytest.mark.parametrize("photons", [10_000, slow(100_000)])

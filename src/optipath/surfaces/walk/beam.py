@@ -121,7 +121,9 @@ class PhotonBeam:
         record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
         ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
         azimuth = np.nan if self.sample.isotropic else self.azimuth
-        media, base, source = map(address, self._arrays)
+        # Held here: a second thread may put others in their place, and compiled code has addresses.
+        arrays = self._arrays
+        media, base, source = map(address, arrays)
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
         behind = [address(each) for each in (state, starts, lights)]
         code, stored, to_record = walk_code(), cached_meshes(self.sample), address(record)
@@ -130,8 +132,9 @@ class PhotonBeam:
             own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
             last = wanted - first if first <= wanted else -1
             place = address(ends) + keeps * first * ends.strides[0]
+            meshes = stored.of(surface)
             result = code(
-                *stored.of(surface).addresses,
+                *meshes.addresses,
                 *before,
                 *(size, self.most_events, last if last < size else -1),
                 *(*behind, address(own), to_record, place, int(keeps)),
