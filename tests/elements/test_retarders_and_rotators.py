@@ -45,7 +45,7 @@ def test_cosine_and_sine_of_a_thick_plate_have_all_digits(engine, turns):
     found = [plan.run(**dict(zip("dnw", given, strict=True))).stokes for _ in range(2)][1]
     exact = np.array([exact_cos_sin(*map(float, one)) for one in zip(*given, strict=True)])
     # Light of S3 > 0 becomes (1, 0, -sin, cos).
-    np.testing.assert_allclose(found[:, [3, 2]], exact * [1, -1], rtol=0, atol=5e-16)
+    np.testing.assert_allclose(np.asarray(found)[:, [3, 2]], exact * [1, -1], rtol=0, atol=5e-16)
 
 
 def test_one_plate_has_the_digits_of_many_and_of_its_retardance():
