@@ -131,6 +131,7 @@ REFUSED = [
     (lambda: op.Material.tabulated([188, 500], [1, 2]), "is 188 metres, which is no wavelength"),
     (lambda: op.Material.sellmeier([1], [1, 2]), "has 1 of b and 2 of c; give one for each"),
     (lambda: op.Material.sellmeier([1]), "needs c, in square micrometres, or resonances"),
+    (lambda: op.Material.of_curve(float), "give a table or a formula to Material.tabulated"),
     (lambda: op.Material.sellmeier(1, [1]), "b of a Sellmeier formula must be a row"),
     (lambda: op.Material.sellmeier([1, "a"], [1, 2]), "b[1] of a Sellmeier formula: 'a'"),
     (lambda: cauchy([1.5, np.nan]), "coefficients[1] of a Cauchy formula is nan"),

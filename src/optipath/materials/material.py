@@ -14,7 +14,7 @@ from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.tables import Tabulated
 from optipath.values.arrays import as_argument, broadcast_fault, same, same_fields
 from optipath.values.columns import read_columns
-from optipath.values.curve import span_text
+from optipath.values.curve import Curve, span_text
 from optipath.values.curve_value import CurveValue, curve_at
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
@@ -25,8 +25,6 @@ from optipath.values.use import make_sound
 
 if TYPE_CHECKING:
     from os import PathLike
-
-    from optipath.values.curve import Curve
 
 
 _SIGN_OF_K = "where the field is exp(-iwt), so that k > 0 absorbs"
@@ -543,8 +541,13 @@ class Material:
         Raises
         ------
         ValueFault
-            If the curve is not known at the wavelength.
+            If it is no curve, or not known at the wavelength.
         """
+        if not isinstance(curve, Curve):
+            raise ValueFault(
+                f"curve is {shown(curve)}; give a table or a formula to Material.tabulated, "
+                f"sellmeier or cauchy"
+            )
         n, *rest = curve_at(curve, wavelength)
         return cls(n, rest[0] if rest else k)
 
