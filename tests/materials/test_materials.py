@@ -53,6 +53,7 @@ def test_a_wavelength_may_be_an_energy_an_array_known_from_the_beginning_or_a_pa
     assert gold().span == (188e-9, 1937e-9)
     assert gold(extrapolate="nearest").span == (0.0, np.inf)
     assert bk7(span=("310 nm", "2.5 um")).span == (310e-9, 2.5e-6)
+    assert bk7(span=np.array([310e-9, 2.5e-6])).span == (310e-9, 2.5e-6)
     assert op.Material.tabulated(WAVELENGTHS, N).at("1 um").k == 0.0
     assert op.Material.tabulated(WAVELENGTHS, 1.5, 0.2).at("1 um") == op.Material(1.5, 0.2)
     material = op.Material.sellmeier([op.Parameter("b", 1.25)], [0.0])

@@ -84,7 +84,7 @@ def read_span(owner: str, span: Any) -> tuple[float, float]:
     >>> read_span("span of a glass", ("400 nm", "1 um"))
     (4e-07, 1e-06)
     """
-    if span == EVERYWHERE:
+    if isinstance(span, tuple) and span == EVERYWHERE:
         return EVERYWHERE
     ends = WAVELENGTH.check(owner, list(span) if isinstance(span, tuple) else span)
     if ends.shape != (2,) or not ends[0] < ends[1]:
