@@ -1,5 +1,6 @@
 """Machine code by Numba: that it computes, many at a time, and is freed."""
 
+import ctypes
 import gc
 import platform
 import re
@@ -20,7 +21,6 @@ numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
 from optipath.engines import code_cache as code_key  # noqa: E402 - needs numba
 from optipath.engines import machine_code  # noqa: E402
 from optipath.engines.code_cache import CodeCache  # noqa: E402
-from optipath.engines.engine import address  # noqa: E402
 from optipath.engines.machine_code import MachineCode, assembly, compiled  # noqa: E402
 from optipath.engines.numba_engine import source  # noqa: E402
 
@@ -43,11 +43,12 @@ def code():
 def test_machine_code_reads_and_writes_arrays(code, last):
     given, flags, out = np.arange(100.0), np.ones(100, bool), np.empty(100)
     flags[-1] = last
-    assert MachineCode(code)(100, 3.0, *map(address, (given, flags, out))) == last
+    assert MachineCode(code)(100, 3.0, given, flags, out) == last
     np.testing.assert_array_equal(out, 3.0 * given + 0.5)
     # Whether or not they may be written.
     for array in (np.ones(3), np.ones(0), np.broadcast_to(1.0, 4), np.ones((2, 3))[1:]):
-        assert address(array) == array.__array_interface__["data"][0]
+        place = ctypes.cast(machine_code._Array.from_param(array), ctypes.c_void_p).value
+        assert place == array.__array_interface__["data"][0]
 
 
 def test_a_function_that_there_is_not_is_no_crash(code):
@@ -92,7 +93,7 @@ def test_memory_holds_as_many_functions_as_it_may(code, monkeypatch, tmp_path):
     cache.function("b", compiling)
     assert asked[-1] == "b"
     out = np.empty(1)
-    assert held[1](1, 2.0, address(np.ones(1)), address(np.ones(1, bool)), address(out)) == 1
+    assert held[1](1, 2.0, np.ones(1), np.ones(1, bool), out) == 1
     assert out[0] == 2.5
 
 

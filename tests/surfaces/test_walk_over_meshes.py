@@ -79,7 +79,7 @@ def test_meshes_go_at_once_with_their_sample():
     gc.disable()  # Nothing goes but what nobody refers to.
     try:
         sample = op.Sample([(1.5, 0.3)], cells=200)
-        meshes = weakref.ref(cached_meshes(sample).of(0).meshes.heights)
+        meshes = weakref.ref(cached_meshes(sample).of(0).heights)
         assert meshes() is not None
         del sample
         assert meshes() is None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import math
 from abc import ABC, abstractmethod
 from importlib.util import find_spec
@@ -75,15 +74,6 @@ class ArrayPath(Protocol):
         at: int,
     ) -> bool:
         """Fill a range of the results."""
-
-
-def address(array: Any) -> int:
-    """Return the address of the first number of an array."""
-    try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array))
-    except (TypeError, ValueError):  # The array is read-only, or empty.
-        result: int = array.__array_interface__["data"][0]
-        return result
 
 
 _DEEPEST = 30

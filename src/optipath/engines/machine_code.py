@@ -13,7 +13,18 @@ import llvmlite
 import llvmlite.binding as llvm
 
 _PLAIN = {"int64": ctypes.c_int64, "float64": ctypes.c_double}
-"""What is given by its value; all else is the address of an array."""
+"""What is given by its value; all else is an array, which lives as long as the call."""
+
+
+class _Array(ctypes.c_void_p):
+    """Where the first number of an array is."""
+
+    @classmethod
+    def from_param(cls, array: Any) -> Any:
+        try:
+            return ctypes.byref(ctypes.c_char.from_buffer(array))
+        except (TypeError, ValueError):  # The array is read-only, or empty.
+            return ctypes.c_void_p(array.__array_interface__["data"][0])
 
 
 def compiled(text: str) -> bytes:
@@ -110,14 +121,14 @@ class MachineCode:
         self._engine.finalize_object()
         self._room = ctypes.c_void_p()
         self._raised = ctypes.addressof(self._room)
-        kinds: Any = (_PLAIN.get(kind, ctypes.c_void_p) for kind in about["kinds"])
+        kinds: Any = (_PLAIN.get(kind, _Array) for kind in about["kinds"])
         # As Numba calls functions: first where the result goes, and what would be raised.
         self._function = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, *kinds)(
             self._engine.get_function_address(about["name"])
         )
 
     def __call__(self, *arguments: Any) -> int:
-        """Return the integer that the function gives for numbers and addresses."""
+        """Return the integer that the function gives for numbers and arrays."""
         result = ctypes.c_int64()
         if self._function(ctypes.addressof(result), self._raised, *arguments):
             raise RuntimeError("compiled code has failed")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.engine import Engine, address
+from optipath.engines.engine import Engine
 from optipath.engines.formula import assignments, indented, left_formula
 from optipath.engines.numpy_engine import NumpyEngine
 from optipath.engines.symbols import Symbol
@@ -64,25 +64,20 @@ def _compiled(formula: Formula, cache: CodeCache) -> ArrayPath:
     from optipath.engines.machine_code import compiled  # noqa: PLC0415 - an extra
 
     function = cache.function(source(formula), compiled)
-    arrays = [place for place, s in enumerate(formula.inputs) if formula.place_of(s) != "one"]
     shape, kind = (len(_splits(formula)[0]), _BLOCK), formula.dtype
 
     def path(
         rows: tuple[int, int], columns: tuple[int, int], arguments: list[Any], out: Any, at: int
     ) -> bool:
         own = np.empty(shape, kind) if shape[0] else out
-        places = list(arguments)
-        for place in arrays:
-            places[place] = address(arguments[place])
-        first, last = address(own), address(out)
-        return function(*rows, *columns, *places, first, last, out.shape[1], at) != 0
+        return function(*rows, *columns, *arguments, own, out, out.shape[1], at) != 0
 
     return path
 
 
 @lru_cache(8)
 def source(formula: Formula) -> str:
-    """Return the text of a function of what `ArrayPath` takes, arrays by their addresses.
+    """Return the text of a function of what `ArrayPath` takes.
 
     ``path(top, bottom, start, stop, *given, own, out, paths, at)``; ``own`` has room for split
     numbers, and ``paths`` is the row length of ``out``.

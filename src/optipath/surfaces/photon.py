@@ -234,7 +234,7 @@ def _on_mesh(
 ) -> Vector:
     """Return a point of the walk as that of a layer's own field, in the cell that was met."""
     field = beam.sample.fields(surface)[layer]
-    top = cached_meshes(beam.sample).of(surface).meshes.numbers[NUMBERS * layer + HIGH]
+    top = cached_meshes(beam.sample).of(surface).numbers[NUMBERS * layer + HIGH]
     shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
     result: Vector = position + np.array(shift)
     if field.periodic:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from optipath.engines.engine import address
 from optipath.errors import SurfaceError, shown
 from optipath.surfaces.ends import turned_directions
 from optipath.surfaces.hemisphere.arguments import following
@@ -94,9 +93,8 @@ class SensedBeam:
         walked = walked_in_order(self.beam, todo, wanted, threads, self._seen)
         with closing(walked):
             for seen in walked:
-                arrays = map(address, (seen.places, seen.turns, seen.ends))
-                size = len(seen.places)
-                add(*arrays, size, lights, len(self.beam.states), *stored, address(result.sums))
+                arrays, size = (seen.places, seen.turns, seen.ends), len(seen.places)
+                add(*arrays, size, lights, len(self.beam.states), *stored, result.sums)
                 pixels = seen.places[seen.places >= 0] % result.counts.size
                 result.counts.reshape(-1)[:] += np.bincount(pixels, minlength=result.counts.size)
                 result.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)

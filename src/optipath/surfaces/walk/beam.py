@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from optipath.engines.engine import address
 from optipath.errors import SurfaceError, shown
 from optipath.kernels.carriers.carried import carry
 from optipath.kernels.primitives import FLOAT
@@ -121,23 +120,18 @@ class PhotonBeam:
         record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
         ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
         azimuth = np.nan if self.sample.isotropic else self.azimuth
-        # Held here: a second thread may put others in their place, and compiled code has addresses.
-        arrays = self._arrays
-        media, base, source = map(address, arrays)
+        media, base, source = self._arrays
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
-        behind = [address(each) for each in (state, starts, lights)]
-        code, stored, to_record = walk_code(), cached_meshes(self.sample), address(record)
+        code, stored = walk_code(), cached_meshes(self.sample)
         sums: dict[int, npt.NDArray[np.float64]] = {}
         for first, size, surface in self.portions(number, photons):
             own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
             last = wanted - first if first <= wanted else -1
-            place = address(ends) + keeps * first * ends.strides[0]
-            meshes = stored.of(surface)
             result = code(
-                *meshes.addresses,
+                *stored.of(surface),
                 *before,
                 *(size, self.most_events, last if last < size else -1),
-                *(*behind, address(own), to_record, place, int(keeps)),
+                *(state, starts, lights, own, record, ends[keeps * first :], int(keeps)),
             )
             if not result:
                 raise SurfaceError(

@@ -9,7 +9,6 @@ from weakref import proxy
 import numpy as np
 import numpy.typing as npt
 
-from optipath.engines.engine import address
 from optipath.surfaces.height_field import HeightField
 
 if TYPE_CHECKING:
@@ -89,23 +88,16 @@ _MORE = 8
 """How many are kept besides those in turn, for blocks that are walked a little earlier or later."""
 
 
-class PlacedMeshes(NamedTuple):
-    """Meshes, and where they are in memory."""
-
-    meshes: PackedMeshes
-    addresses: tuple[int, ...]
-
-
 class CachedMeshes:
     """Packs what a sample draws, once for all threads, and drops what was packed first."""
 
     def __init__(self, sample: Sample) -> None:
         # It keeps these meshes itself, and both are to go as soon as nobody needs it.
         self._sample: Sample = proxy(sample)
-        self._known: dict[int, PlacedMeshes] = {}
+        self._known: dict[int, PackedMeshes] = {}
         self._lock = Lock()
 
-    def of(self, surface: int) -> PlacedMeshes:
+    def of(self, surface: int) -> PackedMeshes:
         """Return a realisation."""
         with self._lock:
             if surface not in self._known:
@@ -114,8 +106,7 @@ class CachedMeshes:
                 arguments = [
                     isinstance(each.roughness, HeightField) for each in self._sample.layers
                 ]
-                meshes = packed_meshes(self._sample.fields(surface), arguments)
-                self._known[surface] = PlacedMeshes(meshes, tuple(map(address, meshes)))
+                self._known[surface] = packed_meshes(self._sample.fields(surface), arguments)
             return self._known[surface]
 
 
