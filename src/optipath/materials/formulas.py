@@ -243,9 +243,6 @@ def coefficients_of(
     ]
 
 
-_MICROMETRES = 1e6
-
-
 @dataclass(frozen=True, eq=False)
 class DrudeRotation(Curve):
     """A constant and the sum of A / (w^2 - C), w in um, times a unit; NaN at a resonance."""
@@ -284,7 +281,7 @@ class DrudeRotation(Curve):
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments
-        square = (wavelength * _MICROMETRES) ** 2
+        square = (wavelength * MICROMETRES) ** 2
         total = self.constant + 0.0 * square
         for strength, pole in zip(self.strengths, self.poles, strict=True):
             away = square - pole

@@ -75,7 +75,7 @@ K = _Part("extinction coefficient", minimum=0.0)
 LEAST = float(np.finfo(float).tiny)
 """The least n of a medium that does not absorb; where n is 0, k is above 0."""
 N_OF_CLEAR = _Part("index of refraction", minimum=LEAST)
-_PARTS = {"n": N, "k": K}
+PARTS = {"n": N, "k": K}
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +117,7 @@ class Material:
 
     def __post_init__(self) -> None:
         parts = lambda: [("n", self.n, self.domain_of_n), ("k", self.k, K)]  # noqa: E731
-        make_sound(self, _PARTS, parts, of_fields=False)
+        make_sound(self, PARTS, parts, of_fields=False)
 
     @classmethod
     def tabulated(
@@ -565,7 +565,7 @@ class Material:
         >>> Material(0.608, 2.12).refractive_index
         (0.608+2.12j)
         """
-        for name in _PARTS:
+        for name in PARTS:
             if isinstance(part := getattr(self, name), CurveValue):
                 raise ParameterError(
                     f"{part.spoken} depends on the wavelength; give .at('550 nm'), or let the "

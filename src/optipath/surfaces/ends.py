@@ -27,7 +27,7 @@ from optipath.surfaces.walk.layout import (
     OUTCOME_NAMES,
 )
 from optipath.values.arrays import refuse_too_large
-from optipath.values.precision import whole_number
+from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from optipath.surfaces.sample import Sample
@@ -123,8 +123,6 @@ def _ends_of(beam: PhotonBeam, results: Numbers) -> PhotonEnds:
         scalar=turned.scalar.reshape(shape),
     )
 
-
-Numbers = npt.NDArray[np.float64]
 
 _ACROSS = 0.0, 1.0, 0.0
 

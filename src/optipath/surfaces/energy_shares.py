@@ -8,7 +8,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from math import ceil
 from numbers import Real
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +29,7 @@ from optipath.surfaces.walk.layout import (
 )
 from optipath.values.angles import calls_up
 from optipath.values.messages import cure
-from optipath.values.precision import is_whole, whole_number
+from optipath.values.precision import Numbers, is_whole, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -165,9 +165,6 @@ def walk_until(
         wanted = min(BLOCK * ceil(factor * run.photons / BLOCK), most)
 
 
-Numbers: TypeAlias = npt.NDArray[np.float64]
-
-
 @dataclass(frozen=True, eq=False)
 class EnergyShares:
     """Shares (events, ...) of the incident light by wavelength; ``_se``: their standard errors."""
@@ -262,15 +259,13 @@ class Energy(EnergyShares):
     stuck: int
 
     @classmethod
-    def of(cls, beam: PhotonBeam, sums: npt.NDArray[np.float64]) -> Energy:
+    def of(cls, beam: PhotonBeam, sums: Numbers) -> Energy:
         """Return what sums over photons say. Shape: sums (surfaces, ends, events, lights, SUMS)."""
         source, shape = beam.states[0][0], beam.indices.n.shape
         counts = sums[..., 0, COUNT]
         photons = counts.sum(axis=(1, 2))
 
-        def shares(
-            total: npt.NDArray[np.float64], squares: npt.NDArray[np.float64], whole: float
-        ) -> EnergyShares:
+        def shares(total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
             wanted = (*sums.shape[:3], *shape)
             return energy_shares(
                 photons,
@@ -299,7 +294,7 @@ class EnergyRun:
     def __init__(self, beam: PhotonBeam, threads: int) -> None:
         self.beam, self.threads = beam, threads
         self.blocks, self.photons = 0, 0
-        self._sums: list[npt.NDArray[np.float64]] = []
+        self._sums: list[Numbers] = []
 
     def walk(self, photons: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Walk on until there are as many photons in all; an interruption loses nothing."""

@@ -15,7 +15,7 @@ from optipath.values.angles import calls_up
 from optipath.values.arrays import as_argument, enough_for
 from optipath.values.files import bytes_of, input_file
 from optipath.values.messages import cure
-from optipath.values.precision import as_doubles, is_whole
+from optipath.values.precision import Array, as_doubles, is_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
-Array = np.ndarray[Any, Any]
 Pair = tuple[float, float]
 
 FEWEST_LENGTHS = 10

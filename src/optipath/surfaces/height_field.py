@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optipath.errors import SurfaceError
-from optipath.surfaces.field_arguments import heights_of, pair_of, period_or_not, read_heights
+from optipath.surfaces.field_arguments import Pair, heights_of, pair_of, period_or_not, read_heights
 from optipath.surfaces.random_field import RandomField
 from optipath.values.arrays import Unchanging, same_fields
 
@@ -18,9 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-
-Array = np.ndarray[Any, Any]
-Pair = tuple[float, float]
+    from optipath.values.precision import Array
 
 
 @dataclass(frozen=True, eq=False, repr=False)

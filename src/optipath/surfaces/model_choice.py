@@ -18,7 +18,7 @@ from optipath.surfaces.hemisphere.measure import measure
 from optipath.surfaces.smooth import smooth_difference, smooth_exit
 from optipath.surfaces.walk.beam import beam_of
 from optipath.values.messages import PHOTONS_REPORTED, no_function
-from optipath.values.precision import whole_number
+from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -216,9 +216,6 @@ _REASONS = {
 }
 
 _NAMES = {"single-scattering": "single scattering", "scalar": "the model without polarisation"}
-
-
-Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

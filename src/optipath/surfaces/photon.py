@@ -46,7 +46,7 @@ from optipath.surfaces.walk.layout import (
 )
 from optipath.surfaces.walk.meshes import HIGH, NUMBERS, cached_meshes
 from optipath.values.arrays import refuse_too_large
-from optipath.values.precision import whole_number
+from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -91,8 +91,8 @@ class Photon:
     end: str
     start: Frame
     frame: Frame
-    stokes: npt.NDArray[np.float64]
-    scalar: npt.NDArray[np.float64]
+    stokes: Numbers
+    scalar: Numbers
 
     @property
     def sample(self) -> Sample:
@@ -171,20 +171,17 @@ def _check_place(which: Place, shape: tuple[int, ...]) -> None:
     )
 
 
-Vector = npt.NDArray[np.float64]
-
-
 @dataclass(frozen=True, eq=False)
 class PhotonEvent:
     """A photon meets a facet; vectors are along the x and y of the sample and upwards."""
 
     layer: int
     facet: tuple[int, int, int]
-    position: Vector
-    on_mesh: Vector
-    normal: Vector
-    direction: Vector
-    onwards: Vector
+    position: Numbers
+    on_mesh: Numbers
+    normal: Numbers
+    direction: Numbers
+    onwards: Numbers
     cos: float
     sin: float
     turn: float
@@ -200,7 +197,7 @@ class PhotonEvent:
 
 
 def event_of(
-    beam: PhotonBeam, surface: int, walked: WalkedBlock, number: int, onwards: Vector
+    beam: PhotonBeam, surface: int, walked: WalkedBlock, number: int, onwards: Numbers
 ) -> PhotonEvent:
     """Return an event out of the record of a photon."""
     row = walked.record[number]
@@ -229,14 +226,14 @@ def _on_mesh(
     surface: int,
     layer: int,
     cell: tuple[int, int],
-    position: Vector,
-    starts: Vector,
-) -> Vector:
+    position: Numbers,
+    starts: Numbers,
+) -> Numbers:
     """Return a point of the walk as that of a layer's own field, in the cell that was met."""
     field = beam.sample.fields(surface)[layer]
     top = cached_meshes(beam.sample).of(surface).numbers[NUMBERS * layer + HIGH]
     shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
-    result: Vector = position + np.array(shift)
+    result: Numbers = position + np.array(shift)
     if field.periodic:
         middle = (np.array(cell) + 0.5) * field.spacing
         result[:2] -= np.round((result[:2] - middle) / field.size) * field.size

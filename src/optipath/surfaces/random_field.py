@@ -19,9 +19,7 @@ from optipath.surfaces.field_arguments import (
     warn_of_coarse,
 )
 from optipath.values.arrays import enough_for
-from optipath.values.precision import whole_number
-
-Array = np.ndarray[Any, Any]
+from optipath.values.precision import Array, whole_number
 
 _CELL, _WAVE = 32, 128
 """How many bytes a cell and a wave take, with what is made of them."""

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from optipath.errors import MeshWarning
 from optipath.surfaces.energy_shares import energy
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from optipath.surfaces.energy_shares import Energy
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.surfaces.sample import Sample
+    from optipath.values.precision import Numbers
 
 
 class Walks(NamedTuple):
@@ -313,8 +313,6 @@ class Walked:
                 warnings.simplefilter("ignore", MeshWarning)
             yield
 
-
-Numbers = npt.NDArray[np.float64]
 
 FARTHEST = 60.0
 """Up to how many degrees from the normal the two are compared: 30 deg from grazing."""

@@ -17,7 +17,7 @@ from optipath.paths.polarization import polarization
 from optipath.surfaces.hemisphere.beam import SIDES, PartSums
 from optipath.values.angles import CosSin
 from optipath.values.parameters import Parameter
-from optipath.values.precision import is_whole
+from optipath.values.precision import Numbers, is_whole
 
 if TYPE_CHECKING:
     from optipath.surfaces.hemisphere.beam import SensedBeam
@@ -54,9 +54,6 @@ def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> floa
     """
     result = np.ravel(polarization(smooth_path(indices, side), incidence=incidence).difference)
     return float(result[np.argmax(np.abs(result))])
-
-
-Numbers = npt.NDArray[np.float64]
 
 
 def smooth_exit(

@@ -6,7 +6,6 @@ from math import prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from optipath.errors import ParameterError, listed
 from optipath.sweeps.first_order import Spread
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from optipath.light.light import Light
     from optipath.sweeps.light_figures import LightAt
     from optipath.sweeps.uncertain_value import UncertainValue
+    from optipath.values.precision import Numbers
 
 
 PATHS = 1 << 17
@@ -37,8 +37,8 @@ def samples_at_once(shape: tuple[int, ...]) -> int:
 
 
 def spread_of_samples(
-    light_at: LightAt, light: Light, correlation: npt.NDArray[np.float64], count: int, seed: int
-) -> tuple[Spread, npt.NDArray[np.float64], list[str]]:
+    light_at: LightAt, light: Light, correlation: Numbers, count: int, seed: int
+) -> tuple[Spread, Numbers, list[str]]:
     """Return how the light of samples varies.
 
     JCGM 101:2008 (Supplement 1 of the GUM), eqs. 16 and 17; for the shares each value varies alone,
@@ -102,7 +102,7 @@ class DrawnSamples:
     def __init__(
         self,
         uncertain: Sequence[UncertainValue],
-        correlation: npt.NDArray[np.float64],
+        correlation: Numbers,
         places: Sequence[int],
         count: int,
         seed: int,
@@ -116,7 +116,7 @@ class DrawnSamples:
         ]
         self.outside = dict.fromkeys([each.name for each in uncertain], 0)
 
-    def within(self, block: slice, names: Collection[str]) -> dict[str, npt.NDArray[np.float64]]:
+    def within(self, block: slice, names: Collection[str]) -> dict[str, Numbers]:
         """Return some samples of some values, an axis of them in front of the batch."""
         results: dict[str, list[Any]] = {name: [] for name in names}
         for chunk in range(block.start // _CHUNK, (block.stop - 1) // _CHUNK + 1):
@@ -161,12 +161,12 @@ class DrawnSamples:
                 results[each.name] = each.value + each.sigma * mixed
         return results
 
-    def _normal(self, place: int, chunk: int, number: int) -> npt.NDArray[np.float64]:
+    def _normal(self, place: int, chunk: int, number: int) -> Numbers:
         own = np.random.SeedSequence(self._seed, spawn_key=(place, chunk, number))
         return np.random.Generator(np.random.PCG64(own)).standard_normal(_CHUNK)
 
 
-def _groups(correlation: npt.NDArray[np.float64], places: Sequence[int]) -> list[list[int]]:
+def _groups(correlation: Numbers, places: Sequence[int]) -> list[list[int]]:
     """Return which values are correlated, also by way of others, in the order of their places."""
     together = correlation != 0.0
     for _ in places:
@@ -185,9 +185,6 @@ def _hardly_any(names: list[str]) -> str:
         f"hardly any sample of {listed(names)} is within the range; give a smaller uncertainty, "
         f"or a value farther inside"
     )
-
-
-Array = npt.NDArray[np.float64]
 
 
 class SampleMoments:
@@ -209,7 +206,7 @@ class SampleMoments:
         self._second: Any = 0.0
         self._crossed: Any = 0.0
 
-    def add(self, apart: Array) -> None:
+    def add(self, apart: Numbers) -> None:
         """Add a block of samples. Shape: apart (samples, ..., 10)."""
         with np.errstate(all="ignore"):
             scaled = apart / self._scale
@@ -219,19 +216,19 @@ class SampleMoments:
         self._count += len(apart)
 
     @property
-    def mean(self) -> Array:
+    def mean(self) -> Numbers:
         """Their mean, shape (..., 10)."""
         return np.asarray(self._mean * self._scale)
 
     @property
-    def deviation(self) -> Array:
+    def deviation(self) -> Numbers:
         """Their standard deviation, shape (..., 10)."""
         with np.errstate(all="ignore"):
             left = np.maximum(self._second - self._count * self._mean**2, 0.0)
             return np.asarray(np.sqrt(left / (self._count - 1)) * self._scale)
 
     @property
-    def covariance(self) -> Array:
+    def covariance(self) -> Numbers:
         """That of the Stokes vector, shape (..., 4, 4)."""
         with np.errstate(all="ignore"):
             left = self._crossed - self._count * _products(self._mean)

@@ -11,6 +11,7 @@ from operator import index
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from optipath.errors import ComposerError, shown
 from optipath.values.jax_values import is_jax
@@ -90,6 +91,7 @@ def _size(dtype: Any) -> int:
 
 
 Array = np.ndarray[Any, Any]
+Numbers = npt.NDArray[np.float64]
 
 ENDLESS = (-math.inf, math.inf)
 RIGHT_ANGLES = (-math.pi / 2.0, math.pi / 2.0)

@@ -14,7 +14,7 @@ from optipath.errors import OptipathError, PresetError, shown
 from optipath.materials.crystals import CRYSTALS, Crystal
 from optipath.materials.formulas import EVERYWHERE, REAL, Cauchy, Sellmeier
 from optipath.materials.index_domains import IndexDomain, OutsideDomain
-from optipath.materials.material import K, Material, N
+from optipath.materials.material import PARTS, K, Material
 from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.spectrum import Spectrum
 from optipath.materials.tables import PageCurve, Tabulated
@@ -158,8 +158,7 @@ NAMED = "material"
 """The key by which such a table is known."""
 
 _TEXTS = ("page", "interpolation", "extrapolate")
-_NUMBERS = {"n": N, "k": K}
-OF_PAGES = (*_TEXTS, *_NUMBERS)
+OF_PAGES = (*_TEXTS, *PARTS)
 """The other keys that it may have; n and k in place of what a page has."""
 
 
@@ -170,7 +169,7 @@ def material_by_name(
     faults = Faults()
     numbers: dict[str, Any] = {
         key: faults.attempt(f".{key}", decode, raw[key], of)
-        for key, of in _NUMBERS.items()
+        for key, of in PARTS.items()
         if key in raw
     }
     if faults:

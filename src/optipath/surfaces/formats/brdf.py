@@ -20,9 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.surfaces.hemisphere.sensor import Sensor
-
-
-Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 @dataclass(frozen=True)

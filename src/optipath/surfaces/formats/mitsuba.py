@@ -16,7 +16,7 @@ from optipath.light.mueller import Mueller
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.formats.brdf import BrdfOfHemispheres, HalfAngles, in_frames
 from optipath.values.files import input_file, message_of, written_whole
-from optipath.values.precision import is_whole
+from optipath.values.precision import Numbers, is_whole
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _shape_faults(shape: Any) -> list[str]:
     return [f"shape is {shown(shape)}; give three whole numbers from 2 on, such as {_SHAPE}"]
 
 
-def _nanometres(wavelengths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint16]:
+def _nanometres(wavelengths: Numbers) -> npt.NDArray[np.uint16]:
     """Return the wavelengths as the file has them."""
     if np.isnan(wavelengths).any():
         return np.array([_ANY], np.uint16)
@@ -194,9 +194,6 @@ def _matrices(
 
 def _measured(brdf: Any) -> str:
     return "; ".join(map(repr, brdf)) if isinstance(brdf, (list, tuple)) else "a polarised BRDF"
-
-
-Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

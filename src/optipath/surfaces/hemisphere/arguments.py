@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from optipath.errors import OptipathError, SurfaceError, listed, shown
 from optipath.materials.quantities import ANGLE
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from optipath.light.frame import Frame
+    from optipath.values.precision import Numbers
 
 
 _SAME = 1e-9
@@ -51,7 +51,7 @@ def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
     return frame
 
 
-def wavelength_place(known: npt.NDArray[np.float64], argument: Any) -> int:
+def wavelength_place(known: Numbers, argument: Any) -> int:
     """Return the place of a wavelength among measured ones, in metres.
 
     >>> wavelength_place(np.array([4e-7, 5e-7]), "500 nm")
@@ -92,7 +92,7 @@ def _is_angle(argument: Any) -> bool:
     return array.ndim == 0 or isinstance(array.ravel()[0] if array.size else None, str)
 
 
-def _in_plane(angle: npt.NDArray[np.float64], azimuth: float, *, up: bool) -> Any:
+def _in_plane(angle: Numbers, azimuth: float, *, up: bool) -> Any:
     if np.any(beyond := np.abs(angle) >= np.pi / 2.0):
         worst = float(angle[beyond].flat[0])
         raise SurfaceError(
@@ -105,13 +105,10 @@ def _in_plane(angle: npt.NDArray[np.float64], azimuth: float, *, up: bool) -> An
     return np.stack([sin * np.cos(azimuth), sin * np.sin(azimuth), height], axis=-1) + 0.0
 
 
-def _wavelengths_text(known: npt.NDArray[np.float64]) -> str:
+def _wavelengths_text(known: Numbers) -> str:
     named = [format_quantity(float(each), "nm") for each in known[:6]]
     more = ["..."] if len(known) > 6 else []
     return listed([*named, *more]) if more else " or ".join(named)
-
-
-Numbers = npt.NDArray[np.float64]
 
 
 def following(result: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:

@@ -10,13 +10,14 @@ import numpy.typing as npt
 import xarray as xr
 
 from optipath.errors import SurfaceError
-from optipath.surfaces.hemisphere.beam import Numbers, PixelMask
+from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.values.messages import cure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+    from optipath.values.precision import Numbers
 
 
 def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:

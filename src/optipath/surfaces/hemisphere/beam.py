@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from optipath.surfaces.hemisphere.sensor import Sensor
     from optipath.surfaces.walk.beam import PhotonBeam
+    from optipath.values.precision import Numbers
 
 
 CHUNK = 1 << 22
@@ -45,8 +46,8 @@ class _Seen(NamedTuple):
 
     parts: npt.NDArray[np.int64]
     places: npt.NDArray[np.int64]
-    turns: npt.NDArray[np.float64]
-    ends: npt.NDArray[np.float64]
+    turns: Numbers
+    ends: Numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,8 +125,6 @@ class SensedBeam:
                 part[first : first + size] = surface
         return part % self.sensor.parts
 
-
-Numbers = npt.NDArray[np.float64]
 
 _MIRRORED = np.outer([1.0, 1.0, -1.0, -1.0], [1.0, 1.0, -1.0, -1.0]).ravel()
 """What a Mueller matrix is multiplied by in a mirror that is the plane of incidence."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from optipath.light.frame import Frame
 from optipath.light.mueller import Mueller
@@ -16,9 +15,7 @@ from optipath.surfaces.hemisphere.sensor import pixel_points
 if TYPE_CHECKING:
     from optipath.surfaces.hemisphere.beam import SensedBeam
     from optipath.surfaces.walk.beam import PhotonBeam
-
-
-Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 def alpha_of(beam: PhotonBeam) -> tuple[float, float] | None:

@@ -22,7 +22,7 @@ from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
 from optipath.sweeps.labels import DERIVED
 from optipath.values.angles import calls_up
 from optipath.values.arrays import first_place, same
-from optipath.values.precision import whole_number
+from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from optipath.surfaces.hemisphere.beam import PartSums, SensedBeam
     from optipath.surfaces.hemisphere.sensor import Sensor
 
-
-Numbers = npt.NDArray[np.float64]
 
 _ROUNDED = 64.0 * np.finfo(float).eps
 """By how much of a pixel's light sums over photons are rounded, with room."""

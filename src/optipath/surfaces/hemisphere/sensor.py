@@ -11,13 +11,12 @@ import numpy.typing as npt
 
 from optipath.errors import SurfaceError, closest, shown
 from optipath.paths.files.schema import Faults
-from optipath.values.precision import whole_number
+from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 
-Numbers = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int64]
 
 _BORDER = 1e-6
