@@ -321,14 +321,14 @@ def chosen(second):
         (of(CORNER, []), ["materials must be a sequence"]),
         (of(CORNER, 1.5), ["materials must be a sequence", "not 1.5"]),
         (of(CORNER, [1.5, 1.5]), ["(..., m + 2, 3), m = 2 for 2 materials, not (3, 3)"]),
-        (of(CORNER[:2], [-1.5]), ["m = 1 for 1 material, not (2, 3)", "-1.5"]),
+        (of(CORNER[:2], [-1.5]), ["m = 1 for 1 material, not (2, 3)"]),
         (of([[0, 0], [1, 1], [2, 0]], [1.5]), ["not (3, 2)"]),
         (of([[0, 0, 0], [1, 1]], [1.5]), ["rows of unequal lengths"]),
         (of([[0, 0, np.inf], *CORNER[1:]], [-1.5]), ["finite", "-1.5"]),
         (of(CORNER, ["glass"]), ["'glass'"]),
         (of(CORNER, [1.5], [[0, 0]]), ["normals must have shape (..., 1, 3), not (1, 2)"]),
         (of(CORNER, [1.5], [[0, 0, 1]] * 2), ["(..., 1, 3), not (2, 3)"]),
-        (of(CORNER, [-1.5], [[0, 1, 0]]), ["off the bisector", "-1.5"]),
+        (of(CORNER, [1.5], [[0, 1, 0]]), ["off the bisector"]),
         (of(CORNER, [1.5], [[0, 0, 0]]), ["the normal of vertex 1 has no length"]),
         (of(op.Parameter("v"), [1.5], [[0, 0, 1]]), ["points that are known"]),
         (of(op.VerticesByAngles((0.3,)), PAIR), ["1 incidence, m = 2 for 2 materials"]),
@@ -339,8 +339,8 @@ def chosen(second):
         (of(CORNER, [1.5], [[0, np.nan, 1]]), ["the normal of vertex 1 is not finite"]),
         (of([[CORNER] * 3] * 2, [1.5], [[[0, 1, 1]]] * 2), ["vertices (2, 3), normals (2,)"]),
         (
-            of([CORNER[0], CORNER[0], [0, 0, np.nan]], [-1.5], [[0, 0, 0]]),
-            ["3 faults", "vertex 2, counted from the light as 0, is [0.0, 0.0, nan]", "no length"],
+            of([CORNER[0], CORNER[0], [0, 0, np.nan]], [-1.5]),
+            ["2 faults", "vertex 2, counted from the light as 0, is [0.0, 0.0, nan]", "-1.5"],
         ),
         (of([CORNER[0], *CORNER[::2]], [1.5], [[0, 1, 1]]), ["vertices 0 and 1", "are one point"]),
         (of(CORNER, [1.5], bad=np.zeros((1, 2))), ["bad ", "is unknown; there are: refuse, ma"]),
@@ -355,22 +355,21 @@ def chosen(second):
         (many(lengths="abc"), ["lengths must be whole numbers"]),
         (many(events=["RR", "RX", "R"]), ["events: letter 2 of chain 1 is 'X'; give R for each"]),
         (many(events=["RR", "", "R"]), ["letter 1 of chain 1 is missing"]),
-        (many(events=["RR", "RRR", "R"]), ["events of chain 1 has 3 letters for 2 vertices"]),
+        (many(events=["RR", "RRR", "R"]), ["events has 3 letters for a chain of 2 vertices"]),
         (many(events=[1, 2, 3]), ["events is [1, 2, 3]; give R for each"]),
         (many(events=[["RR"] * 2] * 3), ["a text for each chain, in one row"]),
         (many(events=[["R"] * 3] * 3), ["an array of shape (..., 2) of single letters"]),
         (many(events=[["", "R"]] * 3), ["letter 1 of chain 0 is missing"]),
-        (many(events="RRR", lengths=[1, 2, 1]), ["has 3 letters for 2 vertices at most"]),
+        (many(events="RRR", lengths=[1, 2, 1]), ["has 3 letters for a chain of 2"]),
         (many(bad="maks"), ["bad 'maks' is unknown; did you mean 'mask'?"]),
         (many(ids=[[0, 1]] * 2, lengths=[1] * 4, events=["R"] * 5), ["lengths (4,), events (5,)"]),
-        (many(lengths=[0], events=[1], bad="no", outside=-1.0), ["s is 0", "[1]", "'no'", "is -1"]),
+        (many(bad="no", outside=-1.0), ["'no'", "is -1"]),
         *((chosen(n), ["materials[1] is given when the path runs"]) for n in (N, op.Material(N))),
         (chosen(np.array([1.0, 2.0])), ["materials[1] is an array, and ids choose from numbers"]),
         *((chosen(wrong), ["materials[1]", str(wrong)]) for wrong in ("glass", -1)),
-        (of(POINTS, [1.5, N], events=["RR", "R", "RR"]), ["materials[1] is given", "which medium"]),
+        (of(POINTS, [1.5, N], events=["RR", "R", "RR"]), ["materials[1] is given", "differ"]),
         (many(events=["RR", "R", "RR"], outside=N), ["outside is given when the path runs"]),
         (of(ANGLES, [1.5, 1.5], lengths=[1, 2]), ["one length and reflect; give the points"]),
-        (bent(CORNER, ((1.5, 0.1),)), ["may be n and k, or the indices of two paths"]),
     ],
 )
 def test_what_is_wrong_is_told_in_words(given, messages):
@@ -392,10 +391,10 @@ def test_what_is_wrong_is_told_in_words(given, messages):
         (bent(materials=[op.Material(1.5, 0.1)]), "vertex1.index.k is 0.1; give 0, since light"),
         (bent(materials=[0.0]), "vertex1.index is 0"),
         (bent(op.VerticesByAngles((0.3,))), "'?vertex1'?.vertices are angles, which say refl"),
-        (bent(events="t"), "events is 't'; give R .*: 'T'"),
+        (bent(events="t"), "events: letter 1 is 't'; give R"),
         (bent(events=1), "events is 1; give R .*, such as 'RT'"),
-        (bent(events="TT"), "events has 2 letters for 1 material; give R or T"),
-        (bent(events=""), "events has 0 letters for 1 material"),
+        (bent(events="TT"), "events has 2 letters for a chain of 1 vertices at most; give R"),
+        (bent(events=""), "events: letter 1 is missing"),
         (bent(outside=1j), "outside is complex; give a real index"),
         (bent(outside=-1.0), "outside is -1"),
         (bent(outside=op.FOLLOWS), "outside .*FOLLOWS"),
@@ -403,10 +402,6 @@ def test_what_is_wrong_is_told_in_words(given, messages):
         (bent(normals=[[0, 1, 1]]), "vertex 1 is off the one that refracts"),
         # Events are not counted against materials that are none.
         (of(CORNER, 1.5, events="T"), "materials must be a sequence"),
-        *(
-            (bent([*INTO_GLASS, [0, 2, -3], [0, 3, -3]], [n, 1.2, 3.0], events=text), "^vertex1")
-            for n, text in ((1.5 + 1j, "TTR"), (1.5 + 1j, "TRR"), (-1.0, "TRT"), ("glass", "TTR"))
-        ),
     ],
 )
 def test_one_thing_that_is_wrong_with_a_refraction_is_told_once(given, message):
@@ -417,7 +412,7 @@ def test_one_thing_that_is_wrong_with_a_refraction_is_told_once(given, message):
 
 
 def test_points_that_may_be_those_of_a_refraction_are_asked_about_for_whole_chains():
-    message = "by 16.8745 deg at vertex 1, .* of 81.5628 deg, .* n = 1 into n = 1.5 at 45 deg; say"
+    message = "by 16.8745 deg at vertex 1, .* n = 1 into n = 1.5; say"
     with pytest.raises(op.PathError, match=message):
         op.path_from_vertices(INTO_GLASS, [1.5])
     for event, least, most in (("R", 0.0, 0.5), ("T", 0.9, 1.0)):

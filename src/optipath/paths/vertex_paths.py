@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.elements.vertex_chain import BAD, VERTICES, VerticesByAngles, counted, legs_fit
-from optipath.errors import OptipathError, PathError, ValueFault, shown, unknown
+from optipath.errors import OptipathError, PathError, ValueFault, collecting, shown, unknown
 from optipath.materials.index_domains import OUTSIDE
-from optipath.paths.chain_events import medium_faults, passable
-from optipath.paths.chain_histories import Histories, apart_where_absorbed, histories
-from optipath.paths.chain_media import doubtful_vertex, normals_checked, path_of_chains
-from optipath.paths.path_graph import PathGraph
+from optipath.paths.chain_histories import Histories, histories
+from optipath.paths.chain_media import (
+    apart_where_absorbed,
+    normals_checked,
+    path_of_chains,
+    refuse_doubtful,
+)
 from optipath.values.arrays import as_argument, entries_of
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
-from optipath.values.use import checked_later, stored_value
+from optipath.values.use import Use, checked_later, faults_of, stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy.typing as npt
+
+    from optipath.paths.path_graph import PathGraph
 
 
 def path_from_vertices(
@@ -110,77 +114,55 @@ def path_from_vertices(
     >>> print(both.trace().intensity.round(9))
     [0.00147456 0.04      ]
     """
-    several, not_several = _several(materials)
-    chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))
-    points, not_points = _chain(vertices, chains.count)
-    of_start = medium_faults("outside", outside, OUTSIDE)
-    start = 1.0 if of_start else stored_value("outside", outside, OUTSIDE)
-    of_bad = unknown("bad", bad, BAD)
-    bad = BAD[0] if of_bad else bad
-    faults += [*not_points, *of_start, *of_bad]
-    if isinstance(points, VerticesByAngles) and isinstance(chains.events, np.ndarray):
-        faults.append("vertices by angles have one length and reflect; give the points")
-    if not several:
-        raise PathError(*faults, *not_several)
-    if bad != "mask" and isinstance(chains.events, str):
-        media, of_media = passable(chains.events, chains.materials)
-        chains, faults = replace(chains, materials=tuple(media)), faults + of_media
-    is_sound = not faults
-    if bad == "mask" and is_sound:
-        chains = apart_where_absorbed(chains)
-    path, more, is_sound = _composed(points, chains, intensity, start, bad, is_sound=is_sound)
-    faults += more
-    known = isinstance(points, np.ndarray)
-    if normals is not None and is_sound and not known:
-        faults.append("normals are checked against points that are known; leave them out")
-    elif normals is not None:
-        of_points = points if is_sound else None
-        masked, more = normals_checked(of_points, normals, chains, start, bad)
-        faults += more
-        if masked is not chains and not faults:
-            path, *_ = _composed(points, masked, intensity, start, bad, is_sound=True)
-    elif events is None and not faults and not isinstance(points, VerticesByAngles):
-        doubt = doubtful_vertex(points, chains.materials, start, _there(points, chains, bad))
-        faults += [doubt] * bool(doubt)
+    try:
+        several = entries_of("materials", "one for each vertex", materials)
+        if not several:
+            raise ValueFault("materials must be a sequence of one for each vertex; it is empty")
+        chains = histories(
+            [_real_again(medium) for medium in several], events, ids, lengths, _batch_of(vertices)
+        )
+        points = _points(vertices, chains)
+    except OptipathError as error:
+        raise PathError(*error.faults) from None
+    faults = unknown("bad", bad, BAD)
+    start: Any = 1.0
+    with collecting(faults):
+        start = stored_value("outside", outside, OUTSIDE)
+        faults += faults_of(Use(*part) for part in OUTSIDE.parts("outside", start))
     if faults:
         raise PathError(*faults)
+    if bad == "mask":
+        chains = apart_where_absorbed(chains)
+    try:
+        path = _composed(points, chains, intensity, start, bad)
+        if normals is not None:
+            if not isinstance(points, np.ndarray):
+                raise ValueFault(
+                    "normals are checked against points that are known; leave them out"
+                )
+            checked = normals_checked(points, normals, chains, start, bad)
+            if checked is not chains:
+                path = _composed(points, checked, intensity, start, bad)
+        elif events is None and not isinstance(points, VerticesByAngles):
+            refuse_doubtful(chains, points, start, _there(points, chains, bad))
+    except OptipathError as error:
+        raise PathError(*error.faults) from None
     return path
 
 
-def _composed(
-    points: Any, chains: Histories, intensity: Any, start: Any, bad: str, *, is_sound: bool
-) -> tuple[PathGraph, list[str], bool]:
-    """Return the path, what is wrong with it, and whether points and histories are not."""
+def _composed(points: Any, chains: Histories, intensity: Any, start: Any, bad: str) -> PathGraph:
     with checked_later():  # Composing names the vertices, and looks at their array once.
-        if not is_sound:  # With others in their place, so that the rest is checked too.
-            points, chains, bad = _any_chain(chains.count), Histories(chains.materials), BAD[0]
-        try:
-            path = path_of_chains(points, chains, intensity, start, bad)
-        except ValueFault as fault:
-            return PathGraph(), list(fault.faults), False
-    try:
-        path.compose()
-    except PathError as error:
-        return path, list(error.faults), is_sound and _is_sound(points, chains, bad)
-    return path, [], is_sound
-
-
-def _is_sound(points: Any, chains: Histories, bad: str) -> bool:
-    masks = bad == "mask" or isinstance(chains.events, np.ndarray)
-    try:
-        replace(VERTICES, tail=(chains.count + 2, 3), masks=masks).check("vertices", points)
-    except ValueFault:
-        return not isinstance(points, np.ndarray)
-    return True
+        path = path_of_chains(points, chains, intensity, start, bad)
+    path.compose()
+    return path
 
 
 def _there(points: Any, chains: Histories, bad: str) -> Any:
     """Return at which vertices of which chains light arrives, where that is not all of them."""
-    if chains.ended is None and (bad != "mask" or not isinstance(points, np.ndarray)):
-        return None
-    there = np.ones(chains.count, bool) if chains.ended is None else ~chains.ended
-    if bad == "mask" and isinstance(points, np.ndarray):
-        there = there & legs_fit(points)[..., 1:]
+    masks = bad == "mask" and isinstance(points, np.ndarray)
+    there = None if chains.ended is None else ~chains.ended
+    if masks:
+        there = legs_fit(points)[..., 1:] & (True if there is None else there)
     return there
 
 
@@ -188,26 +170,8 @@ def _batch_of(vertices: Any) -> tuple[int, ...]:
     """Return the shape of a batch of points, as far as it is known."""
     if isinstance(vertices, (Parameter, VerticesByAngles)):
         return ()
-    try:
-        shape: tuple[int, ...] = np.shape(as_argument("the array of vertices", vertices))
-    except (TypeError, ValueError, OptipathError):
-        return ()  # A fault of its own.
+    shape: tuple[int, ...] = np.shape(as_argument("the array of vertices", vertices))
     return shape[:-2]
-
-
-def _any_chain(count: int) -> VerticesByAngles:
-    return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
-
-
-def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
-    """Return the materials one by one, or what is wrong with them."""
-    try:
-        several = entries_of("materials", "one for each vertex", materials)
-    except ValueFault as fault:
-        return (), list(fault.faults)
-    several = tuple(_real_again(medium) for medium in several)
-    none = "materials must be a sequence of one for each vertex, and there is none"
-    return several, [none] * (not several)
 
 
 def _real_again(medium: Any) -> Any:
@@ -217,27 +181,25 @@ def _real_again(medium: Any) -> Any:
     return medium.real if is_complex and not np.any(medium.imag) else medium
 
 
-def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
-    """Return vertices that nobody can change, and what is wrong with their shape."""
+def _points(vertices: Any, chains: Histories) -> Any:
+    """Return vertices that nobody can change, as many as the chains have."""
     if isinstance(vertices, Parameter):
-        return vertices, []
+        return vertices
+    count = chains.count
+    media = f"m = {count} for {counted(count, 'material')}"
     if isinstance(vertices, VerticesByAngles):
-        result = len(vertices.incidences)
-        fault = f"vertices have {counted(result, 'incidence')}{_for(count)}"
-        return vertices, [fault] * (result != count)
-    try:
-        traced = is_traced(vertices)
-        chain = (
-            vertices if traced else VERTICES.kept(as_argument("the array of vertices", vertices))
+        if not isinstance(chains.events, str):
+            raise ValueFault("vertices by angles have one length and reflect; give the points")
+        if len(vertices.incidences) != count:
+            have = counted(len(vertices.incidences), "incidence")
+            raise ValueFault(f"vertices have {have}, {media}")
+        return vertices
+    points = vertices
+    if not is_traced(vertices):
+        points = VERTICES.kept(as_argument("the array of vertices", vertices))
+    shape = np.shape(points)
+    if shape[-2:] != (count + 2, 3):
+        raise ValueFault(
+            f"vertices must have shape (..., m + 2, 3), {media}, not {shape or shown(vertices)}"
         )
-    except ValueFault as fault:
-        return None, list(fault.faults)
-    shape = np.shape(chain)
-    if shape[-2:] == (count + 2, 3) or (not count and len(shape) > 1 and shape[-1] == 3):
-        return chain, []
-    argument = shape or shown(vertices)
-    return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {argument}"]
-
-
-def _for(count: int) -> str:
-    return f", m = {count} for {counted(count, 'material')}" if count else ""
+    return points

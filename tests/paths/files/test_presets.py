@@ -186,7 +186,7 @@ MANY.append(("links", "[[links]]\n" * 3001))
 @rows(
     "content, message",
     [
-        *((b"\xff\xfe", "not UTF-8: byte 0 is 0xff"), (b"a = = 1", "not TOML")),
+        *((b"\xff\xfe", "not UTF-8 at byte 0"), (b"a = = 1", "not TOML")),
         (b"format = 2", "has format 2, but this version reads format 1"),
         *((b"", "'format' is missing"), (b"#" * (5 * 1024 * 1024), "larger than 4 MiB")),
         # Not all of a huge file is read.

@@ -10,17 +10,12 @@ import pytest
 
 import optipath as op
 from optipath.paths.files.toml import (
-    DEEPEST,
-    LONGEST_WORD,
     file_of,
     names_in,
     presets_folder,
-    refuse_unwieldy,
     text_of,
 )
 from tables import rows, slow
-
-ENOUGH = 30_000
 
 
 @pytest.fixture
@@ -53,68 +48,23 @@ def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(f
         assert str(error.value).startswith(sentence)
 
 
-# Keys with many dots, some behind texts, literals and comments; brackets in each other; long words.
-UNWIELDY = ["[[" + "a." * ENOUGH + "a]]", '"a"' + ".'a'" * ENOUGH + " = 1", "x" * ENOUGH + " = 1"]
-BEHIND = ["1", '"""a""""', "'''a'''''", '"\\""', '# "\n']
-UNWIELDY += [f"x = [{before}, {{{'a.' * ENOUGH}a = 1}}]" for before in BEHIND]
-UNWIELDY += ["x = " + "[" * 1500 + "]" * 1500, "x = " + "[{a = " * ENOUGH, "x = " + "1" * 4000]
-# A text of brackets and quotes, a comment; the deepest list and key, the longest word.
-HANDY = [
-    'x = """' + 'a""[\\"""' * ENOUGH + '"""',
-    "# " + "a." * ENOUGH + "[" * ENOUGH + '"""\nx = 1',
-]
-HANDY += ["x = '''" + "[\n" * ENOUGH + "'''", "x = [" + "[1.5, 2.5]," * ENOUGH + "]"]
-HANDY += ["x = " + "[" * DEEPEST + "]" * DEEPEST, ".".join("a" * DEEPEST) + " = 1"]
-HANDY += ["x" * LONGEST_WORD + " = 1", "x = 1\r\ny = 2.5\r\n"]
-# Each of these took time that grew with its square, or more, when it was looked at piece by piece.
-PARTS = ["'", '"\\', '"""a', "a.", " ", "#", "[]", "-", "é."]
-
-
-def test_what_would_take_long_to_parse_is_refused_before_and_what_is_flat_is_not(tmp_path):
-    file = tmp_path / "x.toml"
-    for text in UNWIELDY:
-        with pytest.raises(op.PresetError, match=r"line [123] (has a|opens)"):
-            refuse_unwieldy(text)
-        file.write_text(text, "utf-8")
-        with pytest.raises(op.PresetError, match="is not TOML as presets use it: line") as error:
-            op.load_preset(file)
-        assert len(str(error.value)) < 300
-    for text in (*HANDY, *(op.load_preset(name).to_toml() for name in op.preset_names())):
-        refuse_unwieldy(text)
-        tomllib.loads(text)
-    for start in ("x = ", 'x = "', "x = '''", 'x = """'):
-        for part in PARTS:
-            with suppress(op.PresetError):
-                refuse_unwieldy(start + part * (50_000 // len(part)))
-
-
-MEANT = [
-    *(("optional = True # no", "optional = true"), ("angle = 30 deg", 'angle = "30 deg"')),
-    *(("index = 1,5", "index = 1.5"), ("share = .5", "share = 0.5"), ("share = 5.", "share = 5.0")),
-    *(('kind = "interface', 'kind = "interface"'), ('kind: "interface"', 'kind = "interface"')),
-]
-OTHER_SLIPS = [
-    ('[links]\nfrom = "a"\n[links]\nfrom = "b"', "write [[links]], in double brackets"),
-    ("[elements.a]\n[elements.a]", "elements.a is there already: give this one another name"),
-    ("loops = 'sum'\nloops = 'sum'", "loops is there already: leave one of them out"),
-    ("indices = [1, 1.5", "close what is open: a quote or a bracket"),
-    ("angle = None", "leave angle out"),
-    ("intensity = 1,000", "may be a point or part thousands: write intensity = 1.000 or 1000"),
-    *((line, f"look at '{line}'") for line in ("matrix = [1, two]", "angle = np.pi/4")),
-    *((line, f"look at '{line}'") for line in ('angle = "30" deg', "just a line")),
+SLIPS = [
+    ("angle = 30 deg", r"line 2, column \d+\): 'angle = 30 deg'"),
+    ('kind = "interface', r"line 2, column \d+\): 'kind = .*interface'"),
+    ("optional = True # no", "line 2, column 12"),
+    ("[elements.a]\n[elements.a]", r"twice .*: '\[elements.a\]'"),
+    ("indices = [1, 1.5", "Unclosed array"),
+    ("x = " + "[" * 9000, "too deeply nested"),
+    ("x = " + "9" * 5000, "digits"),
 ]
 
 
-@rows("text, cure", [(line, f"; write {meant}") for line, meant in MEANT] + OTHER_SLIPS)
-def test_a_slip_is_told_with_the_line_that_was_meant_or_what_to_do(tmp_path, text, cure):
+@rows("text, message", SLIPS)
+def test_a_slip_is_told_with_its_line(tmp_path, text, message):
     file = tmp_path / "slip.toml"
     file.write_text("format = 1\n" + text + "\n")
-    with pytest.raises(op.PresetError) as error:
+    with pytest.raises(op.PresetError, match=message):
         op.load_preset(file)
-    assert cure in str(error.value)
-    if cure.startswith(";"):
-        assert str(error.value).endswith(cure)
-        tomllib.loads(cure.removeprefix("; write "))
 
 
 # Every type of TOML, with the values of each that are at an end of it.
