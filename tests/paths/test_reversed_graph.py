@@ -12,8 +12,7 @@ from wired import read_back, wired
 
 WEDGES = r"n sin\(incidence\)|parallel=False|light goes to and fro between"
 QUARTER, LINEAR = np.pi / 2, (1, 1, 0, 0)
-NO_SOURCE, CURES = "must be a Source", {"faraday-isolator": ["path.remove('passed')"]}
-CURES["ellipsometer-pcsa"] = ["path.remove('state')", "path.replace('photometer', op.Detector())"]
+NO_SOURCE = "must be a Source"
 CORNER = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 2.2, 2], [2.5, 2.0, 2.2]])
 
 
@@ -260,35 +259,11 @@ def test_what_cannot_go_back_is_told_at_once_with_cures_that_do():
         "source['tap'] must be a Source, not Detector(",
         "'mine': element class Unsaid does not say what changes its sign on the way back; write",
         "'both': combiner adds up light without loss, which has no way back; put a BeamSplitter",
-        "link 'mine.out -> tap.in' is a tap, which takes nothing of the light",
+        "link 'mine.out -> tap.in' is a tap, which has no way back; take it out",
         "light of 'both.out' and 'second.out' adds up at 'eye.in', which has no way back",
         "'fork': element class Fork does not say by which port light goes back; give it a class",
     ):
         assert any(sentence in fault for fault in told), sentence
-    ends = {"source": op.Source(), "polarizer": op.Polarizer(), "detector": op.Detector()}
-    ends |= {"plate": op.Retarder(1.0), "cube": op.BeamSplitter()}
-    ends |= {name: op.Detector() for name in ("one", "other", "within")}
-    links = "plate -> cube, cube.transmitted -> one, cube.reflected -> other"
-    path = wired(ends, f"source -> polarizer, polarizer -> detector, {links}")
-    path.connect("polarizer", "plate", tap=True)
-    path.connect("plate", "within", tap=True)
-    path.trace_all()
-    with pytest.raises(op.PathError) as caught:
-        path.reversed()
-    (fault,) = caught.value.faults
-    for cure in fault.partition("take it out, ")[2].split(" and "):
-        eval(cure, {"path": path})  # noqa: S307
-    assert [*path] == ["source", "polarizer", "detector"]
-    assert_same(path)
-    for preset, cures in CURES.items():
-        path = op.load_preset(preset)
-        with pytest.raises(op.PathError) as caught:
-            path.reversed()
-        for cure, fault in zip(cures, caught.value.faults, strict=True):
-            assert fault.endswith(cure)
-            eval(cure, {"path": path, "op": op})  # noqa: S307
-        path.trace()
-        path.reversed().trace()
 
 
 class Given(Fork):
@@ -318,7 +293,7 @@ def split():
 @rows(
     "path, source, sentence",
     [
-        (split(), op.Source(), re.escape("give it by name, source={'detector': ...}")),
+        (split(), op.Source(), "of one of 2 detectors; give it by name"),
         *((through(op.Mirror()), source, NO_SOURCE) for source in (3, op.Mirror(), {"eye": 2.0})),
         (through(op.Mirror()), {3: op.Source()}, "no light ends there"),
         (giving({}.popitem), None, r"reversed\(\) of element class Mine"),
@@ -420,13 +395,13 @@ def test_nodes_are_named_a_folding_mirror_is_met_again_and_choices_are_refused()
 @rows(
     "elements, sentence",
     [
-        ((), "is given no element; give those that light meets, and last where it turns back"),
+        ((), "needs elements, and last where light turns back"),
         ((op.Retarder(1.0),), "light does not turn back at 'retarder', which is given last"),
         ((op.Retarder(1.0), op.BeamSplitter()), "light does not turn back at 'beam-splitter'"),
         ((op.Mirror() >> op.Mirror(),), "light turns back at one element, and <PathGraph: mirror "),
         *(
-            ((op.Interface(1.5, angle),), f"give it an incidence of 0.0, not {told}")
-            for angle, told in ((0.3, 0.3), (op.Parameter("t"), "par.* 't'"), (op.FOLLOWS, "FOLL"))
+            ((op.Interface(1.5, angle),), "give it an incidence of 0.0")
+            for angle in (0.3, op.Parameter("t"), op.FOLLOWS)
         ),
         ((op.Source(), op.Mirror()), "light begins at 'source'; let op.there_and_back"),
         ((op.Combiner(), op.Mirror()), "'combiner': combiner adds up light without loss"),

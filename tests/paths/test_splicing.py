@@ -5,7 +5,6 @@ import functools
 import json
 import operator
 import pickle
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -66,7 +65,7 @@ def test_elements_are_inserted_before_the_eye_between_turns_and_at_one_of_severa
     assert path.trace().intensity == 0.25
     lamps = {"eye": op.Detector(), "lamp": op.Source(1.0), "other": op.Source(3.0)}
     path = wired(lamps, "lamp -> eye, other -> eye")
-    with pytest.raises(op.PathError, match=r"'eye\.in' is fed by .*, such as behind='lamp\.out'"):
+    with pytest.raises(op.PathError, match=r"'eye\.in' is fed by .* and .*; name both ends"):
         path.insert("grey", op.Attenuator(0.5), before="eye")
     path.insert("grey", op.Attenuator(0.5), behind="lamp.out", before="eye")
     assert path.trace().intensity == 3.5
@@ -149,22 +148,22 @@ def offer(name, **behind):
                 (put(op.Detector(), behind="X2"), "'new' has no way out"),
                 (put(op.Source(), behind="X2"), "'new' has no way in"),
                 (put(behind="X2.transmitted"), r"'X2\.transmitted' feeds no link"),
-                (put(name="D", behind="X1.transmitted"), r"\.add\('D', .* path\.connect\('X1"),
+                (put(name="D", behind="X1.transmitted"), "feeds no link"),
                 (put(behind="X2.in"), "lets light in"),
                 (put(behind="E"), "'E' has no way out"),
                 (put(behind="X3"), "node .X3. does not exist"),
                 (put("red", behind="X2"), "must be an element such as"),
-                (put(), r"is told no link; give it behind='node\.port'"),
-                (put(before="X1.back"), r"\.add\('new', .* and path\.connect\('new', 'X"),
+                (put(), r"names no link; give behind='node\.port'"),
+                (put(before="X1.back"), r"'X1\.back' is fed by no link"),
                 (put(behind="X2", before="E"), r"'X2\.reflected -> E\.in'; did you mean 'X1"),
                 (put(name="X1", behind="X2"), "choose another"),
-                (put(name="a.b", behind="X2"), "choose another"),
+                (put(name="a.b", behind="X2"), "must be a text without a dot"),
                 (drop("X1"), r"not go straight .* 'X2\.reflected -> X1\.in' and 'X1\.ref.* -> E"),
                 (drop("X3"), "node 'X3' does not exist"),
-                (swap(op.Interface(2.0, 0.3)), r"'X1' is turned by .* -rho, .* 0\.0 for none"),
-                (swap(op.Polarizer()), r"no 'X1\.reflected', .* it has 'X1\.in' and 'X1\.out'"),
-                (swap(op.Detector()), r"no 'X1\.reflected', .* it has 'X1\.in'"),
-                (swap(op.Source()), r"no 'X1\.in' and 'X1\.reflected', .* it has 'X1\.out'"),
+                (swap(op.Interface(2.0, 0.3)), r"'X1' is turned by .* -rho, .* azimuth=0\.0"),
+                (swap(op.Polarizer()), r"has no 'X1\.reflected', which"),
+                (swap(op.Detector()), r"has no 'X1\.reflected', which"),
+                (swap(op.Source()), r"has no 'X1\.in', 'X1\.reflected', which"),
                 (swap(1.5), "must be an element such as"),
                 (lambda path: path.disconnect("X2", "E"), r"X2\.reflected -> E\.in'; did you mean"),
                 (offer("Q", light="L.out"), "'Q' does not exist"),
@@ -229,10 +228,10 @@ def test_what_is_removed_leaves_no_gap_or_turn_unless_something_is_in_the_way():
     ends = {"lamp": op.Source(), "grey": op.Attenuator(0.5), "eye": op.Detector()}
     path = wired(ends, "lamp -> grey, grey -> eye")
     path.connect("lamp", "eye", tap=True)
-    refused(r"two links 'lamp\.out -> eye\.in'", path.remove, "grey")
+    refused(r"link 'lamp\.out -> eye\.in' is there already", path.remove, "grey")
 
 
-def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
+def test_an_element_is_replaced_in_its_place():
     path = two_reflections()
     assert repr(path.replace("X1", op.Mirror(azimuth=path.element("X1").azimuth))) == "Node 'X1'"
     assert repr(path) == repr(two_reflections())
@@ -253,7 +252,7 @@ def test_an_element_is_replaced_in_its_place_and_by_the_cures_for_its_azimuth():
     path.connect("lamp", "front")  # Behind the one to front.back.
     front = path.element("front")
     path.replace("front", replace(front, azimuth=0.3))
-    refused(r"path\.disconnect\('lamp\.out', 'front\.in'\)", path.replace, "front", front)
+    refused("'front' is turned by its azimuth 0.3", path.replace, "front", front)
 
 
 def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
@@ -264,7 +263,7 @@ def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
     path.connect("P2.out", "E.in")
     call = r"by path.disconnect\(\"X1.reflected\", \"E.in\"\)"
     refused(f"take all but one out, {call}, and put one", path.trace)
-    with pytest.raises(op.PathError, match=f"take all but one out first, {call}$"):
+    with pytest.raises(op.PathError, match=r"'X1\.reflected' feeds .* and .*; name both ends"):
         path.insert("P3", op.Polarizer(0.3), behind="X1.reflected")
     path.disconnect("X1.reflected", "E.in")
     assert path == other
@@ -277,10 +276,10 @@ def test_links_are_taken_out_and_put_in_by_the_calls_that_are_named():
     other.disconnect("X1.reflected", "E.in")
     assert path == other
     for ends, told in ((["X1"], "'X1.reflected' feeds no"), (["X1", "E"], r"no link .* -> E\.in'")):
-        refused(rf"{told}.*; there are: L\.out", path.disconnect, *ends)
+        refused(told, path.disconnect, *ends)
     refused("reaches no detector", path.trace)
     path = op.load_preset("ellipsometer-pcsa")
-    refused(r"such as path\.disconnect\('S\.reflected', 'A\.in'\)$", path.disconnect, "S")
+    refused("feeds .* and .*; name both ends", path.disconnect, "S")
     path.disconnect("S.reflected", "A.in")
     assert not path.graph.has_edge("S", "A")
 
@@ -374,7 +373,7 @@ def test_an_azimuth_goes_over_to_all_links_that_it_turns_and_is_kept_in_files(tm
 
 
 @rows("removed", [False, True])
-def test_turns_that_make_no_one_azimuth_are_refused_with_a_cure_that_does(removed):
+def test_turns_that_make_no_one_azimuth_are_refused(removed):
     path, change = npgr026(case=7), put(op.Polarizer(0.2, azimuth=A), behind="X2")
     if removed:
         change = drop("old")
@@ -382,12 +381,12 @@ def test_turns_that_make_no_one_azimuth_are_refused_with_a_cure_that_does(remove
         last = op.Mirror(-0.9, 0.7, azimuth=op.Parameter("rho", 0.2))
         path = path >> last.named("X1") >> op.Detector()
     before = path.to_toml()
-    with pytest.raises(op.PathError, match=r"'X1' would be turned by .* no one azimuth") as told:
+    with pytest.raises(op.PathError, match=r"'X1' would be turned by .* no one azimuth"):
         change(path)
     assert path.to_toml() == before
     expected = stokes(path) if removed else stokes(inserted(0.57, "X2"))
-    behind, before = re.search(r"behind='(.*)', before='(.*)'\)", str(told.value)).groups()
-    path.insert("between", op.Attenuator(1.0), behind=behind, before=before)
+    where = {"behind": "old", "before": "X1"} if removed else {"behind": "X2", "before": "X1"}
+    path.insert("between", op.Attenuator(1.0), **where)
     change(path)
     assert_close(stokes(path), expected)
 
@@ -424,7 +423,7 @@ def test_a_replacement_that_is_turned_otherwise_is_refused():
         path.insert("new", op.Polarizer(azimuth=np.array([0.1, 0.2])), behind="source")
     path = op.Source() >> op.Polarizer(azimuth=A) >> op.Polarizer(0.6) >> op.Detector()
     other = op.Polarizer(azimuth=op.Parameter("b", 0.2))
-    refused(r"by a and by -b, .* path\.remove\('polarizer'\)", path.replace, "polarizer", other)
+    refused("by a and by -b, and no one azimuth", path.replace, "polarizer", other)
     path.remove("polarizer")
     path.insert("between", op.Attenuator(1.0), behind="source")
     path.insert("polarizer", other, behind="source")
@@ -492,7 +491,7 @@ def test_a_filter_is_moved_past_a_turned_plate_or_by_hand():
     path.disconnect("plate")
     path.replace("filter", op.Polarizer(0.2, azimuth=op.Parameter("b")))
     path.connect("plate", "filter")
-    with pytest.raises(op.ParameterError, match=r"by b and by a, .* path\.remove\('filter'\), and"):
+    with pytest.raises(op.ParameterError, match="by b and by a, and no one azimuth"):
         path.bind(place="lamp")
     path.remove("filter")
     path.insert("filter", op.Polarizer(azimuth=op.Parameter("b")), behind="source")

@@ -333,24 +333,6 @@ def taken_out(wiring: Wiring, links: Sequence[Link]) -> str:
     return " or ".join(calls)
 
 
-def without_tap(wiring: Wiring, tap: Link) -> str:
-    """Write down the calls that take a tap out, and what is fed by nothing else."""
-    start, end, (leaves, enters) = tap
-    cut = f"path.disconnect('{start}.{leaves}', '{end}.{enters}')"
-    behind = wiring.graph.subgraph(fed_by(wiring, tap))
-    feeders = {link for link in wiring.graph.in_edges(behind, keys=True) if link[0] not in behind}
-    if feeders != {tap} or not nx.is_directed_acyclic_graph(behind):
-        return cut
-    # Once nothing feeds them, they are taken out one by one without a gap to close.
-    out = [f"path.remove('{name}')" for name in nx.lexicographical_topological_sort(behind)]
-    return out[0] if len(out) == 1 else " and ".join([cut, *out])
-
-
-def fed_by(wiring: Wiring, tap: Link) -> set[str]:
-    """Return the nodes that the light of a tap comes to, at whatever port of them."""
-    return {tap[1], *nx.descendants(wiring.graph, tap[1])}
-
-
 def tap_faults(wiring: Wiring) -> Iterator[str]:
     """Yield a sentence for each tap whose light meets other light, and would count twice.
 

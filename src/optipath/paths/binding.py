@@ -48,7 +48,7 @@ def bind(
         graph = exchanged(graph, {n: p for n, p in parameters_of(graph).items() if p.bound})
     known_values = Values(graph)
     parameters, inputs = known_values.parameters, known_values.inputs()
-    known_names = [*parameters, *graph.graph.get("choices", ())]
+    known_names = [*parameters, *graph.graph["choices"]]
     bound: dict[str, Parameter] = {}
     faults: list[str] = []
     for name, value in values.items():

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from itertools import count
 from typing import TYPE_CHECKING
 
 from optipath.composer.placement import is_zero
@@ -11,16 +9,13 @@ from optipath.elements.element import Chainable, begun
 from optipath.elements.frame_checks import azimuth_at
 from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_element import couplings_of
-from optipath.errors import PathError, shown
+from optipath.errors import PathError
 from optipath.materials.index_domains import FOLLOWS
-from optipath.paths.joining import name_by_kind, natural_of
+from optipath.paths.joining import natural_of, next_by_kind
 from optipath.paths.path_graph import PathGraph
-from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-    from optipath.elements.element import Element
 
 
 def there_and_back(*elements: Chainable) -> PathGraph:
@@ -63,10 +58,7 @@ def there_and_back(*elements: Chainable) -> PathGraph:
     [ 1.  0. -1.  0.]
     """
     if not elements:
-        raise PathError(
-            "op.there_and_back() is given no element; give those that light meets, and last where "
-            "it turns back, such as Mirror()"
-        )
+        raise PathError("op.there_and_back() needs elements, and last where light turns back")
     *others, last = [begun(element) for element in elements]
     if faults := [*_turning_faults(last), *_piece_faults(others)]:
         raise PathError(*faults)
@@ -83,7 +75,7 @@ def _doubled(there: PathGraph, last: PathGraph) -> PathGraph:
     names: dict[str, str] = {}
     for name in back:
         element = back.element(name)
-        names[name] = _name_back(path, name, element)
+        names[name] = next_by_kind(name, element, path) or f"{name}-back"
         path.add(names[name], element, back.graph.nodes[name]["frames"])
     for start, end, (leaves, enters), azimuth in back.graph.edges(keys=True, data="azimuth"):
         path.connect(f"{names[start]}.{leaves}", f"{names[end]}.{enters}", azimuth)
@@ -97,14 +89,6 @@ def _doubled(there: PathGraph, last: PathGraph) -> PathGraph:
     return path
 
 
-def _name_back(path: PathGraph, name: str, element: Element) -> str:
-    """Return what an element that is called so is called on the way back."""
-    kind = name_by_kind(element)
-    if re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
-        return next(new for n in count(2) if (new := f"{kind}-{n}") not in path)
-    return f"{name}-back"
-
-
 def _turning_faults(last: PathGraph) -> Iterator[str]:
     """Say why light does not turn back at what is given last; nothing if it does."""
     name, *more = last
@@ -116,20 +100,12 @@ def _turning_faults(last: PathGraph) -> Iterator[str]:
     ways = [way for way in couplings_of(element) if (way.enters, way.leaves) == (enters, leaves)]
     if not any(way.reflects for way in ways) or element.self_placed:
         yield (
-            f"light does not turn back at '{name}', which is given last; give a Mirror() last, or "
-            f"what else reflects by its natural way, as an Interface does"
+            f"light does not turn back at '{name}', which is given last; give a Mirror(), or "
+            f"another that reflects by its natural way"
         )
     incidence = getattr(element, "incidence", 0.0)
     if incidence is FOLLOWS or not vanishes(incidence):
-        argument = (
-            f"parameter '{incidence.name}'"
-            if isinstance(incidence, Parameter)
-            else shown(incidence)
-        )
-        yield (
-            f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0, "
-            f"not {argument}"
-        )
+        yield f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0"
 
 
 def _piece_faults(pieces: list[PathGraph]) -> Iterator[str]:

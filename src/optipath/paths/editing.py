@@ -13,8 +13,8 @@ from optipath.composer.placement import (
     placement_faults,
     turn_text,
 )
-from optipath.composer.wiring import Wiring, link_text, taken_out
-from optipath.elements.element import Element, NamedElement
+from optipath.composer.wiring import Wiring, link_text
+from optipath.elements.element import Element
 from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import PathError, collecting, did_you_mean, listed, shown, there_are
 from optipath.light.frame import Frame
@@ -24,7 +24,6 @@ from optipath.paths.joining import (
     check_port,
     element_at,
     find_port,
-    name_by_kind,
     natural_port,
     turn_more,
 )
@@ -50,13 +49,11 @@ def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> N
 
 def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     """Add a node, as `PathGraph.add` does."""
-    if isinstance(name, (Element, NamedElement)):
-        meant = name.named(name_by_kind(name)) if isinstance(name, Element) else name
-        raise PathError(
-            f"an element is added by a name: path.add('{meant.name}', {shown(meant.element)})"
-        )
     if not isinstance(name, str) or not name or "." in name:
-        raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
+        raise PathError(
+            f"node name {shown(name)} must be a text without a dot, as in "
+            f"path.add('filter', Polarizer())"
+        )
     if name in graph:
         raise PathError(f"node '{name}' is there already; choose another name")
     check_element(name, element)
@@ -94,10 +91,10 @@ def find_link(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> Link:
     """Return the link between two ports."""
     link = _link_of(graph, leaves, enters, [])
     if not graph.has_edge(*link):
-        near = {*graph.out_edges(link[0], keys=True), *graph.in_edges(link[1], keys=True)}
-        cure = did_you_mean(link_text(link), sorted(map(link_text, near)))
-        cure = cure if near else there_are(sorted(map(link_text, graph.edges(keys=True))))
-        raise PathError(f"there is no link '{link_text(link)}'{cure}")
+        every = sorted(map(link_text, graph.edges(keys=True)))
+        raise PathError(
+            f"there is no link '{link_text(link)}'{did_you_mean(link_text(link), every)}"
+        )
     return link
 
 
@@ -106,17 +103,12 @@ def _only_link(graph: nx.MultiDiGraph, leaves: Any) -> Link:
     port = find_port(graph, leaves, out=True)
     result = graph.out_edges(port[0], keys=True)
     links: list[Link] = [link for link in result if link[2][0] == port[1]]
-    if len(links) == 1:
-        return links[0]
-    text = ".".join(port)
-    if not links:
-        every = sorted(map(link_text, graph.edges(keys=True)))
-        raise PathError(f"'{text}' feeds no link{there_are(every)}")
-    ends = [f"'{end}.{enters}'" for _, end, (_, enters) in sorted(links)]
-    raise PathError(
-        f"'{text}' feeds {listed(ends)}; say which is taken out, such as "
-        f"path.disconnect('{text}', {ends[0]})"
-    )
+    if len(links) != 1:
+        every = sorted(map(link_text, links or graph.edges(keys=True)))
+        raise PathError(
+            f"'{'.'.join(port)}' feeds {_listed(links)}; name both ends of one{there_are(every)}"
+        )
+    return links[0]
 
 
 def check_element(name: Any, element: Any) -> None:
@@ -175,11 +167,10 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
     placed = {*graph.nodes[name]["frames"]} - {*element.inputs, *element.outputs}
     missing = (entered - {*element.inputs}) | (left - {*element.outputs}) | placed
     if missing:
-        absent = listed([f"'{name}.{port}'" for port in sorted(missing)])
-        ports = [f"'{name}.{port}'" for port in (*element.inputs, *element.outputs)]
+        ports = ", ".join(f"'{name}.{port}'" for port in sorted(missing))
         raise PathError(
-            f"the new element of '{name}' has no {absent}, which links or frames use; it has "
-            f"{listed(ports)}: disconnect the others first, or take '{name}' out and add it anew"
+            f"the new element of '{name}' has no {ports}, which links or frames use; take "
+            f"'{name}' out and add it anew"
         )
     if said := _turned_by_links(graph, name, element):
         for link in said:
@@ -214,18 +205,17 @@ def _turn_back(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
     if graph.nodes[name]["frames"]:
         return  # World frames say how it stands.
     old = _own_turn(graph.nodes[name]["element"])
-    cure = f"take '{name}' out by path.remove('{name}'), and put the new one in by path.insert"
     for link in [link for link in graph.out_edges(name, keys=True) if link[1] != name]:
-        turn_more(graph, link, old, cure)
-        turn_more(graph, link, -_own_turn(element), cure)
+        turn_more(graph, link, old)
+        turn_more(graph, link, -_own_turn(element))
 
 
 def _link_for(graph: nx.MultiDiGraph, name: Any, behind: Any, before: Any) -> Link:
     """Return the one link behind a port, before another, or both."""
     if behind is None and before is None:
         raise PathError(
-            f"path.insert('{name}', ...) is told no link; give it behind='node.port', where light "
-            f"leaves, or before='node.port', where light arrives"
+            f"path.insert('{name}', ...) names no link; give behind='node.port', where light "
+            f"leaves, or before='node.port', where it arrives"
         )
     if behind is not None and before is not None:
         return find_link(graph, behind, before)
@@ -234,17 +224,10 @@ def _link_for(graph: nx.MultiDiGraph, name: Any, behind: Any, before: Any) -> Li
     links = (wiring.links_from if is_behind else wiring.links_to).get(port, [])
     if len(links) == 1:
         return links[0]
-    text, feeds = ".".join(port), "feeds" if is_behind else "is fed by"
-    if not links:
-        ends = f"'{text}', '{name}'" if is_behind else f"'{name}', '{text}'"
-        cure = f"write path.add('{name}', ...) and path.connect({ends})"
-    elif is_behind:
-        cure = f"take all but one out first, by {taken_out(wiring, links)}"
-    else:
-        cure = f"say behind which port as well, such as behind='{links[0][0]}.{links[0][2][0]}'"
+    feeds = "feeds" if is_behind else "is fed by"
+    cure = "; name both ends, by behind and before" if links else ""
     raise PathError(
-        f"'{text}' {feeds} {_listed(links)}, and not one link that '{name}' could be put into; "
-        f"{cure}"
+        f"'{name}' is put into one link, but '{'.'.join(port)}' {feeds} {_listed(links)}{cure}"
     )
 
 
@@ -262,12 +245,9 @@ def _check_turn(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
     ]
     if not links or not is_zero(_own_turn(element)):
         return
-    takes = f"give it azimuth=path.element('{name}').azimuth, or " * hasattr(element, "azimuth")
-    ports = f"'{links[0][0]}.{links[0][2][0]}', '{name}.{links[0][2][1]}'"
     raise PathError(
-        f"'{name}' is turned by its azimuth {turn_text(azimuth)}, and the new element is not; "
-        f"{takes}give an azimuth, 0.0 for none, to the link: path.disconnect({ports}), then "
-        f"path.connect({ports}, azimuth=...)"
+        f"'{name}' is turned by its azimuth {turn_text(azimuth)}, and the new element is not; give "
+        f"it that azimuth, or take the link out and connect it anew with azimuth=0.0"
     )
 
 
@@ -275,21 +255,19 @@ def _close(graph: nx.MultiDiGraph, name: str, before: list[Link], behind: list[L
     """Link what stands before a node with what stands behind it."""
     if len(before) > 1 or len(behind) > 1 or before[0][1] == before[0][0]:
         raise PathError(
-            f"several links meet at '{name}', {_listed([*before, *behind])}, so nothing tells "
-            f"how to close the gap; disconnect those that are to go first"
+            f"several links meet at '{name}', {_listed([*before, *behind])}; disconnect those that "
+            f"are to go first"
         )
     wiring = Wiring(graph)
     ((start, _, (leaves, enters)),), ((_, end, (passes, arrives)),) = before, behind
     if not goes_straight(wiring.elements[name], enters, passes):
         raise PathError(
-            f"light does not go straight through '{name}', so nothing tells how what stands "
-            f"before and behind it would stand to each other; disconnect "
+            f"light does not go straight through '{name}'; disconnect "
             f"{_listed([*before, *behind])} first"
         )
     if graph.has_edge(start, end, key=(leaves, arrives)):
         raise PathError(
-            f"without '{name}' there would be two links '{start}.{leaves} -> {end}.{arrives}'; "
-            f"disconnect the one that there is first"
+            f"link '{start}.{leaves} -> {end}.{arrives}' is there already; disconnect it first"
         )
     turn_more(graph, behind[0], azimuth_of(wiring, before[0]))
     about = graph.edges[behind[0]]

@@ -14,17 +14,15 @@ from optipath.composer.wiring import LOOPS, Wiring
 from optipath.errors import (
     OptipathError,
     PathError,
-    closest,
     collecting,
     did_you_mean,
     shown,
-    there_are,
 )
 from optipath.values.arrays import joint_shape, read_only, same
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     import networkx as nx
 
@@ -52,28 +50,40 @@ def name_by_kind(element: Element) -> str:
 def join(
     first: nx.MultiDiGraph, second: nx.MultiDiGraph, leaves: Port | None = None
 ) -> dict[str, str]:
-    """Put a graph of elements behind another, in place: its nodes and links, and one link more."""
+    """Put a graph of elements behind another, in place: its nodes and links, and one link more.
+
+    None is added where one of them is empty.
+    """
     faults: list[str] = []
-    link = []
-    for argument, graph, out in ((leaves, first, True), (None, second, False)):
-        with collecting(faults, PathError):
-            link.append(argument or _open_port(graph, out=out))
+    ends = []
+    if first and second:
+        for argument, graph, out in ((leaves, first, True), (None, second, False)):
+            with collecting(faults, PathError):
+                ends.append(argument or _open_port(graph, out=out))
     names = _names(first, second)
     faults += [
         f"node '{name}' stands on both sides of >>; give one of them another name"
         for name in names.values()
         if name in first
     ]
-    choices = [graph.graph.get("choices", {}) for graph in (first, second)]
     faults += [
         f"choice '{name}' stands on both sides of >>; use two names"
-        for name in sorted(choices[0].keys() & choices[1].keys())
+        for name in sorted(first.graph["choices"].keys() & second.graph["choices"].keys())
     ]
     if faults:
         raise PathError(*faults)
-    _add(first, second, names)
-    (start, out_port), (end, in_port) = link
-    first.add_edge(start, names[end], key=(out_port, in_port), azimuth=None, tap=False)
+    for name, about in second.nodes.items():
+        first.add_node(names[name], **about)
+    for (start, end, key), about in second.edges.items():
+        first.add_edge(names[start], names[end], key=key, **about)
+    if ends:
+        (start, out_port), (end, in_port) = ends
+        first.add_edge(start, names[end], key=(out_port, in_port), azimuth=None, tap=False)
+    both = first.graph, second.graph
+    moved = {name: choice.renamed(names) for name, choice in second.graph["choices"].items()}
+    first.graph["choices"] = first.graph["choices"] | moved
+    first.graph["declared"] = tuple(dict.fromkeys(name for one in both for name in one["declared"]))
+    first.graph["loops"] = LOOPS[any(one["loops"] == LOOPS[1] for one in both)]
     return names
 
 
@@ -124,45 +134,36 @@ def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
     if len(results) == 1:
         return results[0]
     place, way = ("in front of", "out") if out else ("behind", "in")
-    if not unused:
-        raise PathError(f"the path {place} >> has no way {way} that is open; >> cannot go on there")
-    what = (
-        f"{len(results)} natural ways {way} that are open" if results else f"no natural way {way}"
-    )
     several = ", ".join(f"'{name}.{port}'" for name, port in results or unused)
-    raise PathError(f"the path {place} >> has {what}; connect one by its name: {several}")
+    raise PathError(
+        f"the path {place} >> has {len(results)} natural ways {way} that are open, not one"
+        + (f"; connect one by its name: {several}" if unused else "")
+    )
 
 
 def _names(first: nx.MultiDiGraph, second: nx.MultiDiGraph) -> dict[str, str]:
     """Return what the nodes of the second are called behind the first."""
     names: dict[str, str] = {}
-    taken = {*first, *second}
     for name, element in second.nodes(data="element"):
-        kind = name_by_kind(element)
-        numbered = re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name)
-        names[name] = name
-        if name in first and numbered:
-            names[name] = next(new for n in count(2) if (new := f"{kind}-{n}") not in taken)
-            taken.add(names[name])
+        taken = {*first, *second, *names.values()}
+        names[name] = (name in first and next_by_kind(name, element, taken)) or name
     return names
 
 
-def _add(first: nx.MultiDiGraph, second: nx.MultiDiGraph, names: dict[str, str]) -> None:
-    for name, about in second.nodes.items():
-        first.add_node(names[name], **about)
-    for (start, end, key), about in second.edges.items():
-        first.add_edge(names[start], names[end], key=key, **about)
-    both = [graph.graph for graph in (first, second)]
-    names_of_all = [name for one in both for name in one["declared"]]
-    first.graph["declared"] = tuple(dict.fromkeys(names_of_all))
-    moved = {
-        name: choice.renamed(names) for name, choice in second.graph.get("choices", {}).items()
-    }
-    first.graph["choices"] = first.graph.get("choices", {}) | moved
-    first.graph["loops"] = LOOPS[any(one["loops"] == LOOPS[1] for one in both)]
+def next_by_kind(name: str, element: Element, taken: Collection[str]) -> str:
+    """Return the next name by the kind of an element; empty where its name is of its own.
+
+    >>> from optipath.elements.splitters import BeamSplitter
+    >>> next_by_kind("beam-splitter", BeamSplitter(), {"beam-splitter"})
+    'beam-splitter-2'
+    """
+    kind = name_by_kind(element)
+    if not re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
+        return ""
+    return next(new for n in count(2) if (new := f"{kind}-{n}") not in taken)
 
 
-def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> None:
+def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any) -> None:
     """Turn what a link leads to by more, in rad; its azimuth goes over to its links."""
     if is_zero(turn):
         return
@@ -170,14 +171,9 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> 
     try:
         total = _sum(before, turn)
     except OptipathError:
-        start, end, (leaves, arrives) = link
-        apart = (
-            f"put an element that does nothing between them first, path.insert('between', "
-            f"Attenuator(1.0), behind='{start}.{leaves}', before='{end}.{arrives}')"
-        )
         raise PathError(
-            f"'{end}' would be turned by {turn_text(before)} and by {turn_text(turn)}, and no "
-            f"one azimuth does for both; {cure or apart}"
+            f"'{link[1]}' would be turned by {turn_text(before)} and by {turn_text(turn)}, and no "
+            f"one azimuth does for both"
         ) from None
     _give_azimuth_to_links(graph, link)
     graph.edges[link]["azimuth"] = None if is_zero(total) else total
@@ -208,10 +204,9 @@ def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
             missing.append(-turn)
         else:
             del missing[alike]
-    cure = f"take it out by path.remove('{name}'), and put it in by path.insert with one"
     for turn in missing:
-        turn_more(graph, enters, turn, cure)
-        turn_more(graph, passes, -turn, cure)
+        turn_more(graph, enters, turn)
+        turn_more(graph, passes, -turn)
 
 
 def are_alike(first: Any, second: Any) -> bool:
@@ -262,10 +257,6 @@ def _sum(first: Any, second: Any) -> Any:
     return first + second
 
 
-_REFRACTED = "refracted"
-"""What is near ``reflected`` by its letters, and means ``transmitted``."""
-
-
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
     """Raise unless a port of a node is one of those given.
 
@@ -284,9 +275,7 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
             f"port '{owner}.{port}' lets light {way}; a link goes from an out-port to an in-port"
         )
     known = [f"{owner}.{name}" for name in ports]
-    refracted = closest(port, [_REFRACTED, *ports]) == _REFRACTED
-    cure = there_are(known) if refracted else did_you_mean(f"{owner}.{port}", known)
-    raise PathError(f"port '{owner}.{port}' does not exist{cure}")
+    raise PathError(f"port '{owner}.{port}' does not exist{did_you_mean(f'{owner}.{port}', known)}")
 
 
 def natural_of(element: Element, *, out: bool) -> str:
@@ -315,12 +304,11 @@ def natural_port(element: Element, owner: str, *, out: bool) -> str:
     if result:
         return result
     way, ports = ("out", element.outputs) if out else ("in", element.inputs)
-    if not ports:
-        reason = "ends there; let it stand last" if out else "begins there; let it stand first"
-        raise PathError(f"'{owner}' has no way {way}, since light {reason}")
     names = ", ".join(f"'{owner}.{port}'" for port in ports)
     raise PathError(
         f"'{owner}' has no one natural way {way}; connect one of its {way}-ports: {names}"
+        if ports
+        else f"'{owner}' has no way {way}: light {'ends' if out else 'begins'} there"
     )
 
 

@@ -91,7 +91,7 @@ class PathGraph(Chainable):
         names = entries_of("declared", "names of parameters", declared, PathError)
         if not all(isinstance(name, str) for name in names):
             raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
-        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
+        self._graph = nx.MultiDiGraph(declared=names, loops=loops, choices={})
         # What the graph has been composed to, until it changes.
         self._plans: dict[str | Composer, Plan] = {}
 
@@ -112,7 +112,7 @@ class PathGraph(Chainable):
     @property
     def choices(self) -> dict[str, PlaceChoice]:
         """What is chosen by word before the path is composed, as `bind` takes it, by name."""
-        return dict(self._graph.graph.get("choices", {}))
+        return dict(self._graph.graph["choices"])
 
     @property
     def loops(self) -> str:
@@ -351,8 +351,6 @@ class PathGraph(Chainable):
         From the only open natural way out to the only natural way in; neither side changes.
         """
         others: Self = begun(behind)
-        if not self._graph or not others._graph:
-            return copy(self if self._graph else others)
         if twice := sorted(self.cases.keys() & others.cases.keys()):
             raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
         path = copy(self)

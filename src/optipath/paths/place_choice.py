@@ -94,7 +94,7 @@ def with_arguments(
     """Return a copy of the graph with nodes in the places chosen, and other values given."""
     graph = graph.copy()
     faults: list[str] = []
-    for name in [name for name in graph.graph.get("choices", {}) if name in values]:
+    for name in [name for name in graph.graph["choices"] if name in values]:
         with collecting(faults, PathError):
             put_in_place(graph, name, values.pop(name))
     with collecting(faults, ParameterError):

@@ -12,7 +12,7 @@ import numpy as np
 from optipath.composer.followed_values import with_followed
 from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
-from optipath.composer.wiring import Wiring, fed_by, link_text, without_tap
+from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.element import Element
 from optipath.elements.ends import Detector, Dump, Source
@@ -23,7 +23,7 @@ from optipath.paths.joining import find_port
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator
+    from collections.abc import Callable, Iterator
 
     from optipath.composer.wiring import Link, Port
     from optipath.light.frame import Frame
@@ -117,43 +117,22 @@ class _Turning:
 
     def link_faults(self) -> Iterator[str]:
         """Yield what has no way back of the links, a sentence each."""
-        taps = {*self.wiring.taps}
-        fed = {tap: fed_by(self.wiring, tap) for tap in taps}
-        for link in self.wiring.taps:
-            # A tap behind another goes with what that one feeds.
-            if any(link[0] in fed[tap] and tap[0] not in fed[link] for tap in taps):
-                continue
-            yield (
-                f"link '{link_text(link)}' is a tap, which takes nothing of the light, and gives "
-                f"none on the way back; take it out, {without_tap(self.wiring, link)}"
-            )
-        if taps:
-            yield from self._unread(set().union(*fed.values()))
+        for tap in self.wiring.taps:
+            yield f"link '{link_text(tap)}' is a tap, which has no way back; take it out"
         for (name, port), several in self.wiring.links_to.items():
-            links = [link for link in several if link not in taps]
+            links = [link for link in several if link not in self.wiring.taps]
             # What adds up inside of an element has been told.
             if len(links) > 1 and not (self.before[name].merges and self.before[name].outputs):
                 feeders = listed([f"'{start}.{leaves}'" for start, _, (leaves, _) in links])
                 yield (
                     f"light of {feeders} adds up at '{name}.{port}', which has no way back; give "
-                    f"each a detector of its own, or put a BeamSplitter where they meet"
+                    f"each a detector of its own"
                 )
         used = {end for link in self.wiring.graph.edges(keys=True) for end in _ends(link)}
         for name in sorted({name for name, port in used if not self._has_back(name, port)}):
             yield (
-                f"'{name}': element class {_named(self.before[name])} does not say by "
-                f"which port light goes back; give it a class method port_back(port), which "
-                f"returns an out-port for an in-port, and the other way"
-            )
-
-    def _unread(self, tapped: set[str]) -> Iterator[str]:
-        """Yield a sentence if there is no detector but those of taps, which are to go."""
-        ends = {name: end for name, end in self.before.items() if name not in tapped}
-        dumps = [f"'{name}'" for name, end in ends.items() if isinstance(end, Dump)]
-        if dumps and not any(end.detects for end in ends.values()):
-            yield (
-                f"without what its taps feed, the path has no detector; put one in the place of "
-                f"{listed(dumps)}, path.replace({dumps[0]}, op.Detector())"
+                f"'{name}': element class {_named(self.before[name])} does not say by which port "
+                f"light goes back; give it a class method port_back(port)"
             )
 
     def _has_back(self, name: str, port: str) -> bool:
@@ -230,7 +209,7 @@ def reversed_choices(
 
     They do if nothing turns between the ports beside a place: a node has the frame of its arrival.
     """
-    choices: dict[str, PlaceChoice] = wiring.graph.graph.get("choices", {})
+    choices: dict[str, PlaceChoice] = wiring.graph.graph["choices"]
     movable = {choice.node for choice in choices.values()}
     results = {}
     for name, choice in choices.items():
@@ -286,27 +265,23 @@ def sources_by_name(
         return {}, []
     if not isinstance(arguments, Mapping):
         detectors = [name for name in ends if elements[name].detects]
-        if len(detectors) == 1:
-            arguments = {detectors[0]: arguments}
-        else:
-            which = f", source={{'{detectors[0]}': ...}}" if detectors else ""
-            fault = (
-                f"source is the light that begins at the only detector, and there are "
-                f"{len(detectors)}; give it by name{which}{there_are(ends)}"
-            )
-            return {}, [fault]
-    strange = [name for name in arguments if name not in ends]
-    faults = [f"source['{name}']: no light ends there{_near(name, ends)}" for name in strange]
-    wrong = {name: one for name, one in arguments.items() if not _emits(one)}
-    faults += [
-        f"source['{name}'] must be a Source, not {shown(one)}" for name, one in wrong.items()
+        if len(detectors) != 1:
+            fault = f"source is of one of {len(detectors)} detectors; give it by name"
+            return {}, [fault + there_are(ends)]
+        arguments = {detectors[0]: arguments}
+    faults = [
+        f"source[{shown(name)}]: no light ends there{did_you_mean(name, ends)}"
+        for name in arguments
+        if name not in ends
     ]
-    return {name: one for name, one in arguments.items() if name not in wrong}, faults
+    sources = {name: one for name, one in arguments.items() if _emits(one)}
+    faults += [
+        f"source[{shown(name)}] must be a Source, not {shown(one)}"
+        for name, one in arguments.items()
+        if name not in sources
+    ]
+    return sources, faults
 
 
 def _emits(one: Any) -> bool:
     return isinstance(one, Element) and not one.inputs and len(one.outputs) == 1
-
-
-def _near(name: Any, ends: Collection[str]) -> str:
-    return did_you_mean(name, ends) if isinstance(name, str) else there_are([*ends])

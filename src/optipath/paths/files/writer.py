@@ -38,7 +38,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     faults = Faults()
     parameters = parameters_of(graph)
     top: dict[str, Any] = {"format": FORMAT, "description": description}
-    loops = graph.graph.get("loops", LOOPS[0])
+    loops = graph.graph["loops"]
     if loops != LOOPS[0]:
         top["loops"] = loops
     tables: list[str] = [toml_lines("", top)]
@@ -63,7 +63,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         if about["tap"]:
             link["tap"] = True
         tables.append(toml_lines("[[links]]", link))
-    for name, choice in graph.graph.get("choices", {}).items():
+    for name, choice in graph.graph["choices"].items():
         faults += [f"choice '{name}': {fault}" for fault in choice_faults(graph, choice)]
         row = {"element": choice.node, "behind": dict(choice.behind)}
         row |= {"help": choice.help} if choice.help else {}
