@@ -65,9 +65,8 @@ def test_the_ends_of_a_range_are_told_in_units_of_their_size_and_all_units_are_n
 
 
 UNEVEN = np.array([380.0, 395.0, 500.0, 512.5, 700.0]) * 1e-9
-NO_GRIDS = [(5e-7, "one wavelength alone"), ([], "none at all"), ([5e-7], "one wavelength alone")]
-NO_GRIDS += [([5e-7, 5e-7], "repeated"), ([5e-7, 6e-7, 5.5e-7], "neither rise nor fall")]
-NO_GRIDS += [(np.ones((2, 2)), "one axis")]
+NO_GRIDS = [(one, "no row of two or more") for one in (5e-7, [], [5e-7], np.ones((2, 2)))]
+NO_GRIDS += [(one, "neither rise") for one in ([5e-7, 5e-7], [5e-7, 6e-7, 5.5e-7])]
 
 
 def test_a_grid_has_the_numbers_of_its_texts_the_widths_of_trapezoids_and_bins_up_to_halfway():
@@ -76,10 +75,13 @@ def test_a_grid_has_the_numbers_of_its_texts_the_widths_of_trapezoids_and_bins_u
     assert found.tolist() == [float(place) for place in expected]
     assert op.wavelengths(4e-7, 5e-7, 5e-8).tolist() == [4e-7, 4.5e-7, 5e-7]
     for given, sentence in (
-        (("380 nm", "700 nm", "45 nm"), "7.11111 steps of 45 nm; .* as up to 695 nm"),
-        (("380 nm", "700 nm", "400 nm"), "up to 780 nm"),
-        *((("700 nm", "380 nm", "40 nm"), "do not rise"), (("380 nm", "700 nm", "0 nm"), "step")),
-        ((380, 700, 40), "metres"),
+        (("380 nm", "700 nm", "45 nm"), "7.11111 steps of 45 nm; .*whole number"),
+        (("380 nm", "700 nm", "400 nm"), "0.8 steps"),
+        *(
+            (("700 nm", "380 nm", "40 nm"), "lower end first"),
+            (("380 nm", "700 nm", "0 nm"), "step"),
+        ),
+        ((380, 700, 40), "below 0.1 m"),
     ):
         with pytest.raises(op.ValueFault, match=sentence):
             op.wavelengths(*given)

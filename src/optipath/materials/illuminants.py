@@ -1,74 +1,16 @@
-"""Standard illuminants A, D65 and E of the CIE; kinds of spectra and bins of wavelengths."""
+"""Standard illuminants A, D65 and E of the CIE; bins of wavelengths."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, did_you_mean, shown
 from optipath.materials.tables import Tabulated
-from optipath.values.arrays import Unchanging
 from optipath.values.jax_values import is_traced, namespace
 
-if TYPE_CHECKING:
-    from collections.abc import Hashable
-
-
-class EmissionLine(NamedTuple):
-    """Power at one wavelength. Units: wavelength in metres."""
-
-    wavelength: float
-    power: float
-    outside: float | None = None
-
-
-class SpectrumKind(Unchanging, ABC):
-    """One distribution of power over wavelengths in metres; a `Spectrum` has one."""
-
-    is_pointwise: ClassVar[bool] = True
-    """Whether what it is at each wavelength says all, so that it can be multiplied by others."""
-    label: str
-    span: tuple[float, float] = (0.0, np.inf)
-    beyond: str = ""
-    lines: tuple[EmissionLine, ...] = ()
-
-    @property
-    def extent(self) -> tuple[float, float]:
-        return self.span
-
-    @property
-    def integral(self) -> float | None:
-        return None
-
-    @property
-    def terms(self) -> tuple[SpectrumKind, ...]:
-        """What it is the sum of; itself where it is of one kind."""
-        return (self,)
-
-    @property
-    def breaks(self) -> np.ndarray[Any, Any]:
-        """The wavelengths between which it is smooth, in metres."""
-        return np.empty(0)
-
-    @property
-    @abstractmethod
-    def content(self) -> tuple[Hashable, ...]:
-        """All that it is made of."""
-
-    @abstractmethod
-    def density(self, xp: Any, wavelength: Any) -> Any:
-        """Return its power per nanometre, lines aside. Units: wavelength in metres."""
-
-    @abstractmethod
-    def times(self, factor: float) -> SpectrumKind:
-        """Return a multiple of it."""
-
-
 ILLUMINANTS = ("A", "D65", "E")
-
-_RANGE = (300e-9, 830e-9)
+KNOWN_SPAN = (300e-9, 830e-9)
 _NORMAL = 560e-9
 _OF_A = 1.435e7 / 2848.0 * 1e-9
 """In metres: c2 and the temperature as of 1931, by which the CIE defines it for good."""
@@ -90,50 +32,22 @@ _D65 = np.array(
 )
 """From 300 to 830 nm in steps of 5 nm (ISO 11664-2:2007, CIE S 014-2)."""
 
-_DAYLIGHT = Tabulated("D65", ("value",), np.arange(300, 831, 5) / 1e9, [_D65])
+DAYLIGHT = Tabulated("D65", ("value",), np.arange(300, 831, 5) / 1e9, [_D65])
 
 
-class Illuminant(SpectrumKind):
-    """A standard illuminant: relative powers, 100 at 560 nm, from 300 to 830 nm.
+def illuminant_density(name: str, xp: Any, wavelength: Any) -> Any:
+    """Return relative powers, 100 at 560 nm, at wavelengths in metres within 300 to 830 nm.
 
     A is 100 (560 / L)^5 (exp(1.435e7 / (2848 560)) - 1) / (exp(1.435e7 / (2848 L)) - 1) for L in
     nanometres, D65 a table, linear between its samples, and E the same everywhere (CIE 15:2018).
     """
-
-    name: str
-    factor: float
-    span = _RANGE
-
-    def __init__(self, name: str, factor: float = 1.0) -> None:
-        if name not in ILLUMINANTS:
-            known = did_you_mean(name, ILLUMINANTS)
-            raise ValueFault(f"illuminant {shown(name)} is unknown{known}")
-        vars(self).update(
-            label=f"illuminant {name}",
-            beyond="take a lamp of another kind, such as Spectrum.black_body(2856)",
-            name=name,
-            factor=factor,
-        )
-
-    @property
-    def breaks(self) -> np.ndarray[Any, Any]:
-        return _DAYLIGHT.wavelengths if self.name == "D65" else np.empty(0)
-
-    @property
-    def content(self) -> tuple[Hashable, ...]:
-        return "illuminant", self.name, self.factor
-
-    def density(self, xp: Any, wavelength: Any) -> Any:
-        if self.name == "E":
-            return xp.full_like(wavelength, self.factor * 100.0)
-        if self.name == "D65":
-            return self.factor * _DAYLIGHT.numbers(xp, xp.clip(wavelength, *_RANGE))[0]
-        at, normal = _OF_A / wavelength, _OF_A / _NORMAL
-        hotter = np.expm1(normal) * xp.exp(-at) / -xp.expm1(-at)
-        return self.factor * (100.0 * (_NORMAL / wavelength) ** 5 * hotter)
-
-    def times(self, factor: float) -> Illuminant:
-        return Illuminant(self.name, factor * self.factor)
+    if name == "E":
+        return xp.full_like(wavelength, 100.0)
+    if name == "D65":
+        return DAYLIGHT.numbers(xp, xp.clip(wavelength, *KNOWN_SPAN))[0]
+    at, normal = _OF_A / wavelength, _OF_A / _NORMAL
+    hotter = np.expm1(normal) * xp.exp(-at) / -xp.expm1(-at)
+    return 100.0 * (_NORMAL / wavelength) ** 5 * hotter
 
 
 NANOMETRES = 1e9
@@ -144,21 +58,16 @@ def grid_fault(wavelengths: Any) -> str:
     """Say why wavelengths are no grid; nothing if they are one.
 
     >>> grid_fault([500e-9, 600e-9]), grid_fault(500e-9)
-    ('', 'are one wavelength alone')
+    ('', 'are no row of two or more, but of shape ()')
     """
     if is_traced(wavelengths):
         return "are traced by JAX, so that their order is not known"
     grid = np.asarray(wavelengths, np.float64)
-    if not grid.size:
-        return "are none at all"
-    if grid.size < 2:
-        return "are one wavelength alone"
-    if grid.ndim != 1:
-        return f"have the shape {grid.shape}, not one axis"
+    if grid.ndim != 1 or grid.size < 2:
+        return f"are no row of two or more, but of shape {grid.shape}"
     steps = np.diff(grid)
-    if np.all(steps > 0.0) or np.all(steps < 0.0):
-        return ""
-    return "are repeated" if np.any(steps == 0.0) else "neither rise nor fall throughout"
+    rises_or_falls = np.all(steps > 0.0) or np.all(steps < 0.0)
+    return "" if rises_or_falls else "neither rise nor fall throughout"
 
 
 def grid_edges(wavelengths: Any) -> Any:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, shown, unknown
+from optipath.errors import ValueFault, unknown
 from optipath.materials.illuminants import NANOMETRES
 from optipath.materials.spectrum_kinds import (
+    PLACES,
     EvenSpectrum,
     GaussianLine,
     Histogram,
@@ -17,9 +19,9 @@ from optipath.materials.spectrum_kinds import (
     SumOfKinds,
     called,
     check_known_at,
-    one_wavelength,
-    rising_edges,
-    some_wavelengths,
+    edges_of,
+    several,
+    single,
     values_at,
 )
 from optipath.values.curve import is_within
@@ -28,7 +30,7 @@ from optipath.values.units import displayed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from optipath.materials.illuminants import SpectrumKind
+    from optipath.materials.spectrum_kinds import SpectrumKind
 
     Array = np.ndarray[Any, Any]
 
@@ -43,12 +45,12 @@ def sum_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
     """Return the sum of two spectra: one of their kind where both are of one, else of both."""
     terms: list[SpectrumKind] = []
     for term in (*first.terms, *second.terms):
-        joined = [_joined(other, term) for other in terms]
-        place = next((i for i, one in enumerate(joined) if one is not None), None)
-        if place is None:
-            terms.append(term)
+        for place, other in enumerate(terms):
+            if (joined := _joined(other, term)) is not None:
+                terms[place] = joined
+                break
         else:
-            terms[place] = joined[place]  # type: ignore[assignment]
+            terms.append(term)
     return _total(terms)
 
 
@@ -59,8 +61,9 @@ def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
             return _total([product_of(term, other) for term in one.terms])
     for one, other in ((first, second), (second, first)):
         if isinstance(one, Lines) and other.is_pointwise:
-            return _lines_through(one, other)
-    for one, other in ((first, second), (second, first)):
+            shares = values_at(other, np.array([line.wavelength for line in one.lines]))
+            pairs = zip(one.lines, shares.tolist(), strict=True)
+            return Lines(tuple([line._replace(power=line.power * share) for line, share in pairs]))
         if isinstance(one, Sampled) and isinstance(other, EvenSpectrum):
             return one.times(other.value)
     places = _sampled_at(first, second, "multiplied")
@@ -68,7 +71,7 @@ def product_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
         return EvenSpectrum(0.0)
     values = values_at(first, places) * values_at(second, places)
     endless = first.span[1] == second.span[1] == np.inf
-    return Sampled(places, values, _outside(first, second, endless), _label(first, second))
+    return _sampled(first, second, places, values, endless=endless)
 
 
 def quotient_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
@@ -82,7 +85,19 @@ def quotient_of(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind:
             f"to wavelengths at which it is above 0"
         )
     endless = second.span[1] == np.inf and getattr(second, "outside", None) != 0.0
-    return Sampled(places, above / below, _outside(first, second, endless), _label(first, second))
+    return _sampled(first, second, places, above / below, endless=endless)
+
+
+def _sampled(
+    first: SpectrumKind, second: SpectrumKind, places: Array, values: Array, *, endless: bool
+) -> Sampled:
+    """Return a product or quotient, beyond its samples what is known of both."""
+    outside = [getattr(kind, "outside", None) for kind in (first, second)]
+    beyond: float | str | None = "nearest" if outside == ["nearest", "nearest"] else None
+    if endless and 0.0 in outside:
+        beyond = 0.0
+    label = first.label if isinstance(first, Sampled) else second.label
+    return Sampled(places, values, beyond, label)
 
 
 def _total(terms: Sequence[SpectrumKind]) -> SpectrumKind:
@@ -92,22 +107,16 @@ def _total(terms: Sequence[SpectrumKind]) -> SpectrumKind:
 def _joined(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind | None:
     """Return the sum of two spectra of one kind that is of this kind again; else None."""
     if isinstance(first, Lines) and isinstance(second, Lines):
-        return Lines([*first.lines, *second.lines])
+        return Lines((*first.lines, *second.lines))
     if isinstance(first, Sampled) and isinstance(second, Sampled):
         alike = np.array_equal(first.wavelengths, second.wavelengths)
         if alike and first.outside == second.outside != "linear":
-            return first.with_values(first.values + second.values)
+            return replace(first, values=first.values + second.values)
     if isinstance(first, Histogram) and isinstance(second, Histogram):
         alike = np.array_equal(first.edges, second.edges)
         if alike and first.outside == second.outside:
-            return Histogram(first.edges, first.powers + second.powers, first.outside, first.label)
+            return replace(first, powers=first.powers + second.powers)
     return None
-
-
-def _lines_through(lines: Lines, other: SpectrumKind) -> Lines:
-    shares = values_at(other, np.array([line.wavelength for line in lines.lines]))
-    pairs = zip(lines.lines, shares.tolist(), strict=True)
-    return Lines([line._replace(power=line.power * share) for line, share in pairs])
 
 
 def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
@@ -115,12 +124,10 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
     both = f"{first.label} and {second.label}"
     for kind in (*first.terms, *second.terms):
         if not kind.is_pointwise:
-            lines = isinstance(kind, Lines)
-            cure = "spectrum.rebin(edges) and then " if lines else ""
             raise ValueFault(
                 f"{both} cannot be {done} wavelength by wavelength, since {kind.label} is power "
-                f"{'at single wavelengths' if lines else 'in bins'}; make samples of it, "
-                f"{cure}{_RESAMPLE}"
+                f"in bins or at single wavelengths; make samples of it, spectrum.rebin(edges) and "
+                f"then {_RESAMPLE}"
             )
     sampled = [kind for kind in (first, second) if isinstance(kind, Sampled)]
     if not sampled:
@@ -150,18 +157,6 @@ def _is_missed(line: GaussianLine, sampled: Sampled) -> bool:
         places, prepend=line.peak - 2.0 * line.width, append=line.peak + 2.0 * line.width
     )
     return bool(np.max(steps) > 0.5 * line.width)
-
-
-def _outside(first: SpectrumKind, second: SpectrumKind, endless: Any) -> float | str | None:
-    """Return what a product or quotient is beyond its samples, None where that is not known."""
-    outside = [getattr(kind, "outside", None) for kind in (first, second)]
-    if endless and 0.0 in outside:
-        return 0.0
-    return "nearest" if outside == ["nearest", "nearest"] else None
-
-
-def _label(first: SpectrumKind, second: SpectrumKind) -> str:
-    return first.label if isinstance(first, Sampled) else second.label
 
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -218,23 +213,19 @@ def power_within(kind: SpectrumKind, low: Any = None, high: Any = None) -> float
     if low is None and high is None and (whole := _whole(kind)) is not None:
         return whole
     least, most = kind.extent
-    ends = np.array(
-        [
-            least if low is None else one_wavelength("low", low),
-            most if high is None else one_wavelength("high", high),
-        ]
-    )
-    if not 0.0 < ends[0] <= ends[1] < np.inf:
-        fault = "does not end there" if ends[0] <= ends[1] else "are no range"
+    start = least if low is None else single("low", low, PLACES)
+    end = most if high is None else single("high", high, PLACES)
+    if not 0.0 < start <= end < np.inf:
         raise ValueFault(
-            f"power of {kind.label} from {displayed(float(ends[0]), 'nm')} to "
-            f"{displayed(float(ends[1]), 'nm')}: {fault}; give two ends, the lower one first, as "
-            f"in spectrum.power('380 nm', '700 nm')"
+            f"power of {kind.label} from {displayed(start, 'nm')} to {displayed(end, 'nm')} is "
+            f"none, or does not end there; give two ends, the lower one first, as in "
+            f"spectrum.power('380 nm', '700 nm')"
         )
+    ends = np.array([start, end])
     check_known_at(kind, ends)
-    above = np.inf if high is None else ends[1]
-    of_lines = sum(line.power for line in kind.lines if ends[0] <= line.wavelength < above)
-    return of_lines + (float(smooth_powers(kind, ends)[0]) if ends[0] < ends[1] else 0.0)
+    above = np.inf if high is None else end
+    of_lines = sum(line.power for line in kind.lines if start <= line.wavelength < above)
+    return of_lines + (float(smooth_powers(kind, ends)[0]) if start < end else 0.0)
 
 
 def _whole(kind: SpectrumKind) -> float | None:
@@ -258,7 +249,6 @@ def _power_of(term: SpectrumKind) -> float | None:
 
 _LOST = 1e-14
 """The share of the power below which none is said to be lost."""
-_CHOICES = ("refuse", "drop")
 
 
 def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
@@ -268,22 +258,15 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
             f"{called(kind.lines)} has no value at a wavelength, so that it cannot be resampled; "
             f"keep its power in bins, spectrum.rebin(edges)"
         )
-    places = some_wavelengths("wavelengths", wavelengths)
-    try:
-        values = values_at(kind, places)
-    except ValueFault as fault:
-        if outside is None:
-            raise
-        other = f"outside={shown(outside)} of resample is for what is beyond the new samples"
-        raise ValueFault(*[f"{sentence} ({other})" for sentence in fault.faults]) from None
-    return Sampled(places, values, outside, kind.label)
+    places = several("wavelengths", wavelengths, PLACES)
+    return Sampled(places, values_at(kind, places), outside, kind.label)
 
 
 def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
     """Return the power of a spectrum in bins. Shape: edges (n + 1,). Units: edges in metres."""
-    if faults := unknown("outside", outside, _CHOICES):
+    if faults := unknown("outside", outside, ("refuse", "drop")):
         raise ValueFault(*faults)
-    ends, _ = rising_edges("edges", edges)
+    ends = np.sort(edges_of("edges", edges))
     check_known_at(kind, ends[[0, -1]])
     powers = powers_between(kind, ends)
     if outside == "refuse":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -10,7 +9,6 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from optipath.errors import ValueFault, listed, shown
-from optipath.materials.illuminants import EmissionLine, Illuminant, SpectrumKind
 from optipath.materials.quantities import NON_NEGATIVE
 from optipath.materials.spectral_arithmetic import (
     power_within,
@@ -21,18 +19,20 @@ from optipath.materials.spectral_arithmetic import (
     sum_of,
 )
 from optipath.materials.spectrum_kinds import (
+    PLACES,
     BlackBody,
+    EmissionLine,
     EvenSpectrum,
     GaussianLine,
     Histogram,
+    Illuminant,
     Lines,
     Sampled,
+    SpectrumKind,
     check_known_at,
     density_of_lines,
-    one_number,
-    one_wavelength,
-    refuse_longest,
-    some_wavelengths,
+    several,
+    single,
     value_outside,
 )
 from optipath.values.columns import read_columns
@@ -42,7 +42,7 @@ from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced, known, namespace
 from optipath.values.parameters import Parameter, label_of
 from optipath.values.units import displayed
-from optipath.values.wavelength import wavelength_of
+from optipath.values.wavelength import LONGEST, wavelength_of
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -239,9 +239,9 @@ class Spectrum(Curve):
         >>> Spectrum.line("500 nm").at(["400 nm", "500 nm", "600 nm"])
         array([0.  , 0.01, 0.  ])
         """
-        place = one_wavelength("wavelength of a line", wavelength)
-        all_of_it = one_number("power of a line", power)
-        return cls(Lines([EmissionLine(place, all_of_it, value_outside("a line", outside))]))
+        place = single("wavelength of a line", wavelength, PLACES)
+        all_of_it = single("power of a line", power)
+        return cls(Lines((EmissionLine(place, all_of_it, value_outside("a line", outside)),)))
 
     @classmethod
     def led(cls, peak: Any, width: Any, power: Any = 1.0) -> Self:
@@ -265,11 +265,10 @@ class Spectrum(Curve):
         ValueFault
             If one of them is none.
         """
-        place = one_wavelength("peak of a diode", peak)
-        domain = WidthAtPeak("width", "length", minimum=5e-324, peak=place)
-        wide = one_number("width of a diode", width, domain)
-        refuse_longest("width of a diode", wide)
-        return cls(GaussianLine(place, wide, one_number("power of a diode", power)))
+        place = single("peak of a diode", peak, PLACES)
+        widths = WidthAtPeak("width", "length", minimum=5e-324, maximum=LONGEST, peak=place)
+        wide = single("width of a diode", width, widths)
+        return cls(GaussianLine(place, wide, single("power of a diode", power)))
 
     @classmethod
     def black_body(cls, temperature: Any) -> Self:
@@ -295,7 +294,7 @@ class Spectrum(Curve):
         >>> float(Spectrum.black_body(5772).at("502 nm").round(3))
         26239.591
         """
-        return cls(BlackBody(one_number("temperature of a black body", temperature, _TEMPERATURE)))
+        return cls(BlackBody(single("temperature of a black body", temperature, _TEMPERATURE)))
 
     @classmethod
     def illuminant(cls, name: str) -> Self:
@@ -335,7 +334,7 @@ class Spectrum(Curve):
         ValueFault
             If it is none.
         """
-        return cls(EvenSpectrum(one_number("value of a constant spectrum", value)))
+        return cls(EvenSpectrum(single("value of a constant spectrum", value)))
 
     @property
     def content(self) -> tuple[Hashable, ...]:
@@ -371,7 +370,7 @@ class Spectrum(Curve):
         argument = known(wavelength)
         if is_traced(argument):
             return self.numbers(namespace(argument), argument)[0]
-        places = some_wavelengths("a wavelength", argument)
+        places = several("a wavelength", argument, PLACES)
         check_known_at(self, places)
         return self.evaluated(places)[0]
 
@@ -479,7 +478,10 @@ class Spectrum(Curve):
             return Spectrum(sum_of(self.kind, other.kind))
         if isinstance(other, (int, float)) and other == 0:
             return self  # With which Python's own sum begins.
-        raise self._no_sum(other)
+        raise ValueFault(
+            f"{self.label} + {shown(other)} is no spectrum; add a spectrum, such as "
+            f"Spectrum.constant(1.5), which is the same at each wavelength"
+        )
 
     __radd__ = __add__
 
@@ -499,25 +501,17 @@ class Spectrum(Curve):
         whole: Spectrum = Spectrum.constant(other) / self
         return whole
 
-    def _refused(self, *_: Any) -> NoReturn:
+    def __sub__(self, *_: Any) -> NoReturn:
         raise ValueFault(
-            f"a difference or power of {self.label} is no spectrum, which is nowhere below 0; "
-            f"compute with its numbers, spectrum.at(wavelengths), and make one of what comes of "
-            f"it, Spectrum(wavelengths, numbers)"
+            f"a difference of {self.label} is no spectrum, which is nowhere below 0; compute with "
+            f"its numbers, spectrum.at(wavelengths), and make one of what comes of it, "
+            f"Spectrum(wavelengths, numbers)"
         )
 
-    __neg__ = __sub__ = __rsub__ = __pow__ = __rpow__ = _refused
-
-    def _no_sum(self, other: Any) -> ValueFault:
-        """Return why a spectrum and something else have no sum."""
-        same = float(other) if type(other) in (int, float) and 0.0 < other < math.inf else 1.0
-        return ValueFault(
-            f"{self.label} + {shown(other)} is no spectrum; add a spectrum, such as "
-            f"Spectrum.constant({shown(same)}), which is the same at each wavelength"
-        )
+    __neg__ = __rsub__ = __sub__
 
     def _by_number(self, other: Any, what: str, *, above: bool = False) -> Spectrum:
-        number = one_number(f"{what} of {self.label}", other, _ABOVE if above else NON_NEGATIVE)
+        number = single(f"{what} of {self.label}", other, _ABOVE if above else NON_NEGATIVE)
         with np.errstate(over="ignore"):  # Samples that are not finite are refused.
             return Spectrum(self.kind.times(1.0 / number if above else number))
 
@@ -577,23 +571,15 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
     >>> (wavelengths("380 nm", "700 nm", "40 nm") * 1e9).round().astype(int)
     array([380, 420, 460, 500, 540, 580, 620, 660, 700])
     """
-    start, stop = one_wavelength("low", low), one_wavelength("high", high)
-    along = one_number("step", step, _STEP)
-    argument = f"{displayed(start, 'nm')} .. {displayed(stop, 'nm')}"
-    if not start < stop:
-        raise ValueFault(
-            f"wavelengths {argument} do not rise; give the lower end first, and turn what comes of "
-            f"it, [::-1]"
-        )
+    start, stop = single("low", low, PLACES), single("high", high, PLACES)
+    along = single("step", step, _STEP)
     steps = (stop - start) / along
     count = round(steps)
-    if count > _MOST:
-        raise ValueFault(f"wavelengths {argument} are {count:.3g} steps; give a larger step")
-    if count < 1 or abs(steps - count) > _ROUNDING * max(1, count):
-        nearest = displayed(start + max(1, int(steps)) * along, "nm")
+    if not 1 <= count <= _MOST or abs(steps - count) > _ROUNDING * count:
         raise ValueFault(
-            f"wavelengths {argument} are {steps:.6g} steps of {displayed(along, 'nm')}; give a "
-            f"whole number of steps, as up to {nearest}"
+            f"wavelengths {displayed(start, 'nm')} .. {displayed(stop, 'nm')} are {steps:.6g} "
+            f"steps of {displayed(along, 'nm')}; give the lower end first, and a whole number of "
+            f"steps, at most {_MOST}"
         )
     first, each = Decimal(repr(start)), Decimal(repr(along))
     results = [float(first + place * each) for place in range(count)]

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import PresetError, UnitError, closest, shown
-from optipath.materials.illuminants import Illuminant
 from optipath.materials.material import K, N
 from optipath.materials.quantities import spectrum_meant
 from optipath.materials.spectrum import Spectrum
@@ -19,6 +18,7 @@ from optipath.materials.spectrum_kinds import (
     EvenSpectrum,
     GaussianLine,
     Histogram,
+    Illuminant,
     Lines,
     Sampled,
     SumOfKinds,
@@ -32,7 +32,7 @@ from optipath.values.wavelength import WAVELENGTH, Wavelength
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from optipath.materials.illuminants import EmissionLine, SpectrumKind
+    from optipath.materials.spectrum_kinds import EmissionLine, SpectrumKind
     from optipath.values.domains import Domain
     from optipath.values.parameters import Parameter
 
