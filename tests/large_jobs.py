@@ -4,6 +4,7 @@ import os
 import signal
 import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -50,6 +51,13 @@ class Powers:
     def attrs(self):
         return {"path": "[vertices]\n", "title": self.title}
 
+    def places(self, number):
+        rows = slice(ROWS * number, ROWS * (number + 1))
+        return {"power": (rows, slice(0, COLUMNS)), "total": (slice(number, number + 1),)}
+
+    def task(self, number):
+        return partial(self.compute, number)
+
     def compute(self, number):
         if self.log:
             told_in(Path(self.log), number)
@@ -61,10 +69,7 @@ class Powers:
         rows = slice(ROWS * number, ROWS * (number + 1))
         values = np.arange(rows.start, rows.stop)[:, np.newaxis] ** np.arange(1.0, COLUMNS + 1)
         total = np.array([int(values.sum())])
-        return {
-            "power": ((rows, slice(0, COLUMNS)), values),
-            "total": ((slice(number, number + 1),), total),
-        }
+        return {"power": values, "total": total}
 
 
 class WhoComputes(Powers):
@@ -72,8 +77,7 @@ class WhoComputes(Powers):
 
     def compute(self, number):
         found = super().compute(number)
-        region, values = found["power"]
-        return found | {"power": (region, np.full_like(values, os.getpid()))}
+        return found | {"power": np.full_like(found["power"], os.getpid())}
 
 
 def told_in(log, number):
@@ -95,5 +99,5 @@ def powers(blocks):
 
 def marked(store):
     """The numbers of the blocks that a store says it has."""
-    files = (store / "blocks" / "done").glob("*.0")
+    files = (Path(store) / "blocks" / "done").glob("*.0")
     return {int(file.stem) for file in files}

@@ -334,7 +334,7 @@ def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
     """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes."""
     counts: list[tuple[int, int]] = []
     # A file is written once all are there.
-    stored = place_of_blocks(store) if ending_of(store) == ".nc" else store
+    stored = place_of_blocks(store)
     try:
         with progress_bar(1.0) as show:
 

@@ -2,24 +2,35 @@
 
 from __future__ import annotations
 
-from concurrent.futures import FIRST_COMPLETED, CancelledError, wait
-from contextlib import closing
+import sys
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Executor,
+    Future,
+    ThreadPoolExecutor,
+    wait,
+)
+from contextlib import closing, contextmanager
+from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from os import fspath
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import JobError, OptipathError
+import cloudpickle
+import dask
+from dask.system import CPU_COUNT
+
+from optipath.errors import JobError, OptipathError, shown, unknown
 from optipath.sweeps.store import BlockStore
-from optipath.sweeps.workers import check_scheduler, workers_of
-from optipath.values.files import input_file
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
-    from concurrent.futures import Future
+    from collections.abc import Callable, Generator, Iterator, Mapping
     from os import PathLike
-    from pathlib import Path
 
-    from optipath.sweeps.jobs import BlockJob, BlockPart
-    from optipath.sweeps.workers import Workers
+    import zarr
+
+    from optipath.sweeps.jobs import BlockJob
 
 
 def keep_blocks(
@@ -27,7 +38,7 @@ def keep_blocks(
     store: str | PathLike[str],
     scheduler: Any = None,
     progress: Callable[[int, int], None] | None = None,
-) -> Path:
+) -> zarr.Group:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
     The store is removed after an error that left no block, unless cluster workers may still write
@@ -38,7 +49,6 @@ def keep_blocks(
     >>> from tempfile import TemporaryDirectory
     >>> from types import SimpleNamespace
     >>> import numpy as np
-    >>> import xarray as xr
     >>> from optipath.sweeps.jobs import StoredArray
     >>> job = SimpleNamespace(
     ...     identity="squares of 0 to 5, in blocks of 2",
@@ -47,17 +57,14 @@ def keep_blocks(
     ...     coords={},
     ...     attrs={"title": "squares"},
     ... )
-    >>> def compute(block):
-    ...     region = slice(2 * block, 2 * block + 2)
-    ...     return {"square": ((region,), np.arange(6.0)[region] ** 2)}
-    >>> job.compute = compute
+    >>> job.places = lambda block: {"square": (slice(2 * block, 2 * block + 2),)}
+    >>> job.task = lambda block: lambda: {"square": np.arange(2.0 * block, 2 * block + 2) ** 2}
     >>> with TemporaryDirectory() as folder:
-    ...     with xr.open_zarr(keep_blocks(job, f"{folder}/squares.zarr")) as found:
-    ...         print(found.square.values)
+    ...     print(keep_blocks(job, f"{folder}/squares.zarr")["square"][:])
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
-    stored = BlockStore.of(job, input_file(store, JobError))
+    stored = BlockStore.of(job, fspath(store))
     done = stored.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
@@ -79,7 +86,7 @@ def keep_blocks(
             if not are_at_work:  # They might write into another job's store of the same name.
                 stored.discard_unused()
             raise
-    return stored.folder
+    return stored.group
 
 
 def _tell(progress: Callable[[int, int], None] | None, done: int, job: BlockJob) -> None:
@@ -96,8 +103,8 @@ def _handed_out(
     try:
         while True:
             for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
-                part = _sent(job, number)
-                pending[workers.executor.submit(_keep_block, part, stored, number)] = number
+                arguments = job.task(number), stored, number, job.places(number)
+                pending[workers.executor.submit(_keep_block, *arguments)] = number
             if not pending:
                 return
             for each in wait(pending, return_when=FIRST_COMPLETED).done:
@@ -109,18 +116,17 @@ def _handed_out(
             each.cancel()
 
 
-def _sent(job: BlockJob, number: int) -> BlockPart:
-    """Return what of a job is sent for a block."""
-    part: Callable[[int], BlockPart] | None = getattr(job, "part", None)
-    return job if part is None else part(number)
-
-
-def _keep_block(job: BlockPart, stored: BlockStore, number: int) -> OptipathError | None:
+def _keep_block(
+    task: Callable[[], Mapping[str, Any]],
+    stored: BlockStore,
+    number: int,
+    places: Mapping[str, tuple[slice, ...]],
+) -> OptipathError | None:
     """Compute a block and keep it; return what is wrong, which clusters log where it is raised."""
     try:
         # Another run, or a worker that was thought lost, may have done it.
         if not stored.holds(number):
-            stored.keep(number, job.compute(number))
+            stored.keep(number, places, task())
     except OptipathError as fault:
         return fault
     return None
@@ -145,3 +151,103 @@ def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
         ) from None
     if message is not None:
         raise message
+
+
+SCHEDULERS = ("synchronous", "threads", "processes")
+
+# A block with long axes is what is sent; there is nothing that a user could do about it.
+_LARGE_JOBS = {"distributed.admin.large-graph-warning-threshold": "1 PiB"}
+
+_AHEAD = 2
+"""How many blocks a worker is given at a time, so that it need not wait for the next."""
+
+
+class Workers(NamedTuple):
+    """Those who compute."""
+
+    executor: Executor
+    handed_out: Callable[[], int]
+    stay: bool = False
+
+
+def check_scheduler(scheduler: Any) -> None:
+    """Refuse what is no scheduler."""
+    if scheduler is None:
+        return
+    if isinstance(scheduler, str):
+        if "://" not in scheduler and (faults := unknown("scheduler", scheduler, SCHEDULERS)):
+            raise JobError(f"{faults[0]}; the address of a cluster begins with 'tcp://'")
+        return
+    result = sys.modules.get("distributed")
+    if result is None or not isinstance(scheduler, result.Client):
+        raise JobError(
+            f"a scheduler is one of {', '.join(SCHEDULERS)}, a distributed.Client or the address "
+            f"of a cluster, not {shown(scheduler)}; of a cluster, give cluster.get_client()"
+        )
+
+
+@contextmanager
+def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
+    """Have those at work whom a scheduler stands for; those who are made for it go afterwards."""
+    argument = active_client() or "threads" if scheduler is None else scheduler
+    if argument == "synchronous":
+        yield Workers(AtOnce(), lambda: 1)
+    elif argument == "threads":
+        with ThreadPoolExecutor(CPU_COUNT) as executor:
+            yield Workers(executor, lambda: _AHEAD * CPU_COUNT)
+    else:
+        # It takes a second to import.
+        from optipath.sweeps.cluster import client_of, threads_of  # noqa: PLC0415
+
+        with client_of(argument, blocks) as client, dask.config.set(_LARGE_JOBS):
+            yield Workers(
+                Travelling(client.get_executor(pure=False)),
+                lambda: _AHEAD * threads_of(client),
+                stay=argument != "processes",
+            )
+
+
+def active_client() -> Any:
+    """Return the client of a cluster that is active in this process, or None."""
+    result = sys.modules.get("distributed")
+    if result is None:
+        return None
+    try:
+        return result.default_client()
+    except ValueError:
+        return None
+
+
+class AtOnce(Executor):
+    """An executor that does what it is given there and then."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Do it, and return what came of it."""
+        done: Future[Any] = Future()
+        try:
+            done.set_result(fn(*args, **kwargs))
+        except Exception as error:  # noqa: BLE001 - whoever asks for the result gets it
+            done.set_exception(error)
+        return done
+
+
+class Travelling(Executor):
+    """An executor of a cluster that reports why a worker cannot load its task."""
+
+    def __init__(self, executor: Executor) -> None:
+        self._executor = executor
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Have it done by a worker, and return what will come of it, or a `JobError`."""
+        return self._executor.submit(_unpacked, cloudpickle.dumps(partial(fn, *args, **kwargs)))
+
+
+def _unpacked(packed: bytes) -> Any:
+    try:
+        work = cloudpickle.loads(packed)
+    except (ImportError, AttributeError) as fault:
+        return JobError(
+            f"a worker cannot load the job: {fault}; see that what defines it is a module that "
+            f"the workers can import, too"
+        )
+    return work()

@@ -1,161 +1,213 @@
-"""Store of finished blocks: a Zarr group that xarray opens."""
+"""Store of finished blocks: a Zarr group, in a folder or at a URL, that xarray opens.
+
+The values of a block are written first and its mark last, so interruption leaves no false block,
+and two runs that share a store write the same bits. The mark, a row of ``blocks/done``, is a digest
+of the job, the number of the block, and its values; it is 0 of a block that is not done.
+"""
 
 from __future__ import annotations
 
-import errno
+import asyncio
 import json
-import os
-import secrets
-import shutil
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 from hashlib import sha256
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import zarr
-from zarr.core.buffer import default_buffer_prototype
-from zarr.storage import MemoryStore
+from fsspec.core import url_to_fs
+from zarr.errors import ContainsArrayError
+from zarr.storage import FsspecStore, LocalStore
 
-from optipath.errors import JobError, StoreWarning
-from optipath.sweeps.jobs import (
-    FILES,
-    OTHER_PLACE,
-    StoredArray,
-    check_files,
-    check_record,
-    clear,
-    damaged_files,
-    group_attrs,
-    mark_of,
-    put_file,
-    record_of,
-    stamp_of,
-)
+from optipath.errors import JobError, OptipathError, StoreWarning, shown
+from optipath.sweeps.jobs import StoredArray
 from optipath.values.angles import calls_up
+from optipath.values.files import write_own_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     import numpy.typing as npt
-    from zarr.core.buffer import Buffer
 
-    from optipath.sweeps.jobs import BlockJob, WholeArray
+    from optipath.sweeps.jobs import BlockJob
 
 
-_MARKS = "blocks/done"
+FORMAT = 3
+"""That of stores as they are written now."""
+
+_OTHER_PLACE = "take another name, or delete it"
+_RECORD, _MARKS = "blocks", "blocks/done"
+_DIMENSIONS = "_ARRAY_DIMENSIONS"
 _NAMED = 20
 """How many damaged blocks are named."""
 
 
 @dataclass(frozen=True)
 class BlockStore:
-    """The store of a job.
+    """The store of a job; it is pickled to workers."""
 
-    A block's arrays are written first and its mark last, each file whole or not at all:
-    interruption leaves no false block, and two writers of one block write the same bits. The marks,
-    in ``blocks/done``, have the sizes and digests of the block's files, and a digest of themselves,
-    the job and the block number.
-    """
-
-    folder: Path
+    place: str
     seal: str
     is_new: bool = False
-    stood: bool = False
 
     @classmethod
-    def of(cls, job: BlockJob, folder: Path) -> BlockStore:
+    def of(cls, job: BlockJob, place: str) -> BlockStore:
         """Return the store of a job, made if nothing is there."""
-        record = record_of(job)
+        record = _record_of(job)
         seal = sha256(json.dumps(record).encode()).hexdigest()
-        store = cls(Path(os.path.realpath(folder)), seal)
-        if not store.folder.parent.is_dir():
-            raise JobError(f"there is no folder '{store.folder.parent}' for a store; make it first")
-        with store._writing():
-            stood = store.folder.exists()
-            if not stood or _is_empty(store.folder):
-                store = replace(store, is_new=store._make(job, record), stood=stood)
-            check_record(store.folder, record)
-            check_files(store.folder, store.about("files"), job)
+        is_free = _is_free(place)
+        store = cls(place if "://" in place else str(Path(place).resolve()), seal, is_free)
+        with store._writing(), store._reading():
+            if store.is_new:
+                group = store.group.require_group(_RECORD)
+                group.attrs.update({**record, "seal": seal})
+            store._check_record(record)
+            if _MARKS not in store.group:
+                _make(store.group, job)
+            store._check_metadata(job)
         return store
 
-    def about(self, name: object) -> str:
-        """Return what the mark of a block, or of the files before any block, is made with."""
-        return f"{name} of {self.seal}"
+    def __getstate__(self) -> dict[str, Any]:
+        # What is open stays here.
+        return {"place": self.place, "seal": self.seal, "is_new": self.is_new}
+
+    @cached_property
+    def group(self) -> zarr.Group:
+        """The group, open for writing."""
+        files = FsspecStore.from_url(self.place) if "://" in self.place else _Files(self.place)
+        # Metadata in one place, as xarray reads it, may be of another time.
+        mode: Literal["a", "r+"] = "a" if self.is_new else "r+"
+        return zarr.open_group(files, mode=mode, zarr_format=2, use_consolidated=False)
+
+    @cached_property
+    def arrays(self) -> dict[str, Any]:
+        """The arrays that blocks fill, by name, and that of the marks."""
+        return dict(self.group.arrays()) | {_MARKS: self.group[_MARKS]}
 
     def done(self, job: BlockJob) -> set[int]:
         """Return the numbers of intact blocks, and remove the marks of damaged ones."""
-        try:
-            names = {each.name for each in (self.folder / _MARKS).iterdir()}
-        except OSError as fault:
-            raise JobError(
-                f"the record '{self.folder / _MARKS}' cannot be read: {fault.strerror}; "
-                f"{OTHER_PLACE}: '{self.folder}'"
-            ) from None
-        marked = {number for number in range(job.blocks) if f"{number}.0" in names}
+        marks = self._marks(job.blocks)
+        with ThreadPoolExecutor() as executor:
+            intact = executor.map(self._is_intact, marks.values(), marks, map(job.places, marks))
+            damaged = [number for number, good in zip(marks, intact, strict=True) if not good]
         with self._writing():
-            damaged = [
-                number
-                for number in sorted(marked)
-                if any(damaged_files(self.folder, _mark(number), self.about(number)))
-            ]
             for number in damaged:
-                clear(self.folder / _mark(number))
+                self.arrays[_MARKS][number] = 0
         if damaged:
             more = f" and {len(damaged) - _NAMED:,} more" if len(damaged) > _NAMED else ""
             warnings.warn(
-                f"blocks of '{self.folder}' are damaged and computed anew: "
+                f"blocks of '{self.place}' are damaged and computed anew: "
                 f"{', '.join(map(str, damaged[:_NAMED]))}{more}",
                 StoreWarning,
                 stacklevel=calls_up(),
             )
-        return marked.difference(damaged)
+        return marks.keys() - {*damaged}
 
     def holds(self, number: int) -> bool:
-        """Tell whether a block is there."""
-        return (self.folder / _mark(number)).exists()
+        """Tell whether a block is marked as done."""
+        return bool(np.any(self.arrays[_MARKS][number]))
 
-    def keep(self, number: int, results: Mapping[str, Any]) -> None:
+    def keep(
+        self,
+        number: int,
+        places: Mapping[str, tuple[slice, ...]],
+        values: Mapping[str, npt.NDArray[Any]],
+    ) -> None:
         """Write a block, and then mark it as done."""
         with self._writing():
-            stamps = {}
-            for name, (region, values) in results.items():
-                metadata = (self.folder / name / ".zarray").read_bytes()
-                for file, content in chunk_files(metadata, region, values):
-                    put_file(self.folder / name / file, content)
-                    stamps[f"{name}/{file}"] = stamp_of(content)
-            put_file(self.folder / _mark(number), mark_of(self.about(number), stamps))
+            if self.group[_RECORD].attrs.get("seal") != self.seal:
+                raise JobError(f"another job has come to be in '{self.place}'; {_OTHER_PLACE}")
+            for name, each in values.items():
+                self.arrays[name][places[name]] = each
+            self.arrays[_MARKS][number] = self._mark(number, values)
 
     def discard_unused(self) -> None:
         """Remove it if this run has made it and no block of it is done."""
-        if self.is_new and not any((self.folder / _MARKS).glob("[0-9]*")):
-            draft = self._draft()
-            self.folder.rename(draft)
-            shutil.rmtree(draft, ignore_errors=True)
-            if self.stood:
-                self.folder.mkdir()
+        if self.is_new and not np.any(self.arrays[_MARKS][...]):
+            files, path = url_to_fs(self.place)
+            with suppress(FileNotFoundError):  # Another run has done so.
+                files.rm(path, recursive=True)
 
-    def _make(self, job: BlockJob, record: dict[str, Any]) -> bool:
-        """Make it beside its place and move it there; False if another run was faster."""
-        draft = self._draft()
+    def _mark(self, number: int, values: Mapping[str, Any]) -> npt.NDArray[np.uint8]:
+        digest = sha256(f"{number} of {self.seal}".encode())
+        for name in sorted(values):
+            each = values[name]
+            if each.dtype.kind == "f":  # Zarr leaves out chunks of NaN alone, be it -NaN.
+                each = np.where(np.isnan(each), each.dtype.type(np.nan), each)
+            digest.update(np.ascontiguousarray(each).tobytes())
+        return np.frombuffer(digest.digest(), np.uint8)
+
+    def _marks(self, blocks: int) -> dict[int, npt.NDArray[np.uint8] | None]:
+        """Return the marks of all blocks that have one; None for one that cannot be read."""
+        array = self.arrays[_MARKS]
         try:
-            make_group(job, record, self.about("files"), draft)
-            with suppress(OSError):
-                self.folder.rmdir()
-            draft.rename(self.folder)
-        except OSError as fault:
-            if fault.errno not in (errno.ENOTEMPTY, errno.EEXIST):
-                raise
-            return False
-        else:
-            return True
-        finally:
-            shutil.rmtree(draft, ignore_errors=True)
+            marks: Any = array[...]
+        except Exception:  # noqa: BLE001 - codecs may raise anything
+            marks = [_read(array, number) for number in range(blocks)]
+        return {n: mark for n, mark in enumerate(marks) if mark is None or np.any(mark)}
 
-    def _draft(self) -> Path:
-        return self.folder.with_name(f".{self.folder.name}.{secrets.token_hex(4)}.draft")
+    def _is_intact(
+        self,
+        mark: npt.NDArray[np.uint8] | None,
+        number: int,
+        places: Mapping[str, tuple[slice, ...]],
+    ) -> bool:
+        if mark is None:
+            return False
+        values = {name: _read(self.arrays[name], place) for name, place in places.items()}
+        is_read = all(each is not None for each in values.values())
+        return is_read and np.array_equal(mark, self._mark(number, values))
+
+    def _check_record(self, record: Mapping[str, Any]) -> None:
+        """Refuse what is no store of this job."""
+        place = self.place
+        try:
+            result = dict(self.group[_RECORD].attrs)
+        except (KeyError, FileNotFoundError):
+            raise JobError(
+                f"'{place}' is there, and is no store of blocks; {_OTHER_PLACE}"
+            ) from None
+        version = result.get("format")
+        if version != FORMAT and isinstance(version, int):
+            raise JobError(
+                f"'{place}' has format {version}, and this version of optipath knows {FORMAT}; "
+                f"use the version that made it, or {_OTHER_PLACE}"
+            )
+        if result == {**record, "seal": self.seal}:
+            return
+        there = result.get("lines")
+        pairs = zip_longest(there, record["lines"], fillvalue="") if isinstance(there, list) else ()
+        for one, other in pairs:
+            if one != other:
+                raise JobError(
+                    f"'{place}' holds blocks of another job: it has {shown(one)}, where this one "
+                    f"has {shown(other)}; {_OTHER_PLACE}"
+                )
+        raise JobError(f"the record of '{place}' is damaged; {_OTHER_PLACE}")
+
+    def _check_metadata(self, job: BlockJob) -> None:
+        """Refuse a store whose metadata are damaged, for Zarr or for xarray."""
+        consolidated = zarr.open_group(self.group.store, mode="r", use_consolidated=True)
+        if bad := _difference(self.group, consolidated, job):
+            raise JobError(f"the {bad} of the store '{self.place}' are damaged; {_OTHER_PLACE}")
+
+    @contextmanager
+    def _reading(self) -> Iterator[None]:
+        """Refuse metadata that cannot be read, of which Zarr may raise anything."""
+        try:
+            yield
+        except (OptipathError, OSError):
+            raise
+        except Exception:  # noqa: BLE001 - see above
+            raise JobError(
+                f"the metadata of the store '{self.place}' are damaged; {_OTHER_PLACE}"
+            ) from None
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
@@ -163,90 +215,119 @@ class BlockStore:
             yield
         except OSError as fault:
             raise JobError(
-                f"the store '{self.folder}' cannot be written: {fault.strerror or fault}; mend "
+                f"the store '{self.place}' cannot be written: {fault.strerror or fault}; mend "
                 f"that and start again, and what is done is not computed again"
             ) from None
 
 
-def _mark(number: int) -> str:
-    return f"{_MARKS}/{number}.0"
+class _Files(LocalStore):
+    """The files of a folder, each written whole or not at all, as later versions of Zarr do."""
+
+    async def set(self, key: str, value: Any) -> None:
+        await asyncio.to_thread(_put, self.root / key, value.to_bytes())
 
 
-def _is_empty(folder: Path) -> bool:
-    return folder.is_dir() and not any(folder.iterdir())
+def _put(file: Path, content: bytes) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_own_file(file, content, 0o666)
 
 
-_METADATA = ".zarray"
+def _is_free(place: str) -> bool:
+    """Tell whether nothing is at a place yet, where a store can be made."""
+    if "://" not in place and not (parent := Path(place).resolve().parent).is_dir():
+        raise JobError(f"there is no folder '{parent}' for a store; make it first")
+    try:
+        files, path = url_to_fs(place)
+        is_file = files.isfile(path)
+        is_free = not (files.exists(path) and files.ls(path))
+    except Exception as fault:  # noqa: BLE001 - each kind of place has its own
+        raise JobError(f"'{place}' cannot be used as a store: {fault}") from None
+    if is_file:
+        raise JobError(f"'{place}' is there, and is no folder; {_OTHER_PLACE}")
+    return is_free
 
 
-def chunk_files(
-    metadata: bytes, region: tuple[slice, ...], values: npt.NDArray[Any]
-) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of whole chunks of an array, since Zarr may leave half of a file."""
-    buffer = default_buffer_prototype().buffer
-    like = zarr.open_array(
-        MemoryStore({_METADATA: buffer.from_bytes(metadata)}), zarr_format=2, mode="r"
-    )
-    held: dict[str, Buffer] = {}
-    array = zarr.create_array(
-        MemoryStore(held),
-        shape=like.shape,
-        chunks=like.chunks,
-        dtype=like.dtype,
-        fill_value=like.fill_value,
-        compressors=like.compressors,
-        filters=like.filters,
-        zarr_format=2,
-        # Where a file is missing, it is lost. An array that is opened would leave this unheeded.
-        config={"write_empty_chunks": True},
-    )
-    array[region] = values
-    for name, content in held.items():
-        if not name.startswith(".z"):
-            yield name, content.to_bytes()
+def _record_of(job: BlockJob) -> dict[str, Any]:
+    """Return all that two jobs have in common if blocks of one may stand for those of the other."""
+    arrays = [
+        f"array {name}: {list(each.dims)}, {list(each.shape)} in chunks of {list(each.chunks)}, "
+        f"{each.dtype}"
+        for name, each in job.arrays.items()
+    ]
+    lines = [*job.identity.splitlines(), f"blocks: {job.blocks}", *arrays]
+    return {"format": FORMAT, "lines": lines}
 
 
-# Version 2 of the format has words of a fixed length, and all metadata at one place, in its
-# specification; zarr and xarray warn that version 3 has neither.
-_VERSION: Literal[2] = 2
-_DIMENSIONS = "_ARRAY_DIMENSIONS"
-
-
-def make_group(job: BlockJob, record: dict[str, Any], about: str, folder: Path) -> None:
-    """Write a group with the arrays of a job, its coordinates and its record."""
-    folder.mkdir()
-    group = zarr.create_group(str(folder), zarr_format=_VERSION, attributes=group_attrs(job))
+def _make(group: zarr.Group, job: BlockJob) -> None:
+    """Write the arrays of a job and its coordinates; the array of marks last."""
+    group.attrs.update(_group_attrs(job))
     for name, stored in job.arrays.items():
         _create(group, name, stored)
     for name, whole in job.coords.items():
-        _write(group, name, whole)
-    zarr.consolidate_metadata(str(folder), zarr_format=_VERSION)
-    group.create_group("blocks", attributes=record)
-    (folder / "blocks" / "done").mkdir()
-    stamps = {
-        file.relative_to(folder).as_posix(): stamp_of(file.read_bytes())
-        for file in sorted(folder.rglob("*"))
-        if file.is_file()
-    }
-    (folder / FILES).write_bytes(mark_of(about, stamps))
+        shape = whole.values.shape
+        stored = StoredArray(whole.dims, shape, shape, whole.values.dtype.str, whole.attrs)
+        _create(group, name, stored)[...] = whole.values
+    # Version 2 of the format has all metadata at one place, and words, in its specification.
+    zarr.consolidate_metadata(group.store, zarr_format=2)
+    _create(group, _MARKS, StoredArray(("block", "byte"), (job.blocks, 32), (1, 32), "uint8"))
 
 
-def _create(group: zarr.Group, name: str, stored: StoredArray) -> zarr.Array[Any]:
+def _create(group: zarr.Group, name: str, stored: StoredArray) -> Any:
     dtype = np.dtype(stored.dtype)
-    return group.create_array(
-        name,
-        shape=stored.shape,
-        chunks=stored.chunks,
-        dtype=dtype,
-        # xarray takes a fill value for one that is missing, which a number must not be.
-        fill_value=np.nan if dtype.kind in "fc" else None,
-        config={"write_empty_chunks": True},
-        attributes={**stored.attrs, _DIMENSIONS: list(stored.dims)},
-    )
+    # xarray takes a fill value for one that is missing, which a number must not be.
+    fill = np.nan if dtype.kind in "fc" else 0 if name == _MARKS else None
+    chunks = tuple([max(size, 1) for size in stored.chunks])
+    with suppress(ContainsArrayError):  # Another run is making the same.
+        group.create_array(name, shape=stored.shape, chunks=chunks, dtype=dtype, fill_value=fill)
+    array = group[name]
+    array.attrs.update(_array_attrs(stored.attrs, stored.dims))
+    return array
 
 
-def _write(group: zarr.Group, name: str, whole: WholeArray) -> None:
-    shape = whole.values.shape
-    chunks = tuple(max(size, 1) for size in shape)
-    stored = StoredArray(whole.dims, shape, chunks, whole.values.dtype.str, whole.attrs)
-    _create(group, name, stored)[...] = whole.values
+def _array_attrs(attrs: Mapping[str, Any], dims: tuple[str, ...]) -> dict[str, Any]:
+    return {**attrs, _DIMENSIONS: list(dims)}
+
+
+def _group_attrs(job: BlockJob) -> dict[str, Any]:
+    # Coordinates that do not bear the name of a dimension are told apart by this attribute.
+    others = [name for name, each in job.coords.items() if each.dims != (name,)]
+    return {**job.attrs, **({"coordinates": " ".join(others)} if others else {})}
+
+
+def _difference(group: zarr.Group, consolidated: zarr.Group, job: BlockJob) -> str:
+    """Return what of a group is not as a job has it; attributes may have been added by hand."""
+    needed = _group_attrs(job).items()
+    if not all(needed <= dict(each.attrs).items() for each in (group, consolidated)):
+        return "attributes"
+    for name in (*job.arrays, *job.coords):
+        if _layout(group[name]) != _layout(consolidated[name]):
+            return f"metadata of '{name}'"
+    array: Any
+    for name, stored in job.arrays.items():
+        array = group[name]
+        layout = array.shape, array.chunks, array.dtype
+        is_same = layout == (stored.shape, stored.chunks, stored.dtype)
+        is_same &= array.dtype.kind != "f" or np.isnan(array.fill_value)
+        if not is_same or dict(array.attrs) != _array_attrs(stored.attrs, stored.dims):
+            return f"metadata of '{name}'"
+    for name, whole in job.coords.items():
+        array = group[name]
+        may_be_nan = whole.values.dtype.kind == "f"
+        is_same = array.dtype == whole.values.dtype
+        is_same &= np.array_equal(array[...], whole.values, equal_nan=may_be_nan)
+        if not is_same or dict(array.attrs) != _array_attrs(whole.attrs, whole.dims):
+            return f"metadata of '{name}'"
+    return ""
+
+
+def _layout(array: Any) -> tuple[Any, ...]:
+    layout = array.shape, array.chunks, array.dtype, array.order, array.filters, array.compressors
+    return *layout, repr(array.fill_value), dict(array.attrs)
+
+
+def _read(array: Any, place: Any) -> Any:
+    """Return a part of an array, None where it is damaged."""
+    try:
+        return array[place]
+    except Exception:  # noqa: BLE001 - codecs may raise anything
+        return None

@@ -8,6 +8,7 @@ import shutil
 import sys
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from math import prod
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     Tell: TypeAlias = Callable[[int, int], None]
 
 
-def place_of_store(store: str | PathLike[str]) -> Path:
+def place_of_store(store: str | PathLike[str]) -> str:
     """Return where a sweep is to be kept.
 
     >>> place_of_store("sweep.csv")
@@ -45,24 +46,23 @@ def place_of_store(store: str | PathLike[str]) -> Path:
 give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     """
     is_path = isinstance(store, str | os.PathLike)
-    place = Path(store) if is_path else Path()
-    if place.suffix not in (".zarr", ".nc"):
-        stem = "sweep" if place.stem in ("", ".zarr", ".nc") else place.stem
+    place = os.fspath(store) if is_path else ""
+    # A URL of a file of NetCDF has nothing beside it where blocks could be kept.
+    endings = (".zarr",) if "://" in place else (".zarr", ".nc")
+    if Path(place).suffix not in endings:
         raise ParameterError(
-            f"store {shown(str(store) if is_path else store)} is neither a Zarr store nor a NetCDF "
-            f"file: give a name that ends in .zarr or .nc, such as '{stem}.zarr'"
+            f"store {shown(place if is_path else store)} is neither a Zarr store nor a NetCDF "
+            f"file: give a name that ends in {' or '.join(endings)}, such as 'sweep.zarr'"
         )
     return place
 
 
-def stored_sweep(
-    job: SweepJob, place: Path, scheduler: Any, *, progress: bool | Tell
-) -> xr.Dataset:
+def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | Tell) -> xr.Dataset:
     """Compute what is not kept yet of a sweep, and return what is kept."""
     tell = progress if callable(progress) else progress_line if progress else None
-    if place.suffix == ".nc":
-        return stored_in_netcdf(job, place, scheduler, tell)
-    result: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))
+    if place.endswith(".nc"):
+        return stored_in_netcdf(job, Path(place), scheduler, tell)
+    result: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell).store)
     for each in result.variables.values():
         each.encoding = {}  # How it is packed here is for this version of Zarr alone.
     return result
@@ -132,25 +132,36 @@ class SweepJob:
 
     def region(self, number: int) -> tuple[slice, ...]:
         """Return the part of the grid that a block is, counted from 0 in the order of the axes."""
-        places = np.unravel_index(number, self._counts)
-        return tuple(
-            [
-                slice(int(place) * size, min((int(place) + 1) * size, count))
-                for place, size, count in zip(
-                    places, self.sizes.values(), self.grid.shape, strict=True
-                )
-            ]
-        )
+        starts = [
+            int(place) * size
+            for place, size in zip(
+                np.unravel_index(number, self._counts), self.sizes.values(), strict=True
+            )
+        ]
+        cuts = zip(starts, self.sizes.values(), self.grid.shape, strict=True)
+        return tuple([slice(start, min(start + size, count)) for start, size, count in cuts])
 
-    def part(self, number: int) -> SweepBlock:
-        """Return the inputs of one block: whole axes may be too large to be sent along."""
+    def places(self, number: int) -> dict[str, tuple[slice, ...]]:
+        """Return which part of each variable a block is."""
         region = self.region(number)
-        grid = self.grid.part(region)
-        return SweepBlock(self.recipe, grid, region, self.quantities)
+        whole = [slice(None)] * (len(next(iter(self.arrays.values())).dims) - len(region))
+        return dict.fromkeys(self.arrays, (*whole, *region))
 
-    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
-        """Return the part of each variable that a block is, and what is in it."""
-        return self.part(number).compute(number)
+    def task(self, number: int) -> partial[dict[str, npt.NDArray[Any]]]:
+        """Return what computes a block, with its own part of the axes: whole ones may be large."""
+        grid = self.grid.part(self.region(number))
+        return partial(compute_block, number, self.recipe, grid, self.quantities)
+
+
+def compute_block(
+    number: int,  # noqa: ARG001 - for who counts
+    recipe: PlanRecipe,
+    grid: SweepGrid,
+    quantities: Mapping[str, LightQuantity],
+) -> dict[str, npt.NDArray[Any]]:
+    """Return the values of each variable in a block."""
+    light = run_block(recipe, grid)
+    return {name: light.of(each) for name, each in quantities.items()}
 
 
 def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -199,24 +210,6 @@ def _axis_text(axis: SweepAxis) -> str:
     return f"{len(axis)} values, {ends}, along {axis.dimension}, {digest.hexdigest()[:16]}"
 
 
-@dataclass(frozen=True)
-class SweepBlock:
-    """A block of a `SweepJob`, with its own part of the axes: whole ones may be large."""
-
-    recipe: PlanRecipe
-    grid: SweepGrid
-    region: tuple[slice, ...]
-    quantities: Mapping[str, LightQuantity]
-
-    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:  # noqa: ARG002 - it is one block
-        """Return the part of each variable that the block is, and what is in it."""
-        light = run_block(self.recipe, self.grid)
-        front = (slice(0, len(light.lights)),) if len(light.lights) > 1 else ()
-        return {
-            name: ((*front, *self.region), light.of(each)) for name, each in self.quantities.items()
-        }
-
-
 _IDENTITY = "sweep_identity"
 """The attribute by which a file is known again."""
 
@@ -236,28 +229,22 @@ def stored_in_netcdf(
     identity = sha256(job.identity.encode()).hexdigest()
     if file.exists():
         return _opened(file, identity)
-    place = place_of_blocks(file)
+    place = place_of_blocks(str(file))
     try:
-        keep_blocks(job, place, scheduler, tell)
-        _write(file, place, identity, {name: each.chunks for name, each in job.arrays.items()})
+        blocks = keep_blocks(job, place, scheduler, tell)
+        _write(
+            file, blocks.store, identity, {name: each.chunks for name, each in job.arrays.items()}
+        )
     except (OptipathError, *_FAULTS):
         # Another run that was faster has put the file there, and removed the store.
         if not file.exists():
             raise
     result = _opened(file, identity)
-    _remove(place)
+    shutil.rmtree(place, ignore_errors=True)
     return result
 
 
-def _remove(store: Path) -> None:
-    """Remove a store at once, so that nobody goes on with half of it."""
-    moved = store.with_name(f".{secrets.token_hex(8)}.draft")
-    with suppress(OSError):
-        store.rename(moved)
-        shutil.rmtree(moved, ignore_errors=True)
-
-
-def _write(file: Path, store: Path, identity: str, chunks: Mapping[str, tuple[int, ...]]) -> None:
+def _write(file: Path, store: Any, identity: str, chunks: Mapping[str, tuple[int, ...]]) -> None:
     """Write what a store holds beside the place of a file, and put it there."""
     draft = file.with_name(f".{secrets.token_hex(8)}.draft")
     encoding = {name: {"chunksizes": sizes} for name, sizes in chunks.items()}

@@ -15,7 +15,6 @@ from optipath.values.messages import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from pathlib import Path
 
     from matplotlib.axes import Axes
 
@@ -76,7 +75,7 @@ def _plan(path: PathGraph, composer: Composer | None) -> Plan:
     return path.plan_by(composer)
 
 
-def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
+def _place(store: Any, scheduler: Any, progress: Any) -> str | None:
     """Return where a sweep is to be kept; None where it is not."""
     if store is not None:
         from optipath.sweeps.stored import place_of_store  # noqa: PLC0415

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +18,6 @@ from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from optipath.light.frame import Frame
     from optipath.values.precision import Numbers
@@ -141,7 +141,7 @@ def following(result: Callable[[Numbers], Any]) -> Callable[[Numbers], Numbers]:
 _ENDING = ".zarr"
 
 
-def store_argument(store: Any, scheduler: Any) -> Path | None:
+def store_argument(store: Any, scheduler: Any) -> str | None:
     """Return where a measurement is to be kept; None where it is not.
 
     >>> store_argument("hemisphere.nc", None)
@@ -169,12 +169,12 @@ in .zarr, such as 'hemisphere.zarr'
         )
     if faults:
         raise SurfaceError(*faults)
-    return place
+    return None if place is None else os.fspath(store)  # A URL is no path.
 
 
 def _check_scheduler(scheduler: Any) -> None:
     try:
-        from optipath.sweeps.workers import check_scheduler  # noqa: PLC0415 - an extra
+        from optipath.sweeps.blocks import check_scheduler  # noqa: PLC0415 - an extra
     except ImportError:
         return  # What is not installed is told by who needs it.
     check_scheduler(scheduler)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, partial
 from hashlib import sha256
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
@@ -154,8 +154,16 @@ class ChunkJob:
         """What the store is."""
         return {"title": "chunks of photons of a measurement; optipath.measure adds them up"}
 
-    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
-        """Return the sums over the photons of a chunk, and their places."""
+    def places(self, number: int) -> dict[str, tuple[slice, ...]]:
+        """Return which part of each array a chunk is."""
+        return dict.fromkeys(PartSums._fields, (slice(number, number + 1),))
+
+    def task(self, number: int) -> partial[dict[str, npt.NDArray[Any]]]:
+        """Return what computes a chunk."""
+        return partial(self.compute, number)
+
+    def compute(self, number: int) -> dict[str, npt.NDArray[Any]]:
+        """Return the sums over the photons of a chunk."""
         if measuring_code() != self.code:
             raise SurfaceError(
                 f"a worker has optipath {measuring_code()}, and the measurement was begun by "
@@ -164,10 +172,4 @@ class ChunkJob:
         # Chunks that are walked at one time have other surfaces in turn, each set kept by a sample.
         own = replace(self.seen.beam, sample=copy(self.seen.beam.sample))
         result = replace(self.seen, beam=own).chunk(number, self.photons, self.threads)
-        return {
-            name: (
-                (slice(number, number + 1), *(slice(0, size) for size in each.shape)),
-                each[np.newaxis],
-            )
-            for name, each in zip(PartSums._fields, result, strict=True)
-        }
+        return {name: each[np.newaxis] for name, each in zip(PartSums._fields, result, strict=True)}

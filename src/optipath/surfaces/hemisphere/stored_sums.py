@@ -5,23 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import zarr
-
 from optipath.surfaces.energy_shares import processors
 from optipath.surfaces.hemisphere.beam import CHUNK, PartSums
-from optipath.sweeps.blocks import keep_blocks
-from optipath.sweeps.workers import active_client
+from optipath.sweeps.blocks import active_client, keep_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from optipath.surfaces.hemisphere.chunks import ChunkJob
 
 
 def sums_in_store(
     job: ChunkJob,
-    store: Path,
+    store: str,
     scheduler: Any,
     threads: Any,
     progress: Callable[[int, int], None] | None,
@@ -38,9 +34,9 @@ def sums_in_store(
 
     # Whoever asks is warned of coarse meshes, and not workers.
     job.seen.beam.sample.fields()
-    folder = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
-    there = [zarr.open_array(str(folder / name), mode="r") for name in PartSums._fields]
+    group = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
+    there = [group[name] for name in PartSums._fields]
     result = PartSums.none(job.seen.shape)
     for number in range(job.blocks):
-        result.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type]
+        result.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type, index]
     return result
