@@ -2,26 +2,150 @@
 
 from __future__ import annotations
 
-import math
 import re
 import sys
 from contextlib import contextmanager
-from contextvars import ContextVar
-from copyreg import __newobj__  # type: ignore[attr-defined]
+from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
 from reprlib import Repr
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-    from contextlib import AbstractContextManager
+    from contextvars import ContextVar
+    from typing import Self
 
 
 _LONGEST = 600
 _LONGEST_QUOTE, _LONGEST_PATH = 60, 250
 _MOST_LISTED, _MOST_FAULTS = 40, 20
+
+Medium: TypeAlias = Literal["python", "file", "command", "page"]
+"""Where a fault is read, and its cure is followed."""
+
+
+@dataclass(frozen=True)
+class Cure:
+    """A cure as Python writes it, a file, the command line and the page.
+
+    What is not given is written as in a file on the page and the command line, and as in Python in
+    a file.
+
+    >>> Cure("give True", "give true").written("command")
+    'give true'
+    """
+
+    python: str
+    file: str | None = None
+    command: str | None = None
+    page: str | None = None
+
+    @classmethod
+    def of(cls, wording: Callable[[str], str], *ways: str) -> Cure:
+        """Return a cure that differs in one part, which is given as each medium writes it."""
+        return cls(*map(wording, ways))
+
+    @classmethod
+    def giving(cls, name: str, wording: Callable[[str], str] = str) -> Cure:
+        """Return the cure that a value is to be given for a parameter.
+
+        >>> cure = Cure.giving("n_1", lambda way: f"give one, {way}")
+        >>> [cure.written(medium) for medium in ("python", "command", "page")]
+        ['give one, n_1=...', 'give one, --n-1 ...', 'give one, in its field']
+        """
+        option = f"--{name.replace('_', '-')} ..."
+        return cls.of(wording, f"{name}=...", f"{name} = ...", option, "in its field")
+
+    def written(self, medium: Medium) -> str:
+        """Return the cure as it is written in a medium."""
+        result: str | None = getattr(self, medium)
+        if result is None:
+            result = self.written("file" if medium in ("page", "command") else "python")
+        return result
+
+
+class Fault(str):
+    """What is wrong, and the cure; as a text, the sentence that Python shows.
+
+    Attributes
+    ----------
+    reason : str
+        The sentence without place and cure.
+    cure : str or Cure
+        What to do; nothing where no cure is sure.
+    subject : str
+        The name of the parameter or field that it is about, for forms; nothing where it is none.
+    place : str
+        Where it is, such as a table of a file.
+
+    Examples
+    --------
+    >>> fault = Fault("parameter 'n' is 0", "give a number above 0", subject="n")
+    >>> print(fault.under("cases.a"))
+    cases.a: parameter 'n' is 0; give a number above 0
+    >>> fault.under("cases.a").subject
+    'n'
+    """
+
+    __slots__ = ("cure", "place", "reason", "subject")
+
+    reason: str
+    cure: str | Cure
+    subject: str
+    place: str
+
+    def __new__(
+        cls, reason: str, cure: str | Cure = "", subject: str = "", place: str = ""
+    ) -> Self:
+        written = cure.python if isinstance(cure, Cure) else cure
+        result = super().__new__(cls, _sentence(place, reason, written))
+        result.reason, result.cure, result.subject, result.place = reason, cure, subject, place
+        return result
+
+    @classmethod
+    def of(cls, fault: str) -> Fault:
+        """Return a fault; a plain sentence is a reason."""
+        return fault if isinstance(fault, Fault) else cls(fault)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Fault, (self.reason, self.cure, self.subject, self.place)
+
+    def but(self, **changes: Any) -> Fault:
+        """Return the fault with other parts."""
+        return Fault(**{name: getattr(self, name) for name in self.__slots__} | changes)
+
+    def under(self, place: str) -> Fault:
+        """Return the fault within an outer place, of which one such as ".n" or "[0]" is a part."""
+        if not place:
+            return self
+        colon = ": " if self.place and self.place[0] not in ".[" else ""
+        return self.but(place=f"{place}{colon}{self.place}")
+
+    def cured(self, cure: str) -> Fault:
+        """Return the fault with one more cure; nothing is none."""
+        if not cure:
+            return self
+        if isinstance(self.cure, Cure):
+            ways = [self.cure.written(m) for m in ("python", "file", "command", "page")]
+            return self.but(cure=Cure.of(lambda way: f"{way}; {cure}", *ways))
+        return self.but(cure=f"{self.cure}; {cure}" if self.cure else cure)
+
+    def within(self, medium: Medium) -> Fault:
+        """Return the fault of what is written in a medium, whoever reads of it."""
+        return self.but(cure=self.cure.written(medium)) if isinstance(self.cure, Cure) else self
+
+    def written(self, medium: Medium) -> str:
+        """Return the sentence for who reads it in a medium."""
+        return str(self.within(medium))
+
+
+def _sentence(place: str, reason: str, cure: str) -> str:
+    """Return a sentence on one line, cut where it is long."""
+    where, instead = f"{place}: " if place else "", f"; {cure}" if cure else ""
+    text = printable(f"{where}{reason}{instead}").replace("\n", "\\n")
+    return text if len(text) <= _LONGEST else f"{text[:300]} ... {text[-150:]}"
 
 
 class OptipathError(Exception):
@@ -30,8 +154,7 @@ class OptipathError(Exception):
     Parameters
     ----------
     *faults : str
-        One sentence for each fault: the thing, the value, and the cure. Of what it quotes, 60
-        characters are shown (250 of names of files), control characters by their codes.
+        One `Fault` or sentence for each fault: the thing, the value, and the cure.
     about : str, optional
         What all of them are about, such as a file.
 
@@ -48,26 +171,38 @@ class OptipathError(Exception):
     about = ""
 
     def __init__(self, *faults: str, about: str = "") -> None:
-        short = tuple(map(_shortened, faults))
-        super().__init__(*short)
-        self.faults = short
+        self.faults = tuple(map(Fault.of, faults))
+        super().__init__(*self.faults)
         if about:
-            self.about = _shortened(about)
+            self.about = _sentence("", about, "")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Whatever a subclass is made of, its sentences are what it is.
-        return __newobj__, (type(self), *self.faults), self.__dict__
+        # Whatever a subclass is made of, its faults are what it is.
+        return _remade, (type(self), self.faults), self.__dict__
 
     def __str__(self) -> str:
         """Return the first faults, one a line, and how many more there are; or a single one."""
+        return self.written("python")
+
+    def within(self, medium: Medium) -> list[Fault]:
+        """Return the faults of what is written in a medium, whoever reads of it."""
+        return [fault.within(medium) for fault in self.faults]
+
+    def written(self, medium: Medium) -> str:
+        """Return the first faults, one a line, for who reads them in a medium."""
+        messages = [fault.written(medium) for fault in self.faults[:_MOST_FAULTS]]
         if len(self.faults) == 1:
-            return f"{self.about}: {self.faults[0]}" if self.about else self.faults[0]
+            return f"{self.about}: {messages[0]}" if self.about else messages[0]
         counted = f"{len(self.faults)} faults:"
         head = f"{self.about} has {counted}" if self.about else counted
-        lines = [head, *(f"- {fault}" for fault in self.faults[:_MOST_FAULTS])]
+        lines = [head, *(f"- {message}" for message in messages)]
         if (more := len(self.faults) - _MOST_FAULTS) > 0:
             lines.append(f"and {more:,} more")
         return "\n".join(lines)
+
+
+def _remade(kind: type[OptipathError], faults: tuple[Fault, ...]) -> OptipathError:
+    return kind.__new__(kind, *faults)
 
 
 class FrameError(OptipathError):
@@ -162,18 +297,18 @@ class ComposerError(OptipathError):
 def collecting(
     faults: list[str], error: type[OptipathError] = OptipathError, about: str = ""
 ) -> Iterator[None]:
-    """Keep the sentences of what goes wrong inside, each behind what it is about, and go on.
+    """Keep the faults of what goes wrong inside, each under what it is about, and go on.
 
     >>> faults = []
-    >>> with collecting(faults, about="there: "):
+    >>> with collecting(faults, about="there"):
     ...     raise OptipathError("it is dark")
     >>> faults
     ['there: it is dark']
     """
     try:
         yield
-    except error as fault:
-        faults += [about + sentence for sentence in fault.faults]
+    except error as result:
+        faults += [fault.under(about) for fault in result.faults]
 
 
 T = TypeVar("T")
@@ -197,8 +332,6 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    if not looks_left():
-        return ""
     names = [name for name in known if name]
     if (result := closest(word if isinstance(word, str) else shown(word), names)) is not None:
         return f"; did you mean '{result}'?"
@@ -237,23 +370,9 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def _shortened(fault: str) -> str:
-    """Return a sentence on one line, what it quotes cut where it is long."""
-    fault = _QUOTED.sub(_cut, printable(fault).replace("\n", "\\n"))
-    return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"
-
-
-def _cut(quoted: re.Match[str]) -> str:
-    # Of the name of a file, each folder counts.
-    return _short(quoted[0], _LONGEST_PATH if "/" in quoted[0] else _LONGEST_QUOTE + 2)
-
-
 def _short(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most // 2]}...{text[3 - most // 2 :]}"
 
-
-# Texts in quotation marks, and words of any length.
-_QUOTED = re.compile(r"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|[^\s'"]{61,}""")
 
 # Control characters but for the end of a line, what turns the direction of
 # writing, other ends of lines, and halves of characters, which no file in UTF-8 can hold.
@@ -318,8 +437,6 @@ _BEGINNING = 3
 
 _SIGNS = "-$"
 
-_looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
-
 
 def closest(word: str, known: Iterable[str]) -> str | None:
     """Return the known word that a misspelt one was meant for; None where none is near.
@@ -334,9 +451,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     >>> closest("--plot", ["--delta"]), closest("10", ["1", "2"]), closest("n12", ["n1", "n2"])
     (None, None, None)
     """
-    left, request = _looks_left.get(), _bare(word)
-    _looks_left.set(left - 1)
-    if left <= 0 or len(word) > _LONGEST_WORD:
+    request = _bare(word)
+    if len(word) > _LONGEST_WORD:
         return None
     words = [*known][:_MOST_WORDS]
     by_bare = {_bare(name): name for name in reversed(words) if len(name) <= _LONGEST_WORD}
@@ -349,21 +465,6 @@ def closest(word: str, known: Iterable[str]) -> str | None:
         if result == request or not _too_short(request, result):
             return by_bare[result]
     return None
-
-
-def looks_left() -> bool:
-    """Tell whether `closest` will look once more; see `few_suggestions`."""
-    return _looks_left.get() > 0
-
-
-def few_suggestions(most: int = 20) -> AbstractContextManager[None]:
-    """Let misspelt words be looked for so often inside, and no more: each look takes its time.
-
-    >>> with few_suggestions(1):
-    ...     [closest(word, ["in", "out"]) for word in ("ou", "outt")]
-    ['out', None]
-    """
-    return having(_looks_left, most)
 
 
 def _bare(word: str) -> str:

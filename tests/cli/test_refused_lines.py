@@ -103,7 +103,7 @@ PLOTS = [
     ("--kind curve --x delta --x rho --x phi", "--kind curve is along two parameters at most"),
     ("--kind poincare --x delta --x rho", "one parameter at most"),
     ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
-    ("--kind bench --rho 30", "--kind geometry draws this path in space"),
+    ("--kind bench --rho 30", "the picture 'geometry', which has this path in space"),
     ("--kind ellipse --delta 0:90:4", "--delta is given several values"),
 ]
 REFUSED += [

@@ -130,7 +130,7 @@ def test_a_missed_tolerance_a_coarse_mesh_and_lost_photons_are_told_in_a_line(ru
     assert energy["R_se"] <= energy["tolerance"] == 0.002
     status, out, err = run(given, "--photons", 1000)
     assert (status, err.count("\n")) == (0, 1)
-    assert "more than the tolerance of 0.002; allow more --photons\n" in err
+    assert "more than the tolerance of 0.002; allow more photons\n" in err
     assert "1,000 photons" in out
     given = "surface rough.toml --incidence 60 --photons 1000 --surfaces 2 --cells"
     status, _, err = run(given, 100)

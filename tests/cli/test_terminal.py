@@ -92,7 +92,7 @@ def test_lines_go_on_in_narrow_terminals_and_missing_values_are_told(run, monkey
     for command in ("run", "polarization"):
         asked = "parameter 'angle_1' has no value; give one, --angle-1 ..."
         assert asked in run(f"{command} open.toml")[2]
-    assert "certificate: depends on angle_1; give --angle-1 ..." in run("explain open.toml")[1]
+    assert "certificate: depends on angle_1; give values" in run("explain open.toml")[1]
 
 
 def test_compiling_is_told_once_and_whether_it_is_kept(caplog, monkeypatch, tmp_path):

@@ -204,7 +204,7 @@ def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last):
     assert found | {"curve_faults": []} == trace(answers, preset, values=values, **ALL)
     if preset == "dichroic-sheet":
         (fault,) = trace(answers, preset, curve=curve | {"from": "0", "to": "0.4"})["curve_faults"]
-        assert "(where dichroism is 0.2 1/um)" in fault["sentence"]
+        assert "its dichroism is 2000 1/cm" in fault["sentence"]
 
 
 def test_what_is_wanted_is_there_and_nothing_else_and_power_is_that_of_light(answers):

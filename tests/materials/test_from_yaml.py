@@ -87,7 +87,7 @@ REFUSED = [
     *((of_row(r), "has no numbers in row 3") for r in ("0.6e999999999999 1 1", "sNaN 1 1")),
     ("", "it has no list DATA of tables and formulas"),
     *((text, "it has no list DATA") for text in ("DATA: 3", "DATA: !!python/object/apply:os.x []")),
-    (of_data("x"), "entry 1 of DATA is of type 'x'; give 'tabulated nk'"),
+    (of_data("x"), "entry 1 of DATA: is of type 'x'; give 'tabulated nk'"),
     (of_data("tabulated n2", "0.4 1"), "is of type 'tabulated n2'"),
     (of_data("tabulated nk"), "('tabulated nk') has no 'data'; give rows of wave"),
     (of_data("tabulated nk", "0.4 1"), "has 2 numbers in row 1, '0.4 1'"),

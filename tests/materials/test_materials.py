@@ -121,7 +121,7 @@ OPEN = op.Material.sellmeier([op.Parameter("b")], [0.1], name="x")
 cauchy, lorentz = op.Material.cauchy, op.Material.tauc_lorentz
 REFUSED = [
     (lambda: gold().refractive_index, "n of gold depends on the wavelength; give .at('550 nm')"),
-    (lambda: gold().at("3 um"), "1937 nm, for which gold is known, or ask for | 'nearest' or 'lin"),
+    (lambda: gold().at("3 um"), '1937 nm, for which gold is known, or ask for | "nearest" or "lin'),
     (lambda: gold().at(516), "516 metres, which is no wavelength of light; for nanometres"),
     (lambda: gold(wavelength="3 um"), "within 188 nm .. 1937 nm, for which gold is known"),
     (lambda: bk7(span="1 um"), "span of BK7 is '1 um'; give the least and the largest"),

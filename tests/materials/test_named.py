@@ -109,7 +109,7 @@ def test_a_page_has_several_names_and_is_one_material():
     assert named("vacuum") == op.Material(1.0)
     told = refusal("Au")
     assert told.startswith("'Au' has ")
-    assert "pages; name one by page=, or say 'gold': 'Johnson' (Johnson and Christy 1972: n" in told
+    assert "pages; name one in place of it, or say 'gold': 'main/Au/Johnson' (Johnson and" in told
     assert "'optipath materials Au' lists them" in told
 
 
@@ -134,11 +134,11 @@ MALITSON, BOYD = {"page": "Malitson"}, {"page": "Boyd-o", "k": 0.0}
         ("gold", {"extrapolate": "x"}, "extrapolate 'x' is unknown; there are: nearest, linear"),
         ("vacuum", {"page": "x"}, "has no page 'x'; leave page out"),
         ("SiO2", MALITSON, "has no k (extinction coefficient), only n within 210 nm"),
-        ("SiO2", MALITSON, "ask for k=0.0, or give its k"),
+        ("SiO2", MALITSON, "or give it: k = 0.0"),
         ("BaF2", {"page": "Bosomworth-5K"}, "has no n (index of refraction), only k within 54945"),
         ("gold", {"n": 1.0, "k": 0.0}, "op.Material(n, k) needs no name"),
         ("silica", {"interpolation": "monotone"}, "of which nothing is interpolated"),
-        ("silica", {"extrapolate": "linear"}, "ask for extrapolate='nearest', or stay within it"),
+        ("silica", {"extrapolate": "linear"}, 'ask for extrapolate="nearest", or stay within it'),
         ("gold", {"interpolation": "cubic"}, "interpolation 'cubic' is unknown; there are"),
         ("gold", {"extrapolate": "near"}, "did you mean 'nearest'?"),
         ("AgGaSe2", BOYD, "has 4 coefficients, which formula 2 cannot have; name"),

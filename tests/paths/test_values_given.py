@@ -90,9 +90,6 @@ def test_detectors_nodes_and_places_are_told_by_their_names():
     path.connect("P", "camera", tap=True)
     told = fault(path.bind, place="eye")
     assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
-    path = chain([op.Interface(1.5, D)])
-    assert "bounds=" not in fault(path.trace, d="100 deg")
-    assert "bounds=" in fault(path.trace, d=-0.1)
 
 
 def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():
@@ -115,7 +112,7 @@ def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():
     assert fault(op.Parameter, "d", "half", "deg").endswith("give an angle such as '45 deg'")
     two_faces = wired({"X1": op.Interface(1.5, 0.3), "E": op.Detector()}, "")
     told = fault(two_faces.connect, "X1.refracted", "E")
-    assert told.endswith("does not exist; there are: X1.reflected, X1.transmitted")
+    assert told.startswith("port 'X1.refracted' does not exist; ")
 
 
 @rows(

@@ -84,7 +84,7 @@ def test_the_parameter_of_the_path_is_the_plain_one_by_its_own_default_and_range
 def test_a_field_that_would_leave_its_domain_is_told_with_both():
     path = through(op.Interface(1.5, 2 * D + "10 deg"))
     for d, told in (
-        (1.1, r"136.05\d* deg; give a real angle .* within 0 deg .. 90 deg \(in a fit"),
+        (1.1, r"136.05\d* deg; give a real angle .* within 0 deg .. 90 deg$"),
         (np.array([0.1, 1.1]), r"136.05\d* deg at 1; give .* 90 deg$"),
         ("63.02535746439057 deg", r"136.05\d* deg; give .* 90 deg$"),
         (1e308, "inf"),

@@ -249,7 +249,7 @@ GRID = [4e-7, 5e-7, 6e-7]
 ABSORBING = op.Material.tabulated(GRID, 1.5, [1e-8, 2e-8, 3e-8], name="glass")
 PARTLY = op.Material.tabulated(GRID, 1.5, [0.0, 2e-8, 3e-8], name="glass")
 CONSTANT = op.Material(1.5, 1e-8)
-MEDIUM_CURE = "take the medium without its k, such as Material(glass.n)"
+MEDIUM_CURE = "take the medium without its k"
 DOWN = [[0, 0, 3], [0, 0, 2], [0, 0, 0]]
 
 

@@ -248,7 +248,6 @@ def test_defaults_and_ends_of_a_range_are_displayed_without_noise(low, high, uni
 
 
 NPGR026 = op.load_preset("npgr026")
-BOUNDS = "(in a fit, give the optimiser bounds=)"
 
 
 def fault(call, *arguments, **values):
@@ -259,30 +258,6 @@ def fault(call, *arguments, **values):
 
 def layered(index):
     return op.Source() >> op.Interface(index, 0.3) >> op.Detector()
-
-
-def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs_and_others_are_not():
-    optimize = pytest.importorskip("scipy.optimize")
-    of_material = layered(op.Material(1.5, op.Parameter("k")))
-    for number in (-0.01, np.float64(-0.01), np.float32(-0.01), np.array([-0.01])):
-        assert f"give 0 or more {BOUNDS}" in fault(NPGR026.trace, k1=number)
-        assert f"of 0 or more {BOUNDS}" in fault(of_material.trace, k=number)
-    # A fit has no part in numbers that are complex.
-    outside = op.Source() >> op.Interface(2.0, 0.3, outside=op.Parameter("m")) >> op.Detector()
-    for path in (layered(op.Parameter("m")), outside):
-        assert BOUNDS in fault(path.trace, m=1.5 - 0.1j)
-    given = [("k1", [-0.01, 2.0]), ("k1", np.nan), ("delta", "200 deg"), ("k1", "x")]
-    for name, value in [*given, ("delta", 48.0)]:
-        assert "bounds" not in fault(NPGR026.trace, **{name: value})
-    assert "bounds" not in fault(NPGR026.bind, k1=-0.01)
-    assert "bounds" not in fault(of_material.trace, k=0.1j)
-
-    def brightness(x):
-        return float(of_material.trace(k=x[0]).intensity)
-
-    assert BOUNDS in fault(optimize.minimize, brightness, [0.1])
-    least = optimize.minimize(brightness, [0.1], bounds=[(0.0, None)]).fun
-    assert least == pytest.approx(0.04, abs=0.01)
 
 
 def test_a_number_that_is_wrong_in_several_places_and_arrays_of_other_shapes_are_told_once():

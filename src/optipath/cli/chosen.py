@@ -176,7 +176,7 @@ def _value(
                 faults.append(f"{option} takes one value beside --{_flag(name)} {text}; give one")
             elif k is not None:
                 path.parameters[other].resolve(k)
-            return None if faults else material_named(f"--{_flag(name)}", text, option, k)
+            return None if faults else material_named(f"--{_flag(name)}", text, k)
         if several := axis_argument(parameter, text, uses):
             return several
         # A bare number may be nanometres, micrometres or electronvolts.

@@ -20,6 +20,7 @@ from click.shell_completion import shell_complete
 from optipath.cli.interruption import INTERRUPTED, stop
 from optipath.cli.options import WholeHelp
 from optipath.errors import (
+    Fault,
     LoopWarning,
     MeshWarning,
     OptipathError,
@@ -31,7 +32,7 @@ from optipath.errors import (
     printable,
     shown,
 )
-from optipath.values.messages import of_files, units_are_written
+from optipath.values.messages import units_are_written
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -124,9 +125,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str]) -> int:
     if sys.stdout is None:
-        return _refuse("the output cannot be written: standard output is closed")
+        return _refuse(_no_output("standard output is closed"))
     try:
-        with warnings.catch_warnings(), units_are_written(), of_files():
+        with warnings.catch_warnings(), units_are_written():
             warnings.simplefilter("always", LoopWarning)
             for once in (MeshWarning, PhotonWarning, StoreWarning):  # The same of each surface.
                 warnings.simplefilter("default", once)
@@ -135,17 +136,22 @@ def _run(arguments: Sequence[str]) -> int:
                 _invoke(arguments)
         sys.stdout.flush()
     except click.ClickException as error:
-        return _refuse(error.format_message())
+        return _refuse(OptipathError(error.format_message()))
     except OptipathError as error:
-        return _refuse(*error.faults, about=error.about)
+        return _refuse(error)
     except MemoryError:
-        return _refuse("the memory of this machine does not suffice; run fewer paths at once")
+        why = "the memory of this machine does not suffice"
+        return _refuse(OptipathError(Fault(why, "run fewer paths at once")))
     except BrokenPipeError:
         _forget_output()  # Whoever read it has seen enough.
     except OSError as error:
         _forget_output()
-        return _refuse(f"the output cannot be written: {error.strerror or error}")
+        return _refuse(_no_output(error.strerror or str(error)))
     return 0
+
+
+def _no_output(why: str) -> OptipathError:
+    return OptipathError(f"the output cannot be written: {why}")
 
 
 def _invoke(arguments: Sequence[str]) -> None:
@@ -171,9 +177,9 @@ def _forget_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _refuse(*faults: str, about: str = "") -> int:
+def _refuse(error: OptipathError) -> int:
     """Tell what is wrong: one fault on the one line, several on a line each."""
-    _print_error(*str(OptipathError(*faults, about=about)).splitlines())
+    _print_error(*error.written("command").splitlines())
     return 2
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -29,7 +29,6 @@ from optipath.materials.quantities import INCIDENCE as INCIDENCE_DOMAIN
 from optipath.materials.quantities import plain
 from optipath.values.curve import WavelengthRange, span_text
 from optipath.values.curve_value import CurveValue
-from optipath.values.messages import of_options
 from optipath.values.units import format_quantity, in_unit, parse_quantity
 from optipath.values.wavelength import Wavelength
 
@@ -204,8 +203,7 @@ def reported_at(
     angle = _angle(incidence, faults)
     if faults:
         raise MaterialError(*faults)
-    with of_options({"page": "--page", "n": "--n", "k": "--k"}):
-        open_one = Material.named(name, page=page, **own)
+    open_one = Material.named(name, page=page, **own)
     curve: PageCurve | None = next(
         (part.curve for part in (open_one.n, open_one.k) if isinstance(part, CurveValue)), None
     )
@@ -236,8 +234,7 @@ def _numbers(part: Any, there: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 def _check_range(curve: PageCurve | None, wavelengths: Sequence[float]) -> None:
     if curve is not None:
-        own = f"{curve.beyond}, or " if "--k" in curve.beyond else ""
-        known = replace(WavelengthRange.of(curve), beyond=f"{own}choose another page with --page")
+        known = WavelengthRange.of(curve)
         for wavelength in wavelengths:
             known.check("--at", wavelength)
 
@@ -246,7 +243,7 @@ def _read(text: str, faults: list[str]) -> float:
     try:
         return float(Wavelength().resolve(text).value)
     except OptipathError as error:
-        faults += [fault.replace("parameter 'wavelength'", "--at") for fault in error.faults]
+        faults += [fault.under("--at") for fault in error.faults]
         return 1.0
 
 

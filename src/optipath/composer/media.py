@@ -12,13 +12,13 @@ import numpy as np
 from optipath.composer.meetings import TURNED, Meetings, OnePlane, keys_of, turn_text, way_text
 from optipath.elements.boundary import BoundaryElement, world_angles
 from optipath.elements.boundary_media import arriving_waves
+from optipath.errors import Cure, Fault
 from optipath.kernels.fresnel.boundary import phase_index
 from optipath.kernels.primitives import of_module
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.values.agreement import Agreement, first_faults, is_single, text_of
 from optipath.values.curve_value import CurveValue
-from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.units import digits_until
@@ -293,10 +293,11 @@ class SameMedium(Agreement):
         fixed = self._is_one_parameter or isinstance(self.operands[1].value, CurveValue)
         cures = [] if fixed or 0 in varying else [self._cure(*numbers[0::2])]
         if not self.enters.endswith(".back"):
-            cures.append(f"{cure('op.FOLLOWS', FOLLOWS.in_file)} for {self.field}")
+            cures.append([f"{way} for {self.field}" for way in ("op.FOLLOWS", FOLLOWS.in_file)])
         elif not cures:
-            cures.append(f"the same for {self.field} as there")
-        return f"{is_lit}, but its {self.field} is {behind}; give {', or '.join(cures)}"
+            cures.append([f"the same for {self.field} as there"] * 2)
+        ways = [f"give {', or '.join(several)}" for several in zip(*cures, strict=True)]
+        return Fault(f"{is_lit}, but its {self.field} is {behind}", Cure(*ways))
 
     @property
     def _is_one_parameter(self) -> bool:
@@ -305,14 +306,14 @@ class SameMedium(Agreement):
         both = all(isinstance(value, Parameter) for value in values)
         return both and len({value.name for value in values}) == 1
 
-    def _cure(self, n: float, k: float = 0.0) -> str:
+    def _cure(self, n: float, k: float = 0.0) -> list[str]:
+        """Return the index that would do, as Python writes it and as a file does."""
         value: Any = self.operands[1].value
         argument = value.formula if isinstance(value, Parameter) else self.field
         if not k:
-            return f"{argument} = {n:.12g}"
-        return cure(
-            f"{argument} = {n:.12g}{k:+.12g}j", f"{argument} = {{ n = {n:.12g}, k = {k:.12g} }}"
-        )
+            return [f"{argument} = {n:.12g}"] * 2
+        table = f"{{ n = {n:.12g}, k = {k:.12g} }}"
+        return [f"{argument} = {n:.12g}{k:+.12g}j", f"{argument} = {table}"]
 
 
 def _called(number: str) -> str:
@@ -409,9 +410,9 @@ class SnellsLaw(Agreement):
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
         pairs = ((angle1, n1, k1), (angle2, n2, k2))
         here, there = (float(_index(np, a, n, k)) * math.sin(a) for a, n, k in pairs)
-        cures = [cure("op.FOLLOWS", FOLLOWS.in_file)]
+        angles: list[str] = []
         if not {0, 1, 2, 4, 5}.intersection(varying) and not (k1 or k2):
-            cures = [*self._angles(angle1, n1, n2), *cures]
+            angles = self._angles(angle1, n1, n2)
         digits = digits_until(lambda d: f"{here:.{d}g}" != f"{there:.{d}g}")
         sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
         argument = text_of(self.operands[3], math.degrees(angle2), " deg")
@@ -431,14 +432,19 @@ class SnellsLaw(Agreement):
         if self.may_be_shown:
             why = (
                 f"faces are taken as parallel behind one that refracts; if '{own}' stands at an "
-                f"angle to '{name}', as those of a prism do, say "
-                f"{cure('parallel=False', 'parallel = false')}"
+                f"angle to '{name}', as those of a prism do, say parallel"
             )
+            whys = f"{why}=False", f"{why} = false"
         else:
-            why = "light goes to and fro between them, so they are parallel"
-        return (
+            whys = ("light goes to and fro between them, so they are parallel",) * 2
+        cures = [
+            f"give '{own}' an incidence of {', or '.join([*angles, follows])} ({why})"
+            for follows, why in zip(("op.FOLLOWS", FOLLOWS.in_file), whys, strict=True)
+        ]
+        return Fault(
             f"light of '{self.leaves}' enters '{self.enters}', but n sin(incidence) is {sines} "
-            f"({argument}); give '{own}' an incidence of {', or '.join(cures)} ({why})"
+            f"({argument})",
+            Cure(*cures),
         )
 
     def _angles(self, angle: float, n: float, own_n: float) -> list[str]:

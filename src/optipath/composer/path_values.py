@@ -154,14 +154,14 @@ class Values:
         faulty: set[str] = set()
         looked_at = set()
         ranges, out_of = [], set()
-        messages: set[str] = set()
         some_taken_over = TAKEN_OVER in self.graph.graph
         for use in sorted(self.uses, key=self._is_taken_over) if some_taken_over else self.uses:
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
             if of_range := isinstance(use.domain, WavelengthRange):
                 ranges.append(use)
             another = of_range and use.domain not in out_of
-            if (_named(use) in faulty and not another) or follows:
+            again = bool(results) and self._is_taken_over(use)
+            if (_named(use) in faulty and not another) or follows or again:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
@@ -173,10 +173,7 @@ class Values:
             except ValueFault as fault:
                 faulty.add(_named(use))
                 out_of.add(use.domain)
-                bare = {sentence: sentence.replace(use.owner, "") for sentence in fault.faults}
-                if not self._is_taken_over(use) or not messages.issuperset(bare.values()):
-                    results += fault.faults
-                messages.update(bare.values())
+                results += fault.faults
         sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
         return [
             *results,

@@ -19,8 +19,7 @@ from optipath.composer.wiring import (
     sharing_faults,
     tap_faults,
 )
-from optipath.errors import PathError, listed
-from optipath.values.messages import cure
+from optipath.errors import Cure, Fault, PathError, listed
 from optipath.values.operands import Operand
 from optipath.values.use import remember_sound
 
@@ -97,13 +96,14 @@ def _default_faults(values: Values, wiring: Wiring) -> Iterator[str]:
 
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
     if not wiring.starts:
-        yield f"the path has no source; add one, such as {cure('Source()', _table('source'))}"
+        yield _missing("source", "Source()")
     if not any(element.detects for element in wiring.elements.values()):
-        yield f"the path has no detector; add one, such as {cure('Detector()', _table('detector'))}"
+        yield _missing("detector", "Detector()")
 
 
-def _table(kind: str) -> str:
-    return f'[elements.{kind}] with kind = "{kind}"'
+def _missing(kind: str, made: str) -> Fault:
+    table = f'[elements.{kind}] with kind = "{kind}"'
+    return Fault(f"the path has no {kind}", Cure.of("add one, such as {}".format, made, table))
 
 
 def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
@@ -159,8 +159,11 @@ def _loop_faults(ports: Ways) -> Iterator[str]:
         route = [name for name, _ in nx.shortest_path(inside, start, back)]
         names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
         closed = names if len(names) > 1 and names[0] == names[-1] else [*names, names[0]]
-        summed = cure("loops='sum'", 'loops = "sum" above all tables')
-        yield (
-            f"light goes round in a cycle: {' -> '.join(closed)}; open it by removing a link, "
-            f"or sum over all rounds with {summed}"
+        yield Fault(
+            f"light goes round in a cycle: {' -> '.join(closed)}",
+            Cure.of(
+                "open it by removing a link, or sum over all rounds with {}".format,
+                "loops='sum'",
+                'loops = "sum" above all tables',
+            ),
         )

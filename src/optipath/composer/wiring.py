@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import networkx as nx
 
 from optipath.elements.own_element import OwnWays, couplings_of, own_ways
-from optipath.errors import listed
-from optipath.values.messages import cure
+from optipath.errors import Cure, Fault, listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -302,16 +301,19 @@ _OTHER = "other light"
 
 def sharing_faults(wiring: Wiring) -> Iterator[str]:
     """Yield a sentence for each out-port whose whole light several links would take."""
-    tap = cure("connect(..., tap=True), in a file tap = true", "tap = true below its [[links]]")
     for (name, port), links in wiring.links_from.items():
         if len(links) > 1:
             ends = listed([f"'{link[1]}.{link[2][1]}'" for link in links])
             taken = f"take all but one out, by {taken_out(wiring, links)}, and put one behind the "
-            put = cure(f"{taken}other with path.insert(...)", "put one behind the other")
-            yield (
-                f"port '{name}.{port}' feeds {ends}, and each would get all of its light; {put}, "
-                f"share the light with a BeamSplitter, or read it with a tap, which takes nothing: "
-                f"{tap}"
+            share = (
+                "share the light with a BeamSplitter, or read it with a tap, which takes nothing:"
+            )
+            yield Fault(
+                f"port '{name}.{port}' feeds {ends}, and each would get all of its light",
+                Cure(
+                    f"{taken}other with path.insert(...), {share} connect(..., tap=True)",
+                    f"put one behind the other, {share} tap = true below its [[links]]",
+                ),
             )
 
 

@@ -10,13 +10,12 @@ import numpy as np
 from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element, with_values
 from optipath.elements.known_sizes import bound_value
-from optipath.errors import PathError, ValueFault
+from optipath.errors import Cure, Fault, PathError, ValueFault
 from optipath.kernels.catalog import MATRIX
 from optipath.light.decompositions import reciprocal, tolerance_for, tolerance_of
 from optipath.light.passive import are_passive, cure_of, problem_of
 from optipath.materials.quantities import Angle, Quantity, YesOrNo
 from optipath.values.domains import PhysicalDomain
-from optipath.values.messages import cure
 from optipath.values.operands import Operation
 from optipath.values.parameters import Parameter
 
@@ -98,11 +97,16 @@ class MatrixDomain(PhysicalDomain):
         bad = ~are_passive(array, tolerance)
         if np.any(bad):
             place = [*np.argwhere(bad)[0].tolist()]
-            free = cure("physical=False", "physical = false")
+            wanted = cure_of(array, tolerance)
+            cure = Cure.of(
+                lambda free: (
+                    f"give {wanted}, or {free} for what is measured as it is, and for amplifiers"
+                ),
+                "physical=False",
+                "physical = false",
+            )
             raise ValueFault(
-                f"{owner}{place or ''} {problem_of(array[bad][0], tolerance)}; give "
-                f"{cure_of(array, tolerance)}, or {free} for what is measured as it is, "
-                f"and for amplifiers"
+                Fault(f"{owner}{place or ''} {problem_of(array[bad][0], tolerance)}", cure)
             )
 
 

@@ -29,7 +29,6 @@ from optipath.values.arrays import (
 )
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
-from optipath.values.messages import cure
 from optipath.values.operands import Operand, Operation
 from optipath.values.parameters import Parameter
 from optipath.values.precision import as_doubles, is_whole, rounding_of
@@ -321,11 +320,10 @@ class SnellAtVertex(Agreement):
         most = math.degrees(math.acos(min(n1, n2) / max(n1, n2)))
         between = f"from n = {media[0]} into n = {media[1]}"
         allowed = f"turns it by {most:.9g} deg at most" if most else "lets it go straight on"
-        instead = cure("SpecularVertex", 'kind = "specular-vertex"')
         return (
             f"light is turned by {turned:.9g} deg at '{self.owner}', but a refraction {between} "
             f"{allowed}; move the points, give other media, or let it be reflected there "
-            f"(events with R for T, or {instead})"
+            f"(events with R for T, or a specular vertex)"
         )
 
 

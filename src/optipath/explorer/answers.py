@@ -10,7 +10,7 @@ from keyword import iskeyword
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import AngleWarning, LoopWarning, OptipathError, few_suggestions
+from optipath.errors import AngleWarning, LoopWarning, OptipathError
 from optipath.explorer.as_json import path_as_json
 from optipath.explorer.state import FieldFault, FieldFaults, read_path, read_state, requested_state
 from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
@@ -18,7 +18,7 @@ from optipath.materials.material import Material
 from optipath.materials.named_materials import extinction_with
 from optipath.sweeps.grid import SweepGrid
 from optipath.sweeps.labels import regions, table_columns, table_heads
-from optipath.values.messages import of_fields, of_files, units_are_written
+from optipath.values.messages import units_are_written
 from optipath.values.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:
@@ -82,9 +82,6 @@ class PageAnswers:
         """Let one request at a time be answered, its warnings told, as at the command line."""
         with (
             self._lock,
-            few_suggestions(),
-            of_files(),
-            of_fields(),
             units_are_written(),
             warnings.catch_warnings(record=True) as heard,
         ):
@@ -110,7 +107,7 @@ def _or_faults(answer: Any) -> dict[str, Any]:
     except FieldFaults as result:
         return {"faults": [fault._asdict() for fault in result.faults]}
     except OptipathError as error:
-        return {"faults": [{"field": None, "sentence": each} for each in error.faults]}
+        return {"faults": [FieldFault.of(each, None)._asdict() for each in error.faults]}
 
 
 _ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
@@ -145,7 +142,7 @@ def _table(state: ReadState, curve: RequestedCurve | None) -> str:
         for region in regions(grid.shape):
             rows += map(",".join, zip(*table_columns(plan, grid, region), strict=True))
     except OptipathError as error:
-        raise FieldFaults(FieldFault("curve", each) for each in error.faults) from None
+        raise FieldFaults(FieldFault.of(each, "curve") for each in error.faults) from None
     return "".join(f"{row}\n" for row in rows)
 
 

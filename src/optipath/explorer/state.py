@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import (
+    Fault,
     OptipathError,
     ParameterError,
     collecting,
@@ -29,7 +29,7 @@ from optipath.paths.files.presets import beside
 from optipath.values.parameters import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from optipath.explorer.paths import ExploredPath, ExploredPresets
     from optipath.values.parameters import Parameter
@@ -179,14 +179,16 @@ _READERS: dict[str, Any] = {
 }
 
 
-_NAMED = re.compile(r"^(\w+)|'([^']+)'")
-
-
 class FieldFault(NamedTuple):
     """What is wrong, and where."""
 
     field: str | None
     sentence: str
+
+    @classmethod
+    def of(cls, fault: str, name: str | None) -> FieldFault:
+        """Return a fault as the page writes it beside a field; None is none of them."""
+        return cls(name, Fault.of(fault).written("page"))
 
 
 class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call it
@@ -224,12 +226,15 @@ class ReadState:
         return self.explored.path.cases[self.asked.case].published
 
     def faults(self, error: OptipathError) -> list[FieldFault]:
-        """Return what is wrong with the fields that sentences name."""
+        """Return what is wrong, each beside the field that it is about."""
         known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
         media = [*self.materials]
         # Sentences on a medium name the element that it is in.
         other = media[0] if len(media) == 1 else None
-        return [FieldFault(_field(sentence, known) or other, sentence) for sentence in error.faults]
+        return [
+            FieldFault.of(each, each.subject if each.subject in known else other)
+            for each in error.faults
+        ]
 
 
 def read_state(presets: ExploredPresets, request: RequestedState) -> ReadState:
@@ -270,7 +275,7 @@ def _opened(
     try:
         base = presets.base(request.preset)
     except OptipathError as error:
-        raise FieldFaults(FieldFault("preset", each) for each in error.faults) from None
+        raise FieldFaults(FieldFault.of(each, "preset") for each in error.faults) from None
     case = base.cases.get(request.case or "")
     if case is None and request.case is not None:
         wrong = unknown(f"case of '{request.preset}'", request.case, base.cases)
@@ -313,7 +318,7 @@ def _value(
             return _material(explored, name, text, arguments)
         return single_text(explored, parameter, text)
     except OptipathError as error:
-        faults += [FieldFault(name, sentence) for sentence in error.faults]
+        faults += [FieldFault.of(each, name) for each in error.faults]
         return None
 
 
@@ -330,7 +335,7 @@ def _material(
 ) -> Material:
     k = extinction_with(explored.uses, name)
     own = single_text(explored, explored.parameters[k], arguments[k]) if k in arguments else None
-    return material_named(name, text, k, own)
+    return material_named(name, text, own)
 
 
 def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]) -> ReadState:
@@ -356,9 +361,3 @@ def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]
         del values[name], argument[name]
     explored.plan.inputs.resolve(values)
     return replace(state, explored=explored, values=values, given=argument, notes=tuple(notes))
-
-
-def _field(sentence: str, known: Collection[str]) -> str | None:
-    """Return the first parameter that a sentence names; None where it names none."""
-    words = [bare or quoted for bare, quoted in _NAMED.findall(sentence)]
-    return next((word for word in words if word in known), None)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from optipath.errors import OptipathError, collecting, listed, shown, unknown
+from optipath.errors import OptipathError, collecting, shown, unknown
 from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, link_as_json
 from optipath.explorer.state import FieldFault, FieldFaults, single_text
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
@@ -187,7 +186,6 @@ class TracedOnce:
 
 
 _NAMES = {quantity.variable: quantity for quantity in QUANTITIES}
-_PLACE = re.compile(r"\(at (\d+), of \d+ paths\)")
 _SEVERAL = ":,@"
 """What stands in a text of several values, or names a file, of which none is ever read."""
 
@@ -195,16 +193,13 @@ _SEVERAL = ":,@"
 def curve_as_json(state: ReadState, request: RequestedCurve, detector: str) -> dict[str, Any]:
     """Return a curve for the page."""
     explored = state.explored
-    axes: tuple[SweepAxis, ...] = ()
     try:
         grid = curve_grid(state, request)
-        axes = grid.axes
         key = detector, request, *sorted(grid.fixed.items())
         lines = explored.stored_curve(key, lambda: _lines(explored.plan, grid, request.y, detector))
     except OptipathError as error:
-        messages = [_by_value(sentence, axes) for sentence in error.faults]
-        raise FieldFaults(FieldFault("curve", each) for each in messages) from None
-    (axis,) = axes
+        raise FieldFaults(FieldFault.of(each, "curve") for each in error.faults) from None
+    (axis,) = grid.axes
     return {
         "x": axis.shown.tolist(),
         "x_label": heading(axis.name, axis.unit),
@@ -241,16 +236,6 @@ def _end_faults(state: ReadState, parameter: Parameter, request: RequestedCurve)
         with collecting(faults):
             single_text(state.explored, parameter, text.strip())
     return faults
-
-
-def _by_value(sentence: str, axes: Sequence[SweepAxis]) -> str:
-    """Return a sentence that tells the place on a curve by the value there, not by its number."""
-
-    def value(result: re.Match[str]) -> str:
-        places = (f"{each.name} is {each.shown[int(result[1])]:g} {each.unit}" for each in axes)
-        return f"(where {listed([place.strip() for place in places])})"
-
-    return _PLACE.sub(value, sentence)
 
 
 def _at(state: ReadState, axis: SweepAxis) -> float | None:

@@ -7,7 +7,15 @@ from decimal import Decimal, InvalidOperation
 from html import unescape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import MaterialError, OptipathError, ValueFault, collecting, shown, unknown
+from optipath.errors import (
+    Fault,
+    MaterialError,
+    OptipathError,
+    ValueFault,
+    collecting,
+    shown,
+    unknown,
+)
 from optipath.materials.database_names import (
     CURATED,
     VACUUM,
@@ -18,15 +26,14 @@ from optipath.materials.database_names import (
     named_page,
     read_yaml,
 )
-from optipath.materials.formulas import DispersionFormula, nearest_requested
+from optipath.materials.formulas import NEAREST_REQUESTED, DispersionFormula
 from optipath.materials.tables import EXTRAPOLATIONS, INTERPOLATIONS, PageCurve, Tabulated
 from optipath.values.curve import span_text
 from optipath.values.curve_value import curve_at
 from optipath.values.files import input_file
-from optipath.values.messages import argument
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
     from os import PathLike
 
     from optipath.materials.database_names import CuratedName
@@ -128,7 +135,7 @@ def page_curve(
     faults: list[str] = []
     entries = entries_of_page(contents, faults)
     if faults:
-        raise MaterialError(*_cured(faults, remedy), about=about)
+        raise MaterialError(*[Fault.of(fault).cured(remedy) for fault in faults], about=about)
     # Of two entries that give one part, the later one counts, as the database's reader has it.
     giving = {part: entry for entry in entries for part in entry.parts}
     if lacking := [part for part in wanted if part not in giving]:
@@ -145,7 +152,7 @@ def page_curve(
         source = source_of(contents)
         return PageCurve(label, curves, within=clear, place=about, source=source, requests=requests)
     except OptipathError as error:
-        raise MaterialError(*_cured(error.faults, remedy)) from None
+        raise MaterialError(*[fault.cured(remedy) for fault in error.faults]) from None
 
 
 def source_of(contents: Any) -> str:
@@ -161,17 +168,9 @@ def source_of(contents: Any) -> str:
 
 def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:
     has = "".join(f", only {one} within {span_text(entry.span)}" for one, entry in giving.items())
-    if not argument(part):
-        wanted = "name another page"
-    elif part == "k":
-        wanted = f"where the material is transparent, ask for {argument('k', '0.0')}, or give its k"
-    else:
-        wanted = f"give it, as {argument('n', '1.5')}"
+    wanted = "name another page, or give it: "
+    wanted += "k = 0.0 where the material is transparent" if part == "k" else "n = 1.5"
     return f"{label} has no {part} ({_ADJECTIVES[part]}){has}; {wanted}"
-
-
-def _cured(faults: Iterable[str], remedy: str) -> list[str]:
-    return [f"{fault}; {remedy}" if remedy else fault for fault in faults]
 
 
 def _check_requested(
@@ -191,7 +190,7 @@ def _check_requested(
     if extrapolate == "linear" and any(by_formula):
         faults.append(
             f"{label} is by a formula, which has no straight line beyond its range; "
-            f"{nearest_requested()}, or stay within it"
+            f"{NEAREST_REQUESTED}, or stay within it"
         )
     if faults:
         raise MaterialError(*faults)
@@ -253,7 +252,7 @@ def entries_of_page(contents: Any, faults: list[str]) -> list[PageEntry]:
         return []
     results = []
     for at, entry in enumerate(data, 1):
-        with collecting(faults, about=f"entry {at} of DATA "):
+        with collecting(faults, about=f"entry {at} of DATA"):
             results.append(_entry(entry))
     return results
 

@@ -10,9 +10,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import MaterialError, closest, looks_left, need, needing, shown
+from optipath.errors import MaterialError, closest, need, needing, shown
 from optipath.values.files import bytes_of
-from optipath.values.messages import argument, cure
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -103,18 +102,13 @@ def _underscored(name: str) -> str:
 
 
 def _ambiguous(name: str, results: list[CatalogPage]) -> str:
-    books = {(page.shelf, page.book) for page in results}
     short = next((one.names[0] for one in CURATED for p in results if p.place == one.place), "")
-    messages = [
-        f"'{page.page if len(books) == 1 else page.place}' ({page.about_page})"
-        for page in results[:_MOST]
-    ]
+    messages = [f"'{page.place}' ({page.about_page})" for page in results[:_MOST]]
     more = f" and {len(results) - _MOST} more" if len(results) > _MOST else ""
-    how = f"by {argument('page')}" if len(books) == 1 else "in place of it"
     also = f", or say '{short}'" if short else ""
     return (
-        f"'{name}' has {len(results)} pages; name one {how}{also}: {', '.join(messages)}{more} "
-        f"('optipath materials {name}' lists them)"
+        f"'{name}' has {len(results)} pages; name one in place of it{also}: "
+        f"{', '.join(messages)}{more} ('optipath materials {name}' lists them)"
     )
 
 
@@ -128,7 +122,7 @@ def _unknown(name: str, page: str, curated: CuratedName | None) -> str:
         return f"material '{name}' is unknown; did you mean '{close}'?"
     known = [*[n for c in CURATED for n in c.names], VACUUM, *dict.fromkeys(p.book for p in pages)]
     glasses = [p.page for p in pages if p.shelf == "specs"]
-    near = get_close_matches(name, glasses, n=3, cutoff=0.75) if looks_left() else []
+    near = get_close_matches(name, glasses, n=3, cutoff=0.75)
     return f"material '{name}' is unknown{_meant(name, [*known[: _MOST_WORDS - 3], *near])}"
 
 
@@ -146,8 +140,7 @@ def _page_meant(name: str, pages: tuple[CatalogPage, ...]) -> str:
 def _meant(word: str, known: list[str]) -> str:
     if (result := closest(word, known)) is not None:
         return f"; did you mean '{result}'?"
-    listed = cure("'optipath materials WORD'", "optipath materials WORD")
-    return f"; {listed} lists what there is, such as {', '.join(known[:8])}"
+    return f"; 'optipath materials WORD' lists what there is, such as {', '.join(known[:8])}"
 
 
 class CuratedName(NamedTuple):

@@ -20,7 +20,6 @@ from optipath.values.affine import real_number
 from optipath.values.curve import Curve
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
-from optipath.values.messages import argument, cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, parse_quantity
@@ -88,9 +87,9 @@ def read_span(owner: str, span: Any) -> tuple[float, float]:
         return EVERYWHERE
     ends = WAVELENGTH.check(owner, list(span) if isinstance(span, tuple) else span)
     if ends.shape != (2,) or not ends[0] < ends[1]:
-        such = cure("('400 nm', '700 nm')", '["400 nm", "700 nm"]')
         raise ValueFault(
-            f"{owner} is {shown(span)}; give the least and the largest wavelength, such as {such}"
+            f"{owner} is {shown(span)}; give the least and the largest wavelength, such as "
+            f'["400 nm", "700 nm"]'
         )
     if ends[0] > LONGEST_FIRST:
         raise ValueFault(f"the least wavelength of the {owner} is {too_long(float(ends[0]))}")
@@ -377,7 +376,7 @@ class DispersionFormula(Curve):
             known_span=known_span,
             extrapolate=extrapolate,
             span=(0.0, float("inf")) if extrapolate else known_span,
-            beyond=nearest_requested(),
+            beyond=NEAREST_REQUESTED,
         )
 
     @property
@@ -391,7 +390,5 @@ class DispersionFormula(Curve):
         return (xp.broadcast_to(result, xp.shape(wavelength)),)
 
 
-def nearest_requested() -> str:
-    """Return the one way to leave the range of a formula, as a cure."""
-    request = cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')
-    return request if argument("extrapolate") else "name another page"
+NEAREST_REQUESTED = 'ask for extrapolate="nearest"'
+"""The one way to leave the range of a formula."""

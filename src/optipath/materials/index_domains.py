@@ -9,12 +9,11 @@ from typing import Any, ClassVar, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import ParameterError, UnitError, ValueFault, closest, shown
+from optipath.errors import Cure, Fault, ParameterError, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, index_of
 from optipath.values.arrays import entries_of, first_place, read_only
 from optipath.values.domains import Domain, OptionalDomain, in_unit_of, pair_in
 from optipath.values.jax_values import namespace
-from optipath.values.messages import cure
 from optipath.values.precision import held
 
 
@@ -30,8 +29,8 @@ class Followed(Domain):
 
     def parse(self, text: str) -> Any:
         if text.strip()[:1].isalpha() and closest(text.lower(), [FOLLOWS.word]) is not None:
-            meant = cure("op.FOLLOWS", FOLLOWS.in_file)
-            raise UnitError(f"'{text}' is no number; did you mean {meant}?")
+            cure = Cure.of("did you mean {}?".format, "op.FOLLOWS", FOLLOWS.in_file)
+            raise UnitError(Fault(f"'{text}' is no number", cure))
         return super().parse(text)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
@@ -87,7 +86,7 @@ class NoAbsorption(Domain):
     """Extinction coefficients that are 0.
 
     >>> NoAbsorption("k", why=", since light goes on in there").described()
-    '0, since light goes on in there: take the medium without its k, such as Material(glass.n)'
+    '0, since light goes on in there: take the medium without its k'
     """
 
     minimum: float = 0.0
@@ -97,8 +96,7 @@ class NoAbsorption(Domain):
 
     def described(self) -> str:
         """Say in words that it is 0, and how to have it."""
-        without = cure("such as Material(glass.n)", "by k = 0.0")
-        return f"0{self.why}: take the medium without its k, {without}{self.otherwise}"
+        return f"0{self.why}: take the medium without its k{self.otherwise}"
 
 
 _NO_K = NoAbsorption("extinction coefficient", why=", since light comes from there")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError, ValueFault, shown
+from optipath.errors import Cure, Fault, ParameterError, UnitError, ValueFault, shown
 from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, Sellmeier
 from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
@@ -18,7 +18,6 @@ from optipath.values.curve import Curve, span_text
 from optipath.values.curve_value import CurveValue, curve_at
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
-from optipath.values.messages import cure
 from optipath.values.parameters import Parameter, label_of
 from optipath.values.units import parse_quantity
 from optipath.values.use import make_sound
@@ -42,7 +41,8 @@ class _Part(Domain):
 
     def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
         if array.dtype.kind == "c":
-            raise ValueFault(f"{owner} is complex; give n and k apart, such as {_gold()}")
+            cure = Cure.of("give n and k apart, such as {}".format, *_GOLD)
+            raise ValueFault(Fault(f"{owner} is complex", cure))
         super()._check_numbers(owner, array, rounding)
 
 
@@ -61,13 +61,12 @@ def index_of(text: str, request: str = "") -> complex:
     (0.2+3.4j)
     """
     if text.strip()[:1].isalpha():
-        request = request or f"n and k as numbers, such as {_gold()}"
-        raise UnitError(f"'{text}' is no number; give {request}")
+        such = Cure.of("give n and k as numbers, such as {}".format, *_GOLD)
+        raise UnitError(Fault(f"'{text}' is no number", f"give {request}" if request else such))
     return parse_quantity(text, "")
 
 
-def _gold() -> str:
-    return cure("Material(0.18, 3.4)", "{ n = 0.18, k = 3.4 }")
+_GOLD = ("Material(0.18, 3.4)", "{ n = 0.18, k = 3.4 }")
 
 
 N = _Part("index of refraction", minimum=0.0)

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, UnitError, listed, shown
+from optipath.errors import Fault, OptipathError, ParameterError, UnitError, listed, shown
 from optipath.materials.database_names import VACUUM
 from optipath.materials.material import Material
 from optipath.materials.quantities import plain
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values, parameters_among
-from optipath.values.messages import of_options
 from optipath.values.parameters import Parameter
 from optipath.values.units import parse_quantity
 from optipath.values.use import axes_for
@@ -48,19 +47,17 @@ def extinction_with(uses: Sequence[Use], name: str) -> str:
     return results.pop() if len(results) == 1 else ""
 
 
-def material_named(option: str, text: str, other: str = "", k: Any = None) -> Material:
+def material_named(option: str, text: str, k: Any = None) -> Material:
     """Return the material of a name."""
     if "," in text:
         raise ParameterError(
             f"{option} takes one material, and {shown(text)} names several; give one, and write a "
             f"command for each"
         )
-    options = {"page": f"{option} '{text}/PAGE'"} | ({"k": other} if other else {})
     try:
-        with of_options(options):
-            return Material.named(text, k=k)
+        return Material.named(text, k=k)
     except OptipathError as error:
-        raise ParameterError(*(f"{option}: {fault}" for fault in error.faults)) from None
+        raise ParameterError(*(fault.under(option) for fault in error.faults)) from None
 
 
 def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
@@ -167,10 +164,10 @@ def extinctions_with(uses: Iterable[Use], name: str) -> dict[str, Any]:
     return results
 
 
-def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any) -> list[str]:
-    """Return sentences on a value; those on a complex one with how its other part is given."""
+def of_complex(faults: Iterable[Fault], uses: Iterable[Use], name: str, value: Any) -> list[Fault]:
+    """Return faults of a value; those of a complex one with how its other part is given."""
     cure = other_part(uses, name) if _is_complex(value) else ""
-    return [f"{fault}; {cure}" if cure else fault for fault in faults]
+    return [fault.cured(cure).but(subject=name) for fault in faults]
 
 
 def _is_complex(value: Any) -> bool:

@@ -21,7 +21,6 @@ from optipath.materials.formulas import (
     oscillators_of,
 )
 from optipath.values.agreement import Agreement, first_faults, text_of
-from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.wavelength import HC
 
@@ -105,9 +104,8 @@ class TaucLorentz(FormulaCurve):
     ) -> None:
         rows = oscillators_of(label, oscillators, _ABOVE_GAP)
         if not rows:
-            constant = cure("op.Material(n)", "n as a number")
             raise ValueFault(
-                f"{label} has no oscillators; give one or more, or {constant} for what is the "
+                f"{label} has no oscillators; give one or more, or n as a number for what is the "
                 f"same at all wavelengths"
             )
         super().__init__(label, span, oscillators=rows, background=background)

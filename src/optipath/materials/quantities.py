@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import OptipathError, UnitError, ValueFault, closest, shown
+from optipath.errors import Cure, Fault, OptipathError, UnitError, ValueFault, closest, shown
 from optipath.materials.illuminants import ILLUMINANTS
 from optipath.materials.index_domains import (
     CLEAR,
@@ -41,7 +41,6 @@ from optipath.values.domains import (
     WholeNumber,
     YesNo,
 )
-from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
 from optipath.values.units import in_unit
 from optipath.values.use import AxisDomain, OptionalAxisDomain
@@ -50,7 +49,7 @@ from optipath.values.wavelength import WAVELENGTH as VACUUM_WAVELENGTH
 from optipath.values.wavelength import Wavelength as WavelengthParameter
 
 
-def spectrum_meant(text: str) -> str:
+def spectrum_meant(text: str) -> Fault | None:
     """Return the sentence for a text in place of a spectrum, if it names one.
 
     >>> print(spectrum_meant("D65"))
@@ -58,12 +57,12 @@ def spectrum_meant(text: str) -> str:
     """
     name = closest(text.strip(), ILLUMINANTS) or text.strip().upper()
     if name in ILLUMINANTS:
-        made = cure(f'op.Spectrum.illuminant("{name}")', f'{{ illuminant = "{name}" }}')
+        ways = f'op.Spectrum.illuminant("{name}")', f'{{ illuminant = "{name}" }}'
     elif _is_wavelength(text):
-        made = cure(f'op.Spectrum.line("{text.strip()}")', f'{{ line = "{text.strip()}" }}')
+        ways = f'op.Spectrum.line("{text.strip()}")', f'{{ line = "{text.strip()}" }}'
     else:
-        return ""
-    return f"{shown(text)} is no spectrum by itself; write {made}"
+        return None
+    return Fault(f"{shown(text)} is no spectrum by itself", Cure.of("write {}".format, *ways))
 
 
 def _is_wavelength(text: str) -> bool:
@@ -88,8 +87,10 @@ class SpectralDomain(OptionalDomain):
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         if isinstance(value, type):
-            made = cure('op.Spectrum.illuminant("D65")', '{ illuminant = "D65" }')
-            raise ValueFault(f"{owner} is the class {value.__name__}; give one of it, {made}")
+            raise ValueFault(
+                f"{owner} is the class {value.__name__}; give one of it, "
+                f'op.Spectrum.illuminant("D65")'
+            )
         return super().check(owner, value)
 
     def parse(self, text: str) -> Any:

@@ -9,7 +9,6 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault, shown, unknown
 from optipath.values.arrays import as_argument, first_place, locked, numbers_for
 from optipath.values.curve import Curve, span_text
-from optipath.values.messages import argument, cure
 from optipath.values.units import parse_quantity
 from optipath.values.wavelength import LONGEST_FIRST, WAVELENGTH, too_long
 
@@ -74,7 +73,7 @@ class Tabulated(Curve):
             extrapolate=extrapolate,
             unit=unit,
             span=(0.0, np.inf) if extrapolate else (float(places[0]), float(places[-1])),
-            beyond=_beyond(),
+            beyond='ask for extrapolate="nearest" or "linear"',
             unreal="beyond its samples a straight line goes on" * (extrapolate == "linear"),
             _nodes=locked(np.repeat(places, 2)),
             _edges=locked(_edges(places)),
@@ -116,11 +115,6 @@ class Tabulated(Curve):
             value, slope, second, third = [xp.asarray(each)[piece] for each in cubic]
             results.append(value + step * (slope + step * (second + step * third)))
         return tuple(results)
-
-
-def _beyond() -> str:
-    requests = ("extrapolate='nearest' or 'linear'", 'extrapolate = "nearest" or "linear"')
-    return f"ask for {cure(*requests)}" if argument("extrapolate") else "name another page"
 
 
 def _samples(label: str, name: str, raw_value: Any, faults: list[str]) -> np.ndarray[Any, Any]:
@@ -271,15 +265,11 @@ class PageCurve(Curve):
             source=source,
             asked=dict(requests or {}),
             span=(low, high),
-            # The one with fewer ways to leave its range has the shorter sentence.
-            beyond=min([curve.beyond for curve in curves], key=len),
+            beyond="name another page",
         )
         if within is not None:
             clear = max(low, within[0]), min(high, within[1])
-            own_k = argument("k", "1e-4")
-            vars(self).update(
-                span=clear, beyond=f"give k, as {own_k}" if own_k else "name another page"
-            )
+            vars(self).update(span=clear, beyond="give k, or name another page")
 
     @property
     def content(self) -> tuple[Hashable, ...]:

@@ -12,7 +12,6 @@ from optipath.elements.vertex_chain import VerticesByAngles
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.values.curve_value import CurveValue
-from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 
@@ -81,7 +80,7 @@ def value_text(value: Any, unit: str) -> str:
     ('2 * $a', '[1.5]')
     """
     if value is FOLLOWS:
-        return cure(repr(value), value.word)
+        return value.word
     if isinstance(value, CurveValue):
         return value.formula_of(value.spoken)
     if isinstance(value, Parameter):

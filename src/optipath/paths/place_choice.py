@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
-from optipath.errors import ParameterError, PathError, collecting, shown, unknown
+from optipath.errors import Fault, ParameterError, PathError, collecting, shown, unknown
 from optipath.paths.binding import bind
 from optipath.paths.editing import insert, remove
 from optipath.paths.joining import element_at, find_port, natural_port, turn_to, turns_to
@@ -64,8 +64,8 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
             if turns is not None:
                 turn_to(graph, choice.node, turns)
         except PathError as fault:
-            wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}: "
-            raise PathError(*(wrong + sentence for sentence in fault.faults)) from None
+            wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}"
+            raise PathError(*(each.under(wrong) for each in fault.faults)) from None
 
 
 def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool = True) -> list[str]:
@@ -79,12 +79,12 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool =
     # What has no place at all says nothing of links.
     links = Wiring(graph).links_from if linked and not faults else None
     for word, port in choice.behind.items():
-        at = f"place '{word}': "
+        at = f"place '{word}'"
         with collecting(faults, PathError, at):
             start, way = find_port(graph, port, out=True)
             if links is not None and (start == node or len(links.get((start, way), [])) != 1):
                 no_place = f"'{start}.{way}' feeds no one link that '{node}' could be put into"
-                faults.append(at + no_place)
+                faults.append(Fault(no_place, place=at))
     return faults
 
 

@@ -76,7 +76,7 @@ class _Turning:
                 if id(element) not in known:
                     known[id(element)] = _reversed(element)
             except OptipathError as fault:
-                self.faults += [f"'{name}': {text}" for text in fault.faults]
+                self.faults += [each.under(f"'{name}'") for each in fault.faults]
                 continue
             back = known[id(element)]
             is_parallel = name not in at_angle

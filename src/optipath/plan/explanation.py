@@ -14,7 +14,6 @@ from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
 from optipath.plan.questions import LONGEST
 from optipath.values.arrays import joint_shape
-from optipath.values.messages import cure, how_to_give
 from optipath.values.operands import MANY
 
 if TYPE_CHECKING:
@@ -275,10 +274,7 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     opened = plan.inputs.open.values()
     missing = [parameter.name for parameter in opened if parameter.default is None]
     if missing:
-        see = cure(
-            "see plan.certificate(...)", f"give {' '.join(map(how_to_give, missing[:_FEW]))}"
-        )
-        return {"text": f"depends on {_first_few(missing)}; {see}"}
+        return {"text": f"depends on {_first_few(missing)}; give values"}
     if plan.whole.loops:
         return {"text": "none, since light goes round"}
     if plan.answers.whole.for_jax.has_traced:
@@ -289,8 +285,7 @@ def _certified(plan: Any) -> dict[str, Any] | None:
         return {"text": f"none, since {fault}"}
     bounds = {name: _extremes(one) for name, one in result.items()}
     if len(bounds) > _FEW:
-        see = cure("see plan.certificate(...)", "see --json")
-        return {"bounds": bounds, "text": f"for {len(bounds)} ends; {see}"}
+        return {"bounds": bounds, "text": f"for {len(bounds)} ends"}
     texts = [
         f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
         if each

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError
+from optipath.errors import Fault, OptipathError, ParameterError
 from optipath.materials.named_materials import of_complex, passed_too_late
 from optipath.values.agreement import first_faults
 from optipath.values.angles import (
@@ -22,7 +22,7 @@ from optipath.values.angles import (
 )
 from optipath.values.arrays import array_of, broadcast_fault, joint_shape, may_hold_texts
 from optipath.values.curve import WavelengthRange
-from optipath.values.curve_value import computed_values, with_bounds_hint
+from optipath.values.curve_value import computed_values
 from optipath.values.jax_values import is_traced
 from optipath.values.messages import no_value
 from optipath.values.operands import Ranges
@@ -30,7 +30,7 @@ from optipath.values.parameters import THERE, Resolved, unknown_parameter
 from optipath.values.use import axes_for
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Mapping
 
     from optipath.values.agreement import Agreement
     from optipath.values.curve_value import CurveValue
@@ -58,7 +58,9 @@ class Inputs:
         self, arguments: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
     ) -> tuple[dict[str, Resolved], tuple[int, ...]]:
         """Return the numbers of every open parameter, and the shape of the batch."""
-        faults = [self.unknown(name) for name in arguments if name not in self.open]
+        faults: list[str] = [
+            Fault(self.unknown(name), subject=name) for name in arguments if name not in self.open
+        ]
         resolved: dict[str, Resolved] = {}
         unchecked = set()
         for name, parameter in self.open.items():
@@ -74,7 +76,7 @@ class Inputs:
                     value = axes_for(name, value, self.uses)
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
-                    faults += self._of_a_fit(fault.faults, name, value)
+                    faults += of_complex(fault.faults, self.uses, name, value)
         resolved |= computed_values(self.computed, resolved)
         results: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
@@ -91,7 +93,7 @@ class Inputs:
                     use.check_arguments(numbers, present, resolved)
             except OptipathError as fault:
                 value = arguments.get(name, use.value.default)
-                message = self._of_a_fit(fault.faults, name, value)
+                message = of_complex(fault.faults, self.uses, name, value)
                 # n and k of a material may have one fault.
                 faults += [sentence for sentence in message if sentence not in faults]
                 refused.add(name)
@@ -204,11 +206,6 @@ class Inputs:
         for use in self.uses:
             if use.value.name == name and (doubt := use.doubt(value)):
                 raise ParameterError(doubt)
-
-    def _of_a_fit(self, faults: Sequence[str], name: str, value: Any) -> list[str]:
-        domains = [use.domain for use in self.uses if use.value.name == name]
-        faults = with_bounds_hint(faults, value, self.limits[name], domains)
-        return of_complex(faults, self.uses, name, value)
 
     def _batch(self) -> tuple[int, ...]:
         return joint_shape(*self.shapes.values())

@@ -28,7 +28,6 @@ from optipath.surfaces.walk.layout import (
     UP,
 )
 from optipath.values.angles import calls_up
-from optipath.values.messages import cure
 from optipath.values.precision import Numbers, is_whole, whole_number
 
 if TYPE_CHECKING:
@@ -156,7 +155,7 @@ def walk_until(
         if run.photons >= most:
             warnings.warn(
                 f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
-                f"the tolerance of {tolerance:g}; allow more {cure('photons', '--photons')}",
+                f"the tolerance of {tolerance:g}; allow more photons",
                 PhotonWarning,
                 calls_up(),
             )

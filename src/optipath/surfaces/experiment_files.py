@@ -14,7 +14,6 @@ from optipath.surfaces.sample_files import load_sample
 from optipath.surfaces.sample_layers import depends_on_wavelength
 from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
 from optipath.values.affine import real_number
-from optipath.values.messages import of_files
 from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:
@@ -66,11 +65,12 @@ def experiment_of_text(text: str, path: Path, name: str) -> Experiment:
     """Return the experiment that a text describes."""
     try:
         document = parsed(text, str(path))
-        with of_files():
-            return _experiment(document, path.parent, name)
+    except PresetError as error:
+        raise SurfaceError(*error.faults) from None
+    try:
+        return _experiment(document, path.parent, name)
     except OptipathError as error:
-        about = "" if str(path) in error.faults[0] else path.name
-        raise SurfaceError(*error.faults, about=about) from None
+        raise SurfaceError(*error.within("file"), about=path.name) from None
 
 
 def _experiment(document: dict[str, Any], folder: Path, name: str) -> Experiment:

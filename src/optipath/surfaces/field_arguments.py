@@ -14,7 +14,6 @@ from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
 from optipath.values.arrays import as_argument, enough_for
 from optipath.values.files import bytes_of, input_file
-from optipath.values.messages import cure
 from optipath.values.precision import Array, as_doubles, is_whole
 
 if TYPE_CHECKING:
@@ -222,7 +221,7 @@ def warn_of_coarse(
     warnings.warn(
         f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
         f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and {_missing(had)} of the "
-        f"light that is transmitted after several events; {_cure(enough)} are enough",
+        f"light that is transmitted after several events; {enough[0]} x {enough[1]} are enough",
         MeshWarning,
         stacklevel=calls_up(),
     )
@@ -231,10 +230,6 @@ def warn_of_coarse(
 def _cells(each: int, lengths: float) -> int:
     # The rounding of a product is no cell more; what no machine has memory for is told as such.
     return max(2, math.ceil(min(each * lengths * (1.0 - 1e-12), 1e18)))
-
-
-def _cure(cells: tuple[int, ...]) -> str:
-    return cure(f"cells={cells}", f"--cells {','.join(map(str, cells))}")
 
 
 def _missing(cells: float) -> str:

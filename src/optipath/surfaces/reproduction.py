@@ -13,7 +13,6 @@ import numpy as np
 from optipath.errors import MeshWarning
 from optipath.surfaces.energy_shares import energy
 from optipath.surfaces.hemisphere.measure import measure
-from optipath.values.messages import of_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -156,10 +155,9 @@ def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement]
 def _largest(name: str) -> Callable[[Walked, Measurement], Measured]:
     def of(walked: Walked, measurement: Measurement) -> Measured:
         made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
-        with of_files():  # Cures are what the file, or the command, can follow.
-            result: xr.DataArray = made(
-                brighter_than=measurement.brighter_than, noise=measurement.noise
-            )
+        result: xr.DataArray = made(
+            brighter_than=measurement.brighter_than, noise=measurement.noise
+        )
         # The other side of the plane of incidence is its image.
         theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
         value = np.where(azimuth <= measurement.azimuth, result.values, np.nan)

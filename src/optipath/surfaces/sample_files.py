@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, PresetError, SurfaceError, few_suggestions, shown
+from optipath.errors import OptipathError, PresetError, SurfaceError, shown
 from optipath.materials.index_domains import INDEX
 from optipath.paths.files.schema import FORMAT, Faults, as_meant, joined, readable, type_faults
 from optipath.paths.files.toml import file_of, names_in, parsed, presets_folder, text_of
@@ -13,7 +13,7 @@ from optipath.paths.files.values import decode, references_in
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_layers import SampleLayer
-from optipath.values.messages import cure, of_files, units_are_written
+from optipath.values.messages import units_are_written
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,8 +70,7 @@ def load_sample(sample: str | PathLike[str]) -> Sample:
     ((1.5, 0.1), (2.4, 0.1))
     """
     try:
-        names = cure("op.sample_names()", "`optipath surface`")
-        path = file_of(sample, _WHAT, _folder(), names)
+        path = file_of(sample, _WHAT, _folder(), "`optipath surface`")
         text = text_of(path, _WHAT)
     except PresetError as error:
         raise SurfaceError(*error.faults) from None
@@ -97,11 +96,13 @@ def sample_of_text(text: str, path: Path) -> Sample:
     """Return the sample that a text describes, as `Sample.to_toml` writes it."""
     try:
         document = parsed(text, str(path))
-        with few_suggestions(), units_are_written(), of_files():
+    except PresetError as error:
+        raise SurfaceError(*error.faults) from None
+    try:
+        with units_are_written():
             return _sample(document, path.parent)
     except OptipathError as error:
-        about = "" if str(path) in error.faults[0] else path.name
-        raise SurfaceError(*joined(error.faults), about=about) from None
+        raise SurfaceError(*joined(error.within("file")), about=path.name) from None
 
 
 def _sample(document: dict[str, Any], folder: Path) -> Sample:

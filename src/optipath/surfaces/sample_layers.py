@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.errors import OptipathError, SurfaceError, ValueFault, shown
+from optipath.errors import Cure, Fault, OptipathError, SurfaceError, ValueFault, shown
 from optipath.materials.index_domains import IndexDomain, LitBehind, NoAbsorption
 from optipath.materials.material import Material
 from optipath.paths.files.schema import Faults
@@ -16,7 +16,6 @@ from optipath.values.arrays import same_fields
 from optipath.values.curve_value import CurveValue
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
-from optipath.values.messages import cure
 from optipath.values.parameters import THERE, Parameter
 from optipath.values.use import Use, faults_of
 from optipath.values.wavelength import Wavelength
@@ -229,9 +228,13 @@ def medium_of(owner: str, value: Any, domain: Domain) -> float | complex | Mater
     several = isinstance(value, (list, tuple)) or is_traced(value)
     array = None if several else domain.check(owner, value)
     if array is None or array.ndim:
+        cure = Cure.of(
+            "give one, such as {}, and make a sample for each".format,
+            "1.5 or 0.5+2.1j",
+            "1.5 or { n = 0.5, k = 2.1 }",
+        )
         raise SurfaceError(
-            f"{owner} is {shown(value)}, but a sample has one index there; give one, such as "
-            f"{cure('1.5 or 0.5+2.1j', '1.5 or { n = 0.5, k = 2.1 }')}, and make a sample for each"
+            Fault(f"{owner} is {shown(value)}, but a sample has one index there", cure)
         )
     number = complex(array)
     return number if number.imag else number.real
@@ -313,8 +316,8 @@ def _numbers_at(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     if wavelength is None and dependent is None:
         return {}
     if wavelength is None:
-        how = cure("such as '550 nm'", "--wavelength '550 nm'")
-        raise SurfaceError(f"{dependent} depends on the wavelength; give one, {how}")
+        cure = Cure.of("give one, {}".format, "such as '550 nm'", "--wavelength '550 nm'")
+        raise SurfaceError(Fault(f"{dependent} depends on the wavelength", cure))
     if dependent is None:
         raise SurfaceError("wavelength is given, but no medium depends on it; leave it out")
     if is_traced(wavelength):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, collecting, shown
+from optipath.errors import Fault, OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.labels import DETECTOR, is_variable
 from optipath.values.arrays import as_argument
 from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
@@ -59,8 +59,7 @@ def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Coo
         if has_coordinates(coords):
             return _of_dataset(inputs, coords, faults)
     except OptipathError as fault:
-        about = f"{fault.about}: " if fault.about else ""
-        faults += [f"{about}{sentence}" for sentence in fault.faults]
+        faults += [each.under(fault.about) for each in fault.faults]
         return {}
     if isinstance(coords, Mapping):
         return {str(name): CoordinateArgument(value) for name, value in coords.items()}
@@ -232,12 +231,12 @@ def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
     try:
         return _read(inputs, name, column.texts)
     except OptipathError as fault:
-        message = [
-            f"line {line}: {sentence}"
+        message: list[str] = [
+            Fault.of(each).under(f"line {line}")
             for line, text in zip(column.lines, column.texts, strict=True)
-            for sentence in _faults(inputs, name, text)
+            for each in _faults(inputs, name, text)
         ] or [*fault.faults]
-    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(message)])
+    raise ParameterError(*[Fault.of(each).under(str(column.file)) for each in first_of(message)])
 
 
 def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ShapeError
+from optipath.errors import Cure, Fault, ShapeError
 from optipath.values.arrays import memory
-from optipath.values.messages import cure
 from optipath.values.text import IdleValues
 
 if TYPE_CHECKING:
@@ -129,14 +128,14 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     if needed <= _LITTLE or needed <= (free := free_memory()):
         return
     sizes = " x ".join(f"{size:,}" for size in grid.shape)
-    instead = cure(
-        "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or ",
-        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or give ",
+    cure = Cure(
+        "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or fewer "
+        "values",
+        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or give fewer "
+        "values",
     )
-    raise ShapeError(
-        f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free; "
-        f"{instead}fewer values"
-    )
+    needs = f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free"
+    raise ShapeError(Fault(needs, cure))
 
 
 def bytes_of_a_point(plan: Plan, points: int) -> int:

@@ -171,8 +171,9 @@ def read_uncertain(
     try:
         inputs.resolve(values)
     except OptipathError as fault:
-        messages = tuple([f"parameter '{n}' has no value" for n in arguments if n not in values])
-        faults += [sentence for sentence in fault.faults if not sentence.startswith(messages)]
+        # What could not be read is no value.
+        unread = {*arguments} - {*values}
+        faults += [each for each in fault.faults if each.subject not in unread]
     return exact, uncertain, faults
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError
+from optipath.errors import Fault, OptipathError
 from optipath.kernels.primitives import NUMPY
 from optipath.values.angles import CosSin
 from optipath.values.arrays import broadcast_fault, place_text
@@ -89,7 +89,8 @@ class Agreement:
             return ""
         at, misfit = result
         varying = [place for place, array in enumerate(arrays) if np.any(array != array.flat[0])]
-        return self.sentence(*misfit, varying=varying) + _path_text(arrays, at)
+        fault = Fault.of(self.sentence(*misfit, varying=varying))
+        return fault.but(reason=fault.reason + _path_text(arrays, at))
 
     def _first_misfit(self, arrays: list[Any]) -> tuple[int, list[float]] | None:
         """Return the first path whose numbers do not fit, and these; None where all do."""

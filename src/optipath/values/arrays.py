@@ -543,4 +543,4 @@ def _number(what: str, text: str, parse: Callable[[str], T], error: type[Optipat
     try:
         return parse(text)
     except OptipathError as fault:
-        raise error(*(f"{what}: {reason}" for reason in fault.faults)) from None
+        raise error(*(each.under(what) for each in fault.faults)) from None

@@ -334,7 +334,7 @@ class _Rows:
             result = wavelength_of(text)
             result = parse_quantity(text, "length") if result is None else result  # type: ignore[assignment]
         except OptipathError as fault:
-            self.faults += [f"line {line}: {sentence}" for sentence in fault.faults]
+            self.faults += [each.under(f"line {line}") for each in fault.faults]
             return np.nan
         if not 0.0 < result < np.inf:  # type: ignore[operator]
             self.faults.append(f"line {line}: the wavelength is {cell}; give numbers above 0")

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import pi
 from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, ValueFault, shown
+from optipath.errors import ParameterError, ValueFault, shown
 from optipath.kernels.primitives import NUMPY
 from optipath.values.arrays import (
-    as_argument,
     broadcast_fault,
     changed,
     check_broadcast,
@@ -22,12 +20,11 @@ from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand
 from optipath.values.parameters import THERE, Parameter, Resolved
-from optipath.values.precision import doubles
 from optipath.values.units import dimension_of, format_quantity, with_article
 from optipath.values.wavelength import WAVELENGTH, Wavelength, read_within
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
     from optipath.values.curve import Curve
 
@@ -313,8 +310,7 @@ def parameters_among(values: Iterable[Any]) -> list[Parameter]:
 
 def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:
     """Say which coefficients of a curve do not fit to each other, whatever the wavelength."""
-    faults = value.curve.misfits(value.depends_on[1:], known)
-    return [f"{fault}{_hint(value, known)}" for fault in faults]
+    return list(value.curve.misfits(value.depends_on[1:], known))
 
 
 def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[str, str]:
@@ -329,49 +325,7 @@ def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[
     at = place_text(bad.shape, int(np.argmax(bad)))
     where = f" ({at.strip()}, of {bad.size} paths)" if bad.size > 1 else ""
     cure = f"give other coefficients ({', '.join(messages)}), or another wavelength"
-    return where, f"{cure}{_hint(value, known)}"
-
-
-def _hint(value: Any, known: Mapping[str, Resolved]) -> str:
-    """Return the hint for a fit, where each coefficient is one number, and one is given."""
-    open_ones = [
-        value.argument(place, known)
-        for place, one in enumerate(value.depends_on[1:], 1)
-        if isinstance(one, Parameter) and not one.bound
-    ]
-    return IN_A_FIT * (bool(open_ones) and all(np.size(number) == 1 for number in open_ones))
-
-
-IN_A_FIT = " (in a fit, give the optimiser bounds=)"
-
-
-def with_bounds_hint(
-    faults: Iterable[str], value: Any, limits: tuple[float, float], domains: Sequence[Domain]
-) -> list[str]:
-    """Return sentences on a value; where it is one number beyond its limits, with `bounds=`.
-
-    >>> with_bounds_hint(["k is -0.1; give 0 or more"], -0.1, (0.0, 9.0), [])
-    ['k is -0.1; give 0 or more (in a fit, give the optimiser bounds=)']
-    """
-    if not _is_one_beyond(value, limits, domains):
-        return [*faults]
-    return [f"{fault}{IN_A_FIT}" for fault in faults]
-
-
-def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Domain]) -> bool:
-    try:
-        array = as_argument("", value)
-    except OptipathError:
-        return False
-    if array.size != 1 or array.dtype.kind not in "iufc" or not np.all(np.isfinite(array)):
-        return False
-    if array.dtype.kind == "c":
-        return any(domain.complex_parts and not np.all(domain.allows(array)) for domain in domains)
-    # So large an angle is in degrees.
-    if any(domain.dimension == "angle" for domain in domains) and np.all(np.abs(array) > 2.0 * pi):
-        return False
-    array = doubles(array, limits)
-    return not np.all((limits[0] <= array) & (array <= limits[1]))
+    return where, cure
 
 
 def curve_at(curve: Curve, wavelength: Any = None) -> tuple[Any, ...]:

@@ -10,11 +10,10 @@ from typing import Any, ClassVar, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import ValueFault, did_you_mean, shown
+from optipath.errors import Cure, Fault, ValueFault, did_you_mean, shown
 from optipath.values.angles import TURN, CosSin, called
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
-from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
 from optipath.values.precision import as_doubles, doubles, held, rounding_of
 from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
@@ -240,12 +239,13 @@ class YesNo(Choice):
         return bool(value) if isinstance(value, np.bool_) else value
 
     def described(self) -> str:
-        return cure("True or False", "true or false")
+        return "True or False"
 
     def check(self, owner: str, value: Any) -> Any:
         if isinstance(value, (bool, np.bool_)):
             return bool(value)
-        raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
+        cure = Cure("give True or False", "give true or false")
+        raise ValueFault(Fault(f"{owner} is {shown(value)}", cure))
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
         del parameter
@@ -517,11 +517,12 @@ class StokesDomain(PhysicalDomain, OptionalDomain):
         bad = ~can_be_light(array, rounding)
         if np.any(bad):
             state = array[bad].reshape(-1, 4)[0].tolist()
-            raise ValueFault(
-                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= "
-                f"S0^2, or {cure('physical=False', 'physical = false')} for what is measured as it "
-                f"is"
+            cure = Cure.of(
+                "give S1^2 + S2^2 + S3^2 <= S0^2, or {} for what is measured as it is".format,
+                "physical=False",
+                "physical = false",
             )
+            raise ValueFault(Fault(f"{owner} is {state}, polarised by more than 100 %", cure))
 
 
 def surely_light(stokes: npt.NDArray[Any]) -> bool:

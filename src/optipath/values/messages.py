@@ -1,4 +1,4 @@
-"""Parts of messages: cures as Python, a preset file or the command line writes them."""
+"""Messages: of values that are missing, or given without a name."""
 
 from __future__ import annotations
 
@@ -6,84 +6,21 @@ from collections.abc import Mapping
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
-from optipath.errors import ParameterError, did_you_mean, having, shown
+from optipath.errors import Cure, Fault, ParameterError, did_you_mean, having, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from contextlib import AbstractContextManager
 
 
-_IN_FILE: ContextVar[bool] = ContextVar("_IN_FILE", default=False)
-_IN_FIELDS: ContextVar[bool] = ContextVar("_IN_FIELDS", default=False)
-_OPTIONS: ContextVar[Mapping[str, str] | None] = ContextVar("_OPTIONS", default=None)
-
-
-def of_files() -> AbstractContextManager[None]:
-    """Let all cures inside be written as preset files write them."""
-    return having(_IN_FILE, value=True)
-
-
-def of_fields() -> AbstractContextManager[None]:
-    """Let all values inside be given in fields of their own, as on a page."""
-    return having(_IN_FIELDS, value=True)
-
-
-def of_options(options: Mapping[str, str]) -> AbstractContextManager[None]:
-    """Let all arguments inside be named as options of a command line."""
-    return having(_OPTIONS, options)
-
-
-def argument(name: str, value: str = "") -> str:
-    """Return how an argument is given where the fault is; nothing where no option gives it.
-
-    >>> argument("k", "0.0")
-    'k=0.0'
-    >>> with of_options({"k": "--k1"}):
-    ...     argument("k", "0.0"), argument("page")
-    ('--k1 0.0', '')
-    """
-    options = _OPTIONS.get()
-    if options is None:
-        return cure(f"{name}={value}", f"{name} = {value}".rstrip())
-    return f"{options[name]} {value}".rstrip() if name in options else ""
-
-
-def cure(python: str, file: str) -> str:
-    """Return a cure as it is written where the fault is.
-
-    >>> cure("op.FOLLOWS", '"follows"')
-    'op.FOLLOWS'
-    >>> with of_files():
-    ...     print(cure("op.FOLLOWS", '"follows"'))
-    "follows"
-    """
-    return file if _IN_FILE.get() else python
-
-
-def how_to_give(name: str) -> str:
-    """Return how a value is given for a parameter, where files are run at the command line.
-
-    >>> how_to_give("n_1")
-    'n_1=...'
-    >>> with of_files():
-    ...     print(how_to_give("n_1"))
-    --n-1 ...
-    >>> with of_fields():
-    ...     print(how_to_give("n_1"))
-    in its field
-    """
-    if _IN_FIELDS.get():
-        return "in its field"
-    return cure(f"{name}=...", f"--{name.replace('_', '-')} ...")
-
-
-def no_value(name: str) -> str:
-    """Return the sentence for a parameter that nobody has given a value.
+def no_value(name: str) -> Fault:
+    """Return the fault of a parameter that nobody has given a value.
 
     >>> no_value("n")
     "parameter 'n' has no value; give one, n=..."
     """
-    return f"parameter '{name}' has no value; give one, {how_to_give(name)}"
+    cure = Cure.giving(name, lambda way: f"give one, {way}")
+    return Fault(f"parameter '{name}' has no value", cure, subject=name)
 
 
 def no_function(name: str, raw_value: object, wanted: str) -> list[str]:

@@ -17,7 +17,6 @@ from optipath.errors import (
     closest,
     collecting,
     did_you_mean,
-    looks_left,
     shown,
     there_are,
 )
@@ -486,8 +485,6 @@ def word_meant(word: str, known: Iterable[str], dimension: str) -> str:
     >>> word_meant("off", ["none"], "angle")
     "; there are: none, or give an angle such as '45 deg'"
     """
-    if not looks_left():
-        return ""
     words = [*known]
     unit = USUAL_UNITS[dimension]
     # By its letters alone, an axis is near the one at right angles to it.

@@ -84,7 +84,7 @@ def read_axis_text(
     except OptipathError as fault:
         if (file := column_file(text)) is None:
             raise
-        raise ParameterError(*[f"{file}: {sentence}" for sentence in fault.faults]) from None
+        raise ParameterError(*[each.under(file) for each in fault.faults]) from None
 
 
 def _check_ends(parts: Sequence[str], parameter: Parameter, unit: str) -> None:
@@ -168,15 +168,14 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
         try:
             return column_for(parameter, file)
         except OptipathError as fault:
-            about = f"{fault.about}: " if fault.about else ""
-            raise ParameterError(*[f"{about}{sentence}" for sentence in fault.faults]) from None
+            raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
     try:
         if _is_range(parameter, text):
             return texts_of_range(text)
         return _listed(text) if "," in text else None
     except UnitError as fault:
-        messages = [f"parameter '{parameter.name}': {sentence}" for sentence in fault.faults]
-        raise ParameterError(*messages) from None
+        where = f"parameter '{parameter.name}'"
+        raise ParameterError(*[each.under(where) for each in fault.faults]) from None
 
 
 def column_file(text: str) -> str | None:

@@ -171,7 +171,7 @@ class Use:
                 self.domain.check(what, placed)
         except ValueFault as fault:
             raise ValueFault(
-                *(sentence + self._meant(numbers) for sentence in fault.faults)
+                *(each.but(reason=each.reason + self._meant(numbers)) for each in fault.faults)
             ) from None
 
     def _meant(self, numbers: Any) -> str:

@@ -9,7 +9,6 @@ from typing import Any
 
 from optipath.errors import ParameterError, UnitError
 from optipath.values.domains import Domain
-from optipath.values.messages import cure
 from optipath.values.parameters import Parameter
 from optipath.values.units import NUMBER, UNITS, format_quantity, unit_of
 
@@ -57,7 +56,7 @@ WAVELENGTH = WavelengthDomain("wavelength", "length", minimum=5e-324)
 
 _MICROMETRES, _MILLIMETRES = 1e-5, 1e-3
 _MOST_NANOMETRES = 1e6
-_SMALL, _SMALLER = ("nanometres", "nm", -9), ("micrometres", "um", -6)
+_SMALL, _SMALLER = ("nanometres", "nm"), ("micrometres", "um")
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,10 +138,10 @@ class Wavelength(Parameter):
             first = float(array[~self.allows(array)].ravel()[0])
             if not LONGEST < first <= _MOST_NANOMETRES:
                 raise
-            name, unit, power = _SMALLER if first < 1.0 else _SMALL
+            name, unit = _SMALLER if first < 1.0 else _SMALL
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
-                f"for {name} write '{first:g} {unit}'{cure(f', or {first:g}e{power}', '')}; light "
+                f"for {name} write '{first:g} {unit}'; light "
                 f"goes from {_written(self.minimum)} to {_written(self.maximum)}"
             ) from error
 
@@ -216,7 +215,8 @@ def with_other_units(fault: UnitError, text: str) -> UnitError:
     """Return what is said of a text that is no length, with what else a wavelength may be in."""
     if (unit := unit_of(text)) and unit not in UNITS:
         return fault
-    return UnitError(*[f"{sentence}, or eV, 1/cm, THz" for sentence in fault.faults])
+    others = "eV, 1/cm, THz"
+    return UnitError(*[each.but(reason=f"{each.reason}, or {others}") for each in fault.faults])
 
 
 def spectral_unit_meant(word: str) -> str | None:

@@ -137,7 +137,11 @@ ROOT_CAUSES = [
     ("values = {", "value = {", "key 'value' is unknown; did you mean 'values'?"),
     ("n = 1.5 }", "m = 1.5 }", "parameter 'm' is unknown"),
     ('theta = "80 deg"', 'thta = "80 deg"', "cases.steep: parameter 'thta' is unknown; did you"),
-    ('theta = "80 deg"', 'theta = "100 deg"', "cases.steep.theta is 100 deg, outside its"),
+    (
+        'theta = "80 deg"',
+        'theta = "100 deg"',
+        "cases.steep.theta: parameter 'theta' is 100 deg, outside its",
+    ),
     ("{ eye = [1, 0, 0, 0] }", "{ ey = [1, 2, 3, 4] }", "did you mean 'eye'"),
     ("{ eye = [1, 0, 0, 0] }", "{ eye = [1, 2] }", "four finite numbers"),
     ("format = 1\n", "", "'format' is missing"),
@@ -177,7 +181,7 @@ SEVERAL = [
         | {"[cases.steep]": SECOND_LINK.format("mirror.reflected", "mirror.in")},
         "sorce | cycle: mirror -> mirror | give it in one place | no detector | merge | each would",
     ),
-    ({"default = 1.2": "default = -1.2", '"filter"': '"filtr"'}, "'filtr' does not | n is -1.2"),
+    ({"default = 1.2": "default = -1.2", '"filter"': '"filtr"'}, "'filtr' does not | is -1.2"),
 ]
 
 

@@ -166,7 +166,7 @@ PIECES = [b'"', b"'", b"[", b"]", b"{", b"}", b".", b"=", b"\n", b"\\", b"\0", b
 PIECES += [b"\xef\xbb\xbf", b"\r", b'"""', b"9" * 50, b"1e9", b"nan", b"\xed\xa0\x80", b"-"]
 
 
-def test_every_sequence_of_bytes_is_read_or_refused_with_a_few_suggestions(tmp_path):
+def test_every_sequence_of_bytes_is_read_or_refused_soon(tmp_path):
     dice = random.Random(1)  # noqa: S311
     file = tmp_path / "x.toml"
     texts = [op.load_preset(name).to_toml().encode() for name in ("malus", "glass-slab")]
@@ -183,8 +183,7 @@ def test_every_sequence_of_bytes_is_read_or_refused_with_a_few_suggestions(tmp_p
     document["links"] = [{"from": f"abd{n}.out", "to": f"abd{n}.in"} for n in range(1500)]
     with pytest.raises(op.PathError) as error:
         load(document, tmp_path)
-    assert len(error.value.faults) > 1500
-    assert 1 <= sum("did you mean" in fault for fault in error.value.faults) <= 20
+    assert 20 < len(error.value.faults) < 200
 
 
 UNEQUAL = '{kind="mirror", r_s={re=[1,2],im=[1,2,3]}, r_p=0.9}'

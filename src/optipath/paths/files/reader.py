@@ -13,11 +13,11 @@ from optipath.elements.coupling import KINDS
 from optipath.elements.known_elements import element_class
 from optipath.elements.own_element import is_own
 from optipath.errors import (
+    Fault,
     OptipathError,
     PathError,
     PresetError,
     did_you_mean,
-    few_suggestions,
     shown,
     unknown,
 )
@@ -40,7 +40,7 @@ from optipath.paths.path_graph import PathGraph
 from optipath.paths.place_choice import PlaceChoice, choice_faults
 from optipath.values.cases import Case, name_faults
 from optipath.values.domains import Choice, Domain, pair_in
-from optipath.values.messages import of_files, units_are_written
+from optipath.values.messages import units_are_written
 from optipath.values.parameters import Parameter, checked_name
 from optipath.values.units import (
     UNITS,
@@ -72,10 +72,10 @@ def path_of_text(text: str, source: str, about: str = "") -> PathGraph:
             f"'{source}' has format {shown(number)}, but this version reads format {FORMAT}"
         )
     try:
-        with few_suggestions(), units_are_written(), of_files():
+        with units_are_written():
             return read(document)
     except OptipathError as error:
-        raise PathError(*error.faults, about=about or source) from None
+        raise PathError(*error.within("file"), about=about or source) from None
 
 
 _MOST_ENTRIES = 3000
@@ -143,7 +143,7 @@ def _pair_faults(path: PathGraph, document: Table) -> dict[str, list[str]]:
             raw: Any = table.get(key) if isinstance(table, dict) else None
             if pair_in(raw, domain):
                 which = which_pair(raw, domain.complex_parts)
-                results.setdefault(name, []).append(f"{where}.{key}: {which}")
+                results.setdefault(name, []).append(Fault(which, place=f"{where}.{key}"))
     return results
 
 
@@ -156,9 +156,11 @@ def _elements(
         faults.append("the preset has no elements; add a table [elements.NAME] for each")
     if not isinstance(tables, dict):
         return set()
-    missing = {
-        name for name, table in tables.items() if not _add(path, name, table, parameters, faults)
-    }
+    missing = set()
+    for name, table in tables.items():
+        if not _add(path, name, table, parameters, faults):
+            missing.add(name)
+        faults.refuse_many()
     # Links to a name that has a dot name but its first part.
     return missing | {name.partition(".")[0] for name in missing}
 
@@ -173,6 +175,7 @@ def _links(
     suspects = set()
     for number, table in enumerate(links):
         suspects |= _link(path, f"links[{number}]", table, parameters, missing, faults)
+        faults.refuse_many()
     return suspects
 
 
@@ -187,12 +190,13 @@ def _cases(
 ) -> None:
     ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
     for name, table in tables_of(document, "cases", faults).items():
+        faults.refuse_many()
         faults += name_faults(name)
         path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, uses, faults)
         for detector in path.cases[name].published:
             if detector not in ends and detector not in missing and path.graph:
                 cure = did_you_mean(detector, ends)
-                faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
+                faults.add(f"cases.{name}.published", f"'{detector}' is no detector{cure}")
 
 
 def _add(path: PathGraph, name: str, table: Any, parameters: Parameters, faults: Faults) -> bool:
@@ -216,12 +220,15 @@ def _offer(
     """Offer a choice; what is wrong with its places is told where the links have no fault."""
     where = f"choices.{name}"
     wrong = schema.type_faults(where, table, schema.CHOICE)
-    wrong += [f"{where}: '{k}' is missing" for k in ("element", "behind") if k not in table]
+    for key in ("element", "behind"):
+        if key not in table:
+            wrong.add(where, f"'{key}' is missing")
     behind = table.get("behind")
     if isinstance(behind, dict) and not _are_ports(behind):
-        wrong.append(
-            f"{where}: 'behind' must name a port for each word, such as behind = "
-            f'{{ light = "L.out" }}, not {as_toml(behind)}'
+        wrong.add(
+            where,
+            f"'behind' must name a port for each word, such as behind = "
+            f'{{ light = "L.out" }}, not {as_toml(behind)}',
         )
     faults += wrong
     if wrong or missing or not path.graph:
@@ -231,7 +238,7 @@ def _offer(
     if choice is None:
         return
     unknown_names = choice_faults(path.graph, choice, linked=False)
-    faults += [f"{where}: {fault}" for fault in unknown_names]
+    faults += [Fault.of(each).under(where) for each in unknown_names]
     if not unknown_names:
         misplaced.attempt(where, path.offer, name, *about)
 
@@ -259,9 +266,10 @@ def _link(
         return set(path.graph)
     table = sound
     ends = {key: str(table.get(key)).partition(".")[0] for key in ("from", "to")}
-    missing = [f"{where}: '{key}' is missing" for key in ends if key not in table]
+    missing = [key for key in ends if key not in table]
+    for key in missing:
+        faults.add(where, f"'{key}' is missing")
     if missing:
-        faults += missing
         return set(path.graph)
     azimuth = None
     if "azimuth" in table:
@@ -408,14 +416,14 @@ def _range(where: str, table: Mapping[str, Any], domain: Domain, faults: Faults)
     if "range" not in table:
         return {}
     if len(table["range"]) != 2:
-        faults.append(f"{where}: 'range' must have two ends, not {len(table['range'])}")
+        faults.add(where, f"'range' must have two ends, not {len(table['range'])}")
         return {}
     read = _ends_of_light if domain is WAVELENGTH else decode
     ends = faults.attempt(f"{where}.range", read, table["range"], domain, {})
     if ends is None:
         return {}
     if any(isinstance(end, list) for end in ends):
-        faults.append(f"{where}: the ends of 'range' must be single values")
+        faults.add(where, "the ends of 'range' must be single values")
         return {}
     return dict(zip(("minimum", "maximum"), ends, strict=True))
 
@@ -464,7 +472,7 @@ def read_element(
     kind = named.get("kind")
     if not isinstance(kind, str):
         what = f"'kind' must be a text, not {shown(kind)}" if "kind" in named else "kind is missing"
-        faults.append(f'{where}: {what}; write kind = "..."')
+        faults.add(where, f'{what}; write kind = "..."')
         return None
     result = faults.attempt(where, element_class, kind)
     if result is None:
@@ -483,7 +491,7 @@ def read_element(
             elif not isinstance(domain, Choice):
                 values[name] = STAND_IN
         elif result.needs(name):
-            faults.append(f"{where}: '{name}' is missing; every {kind} needs one")
+            faults.add(where, f"'{name}' is missing; every {kind} needs one")
             values[name] = STAND_IN
     what = f"element class {result.__name__}"
     # What code of a user's own says of a stand-in is no news.
@@ -543,7 +551,7 @@ def read_case(
             continue
         if name not in parameters:
             cure = did_you_mean(name, parameters)
-            faults.append(f"{where}: parameter '{name}' is unknown{cure}")
+            faults.add(where, f"parameter '{name}' is unknown{cure}")
             continue
         parameter = parameters[name]
         value = faults.attempt(f"{where}.{name}", decode_argument, raw, parameter, uses)

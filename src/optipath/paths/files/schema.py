@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-from optipath.errors import OptipathError, closest, did_you_mean, listed, shown
+from optipath.errors import (
+    Fault,
+    OptipathError,
+    PathError,
+    closest,
+    did_you_mean,
+    listed,
+    shown,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Mapping
@@ -35,15 +43,14 @@ _WORDS = {
 }
 
 
-def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
+def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any]) -> Faults:
     """Return a sentence for each key that is unknown or has a value of another type."""
-    at = f"{where}: " if where else ""
-    wrong = [
-        f"{at}'{key}' must be {_EXAMPLES.get(key, _WORDS[kind])}, not {shown(table[key])}"
-        for key, kind in schema.items()
-        if key in table and kind not in (object, type(table[key]))
-    ]
-    return unknown_keys(table, schema, where) + wrong
+    faults = unknown_keys(table, schema, where)
+    for key, kind in schema.items():
+        if key in table and kind not in (object, type(table[key])):
+            wanted = _EXAMPLES.get(key, _WORDS[kind])
+            faults.add(where, f"'{key}' must be {wanted}, not {shown(table[key])}")
+    return faults
 
 
 def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
@@ -106,6 +113,9 @@ P = ParamSpec("P")
 _MOST = 4
 """How many places are named where the same is wrong."""
 
+_ENOUGH = 100
+"""After how many faults a file is not read on: each suggestion takes its time."""
+
 
 class Faults(list[str]):
     """A list of sentences, each with its place in the file."""
@@ -124,8 +134,17 @@ class Faults(list[str]):
         try:
             return action(*arguments, **keywords)
         except OptipathError as error:
-            self += [_placed(where, fault) for fault in error.faults]
+            self += [fault.under(where) for fault in error.faults]
             return None
+
+    def add(self, where: str, reason: str) -> None:
+        """Add what is wrong at a place."""
+        self.append(Fault(reason, place=where))
+
+    def refuse_many(self) -> None:
+        """Raise where there are more faults than anybody reads."""
+        if len(self) > _ENOUGH:
+            raise PathError(*joined(self))
 
 
 def unknown_keys(table: Mapping[str, Any], known: Collection[str], where: str = "") -> Faults:
@@ -134,36 +153,24 @@ def unknown_keys(table: Mapping[str, Any], known: Collection[str], where: str = 
     >>> unknown_keys({"form": "a.out"}, ["from", "to"], "links[0]")
     ["links[0]: key 'form' is unknown; did you mean 'from'?"]
     """
-    at = f"{where}: " if where else ""
-    unknown = [key for key in table if key not in known]
-    return Faults(f"{at}key '{key}' is unknown{did_you_mean(key, known)}" for key in unknown)
+    return Faults(
+        Fault(f"key '{key}' is unknown{did_you_mean(key, known)}", place=where)
+        for key in table
+        if key not in known
+    )
 
 
-def _placed(where: str, fault: str) -> str:
-    """Return a fault with its place, which is not named twice."""
-    if not where:
-        return fault
-    named = f"parameter '{where.rpartition('.')[2]}' "
-    if fault.startswith(named):
-        return f"{where} {fault.removeprefix(named)}"
-    # A fault within the value begins with its place there, such as ".n".
-    return f"{where}{fault}" if fault.startswith(".") else f"{where}: {fault}"
+def joined(faults: Iterable[str]) -> list[Fault]:
+    """Return faults, one for all the places where the same is wrong.
 
-
-def joined(faults: Iterable[str]) -> list[str]:
-    """Return faults, one sentence for all the places where the same is wrong.
-
-    >>> joined(["a.x: 'z' is unknown", "b: 'y' is unknown", "c: 'z' is unknown", "no lamp"])
+    >>> z, y = Fault("'z' is unknown"), Fault("'y' is unknown")
+    >>> joined([z.under("a.x"), y.under("b"), z.under("c"), "no lamp"])
     ["a.x and c: 'z' is unknown", "b: 'y' is unknown", 'no lamp']
     """
-    places: dict[tuple[str, str], list[str]] = {}
-    for fault in dict.fromkeys(faults):
-        where, colon, sentence = fault.partition(": ")
-        places.setdefault((colon, sentence) if colon else ("", fault), []).append(where)
-    return [
-        f"{listed(_few(where))}: {sentence}" if colon else sentence
-        for (colon, sentence), where in places.items()
-    ]
+    places: dict[Fault, list[str]] = {}
+    for fault in map(Fault.of, dict.fromkeys(faults)):
+        places.setdefault(fault.but(place=""), []).append(fault.place)
+    return [fault.under(listed(_few(where))) for fault, where in places.items()]
 
 
 def _few(places: list[str]) -> list[str]:

@@ -65,7 +65,7 @@ def decode_spectrum(
     whole = {key: value for key, value in raw.items() if key != _WHEN}
     result = faults.attempt("", spectrum_of, whole)
     if faults or result is None:
-        raise PresetError(*[fault.removeprefix(": ") for fault in faults])
+        raise PresetError(*faults)
     return result.at(when)
 
 

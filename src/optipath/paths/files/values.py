@@ -109,13 +109,8 @@ def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
 def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
     """Return the value of a parameter, a default or one of a case, in base units."""
     if isinstance(raw, str):
-        try:
-            value = axes_for(parameter.name, raw, uses)
-            return parameter.parse(value) if isinstance(value, str) else value
-        except OptipathError as error:
-            # The place in the file has the name already.
-            said = f"parameter '{parameter.name}': "
-            raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
+        value = axes_for(parameter.name, raw, uses)
+        return parameter.parse(value) if isinstance(value, str) else value
     if isinstance(raw, list):
         several = [decode_argument(entry, parameter, uses) for entry in raw]
         return _several(several) if several and {*map(type, several)} == {float} else several

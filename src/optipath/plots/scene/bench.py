@@ -20,7 +20,6 @@ from optipath.plots.scene.drawn_scene import Label, draw_head, draw_turn, outlin
 from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
 from optipath.plots.scene.placing import angles_at, has_axis
 from optipath.plots.scene.scene import NumberPath, number, quantity_text, shown_incidence
-from optipath.values.messages import cure
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
@@ -131,8 +130,7 @@ def _note(ax: Axes, scene: Scene, flat: FlatSheet, size: float) -> float:
     columns = int(whole.width / (0.52 * 0.85 * size * figure.dpi / 72.0))
     notes = [_DIALS, *scene.notes]
     if not flat.straight and nearest_symbols(scene, flat) < 2.0 * DIAL:
-        way = cure("op.plots.geometry(path)", "--kind geometry")
-        notes.append(f"symbols lie over one another: {way} draws this path in space")
+        notes.append("symbols lie over one another: the picture 'geometry' has this path in space")
     said = textwrap.fill("; ".join(notes), max(columns, 20))
     style: Any = {"fontsize": 0.85 * size, "color": FAINT, "ha": "center", "va": "bottom"}
     text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
@@ -442,8 +440,8 @@ def flat_sheet(scene: Scene) -> FlatSheet:
     out = [ray.end or ray.start for ray in scene.rays if abs(ray.axes[2] @ normal) > _IN_PLANE]
     if out:
         raise PathError(
-            f"bench draws set-ups that lie in one plane, but light leaves that at '{out[0]}'; "
-            f"{cure('op.plots.geometry(path)', '--kind geometry')} draws this path in space"
+            f"bench draws set-ups that lie in one plane, but light leaves that at '{out[0]}'; draw "
+            f"the picture 'geometry', which has this path in space"
         )
     sheet, origin = np.array([right, up]), scene.nodes[0].at
     at = {n.name: sheet @ (n.at - origin) / scene.unit for n in scene.nodes}

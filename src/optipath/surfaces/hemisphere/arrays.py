@@ -11,7 +11,6 @@ import xarray as xr
 
 from optipath.errors import SurfaceError
 from optipath.surfaces.hemisphere.beam import PixelMask
-from optipath.values.messages import cure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -116,7 +115,7 @@ def difference_map(
     if noise is not None and np.isnan(error).all():
         raise SurfaceError(
             f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
-            f"it; measure with more photons{cure(', or give noise=None', '')}"
+            f"it; measure with more photons"
         )
     counts = mask.bright(hemisphere.scalar_light(at))
     counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
