@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from math import isfinite
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from optipath.composer.builder import Item, along_chains
 from optipath.engines.program import Result
-from optipath.engines.symbols import SYMBOLIC, Recorder, Symbol
+from optipath.kernels.kernel import Entry
 from optipath.kernels.primitives import FLOAT
 
 if TYPE_CHECKING:
@@ -135,13 +136,8 @@ def left_out(program: Program) -> tuple[Program, list[str]]:
     return along_chains(program, rest), notes
 
 
-Entry: TypeAlias = float | None
-"""A number, or None for one that is not known."""
-
 Entries: TypeAlias = tuple[tuple[Entry, ...], ...]
 """Four rows of a matrix, or one row of what a source emits."""
-
-_UNKNOWN: Entries = ((None,) * 4,) * 4
 
 
 def number_of(operand: Operand) -> float | None:
@@ -227,19 +223,16 @@ def _zero_or_one(number: Entry) -> Entry:
 
 @lru_cache(1024)
 def _entries(kernel: Kernel, result: tuple[float, ...] | None, known: tuple[Entry, ...]) -> Entries:
-    structure, xp = kernel.structure, SYMBOLIC if result is None else FLOAT
-    recorder = Recorder(np.dtype(np.float64))
-    arguments = [
-        recorder.input(str(place)) if number is None else np.float64(number)
-        for place, number in enumerate(known)
-    ]
-    try:
-        with np.errstate(all="ignore"):  # Of no paths at all, every number is 0.
-            numbers: Any = kernel.made_for(SYMBOLIC)(*arguments) if result is None else result
-        rows = (numbers,) if structure is None else structure.rows(xp, numbers)
-        return tuple([tuple(map(_known, row)) for row in rows])
-    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-        return _UNKNOWN if structure is not None else _UNKNOWN[:1]
+    """Return what is known of a matrix: its numbers, or what the kernel declares of them."""
+    if result is None and None not in known:
+        result = _evaluated(kernel, known)  # type: ignore[arg-type]
+    if result is None:
+        zeros = {place for place, number in enumerate(known) if number == 0.0}
+        result = kernel.known_numbers(zeros, len(known))
+    if kernel.structure is not None:
+        return kernel.structure.known_rows(result)
+    row = tuple(None if number is None or not isfinite(number) else number for number in result)
+    return (row or (None,) * 4,)
 
 
 @lru_cache(1024)
@@ -248,7 +241,3 @@ def _as_it_may_be_absent(rows: Entries) -> Entries:
         tuple(entry if entry == float(r == c) else None for c, entry in enumerate(row))
         for r, row in enumerate(rows)
     )
-
-
-def _known(number: Any) -> Entry:
-    return None if isinstance(number, Symbol) or not np.isfinite(number) else float(number)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -12,14 +12,32 @@ from optipath.errors import ComposerError, OptipathError, PathError, did_you_mea
 from optipath.kernels.primitives import FLOAT, NUMPY, Factory, KernelFunction, Primitives, made
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Mapping, Sequence
 
     from optipath.kernels.carriers.structures import Structure
 
 
+Entry: TypeAlias = float | None
+"""A number that is known before a path runs; None where it depends on arguments."""
+
+
+class Known(NamedTuple):
+    """Numbers that are the same for all arguments, or for all of which some are 0.
+
+    The places are those of the arguments that must be 0, counted from the end if negative.
+    """
+
+    numbers: tuple[Entry, ...]
+    zeros: tuple[int, ...] = ()
+
+
 @dataclass(frozen=True)
 class Kernel:
-    """A pure elementwise function, made for any set of primitives."""
+    """A pure elementwise function, made for any set of primitives.
+
+    `known` declares which of its numbers are constants, by which a path is reduced: a component of
+    light that stays 0 is not computed.
+    """
 
     name: str
     structure: Structure | None
@@ -28,6 +46,7 @@ class Kernel:
     denser: tuple[int, int, Kernel] | None = None
     powers: Kernel | None = None
     unpolarising: Kernel | None = None
+    known: tuple[Known, ...] = ()
 
     def __hash__(self) -> int:
         # Asked for once a step; what else belongs to a name is compared where names are equal.
@@ -63,6 +82,16 @@ class Kernel:
         larger, smaller, cheaper = self.denser
         known = ranges(arguments[larger])[0] >= ranges(arguments[smaller])[1]
         return cheaper if known else self
+
+    def known_numbers(self, zeros: Collection[int], count: int) -> tuple[Entry, ...]:
+        """Return the declared numbers, for the places of those of so many arguments that are 0."""
+        results: list[Entry] = []
+        for numbers, places in self.known:
+            if all(place % count in zeros for place in places):
+                results = results or [None] * len(numbers)
+                pairs = zip(results, numbers, strict=True)
+                results = [old if new is None else new for old, new in pairs]
+        return tuple(results)
 
     def by_method(self, method: str) -> Kernel:
         """Return the kernel itself: it has one method only."""

@@ -13,6 +13,7 @@ coherency matrix is negative.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -29,7 +30,7 @@ from optipath.kernels.carriers.carried import (
     leaving,
     stokes_of,
 )
-from optipath.kernels.primitives import made, not_below_rounding, products
+from optipath.kernels.primitives import NUMPY, made, not_below_rounding, products
 from optipath.kernels.vectors import hypotenuse
 
 if TYPE_CHECKING:
@@ -221,6 +222,19 @@ class Structure:
         assert self.jones is not None  # noqa: S101 - the composer refuses what may depolarise
         action: JonesAction = made(self.jones, primitives)
         return action
+
+    def known_rows(self, numbers: Sequence[float | None]) -> tuple[tuple[float | None, ...], ...]:
+        """Return what is known of a matrix, for what is known of its numbers.
+
+        >>> BLOCK.known_rows((None, None, None, None, 0.0))[3]
+        (0.0, 0.0, 0.0, None)
+        """
+        several = numbers or (None,) * len(self.identity)
+        # What depends on a number that is not known comes to NaN.
+        rows = self.rows(NUMPY, [math.nan if number is None else number for number in several])
+        return tuple(
+            tuple(float(entry) if math.isfinite(entry) else None for entry in row) for row in rows
+        )
 
     def powers_for(self, primitives: Primitives) -> PowersAction:
         """Return the action on intensities along x and y, made once and kept."""
