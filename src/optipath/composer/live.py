@@ -225,13 +225,12 @@ def _zero_or_one(number: Entry) -> Entry:
 def _entries(kernel: Kernel, result: tuple[float, ...] | None, known: tuple[Entry, ...]) -> Entries:
     """Return what is known of a matrix: its numbers, or what the kernel declares of them."""
     if result is None and None not in known:
-        result = _evaluated(kernel, known)  # type: ignore[arg-type]
-    if result is None:
-        zeros = {place for place, number in enumerate(known) if number == 0.0}
-        result = kernel.known_numbers(zeros, len(known))
+        result = _evaluated(kernel, tuple(number for number in known if number is not None))
+    zeros = {place for place, number in enumerate(known) if number == 0.0}
+    numbers = kernel.known_numbers(zeros, len(known)) if result is None else result
     if kernel.structure is not None:
-        return kernel.structure.known_rows(result)
-    row = tuple(None if number is None or not isfinite(number) else number for number in result)
+        return kernel.structure.known_rows(numbers)
+    row = tuple(None if number is None or not isfinite(number) else number for number in numbers)
     return (row or (None,) * 4,)
 
 
