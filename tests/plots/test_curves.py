@@ -255,7 +255,7 @@ def test_places_without_the_quantity_or_that_the_path_refuses_are_grey(monkeypat
 
 
 def marked(index):
-    return {each.name: float(np.degrees(each.angle)) for each in marked_angles(index)}
+    return {name: float(np.degrees(angle)) for name, angle in marked_angles(index).items()}
 
 
 def curves(ax):
@@ -322,7 +322,7 @@ def test_a_material_is_given_by_its_name_or_formula_and_a_wavelength():
         (lambda: reflection(-1.0), "index is -1.0"),
         (lambda: reflection("gold", wavelength=516.0), "is 516 metres, which is no wavelength"),
         (lambda: reflection("gold", wavelength=["500 nm", "600 nm"]), "a picture is of one"),
-        (lambda: reflection("gold", wavelength="1e-9 m"), r"not known at 1 nm; .* 187.9 nm .. 19"),
+        (lambda: reflection("gold", wavelength="1e-9 m"), r"is 1 nm; .* within 187.9 nm .. 19"),
     ],
 )
 def test_what_is_wrong_is_told(draw, told):

@@ -382,10 +382,22 @@ def test_trails_have_hollow_points_behind_gaps_a_labelled_colour_bar_and_a_secon
         (lambda: poincare(TRAIL[:0]), "is no trail"),
         (lambda: poincare(TRAIL, by=ANGLES), "by and label belong together"),
         (lambda: poincare(TRAIL, label="delta (deg)"), "by and label belong together"),
-        (lambda: poincare(TRAIL, by=ANGLES[:2], label="x"), "a number for each of the 19"),
-        (lambda: poincare(TRAIL, by=["a"] * 19, label="x"), "a number for each of the 19"),
-        (lambda: poincare(TRAIL[:2], by=[0.0, np.nan], label="x"), r"by\[1\] is nan"),
-        (lambda: poincare(TRAIL[0], by=1.0, label="x"), "one light has none"),
+        (
+            lambda: poincare(TRAIL, by=ANGLES[:2], label="x"),
+            r"the shape \(19,\); give a finite number",
+        ),
+        (
+            lambda: poincare(TRAIL, by=["a"] * 19, label="x"),
+            r"the shape \(19,\); give a finite number",
+        ),
+        (
+            lambda: poincare(TRAIL[:2], by=[0.0, np.nan], label="x"),
+            "by is .0.0, nan.*give a finite number",
+        ),
+        (
+            lambda: poincare(TRAIL[0], by=1.0, label="x"),
+            "give a finite number for each light of a trail",
+        ),
         (lambda: poincare(TRAIL, Figure().add_subplot()), r'add_subplot\(projection="3d"\)'),
         (lambda: poincare(TRAIL, "no axes"), r'add_subplot\(projection="3d"\)'),
         (lambda: poincare_path(MALUS, angle=[0.0, 0.5]), r"light of shape \(2,\).*give one"),

@@ -94,7 +94,7 @@ def ellipse(
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_ylabel("Ey / √S0")
     ax.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1))
-    ax.set_xlabel(f"Ex / √S0\n{fitting(ax, _SIDE)}")
+    ax.set_xlabel(f"Ex / √S0\n{fitting(ax, _SIDE, 'medium', less=2)}")
     key_below(ax, keys, "small" if len(several) == 1 else "x-small")
     # Limits only grow while texts are laid out.
     ax.figure.figure.draw_without_rendering()

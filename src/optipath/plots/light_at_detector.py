@@ -31,23 +31,25 @@ def varied(
     if not isinstance(path, PathGraph):
         raise OptipathError(f"a curve is of a path, not of {shown(path)}; give a PathGraph")
     inputs = path.compose().inputs
-    faults: list[str] = []
-    for name in names:
-        known = isinstance(name, str) and name in {*inputs.open, *inputs.bound, *inputs.choices}
-        if not known:
-            faults += unknown("parameter", name, inputs.open)
-        elif name not in inputs.open:
-            faults.append(inputs.unknown(name))
-        elif name in fixed:
-            faults.append(f"parameter '{name}' goes along an axis; leave out {name}=...")
+    faults = [
+        inputs.unknown(name) if isinstance(name, str) else f"parameter {shown(name)} is unknown"
+        for name in (*names, *fixed)
+        if name not in inputs.open
+    ]
+    faults += [
+        f"parameter '{name}' goes along an axis; leave out {name}=..."
+        for name in fixed
+        if name in names
+    ]
     if len({*map(str, names)}) < len(names):
         faults.append(f"both axes are '{names[0]}'; give two parameters")
-    for name, value in fixed.items():
-        if name not in inputs.open:
-            faults.append(inputs.unknown(name))
-        elif not isinstance(value, str) and np.ndim(value) > len(inputs.tails.get(name, ())):
-            faults.append(f"parameter '{name}' is {shown(value)}; a picture is of one value")
-    faults += unnamed_arrays(inputs, {*names, *fixed} & inputs.open.keys()) if not faults else []
+    if not faults:
+        faults += unnamed_arrays(inputs, {*names, *fixed})
+        faults += [
+            f"parameter '{name}' is {shown(value)}; a picture is of one value"
+            for name, value in fixed.items()
+            if not isinstance(value, str) and np.ndim(value) > len(inputs.tails.get(name, ()))
+        ]
     if faults:
         raise ParameterError(*faults)
     return tuple(inputs.open[name] for name in names)
@@ -58,33 +60,32 @@ def axis_of(
 ) -> tuple[AlongAxis, npt.NDArray[Any]]:
     """Return the values (count,) along an axis: as drawn, and in radians for a path."""
     name, inputs = parameter.name, path.compose().inputs
+    unit, size = parameter.unit, in_unit(1.0, parameter.unit)
     if values is None:
         argument = np.linspace(*usual_range(path, name), count)
-        unit, numbers = parameter.unit, argument * _size(parameter.unit)
+        numbers = argument * size
     else:
         read = read_values(inputs, name, values)
         _check_numbers(name, read.shown, read.given, read.unit)
-        argument, unit, numbers = read.given, read.unit, np.asarray(read.shown, np.float64)
-        if unit != parameter.unit and unit in {"rad", "m", "1/m", "rad/m"}:
-            unit, numbers = parameter.unit, argument * _size(parameter.unit)
+        argument, numbers = read.given, np.asarray(read.shown, np.float64)
+        if read.unit != unit and read.unit in {"rad", "m", "1/m", "rad/m"}:
+            numbers = argument * size
+        else:
+            unit = read.unit
     default = _default(inputs, parameter, argument, numbers)
     return AlongAxis(name, unit, numbers, parameter.help, default), argument
-
-
-def _size(unit: str) -> float:
-    """Return what one radian or metre is in a unit."""
-    return in_unit(1.0, unit)
 
 
 def _check_numbers(
     name: str, numbers: npt.NDArray[Any], argument: npt.NDArray[Any], unit: str
 ) -> None:
+    """Refuse what no axis can have: words, complex numbers, and one value alone."""
     if numbers.dtype.kind in "USO" or argument.dtype.kind == "O":
-        words = [each for each in numbers.ravel().tolist() if str(each)[:1].isalpha()]
+        words = [str(each) for each in numbers.ravel().tolist()]
+        word = next((each for each in words if each[:1].isalpha()), "none")
         raise ParameterError(
-            f"parameter '{name}' has the word {shown(words[0] if words else 'none')} among its "
-            f"values, and an axis is of numbers; give it by itself, {name}=..., in a picture of "
-            f"another parameter"
+            f"parameter '{name}' has the word {shown(word)} among its values, and an axis is of "
+            f"numbers; give it by itself, {name}=..., in a picture of another parameter"
         )
     if numbers.dtype.kind == "c":
         raise ParameterError(
@@ -101,10 +102,9 @@ def _check_numbers(
 
 def _default(inputs: Inputs, parameter: Parameter, argument: Any, numbers: Numbers) -> float | None:
     """Return where the value by default lies among those that are drawn."""
-    default = parameter.default
-    if default is None or isinstance(default, str):
+    if parameter.default is None or isinstance(parameter.default, str):
         return None
-    value = inputs.open[parameter.name].resolve(default).value
+    value = inputs.open[parameter.name].resolve(parameter.default).value
     if np.ndim(value) or np.iscomplexobj(value):
         return None
     if not np.min(argument) <= value <= np.max(argument):
@@ -115,53 +115,38 @@ def _default(inputs: Inputs, parameter: Parameter, argument: Any, numbers: Numbe
 
 def quantities_at(
     path: PathGraph,
-    detector: Any,
+    end: str,
     quantities: Sequence[DrawnQuantity],
     arguments: Mapping[str, npt.NDArray[Any]],
     fixed: Mapping[str, Any],
     *,
     chosen: bool,
-) -> tuple[str, list[Numbers]]:
-    """Return quantities of the light at a detector, as they are drawn. Shape: given (count,)."""
-    end = _end(path, detector)
+) -> Numbers:
+    """Return quantities of the light at a detector, as they are drawn, shape (k, count, ...).
+
+    Of arguments that nobody gave, those that the path refuses have NaN.
+    """
     shape = tuple(map(len, arguments.values()))
     spread = dict(zip(arguments, np.ix_(*arguments.values()), strict=True))
     try:
         light = path.trace_all(**spread, **fixed)[end]
-        return end, [np.broadcast_to(q.of(q.light.of(light)), shape) for q in quantities]
+        return np.stack([np.broadcast_to(q.of(q.light.of(light)), shape) for q in quantities])
     except ParameterError:
-        if not chosen:
+        count, axis = max((count, axis) for axis, count in enumerate(shape))
+        if count == 1 or not chosen:
             raise
-        result = np.full((len(quantities), *shape), np.nan)
-        _fill(result, path, end, quantities, arguments, fixed)
+        # Halves, and halves of these.
+        name, parts = [*arguments][axis], []
+        for values in np.array_split(arguments[name], 2):
+            half = {**arguments, name: values}
+            try:
+                parts.append(quantities_at(path, end, quantities, half, fixed, chosen=True))
+            except ParameterError:
+                parts.append(np.full((len(quantities), *map(len, half.values())), np.nan))
+        result = np.concatenate(parts, axis + 1)
         if np.isnan(result).all():
             raise
-    return end, [*result]
-
-
-def _fill(
-    results: Numbers,
-    path: PathGraph,
-    end: str,
-    quantities: Sequence[DrawnQuantity],
-    arguments: Mapping[str, npt.NDArray[Any]],
-    fixed: Mapping[str, Any],
-) -> None:
-    """Fill in quantities; halves, and halves of these, where the path refuses some values."""
-    try:
-        spread = dict(zip(arguments, np.ix_(*arguments.values()), strict=True))
-        light = path.trace_all(**spread, **fixed)[end]
-    except ParameterError:
-        count, axis = max((count, axis) for axis, count in enumerate(results.shape[1:]))
-        if count == 1:
-            return
-        name = [*arguments][axis]
-        parts = np.array_split(results, 2, axis + 1)
-        for part, values in zip(parts, np.array_split(arguments[name], 2), strict=True):
-            _fill(part, path, end, quantities, {**arguments, name: values}, fixed)
-    else:
-        for place, quantity in enumerate(quantities):
-            results[place] = quantity.of(quantity.light.of(light))
+        return result
 
 
 def reads_of(path: PathGraph, end: str) -> str:
@@ -174,7 +159,7 @@ def reads_of(path: PathGraph, end: str) -> str:
     return str(path.graph.nodes[end]["element"].reads)
 
 
-def _end(path: PathGraph, detector: Any) -> str:
+def end_of(path: PathGraph, detector: Any) -> str:
     """Return the detector that is meant."""
     ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]
     if detector is not None:

@@ -13,7 +13,7 @@ from optipath.plots.axes import own_axes
 from optipath.plots.color_scale import ColourScale
 from optipath.plots.colors import FAINT, INK
 from optipath.plots.light_texts import digits
-from optipath.plots.text import head, inches_wide, key_below
+from optipath.plots.text import head, is_wide, key_below
 from optipath.values.jax_values import check_known, known
 
 if TYPE_CHECKING:
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 _NAMES = tuple(f"S{place}" for place in range(4))
 _DARK = 0.62
 """From which share of the scale on white digits are read better than dark ones."""
-
-_NARROW = 3.0
-"""In inches."""
 
 _UNKNOWN: dict[str, Any] = {
     "facecolor": "white",
@@ -121,7 +118,7 @@ def _draw_cell(ax: Axes, row: int, column: int, value: float, scale: ColourScale
         return
     apart = 2.0 * abs(float(scale.norm(value)) - 0.5)
     colour = "white" if apart > _DARK else INK
-    size = "medium" if inches_wide(ax) > _NARROW else "xx-small"
+    size = "medium" if is_wide(ax) else "xx-small"
     middle: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": size}
     ax.text(column, row, _cell_text(value), color=colour, **middle)
 

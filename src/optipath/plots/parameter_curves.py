@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
@@ -15,6 +14,7 @@ from optipath.plots.drawn_curves import draw_curves, tell_missing, units_of
 from optipath.plots.light_at_detector import (
     START,
     axis_of,
+    end_of,
     fine_steps,
     quantities_at,
     reads_of,
@@ -100,51 +100,48 @@ def curve(
     units_of(quantities)
     (parameter,) = varied(path, [x], parameters)
     along, argument = axis_of(path, parameter, values, START)
-    message, chosen = "", values is None
-    requests = [*quantities, *drawn_quantities("S0")]
-    end, result = quantities_at(path, detector, requests, {x: argument}, parameters, chosen=chosen)
-    numbers = result[:-1]
+    end, chosen = end_of(path, detector), values is None
+
+    def numbers_at(values: Numbers, more: Sequence[DrawnQuantity] = ()) -> Numbers:
+        arguments, every = {x: values}, [*quantities, *more]
+        return quantities_at(path, end, every, arguments, parameters, chosen=chosen).T
+
+    def there_at(values: Numbers) -> Numbers:
+        try:
+            return numbers_at(values)
+        except ParameterError:
+            return np.full((len(values), len(quantities)), np.nan)
+
+    *columns, power = numbers_at(argument, drawn_quantities("S0")).T
+    numbers, message = np.stack(columns, axis=1), ""
     if chosen:
-        at = partial(_at, path, detector, x, parameters, quantities)
-        fine = fine_steps(argument, np.stack(numbers, axis=1), at, _on_picture(quantities, result))
-        message, numbers = fine.told(x), [*fine.numbers.T]
+        fine = fine_steps(argument, numbers, there_at, _on_picture(quantities, numbers, power))
+        message, numbers = fine.told(x), fine.numbers
         along = along._replace(numbers=np.interp(fine.values, argument, along.numbers))
     ax = own_axes(ax, _SIZE)
     if message:
         head(ax, message)
-    drawn = [*zip(quantities, numbers, strict=True)]
+    drawn = [*zip(quantities, numbers.T, strict=True)]
     draw_curves(ax, along, drawn, reads=reads_of(path, end))
     return ax
 
 
-def _at(
-    path: PathGraph,
-    detector: str | None,
-    x: str,
-    parameters: dict[str, Any],
-    quantities: Sequence[DrawnQuantity],
-    values: Numbers,
-) -> Numbers:
-    """Return quantities at values of x, NaN where the path takes none of these."""
-    try:
-        arguments = {x: values}
-        result = quantities_at(path, detector, quantities, arguments, parameters, chosen=True)[1]
-    except ParameterError:
-        return np.full((len(values), len(quantities)), np.nan)
-    return np.stack(result, axis=1)
-
-
 def _on_picture(
-    quantities: Sequence[DrawnQuantity], first: Sequence[Numbers]
+    quantities: Sequence[DrawnQuantity], first: Numbers, power: Numbers
 ) -> Callable[[Numbers], Numbers]:
-    """Return what makes of quantities where they are on a picture, by the first, S0 behind them."""
-    *shown, power = first
+    """Return what makes of quantities where they are on a picture, by the first of them and S0."""
     dark = _DARK * float(np.max(power, where=np.isfinite(power), initial=0.0))
-    heights = [_height(each, its, dark) for each, its in zip(quantities, shown, strict=True)]
+    heights = [_height(each, its, dark) for each, its in zip(quantities, first.T, strict=True)]
 
     def on_picture(numbers: Numbers) -> Numbers:
-        each = zip(quantities, numbers.T, heights, strict=True)
-        return np.concatenate([_place(*one) for one in each], axis=1)
+        columns = []
+        for quantity, values, height in zip(quantities, numbers.T, heights, strict=True):
+            if quantity.period is None:
+                columns.append(values / height)
+            else:  # An angle that comes round is on a circle.
+                turn = 2.0 * np.pi / quantity.period * values
+                columns += [np.cos(turn), np.sin(turn)]
+        return np.stack(columns, axis=1)
 
     return on_picture
 
@@ -156,14 +153,6 @@ def _height(quantity: DrawnQuantity, numbers: Numbers, dark: float) -> float:
     finite = np.append(numbers[np.isfinite(numbers)], 0.0)
     least = dark if quantity.name.startswith("S") else 0.0
     return max(float(np.ptp(finite)), least) or 1.0
-
-
-def _place(quantity: DrawnQuantity, numbers: Numbers, height: float) -> Numbers:
-    """Return numbers over the height of their axis; of an angle that comes round, where it is."""
-    if quantity.period is None:
-        return numbers[:, np.newaxis] / height
-    turn = 2.0 * np.pi / quantity.period * numbers
-    return np.stack([np.cos(turn), np.sin(turn)], axis=1)
 
 
 _MAP_SIZE = 6.4, 4.8
@@ -229,7 +218,8 @@ def quantity_map(
     up, second = axis_of(path, other, y_values, _COUNT)
     arguments = {x: first, y: second}
     chosen = x_values is None and y_values is None
-    end, (numbers,) = quantities_at(path, detector, [drawn], arguments, parameters, chosen=chosen)
+    end = end_of(path, detector)
+    (numbers,) = quantities_at(path, end, [drawn], arguments, parameters, chosen=chosen)
     ax = own_axes(ax, _MAP_SIZE)
     draw_map(ax, along, up, drawn, numbers, reads=reads_of(path, end))
     return ax
@@ -281,16 +271,9 @@ def _mark_default(ax: Axes, along: AlongAxis, up: AlongAxis) -> None:
     if along.default is None or up.default is None:
         return
     for colour, width in (("white", 3.0), (INK, 1.2)):
-        ax.plot(
-            along.default,
-            up.default,
-            marker="+",
-            markersize=9,
-            markeredgewidth=width,
-            color=colour,
-            clip_on=False,
-            linestyle="none",
-        )
+        mark: dict[str, Any] = {"marker": "+", "markersize": 9, "markeredgewidth": width}
+        mark |= {"color": colour, "linestyle": "none", "clip_on": False}
+        ax.plot(along.default, up.default, **mark)
     messages = [f"{each.name} {each.default_text}" for each in (along, up)]
     title = ax.set_title("", fontsize="small", color=INK)
     wordings = [f"+ by default: {', '.join(messages)}", f"+ {', '.join(messages)}", "+ by default"]

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgba
@@ -22,13 +21,14 @@ from optipath.paths.path_graph import PathGraph
 from optipath.plots.axes import own_lines
 from optipath.plots.color_scale import ColourScale
 from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.labels import Label, place_labels
 from optipath.plots.light_at_detector import START, axis_of, fine_steps, varied
 from optipath.plots.light_texts import figures_text, known_light, no_ellipse, state_text
 from optipath.plots.text import fitting, head, key_below
 from optipath.values.arrays import array_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
@@ -96,72 +96,50 @@ def poincare(
             f"light of shape {light.shape} is no trail; give one, or 1 to {_MOST} in a row, "
             "as light[0] or light[::10] picks them"
         )
-    values = None if by is None else _values(by, light)
-    if (values is None) != (label == ""):
+    if (by is None) != (label == ""):
         raise OptipathError(
             "by and label belong together: give both, as by=angles, label='delta (deg)', or none"
         )
+    values = None if by is None else _values(by, light)
     ax = sphere_axes(ax, (5.4, 5.6) if values is None else (6.4, 5.6))
     points = np.atleast_2d(sphere_point(light))
-    colours, middles = _coloured(ax, values, label, len(points))
-    draw_steps(ax, points[:-1], points[1:], middles, linewidths=1.4)
-    there = np.asarray(np.isfinite(points).all(axis=1))
-    size = 5.5 if len(points) <= _FEW else 3.5
-    draw_points(ax, points[there], colours[there], size)
-    _head(ax, light, there)
-    key_below(ax, side_keys(points[there]))
-    if values is None and light.ndim:
-        _name_ends(ax, points, there)
-    return ax
-
-
-def _values(by: Any, light: Light) -> npt.NDArray[np.float64]:
-    values = array_of("by", by, OptipathError)
-    if not light.ndim:
-        raise OptipathError("by colours a trail, and one light has none; leave it out")
-    if values.dtype.kind not in "iuf" or values.shape != light.shape:
-        raise OptipathError(
-            f"by is {shown(by)}; give a number for each of the {light.size} lights, "
-            "in the unit that label says"
-        )
-    if not np.isfinite(values).all():
-        place = int(np.flatnonzero(~np.isfinite(values))[0])
-        raise OptipathError(f"by[{place}] is {values[place]}; give finite numbers")
-    return values.astype(float)
-
-
-def _coloured(
-    ax: Axes3D, values: npt.NDArray[np.float64] | None, label: str, count: int
-) -> tuple[Any, Any]:
-    """Return the colours of points and of the lines between them, and draw their bar."""
-    if values is None:
-        colours = np.tile(to_rgba(LINES[0]), (count, 1))
-        return colours, colours[1:]
-    scale = ColourScale.ordered(float(values.min()), float(values.max()))
-    figure: Any = ax.figure
-    figure.colorbar(ScalarMappable(scale.norm, scale.colours), ax=ax, label=label, shrink=0.7)
-    colour_of = colormaps[scale.colours]
-    middles = 0.5 * (values[1:] + values[:-1])
-    return colour_of(scale.norm(values)), colour_of(scale.norm(middles))
-
-
-def _head(ax: Axes3D, light: Light, there: npt.NDArray[np.bool_]) -> None:
+    colours = middles = np.tile(to_rgba(LINES[0]), (len(points), 1))
+    if values is not None:
+        scale = ColourScale.ordered(float(values.min()), float(values.max()))
+        colour_of = ScalarMappable(scale.norm, scale.colours)
+        figure: Any = ax.figure
+        figure.colorbar(colour_of, ax=ax, label=label, shrink=0.7)
+        colours = colour_of.to_rgba(values)
+        middles = colour_of.to_rgba(0.5 * (values[1:] + values[:-1]))
+    draw_steps(ax, points[:-1], points[1:], middles[: len(points) - 1], linewidths=1.4)
+    there = np.isfinite(points).all(axis=1)
+    few = len(points) <= _FEW
+    draw_points(ax, points[there], colours[there], 5.5 if few else 3.5)
     if not light.ndim:
         head(ax, f"{state_text(light)}\n{figures_text(light)}")
     elif not there.all():
         missing = np.count_nonzero(~there)
         head(ax, f"{missing} of {light.size} have no point: dark, or not read")
+    key_below(ax, side_keys(points[there]))
+    if values is None and light.ndim and there.any():
+        places = np.flatnonzero(there)
+        few = len(places) <= _FEW
+        names = [str(place) for place in places] if few else ["first", "last"]
+        named = points[places if few else places[[0, -1]]]
+        name_points(ax, on_paper(ax, named), names)
+    return ax
 
 
-def _name_ends(ax: Axes3D, points: npt.NDArray[np.float64], there: npt.NDArray[np.bool_]) -> None:
-    """Write numbers beside the points of a short trail, words beside the ends of a long one."""
-    places = np.flatnonzero(there)
-    if not len(places):
-        return
-    names = [str(place) for place in places]
-    if len(places) > _FEW:
-        places, names = places[[0, -1]], ["first", "last"]
-    name_points(ax, on_paper(ax, points[places]), names)
+def _values(by: Any, light: Light) -> npt.NDArray[np.float64]:
+    """Return the number of each light of a trail."""
+    values = array_of("by", by, OptipathError)
+    there = values.dtype.kind in "iuf" and light.ndim and values.shape == light.shape
+    if not (there and np.isfinite(values).all()):
+        raise OptipathError(
+            f"by is {shown(by)}, and light has the shape {light.shape}; give a finite number for "
+            f"each light of a trail, in the unit that label says"
+        )
+    return values.astype(float)
 
 
 def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = None) -> Axes3D:
@@ -352,124 +330,27 @@ def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D
     return [Line2D([], [], color=colour, linestyle="none", label="hollow: far half", **mark)]
 
 
-_DISTANCES = 12.0, 20.0, 30.0, 42.0, 56.0
-"""How far from its point a name may stand, in points of a font; the nearest free place is taken."""
-
-_ROUND = 16
-
-_ON_LINES, _ON_ONE = 50_000, 200
-"""At how many points of all lines, and of one at most, it is looked for names over them."""
-
-_OVER = 1000
-"""By how many points of lines a place is worse that another name takes."""
-
 HALO = (withStroke(linewidth=2.5, foreground="white"),)
 """What keeps names readable over lines."""
 
-_LEADER: dict[str, Any] = {
-    "textcoords": "offset points",
-    "arrowprops": {
-        "arrowstyle": "-",
-        "color": FAINT,
-        "linewidth": 0.6,
-        "shrinkA": 5.0,
-        "shrinkB": 3.0,
-    },
-    "zorder": 8,
-}
 
-
-def name_points(
-    ax: Axes, points: npt.NDArray[np.float64], names: Sequence[str], size: str = "small"
-) -> None:
+def name_points(ax: Axes, points: npt.NDArray[np.float64], names: Sequence[str]) -> None:
     """Write names beside points (n, 2), over no point or text and few lines, with lines to them."""
-    figure: Any = ax.figure.figure
-    figure.draw_without_rendering()
-    taken = [text.get_window_extent() for text in ax.texts if text.get_text()]
-    pixels = ax.transData.transform(points)
-    lines = _on_lines(ax)
-    mark = 5.0 * figure.dpi / 72.0
-    taken += [Bbox.from_bounds(x - mark, y - mark, 2 * mark, 2 * mark) for x, y in pixels]
-    for point, pixel, name in zip(points, pixels, names, strict=True):
-        text: Any = ax.annotate(
-            name,
-            point,
-            (0.0, 0.0),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=size,
-            color=INK,
-            path_effects=[*HALO],
-            zorder=9,
-        )
-        own = text.get_window_extent()
-        extent = np.array([own.width, own.height])
-        places = [*_around(pixel, ax, figure.dpi / 72.0)]
-        boxes = [Bbox([at - 0.55 * extent, at + 0.55 * extent]) for _, at in places]
-        clashes = [
-            _OVER * sum(box.overlaps(other) for other in taken) + _count(lines, box)
-            for box in boxes
-        ]
-        best = int(np.argmin(clashes))
-        text.set_position(places[best][0])
-        taken.append(boxes[best])
-        if np.hypot(*places[best][0]) > _DISTANCES[0] + 1.0:
-            ax.annotate("", point, places[best][0], **_LEADER)
-
-
-def _on_lines(ax: Axes) -> npt.NDArray[np.float64]:
-    """Return points on all lines that are drawn, in pixels."""
-    rows = [line.get_xydata() for line in ax.lines]
+    ax.figure.figure.draw_without_rendering()
+    lines = [np.asarray(line.get_xydata()) for line in ax.lines]
     for each in ax.collections:
-        if isinstance(each, LineCollection):
-            rows += each.get_segments()
-    steps = [np.stack([row[:-1], row[1:]], axis=1) for row in map(np.asarray, rows)]
-    ends = np.concatenate([np.empty((0, 2, 2)), *steps])
-    count = min(max(_ON_LINES // max(len(ends), 1), 2), _ON_ONE)
-    share = np.linspace(0.0, 1.0, count)[:, np.newaxis, np.newaxis]
-    points = (ends[:, 0] + share * (ends[:, 1] - ends[:, 0])).reshape(-1, 2)
-    pixels = ax.transData.transform(points)
-    return np.asarray(pixels[np.isfinite(pixels).all(axis=1)])
-
-
-def _count(points: npt.NDArray[np.float64], box: Bbox) -> int:
-    """Return how many pixels of lines there are in a box, each of them once."""
-    within = ((points >= box.min) & (points <= box.max)).all(axis=1)
-    return min(len(np.unique(points[within].round(), axis=0)), _OVER - 1)
-
-
-def _around(
-    pixel: npt.NDArray[np.float64], ax: Axes, scale: float
-) -> Iterator[tuple[tuple[float, float], npt.NDArray[np.float64]]]:
-    """Yield offsets from a point and where they lead, the nearest and outward ones first."""
-    box = ax.get_window_extent()
-    centre = np.array([0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)])
-    x, y = pixel - centre
-    outward = np.arctan2(y, x) if np.hypot(x, y) > 1.0 else 0.25 * np.pi
-    turns = sorted(np.arange(_ROUND) * 2.0 * np.pi / _ROUND, key=lambda turn: -np.cos(turn))
-    for distance in _DISTANCES:
-        for turn in turns:
-            offset = distance * np.array([np.cos(outward + turn), np.sin(outward + turn)])
-            yield (float(offset[0]), float(offset[1])), pixel + scale * offset
+        lines += each.get_segments() if isinstance(each, LineCollection) else []
+    taken = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    taken += [Bbox([pixel - 4.0, pixel + 4.0]) for pixel in ax.transData.transform(points)]
+    style = {"fontsize": "small", "color": INK, "path_effects": [*HALO]}
+    labels = [Label(name, point, style, 0.7) for name, point in zip(names, points, strict=True)]
+    place_labels(ax, labels, lines, ax.get_window_extent(), taken=taken)
 
 
 _SAME = 0.02
 """How near points are, in radii, that are drawn as one."""
 
 _STRAIGHT = "straight from light to light, not the way between"
-
-
-class _State(NamedTuple):
-    """A point, and the links whose light it is, by their numbers."""
-
-    point: npt.NDArray[np.float64]
-    links: list[int]
-
-    @property
-    def name(self) -> str:
-        """The numbers, as few as will do."""
-        return _numbers(self.links)
 
 
 def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> Axes3D:
@@ -511,24 +392,23 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
         raise OptipathError(f"a trail is of a path, not of {shown(path)}; give a PathGraph")
     links = lights_along(path, **values)
     for link in links:
-        known_light(link.light)
-    if several := [link for link in links if link.light.shape]:
-        raise OptipathError(
-            f"{several[0].name} has light of shape {several[0].light.shape}, and a trail is of one "
-            "value for each parameter; give one, or draw a batch of light with poincare()"
-        )
+        if known_light(link.light).shape:
+            raise OptipathError(
+                f"{link.name} has light of shape {link.light.shape}, and a trail is of one value "
+                "for each parameter; give one, or draw a batch of light with poincare()"
+            )
     ax = sphere_axes(ax, (5.4, 6.2 + 0.12 * len(links)))
     points = np.stack([sphere_point(link.light) for link in links])
     _draw_links(ax, links, points)
     states = _states(points)
-    places = np.array([state.point for state in states]).reshape(-1, 3)
+    places = np.array([point for point, _ in states]).reshape(-1, 3)
     draw_points(ax, places, np.tile(to_rgba(LINES[0]), (len(states), 1)), 5.5)
     keys = [_key(ax, number, link) for number, link in enumerate(links, 1)]
     message = fitting(ax, _STRAIGHT, "x-small", less=5)
     line = Line2D([], [], color=FAINT, linestyle=(0, (4, 2)), label=message)
     key_below(ax, [*keys, line, *side_keys(places)], "x-small")
     if states:
-        name_points(ax, on_paper(ax, places), [state.name for state in states])
+        name_points(ax, on_paper(ax, places), [_numbers(numbers) for _, numbers in states])
     return ax
 
 
@@ -540,25 +420,23 @@ def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: npt.NDArray[np
         for behind, other in enumerate(links)
         if link.end and link.end == other.start
     ]
-    if pairs:
-        starts, ends = np.transpose(pairs)
-        colours = np.tile(to_rgba(FAINT), (len(pairs), 1))
-        draw_steps(
-            ax, points[starts], points[ends], colours, linewidths=1.2, linestyles=[(0, (4, 2))]
-        )
+    starts, ends = np.array(pairs, int).reshape(-1, 2).T
+    colours = np.tile(to_rgba(FAINT), (len(pairs), 1))
+    dashes: dict[str, Any] = {"linewidths": 1.2, "linestyles": [(0, (4, 2))]}
+    draw_steps(ax, points[starts], points[ends], colours, **dashes)
 
 
-def _states(points: npt.NDArray[np.float64]) -> list[_State]:
+def _states(points: npt.NDArray[np.float64]) -> list[tuple[npt.NDArray[np.float64], list[int]]]:
     """Return points that are apart, each with the numbers of its links."""
-    results: list[_State] = []
+    results: list[tuple[npt.NDArray[np.float64], list[int]]] = []
     for number, point in enumerate(points, 1):
         if not np.isfinite(point).all():
             continue
-        same = [state for state in results if np.linalg.norm(state.point - point) < _SAME]
+        same = [links for other, links in results if np.linalg.norm(other - point) < _SAME]
         if same:
-            same[0].links.append(number)
+            same[0].append(number)
         else:
-            results.append(_State(point, [number]))
+            results.append((point, [number]))
     return results
 
 
@@ -568,12 +446,8 @@ def _numbers(links: Sequence[int]) -> str:
     >>> _numbers([1, 2, 3, 5])
     '1-3, 5'
     """
-    runs: list[list[int]] = []
-    for number in links:
-        if runs and number == runs[-1][-1] + 1:
-            runs[-1].append(number)
-        else:
-            runs.append([number])
+    breaks = np.flatnonzero(np.diff(links) > 1) + 1
+    runs = [run.tolist() for run in np.split(links, breaks)]
     texts = [f"{run[0]}-{run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs]
     return ", ".join(texts)
 

@@ -11,12 +11,11 @@ from optipath.errors import OptipathError, shown
 from optipath.materials.material import Material
 from optipath.plots.axes import fitting_text, label_axes, legend_above, own_axes
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
-from optipath.values.curve import span_text
 from optipath.values.curve_value import CurveValue
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
@@ -74,11 +73,11 @@ def reflection(
     for place, (name, values) in enumerate(zip(_NAMES, curves, strict=True)):
         colour, dash = LINES[place], DASHES[place]
         lines += ax.plot(np.degrees(incidence), values, color=colour, linestyle=dash, label=name)
-    for place, marked in enumerate(marked_angles(ratio)):
-        degrees = float(np.degrees(marked.angle))
-        label = f"{marked.name} {degrees:.2f}°"
-        colour, dash = ((INK, ":"), (FAINT, "-."))[place]
-        lines.append(ax.axvline(degrees, color=colour, linestyle=dash, zorder=1.0, label=label))
+    looks = (INK, ":"), (FAINT, "-.")
+    for (name, angle), (colour, dash) in zip(marked_angles(ratio).items(), looks, strict=False):
+        degrees = float(np.degrees(angle))
+        style: dict[str, Any] = {"color": colour, "linestyle": dash, "zorder": 1.0}
+        lines.append(ax.axvline(degrees, label=f"{name} {degrees:.2f}°", **style))
     ax.set(xlim=(0.0, 90.0), ylim=(-0.02, 1.02))
     ax.set_xticks(range(0, 91, 15))
     ax.set_yticks(np.arange(0.0, 1.1, 0.2))
@@ -97,7 +96,11 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
     """Return the index behind, that in front, and titles that say both."""
     arguments = {"index": index, "outside": outside}
     media = {name: _medium(name, one) for name, one in arguments.items()}
-    depending = [name for name, one in media.items() if _depends(one)]
+    depending = [
+        name
+        for name, one in media.items()
+        if isinstance(one.n, CurveValue) or isinstance(one.k, CurveValue)
+    ]
     if depending and wavelength is None:
         raise OptipathError(
             f"{depending[0]} {shown(arguments[depending[0]])} depends on the wavelength; give one, "
@@ -105,65 +108,37 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         )
     if wavelength is not None and not depending:
         raise OptipathError(
-            f"wavelength is {shown(wavelength)}, and no index depends on it; leave it out, or "
-            f"give the name of a material"
+            f"wavelength is {shown(wavelength)}, and no index depends on it; leave it out"
         )
-    at = ""
-    if depending:
-        length, at = _one_wavelength(wavelength)
-        _check_known_there(arguments, media, length, at)
-        media = {name: one.at(length) for name, one in media.items()}
-    numbers = {name: np.asarray(one.refractive_index) for name, one in media.items()}
-    faults = [
-        f"{name} is {shown(arguments[name])}; a picture is of one index"
-        for name, number in numbers.items()
-        if number.ndim
-    ]
-    behind, front = (complex(numbers[name]) if not faults else 1j for name in arguments)
+    numbers = [np.asarray(one.at(wavelength).refractive_index) for one in media.values()]
+    for number, (name, argument) in zip(numbers, arguments.items(), strict=True):
+        if number.ndim:
+            raise OptipathError(
+                f"{name} {shown(argument)} has the shape {number.shape}; a picture is of one index"
+            )
+    behind, front = map(complex, numbers)
     if front.imag <= CLEAR * front.real:
         front = complex(front.real)
-    if not faults and (front.imag or not front.real):
-        faults.append(
+    if front.imag or not front.real:
+        raise OptipathError(
             f"outside is {_written(front)}; give the index of a clear medium, n above 0: in one "
             f"that absorbs, light has no angle of incidence of its own"
         )
-    if not faults and behind == front:
-        faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
-    if faults:
-        raise OptipathError(*faults)
+    if behind == front:
+        raise OptipathError(
+            f"index and outside are both {_written(front)}, and nothing is reflected"
+        )
     messages = [f"n = {number}" for number in _distinguished(behind, front)]
-    long = " in ".join(
-        f"{one.strip()}{at if name in depending else ''}, {number}" if _is_name(one) else number
-        for (name, one), number in zip(arguments.items(), messages, strict=True)
-    )
+    at = ""
+    if depending:
+        parameter = Wavelength()
+        at = f" at {parameter.text(float(parameter.resolve(wavelength).value))}"
+    names = []
+    for message, (name, argument) in zip(messages, arguments.items(), strict=True):
+        own = at if name in depending else ""
+        names.append(f"{argument.strip()}{own}, {message}" if _is_name(argument) else message)
+    long = " in ".join(names)
     return behind, front.real, [f"reflection: {long}", long, " in ".join(messages)]
-
-
-def _depends(medium: Material) -> bool:
-    return any(isinstance(part, CurveValue) for part in (medium.n, medium.k))
-
-
-def _one_wavelength(wavelength: Any) -> tuple[float, str]:
-    """Return a wavelength in metres, and as titles have it."""
-    parameter = Wavelength()
-    resolved = parameter.resolve(wavelength).value
-    if np.ndim(resolved):
-        raise OptipathError(f"wavelength is {shown(wavelength)}; a picture is of one")
-    return float(resolved), f" at {parameter.text(float(resolved))}"
-
-
-def _check_known_there(
-    argument: Any, media: Mapping[str, Material], length: float, at: str
-) -> None:
-    """Refuse a wavelength at which an index is not known."""
-    faults = [
-        f"{name} {shown(argument[name])} is not known{at}; give a wavelength within "
-        f"{span_text(one.span)}"
-        for name, one in media.items()
-        if not one.span[0] <= length <= one.span[1]
-    ]
-    if faults:
-        raise OptipathError(*faults)
 
 
 def _medium(name: str, argument: Any) -> Material:
@@ -215,13 +190,6 @@ class Reflected(NamedTuple):
     dolp: Numbers
 
 
-class MarkedAngle(NamedTuple):
-    """An angle of incidence that has a name. Units: angle in radians."""
-
-    name: str
-    angle: float
-
-
 def reflected(index: complex, incidence: Numbers) -> Reflected:
     """Return what a boundary reflects at an incidence in radians.
 
@@ -235,26 +203,24 @@ def reflected(index: complex, incidence: Numbers) -> Reflected:
     return Reflected(mean + half, mean - half, mean, dolp)
 
 
-def marked_angles(index: complex) -> list[MarkedAngle]:
-    """Return the angles of a reflection that have names.
+def marked_angles(index: complex) -> dict[str, float]:
+    """Return the angles of a reflection that have names, in radians.
 
-    >>> [(each.name, round(float(np.degrees(each.angle)), 2)) for each in marked_angles(1 / 1.5)]
-    [("Brewster's angle", 33.69), ('critical angle', 41.81)]
+    >>> {name: round(float(np.degrees(each)), 2) for name, each in marked_angles(1 / 1.5).items()}
+    {"Brewster's angle": 33.69, 'critical angle': 41.81}
     """
     n = index.real
     if index == 1.0:
-        return []
+        return {}
     if index.imag <= CLEAR * n:
-        results = [MarkedAngle("Brewster's angle", float(np.arctan(n)))]
-        return (
-            [*results, MarkedAngle("critical angle", float(np.arcsin(n)))] if n < 1.0 else results
-        )
+        brewster = {"Brewster's angle": float(np.arctan(n))}
+        return brewster | ({"critical angle": float(np.arcsin(n))} if n < 1.0 else {})
     least = _least(lambda incidence: reflected(index, incidence).p)
     most = _least(lambda incidence: -reflected(index, incidence).dolp)
     upright, there = reflected(index, np.array([0.0, least])).p
     if not there < upright - _SEEN:
-        return []
-    return [MarkedAngle("pseudo-Brewster angle", least), MarkedAngle("highest DoLP", most)]
+        return {}
+    return {"pseudo-Brewster angle": least, "highest DoLP": most}
 
 
 def _least(of: Callable[[Numbers], Numbers]) -> float:

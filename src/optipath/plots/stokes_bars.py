@@ -15,7 +15,7 @@ from optipath.light.underflow import normalise_exponent
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import INK, LINES
 from optipath.plots.light_texts import digits, lights_to_draw
-from optipath.plots.text import fitting, inches_wide, key_above
+from optipath.plots.text import draw_key, fitting, is_wide
 from optipath.values.arrays import array_of
 from optipath.values.jax_values import known
 
@@ -40,9 +40,6 @@ _PUBLISHED: dict[str, Any] = {
 
 _ONE = "computed, (published), Δ = computed less published"
 _SEVERAL = "Δ: the largest of computed less published"
-
-_NARROW = 3.0
-"""In inches."""
 
 _DIGITS = 6
 """As many as published tables have."""
@@ -121,7 +118,11 @@ def stokes(
         # Bars of no height say nothing of how high the axis is.
         ax.set_ylim(0.0, 1.0)
     _tell_numbers(ax, numbers, printed)
-    key_above(ax, keys)
+    if keys:
+        # Above, since ticks of many lines are below.
+        at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
+        size, columns = ("small", 2) if is_wide(ax) else ("x-small", 1)
+        draw_key(ax, keys, min(columns, len(keys)), fontsize=size, **at)
     _fit_numbers(ax)
     return ax
 
@@ -167,7 +168,7 @@ def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
     ax.set_xticks(range(4), texts)
     ax.tick_params(axis="x", length=0.0)
     if any("\n" in text for text in texts):
-        ax.tick_params(axis="x", labelsize="small" if inches_wide(ax) > _NARROW else "xx-small")
+        ax.tick_params(axis="x", labelsize="small" if is_wide(ax) else "xx-small")
 
 
 def _fit_numbers(ax: Axes) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import warnings
+from bisect import bisect
 from contextlib import contextmanager
-from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from matplotlib.font_manager import FontProperties
@@ -18,8 +18,14 @@ if TYPE_CHECKING:
     from matplotlib.legend import Legend
 
 
-_INCH = 72.0
 _MEASURE = TextToPath()
+_NARROW = 3.0
+"""In inches, up to which axes have smaller texts."""
+
+_LEAST = 1.1
+"""How many inches lines are wide at least."""
+
+_EQUAL = "\u00a0=\u00a0"
 
 
 def width_of(text: str, points: float) -> float:
@@ -30,7 +36,13 @@ def width_of(text: str, points: float) -> float:
     """
     with missing_letters_as_boxes():
         font = FontProperties(size=points)
-        return float(_MEASURE.get_text_width_height_descent(text, font, ismath=False)[0]) / _INCH
+        return float(_MEASURE.get_text_width_height_descent(text, font, ismath=False)[0]) / 72.0
+
+
+def _count(text: str, inches: float, points: float) -> int:
+    """Return how many letters of a text fit into a line."""
+    cuts = range(1, len(text) + 1)
+    return bisect(cuts, inches, key=lambda cut: width_of(text[:cut], points))
 
 
 def shortened(text: str, inches: float, points: float) -> str:
@@ -42,9 +54,7 @@ def shortened(text: str, inches: float, points: float) -> str:
     text = " ".join(text.split())
     if width_of(text, points) <= inches:
         return text
-    while text and width_of(text + "…", points) > inches:
-        text = text[:-1]
-    return text.rstrip() + "…"
+    return text[: _count(text, inches - width_of("…", points), points)].rstrip() + "…"
 
 
 def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
@@ -55,55 +65,41 @@ def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
     """
     lines: list[str] = []
     for word in words:
-        fits = lines and width_of(f"{lines[-1]} {word}", points) <= inches
-        if fits:
+        if lines and width_of(f"{lines[-1]} {word}", points) <= inches:
             lines[-1] += f" {word}"
-        else:
-            lines.append(shortened(word, inches, points))
+            continue
+        rest = word
+        while width_of(rest, points) > inches:
+            fits = max(_count(rest, inches, points), 1)
+            lines.append(rest[:fits])
+            rest = rest[fits:]
+        lines.append(rest)
     return lines
 
 
-_WIDTH = 0.58
-"""Of a letter, of the size of its font, in the middle of texts."""
-
-_LEAST = 10
-
-_NARROW = 3.0
-"""In inches."""
-
-_EQUAL = "\u00a0=\u00a0"
-
-_TICKS, _LINE = 20.0, 14.0
-"""How much room ticks with their numbers and a line of a label need, in points."""
-
-
-_SPHERE_LEAVES = 0.08
-"""Which share of the height of its axes a sphere leaves free below it."""
-
-
-def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
-    r"""Return a text in lines that are no wider than some axes.
+def fitting(ax: Axes, text: str, size: str = "small", *, less: float = 0.0) -> str:
+    r"""Return a text in lines that are no wider than some axes, less some widths of a letter.
 
     >>> from matplotlib.figure import Figure
     >>> fitting(Figure(figsize=(1.5, 1.5)).add_subplot(), "polarised part: 80 % of S0")
     'polarised part:\n80 % of S0'
     """
-    letters = (
-        72.0 * inches_wide(ax) / (_WIDTH * FontProperties(size=size).get_size_in_points()) - less
-    )
-    stored = max(_LEAST, int(letters))
+    points = FontProperties(size=size).get_size_in_points()
+    inches = max(inches_wide(ax) - less * points / 120.0, _LEAST)
     # What is equal stays on one line.
     lines = text.replace(" = ", _EQUAL).split("\n")
-    broken = "\n".join(
-        fill(line, stored, break_long_words=_EQUAL not in line, break_on_hyphens=False)
-        for line in lines
-    )
-    return broken.replace(_EQUAL, " = ")
+    fitted = [each for line in lines for each in broken(line.split(" "), inches, points)]
+    return "\n".join(fitted).replace(_EQUAL, " = ")
+
+
+def is_wide(ax: Axes) -> bool:
+    """Return whether axes are so wide that texts are not smaller than usual."""
+    return inches_wide(ax) > _NARROW
 
 
 def head(ax: Axes, text: str) -> None:
     """Write a title in lines that are no wider than the axes, smaller above small ones."""
-    size = "medium" if inches_wide(ax) > _NARROW else "small"
+    size = "medium" if is_wide(ax) else "small"
     ax.set_title(fitting(ax, text, size), fontsize=size, parse_math=False)
 
 
@@ -118,35 +114,25 @@ def inches_wide(ax: Axes) -> float:
 
 
 def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
-    """Draw a legend below some axes, their ticks and their label."""
+    """Draw a legend below some axes, their ticks and their label; a sphere leaves room itself."""
     if not handles:
         return
-    down = _TICKS + _LINE * (1 + ax.get_xlabel().count("\n")) if ax.axison else 0.0
-    bottom = 0.0 if ax.axison else _SPHERE_LEAVES
+    down = 20.0 + 14.0 * (1 + ax.get_xlabel().count("\n")) if ax.axison else 0.0
     scale = ax.figure.figure.dpi_scale_trans
     place = ax.transAxes + ScaledTranslation(0.0, -down / 72.0, scale)
-    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, bottom)}
-    _draw_key(ax, handles, fontsize=size, borderaxespad=0.0, bbox_transform=place, **at)
+    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0 if down else 0.08)}
+    draw_key(ax, handles, 1, fontsize=size, borderaxespad=0.0, bbox_transform=place, **at)
 
 
-def key_above(ax: Axes, handles: Sequence[Any]) -> None:
-    """Draw a legend above some axes, where ticks of many lines are below them."""
-    if handles:
-        wide = inches_wide(ax) > _NARROW
-        size = "small" if wide else "x-small"
-        at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
-        for columns in (2, 1) if wide and len(handles) > 1 else (1,):
-            legend = _draw_key(ax, handles, fontsize=size, ncols=columns, **at)
-            if legend.get_window_extent().width <= inches_wide(ax) * ax.figure.figure.dpi:
-                break
-
-
-def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> Legend:
-    """Return a legend of labels as they are, be they begun by "_" or with "$" within."""
-    blank = ["-"] * len(handles)
-    legend = ax.legend(handles, blank, frameon=False, **options)
-    for text, handle in zip(legend.get_texts(), handles, strict=True):
-        text.set(text=handle.get_label(), parse_math=False)
+def draw_key(ax: Axes, handles: Sequence[Any], columns: int, **options: Any) -> Legend:
+    """Return a legend in as many columns as fit, of labels as they are, with "_" or "$" within."""
+    room = inches_wide(ax) * ax.figure.figure.dpi
+    for count in range(columns, 0, -1):
+        legend = ax.legend(handles, ["-"] * len(handles), ncols=count, frameon=False, **options)
+        for text, handle in zip(legend.get_texts(), handles, strict=True):
+            text.set(text=handle.get_label(), parse_math=False)
+        if legend.get_window_extent().width <= room:
+            break
     legend.set_zorder(10)
     return legend
 

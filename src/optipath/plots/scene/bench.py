@@ -16,7 +16,8 @@ from optipath.elements.medium import Medium
 from optipath.errors import PathError
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
-from optipath.plots.scene.drawn_scene import Label, draw_head, draw_turn, outline, place_labels
+from optipath.plots.labels import Label, place_labels
+from optipath.plots.scene.drawn_scene import draw_head, draw_turn, outline
 from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
 from optipath.plots.scene.placing import angles_at, has_axis
 from optipath.plots.scene.scene import NumberPath, number, quantity_text, shown_incidence

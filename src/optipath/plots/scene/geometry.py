@@ -12,14 +12,13 @@ from optipath.errors import OptipathError
 from optipath.errors import shown as said
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK
+from optipath.plots.labels import Label, place_labels
 from optipath.plots.scene.drawn_scene import (
-    Label,
     View,
     chosen_view,
     draw_scene,
     key_to,
     lines_of,
-    place_labels,
 )
 from optipath.plots.scene.layout import scene_of
 
