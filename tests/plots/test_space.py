@@ -281,7 +281,7 @@ def test_every_preset_has_right_handed_frames_angles_beside_their_arcs_and_plain
     told = scene.as_json()
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert " ".join(told) == "notes schematic nodes rays planes frames angles bounds"
-    assert {*told["nodes"][0]} == {*SceneNode._fields} - {"axis"}
+    assert {*told["nodes"][0]} == {*SceneNode._fields} - {"axis", "element"}
     ray = "name start end from to frame ellipse intensity dop leaves tap"
     assert {*told["rays"][0]} == {*ray.split()}
 

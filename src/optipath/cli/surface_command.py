@@ -63,12 +63,11 @@ def draw_map(
     # Before photons are walked: these tell whether what draws is there.
     from optipath.cli.surface_options import walk_arguments  # noqa: PLC0415 - needs numbers
     from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
-    from optipath.plots.hemisphere_side import QUANTITIES  # noqa: PLC0415 - ditto
-    from optipath.plots.light_quantities import named_quantity  # noqa: PLC0415 - ditto
+    from optipath.plots.hemisphere_side import QUANTITIES, quantity_of  # noqa: PLC0415 - ditto
     from optipath.surfaces.hemisphere.measure import measure  # noqa: PLC0415 - needs numbers
 
     walk = _only(
-        walk_arguments(load_sample(sample), **options), named_quantity(quantity, QUANTITIES), side
+        walk_arguments(load_sample(sample), **options), quantity_of(quantity, QUANTITIES), side
     )
     beam, source = walk.run.beam, walk.run.beam.states[0]
     with photon_bar(walk.direction) as progress:

@@ -67,11 +67,6 @@ class ColourScale(NamedTuple):
         """Return that of phases in degrees, of which -180 and 180 are one."""
         return cls("twilight", Normalize(-180.0, 180.0), (-180.0, -90.0, 0.0, 90.0, 180.0))
 
-    @classmethod
-    def between(cls, least: float, largest: float) -> ColourScale:
-        """Return that of numbers between any two."""
-        return cls("viridis", Normalize(least, largest))
-
     def bar(self, image: Any, axes: Any, label: str, **options: Any) -> Colorbar:
         """Draw the colour bar of an image."""
         bar: Colorbar = image.figure.colorbar(image, ax=axes, label=label, **options)

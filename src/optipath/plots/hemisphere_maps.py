@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from itertools import product
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -10,13 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import SurfaceError
-from optipath.paths.files.schema import Faults
 from optipath.plots.axes import own_axes, own_panel
 from optipath.plots.color_scale import ColourScale
 from optipath.plots.colors import positive
 from optipath.plots.hemisphere_disc import draw_disc, head_panel
-from optipath.plots.hemisphere_side import QUANTITIES, PixelQuantity, SeenSide, largest_of
-from optipath.plots.light_quantities import named_quantity
+from optipath.plots.hemisphere_side import QUANTITIES, SeenSide, largest_of, quantity_of
 from optipath.surfaces.walk.beam import UNPOLARISED
 
 if TYPE_CHECKING:
@@ -85,7 +82,7 @@ def hemisphere(
     Raises
     ------
     SurfaceError
-        With all faults at once.
+        If the quantity, the side, the wavelength, the source or the mask does not fit.
 
     Examples
     --------
@@ -95,47 +92,24 @@ def hemisphere(
     >>> hemisphere(found, "DoLP").get_title()
     'DoLP, reflected, incidence 40°'
     """
-    drawn = named_quantity(quantity, QUANTITIES)
+    drawn = quantity_of(quantity, QUANTITIES)
     faults = [*positive("largest", largest), *positive("known_to", known_to)]
     if largest is not None and drawn.is_bounded:
         faults.append(f"largest is given, but colours of {drawn.variable} end at their own limits")
-    faults += drawn.faults_of(mask)
-    seen = _seen(drawn, faults, measured, side, wavelength, source)
+    if drawn.over_wavelengths and wavelength is not None:
+        faults.append(f"{drawn.variable} is of all wavelengths together; leave wavelength out")
+    if faults:
+        raise SurfaceError(*faults)
+    seen = SeenSide.of(measured, side, wavelength, source, every=drawn.over_wavelengths)
+    if drawn.masked and any(seen.source[1:]):
+        raise SurfaceError(f"{drawn.variable} is of unpolarised light; leave source out")
     pixels = drawn.known(seen, known_to, mask)
     ax = own_axes(ax, (5.6, 5.0))
-    scale = drawn.scale(pixels.largest if largest is None else largest)
+    scale = drawn.scale(largest_of(pixels.values) if largest is None else largest)
     image = draw_disc(ax, seen, pixels.values, scale, hatched=fill(pixels.unknown, _COLUMNS))
     scale.bar(image, ax, drawn.label, shrink=0.8)
     ax.set_title(seen.titled(drawn.variable))
     return ax
-
-
-def _seen(
-    drawn: PixelQuantity,
-    others: list[str],
-    measured: Hemisphere,
-    side: str,
-    wavelength: Any,
-    source: npt.ArrayLike,
-) -> SeenSide:
-    """Return what is to be drawn; refuse what does not go with the quantity, beside others."""
-    faults = Faults(others)
-    if drawn.over_wavelengths and wavelength is not None:
-        faults.append(f"{drawn.variable} is of all wavelengths together; leave wavelength out")
-        wavelength = None
-    seen = faults.attempt(
-        "",
-        partial(SeenSide.of, every=drawn.over_wavelengths),
-        measured,
-        side,
-        wavelength,
-        source,
-    )
-    if seen and drawn.masked and any(seen.source[1:]):
-        faults.append(f"{drawn.variable} is of unpolarised light; leave source out")
-    if faults or seen is None:
-        raise SurfaceError(*faults)
-    return seen
 
 
 _KNOWN_TO = 0.1
@@ -173,7 +147,7 @@ def mueller_hemisphere(
     Raises
     ------
     SurfaceError
-        With all faults at once, or if no Mueller matrix has been measured.
+        If the side or the wavelength does not fit, or no Mueller matrix has been measured.
 
     Examples
     --------
@@ -239,8 +213,8 @@ def differences(
     Raises
     ------
     SurfaceError
-        With all faults at once, or if light has not been measured both with polarisation and
-        without.
+        If the side or the wavelength does not fit, or light has not been measured both with
+        polarisation and without.
 
     Examples
     --------
@@ -310,8 +284,8 @@ def beside_facets(
     Raises
     ------
     SurfaceError
-        With all faults at once, or if no Mueller matrix has been measured, or the model knows
-        nothing of the sample.
+        If the side or the wavelength does not fit, no Mueller matrix has been measured, or the
+        model knows nothing of the sample.
 
     Examples
     --------

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, SurfaceError, listed, shown, unknown
-from optipath.paths.files.schema import Faults, joined
+from optipath.errors import SurfaceError, listed, shown, unknown
 from optipath.plots.color_scale import ColourScale
 from optipath.surfaces.hemisphere.beam import SIDES
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
@@ -20,7 +19,7 @@ from optipath.values.units import displayed
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+    from collections.abc import Callable, Collection
 
     import numpy.typing as npt
 
@@ -43,14 +42,9 @@ class SeenSide:
         """Return the side that pictures are asked for. Shape: source (4,)."""
         if not isinstance(measured, Hemisphere):
             raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
-        faults = Faults()
-        faults.attempt("", measured.side, side)
-        place = None if every else faults.attempt("", _place, measured.wavelengths, wavelength)
-        state = faults.attempt("", state_argument, "source", source)
-        if faults:
-            raise SurfaceError(*faults)
-        assert state is not None  # noqa: S101 - or a fault has been raised
-        return cls(measured, side, place, state)
+        measured.side(side)
+        place = None if every else _place(measured.wavelengths, wavelength)
+        return cls(measured, side, place, state_argument("source", source))
 
     def pixels(self, numbers: Numbers) -> Numbers:
         """Return the pixels (rows, columns, ...) of this side, NaN beyond the horizon."""
@@ -112,71 +106,14 @@ def _place(wavelengths: Numbers, wanted: Any) -> int:
     there = listed([displayed(each, "nm") for each in wavelengths])
     if wanted is None:
         raise SurfaceError(f"wavelength is missing; give one of {there}")
-    try:
-        when = np.asarray(Wavelength().resolve(wanted).value, float)
-    except OptipathError as fault:
-        raise SurfaceError(*fault.faults) from None
+    when = np.asarray(Wavelength().resolve(wanted).value, float)
     if when.size != 1:
         raise SurfaceError(f"wavelength is {shown(wanted)}; give one of {there}")
     near = np.isclose(wavelengths, when.item(), rtol=1e-9, atol=0.0)
     if not near.any():
-        cure = f"give a wavelength of {there}"
-        if len(wavelengths) == 1:
-            cure += ", or leave it out"
+        cure = f"give a wavelength of {there}" + ", or leave it out" * (len(wavelengths) == 1)
         raise SurfaceError(f"{displayed(when.item(), 'nm')} has not been measured; {cure}")
     return int(np.argmax(near))
-
-
-def seen_sides(
-    several: Mapping[str, Any],
-    side: Any,
-    wavelength: Any,
-    source: Any,
-    *,
-    others: Sequence[str] = (),
-) -> dict[str, SeenSide]:
-    """Return the sides to draw; a wavelength is for samples measured at several."""
-    most = max(map(_choices, several.values()))
-    faults = Faults(others)
-    results = {
-        name: faults.attempt(
-            name,
-            SeenSide.of,
-            each,
-            side,
-            wavelength if _choices(each) == most else None,
-            source,
-        )
-        for name, each in several.items()
-    }
-    if faults:
-        raise SurfaceError(*joined(faults))
-    return {name: seen for name, seen in results.items() if seen}
-
-
-def titled(what: str, several: Collection[SeenSide]) -> str:
-    """Return the title of a picture of several samples, of what is the same of all."""
-    first = next(iter(several))
-    parts = [what, first.side, "in the plane of incidence"]
-    colours = {each.colour for each in several} - {""}
-    parts += colours if len(colours) == 1 else []
-    return ", ".join(parts) + first.source_line
-
-
-def labels(several: Mapping[str, SeenSide]) -> dict[str, str]:
-    """Return what curves are called: their names, with wavelengths where these differ."""
-    differ = len({each.colour for each in several.values()} - {""}) > 1
-    return {
-        name: f"{name}, {seen.colour}" if differ and seen.colour else name
-        for name, seen in several.items()
-    }
-
-
-def _choices(measured: Any) -> int:
-    """Return whether something was measured at no wavelength, at one, or at several, 2."""
-    if not isinstance(measured, Hemisphere):
-        return 0
-    return min(int(np.isfinite(measured.wavelengths).sum()), 2)
 
 
 class KnownPixels(NamedTuple):
@@ -185,11 +122,6 @@ class KnownPixels(NamedTuple):
     values: Numbers
     errors: Numbers
     unknown: str = "no light"
-
-    @property
-    def largest(self) -> float:
-        """The largest size among the values, 1 where all are 0 or NaN."""
-        return largest_of(self.values)
 
 
 class PixelQuantity(NamedTuple):
@@ -209,17 +141,18 @@ class PixelQuantity(NamedTuple):
         """Whether its colours are those of all values that it can have."""
         return self.scale in (_share, _axis)
 
-    def faults_of(self, mask: Any) -> list[str]:
-        """Return sentences for what is no mask of it.
-
-        >>> QUANTITIES[0].faults_of({"noise": None})
-        ['mask is given, but S0 has none; leave it out']
-        """
-        if not self.masked and (not isinstance(mask, Mapping | None) or mask):
-            return [f"mask is given, but {self.variable} has none; leave it out"]
-        if not isinstance(mask, Mapping | None):
-            return [f"mask is {shown(mask)}; give a mapping, such as {{'brighter_than': 0.5}}"]
-        return [fault for key in mask or {} for fault in unknown("mask", key, self.masked)]
+    def check_mask(self, mask: Any) -> None:
+        """Refuse what is no mask of it."""
+        if mask is None:
+            return
+        if not self.masked:
+            raise SurfaceError(f"mask is given, but {self.variable} has none; leave it out")
+        if not isinstance(mask, Mapping):
+            raise SurfaceError(
+                f"mask is {shown(mask)}; give a mapping, such as {{'brighter_than': 0.5}}"
+            )
+        if faults := [fault for key in mask for fault in unknown("mask", key, self.masked)]:
+            raise SurfaceError(*faults)
 
     @property
     def label(self) -> str:
@@ -231,6 +164,7 @@ class PixelQuantity(NamedTuple):
     ) -> KnownPixels:
         """Return what is known of the pixels of a side."""
         limit = self.known_to if known_to is None else known_to
+        self.check_mask(mask)
         result = self.of(seen, mask or {})
         if np.isinf(limit):
             return result
@@ -273,15 +207,14 @@ _dop, _dolp = partial(_state, "dop", 1.0), partial(_state, "dolp", 1.0)
 _aop = partial(_state, "aop", float(np.degrees(1.0)))
 _difference = partial(_effect, "relative_difference")
 _adm, _mdm = partial(_effect, "adm"), partial(_effect, "mdm")
-
 _MASK = "brighter_than", "noise", "known_to"
 _OVER_ALL: dict[str, Any] = {"masked": _MASK, "over_wavelengths": True}
-
-QUANTITIES = (
+_ALL = (
     PixelQuantity("S0", "S0", "1/sr", partial(_component, 0), _light),
-    PixelQuantity("S1", "S1", "1/sr", partial(_component, 1), _signed),
-    PixelQuantity("S2", "S2", "1/sr", partial(_component, 2), _signed),
-    PixelQuantity("S3", "S3", "1/sr", partial(_component, 3), _signed),
+    *(
+        PixelQuantity(f"S{at}", f"S{at}", "1/sr", partial(_component, at), _signed)
+        for at in (1, 2, 3)
+    ),
     PixelQuantity("DoP", "degree of polarisation", "", _dop, _share, 0.1),
     PixelQuantity("DoLP", "degree of linear polarisation", "", _dolp, _share, 0.1),
     PixelQuantity("AoP", "angle of polarisation", "°", _aop, _axis, 10.0),
@@ -291,6 +224,18 @@ QUANTITIES = (
     PixelQuantity("ADM", "mean of |S0 - U| / U", "%", _adm, ColourScale.share, **_OVER_ALL),
     PixelQuantity("MDM", "largest |S0 - U| / U", "%", _mdm, ColourScale.share, **_OVER_ALL),
 )
+QUANTITIES = {each.variable: each for each in _ALL}
+
+
+def quantity_of(name: Any, known: Collection[str]) -> PixelQuantity:
+    """Return the quantity of a name, one of those that are known.
+
+    >>> quantity_of("AoP", QUANTITIES).label
+    'angle of polarisation (°)'
+    """
+    if faults := unknown("quantity", name, known):
+        raise SurfaceError(*faults)
+    return QUANTITIES[name]
 
 
 def largest_of(values: Numbers) -> float:

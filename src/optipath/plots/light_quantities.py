@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, SurfaceError, shown, unknown
+from optipath.errors import OptipathError, shown, unknown
 from optipath.plots.color_scale import ColourScale
 from optipath.sweeps.labels import FAINT, QUANTITIES, LightQuantity
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
 
 
@@ -90,7 +88,7 @@ class DrawnQuantity(NamedTuple):
             return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()
         low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, np.nan)
         if self.light is FAINT:
-            return ColourScale.between(*_ends(numbers))
+            return ColourScale.ordered(*_ends(numbers))
         largest = high if np.isfinite(high) else max(np.abs(_ends(numbers)))
         return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
 
@@ -131,27 +129,3 @@ def drawn_quantity(name: Any) -> DrawnQuantity:
     if not isinstance(name, str):
         raise OptipathError(f"quantity is {shown(name)}; give one name, such as 'S0'")
     return drawn_quantities(name)[0]
-
-
-class Named(Protocol):
-    """A quantity."""
-
-    @property
-    def variable(self) -> str:
-        """What it is called."""
-
-
-Quantity = TypeVar("Quantity", bound=Named)
-
-
-def named_quantity(name: Any, quantities: Sequence[Quantity]) -> Quantity:
-    """Return the quantity of a name.
-
-    >>> from optipath.plots.hemisphere_side import QUANTITIES
-    >>> named_quantity("AoP", QUANTITIES).label
-    'angle of polarisation (°)'
-    """
-    names = [each.variable for each in quantities]
-    if faults := unknown("quantity", name, names):
-        raise SurfaceError(*faults)
-    return quantities[names.index(name)]

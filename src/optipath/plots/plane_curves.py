@@ -4,29 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import SurfaceError
+from optipath.errors import OptipathError, SurfaceError
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.plots.axes import own_axes
-from optipath.plots.colors import positive
-from optipath.plots.hemisphere_side import labels, seen_sides, titled
-from optipath.plots.light_quantities import named_quantity
+from optipath.plots.colors import DASHES, LINES, positive
+from optipath.plots.hemisphere_side import SeenSide, quantity_of
 from optipath.surfaces.facet_model import frame_along
+from optipath.surfaces.hemisphere.hemisphere import ROUNDED
 from optipath.surfaces.walk.beam import UNPOLARISED
 from optipath.sweeps.labels import QUANTITIES as OF_LIGHT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    from optipath.plots.hemisphere_side import SeenSide
+    from optipath.plots.hemisphere_side import PixelQuantity
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 
     Numbers = npt.NDArray[np.float64]
@@ -34,11 +32,6 @@ if TYPE_CHECKING:
 
 BAND = 2.0
 """How many standard errors a band reaches up and down."""
-
-_COLOURS = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"
-"""Those that all tell apart: M. Okabe and K. Ito, Color Universal Design (2008)."""
-
-_LINES = "-", "--", "-.", (0, (1, 1)), (0, (6, 2)), (0, (4, 1, 1, 1, 1, 1)), "-"
 
 _CURVE = "curve in the plane of incidence"
 """By which curves are found again, so that the next one looks otherwise."""
@@ -90,7 +83,7 @@ def in_plane(
     Raises
     ------
     SurfaceError
-        With all faults at once, or if what is drawn has not been measured.
+        If an argument does not fit, or what is drawn has not been measured.
 
     Examples
     --------
@@ -104,45 +97,66 @@ def in_plane(
     several = measured if isinstance(measured, Mapping) else {"": measured}
     if not several:
         raise SurfaceError("measured is an empty mapping; give one Hemisphere at least")
-    drawn = named_quantity(quantity, QUANTITIES)
-    sides = seen_sides(
-        {str(name): each for name, each in several.items()},
-        side,
-        wavelength,
-        source,
-        others=positive("known_to", known_to),
-    )
-    ax, called = own_axes(ax, (7.0, 4.4)), labels(sides)
+    drawn = quantity_of(quantity, _LIMITS)
+    if faults := positive("known_to", known_to):
+        raise SurfaceError(*faults)
+    sides = _sides(several, side, wavelength, source)
+    if quantity == "difference" and any(any(seen.source[1:]) for seen in sides.values()):
+        raise SurfaceError("difference is of unpolarised light; leave source out")
+    ax = own_axes(ax, (7.0, 4.4))
+    colours = {seen.colour for seen in sides.values()} - {""}
     for name, seen in sides.items():
-        _draw_curve(ax, PlaneCut(seen), drawn, called[name], known_to)
+        label = f"{name}, {seen.colour}" if len(colours) > 1 and seen.colour else name
+        _draw_curve(ax, PlaneCut(seen), drawn, label, known_to)
     ax.set(xlim=(-90.0, 90.0), xlabel="exit angle to the normal (°)", ylabel=drawn.label)
     ax.set_xticks(range(-90, 91, 30))
-    ax.set_ylim(*drawn.limits)
+    ax.set_ylim(*_LIMITS[quantity])
     ax.grid(visible=True, alpha=0.3)
+    first = next(iter(sides.values()))
     if len(sides) == 1:
-        ax.set_title(next(iter(sides.values())).titled(drawn.variable))
+        ax.set_title(first.titled(quantity))
     else:
-        ax.set_title(titled(drawn.variable, sides.values()))
+        parts = [quantity, side, "in the plane of incidence"]
+        parts += colours if len(colours) == 1 else []
+        ax.set_title(", ".join(parts) + first.source_line)
     if any(sides):
         ax.legend(frameon=False)
     return ax
 
 
+def _sides(
+    several: Mapping[Any, Any], side: str, wavelength: Any, source: Any
+) -> dict[str, SeenSide]:
+    """Return the sides to draw; a wavelength is for samples measured at several."""
+
+    def choices(measured: Any) -> int:
+        """Return whether something was measured at no wavelength, at one, or at several, 2."""
+        lengths = getattr(measured, "wavelengths", np.nan)
+        return min(int(np.isfinite(lengths).sum()), 2)
+
+    most, results = max(map(choices, several.values())), {}
+    for name, each in several.items():
+        own = wavelength if choices(each) == most else None
+        try:
+            results[str(name)] = SeenSide.of(each, side, own, source)
+        except OptipathError as error:
+            about = f"{name}: " if name else ""
+            raise SurfaceError(*(f"{about}{fault}" for fault in error.faults)) from None
+    return results
+
+
 def _draw_curve(
-    ax: Axes, cut: PlaneCut, drawn: PlaneQuantity, name: str, known_to: float | None
+    ax: Axes, cut: PlaneCut, drawn: PixelQuantity, name: str, known_to: float | None
 ) -> None:
-    value, error = drawn.known(cut, known_to)
+    value, error = _known(cut, drawn, known_to)
     angles = np.degrees(cut.angles)
-    before = sum(line.get_gid() == _CURVE for line in ax.get_lines()) % len(_COLOURS)
-    colour = _COLOURS[before]
-    ax.plot(angles, value, color=colour, linestyle=_LINES[before], label=name or None, gid=_CURVE)
+    before = sum(line.get_gid() == _CURVE for line in ax.get_lines())
+    colour, dash = LINES[before % len(LINES)], DASHES[before % len(DASHES)]
+    ax.plot(angles, value, color=colour, linestyle=dash, label=name or None, gid=_CURVE)
     band = BAND * np.nan_to_num(error)
     ax.fill_between(angles, value - band, value + band, color=colour, alpha=0.25, linewidth=0.0)
     if not np.isnan(mirrored := cut.seen.mirrored):
         ax.axvline(np.degrees(mirrored), color=colour, linestyle=":", linewidth=1.0, zorder=0)
-
-
-_ROUNDED = 64.0 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -180,7 +194,7 @@ class PlaneCut:
         matrices = self.seen.measured.matrices(self._pixels(numbers))
         seen = Light.of(matrices @ np.array(self.seen.source), own, measured=True)
         stokes = self._mean(seen.in_frame(plane).stokes)
-        noise = _ROUNDED * self.seen.source[0] * self._mean(matrices[..., 0, 0])
+        noise = ROUNDED * self.seen.source[0] * self._mean(matrices[..., 0, 0])
         return Light.of(stokes, Frame(), noise=noise, measured=True)
 
     def scalar(self, numbers: Numbers) -> Numbers:
@@ -198,63 +212,37 @@ class PlaneCut:
 
 
 _OF_LIGHT = {each.variable: each for each in OF_LIGHT}
+_WHOLE = 0.0, 1.02
+_LIMITS: dict[str, tuple[float | None, float | None]] = {
+    "S0": (0.0, None),
+    **dict.fromkeys(("S1", "S2", "S3"), (None, None)),
+    **dict.fromkeys(("DoP", "DoLP"), _WHOLE),
+    "AoP": (-92.0, 92.0),
+    "difference": (None, None),
+}
+"""Of what curves in the plane of incidence show: the limits of the axis."""
+
+_DIFFERENCE_KNOWN_TO = 5.0
 
 
-class PlaneQuantity(NamedTuple):
-    """What curves in the plane of incidence show."""
+def _known(cut: PlaneCut, drawn: PixelQuantity, known_to: float | None) -> tuple[Numbers, Numbers]:
+    """Return values and standard errors (columns,), NaN where not known."""
+    name = drawn.variable
 
-    variable: str
-    label: str
-    of: Callable[[PlaneCut, Numbers], Numbers]
-    limits: tuple[float | None, float | None] = (None, None)
-    known_to: float = np.inf
-    period: float = np.inf
+    def at(numbers: Numbers) -> Numbers:
+        light = cut.light(numbers)
+        if name == "difference":
+            return 100.0 * (light.stokes[..., 0] / cut.scalar(numbers) - 1.0)
+        values = np.asarray(_OF_LIGHT[name].of(light))
+        return np.degrees(values) if name == "AoP" else values
 
-    def known(self, cut: PlaneCut, known_to: float | None) -> tuple[Numbers, Numbers]:
-        """Return values and standard errors (columns,), NaN where not known."""
-        if self.variable == "difference" and any(cut.seen.source[1:]):
-            raise SurfaceError("difference is of unpolarised light; leave source out")
-        own = cut.seen.measured.own
-        value, error = own.estimate(lambda numbers: self.of(cut, numbers))
-        if np.isfinite(self.period):
-            half = self.period / 2.0
-            _, error = own.estimate(
-                lambda numbers: np.remainder(self.of(cut, numbers) - value + half, self.period)
-            )
-            # An angle that goes on from the other end is no line across.
-            value = np.where(np.abs(np.diff(value, append=value[-1])) > half, np.nan, value)
-        limit = self.known_to if known_to is None else known_to
-        there = np.isinf(limit) | (error <= limit)
-        return np.where(there, value, np.nan), np.where(there, error, np.nan)
-
-
-def _of_light(variable: str, unit: float, cut: PlaneCut, numbers: Numbers) -> Numbers:
-    return unit * np.asarray(_OF_LIGHT[variable].of(cut.light(numbers)))
-
-
-def _difference(cut: PlaneCut, numbers: Numbers) -> Numbers:
-    scalar, stokes = cut.scalar(numbers), cut.light(numbers).stokes
-    return 100.0 * (stokes[..., 0] / scalar - 1.0)
-
-
-_WHOLE = (0.0, 1.02)
-
-QUANTITIES = (
-    PlaneQuantity("S0", "S0 (1/sr)", partial(_of_light, "S0", 1.0), (0.0, None)),
-    PlaneQuantity("S1", "S1 (1/sr)", partial(_of_light, "S1", 1.0)),
-    PlaneQuantity("S2", "S2 (1/sr)", partial(_of_light, "S2", 1.0)),
-    PlaneQuantity("S3", "S3 (1/sr)", partial(_of_light, "S3", 1.0)),
-    PlaneQuantity("DoP", "degree of polarisation", partial(_of_light, "DoP", 1.0), _WHOLE, 0.1),
-    PlaneQuantity(
-        "DoLP", "degree of linear polarisation", partial(_of_light, "DoLP", 1.0), _WHOLE, 0.1
-    ),
-    PlaneQuantity(
-        "AoP",
-        "angle of polarisation (°)",
-        partial(_of_light, "AoP", float(np.degrees(1.0))),
-        (-92.0, 92.0),
-        10.0,
-        180.0,
-    ),
-    PlaneQuantity("difference", "S0 / U - 1 (%)", _difference, known_to=5.0),
-)
+    own = cut.seen.measured.own
+    value, error = own.estimate(at)
+    if name == "AoP":
+        _, error = own.estimate(lambda numbers: np.remainder(at(numbers) - value + 90.0, 180.0))
+        # An angle that goes on from the other end is no line across.
+        value = np.where(np.abs(np.diff(value, append=value[-1])) > 90.0, np.nan, value)
+    usual = _DIFFERENCE_KNOWN_TO if name == "difference" else drawn.known_to
+    limit = usual if known_to is None else known_to
+    there = np.isinf(limit) | (error <= limit)
+    return np.where(there, value, np.nan), np.where(there, error, np.nan)

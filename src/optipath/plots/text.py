@@ -81,8 +81,8 @@ def fitting(ax: Axes, text: str, size: str = "small", *, less: float = 0.0) -> s
     r"""Return a text in lines that are no wider than some axes, less some widths of a letter.
 
     >>> from matplotlib.figure import Figure
-    >>> fitting(Figure(figsize=(1.5, 1.5)).add_subplot(), "polarised part: 80 % of S0")
-    'polarised part:\n80 % of S0'
+    >>> fitting(Figure(figsize=(1.7, 1.5)).add_subplot(), "polarised part: 80 % of S0")
+    'polarised part: 80 %\nof S0'
     """
     points = FontProperties(size=size).get_size_in_points()
     inches = max(inches_wide(ax) - less * points / 120.0, _LEAST)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,10 +16,10 @@ from optipath.errors import PathError
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.labels import Label, place_labels
-from optipath.plots.scene.drawn_scene import draw_head, draw_turn, outline
-from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_with
+from optipath.plots.scene.drawn_scene import draw_head, draw_turn, outline, set_limits, write_notes
+from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_of
 from optipath.plots.scene.placing import angles_at, has_axis
-from optipath.plots.scene.scene import NumberPath, number, quantity_text, shown_incidence
+from optipath.plots.scene.scene import number, quantity_text, shown_incidence
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
@@ -85,13 +84,9 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     >>> sorted(text.get_text().replace("\n", ", ") for text in ax.texts)[0]
     'analyzer, angle = 30 deg'
     """
-    message = NumberPath(path, "bench", values)
-    scene = scene_with(message)
+    scene = scene_of(path, "bench", **values)
     flat = flat_sheet(scene)
-    texts = {
-        node.name: [node.name, *values_below(message.wiring.elements[node.name])]
-        for node in scene.nodes
-    }
+    texts = {node.name: [node.name, *values_below(node.element)] for node in scene.nodes}
     widest = max(len(line) for lines in texts.values() for line in lines)
     rows = -(-len(flat.at) // _most(widest, _WIDTH, _POINTS))
     ax = own_axes(ax, (_WIDTH, _ROW * rows + 0.4 if flat.straight else _PLANE))
@@ -100,7 +95,10 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.
     whole, inch = ax.get_window_extent(), figure.dpi
     size = _POINTS * float(np.clip(whole.width / inch / _WIDTH, 0.66, 1.1))
-    below = _note(ax, scene, flat, size)
+    notes = [_DIALS, *scene.notes]
+    if not flat.straight and nearest_symbols(scene, flat) < 2.0 * DIAL:
+        notes.append("symbols lie over one another: the picture 'geometry' has this path in space")
+    below = write_notes(ax, notes, 0.85 * size)
     room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
     if flat.straight:
         lines = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
@@ -124,20 +122,6 @@ def _most(widest: int, inches: float, points: float) -> int:
     return max(int(inches * 72.0 / ((widest + 1.5) * _LETTER * points)), 2)
 
 
-def _note(ax: Axes, scene: Scene, flat: FlatSheet, size: float) -> float:
-    """Write at the lower edge what was chosen, and return how high that reaches in pixels."""
-    figure: Any = ax.figure.figure
-    whole = ax.get_window_extent()
-    columns = int(whole.width / (0.52 * 0.85 * size * figure.dpi / 72.0))
-    notes = [_DIALS, *scene.notes]
-    if not flat.straight and nearest_symbols(scene, flat) < 2.0 * DIAL:
-        notes.append("symbols lie over one another: the picture 'geometry' has this path in space")
-    said = textwrap.fill("; ".join(notes), max(columns, 20))
-    style: Any = {"fontsize": 0.85 * size, "color": FAINT, "ha": "center", "va": "bottom"}
-    text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
-    return float(text.get_window_extent().y1)
-
-
 def _fit_rows(
     ax: Axes, scene: Scene, flat: FlatSheet, most: int, where: tuple[Bbox, float]
 ) -> FlatSheet:
@@ -151,7 +135,7 @@ def _fit_rows(
     result = in_rows(flat, scene, each, (step / per_unit, row / per_unit))
     spare = (room.height - rows * row) / 2.0
     first = np.array([room.x0 + step / 2.0, room.y1 - spare - _ABOVE * per_unit])
-    _set_limits(ax, np.zeros(2), first, per_unit)
+    set_limits(ax, np.zeros(2), first, per_unit)
     return result
 
 
@@ -162,16 +146,7 @@ def _fit_plane(ax: Axes, flat: FlatSheet, room: Bbox) -> None:
     wide, tall = high - low + 2.0 * _ASIDE
     per_unit = min(room.width / wide, room.height / tall, _LONGEST * room.height)
     middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
-    _set_limits(ax, (low + high) / 2.0, middle, per_unit)
-
-
-def _set_limits(ax: Axes, point: Array, pixel: Array, per_unit: float) -> None:
-    """Set limits by which a point lies on a pixel."""
-    whole = ax.get_window_extent()
-    left, bottom = point - (pixel - [whole.x0, whole.y0]) / per_unit
-    ax.set_aspect("equal", adjustable="box")
-    ax.set_xlim(left, left + whole.width / per_unit)
-    ax.set_ylim(bottom, bottom + whole.height / per_unit)
+    set_limits(ax, (low + high) / 2.0, middle, per_unit)
 
 
 def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:

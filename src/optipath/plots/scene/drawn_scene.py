@@ -10,9 +10,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
 from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.text import broken
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     import numpy.typing as npt
     from matplotlib.artist import Artist
@@ -70,20 +71,6 @@ _MARKS: dict[str, dict[str, Any]] = {
     "dump": {"marker": "s", "ms": 6, "mfc": "white"},
     "other": {"marker": "o", "ms": 5, "mfc": "white"},
 }
-
-
-def lines_of(scene: Scene, view: View) -> list[Array]:
-    """Return the lines (points, 2) of a scene that no text should cover, and what is seen of it."""
-    results = [np.array([ray.tail, ray.head]) for ray in scene.rays]
-    results += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
-    results += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
-    results += [outline(scene, node) for node in scene.nodes if node.normal is not None]
-    results += [axis_line(scene, node) for node in scene.nodes if node.axis is not None]
-    results += [_normal(scene, node) for node in scene.nodes if node.role == "surface"]
-    for frame in drawn_frames(scene):
-        x, y, _ = frame.at + _FRAME * scene.unit * frame.axes
-        results.append(np.array([x, frame.at, y]))
-    return [view.points(line) for line in results]
 
 
 def drawn_frames(scene: Scene) -> list[SceneFrame]:
@@ -182,12 +169,6 @@ def _has_ellipse(ray: SceneRay) -> bool:
 
 def _ellipse(ray: SceneRay) -> Array:
     return np.asarray((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
-
-
-def _spokes(angle: SceneAngle) -> Array:
-    """Return a line that goes to and fro over the face of an angle."""
-    centres = np.broadcast_to(angle.centre, angle.arc.shape)
-    return np.stack([centres, angle.arc], axis=1).reshape(-1, 3)
 
 
 def _angle(ax: Axes, angle: SceneAngle, view: View) -> None:
@@ -303,3 +284,22 @@ def axis_line(scene: Scene, node: SceneNode) -> Array:
 
 def _reach(places: list[float], half: float) -> tuple[float, float]:
     return min([0.0, *places]) - half, max([0.0, *places]) + half
+
+
+def write_notes(ax: Axes, notes: Sequence[str], points: float) -> float:
+    """Write notes at the lower edge, and return how high they reach in pixels."""
+    whole = ax.get_window_extent()
+    inches = 0.95 * whole.width / ax.figure.figure.dpi
+    said = "\n".join(broken("; ".join(notes).split(), inches, points))
+    style: dict[str, Any] = {"fontsize": points, "color": FAINT, "ha": "center", "va": "bottom"}
+    text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
+    return float(text.get_window_extent().y1) if said else float(whole.y0)
+
+
+def set_limits(ax: Axes, point: Array, pixel: Array, per_unit: float) -> None:
+    """Set limits by which a point (2,) lies on a pixel, and a unit is so many pixels long."""
+    whole = ax.get_window_extent()
+    left, bottom = point - (pixel - [whole.x0, whole.y0]) / per_unit
+    ax.set_aspect("equal", adjustable="box")
+    ax.set_xlim(left, left + whole.width / per_unit)
+    ax.set_ylim(bottom, bottom + whole.height / per_unit)

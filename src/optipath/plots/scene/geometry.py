@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,16 +10,18 @@ from matplotlib.transforms import Bbox
 from optipath.errors import OptipathError
 from optipath.errors import shown as said
 from optipath.plots.axes import own_axes
-from optipath.plots.colors import FAINT, INK
+from optipath.plots.colors import INK
 from optipath.plots.labels import Label, place_labels
 from optipath.plots.scene.drawn_scene import (
     View,
     chosen_view,
     draw_scene,
     key_to,
-    lines_of,
+    set_limits,
+    write_notes,
 )
 from optipath.plots.scene.layout import scene_of
+from optipath.plots.text import draw_key
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -87,12 +88,18 @@ def geometry(
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.
     whole, dots = ax.get_window_extent(), figure.dpi / 100.0
     size = 9.0 * float(np.clip(np.sqrt(whole.width * whole.height) / dots / _USUAL, 0.62, 1.1))
-    below = _write_below(ax, scene, size)
+    notes = write_notes(ax, scene.notes, 0.85 * size)
+    at: dict[str, Any] = {"loc": "lower center", "borderaxespad": 0.0}
+    at["bbox_to_anchor"] = 0.5, (notes - whole.y0 + 2.0) / whole.height
+    looks: dict[str, Any] = {"fontsize": 0.9 * size, "columnspacing": 1.4, "handlelength": 1.6}
+    handles = key_to(scene)
+    below = draw_key(ax, handles, len(handles), **at, **looks).get_window_extent().y1
     room = Bbox.from_extents(whole.x0 + 2, below + 4, whole.x1 - 2, whole.y1 - 2)
     seen_from = seen_from or chosen_view(scene, room.width / room.height)
-    _fit(ax, scene, seen_from, room)
     draw_scene(ax, scene, seen_from, size / 9.0)
-    place_labels(ax, _labels(scene, seen_from, size), lines_of(scene, seen_from), room)
+    lines = [np.asarray(line.get_xydata()) for line in ax.lines]
+    _fit(ax, scene, [*lines, *(patch.get_path().vertices for patch in ax.patches)], room)
+    place_labels(ax, _labels(scene, seen_from, size), lines, room)
     return ax
 
 
@@ -106,51 +113,16 @@ def _view_argument(view: Any) -> View:
     return View(elevation, azimuth)
 
 
-def _write_below(ax: Axes, scene: Scene, size: float) -> float:
-    """Write the key and the notes at the lower edge, and return how high they reach in pixels."""
-    figure: Any = ax.figure.figure
-    whole, dots = ax.get_window_extent(), figure.dpi / 72.0
-    columns = int(whole.width / (0.5 * size * dots))
-    notes = "\n".join(textwrap.wrap("; ".join(scene.notes), max(columns, 20)))
-    text = ax.text(
-        0.5, 0.0, notes, fontsize=size * 0.85, color=FAINT, transform=ax.transAxes, ha="center"
-    )
-    top = text.get_window_extent().y1 if notes else whole.y0
-    handles = key_to(scene)
-    for count in range(len(handles), 0, -1):
-        key = ax.legend(
-            handles=handles,
-            ncols=count,
-            fontsize=size * 0.9,
-            frameon=False,
-            loc="lower center",
-            bbox_to_anchor=(0.5, (top - whole.y0 + 2.0) / whole.height),
-            borderaxespad=0.0,
-            columnspacing=1.4,
-            handlelength=1.6,
-        )
-        box = key.get_window_extent()
-        if box.width <= whole.width:
-            break
-    return float(box.y1)
-
-
-def _fit(ax: Axes, scene: Scene, view: View, room: Bbox) -> None:
-    """Set limits by which a scene fills a part of the axes, and is as wide as high."""
-    shown = [*lines_of(scene, view), *(view.points(plane.corners) for plane in scene.planes)]
-    points = np.concatenate([*shown, view.points(np.array([node.at for node in scene.nodes]))])
+def _fit(ax: Axes, scene: Scene, drawn: list[Array], room: Bbox) -> None:
+    """Set limits by which what is drawn fills a part of the axes."""
+    points = np.concatenate(drawn)
     low, high = points.min(axis=0), points.max(axis=0)
-    whole = ax.get_window_extent()
-    margin = 0.06 * np.array([room.width, room.height]) + 8.0
-    free = np.array([room.width, room.height]) - 2.0 * margin
+    free = np.array([room.width, room.height])
+    free -= 2.0 * (0.06 * free + 8.0)
     per_unit = float(np.min(free / np.maximum(high - low, 0.01 * scene.unit)))
     per_unit = min(per_unit, _LONGEST * min(room.width, room.height) / scene.unit)
-    middle = (low + high) / 2.0
-    centre = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
-    left, bottom = middle - (centre - [whole.x0, whole.y0]) / per_unit
-    ax.set_xlim(left, left + whole.width / per_unit)
-    ax.set_ylim(bottom, bottom + whole.height / per_unit)
-    ax.set_aspect("equal", adjustable="box")
+    middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
+    set_limits(ax, (low + high) / 2.0, middle, per_unit)
 
 
 def _labels(scene: Scene, view: View, size: float) -> list[Label]:

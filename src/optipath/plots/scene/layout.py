@@ -13,7 +13,6 @@ from optipath.elements.vertices import ChainVertex
 from optipath.plots.light_texts import ellipse_points
 from optipath.plots.scene.placing import DrawnLink, Placing, angles_at, has_axis, incidence_at
 from optipath.plots.scene.scene import (
-    NumberPath,
     Scene,
     SceneAngle,
     SceneFrame,
@@ -21,6 +20,7 @@ from optipath.plots.scene.scene import (
     ScenePlane,
     SceneRay,
     ShownAngle,
+    known_path,
     number,
     shown_angle,
     shown_incidence,
@@ -28,7 +28,7 @@ from optipath.plots.scene.scene import (
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     import numpy.typing as npt
 
@@ -63,37 +63,28 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     >>> [angle.text for angle in scene.angles]
     ['filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg', 'delta = 48 deg']
     """
-    return scene_with(NumberPath(path, what, values))
-
-
-def scene_with(message: NumberPath) -> Scene:
-    """Return a path with all its values laid out in space."""
-    placing = Placing(message)
-    rays = tuple(_ray(placing, each) for each in message.lights)
-    schematic = not all(posture.told for posture in placing.postures.values())
-    angles = scene_angles(message, placing)
+    wiring, lights = known_path(path, what, values)
+    placing = Placing(wiring)
+    rays = tuple(_ray(placing, each) for each in lights)
     lengths = "lengths are chosen: each link is drawn 1 long"
-    notes = [] if message.wiring.self_placed and not placing.by_angles else [lengths]
+    notes = [] if wiring.self_placed and not placing.by_angles else [lengths]
+    names = dict.fromkeys([*(name for name, _ in wiring.order), *placing.at])
     return Scene(
         notes=(*notes, *placing.notes),
-        schematic=schematic,
+        schematic=not all(posture.told for posture in placing.postures.values()),
         unit=placing.unit,
-        nodes=tuple(_nodes(message, placing)),
+        nodes=tuple(_node(placing, name) for name in names),
         rays=rays,
         planes=tuple(_planes(placing, rays)),
-        frames=tuple(_frames(placing, {each.name: each for each in message.lights})),
-        angles=angles,
+        frames=tuple(_frames(placing, lights)),
+        angles=tuple(_angles(placing)),
     )
 
 
-def _nodes(message: NumberPath, placing: Placing) -> list[SceneNode]:
-    results = []
-    order = dict.fromkeys([*(name for name, _ in message.wiring.order), *placing.at])
-    for name in order:
-        posture, kind = placing.postures[name], placing.wiring.elements[name].kind
-        stands = placing.at[name], posture.normal, posture.across
-        results.append(SceneNode(name, kind, *stands, posture.role, _axis(placing, name)))
-    return results
+def _node(placing: Placing, name: str) -> SceneNode:
+    posture, element = placing.postures[name], placing.wiring.elements[name]
+    stands = placing.at[name], posture.normal, posture.across
+    return SceneNode(name, element.kind, *stands, posture.role, element, _axis(placing, name))
 
 
 def _axis(placing: Placing, name: str) -> Array | None:
@@ -152,10 +143,10 @@ def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
     return results
 
 
-def _frames(placing: Placing, lit: dict[str, LightOnLink]) -> list[SceneFrame]:
+def _frames(placing: Placing, lights: Iterable[LightOnLink]) -> list[SceneFrame]:
     """Return the frames of the ports that light passes, beside their nodes."""
     results: dict[str, SceneFrame] = {}
-    for each in lit.values():
+    for each in lights:
         drawn, aside = drawn_link(placing, each), _FRAMES_AT * placing.unit
         away = aside * drawn.axes[:, 2]
         port = f"{each.start}.{each.leaves}"
@@ -177,20 +168,17 @@ _OF_AXES = "angle", "dichroic_angle"
 """The fields of elements that say how an axis stands to x, or by how much light is turned."""
 
 
-def scene_angles(message: NumberPath, placing: Placing) -> tuple[SceneAngle, ...]:
-    """Return the angles of a path that have names, node by node as light travels."""
-    results: list[SceneAngle] = []
-    names = dict.fromkeys(name for name, _ in message.wiring.order)
-    for name in names:
+def _angles(placing: Placing) -> Iterator[SceneAngle]:
+    """Yield the angles of a path that have names, node by node as light travels."""
+    for name in dict.fromkeys(name for name, _ in placing.wiring.order):
         for link in placing.links:
             if link[1] == name:
-                results += _azimuths(placing, link)
+                yield from _azimuths(placing, link)
         element = placing.wiring.elements[name]
         if isinstance(element, BoundaryElement | ChainVertex):
-            results += _incidences(placing, name, element)
+            yield from _incidences(placing, name, element)
         elif placing.postures[name].role == "plate":
-            results += _axes(placing, name, element)
-    return tuple(results)
+            yield from _axes(placing, name, element)
 
 
 def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
@@ -238,11 +226,9 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
             message = shown_angle(value)
             angle = number(value) if message.there else 0.0
             result = _turn(message, placing.at[name], (x, y), angle, size, "axis")
-            yield (
-                result
-                if message.there
-                else result._replace(arc=result.arc[:0], at=placing.at[name])
-            )
+            if not message.there:
+                result = result._replace(arc=result.arc[:0], at=placing.at[name])
+            yield result
             size *= 1.25
 
 

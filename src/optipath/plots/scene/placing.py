@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements.element import Element
     from optipath.light.frame import Frame
-    from optipath.plots.scene.scene import NumberPath
 
     Array = npt.NDArray[np.float64]
 
@@ -56,8 +55,8 @@ class DrawnLink(NamedTuple):
 class Placing:
     """Where the nodes and links of a path are drawn. Shape: at (3,)."""
 
-    def __init__(self, message: NumberPath) -> None:
-        self.wiring = message.wiring
+    def __init__(self, wiring: Wiring) -> None:
+        self.wiring = wiring
         self.at: dict[str, Array] = {}
         self.postures: dict[str, Posture] = {}
         self.links: dict[Link, DrawnLink] = {}

@@ -19,7 +19,9 @@ from optipath.values.units import in_unit
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from optipath.elements.element import Element
     from optipath.light.light import Light
+    from optipath.paths.energy import LightOnLink
     from optipath.paths.path_graph import PathGraph
 
     Vector = npt.NDArray[np.float64]
@@ -34,7 +36,8 @@ class SceneNode(NamedTuple):
     normal: Vector | None
     across: Vector | None
     role: str
-    axis: Vector | None = None
+    element: Element
+    axis: Vector | None
 
 
 class SceneRay(NamedTuple):
@@ -120,8 +123,23 @@ class Scene(NamedTuple):
         return {
             "notes": [*self.notes],
             "schematic": self.schematic,
-            "nodes": [_as_dict(node, "axis") for node in self.nodes],
-            "rays": [_ray(ray) for ray in self.rays],
+            "nodes": [_as_dict(node, "element", "axis") for node in self.nodes],
+            "rays": [
+                {
+                    "name": ray.name,
+                    "start": ray.start,
+                    "end": ray.end,
+                    "from": _list(ray.tail),
+                    "to": _list(ray.head),
+                    "frame": _axes(ray.axes),
+                    "ellipse": None if ray.ellipse is None else _list(ray.ellipse),
+                    "intensity": plain(float(ray.light.intensity)),
+                    "dop": plain(float(ray.light.dop)),
+                    "leaves": ray.leaves,
+                    "tap": ray.tap,
+                }
+                for ray in self.rays
+            ],
             "planes": [_as_dict(plane) for plane in self.planes],
             "frames": [
                 {"port": each.port, "at": _list(each.at), **_axes(each.axes)}
@@ -130,22 +148,6 @@ class Scene(NamedTuple):
             "angles": [_as_dict(angle, "centre", "about") for angle in self.angles],
             "bounds": _list(self.bounds),
         }
-
-
-def _ray(ray: SceneRay) -> dict[str, Any]:
-    return {
-        "name": ray.name,
-        "start": ray.start,
-        "end": ray.end,
-        "from": _list(ray.tail),
-        "to": _list(ray.head),
-        "frame": _axes(ray.axes),
-        "ellipse": None if ray.ellipse is None else _list(ray.ellipse),
-        "intensity": plain(float(ray.light.intensity)),
-        "dop": plain(float(ray.light.dop)),
-        "leaves": ray.leaves,
-        "tap": ray.tap,
-    }
 
 
 def _as_dict(message: Any, *stored: str) -> dict[str, Any]:
@@ -185,29 +187,30 @@ class ShownAngle(NamedTuple):
         return f"{self.name} = {value}" if self.name else value
 
 
-class NumberPath:
-    """A path with all its values, one number each."""
-
-    def __init__(self, path: PathGraph, what: str, values: dict[str, Any]) -> None:
-        # What keeps the light of a path stands for it as well.
-        if not hasattr(path, "graph"):
-            raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
-        self.lights = lights_along(path, **values)
-        parameters = path.parameters.items()
-        defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
-        graph = path.bind(**{**defaults, **values}).graph
-        shapes = Values(graph).known_shapes
-        shapes |= {each.name: each.light.intensity.shape for each in self.lights}
-        several = [f"{name} has the shape {shape}" for name, shape in shapes.items() if shape]
-        if several:
-            raise PathError(f"{what} draws one path, but {several[0]}; give single values")
-        unknown = [each.name for each in self.lights if not np.isfinite(each.light.stokes).all()]
-        if unknown:
+def known_path(
+    path: PathGraph, what: str, values: dict[str, Any]
+) -> tuple[Wiring, list[LightOnLink]]:
+    """Return the wiring of a path with all its values, one number each, and its lights."""
+    # What keeps the light of a path stands for it as well.
+    if not hasattr(path, "graph"):
+        raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
+    lights = lights_along(path, **values)
+    parameters = path.parameters.items()
+    defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
+    graph = path.bind(**{**defaults, **values}).graph
+    shapes = Values(graph).known_shapes | {each.name: each.light.shape for each in lights}
+    for name, shape in shapes.items():
+        if shape:
             raise PathError(
-                f"{what} draws ways that light can go, but on '{unknown[0]}' the light is not a "
+                f"{what} draws one path, but {name} has the shape {shape}; give single values"
+            )
+    for each in lights:
+        if not np.isfinite(each.light.stokes).all():
+            raise PathError(
+                f"{what} draws ways that light can go, but on '{each.name}' the light is not a "
                 "number; give values that there are"
             )
-        self.wiring = Wiring(with_followed(graph)[0], keep="all")
+    return Wiring(with_followed(graph)[0], keep="all"), lights
 
 
 def number(value: Any) -> float:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from optipath.surfaces.hemisphere.sensor import Sensor
 
 
-_ROUNDED = 64.0 * np.finfo(float).eps
+ROUNDED = 64.0 * np.finfo(float).eps
 """By how much of a pixel's light sums over photons are rounded, with room."""
 
 _FEW_PIXELS = 4.0
@@ -723,7 +723,7 @@ error at most 0.2 of the difference, or at most 0.001
 
         def value(light: Numbers) -> Numbers:
             matrices = self.matrices(light)
-            noise = _ROUNDED * state[0] * matrices[..., 0, 0]
+            noise = ROUNDED * state[0] * matrices[..., 0, 0]
             return quantity.of(Light.of(matrices @ state, Frame(), noise=noise, measured=True))
 
         whole, error = self.own.estimate(value)
