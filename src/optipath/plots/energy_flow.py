@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,10 +15,11 @@ from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection, Sequence
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
+    from matplotlib.text import Text
 
     from optipath.paths.energy import EnergyAlong, PowerOnLink
 
@@ -81,87 +81,85 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
         )
     if not all(np.isfinite(link.power) for link in result.links):
         raise OptipathError("the light is not a number on some links; give values that there are")
-    drawn = energy_rows(result)
-    places = EnergyPlaces(drawn.over_largest())
-    count = len(drawn.rows) + len(result.notes)
-    ax = own_axes(ax, (_WIDE, _AROUND + _ROW * count))
+    rows, links = energy_rows(result)
+    ax = own_axes(ax, (_WIDE, _AROUND + _ROW * (len(rows) + len(result.notes))))
     ax.set_axis_off()
-    ax.set_ylim(0.55 - count, 0.55)
-    _draw(ax, places)
-    _write(ax, places, drawn.rows, result)
+    ax.set_ylim(0.55 - len(rows) - len(result.notes), 0.55)
+    width = _draw(ax, rows, links)
+    _write(ax, rows, result, width)
     return ax
 
 
-def _draw(ax: Axes, places: EnergyPlaces) -> None:
-    """Draw bars and ribbons."""
-    for link in places.drawn.links:
-        outline = places.outline(link)
+def _draw(ax: Axes, rows: list[EnergyRow], links: list[EnergyLink]) -> float:
+    """Draw bars, ribbons and what is taken over the largest power; return how wide all is."""
+    largest = max([link.power for link in links], default=0.0) or 1.0
+    rows = [row._replace(power=row.power / largest) for row in rows]
+    links = [link._replace(power=link.power / largest) for link in links]
+    places = EnergyPlaces(rows, links)
+    for link, outline in zip(links, places.outlines, strict=True):
         if link.tap or not link.power:
             half = outline[: len(outline) // 2]
             ax.plot(*half.T, color=FAINT, linestyle=":", linewidth=1.1, gid=link.start)
             continue
         style = {"facecolor": _LIGHT, "edgecolor": _LIGHT, "linewidth": 0.6, "alpha": 0.6}
         ax.add_patch(Polygon(outline, closed=True, gid=f"{link.start} -> {link.end}", **style))
-    for row in places.drawn.rows:
-        if (spike := places.taken(row)) is not None:
-            ax.add_patch(Polygon(spike, closed=True, color=_TAKEN, linewidth=0.6, alpha=0.8))
-        width, y = max(places.bar(row), 0.02), places.level[row.name]
-        left = places.left[row.lane]
-        ax.add_patch(Rectangle((left, y - BAR), width, 2 * BAR, color=INK, linewidth=0.6))
-
-
-def _write(ax: Axes, places: EnergyPlaces, rows: Sequence[EnergyRow], result: EnergyAlong) -> None:
-    """Write names on the left, and what becomes of light on the right, as large as they fit."""
-    total = float(sum(result.given.values()))
-    texts: list[tuple[Any, Any]] = []
     for row in rows:
-        y = places.level[row.name]
-        style: dict[str, Any] = {"va": "center", "color": INK}
-        name = ax.text(0.0, y, row.name, ha="right", **style)
-        message = ax.text(0.0, y, _sentence(row, total), ha="left", **style)
+        y, left = places.level[row.name], places.left[row.lane]
         if row.told == "takes":
-            message.set_color(_TAKEN_TEXT)
-        texts.append((name, message))
+            # A spike on the right of what goes on.
+            leaving = [link for link in links if link.start == row.name and not link.tap]
+            begin = left + sum(link.power for link in leaving if link.lane <= row.lane)
+            end, half = begin + row.power, y - BAR - _SPIKE / 2
+            tip = (begin + end) / 2, y - BAR - _SPIKE
+            spike = [(begin, y - BAR), (begin, half), tip, (end, half), (end, y - BAR)]
+            ax.add_patch(Polygon(spike, closed=True, color=_TAKEN, linewidth=0.6, alpha=0.8))
+        size = max(places.bars[row.name], 0.02), 2 * BAR
+        ax.add_patch(Rectangle((left, y - BAR), *size, color=INK, linewidth=0.6))
+    return places.width
+
+
+def _write(ax: Axes, rows: Sequence[EnergyRow], result: EnergyAlong, width: float) -> None:
+    """Write names on the left and what becomes of light on the right, as large as they fit."""
+    style: dict[str, Any] = {"va": "center", "color": INK}
+    names, messages = [], []
+    for at, row in enumerate(rows):
+        names.append(ax.text(0.0, -float(at), row.name, ha="right", **style))
+        messages.append(ax.text(0.0, -float(at), _sentence(row, result), ha="left", **style))
+        if row.told == "takes":
+            messages[-1].set_color(_TAKEN_TEXT)
     notes = [
-        ax.text(0.0, -float(len(rows) + at), note, ha="left", va="center", color=INK)
+        ax.text(0.0, -float(len(rows) + at), note, ha="left", **style)
         for at, note in enumerate(result.notes)
     ]
-    _fit(ax, places, texts, notes)
 
+    def longest(texts: Sequence[Text]) -> float:
+        return max([text.get_window_extent().width for text in texts], default=0.0)
 
-def _fit(
-    ax: Axes, places: EnergyPlaces, texts: Sequence[tuple[Any, Any]], notes: Sequence[Any]
-) -> None:
-    """Choose the size of texts and the limits of x so that all stands beside the ribbons."""
-    whole = ax.get_window_extent()
-    low, high = ax.get_ylim()
-    figure: Any = ax.figure
-    row = whole.height / (high - low) * 72.0 / figure.dpi
-    size = min(_POINTS, 0.72 * row)
-    every = [text for pair in texts for text in pair]
+    figure: Any = ax.figure.figure
+    whole, (low, high) = ax.get_window_extent(), ax.get_ylim()
+    size = min(_POINTS, 0.72 * whole.height / (high - low) * 72.0 / figure.dpi)
     while True:
-        for text in (*every, *notes):
+        for text in (*names, *messages, *notes):
             text.set_fontsize(size)
-        left = max(name.get_window_extent().width for name, _ in texts) + size
-        right = max(message.get_window_extent().width for _, message in texts) + size
-        longest = max([note.get_window_extent().width for note in notes], default=0.0)
+        left, right = longest(names) + size, longest(messages) + size
         middle = whole.width - left - right
-        if (middle >= _LEAST_MIDDLE * whole.width and longest <= whole.width) or size < 1.0:
+        fits = middle >= _LEAST_MIDDLE * whole.width and longest(notes) <= whole.width
+        if fits or size < 1.0:
             break
         size *= 0.95
-    unit = places.width / middle
-    other = 0.5 * size * unit
-    ax.set_xlim(-left * unit, places.width + right * unit)
-    for name, message in texts:
-        name.set_x(-other)
-        message.set_x(places.width + other)
-        y = name.get_position()[1]
-        ax.plot([0.0, places.width], [y, y], color=FAINT, linewidth=0.4, alpha=0.5, zorder=0.5)
+    unit = width / middle
+    ax.set_xlim(-left * unit, width + right * unit)
+    for at, (name, message) in enumerate(zip(names, messages, strict=True)):
+        name.set_x(-0.5 * size * unit)
+        message.set_x(width + 0.5 * size * unit)
+        line: dict[str, Any] = {"color": FAINT, "linewidth": 0.4, "alpha": 0.5, "zorder": 0.5}
+        ax.plot([0.0, width], [-float(at)] * 2, **line)
     for note in notes:
         note.set_x(-left * unit)
 
 
-def _sentence(row: EnergyRow, total: float) -> str:
+def _sentence(row: EnergyRow, result: EnergyAlong) -> str:
+    total = float(sum(result.given.values()))
     if not row.told:
         return ""
     written = f"{row.told} {row.power:.3g}"
@@ -178,88 +176,6 @@ _SPIKE = 0.34
 
 _GAP, _LEAST = 0.2, 0.12
 """Between lanes, and how wide a lane is at least, of the largest power."""
-
-
-@dataclass(frozen=True)
-class EnergyPlaces:
-    """Where everything is."""
-
-    drawn: EnergyRows
-    level: dict[str, float] = field(init=False)
-    left: dict[int, float] = field(init=False)
-    width: float = field(init=False)
-
-    def __post_init__(self) -> None:
-        rows, links = self.drawn
-        widths: dict[int, float] = {}
-        for row in rows:
-            widths[row.lane] = max(widths.get(row.lane, 0.0), self.bar(row))
-        for link in links:
-            power = 0.0 if link.tap else link.power
-            widths[link.lane] = max(widths.get(link.lane, 0.0), power)
-        left, edge = {}, 0.0
-        for lane in sorted(widths):
-            left[lane] = edge
-            edge += max(widths[lane], _LEAST) + _GAP
-        vars(self).update(
-            level={row.name: -float(at) for at, row in enumerate(rows)},
-            left=left,
-            width=edge - _GAP,
-        )
-
-    def bar(self, row: EnergyRow) -> float:
-        """Return how wide the bar of a row is: the light that comes in, or goes out."""
-        flows = [link for link in self.drawn.links if not link.tap]
-        arriving = sum(link.power for link in flows if link.end == row.name)
-        leaving = sum(link.power for link in flows if link.start == row.name)
-        return max(arriving, leaving)
-
-    def taken(self, row: EnergyRow) -> npt.NDArray[np.float64] | None:
-        """Return the outline of what an element takes: a spike on the right of what goes on."""
-        if row.told != "takes":
-            return None
-        leaving = [link for link in self.drawn.links if link.start == row.name and not link.tap]
-        before = sum(link.power for link in leaving if link.lane <= row.lane)
-        left, y = self.left[row.lane] + before, self.level[row.name] - BAR
-        right = left + row.power
-        tip = (left + right) / 2, y - _SPIKE
-        return np.array(
-            [(left, y), (left, y - _SPIKE / 2), tip, (right, y - _SPIKE / 2), (right, y)]
-        )
-
-    def outline(self, link: EnergyLink) -> npt.NDArray[np.float64]:
-        """Return the outline of a link, or its middle, there and back, where it has no width."""
-        width = 0.0 if link.tap else link.power
-        begin = self._at(link, link.start, -BAR), self.level[link.start] - BAR
-        end = self._at(link, link.end, BAR), self.level[link.end] + BAR
-        lane = self.left[link.lane] + width / 2
-        if link.back:
-            return turned_back(begin, lane, end, width, width)
-        stations = [begin, end]
-        if begin[1] - end[1] > 1.0:
-            stations[1:1] = [(lane, begin[1] - 1.0 + 2 * BAR), (lane, end[1] + 1.0 - 2 * BAR)]
-        if begin[1] - end[1] > 1.0 and stations[1][1] < stations[2][1]:
-            stations[1:3] = [(lane, (stations[1][1] + stations[2][1]) / 2)]
-        return ribbon(stations, width)
-
-    def _at(self, link: EnergyLink, name: str, side: float) -> float:
-        """Return the x at which a link leaves or enters a bar, beside its neighbours."""
-        leaves = side < 0.0
-        others = [
-            each
-            for each in self.drawn.links
-            if (each.start if leaves else each.end) == name and not each.tap
-        ]
-        others.sort(key=lambda each: each.lane)
-        row = next(row for row in self.drawn.rows if row.name == name)
-        x = self.left[row.lane]
-        if leaves and row.told == "takes" and link.lane > row.lane:
-            x += row.power
-        for each in others:
-            if each is link:
-                return x + link.power / 2
-            x += each.power
-        return x
 
 
 class EnergyLink(NamedTuple):
@@ -282,55 +198,91 @@ class EnergyRow(NamedTuple):
     power: float
 
 
-class EnergyRows(NamedTuple):
-    """All rows in the order of travel, and all links."""
+class EnergyPlaces:
+    """Where everything is: levels of rows, left edges of lanes, bars, and outlines of links."""
 
-    rows: list[EnergyRow]
-    links: list[EnergyLink]
+    def __init__(self, rows: list[EnergyRow], links: list[EnergyLink]) -> None:
+        self.level = {row.name: -float(at) for at, row in enumerate(rows)}
+        self.bars: dict[str, float] = {}
+        widths: dict[int, float] = {}
+        for row in rows:
+            arriving = sum(link.power for link in links if link.end == row.name and not link.tap)
+            leaving = sum(link.power for link in links if link.start == row.name and not link.tap)
+            self.bars[row.name] = max(arriving, leaving)
+            widths[row.lane] = max(widths.get(row.lane, 0.0), self.bars[row.name])
+        for link in links:
+            widths[link.lane] = max(widths.get(link.lane, 0.0), 0.0 if link.tap else link.power)
+        self.left, edge = {}, 0.0
+        for lane in sorted(widths):
+            self.left[lane] = edge
+            edge += max(widths[lane], _LEAST) + _GAP
+        self.width = edge - _GAP
+        by_name = {row.name: row for row in rows}
+        self.outlines = [self._outline(link, links, by_name) for link in links]
 
-    def over_largest(self) -> EnergyRows:
-        """Return the same with all powers over the largest on a link."""
-        largest = max([link.power for link in self.links], default=0.0) or 1.0
-        return EnergyRows(
-            [row._replace(power=row.power / largest) for row in self.rows],
-            [link._replace(power=link.power / largest) for link in self.links],
+    def _outline(
+        self, link: EnergyLink, links: list[EnergyLink], rows: dict[str, EnergyRow]
+    ) -> Numbers:
+        """Return the outline of a link, or its middle, there and back, where it has no width."""
+        width = 0.0 if link.tap else link.power
+        row, end_row = rows[link.start], rows[link.end]
+        x = self.left[row.lane] + _before(link, [one for one in links if one.start == link.start])
+        if row.told == "takes" and link.lane > row.lane:
+            x += row.power
+        into = self.left[end_row.lane] + _before(
+            link, [one for one in links if one.end == link.end]
         )
+        begin = x, self.level[link.start] - BAR
+        end = into, self.level[link.end] + BAR
+        lane = self.left[link.lane] + width / 2
+        if link.back:
+            return turned_back(begin, lane, end, width, width)
+        stations = [begin, end]
+        if begin[1] - end[1] > 1.0:
+            first, last = begin[1] - 1.0 + 2 * BAR, end[1] + 1.0 - 2 * BAR
+            both = [(lane, first), (lane, last)]
+            stations[1:1] = both if first >= last else [(lane, (first + last) / 2)]
+        return ribbon(stations, width)
 
 
-def energy_rows(result: EnergyAlong) -> EnergyRows:
-    """Return the rows of a path, each element in one of its own, and the lanes of its links.
+def _before(link: EnergyLink, others: list[EnergyLink]) -> float:
+    """Return how far from the left the middle of a link is among others at one bar."""
+    flows = [one for one in others if not one.tap]
+    if link.tap:
+        return sum(one.power for one in flows)
+    return sum(one.power for one in flows if one.lane < link.lane) + link.power / 2
+
+
+def energy_rows(result: EnergyAlong) -> tuple[list[EnergyRow], list[EnergyLink]]:
+    """Return the rows of a path in the order of travel, and the lanes of its links.
 
     Light keeps the lane of its element; what splits off takes the next free lane, and what returns,
     a lane to the right of all others.
 
     >>> import optipath as op
     >>> from optipath.paths.energy import energy_along
-    >>> rows = energy_rows(energy_along(op.load_preset("two-panes"))).rows
+    >>> rows, _ = energy_rows(energy_along(op.load_preset("two-panes")))
     >>> [(row.name, row.lane, row.told) for row in rows[:4]]
     [('lamp', 0, 'gives'), ('pane1', 0, ''), ('pane1.transmitted', 1, 'leaves'), ('pane2', 0, '')]
     """
     names = _in_order(result.links)
     place = {name: row for row, name in enumerate(names)}
-    lanes, ways = _lanes(result.links, place)
+    back = [place[_end(link)] <= place[link.start] for link in result.links]
+    lanes, ways = _lanes(result.links, names, back)
     rows = [EnergyRow(name, lanes[name], *_row_texts(name, result)) for name in names]
     links = [
-        EnergyLink(link.start, _end(link), float(link.power), lane, _is_back(link, place), link.tap)
-        for link, lane in zip(result.links, ways, strict=True)
+        EnergyLink(link.start, _end(link), float(link.power), ways[at], back[at], link.tap)
+        for at, link in enumerate(result.links)
     ]
-    return EnergyRows(rows, links)
+    return rows, links
 
 
 def _end(link: PowerOnLink) -> str:
     return link.end or link.name
 
 
-def _is_back(link: PowerOnLink, place: dict[str, int]) -> bool:
-    return place[_end(link)] <= place[link.start]
-
-
-def _in_order(links: Iterable[PowerOnLink]) -> list[str]:
+def _in_order(links: Sequence[PowerOnLink]) -> list[str]:
     """Return elements in the order in which they send light, ends behind the last that they get."""
-    links = [*links]
     starts = [*dict.fromkeys(link.start for link in links)]
     last = {_end(link): link for link in links}
     order: list[str] = []
@@ -342,27 +294,24 @@ def _in_order(links: Iterable[PowerOnLink]) -> list[str]:
 
 
 def _lanes(
-    links: tuple[PowerOnLink, ...], place: dict[str, int]
-) -> tuple[dict[str, int], list[int]]:
+    links: Sequence[PowerOnLink], names: list[str], back: list[bool]
+) -> tuple[dict[str, int], dict[int, int]]:
     """Return the lane of each row and of each link."""
-    ways = dict.fromkeys(range(len(links)), -1)
+    ways: dict[int, int] = {}
     lanes: dict[str, int] = {}
     busy: dict[int, int] = {}
-    for name in place:
+    for name in names:
         arriving = [lane for lane, at in busy.items() if _end(links[at]) == name]
         lanes[name] = min(arriving, default=_free(busy))
         busy = {lane: at for lane, at in busy.items() if lane not in arriving}
-        leaving = [
-            at for at, each in enumerate(links) if each.start == name and not _is_back(each, place)
-        ]
+        leaving = [at for at, link in enumerate(links) if link.start == name and not back[at]]
         for at in sorted(leaving, key=lambda at: _importance(links[at], links)):
-            taken = {*busy}
-            lane = lanes[name] if lanes[name] not in taken else _free(taken)
+            lane = _free(busy) if lanes[name] in busy else lanes[name]
             busy[lane], ways[at] = at, lane
     outside = 1 + max([*lanes.values(), *ways.values()], default=0)
-    back = [at for at, each in enumerate(links) if _is_back(each, place)]
-    ways.update(zip(back, range(outside, outside + len(back)), strict=True))
-    return lanes, [*ways.values()]
+    returning = [at for at, goes_back in enumerate(back) if goes_back]
+    ways.update({at: outside + number for number, at in enumerate(returning)})
+    return lanes, ways
 
 
 def _importance(link: PowerOnLink, links: Sequence[PowerOnLink]) -> tuple[Any, ...]:
@@ -371,12 +320,12 @@ def _importance(link: PowerOnLink, links: Sequence[PowerOnLink]) -> tuple[Any, .
     return link.tap, not goes_on, not link.end, -float(link.power)
 
 
-def _free(busy: Iterable[int]) -> int:
-    taken = {*busy}
-    return next(lane for lane in range(len(taken) + 1) if lane not in taken)
+def _free(busy: Collection[int]) -> int:
+    return next(lane for lane in range(len(busy) + 1) if lane not in busy)
 
 
 def _row_texts(name: str, result: EnergyAlong) -> tuple[str, float]:
+    """Return what becomes of light in a row, and of how much."""
     for word, powers in (("gives", result.given), ("leaves", result.left), ("gets", result.ended)):
         if name in powers:
             return word, float(powers[name])
