@@ -109,9 +109,9 @@ def _draw(ax: Axes, rows: list[EnergyRow], links: list[EnergyLink]) -> float:
             # A spike on the right of what goes on.
             leaving = [link for link in links if link.start == row.name and not link.tap]
             begin = left + sum(link.power for link in leaving if link.lane <= row.lane)
-            end, half = begin + row.power, y - BAR - _SPIKE / 2
+            end, mid = begin + row.power, y - BAR - _SPIKE / 2
             tip = (begin + end) / 2, y - BAR - _SPIKE
-            spike = [(begin, y - BAR), (begin, half), tip, (end, half), (end, y - BAR)]
+            spike = [(begin, y - BAR), (begin, mid), tip, (end, mid), (end, y - BAR)]
             ax.add_patch(Polygon(spike, closed=True, color=_TAKEN, linewidth=0.6, alpha=0.8))
         size = max(places.bars[row.name], 0.02), 2 * BAR
         ax.add_patch(Rectangle((left, y - BAR), *size, color=INK, linewidth=0.6))

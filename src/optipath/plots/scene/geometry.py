@@ -98,7 +98,8 @@ def geometry(
     seen_from = seen_from or chosen_view(scene, room.width / room.height)
     draw_scene(ax, scene, seen_from, size / 9.0)
     lines = [np.asarray(line.get_xydata()) for line in ax.lines]
-    _fit(ax, scene, [*lines, *(patch.get_path().vertices for patch in ax.patches)], room)
+    faces = [np.asarray(patch.get_path().vertices) for patch in ax.patches]
+    _fit(ax, scene, [*lines, *faces], room)
     place_labels(ax, _labels(scene, seen_from, size), lines, room)
     return ax
 
