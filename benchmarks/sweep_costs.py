@@ -13,9 +13,9 @@ import numpy as np
 from click import echo
 
 import optipath as op
+from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.chunks import run_block
-from optipath.sweeps.labels import QUANTITIES
 from optipath.sweeps.plan_recipe import PlanRecipe
 
 if TYPE_CHECKING:

@@ -12,7 +12,6 @@ import optipath as op
 import optipath.sweeps.sweep
 from optipath.errors import OptipathError
 from optipath.light.light import Light
-from optipath.sweeps.memory import quick_dataset, stacked
 
 xr, pd = pytest.importorskip("xarray"), pytest.importorskip("pandas")
 NPGR, MALUS = op.load_preset("npgr026"), op.load_preset("malus")
@@ -181,51 +180,6 @@ def test_files_have_all_values_and_attributes(tmp_path, form):
     with xr.open_dataset(file, engine=form, **options) as there:
         xr.testing.assert_identical(there.load(), a_sweep().load())
         assert NPGR.to_toml() == there.attrs["path"]
-
-
-X = np.linspace(0.0, 1.0, 4)
-PARTS = (
-    {"S0": (("x", "word"), np.ones((4, 2)), {"units": "1"}), "one": ((), np.array(2.0), {})},
-    {
-        "x": ("x", pd.Index(X, copy=False), {"units": "rad"}),
-        "word": ("word", np.array(["none", "horizontal"], object), {}),
-        "single": ("single", np.array([1.0, 2.0], np.float32), {}),
-        "beside": ("x", np.arange(4.0), {"units": "nm"}),
-        "n": ((), np.array(1.5), {"units": "1"}),
-        "filter": ((), np.array("none", object), {}),
-    },
-    {"method": "stable"},
-)
-
-
-def test_a_quick_dataset_is_that_of_xarray_and_rows_at_equal_distances_are_a_view(monkeypatch):
-    quick, usual = quick_dataset(*PARTS), xr.Dataset(*PARTS)
-    assert quick.identical(usual)
-    one, other = (
-        ([*each.variables], {**each.sizes}, {n: i.dtype for n, i in each.indexes.items()})
-        for each in (quick, usual)
-    )
-    assert one == other
-    assert quick.sel(word="horizontal", x=X[2]).identical(usual.sel(word="horizontal", x=X[2]))
-    assert np.shares_memory(quick.x.values, X)
-    # An xarray without the short way goes the long one.
-    monkeypatch.setattr("optipath.sweeps.memory._DIRECT", "_none")
-    assert quick_dataset(*PARTS).identical(usual)
-    values, table = np.random.default_rng(1).normal(size=(6, 4, 3)), np.arange(12.0).reshape(4, 3)
-    for places in ([0], [0, 1], [1, 3, 5], [4, 2]):
-        found = stacked([values[place] for place in places])
-        assert_array_equal(found, values[places])
-        assert np.may_share_memory(found, values) or len(places) == 1
-    for parts in (
-        [np.arange(3.0), np.arange(3.0)],
-        [table[0], table[1], np.arange(3.0)],
-        [table.ravel()[:3], table.ravel()[:6:2]],
-        [table[place] for place in (0, 1, 3)],
-    ):
-        found = stacked(parts)
-        assert_array_equal(found, np.stack(parts))
-        assert not found.flags.writeable
-        assert not np.may_share_memory(found, parts[0])
 
 
 SEVEN = "0 deg:90 deg:7"

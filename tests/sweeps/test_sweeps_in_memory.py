@@ -96,7 +96,7 @@ def owner(array):
 
 
 # The first times step by step, and later by a formula, which lays components otherwise.
-@rows("path, names", 5 * [(MALUS, ["angle"]), (with_two_detectors(), ["angle", "theta"])])
+@rows("path, names", 5 * [(MALUS, ["angle"])])
 def test_components_are_views_of_one_array_that_cannot_be_written_to_and_a_deep_copy_can(
     path, names
 ):

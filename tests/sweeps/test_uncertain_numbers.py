@@ -12,8 +12,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import optipath as op
 from chains import ENGINES
+from optipath.light.quantities import QUANTITIES
 from optipath.sweeps import monte_carlo
-from optipath.sweeps.labels import QUANTITIES
 from optipath.sweeps.light_figures import difference, figures_of, gradients_of
 from optipath.sweeps.monte_carlo import DrawnSamples
 from optipath.sweeps.uncertain_value import UncertainValue

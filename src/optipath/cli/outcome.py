@@ -13,11 +13,12 @@ from rich.table import Table
 from optipath.cli.console import PlainConsole, cell, headed, title
 from optipath.errors import listed
 from optipath.light.printed import Numbers
+from optipath.light.quantities import PRINTED
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import AMPLITUDE, plain
 from optipath.paths.files.writer import complex_parts_of
 from optipath.sweeps.grid import SweepGrid, refuse_more_than_free
-from optipath.sweeps.labels import heading
+from optipath.sweeps.labels import CAPITALIZED, heading
 from optipath.values.cases import Case
 
 if TYPE_CHECKING:
@@ -25,22 +26,15 @@ if TYPE_CHECKING:
 
     from optipath.cli.chosen import Chosen
     from optipath.light.light import Light
+    from optipath.light.quantities import LightQuantity
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
     from optipath.sweeps.grid import SweepAxis
     from optipath.values.parameters import Parameter
 
 
-# What is told of light besides its Stokes vector, and in which unit.
-FIGURES = {
-    "dop": ("DoP", ""),
-    "dolp": ("DoLP", ""),
-    "aop": ("AoP", "deg"),
-    "ellipticity": ("ellipticity", ""),
-    "ellipticity_angle": ("ellipticity angle", "deg"),
-    "Psi": ("Psi (ellipsometry)", "deg"),
-    "Delta": ("Delta (ellipsometry)", "deg"),
-}
+FIGURES = {CAPITALIZED.get(each.attribute, each.attribute): each for each in PRINTED}
+"""What is told of light besides its Stokes vector, by its key in JSON."""
 
 
 @dataclass(frozen=True)
@@ -176,9 +170,9 @@ def _axes_as_json(grid: SweepGrid) -> dict[str, Any]:
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
     published, light = outcome.published(name), outcome.lights[name]
     messages: dict[str, Any] = {
-        key: plain(getattr(light, key.lower()), unit) for key, (_, unit) in FIGURES.items()
+        key: plain(each.of(light), each.shown_unit) for key, each in FIGURES.items()
     }
-    messages["units"] = {key: unit for key, (_, unit) in FIGURES.items() if unit}
+    messages["units"] = {key: each.shown_unit for key, each in FIGURES.items() if each.shown_unit}
     results = {"stokes": plain(light.stokes), "polarization": messages}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
@@ -298,8 +292,9 @@ def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
     """Yield what is told of light besides its components."""
     unread = bool(np.isnan(light.stokes).any())
     partly = " of the polarised part" if float(light.dop) < 1.0 - _SMALL else ""
-    for key, (word, unit) in FIGURES.items():
-        number = plain(getattr(light, key.lower()), unit)
+    for each in PRINTED:
+        word, unit = each.printed, each.shown_unit
+        number = plain(each.of(light), unit)
         if number is not None:
             behind = partly if "ellipsometry" in word else ""
             yield word, f"{numbers.text(number)} {unit}".strip() + behind
@@ -357,16 +352,15 @@ def point_table(
     light: Light,
     grid: SweepGrid,
     numbers: Numbers,
-    messages: Mapping[str, tuple[str, str]] | None = None,
+    quantities: Sequence[LightQuantity] = (),
 ) -> Table:
     """Return a table with a row for each point of a grid."""
-    messages = messages or {}
     columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
-    columns += [heading(word, unit) for word, unit in messages.values()]
+    columns += [heading(each.printed, each.shown_unit) for each in quantities]
     table = headed(*columns, box=None, title=cell(title), title_justify="left", title_style="")
     for column in table.columns:
         column.justify = "right"
-    more = [_degrees(getattr(light, key.lower()), unit) for key, (_, unit) in messages.items()]
+    more = [each.shown_of(light) for each in quantities]
     for index in islice(np.ndindex(grid.shape), MOST_ROWS):
         values = _values_at(grid, index, numbers.digits)
         behind = (numbers.state(float(each[index])) for each in more)
@@ -390,10 +384,6 @@ def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> 
         texts = [numbers.stokes(light, (row, place))[0] for place in range(len(across))]
         table.add_row(*map(cell, (printed_value(value, numbers.digits), *texts)))
     return table
-
-
-def _degrees(numbers: Any, unit: str) -> Any:
-    return np.degrees(numbers) if unit == "deg" else numbers
 
 
 def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:

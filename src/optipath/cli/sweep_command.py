@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from contextlib import contextmanager
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,6 @@ import numpy as np
 from optipath.cli.arguments import refuse_arrays, write
 from optipath.cli.console import DIGITS, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.outcome import (
-    FIGURES,
     MOST_ROWS,
     outcome_as_json,
     outcome_of,
@@ -28,6 +26,7 @@ from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.composer.composer import Composer
 from optipath.errors import OptipathError, ParameterError, listed, printable, shown
 from optipath.light.printed import Numbers
+from optipath.light.quantities import PRINTED
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.jobs import place_of_blocks
 from optipath.sweeps.labels import regions, table_columns, table_heads
@@ -307,8 +306,8 @@ def sizes_text(grid: SweepGrid) -> str:
 def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
     """Return a row for each point, with as many quantities of light as the terminal is wide."""
     arguments = f"light at {name}", outcome.lights[name], outcome.grid, numbers
-    for count in range(len(FIGURES), 0, -1):
-        table = point_table(*arguments, dict(islice(FIGURES.items(), count)))
+    for count in range(len(PRINTED), 0, -1):
+        table = point_table(*arguments, PRINTED[:count])
         if console.measure(table, options=console.options.update(width=_WIDEST)).maximum <= (
             console.width
         ):

@@ -10,12 +10,12 @@ import numpy as np
 from optipath.errors import OptipathError, listed
 from optipath.explorer.paths import slider_range
 from optipath.light.printed import Numbers
+from optipath.light.quantities import QUANTITIES
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.materials.quantities import plain
 from optipath.paths.energy import energy_along, lights_along
 from optipath.paths.usual_range import VISIBLE
 from optipath.plots.light_texts import ellipse_points
-from optipath.sweeps.labels import QUANTITIES
 from optipath.values.units import dimension_of, in_unit, units_of
 
 if TYPE_CHECKING:

@@ -10,13 +10,14 @@ import numpy as np
 from optipath.errors import OptipathError, collecting, shown, unknown
 from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, link_as_json
 from optipath.explorer.state import FieldFault, FieldFaults, single_text
+from optipath.light.quantities import QUANTITIES
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import plain
 from optipath.paths.binding import from_materials
 from optipath.paths.energy import KEEPING, lights_along
 from optipath.plots.scene.layout import scene_of
 from optipath.sweeps.grid import SweepGrid, sweep_axis
-from optipath.sweeps.labels import QUANTITIES, heading
+from optipath.sweeps.labels import heading
 from optipath.values.text import read_axis_text
 from optipath.values.units import in_unit, unit_of
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import OptipathError, shown, unknown
+from optipath.light.quantities import FAINT, QUANTITIES, LightQuantity
 from optipath.plots.color_scale import ColourScale
-from optipath.sweeps.labels import FAINT, QUANTITIES, LightQuantity
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -16,23 +16,8 @@ if TYPE_CHECKING:
 
 _ALL = (*QUANTITIES, FAINT)
 
-_LIMITS = {
-    "DoP": (0.0, 1.0),
-    "DoLP": (0.0, 1.0),
-    "ellipticity": (-1.0, 1.0),
-    "AoP": (-90.0, 90.0),
-    "psi": (0.0, 90.0),
-    "delta": (-180.0, 180.0),
-}
-"""Of quantities that have ends; angles in degrees."""
-
-_PERIODS = {"AoP": 180.0, "delta": 360.0}
-"""Of angles whose ends are one."""
-
-
-_READ = {"intensity": {"S0", "log10_intensity"}}
-_READ["linear"] = {*_READ["intensity"], "S1", "S2", "DoLP", "AoP"}
-"""What there is of light of which a detector does not read all."""
+_READS = ("intensity", "linear", "stokes")
+"""What a detector reads, from the least."""
 
 
 class DrawnQuantity(NamedTuple):
@@ -66,16 +51,16 @@ class DrawnQuantity(NamedTuple):
     @property
     def limits(self) -> tuple[float, float] | None:
         """Its ends, where it has some."""
-        return _LIMITS.get(self.name)
+        return self.light.limits
 
     @property
     def period(self) -> float | None:
         """After how many degrees an angle is the same again."""
-        return _PERIODS.get(self.name)
+        return None if self.light.period is None else np.degrees(self.light.period)
 
     def is_read(self, reads: str) -> bool:
         """Return whether a detector reads enough, ``"stokes"``, ``"linear"`` or ``"intensity"``."""
-        return self.name in _READ.get(reads, {self.name})
+        return _READS.index(self.light.reads) <= _READS.index(reads)
 
     def of(self, numbers: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return numbers of the light, in radians where they are angles, as they are drawn."""

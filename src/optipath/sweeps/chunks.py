@@ -13,6 +13,7 @@ from dask.base import tokenize
 from dask.delayed import delayed
 
 from optipath.errors import ParameterError, shown, unknown
+from optipath.light.quantities import QUANTITIES
 from optipath.plan.reading import pieces
 from optipath.sweeps.datasets import (
     attributes_of,
@@ -21,7 +22,7 @@ from optipath.sweeps.datasets import (
     dimensions_of,
 )
 from optipath.sweeps.grid import SweepGrid
-from optipath.sweeps.labels import QUANTITIES, detectors_of, variable_names
+from optipath.sweeps.labels import detectors_of, variable_names
 from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.values.messages import units_are_written
 from optipath.values.precision import is_whole
@@ -31,9 +32,9 @@ if TYPE_CHECKING:
 
     from optipath.composer.composer import Composer
     from optipath.light.light import Light
+    from optipath.light.quantities import LightQuantity
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
-    from optipath.sweeps.labels import LightQuantity
 
 
 class ChunkedSweep(NamedTuple):
@@ -121,7 +122,7 @@ class BlockLight:
     """The light of all detectors, for the points of one block.
 
     >>> import optipath as op
-    >>> from optipath.sweeps.labels import COMPONENTS
+    >>> from optipath.light.quantities import COMPONENTS
     >>> lights = op.Light([1.0, 0.0, 0.0, 0.0]), op.Light([2.0, 0.0, 0.0, 0.0])
     >>> block = BlockLight((2, 1), (lights,))
     >>> block.of(COMPONENTS[0])

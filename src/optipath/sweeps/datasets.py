@@ -19,11 +19,11 @@ from optipath.values.units import BASE_UNITS
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from optipath.light.quantities import LightQuantity
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.answers import Answers
     from optipath.plan.plan import Plan
     from optipath.sweeps.grid import SweepAxis, SweepGrid
-    from optipath.sweeps.labels import LightQuantity
     from optipath.values.parameters import Parameter
 
 
@@ -55,7 +55,7 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
 def attributes_of(quantity: LightQuantity) -> dict[str, str]:
     """Return the attributes of the variable of a quantity.
 
-    >>> from optipath.sweeps.labels import DERIVED
+    >>> from optipath.light.quantities import DERIVED
     >>> attributes_of(DERIVED[0])
     {'long_name': 'degree of polarisation', 'units': '1'}
     """

@@ -111,7 +111,9 @@ def sweep_axis(
     return SweepAxis(name, dimension or name, *values, message, idle)
 
 
-_LITTLE = 2**26
+_LITTLE, _MOST_BYTES = 2**26, 2**9
+"""What memory nobody misses, and what a point takes at most."""
+
 _GROUP_LIMITS = ("memory.max", "memory/memory.limit_in_bytes")
 """Where Linux says how much a container may have."""
 
@@ -124,8 +126,10 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     >>> plan = op.load_preset("malus").compose()
     >>> refuse_more_than_free(plan, grid_of(plan.inputs, {"angle": [0.1, 0.2]}))
     """
+    if grid.points * _MOST_BYTES <= _LITTLE:
+        return
     needed = grid.points * bytes_of_a_point(plan, grid.points)
-    if needed <= _LITTLE or needed <= (free := free_memory()):
+    if needed <= (free := free_memory()):
         return
     sizes = " x ".join(f"{size:,}" for size in grid.shape)
     cure = Cure(

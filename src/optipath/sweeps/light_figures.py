@@ -10,7 +10,7 @@ import numpy as np
 
 from optipath.errors import AngleWarning, ParameterError, listed, unknown
 from optipath.light.polarization_state import length
-from optipath.sweeps.labels import QUANTITIES
+from optipath.light.quantities import DERIVED, QUANTITIES, Shares
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ _NAMES = {each.variable: place for place, each in enumerate(QUANTITIES)} | {
     each.attribute: place for place, each in enumerate(QUANTITIES) if not each.attribute.isdigit()
 }
 _NAMES["intensity"] = 0
-_PERIODS = {_NAMES["aop"]: np.pi, _NAMES["delta"]: 2.0 * np.pi}
+_PERIODS = {place: each.period for place, each in enumerate(QUANTITIES) if each.period}
 
 
 def figures_of(light: Light) -> npt.NDArray[np.float64]:
@@ -76,15 +76,8 @@ def gradients_of(light: Light) -> npt.NDArray[np.float64]:
         noise = np.asarray(light.noise, np.float64) / s0
         s1, s2, s3 = (stokes[..., place] / s0 for place in (1, 2, 3))
         p, q, t = (_at_least(noise, *of) for of in ((s1, s2, s3), (s1, s2), (s2, s3)))
-        none, wide = np.zeros_like(s0), 0.5 * (1.0 + (s3 / (p + q)) ** 2) / p**2
-        rows = (
-            (-length(s1, s2, s3), s1 / p, s2 / p, s3 / p),
-            (-length(s1, s2), s1 / q, s2 / q, none),
-            (none, -0.5 * s2 / q**2, 0.5 * s1 / q**2, none),
-            (none, -wide * s3 * s1 / q, -wide * s3 * s2 / q, wide * length(s1, s2)),
-            (none, -0.5 * length(s2, s3) / p**2, _over(s1 * s2, t, p), _over(s1 * s3, t, p)),
-            (none, none, s3 / t**2, -s2 / t**2),
-        )
+        shares = Shares(s1, s2, s3, p, q, t, np.zeros_like(s0))
+        rows = [each.gradient(shares) for each in DERIVED if each.gradient is not None]
         derived = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
         derived = derived / s0[..., np.newaxis, np.newaxis]
     own = np.broadcast_to(np.eye(STOKES), (*s0.shape, STOKES, STOKES))
@@ -95,10 +88,6 @@ def _at_least(noise: Any, *components: Any) -> Any:
     """Return the length of a vector, NaN where it is no more than noise."""
     long = length(*components)
     return np.where(long > noise, long, np.nan)
-
-
-def _over(product: Any, across: Any, p: Any) -> Any:
-    return 0.5 * product / (across * p**2)
 
 
 @dataclass(frozen=True, eq=False)

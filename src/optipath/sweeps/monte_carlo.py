@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ParameterError, listed
+from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.first_order import Spread
-from optipath.sweeps.labels import QUANTITIES
 from optipath.sweeps.light_figures import STOKES, difference, figures_of, rounding_of
 from optipath.sweeps.propagation import notes_of_lost_figures
 from optipath.sweeps.uncertain_value import root_of

@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.light.quantities import LightQuantity
     from optipath.sweeps.chunks import ChunkedSweep
     from optipath.sweeps.grid import SweepAxis, SweepGrid
-    from optipath.sweeps.labels import LightQuantity
     from optipath.sweeps.plan_recipe import PlanRecipe
 
     Tell: TypeAlias = Callable[[int, int], None]

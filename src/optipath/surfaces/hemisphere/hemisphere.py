@@ -15,11 +15,11 @@ from optipath.errors import PhotonWarning, SurfaceError, ValueFault, shown, unkn
 from optipath.kernels.facets import MASKINGS
 from optipath.light.frame import Frame
 from optipath.light.light import Light
+from optipath.light.quantities import DERIVED
 from optipath.surfaces.hemisphere.arguments import direction_of, following, wavelength_place
 from optipath.surfaces.hemisphere.facet_model import alpha_of, reflected_once
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
-from optipath.sweeps.labels import DERIVED
 from optipath.values.angles import calls_up
 from optipath.values.arrays import first_place, same
 from optipath.values.precision import Numbers, whole_number
