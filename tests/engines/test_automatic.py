@@ -8,7 +8,8 @@ from optipath import errors as extras
 from optipath.composer import composer
 from optipath.engines import choice as automatic
 from optipath.engines.choice import FLOATS, HANDFUL, NUMPY_STEPS, REGISTRY, EngineChoice
-from optipath.engines.engine import FLOAT_ENGINE, Engine
+from optipath.engines.engine import Engine
+from optipath.engines.float_engine import FLOAT_ENGINE
 from optipath.engines.formula import Formula
 from optipath.engines.numpy_engine import NumpyEngine
 from optipath.engines.symbols import Recorder

@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any, Protocol
 
-from optipath.engines.engine import FloatEngine
+from optipath.engines.float_engine import FloatEngine
 from optipath.engines.jax_engine import JaxEngine
 from optipath.engines.numba_engine import NumbaEngine
 from optipath.engines.numpy_engine import NumpyEngine

@@ -152,7 +152,7 @@ def _evaluated(
         if taken not in program.taken_by_several:
             del results[taken]
     kernel, left = evaluation.kernel.specialised(arguments, is_zero)
-    numbers = kernel.made_for(carrier.xp)(*left)
+    numbers = carrier.evaluated(kernel, left)
     structure = evaluation.kernel.structure
     if evaluation.presence is None or structure is None:
         return numbers

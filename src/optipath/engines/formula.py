@@ -42,6 +42,8 @@ class Formula:
     axes: frozenset[int] = ONE_AXIS
     last: int | None = None
     earlier: frozenset[int] = frozenset()
+    items: dict[int, dict[int, int]] = field(default_factory=dict)
+    """Of calls, the results that are needed: their places and symbols."""
 
     @cached_property
     def holds(self) -> Any:
@@ -51,15 +53,28 @@ class Formula:
     @cached_property
     def needed(self) -> tuple[Symbol, ...]:
         """What the results need, in the order in which it can be done."""
-        results: dict[int, Symbol] = {}
-        waiting = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
-        while waiting:
-            symbol = waiting.pop()
-            if symbol.index not in results:
-                results[symbol.index] = symbol
+        ends = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
+        wanted = {symbol.index for symbol in ends}
+        results: list[Symbol] = []
+        # Whatever reads a symbol has been recorded after it.
+        recorded = ends[0].recorder.symbols[: max(wanted) + 1] if ends else []
+        for symbol in reversed(recorded):
+            if symbol.index in wanted:
+                results.append(symbol)
                 if symbol.index not in self.earlier:
-                    waiting += [o for o in symbol.operands if isinstance(o, Symbol)]
-        return tuple(results[index] for index in sorted(results))
+                    wanted |= {o.index for o in self._read_by(symbol) if isinstance(o, Symbol)}
+        return tuple(reversed(results))
+
+    def _read_by(self, symbol: Symbol) -> Sequence[Any]:
+        """Return what a symbol needs; of the arguments of a call, those that its results need."""
+        if symbol.operation == "item":
+            made, place = symbol.operands
+            self.items.setdefault(made.index, {})[place] = symbol.index
+        if symbol.operation != "call":
+            return symbol.operands
+        template, *arguments = symbol.operands
+        which = tuple(sorted(self.items[symbol.index]))
+        return [arguments[place] for place in template.needs(which)]
 
     @cached_property
     def inputs(self) -> tuple[Symbol, ...]:
@@ -130,6 +145,14 @@ class Formula:
     def body(self) -> tuple[Symbol, ...]:
         """The operations on what differs from path to path."""
         return tuple(step for step in self.steps if not step.uniform)
+
+    @property
+    def length(self) -> int:
+        """How many operations there are, those of calls included."""
+        calls = [step.operands[0] for step in self.steps if step.operation == "call"]
+        which = [tuple(sorted(items)) for _, items in sorted(self.items.items())]
+        inside: list[int] = [c.length(places) for c, places in zip(calls, which, strict=True)]
+        return len(self.steps) + sum(inside) - len(calls) - sum(map(len, which))
 
     @cached_property
     def operations(self) -> dict[str, int]:
@@ -225,12 +248,12 @@ def is_in_first_quadrant(operand: Operand, limits: tuple[float, float]) -> bool:
 
 
 def of_angle(
-    xp: Primitives, digits: Digits, operand: Operand, angle: Any, left: Any, *, first: bool
+    xp: Primitives, digits: Digits, part: str | int, angle: Any, left: Any, *, first: bool
 ) -> Any:
-    """Return the cosine or the sine that an operand is."""
+    """Return the cosine or the sine of an angle."""
     if first:
-        return first_quadrant(xp, digits)(angle, left)[operand.part == "cos"]
-    value = any_quadrant(xp, digits)(angle, left)[operand.part == "cos"]
+        return first_quadrant(xp, digits)(angle, left)[part == "cos"]
+    value = any_quadrant(xp, digits)(angle, left)[part == "cos"]
     return without_rounding(xp, lambda _: value)(angle) if left is None else value
 
 

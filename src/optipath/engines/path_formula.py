@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.execute import execute, itself, whole_matrices
+from optipath.engines.float_engine import CallingCarrier, call
 from optipath.engines.formula import FROM_ANY, FROM_NEARER, Formula, is_in_first_quadrant, of_angle
 from optipath.engines.program import carrying
 from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, reproducible_symbolic
@@ -62,6 +63,8 @@ def lights_formula(
     program, carried = carrying(program, carrier, xp, dtype)
     solvers: list[LoopSolver] = []
     symbols = operands.of(program)
+    if single:
+        carried = CallingCarrier(recorder, carried)
     with np.errstate(all="ignore"):
         result = execute(program, symbols, carried, number=known or itself, solvers=solvers)
     outputs: list[Any] = []
@@ -277,6 +280,8 @@ class SymbolicInputs:
             angle = -angle
         digits = DIGITS[kind.name]
         first = is_in_first_quadrant(operand, self.limits[operand.input_key.quantity])
+        if self.single:
+            return self._called_circular(operand, angle, first=first)
         left = None
         if form in (ONE, WIDE) and kind != wide(kind):
             # Next to a right angle it is all that there is, and has more digits than the angle.
@@ -285,4 +290,15 @@ class SymbolicInputs:
             left = -left if negative else left
         if not first:
             self.recorder.require(abs(angle) <= digits.most)
-        return of_angle(self.primitives, digits, operand, angle, left, first=first)
+        return of_angle(self.primitives, digits, operand.part, angle, left, first=first)
+
+    def _called_circular(self, operand: Operand, angle: Any, *, first: bool) -> Any:
+        digits = DIGITS[self.recorder.dtype.name]
+
+        def factory(xp: Primitives) -> Callable[[Any], tuple[Any, Any]]:
+            return lambda angle: (
+                of_angle(xp, digits, "sin", angle, None, first=first),
+                of_angle(xp, digits, "cos", angle, None, first=first),
+            )
+
+        return call(self.recorder, ("angle", first), factory, (angle,))[operand.part == "cos"]

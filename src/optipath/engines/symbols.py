@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,16 +14,6 @@ from optipath.kernels.trigonometry import DIGITS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-
-class Record(Protocol):
-    """What symbols ask of whoever keeps what is done to them."""
-
-    def record(self, operation: str, *operands: Any) -> Any:
-        """Return what an operation comes to: a symbol, or a number where that is known."""
-
-    def require(self, condition: Any) -> None:
-        """Note what must be true for the formula to hold."""
 
 
 def _operator(operation: str, *, reflected: bool = False) -> Callable[..., Any]:
@@ -43,7 +33,7 @@ class Symbol:
     __array_ufunc__ = None  # So that NumPy's scalars leave operators to this class.
     __hash__ = None  # type: ignore[assignment] # Nor is it looked up in place of a number.
 
-    recorder: Record
+    recorder: Recorder
     operation: str
     operands: tuple[Any, ...]
     kind: str
@@ -149,6 +139,7 @@ class Recorder:
 
     def __init__(self, dtype: np.dtype[Any]) -> None:
         self.dtype = dtype
+        self.kinds = {"bool": np.bool_, "int": np.int64, "float": dtype.type}
         self.symbols: list[Symbol] = []
         self.requirements: list[Any] = []
         self.wide: dict[str, tuple[float, float]] = {}
@@ -173,7 +164,7 @@ class Recorder:
     ) -> Symbol:
         """Return the symbol of a number that is given, or of what is left of an angle."""
         operation = left or "input"
-        return self._entered((operation, name), operation, (name,), kind, axes)
+        return self.entered((operation, name), operation, (name,), kind, axes)
 
     def record(self, operation: str, *operands: Any) -> Any:
         """Return what an operation comes to: a symbol, or a number where that is known."""
@@ -191,7 +182,7 @@ class Recorder:
             names.sort(key=str)
         kind = _kind(operands[-1]) if about.kind == "same" else about.kind
         axes = frozenset().union(*[symbol.axes for symbol in symbols])
-        symbol = self._entered((operation, *names), operation, operands, kind, axes)
+        symbol = self.entered((operation, *names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
         return symbol
 
@@ -214,11 +205,12 @@ class Recorder:
     def _number(self, value: Any, kind: str) -> Any:
         if isinstance(value, Symbol):
             return value
-        return {"bool": np.bool_, "int": np.int64, "float": self.dtype.type}[kind](value)
+        return self.kinds[kind](value)
 
-    def _entered(
+    def entered(
         self, key: Any, operation: str, operands: tuple[Any, ...], kind: str, axes: frozenset[int]
     ) -> Symbol:
+        """Return the symbol of a key, recorded if it is not."""
         if key not in self._known:
             symbol = Symbol(self, operation, operands, kind, axes=axes, index=len(self.symbols))
             self._known[key] = symbol

@@ -138,10 +138,10 @@ class ReproducibleInterpreter(Interpreter):
         signed = self._cast(-angle if negative else angle)
         small = np.abs(signed) <= digits.most
         if first or np.all(small):
-            return of_angle(self.xp, digits, operand, signed, left, first=first)  # type: ignore[no-any-return]
+            return of_angle(self.xp, digits, operand.part, signed, left, first=first)  # type: ignore[no-any-return]
         left = None if left is None else np.where(small, left, 0.0).astype(self.dtype)
         near = np.where(small, signed, 0.0).astype(self.dtype)
-        near = of_angle(self.xp, digits, operand, near, left, first=False)
+        near = of_angle(self.xp, digits, operand.part, near, left, first=False)
         far = operand.evaluated(reproducible_numpy("float64"), angle)
         return np.where(small, near, self._cast(far))
 

@@ -1,4 +1,4 @@
-"""Scalar runs: one path by plain floats, after a few runs as one function."""
+"""Scalar runs: one path by plain floats, as one function."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.engines.engine import FLOAT_ENGINE
+from optipath.engines.float_engine import FLOAT_ENGINE
 from optipath.values.curve_value import computed_values
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
 
 
 Lights: TypeAlias = list[tuple[Any, ...]]
-
-_SEVERAL, _SHORT = 3, 64
-"""After how many runs a function is worth its while, and up to how many steps."""
 
 _REAL = (float, int, NoneType)
 """The sorts of defaults that floats may stand for."""
@@ -84,7 +81,6 @@ class ScalarRunner:
         self.own_ways = own_ways
         self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
         self._looked_at: set[frozenset[InputKey]] = set()
-        self._runs = 0
         self.following = FollowingFloats(inputs) if inputs.computed else None
         self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
@@ -105,10 +101,6 @@ class ScalarRunner:
     def lights(self, arguments: ResolvedInputs) -> Lights | None:
         """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
         nothing = arguments.nothing
-        if nothing not in self.functions:
-            self._runs += 1
-            if self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT):
-                return self._stepped(arguments)
         function = self.function(nothing)
         if function is None:
             return self._stepped(arguments)
@@ -139,7 +131,7 @@ class ScalarRunner:
         names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)
         named = {str(key): key for key in keys}
         own = [named[name] for name in names if name in named]
-        return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, len(formula.steps))
+        return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, formula.length)
 
     def _is_default(self, arguments: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""

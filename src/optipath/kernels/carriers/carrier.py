@@ -26,10 +26,11 @@ from optipath.kernels.carriers.structures import Column, Columns
 from optipath.kernels.primitives import products
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from optipath.kernels.carriers.carried import Parts, SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
+    from optipath.kernels.kernel import Kernel
     from optipath.kernels.primitives import Primitives
 
 
@@ -38,6 +39,14 @@ class Carrier(ABC):
 
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
+
+    def made_for(self, xp: Primitives) -> Carrier:
+        """Return the same carrier for other primitives."""
+        return type(self)(xp)
+
+    def evaluated(self, kernel: Kernel, arguments: Sequence[Any]) -> Numbers:
+        """Return the numbers that a kernel makes of its arguments."""
+        return kernel.made_for(self.xp)(*arguments)
 
     @abstractmethod
     def emit(self, stokes: Components, count: int = 4) -> Any:

@@ -40,6 +40,9 @@ class IntensityCarrier(Carrier):
         super().__init__(xp)
         self.least = least
 
+    def made_for(self, xp: Primitives) -> Carrier:
+        return IntensityCarrier(xp, self.least)
+
     def emit(self, stokes: Components, count: int = 2) -> Intensities:
         s0, s1 = stokes[:2]
         if count == 1:

@@ -1,0 +1,280 @@
+"""The engine of floats: a formula as a Python function, for one path.
+
+Most of a path's formula is physics that other paths have as well. So what a kernel, or an element,
+does to arguments of some forms is recorded and made a function once, and a path calls it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.engines.engine import Engine
+from optipath.engines.formula import Formula
+from optipath.engines.symbols import (
+    ONE_AXIS,
+    OPERATIONS,
+    Recorder,
+    Symbol,
+    reproducible_symbolic,
+)
+from optipath.kernels.carriers.carrier import Carrier
+from optipath.kernels.kernel import is_defined_in
+from optipath.kernels.primitives import FLOAT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+
+    from optipath.kernels.carriers.carried import Components, SolvedLoop
+    from optipath.kernels.carriers.structures import Numbers, Structure
+    from optipath.kernels.kernel import Kernel
+    from optipath.kernels.primitives import Factory
+
+
+_DEEPEST = 30
+_TWICE = ("maximum", "minimum")
+"""Operations whose text names an operand twice."""
+
+_SPACE = {
+    "atan2": math.atan2,
+    "cos": math.cos,
+    "exp": math.exp,
+    "exponent": FLOAT.scaling,
+    "inf": math.inf,
+    "ldexp": math.ldexp,
+    "nan": math.nan,
+    "product_rest": lambda a, b: FLOAT.two_product(a, b)[1],
+    "sin": math.sin,
+    "sqrt": math.sqrt,
+}
+
+
+class FloatEngine(Engine["Formula", "Callable[..., tuple[Any, ...] | None]"]):
+    """Runs one path; nobody asks for it by name, since it is the fastest for one."""
+
+    name = "floats"
+    precisions = ("float64",)
+
+    def compiled(self, formula: Formula) -> Callable[..., tuple[Any, ...] | None]:
+        """Return a function of floats: None or ArithmeticError, ValueError where it fails."""
+        space: dict[str, Any] = dict(_SPACE)
+        exec(compile(source(formula, space), "<formula>", "exec"), space)  # noqa: S102 - our own
+        path: Callable[..., tuple[Any, ...] | None] = space["path"]
+        return path
+
+
+FLOAT_ENGINE = FloatEngine()
+
+
+def source(formula: Formula, space: dict[str, Any]) -> str:
+    """Return the text of ``path(*given)``, and put the functions that it calls into its names.
+
+    What is used once is inlined, so choices are lazy.
+    """
+    texts: dict[int, str] = {}
+    depth: dict[int, int] = {}
+    lines: list[str] = []
+
+    def written(operand: Any) -> str:
+        if not isinstance(operand, Symbol):
+            return f"({operand.item()!r})" if isinstance(operand, np.generic) else repr(operand)
+        return texts.get(operand.index, f"t{operand.index}")
+
+    used_twice = {
+        o.index
+        for s in formula.steps
+        if s.operation in _TWICE
+        for o in s.operands
+        if isinstance(o, Symbol)
+    }
+    for step in formula.steps:
+        if step.operation == "item":
+            continue
+        if step.operation == "call":
+            template, *arguments = step.operands
+            items = formula.items[step.index]
+            which = tuple(sorted(items))
+            space[f"f{step.index}"] = template.function(which)
+            given = ", ".join([written(arguments[place]) for place in template.needs(which)])
+            results = "".join([f"t{items[place]}, " for place in which])
+            lines.append(f"{results}= f{step.index}({given})")
+            continue
+        text = OPERATIONS[step.operation].text.format(*map(written, step.operands))
+        deep = 1 + max(
+            (depth.get(o.index, 0) for o in step.operands if isinstance(o, Symbol)), default=0
+        )
+        if formula.uses[step.index] == 1 and step.index not in used_twice and deep < _DEEPEST:
+            texts[step.index] = f"({text})"
+            depth[step.index] = deep
+        else:
+            lines.append(f"t{step.index} = {text}")
+    results = ", ".join(map(written, formula.results))
+    lines += [f"if {written(formula.holds)}:", f"    return ({results},)", "return None"]
+    argument = ", ".join(f"t{s.index}" for s in formula.inputs)
+    body = "".join(f"    {line}\n" for line in lines)
+    return f"def path({argument}):\n{body}"
+
+
+class Template:
+    """What a function does to its arguments, which are inputs named by their places."""
+
+    def __init__(self, dtype: np.dtype[Any], factory: Factory, forms: Sequence[Any]) -> None:
+        self._recorder, arguments = Recorder(dtype), []
+        for place, form in enumerate(forms):
+            argument = form
+            if isinstance(form, tuple):
+                argument = self._recorder.input(str(place), form[0])
+                argument.positive = form[1]
+            arguments.append(argument)
+        self.results = factory(reproducible_symbolic(dtype.name))(*arguments)
+        self._parts: dict[tuple[int, ...], tuple[Formula, tuple[int, ...]]] = {}
+        self._functions: dict[tuple[int, ...], Callable[..., Any]] = {}
+
+    def needs(self, which: tuple[int, ...]) -> tuple[int, ...]:
+        """Return the places of the arguments that some of the results need."""
+        return self._part(which)[1]
+
+    def length(self, which: tuple[int, ...]) -> int:
+        """Return how many operations some of the results take."""
+        return len(self._part(which)[0].steps)
+
+    def function(self, which: tuple[int, ...]) -> Callable[..., Any]:
+        """Return the function of these arguments that gives some of the results."""
+        if which not in self._functions:
+            self._functions[which] = FLOAT_ENGINE.compiled(self._part(which)[0])
+        return self._functions[which]
+
+    def _part(self, which: tuple[int, ...]) -> tuple[Formula, tuple[int, ...]]:
+        if which not in self._parts:
+            results = tuple([self.results[place] for place in which])
+            formula = Formula(self._recorder.dtype, results, tuple(self._recorder.requirements))
+            places = tuple([int(symbol.operands[0]) for symbol in formula.inputs])
+            self._parts[which] = formula, places
+        return self._parts[which]
+
+
+_TEMPLATES: dict[Hashable, Template] = {}
+_MOST_TEMPLATES = 4096
+
+
+def call(
+    recorder: Recorder, key: Hashable | None, factory: Factory, arguments: Sequence[Any]
+) -> tuple[Any, ...]:
+    """Record the call of a function that a factory makes, and return its results.
+
+    The key names the function for all paths; without one, it is recorded for this path alone.
+    """
+    forms = tuple(map(_form_of, arguments))
+    whole = key, recorder.dtype.name, forms
+    template = None if key is None else _TEMPLATES.get(whole)
+    if template is None:
+        template = Template(recorder.dtype, factory, forms)
+        if key is not None:
+            if len(_TEMPLATES) >= _MOST_TEMPLATES:
+                _TEMPLATES.clear()
+            _TEMPLATES[whole] = template
+    operands = template, *arguments
+    names = [a.index if isinstance(a, Symbol) else repr(a) for a in arguments]
+    made = recorder.entered(("call", id(template), *names), "call", operands, "float", ONE_AXIS)
+    results = []
+    for place, result in enumerate(template.results):
+        if not isinstance(result, Symbol):
+            results.append(result)
+        elif result.operation == "input":
+            results.append(arguments[int(result.operands[0])])
+        else:
+            names = ["item", made.index, place]
+            item = recorder.entered(tuple(names), "item", (made, place), result.kind, ONE_AXIS)
+            item.positive = result.positive
+            results.append(item)
+    return tuple(results)
+
+
+def _form_of(argument: Any) -> Any:
+    """Return what a function knows of an argument: its kind and sign, or all of it."""
+    if isinstance(argument, Symbol):
+        return argument.kind, argument.positive
+    if isinstance(argument, (float, np.floating)) and argument not in (0.0, 1.0):
+        return "float", bool(argument >= 0.0)
+    return argument
+
+
+class CallingCarrier(Carrier):
+    """Carries light as another carrier does, whose actions are recorded as calls."""
+
+    def __init__(self, recorder: Recorder, carrier: Carrier) -> None:
+        super().__init__(carrier.xp)
+        self.recorder = recorder
+        self.carrier = carrier
+
+    def evaluated(self, kernel: Kernel, arguments: Sequence[Any]) -> Numbers:
+        if not any(isinstance(argument, Symbol) for argument in arguments):
+            return super().evaluated(kernel, arguments)
+        # A kernel of a user's own may read what changes.
+        key = kernel if is_defined_in("optipath.kernels.", kernel.factory) else None
+        return call(self.recorder, key, kernel.made_for, arguments)
+
+    def emit(self, stokes: Components, count: int = 4) -> Any:
+        return self._call("emit", lambda carrier, *of: carrier.emit(*of, count), count, stokes)
+
+    def act(self, structure: Structure, numbers: Numbers, state: Any, count: int = 4) -> Any:
+        return self._call(
+            "act",
+            lambda carrier, *of: carrier.act(structure, *of, count),
+            (structure.name, count),
+            tuple(numbers),
+            state,
+        )
+
+    def add(self, first: Any, second: Any) -> Any:
+        return self._call("add", lambda carrier, *of: carrier.add(*of), None, first, second)
+
+    def meet(self, solver: SolvedLoop, arriving: Mapping[int, Any]) -> dict[int, Any]:
+        return self.carrier.meet(solver, arriving)
+
+    def read(self, state: Any, count: int = 4) -> tuple[Components, Any]:
+        result: tuple[Components, Any]
+        result = self._call("read", lambda carrier, *of: carrier.read(*of, count), count, state)
+        return result
+
+    def _call(self, name: str, method: Callable[..., Any], about: Any, *states: Any) -> Any:
+        """Record the call of a method, whose arguments and result are numbers in tuples."""
+        leaves: list[Any] = []
+        shape = _shape_of(states, leaves)
+        if not any(isinstance(leaf, Symbol) for leaf in leaves):
+            return method(self.carrier, *states)
+        shapes: list[Any] = []
+
+        def factory(xp: Any) -> Callable[..., tuple[Any, ...]]:
+            carrier = self.carrier.made_for(xp)
+
+            def function(*numbers: Any) -> tuple[Any, ...]:
+                results: list[Any] = []
+                result = method(carrier, *_filled(shape, iter(numbers)))
+                shapes.append(_shape_of(result, results))
+                return tuple(results)
+
+            return function
+
+        key = name, type(self.carrier), about, shape
+        results = call(self.recorder, key, factory, leaves)
+        if shapes:
+            _SHAPES[key] = shapes[0]
+        return _filled(_SHAPES[key], iter(results))
+
+
+_SHAPES: dict[Hashable, Any] = {}
+
+
+def _shape_of(state: Any, leaves: list[Any]) -> Any:
+    """Return how numbers are put together in tuples, and add them to a list."""
+    if isinstance(state, tuple):
+        return tuple([_shape_of(part, leaves) for part in state])
+    leaves.append(state)
+    return None
+
+
+def _filled(shape: Any, leaves: Iterator[Any]) -> Any:
+    return next(leaves) if shape is None else tuple([_filled(part, leaves) for part in shape])
