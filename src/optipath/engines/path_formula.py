@@ -50,7 +50,7 @@ def lights_formula(
 ) -> Formula:
     """Return the formula of the light at every end.
 
-    The four components of each reading in turn, NaN where not read, then the exponents; with
+    The four components of each reading in turn, NaN where not read; with
     `unreduced`, known numbers are taken as inputs, and all components are computed. It holds for
     values within their limits whose light is finite and not too faint.
     """
@@ -68,7 +68,6 @@ def lights_formula(
     with np.errstate(all="ignore"):
         result = execute(program, symbols, carried, number=known or itself, solvers=solvers)
     outputs: list[Any] = []
-    exponents: list[Any] = []
     holds = [condition for solver in solvers for condition in solver.conditions]
     for reading in program.readings.values():
         components, exponent = result[reading.light]
@@ -77,10 +76,13 @@ def lights_formula(
         if carrier is StokesCarrier:
             sound = sound & (components[0] >= tiny * UNDERFLOW)
         read, sound = _masked(xp, read, sound) if masks else (read, sound)
+        if not isinstance(exponent, int):
+            read = [xp.ldexp(component, exponent) for component in read]
+            lit = read[0] >= tiny
+            read = [xp.where(lit, component, tiny.dtype.type(0.0)) for component in read]
         outputs += [*read, *[np.nan] * (4 - len(read))]
-        exponents.append(exponent)
         holds.append(sound)
-    return _formula(recorder, [*outputs, *exponents], holds)
+    return _formula(recorder, outputs, holds)
 
 
 def bounds_formula(

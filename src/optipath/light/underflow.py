@@ -67,6 +67,18 @@ def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
     return folded(stokes.astype(dtype), exponent)
 
 
+def unscaled(stokes: Array, exponent: Any) -> Array:
+    """Return vectors (..., 4) times two to a power; 0 where S0 is no normal number any more.
+
+    >>> unscaled(np.array([[0.5, 0.25, 0, 0], [0.5, 0.25, 0, 0]]), np.array([1, -1080]))
+    array([[1. , 0.5, 0. , 0. ],
+           [0. , 0. , 0. , 0. ]])
+    """
+    result = times_two_to(stokes, exponent)
+    result[result[..., 0] < np.finfo(result.dtype).tiny] = 0.0
+    return result
+
+
 def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     """Tell where light is so weak that what underflows on the way may be seen in it.
 

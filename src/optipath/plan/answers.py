@@ -66,8 +66,8 @@ class Answers:
         """The engines that have given the last light; none before the first."""
         return (self.approximation or self.light).ran_by
 
-    def lights(self, parameters: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
-        """Return the light at every end, as Stokes vectors and exponents."""
+    def lights(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the light at every end, as `LightQuestion` does."""
         if self.large_angles.looks:
             self.large_angles.look(parameters)
         return dict((self.approximation or self.light).answer(self.question, parameters))
@@ -90,17 +90,16 @@ class Answers:
         return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), argument, parameters))
 
     def in_frames(
-        self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()
+        self, lights: Mapping[str, Any], parameters: Mapping[str, Any], where: Any = ()
     ) -> dict[str, Light]:
         """Return the light at every end in its frame."""
         results = {}
         by = self.wavelengths
         later = LaterWavelength(by, self.plan.inputs, parameters, where) if by else None
         for name, reading in self.plan.program.readings.items():
-            stokes, exponent = lights[name]
             frame = self.framed(reading.frame, parameters, where)
             noise = (noise_at, self, name, parameters, where)
-            results[name] = Light.of(stokes, frame, exponent, noise, wavelength=later)
+            results[name] = Light.of(lights[name], frame, noise=noise, wavelength=later)
         return results
 
     def as_light(self, parameters: Mapping[str, Any], stokes: Any, frame: Any) -> Light:

@@ -82,7 +82,7 @@ class Approximation(Answering):
             return run(self.exact, arguments)
         if self.cheap is None:
             self._ran = (self.whole,)
-            cheap = {n: ((total, np.nan, np.nan, np.nan), 0) for n, total in scalar.items()}
+            cheap = {n: (total, np.nan, np.nan, np.nan) for n, total in scalar.items()}
         else:
             cheap = run(self.cheap, arguments)
         if not share:
@@ -94,20 +94,18 @@ class Approximation(Answering):
         return {n: _mixed(cheap[n], some[n], beyond, ...) for n in cheap}
 
 
-def _mixed(cheap: Any, exact: Any, beyond: Array, of_exact: Any) -> tuple[Array, Array]:
+def _mixed(cheap: Any, exact: Any, beyond: Array, of_exact: Any) -> Array:
     """Return one light with that of another in some places."""
-    stokes, exponent = (np.array(part) for part in _whole(cheap, beyond.shape))
+    stokes = np.array(_whole(cheap, beyond.shape))
     batch = beyond.shape if of_exact is beyond else (int(beyond.sum()),)
-    other, power = _whole(exact, batch)
-    stokes[beyond], exponent[beyond] = other[of_exact], power[of_exact]
-    return stokes, exponent
+    stokes[beyond] = _whole(exact, batch)[of_exact]
+    return stokes
 
 
-def _whole(light: Any, batch: tuple[int, ...]) -> tuple[Array, Array]:
-    """Return the Stokes vectors (..., 4) and the exponents (...) of light as arrays."""
-    stokes, exponent = light
+def _whole(stokes: Any, batch: tuple[int, ...]) -> Array:
+    """Return the Stokes vectors (..., 4) of light as an array."""
     if isinstance(stokes, tuple):
         kind = np.result_type(stokes[0])
         parts = [np.broadcast_to(np.asarray(part, kind), batch) for part in stokes]
         stokes = np.stack(parts, axis=-1)
-    return stokes, np.broadcast_to(exponent, batch)
+    return stokes  # type: ignore[no-any-return]

@@ -36,10 +36,10 @@ class Results(NamedTuple):
     rows: list[int | None]
 
     @classmethod
-    def of(cls, rows: Array, read: int, dtype: np.dtype[Any]) -> Results:
-        """Return results of rows (results, paths), so many read in the precision of a plan."""
-        out = rows if rows.dtype == dtype else rows[:read].astype(dtype)
-        return cls([*out[:read], *rows[read:]], out, [*range(read), *[None] * (len(rows) - read)])
+    def of(cls, rows: Array, dtype: np.dtype[Any]) -> Results:
+        """Return results of rows (results, paths), in the precision of a plan."""
+        out = rows.astype(dtype, copy=False)
+        return cls([*out], out, [*range(len(out))])
 
     def together(self, start: int, stop: int) -> Array | None:
         """Return results (stop - start, paths) as rows of one array, if stored contiguously."""
@@ -69,12 +69,9 @@ class Results(NamedTuple):
 class BatchRunner:
     """Does a formula to batches of any shape whose arrays differ along the same axes."""
 
-    def __init__(
-        self, formula: Formula, layout: Layout, *, threads: int, read: int, staged: bool
-    ) -> None:
+    def __init__(self, formula: Formula, layout: Layout, *, threads: int, staged: bool) -> None:
         self.formula = formula
         self.threads = threads
-        self.read = read
         self.parts = stages(formula, layout.all_axes, layout.last) if staged else (formula,)
         self._compiled: dict[Any, _Compiled] = {}
 
@@ -108,7 +105,7 @@ class BatchRunner:
         if key not in self._compiled:
             parts = (replace(self.formula, last=None),) if in_one else self.parts
             several = [Stage.of(engine, part) for part in parts]
-            self._compiled[key] = _Compiled.of(several, self.formula.results, self.read)
+            self._compiled[key] = _Compiled.of(several, self.formula.results)
         return self._compiled[key]
 
     def _rows(
@@ -164,14 +161,14 @@ class _Compiled(NamedTuple):
     room: int
 
     @classmethod
-    def of(cls, several: list[Stage], results: tuple[Any, ...], read: int) -> _Compiled:
-        """Return what has been compiled, with rows for its results, so many of them read."""
+    def of(cls, several: list[Stage], results: tuple[Any, ...]) -> _Compiled:
+        """Return what has been compiled, with rows for its results."""
         computed = several[-1].formula.computed
         place = {symbol.index: row for row, symbol in reversed([*enumerate(computed)])}
         rows = [place.get(r.index) if isinstance(r, Symbol) else None for r in results]
         # Numbers that are known follow, so that all of a light may stand together.
         known: list[tuple[int, Any]] = []
-        for at, result in enumerate(results[:read]):
+        for at, result in enumerate(results):
             if not (isinstance(result, Symbol) or np.isnan(result)):
                 known.append((len(computed) + len(known), result))
                 rows[at] = known[-1][0]

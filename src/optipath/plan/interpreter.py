@@ -29,8 +29,7 @@ from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.double_double import DoubleDouble, twice
 from optipath.kernels.primitives import NUMPY
 from optipath.light.decompositions import lack, tolerance_for
-from optipath.light.underflow import folded, underflows
-from optipath.plan.reading import ResolvedInputs
+from optipath.light.underflow import underflows, unscaled
 from optipath.values.angles import calls_up
 from optipath.values.arrays import joint_shape
 from optipath.values.precision import wide
@@ -42,7 +41,8 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.kernels.carriers.structures import Numbers
-    from optipath.values.operands import InputKey, Operand
+    from optipath.plan.reading import ResolvedInputs
+    from optipath.values.operands import Operand
 
     Array = np.ndarray[Any, Any]
 
@@ -69,21 +69,14 @@ class Interpreter:
         self._carriers = {kind: kind(NUMPY) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
         self._known: list[Any] | None = None
 
-    def single(self, numbers: Mapping[InputKey, Any]) -> list[tuple[Any, ...]] | None:
-        """Return floats (S0, S1, S2, S3, exponent) at every end; None if floats do not suffice."""
-        result = self._results(ResolvedInputs(numbers, (1,)), {})
-        if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in result):
-            return None
-        return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in result]
-
     def lights(
         self, arguments: ResolvedInputs, shared: Shared | None = None
-    ) -> list[tuple[np.ndarray[Any, Any], Any]]:
-        """Return Stokes vectors (..., 4) and exponents at every end; for parts, see `shared`."""
+    ) -> list[np.ndarray[Any, Any]]:
+        """Return Stokes vectors (..., 4) at every end; for parts, see `shared`."""
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
-        return [folded(*light) for light in self._results(arguments, own)]
+        return self._results(arguments, own)
 
     def shared(self, arguments: ResolvedInputs) -> Shared:
         """Return evaluations along a few axes of a batch only, no larger than its light."""
@@ -140,25 +133,24 @@ class Interpreter:
             read.append(parts)
         return read
 
-    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
-        """Return light and exponents; what is too faint for floats is carried with an exponent."""
+    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[Array]:
+        """Return light; what is so faint that numbers on the way underflow is carried scaled."""
         result = self._stacked(arguments, self._carriers[self.carrier], shared)
-        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in result):
+        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s in result):
             result = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
         return result
 
-    def _stacked(self, arguments: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Any]:
+    def _stacked(self, arguments: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Array]:
         return self._read(arguments, self._execute(arguments, carrier, None, shared))
 
-    def _read(self, arguments: ResolvedInputs, lights: Mapping[int, Any]) -> list[Any]:
-        """Return the light at every end as Stokes vectors, with exponents."""
-        return [
-            (
-                _stack(lights[reading.light][0], arguments.batch, reading, self.dtype),
-                np.broadcast_to(lights[reading.light][1], arguments.batch),
-            )
-            for reading in self.program.readings.values()
-        ]
+    def _read(self, arguments: ResolvedInputs, lights: Mapping[int, Any]) -> list[Array]:
+        """Return the light at every end as Stokes vectors."""
+        results = []
+        for reading in self.program.readings.values():
+            components, exponent = lights[reading.light]
+            stokes = _stack(components, arguments.batch, reading, self.dtype)
+            results.append(stokes if isinstance(exponent, int) else unscaled(stokes, exponent))
+        return results
 
     def _execute(
         self,

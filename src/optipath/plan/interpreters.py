@@ -22,7 +22,7 @@ from optipath.kernels.carriers.noise import NoiseCarrier
 from optipath.kernels.exponential import reproducible_numpy
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import DIGITS
-from optipath.light.underflow import folded, underflows
+from optipath.light.underflow import underflows
 from optipath.plan.interpreter import Interpreter
 from optipath.plan.reading import pieces
 from optipath.values.jax_values import is_traced
@@ -67,17 +67,11 @@ class ReproducibleInterpreter(Interpreter):
 
     def lights(
         self, arguments: ResolvedInputs, shared: Shared | None = None
-    ) -> list[tuple[np.ndarray[Any, Any], Any]]:
-        own = {
-            index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
-        }
-        result = self._results(_as_batch(arguments), own)
-        return [
-            folded(stokes.reshape(*arguments.batch, 4), np.reshape(exponent, arguments.batch))
-            for stokes, exponent in result
-        ]
+    ) -> list[np.ndarray[Any, Any]]:
+        result = super().lights(_as_batch(arguments), shared)
+        return [stokes.reshape(*arguments.batch, 4) for stokes in result]
 
-    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[Array]:
         program, carrier = self._carrying
         if program is self.program:
             result = self._stacked(arguments, carrier, shared)
@@ -87,13 +81,13 @@ class ReproducibleInterpreter(Interpreter):
             result = self._read(arguments, lights)
         if self.carrier is not StokesCarrier:
             return result
-        faint = np.any([underflows(stokes[..., 0]) for stokes, _ in result], axis=0)
+        faint = np.any([underflows(stokes[..., 0]) for stokes in result], axis=0)
         if not np.any(faint):
             return result
         again = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
         return [
-            (np.where(faint[..., np.newaxis], one, other), np.where(faint, power, 0))
-            for (other, _), (one, power) in zip(result, again, strict=True)
+            np.where(faint[..., np.newaxis], one, other)
+            for other, one in zip(result, again, strict=True)
         ]
 
     def matrix(
@@ -161,10 +155,8 @@ class NoiseInterpreter(Interpreter):
     def __init__(self, program: Program, dtype: np.dtype[Any]) -> None:
         super().__init__(program, ScaledCarrier, dtype)
 
-    def noise(
-        self, arguments: ResolvedInputs, reading: Reading, exponent: Array
-    ) -> tuple[Any, Any]:
-        """Return the intensity at an end, and its noise, over two to a power."""
+    def noise(self, arguments: ResolvedInputs, reading: Reading) -> tuple[Any, Any]:
+        """Return the intensity at an end, and its noise."""
         carrier = NoiseCarrier(NUMPY, self.eps)
         result = np.zeros((2, *arguments.batch), self.dtype)
         for piece in pieces(arguments.batch, _AT_ONCE):
@@ -173,7 +165,7 @@ class NoiseInterpreter(Interpreter):
             (intensity, noise, _, _), power = lights[reading.light]
             for row, number in enumerate((intensity, noise)):
                 with np.errstate(over="ignore", under="ignore"):
-                    result[(row, *piece.where)] = np.ldexp(number, power - exponent[piece.where])
+                    result[(row, *piece.where)] = np.ldexp(number, power)
         return result[0], result[1]
 
     def emitted(self, arguments: ResolvedInputs, source: str) -> Array:
@@ -240,24 +232,25 @@ def noise_at(
     parameters: Mapping[str, Any],
     where: Any,
     stokes: Array,
-    exponent: Array,
+    exponent: Any = 0,
 ) -> Array:
     """Return what is noise in light, wherever a component of it is small enough for that."""
-    result = np.zeros(exponent.shape, stokes.dtype)
+    del exponent
+    result = np.zeros(stokes.shape[:-1], stokes.dtype)
     interpreter = answers.noise
     readings = interpreter.program.readings
     if end not in readings or any(map(is_traced, parameters.values())):
         return result
     most = interpreter.most_of_one(parameters)
-    if most is not None and not _as_little(stokes, exponent, most).any():
+    if most is not None and not _as_little(stokes, most).any():
         return result
     argument = answers.whole.reader.read(parameters)
     argument = argument.part(where) if where else argument
-    doubtful = _as_little(stokes, exponent, interpreter.most(argument)).any(axis=-1)
+    doubtful = _as_little(stokes, interpreter.most(argument)).any(axis=-1)
     if not doubtful.any():
         return result
     part = argument.part((doubtful,)) if argument.batch else argument
-    again, noise = interpreter.noise(part, readings[end], exponent[doubtful].reshape(part.batch))
+    again, noise = interpreter.noise(part, readings[end])
     intensity = stokes[doubtful][..., 0].reshape(part.batch)
     with np.errstate(over="ignore", invalid="ignore"):
         same = np.abs(again - intensity) <= 4.0 * noise + _SAME * np.abs(intensity)
@@ -275,15 +268,12 @@ def matrix_noise_at(
         return np.zeros(matrix.shape[:-2])
     emitted = interpreter.emitted(answers.whole.reader.read(parameters), source)
     stokes = (np.asarray(matrix) @ emitted[..., np.newaxis])[..., 0]
-    exponent = np.zeros(stokes.shape[:-1], dtype=np.int64)
-    noise = noise_at(answers, end, parameters, (), stokes, exponent)
+    noise = noise_at(answers, end, parameters, (), stokes)
     lit = emitted[..., 0] > 0.0
     return np.where(lit, noise / np.where(lit, emitted[..., 0], 1.0), 0.0)
 
 
-def _as_little(stokes: Array, exponent: Array, most: Any) -> Array:
+def _as_little(stokes: Array, most: Any) -> Array:
     """Return which components, other than 0, are no larger than noise can be at most."""
-    with np.errstate(over="ignore"):
-        least = np.ldexp(most, -exponent)
     sizes = np.abs(stokes)
-    return (sizes > 0.0) & (sizes <= least[..., np.newaxis])  # type: ignore[no-any-return]
+    return (sizes > 0.0) & (sizes <= np.asarray(most)[..., np.newaxis])  # type: ignore[no-any-return]

@@ -134,10 +134,10 @@ class Plan:
         if fast_path is not None:
             if answers.large_angles.looks:
                 answers.large_angles.look(parameters)
-            stokes, exponent = fast_path[place][:4], fast_path[place][4]
+            stokes = fast_path[place]
         else:
-            stokes, exponent = answers.lights(parameters)[name]
-        return Light.of(stokes, frame, exponent, noise, wavelength=later)
+            stokes = answers.lights(parameters)[name]
+        return Light.of(stokes, frame, noise=noise, wavelength=later)
 
     def run_all(self, /, *unnamed: Never, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.
@@ -211,7 +211,7 @@ class Plan:
     ) -> Mueller:
         """Return the Mueller matrix from one source to one detector.
 
-        Entries too small for a float are 0; `run` keeps light however faint.
+        Entries too small for a float are 0.
 
         Parameters
         ----------

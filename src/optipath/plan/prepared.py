@@ -62,9 +62,8 @@ class BatchKind:
         )
         if made is None:
             return None
-        threads, read = self.options.threads, self.question.read
         staged = not self.formulas.unreduced
-        return BatchRunner(made, self.layout, threads=threads, read=read, staged=staged)
+        return BatchRunner(made, self.layout, threads=self.options.threads, staged=staged)
 
     @cached_property
     def function(self) -> FloatFunction | None:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from optipath.engines.path_formula import bounds_formula, lights_formula, matrix_formula
-from optipath.light.underflow import folded
 from optipath.plan.certificate import Certificate
 from optipath.values.arrays import CURE
 from optipath.values.operands import ABSENT, ONE
@@ -75,7 +74,7 @@ class Question(ABC):
 
 
 class LightQuestion(Question):
-    """The light by end: Stokes vectors (..., 4) or tuples, with exponents of two."""
+    """The light by end: Stokes vectors (..., 4), or tuples of their components."""
 
     key = "light"
     is_light = True
@@ -88,19 +87,18 @@ class LightQuestion(Question):
         self.counts = [reading.components for reading in self.ends.values()]
 
     def numbers(self, *, stepped: bool) -> int:
-        # Step by step, parts with exponents are joined.
-        return (10 if stepped else 4) * len(self.ends)
+        # Step by step, parts are joined.
+        return (8 if stepped else 4) * len(self.ends)
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         return maker.lights(forms, axes=axes, unreduced=maker.unreduced)
 
     def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
         result = runner.interpreter.lights(arguments, shared)
-        for (stokes, _), count in zip(result, self.counts, strict=True):
+        for stokes, count in zip(result, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
             stokes[np.isnan(stokes[..., 0])] = np.nan
-        components = [stokes.reshape(-1, 4).T for stokes, _ in result]
-        return np.concatenate([*components, *(power.reshape(1, -1) for _, power in result)])
+        return np.concatenate([stokes.reshape(-1, 4).T for stokes in result])
 
     def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
         result, sound = runner.for_jax.path.lights(resolved, batch, parameters)
@@ -108,33 +106,22 @@ class LightQuestion(Question):
             return None
         lights = {}
         for stokes, name, count in zip(result, self.ends, self.counts, strict=True):
-            lights[name] = runner.for_jax.nan_outside(stokes, resolved, 1), 0
-            runner.refuse_infinite(lights[name][0][..., :count])
+            lights[name] = runner.for_jax.nan_outside(stokes, resolved, 1)
+            runner.refuse_infinite(lights[name][..., :count])
         return lights
 
-    def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
-        underflow, result = False, {}
-        for power in results.each[self.read :]:
-            underflow = underflow or bool(power.any() if isinstance(power, np.ndarray) else power)
-        for end, name in enumerate(self.ends):
-            result[name] = self._light(results, batch, end, underflow=underflow)
-        return result
+    def answer(self, results: Results, batch: Batch) -> dict[str, Any]:
+        return {
+            name: self._stokes(results, batch, 4 * end, self.counts[end])
+            for end, name in enumerate(self.ends)
+        }
 
-    def _light(
-        self, results: Results, batch: Batch, end: int, *, underflow: bool
-    ) -> tuple[Any, Any]:
-        first, count = 4 * end, self.counts[end]
+    def _stokes(self, results: Results, batch: Batch, first: int, count: int) -> Any:
         block = None if count < 4 else results.together(first, first + 4)
-        if block is None and not underflow:
-            rest = [_in_shape(part, batch) for part in results.each[first + 1 : first + count]]
-            return (results.array(first).reshape(batch), *rest, *[np.nan] * (4 - count)), 0
-        stokes = _behind(results.block(first, first + 4) if block is None else block, batch, (4,))
-        if count < 4:
-            stokes[..., count:] = np.nan
-        if not underflow:
-            return stokes, 0
-        power = np.broadcast_to(results.each[self.read + end], results.out.shape[1])
-        return folded(stokes, power.astype(np.int64).reshape(batch))
+        if block is not None:
+            return _behind(block, batch, (4,))
+        rest = [_in_shape(part, batch) for part in results.each[first + 1 : first + count]]
+        return (results.array(first).reshape(batch), *rest, *[np.nan] * (4 - count))
 
 
 class MatrixQuestion(Question):

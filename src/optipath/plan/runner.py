@@ -88,7 +88,7 @@ class Runner(Answering):
         self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
         self.interpreter = interpreter_for(program, inputs, self.carrier, options)
         self.formulas = FormulaMaker(program, inputs, self.carrier, options, unreduced=unreduced)
-        self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas, own_ways)
+        self.single = ScalarRunner(program, inputs, self.formulas, own_ways)
         self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
         self._recipes: dict[Any, Recipe] = {}
@@ -137,8 +137,7 @@ class Runner(Answering):
             lights = self.single.lights(arguments)
             if lights is not None:
                 self._ran = FLOATS
-                ends = zip(self.program.readings, lights, strict=True)
-                return {name: (light[:4], light[4]) for name, light in ends}
+                return dict(zip(self.program.readings, lights, strict=True))
         known = {name: arguments.cut(array) for name, array in self.formulas.known_arrays.items()}
         arrays = {str(key): n for key, n in arguments.numbers.items() if isinstance(n, np.ndarray)}
         layout = Layout(arguments.batch, arrays | known)
@@ -199,7 +198,7 @@ class Runner(Answering):
                 rows = kind.function.rows(numbers, layout)
             self._ran = NUMPY_STEPS if engine == FLOATS and rows is None else engine
             if rows is not None:
-                results = Results.of(rows, question.read, self.dtype)
+                results = Results.of(rows, self.dtype)
             elif stepped or engine == FLOATS:
                 self.inputs.resolve(parameters)
                 return self._stepped(question, arguments or self.reader.read(parameters))
@@ -216,7 +215,7 @@ class Runner(Answering):
         shared = self.interpreter.shared(arguments) if several and question.is_light else {}
         parts = [question.rows(self, part, shared) for part in self.parts(arguments)]
         rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-        return question.answer(Results.of(rows, question.read, self.dtype), arguments.batch)
+        return question.answer(Results.of(rows, self.dtype), arguments.batch)
 
     def _by_jax(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         resolved, batch = self.inputs.resolve(parameters)

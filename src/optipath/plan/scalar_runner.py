@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from optipath.elements.own_element import OwnWays
     from optipath.engines.program import Program
     from optipath.plan.inputs import Inputs
-    from optipath.plan.interpreter import Interpreter
     from optipath.plan.questions import FormulaMaker
     from optipath.plan.reading import Layout, ResolvedInputs
     from optipath.values.operands import InputKey
@@ -70,13 +69,11 @@ class ScalarRunner:
         self,
         program: Program,
         inputs: Inputs,
-        interpreter: Interpreter,
         formulas: FormulaMaker,
         own_ways: tuple[OwnWays, ...] = (),
     ) -> None:
         self.program = program
         self.inputs = inputs
-        self.interpreter = interpreter
         self.formulas = formulas
         self.own_ways = own_ways
         self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
@@ -99,11 +96,11 @@ class ScalarRunner:
         return _called(path, [get(name, default) for name, default in order])
 
     def lights(self, arguments: ResolvedInputs) -> Lights | None:
-        """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
+        """Return (S0, S1, S2, S3) at every end; None where that takes more care."""
         nothing = arguments.nothing
         function = self.function(nothing)
         if function is None:
-            return self._stepped(arguments)
+            return None
         if nothing not in self._looked_at:
             self._looked_at.add(nothing)
             if self._is_default(arguments) and not self.inputs.agreements and self._defaults_hold():
@@ -115,11 +112,6 @@ class ScalarRunner:
         if nothing not in self.functions:
             self.functions[nothing] = self._made(nothing)
         return self.functions[nothing]
-
-    def _stepped(self, arguments: ResolvedInputs) -> Lights | None:
-        if not arguments.within(self.inputs.limits):
-            return None
-        return self.interpreter.single(arguments.numbers)
 
     def _made(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
@@ -182,10 +174,9 @@ def _called(path: Any, numbers: list[Any]) -> Lights | None:
         result = path(*numbers)
     except _REFUSED:
         return None
-    if result is None or len(result) == 5:
+    if result is None or len(result) == 4:
         return result and [result]
-    ends = len(result) // 5
-    return [(*result[4 * end : 4 * end + 4], result[4 * ends + end]) for end in range(ends)]
+    return [result[first : first + 4] for first in range(0, len(result), 4)]
 
 
 class FollowingFloats:

@@ -48,14 +48,13 @@ def swept_in_memory(
     refuse_more_than_free(plan, grid.varied)
     with units_are_written():  # Who reads the axes has told of degrees among them.
         result = plan.answers.lights(grid.given())
-    lights = tuple([SweptLight(plan, grid, name, *result[name]) for name in detectors_of(plan)])
+    lights = tuple([SweptLight(plan, grid, name, result[name]) for name in detectors_of(plan)])
     variables: dict[str, Any] = {}
     each = zip(*[light.components for light in lights], strict=True)
     for quantity, parts in zip(COMPONENTS, each, strict=True):
         numbers = parts[0] if len(parts) == 1 else np.stack(parts)
         variables[quantity.variable] = dims, numbers, attributes_of(quantity)
-    faint = (FAINT,) if any(light.is_faint for light in lights) else ()
-    for quantity in (*DERIVED, *faint):
+    for quantity in DERIVED:
         name = names[quantity.variable]
         variables[name] = dims, derived(quantity, lights), attributes_of(quantity)
     return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))
@@ -67,13 +66,12 @@ _AT_ONCE = 1 << 17
 
 @dataclass(frozen=True, eq=False)
 class SweptLight:
-    """The light of a run at one detector: stokes (..., 4), exponent (...)."""
+    """The light of a run at one detector: stokes (..., 4)."""
 
     plan: Plan
     grid: SweepGrid
     detector: str
     stokes: Any
-    exponent: Any
 
     @property
     def dtype(self) -> np.dtype[Any]:
@@ -81,16 +79,9 @@ class SweptLight:
         return np.dtype(self.plan.dtype)
 
     @property
-    def is_faint(self) -> bool:
-        """Whether intensities may be too small for a float."""
-        return bool(np.any(self.exponent))
-
-    @property
     def components(self) -> tuple[Array, ...]:
         """S0 to S3, of the shape of the grid: views that cannot be written to."""
         stokes = self.stokes
-        if self.is_faint:
-            stokes = Light.of(stokes, Frame(), self.exponent).stokes
         parts = stokes if type(stokes) is tuple else np.moveaxis(np.asarray(stokes), -1, 0)
         return tuple(np.broadcast_to(part, self.grid.shape) for part in parts)
 
@@ -108,7 +99,7 @@ class SweptLight:
             parts: Any = tuple(map(cut, self.stokes))
         else:
             parts = np.broadcast_to(self.stokes, (*ran.shape, 4))[*region, :]
-        return Light.of(parts, Frame(), cut(self.exponent) if self.is_faint else 0, noise)
+        return Light.of(parts, Frame(), noise=noise)
 
     def computed(self, quantity: LightQuantity, key: Sequence[int | slice]) -> Array:
         """Return a quantity of a part of the grid."""
