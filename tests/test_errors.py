@@ -170,7 +170,6 @@ def test_lists_of_what_there_is_are_cut():
 
 # What is written into code, or tells sweeps apart, has to be exact; what is shown to people, short.
 EXACT = {
-    "engines/numba_engine.py": {"_splits"},
     "engines/numpy_engine.py": {"text"},
     "engines/symbols.py": {"opaque"},
     "explorer/answers.py": {"python_lines", "_by_name", "_material"},

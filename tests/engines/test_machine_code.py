@@ -1,4 +1,4 @@
-"""Machine code by Numba: that it computes, many at a time, and is freed."""
+"""Machine code by LLVM: that it computes, many at a time, and is freed."""
 
 import ctypes
 import gc
@@ -17,26 +17,46 @@ from optipath.values.operands import MANY
 from paths import chain
 from tables import rows
 
-numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
-from optipath.engines import code_cache as code_key  # noqa: E402 - needs numba
-from optipath.engines import machine_code  # noqa: E402
-from optipath.engines.code_cache import CodeCache  # noqa: E402
-from optipath.engines.machine_code import MachineCode, assembly, compiled  # noqa: E402
-from optipath.engines.numba_engine import source  # noqa: E402
+machine_code = pytest.importorskip("optipath.engines.machine_code")
+from optipath.engines.code_cache import CodeCache  # noqa: E402 - beside it
+from optipath.engines.formula import Formula  # noqa: E402
+from optipath.engines.llvm_engine import LlvmEngine, source  # noqa: E402
+from optipath.engines.machine_code import MachineCode, assembly, machine_code_of  # noqa: E402
+from optipath.engines.numpy_engine import NumpyEngine  # noqa: E402
+from optipath.engines.symbols import SYMBOLIC, Recorder  # noqa: E402
 
 TEXT = """
-def path(count: 'int64', factor: 'float64', given: '*float64', flags: '*uint8', out: '*float64'):
-    good = True
-    for i in range(count):
-        out[i] = factor * given[i] + {number}
-        good = good & (flags[i] != 0)
-    return 1 if good else 0
+define i64 @path(i64 %count, double %factor, ptr %given, ptr %flags, ptr %out) {{
+entry:
+  br label %head
+head:
+  %i = phi i64 [ 0, %entry ], [ %next, %body ]
+  %good = phi i1 [ true, %entry ], [ %both, %body ]
+  %goes = icmp slt i64 %i, %count
+  br i1 %goes, label %body, label %end
+body:
+  %at = getelementptr inbounds double, ptr %given, i64 %i
+  %number = load double, ptr %at
+  %times = fmul double %factor, %number
+  %more = fadd double %times, {number}
+  %to = getelementptr inbounds double, ptr %out, i64 %i
+  store double %more, ptr %to
+  %flag_at = getelementptr inbounds i8, ptr %flags, i64 %i
+  %flag = load i8, ptr %flag_at
+  %set = icmp ne i8 %flag, 0
+  %both = and i1 %good, %set
+  %next = add i64 %i, 1
+  br label %head
+end:
+  %result = zext i1 %good to i64
+  ret i64 %result
+}}
 """
 
 
 @pytest.fixture(scope="module")
 def code():
-    return compiled(TEXT.format(number=0.5))
+    return machine_code_of(TEXT.format(number=0.5))
 
 
 @rows("last", [True, False])
@@ -72,9 +92,9 @@ def grown(make, before, after):
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="tells memory on Linux")
 def test_code_that_is_dropped_frees_its_memory_and_compiling_leaves_nothing(code):
-    # 2000 that are kept are some 100 MB; what the engine of Numba keeps of each is more than 1 MB.
+    # 2000 that are kept are some 100 MB; what compiling one takes is more than 1 MB.
     assert grown(lambda _: MachineCode(code), 20, 400) < 10_000
-    assert grown(lambda number: compiled(TEXT.format(number=float(number))), 3, 6) < 4_000
+    assert grown(lambda number: machine_code_of(TEXT.format(number=float(number))), 3, 6) < 4_000
 
 
 def test_memory_holds_as_many_functions_as_it_may(code, monkeypatch, tmp_path):
@@ -106,20 +126,6 @@ def test_threads_that_ask_together_compile_once(code, monkeypatch, tmp_path):
     assert asked == ["a"]
 
 
-def test_altered_helpers_are_compiled_anew(code, monkeypatch, tmp_path):
-    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
-    CodeCache().keep("a text", code)
-    assert CodeCache().load("a text") == code
-    package = Path(machine_code.__file__).parent
-    for name in ("numba_helpers.py", "machine_code.py"):
-        (tmp_path / name).write_text((package / name).read_text("utf-8") + "\n", "utf-8")
-    code_key._maker.cache_clear()
-    monkeypatch.setattr(code_key, "files", lambda _: tmp_path)
-    assert CodeCache().load("a text") is None
-    monkeypatch.undo()
-    code_key._maker.cache_clear()
-
-
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
 def test_a_path_is_computed_many_at_a_time():
     metal = op.Material(op.Parameter("n"), op.Parameter("k"))
@@ -133,15 +139,62 @@ def test_a_path_is_computed_many_at_a_time():
     assert packed >= single / 2
 
 
-def test_exponents_powers_of_two_and_rests_of_products_are_exact():
-    for number in (1.0, 0.75, -3e-310, 5e-324, 1e308, 0.0):
-        assert numba_helpers.exponent(number) == np.frexp(number)[1]
-    for power in (0, 5, -1070, 900, -3000, 3000):
-        with np.errstate(over="ignore", under="ignore"):
-            assert numba_helpers.ldexp(0.75, power) == np.ldexp(0.75, power)
-    a, b = 1.0 + 2.0**-30, 1.0 - 2.0**-29
-    rest = float(np.longdouble(a) * np.longdouble(b) - np.longdouble(a * b))
-    assert numba_helpers.product_rest(a, b) == rest
+def formula_of(kind, *results):
+    recorder = Recorder(np.dtype(kind))
+    symbols = [recorder.input(name) for name in "ab"]
+    return Formula(recorder.dtype, tuple(result(*symbols) for result in results))
+
+
+def run(formula, **given):
+    """The results of a formula by machine code, and by NumPy."""
+    given = [np.array(given[symbol.operands[0]], formula.dtype) for symbol in formula.inputs]
+    found, expected = np.empty((2, len(formula.results), given[0].size), formula.dtype)
+    for engine, out in ((LlvmEngine(), found), (NumpyEngine(), expected)):
+        assert engine.compiled(formula)((0, 1), (0, given[0].size), given, out, 0)
+    return found, expected
+
+
+@rows("kind", ["float64", "float32"])
+def test_exponents_powers_of_two_and_rests_of_products_are_exact(kind):
+    xp = SYMBOLIC
+    formula = formula_of(
+        kind,
+        lambda a, _: xp.scaling(a) // 2 + 0.0 * a,
+        lambda a, _: xp.scaling(a) % 2 + 0.0 * a,
+        lambda a, b: xp.ldexp(a, xp.integer(b)),
+        lambda *of: xp.two_product(*of)[1],
+    )
+    a = [1.0, 0.75, -3e-310, 5e-324, 1e30, 0.0, 1.0 + 2.0**-30, -0.75]
+    b = [0.0, 5.0, -1070.0, 900.0, -3000.0, 3000.0, 1.0 - 2.0**-29, -7.0]
+    with np.errstate(over="ignore", under="ignore"):
+        found, expected = run(formula, a=a, b=b)
+    np.testing.assert_array_equal(found[:3], expected[:3])
+    rests = np.isfinite(expected[3]) & (np.abs(a) > 1e-300)
+    np.testing.assert_array_equal(found[3][rests], expected[3][rests])
+
+
+def test_every_operation_of_machine_code_is_that_of_numpy(rng):
+    xp, a, b = SYMBOLIC, rng.normal(size=1000), rng.normal(size=1000)
+    a[::7], b[::5] = 0.0, a[::5]
+    formula = formula_of(
+        "float64",
+        lambda a, b: a + b * a - b / (1.0 + a * a),
+        lambda a, b: xp.where((a < b) | ~(b <= 0.0), xp.maximum(a, b), -xp.minimum(a, b)),
+        lambda a, b: xp.where((a == b) & (a != 0.0), xp.sqrt(xp.absolute(a)), xp.fixed(b)),
+        lambda a, b: xp.where((a > b) == (b >= 0.0), a, b),
+        lambda a, b: xp.where(xp.integer(a) == xp.maximum(xp.integer(b), -1), a, b),
+    )
+    found, expected = run(formula, a=a, b=b)
+    np.testing.assert_array_equal(found, expected)
+    formula = formula_of(
+        "float64",
+        lambda a, _: xp.sin(a),
+        lambda a, _: xp.cos(a),
+        lambda a, _: xp.exp(a),
+        xp.atan2,
+        lambda a, _: xp.absolute(a) ** 1.5,
+    )
+    np.testing.assert_allclose(*run(formula, a=a, b=b), rtol=1e-15)
 
 
 def test_arrays_and_parts_of_complex_numbers_of_any_precision_are_read_as_what_they_are():

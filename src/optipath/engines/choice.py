@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from optipath.engines.float_engine import FloatEngine
 from optipath.engines.jax_engine import JaxEngine
-from optipath.engines.numba_engine import NumbaEngine
+from optipath.engines.llvm_engine import LlvmEngine
 from optipath.engines.numpy_engine import NumpyEngine
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 REGISTRY: dict[str, Engine[Any, Any]] = {
-    engine.name: engine for engine in (NumpyEngine(), NumbaEngine(), JaxEngine())
+    engine.name: engine for engine in (NumpyEngine(), LlvmEngine(), JaxEngine())
 }
 
 

@@ -276,4 +276,4 @@ def matrix_noise_at(
 def _as_little(stokes: Array, most: Any) -> Array:
     """Return which components, other than 0, are no larger than noise can be at most."""
     sizes = np.abs(stokes)
-    return (sizes > 0.0) & (sizes <= np.asarray(most)[..., np.newaxis])  # type: ignore[no-any-return]
+    return (sizes > 0.0) & (sizes <= np.asarray(most)[..., np.newaxis])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from optipath.errors import SurfaceError, need
 
@@ -71,14 +71,48 @@ def _code_of(text: str) -> MachineCode:
     """Return the code of a text."""
     need("photons on rough surfaces", "numba", "llvmlite")
     from optipath.engines.code_cache import CODE  # noqa: PLC0415 - beside it
-    from optipath.engines.machine_code import compiled  # noqa: PLC0415 - an extra
-    from optipath.engines.numba_engine import is_forbidden  # noqa: PLC0415 - beside it
+    from optipath.engines.llvm_engine import is_forbidden  # noqa: PLC0415 - beside it
 
     if is_forbidden():
         raise SurfaceError(
             "NUMBA_DISABLE_JIT is set, and photons on rough surfaces are compiled; unset it"
         )
-    return CODE.function(text.format(digest=_digest()), compiled)
+    return CODE.function(text.format(digest=_digest()), _machine_code_of)
+
+
+def _machine_code_of(text: str) -> bytes:
+    """Return the machine code of the function ``path`` of a Python text.
+
+    Annotations are types as Numba names them; ``*`` before the type of an array's numbers.
+    """
+    from numba import cfunc, types  # noqa: PLC0415 - not to load code
+
+    from optipath.engines.machine_code import machine_code_of  # noqa: PLC0415 - an extra
+
+    space: dict[str, Any] = {"__name__": __name__}
+    exec(compile(text, "<walk>", "exec", dont_inherit=True), space)  # noqa: S102 - our own
+    kinds = list(space["path"].__annotations__.values())
+    pointer: Any = types.CPointer  # type: ignore[attr-defined,unused-ignore] # as it has no types
+    given = [pointer(getattr(types, k[1:])) if k[0] == "*" else getattr(types, k) for k in kinds]
+    made: Any = cfunc(types.int64(*given), error_model="numpy")(space["path"])
+    # What Numba calls from C reports errors to Python; the function in it gives a status.
+    whole, _, wrapper = made.inspect_llvm().partition(f"define i64 @{made.native_name}(")
+    whole += wrapper.partition("\n}\n")[2]
+    llvm = {"int64": "i64", "float64": "double"}
+    places = [f"{llvm.get(kind, 'ptr')} %a{place}" for place, kind in enumerate(kinds)]
+    name = made.native_name.removeprefix("cfunc.")
+    return machine_code_of(whole + _CALL.format(name=name, places=", ".join(places)))
+
+
+_CALL = """
+define i64 @path({places}) {{
+  %result = alloca i64
+  %raised = alloca ptr
+  %status = call i32 @{name}(ptr %result, ptr %raised, {places})
+  %value = load i64, ptr %result
+  ret i64 %value
+}}
+"""
 
 
 def _digest() -> str:

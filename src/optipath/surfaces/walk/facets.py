@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numba as nb
 import numpy as np
 
-from optipath.engines import numba_helpers
 from optipath.engines.formula import Formula, assignments, indented
 from optipath.engines.symbols import SYMBOLIC, Recorder, Symbol
 from optipath.kernels.carriers.structures import BLOCK, ROTATION
@@ -17,6 +16,7 @@ from optipath.kernels.fresnel.stable import (
     lossless_transmission,
     stable_reflection,
 )
+from optipath.surfaces.walk import numba_helpers
 from optipath.surfaces.walk.layout import CARRIED, OPAQUE
 from optipath.surfaces.walk.meshes import CELL_X, CELL_Y, CELLS_X, HEIGHTS, NUMBERS, WHOLES
 
