@@ -140,8 +140,8 @@ class _Writer:
                 self.convert(f"%t{symbol.index}", f"%a{symbol.index}", symbol.kind)
         for left in formula.lefts:
             if left.uniform:
-                rest = self.left(left, f"%a{formula.whole_of(left).index}")
-                self.convert(f"%t{left.index}", rest, "float")
+                number = self.left(left, f"%a{formula.whole_of(left).index}")
+                self.convert(f"%t{left.index}", number, "float")
         for step in formula.prologue:
             self.operation(step)
         width = emit("sub i64 %stop, %start")
@@ -164,9 +164,9 @@ class _Writer:
                 self.body(starts, count)
         emit("zext i1 %good.row to i64", "%result")
         places = ", ".join(f"i64 %{name}" for name in ("top", "bottom", "start", "stop"))
-        given = "".join(f"{self.argument(s)} %a{s.index}, " for s in formula.inputs)
+        inputs = "".join(f"{self.argument(s)} %a{s.index}, " for s in formula.inputs)
         ends = "ptr noalias %own, ptr noalias %out, i64 %paths, i64 %at"
-        head = f"define i64 @path({places}, {given}{ends}) {{"
+        head = f"define i64 @path({places}, {inputs}{ends}) {{"
         body = "\n".join(line if line.endswith(":") else f"  {line}" for line in self.lines)
         declared = "\n".join(sorted(self.declared))
         return f"{head}\nentry:\n{body}\n  ret i64 %result\n}}\n{declared}\n"
