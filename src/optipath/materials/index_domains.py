@@ -133,9 +133,13 @@ class IndexDomain(Domain):
         if (pair := pair_in(value, self)) is None:
             return ""
         n, k = pair
-        return (
-            f"{owner} is {value}, which may be n and k, or the indices of two paths; write "
-            f"Material({n}, {k}) or {n}{k:+}j for the one, np.array([{n}, {k}]) for the other"
+        return Fault(
+            f"{owner} is {value}, which may be n and k, or the indices of two paths",
+            Cure(
+                f"write Material({n}, {k}) or {n}{k:+}j for the one, np.array([{n}, {k}]) for the "
+                f"other",
+                f"write {{ n = {n}, k = {k} }} for the one, {{ n = [{n}, {k}] }} for the other",
+            ),
         )
 
     def read(self, owner: str, value: Any) -> Any:

@@ -337,8 +337,8 @@ class PathGraph(Chainable):
         """
         if not isinstance(name, str) or not name.isidentifier():
             raise PathError(f"choice name {shown(name)} must be letters, digits and underscores")
-        if name in self.choices:
-            raise PathError(f"choice '{name}' is there already; use another name")
+        if name in self.choices or name in self.parameters:
+            raise PathError(f"choice or parameter '{name}' is there already; use another name")
         choice = PlaceChoice(node, behind, help)
         if faults := choice_faults(self._graph, choice):
             raise PathError(*faults)

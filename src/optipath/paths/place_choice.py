@@ -27,11 +27,12 @@ class PlaceChoice:
 
     def __post_init__(self) -> None:
         pairs = self.behind.items() if isinstance(self.behind, Mapping) else ()
-        texts = [text for pair in pairs for text in pair]
-        if not texts or not all(isinstance(text, str) for text in [self.node, self.help, *texts]):
+        texts = [self.node, *(text for pair in pairs for text in pair)]
+        named = pairs and all(isinstance(text, str) and text.strip() for text in texts)
+        if not named or not isinstance(self.help, str):
             raise PathError(
-                f"a choice of places is a node and a port for each word, such as "
-                f"{{'light': 'L.out'}}, not {shown(self.node)} and {shown(self.behind)}"
+                f"a choice of places is a node and, behind, a port for each word, not "
+                f"{shown(self.node)} and {shown(self.behind)}"
             )
         object.__setattr__(self, "behind", dict(self.behind))
 

@@ -186,10 +186,10 @@ MULTIPLES = [
     ('{ parameter = "d", scael = 2 }', "key 'scael' is unknown; did you mean 'scale'"),
     ('{ parameter = "dd" }', "parameter 'dd' is not declared; there are: d, share"),
     ('{ parameter = "$d" }', "parameter '$d' is not declared; did you mean 'd'"),
-    *(("{ parameter = 3 }", "parameter 3 is not declared"), ("{ scale = 2 }", "needs 'parameter'")),
+    *(("{ parameter = 3 }", "'parameter' must be a text"), ("{ scale = 2 }", "'parameter' is m")),
     ('{ parameter = "d", scale = 0 }', "a scale other than 0"),
     ('{ parameter = "d", scale = nan }', "finite real numbers"),
-    ('{ parameter = "d", scale = [1, 2] }', "'scale' must be one number, not [1, 2]"),
+    ('{ parameter = "d", scale = [1, 2] }', ".scale: [1, 2] must be one number"),
     ('{ parameter = "d", scale = "2 deg" }', "'2 deg' has the unit 'deg', but a pure number"),
     ('{ parameter = "d", scale = "1j" }', "finite real numbers"),
     ('{ parameter = "d", scale = true }', "true is not a number"),
@@ -199,8 +199,8 @@ MULTIPLES = [
     ('{ crystal = "quartz" }', "gives no angle"),
 ]
 FIELDS = [
-    ("re = -0.5, im = 0.25", "im = 0.25", "an amplitude written as a table needs 're'"),
-    ("re = -0.5, im = 0.25", "n = 1, k = 2", "key 'n' is unknown | needs 're'"),
+    ("re = -0.5, im = 0.25", "im = 0.25", "elements.e0.r_s: 're' is missing"),
+    ("re = -0.5, im = 0.25", "n = 1, k = 2", "key 'n' is unknown | key 'k' is unknown"),
     ("re = -0.5, im = 0.25", 're = "$a"', "parameter '$a' is not declared"),
     ("re = -0.5, im = 0.25", "re = 3", "e0.r_s is (3+0j); give"),
     ('"100 mm"', '"100 deg"', "'100 deg' is no length; use one of nm, um"),
@@ -215,9 +215,9 @@ FIELDS = [
 WAVELENGTHS = [
     ("default = 516", "default: 516 has no unit, but a length is asked for; write '516 nm'"),
     ("range = [400, 700]", "range: 400 has no unit"),
-    ('default = "30 deg"', "is in nm, but '30 deg' is an angle; let them agree"),
+    ('default = "30 deg"', "default: parameter 'wavelength': '30 deg' is no length"),
     ('default = "2.4 ev"', "did you mean 'eV'?"),
-    ('unit = "eV"\ndefault = 2.4', "leave unit out, and write values as texts with it, such"),
+    ('unit = "eV"\ndefault = 2.4', "unit 'eV' is unknown; there are: deg"),
     ('range = ["700 nm", "400 nm"]', "begin with the lower end"),
 ]
 FAULTS = [(affine_text(value), told) for value, told in MULTIPLES]

@@ -18,7 +18,7 @@ from optipath.materials.material import PARTS, K, Material
 from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.spectrum import Spectrum
 from optipath.materials.tables import PageCurve, Tabulated
-from optipath.paths.files.schema import Faults, as_meant, unknown_keys
+from optipath.paths.files.schema import Faults, checked_table
 from optipath.paths.files.spectrum_tables import sampled_curve, spectrum_table, written_wavelengths
 from optipath.values.curve import CurveSum, WavelengthRange
 from optipath.values.curve_value import CurveValue, curve_values
@@ -92,25 +92,17 @@ def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
     """Return the curve of a table with a formula."""
     known = _coefficients_of(form)
     table = raw[form]
-    if not isinstance(table, dict):
-        raise PresetError(
-            f"'{form}' must be a table of its coefficients ({', '.join(known)}), not {shown(table)}"
-        )
-    faults = unknown_keys(table, known, f".{form}")
-    table = as_meant(table, known)
-    faults += [
-        f".{form}: '{name}' is missing"
-        for name, usual in known.items()
-        if usual is Argument.empty and name not in table
-    ]
+    faults = Faults()
+    needed = [name for name, usual in known.items() if usual is Argument.empty]
+    faults.attempt(f".{form}", checked_table, table, known.keys(), needed)
+    faults.refuse()
     arguments = {
         name: faults.attempt(f".{form}.{name}", _nested, value, decode)
         for name, value in table.items()
     }
     if "span" in raw:
         arguments["span"] = faults.attempt(".span", _span, raw["span"], decode)
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     return FORMULAS[form](raw.get("name", f"the formula '{form}'"), **arguments)
 
 
@@ -139,8 +131,7 @@ def _nested(raw: Any, decode: Decode) -> Any:
         return decode(raw, REAL)
     faults = Faults()
     results = [faults.attempt(f"[{i}]", _nested, entry, decode) for i, entry in enumerate(raw)]
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     return results
 
 
@@ -149,8 +140,7 @@ def _span(raw: Any, decode: Decode) -> tuple[Any, ...]:
         raise PresetError(f'must be two wavelengths, ["400 nm", "700 nm"], not {shown(raw)}')
     faults = Faults()
     ends = [faults.attempt(f"[{i}]", decode, end, WAVELENGTH) for i, end in enumerate(raw)]
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     return tuple(ends)
 
 
@@ -172,8 +162,7 @@ def material_by_name(
         for key, of in PARTS.items()
         if key in raw
     }
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     texts: dict[str, Any] = {key: raw[key] for key in _TEXTS if key in raw}
     result = Material.named(raw[NAMED], wavelength=wavelength, **texts, **numbers)
     return {"n": result.n, "k": result.k}
@@ -269,16 +258,11 @@ def _parts(
     columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
     own = {NAMED: OF_PAGES, SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
     keys = own.get(form, (*COMMON_KEYS, "k") if of_index else COMMON_KEYS)
-    faults = unknown_keys(raw, (form, *keys, WHEN))
-    raw = as_meant(raw, (form, *keys, WHEN))
-    if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
-        faults.append(f"a table of {SAMPLES} needs 'n', a list with a number for each")
+    needed = ("n",) if form == SAMPLES and of_index else ()
+    checked_table(raw, (form, *keys, WHEN), needed)
+    when: Any = parameters.get(WHEN) or Wavelength()
     if WHEN in raw:
-        when = faults.attempt(f".{WHEN}", decode, raw[WHEN], WAVELENGTH)
-    else:
-        when = parameters.get(WHEN) or Wavelength()
-    if faults:
-        raise PresetError(*faults)
+        when = _at_place(f".{WHEN}", decode, raw[WHEN], WAVELENGTH)
     if form == NAMED:
         return material_by_name(raw, when, decode)
     if form == CRYSTAL:
@@ -303,11 +287,15 @@ def _with_k(
     """Return the material of a formula or of samples of n, with the k that stands beside it."""
     if "k" in results:
         raise PresetError(f"'{form}' gives k as well; leave k out")
+    return Material(results["n"], _at_place(".k", decode, raw["k"], K))
+
+
+def _at_place(where: str, decode: Decode, raw: Any, domain: Domain) -> Any:
+    """Return a value of a table, or raise with its place."""
     faults = Faults()
-    k = faults.attempt(".k", decode, raw["k"], K)
-    if faults:
-        raise PresetError(*faults)
-    return Material(results["n"], k)
+    result = faults.attempt(where, decode, raw, domain)
+    faults.refuse()
+    return result
 
 
 def _at(curve: Curve, when: Any) -> dict[str, Any]:
@@ -327,31 +315,25 @@ def _chosen(results: Mapping[str, Any], raw: Mapping[str, Any], domain: Domain) 
 
 def _together(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode) -> Any:
     """Return a sum or a difference of numbers by wavelength."""
-    faults = unknown_keys(raw, (form, *_OF_NUMBER[1:]))
+    checked_table(raw, (form, *_OF_NUMBER[1:]))
     terms = raw[form]
     if not isinstance(terms, list) or len(terms) < 2 or (form == DIFFERENCE and len(terms) > 2):
         many = "two tables" if form == DIFFERENCE else "two tables or more"
-        faults.append(f"'{form}' must be a list of {many}, not {shown(terms)}")
-        raise PresetError(*faults)
+        raise PresetError(f"'{form}' must be a list of {many}, not {shown(terms)}")
+    faults = Faults()
     results = [
         faults.attempt(f".{form}[{i}]", decode, term, domain) for i, term in enumerate(terms)
     ]
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     return _placed(reduce(sub if form == DIFFERENCE else add, results), raw, domain, decode)
 
 
 def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, decode: Decode) -> Any:
     """Return a multiple of a value with an offset, where the table says so."""
-    faults = Faults()
     if "scale" in raw:
-        scale = faults.attempt(".scale", decode, raw["scale"], Domain("scale"))
-        value = value if scale is None else scale * value
+        value = _at_place(".scale", decode, raw["scale"], Domain("scale")) * value
     if "offset" in raw:
-        offset = faults.attempt(".offset", decode, raw["offset"], domain)
-        value = value if offset is None else value + offset
-    if faults:
-        raise PresetError(*faults)
+        value = value + _at_place(".offset", decode, raw["offset"], domain)
     return value
 
 

@@ -1,21 +1,14 @@
-"""Schema: which keys a preset file may have, and the faults found while reading it."""
+"""Schema: which keys the tables of a preset file may have, and the faults found while reading."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-from optipath.errors import (
-    Fault,
-    OptipathError,
-    PathError,
-    closest,
-    did_you_mean,
-    listed,
-    shown,
-)
+from optipath.errors import Fault, OptipathError, PresetError, closest, did_you_mean, listed, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Mapping
+    from collections.abc import Callable, Collection, Iterable
 
 
 FORMAT = 1
@@ -43,14 +36,32 @@ _WORDS = {
 }
 
 
-def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any]) -> Faults:
-    """Return a sentence for each key that is unknown or has a value of another type."""
-    faults = unknown_keys(table, schema, where)
-    for key, kind in schema.items():
-        if key in table and kind not in (object, type(table[key])):
-            wanted = _EXAMPLES.get(key, _WORDS[kind])
-            faults.add(where, f"'{key}' must be {wanted}, not {shown(table[key])}")
-    return faults
+def type_faults(where: str, table: Mapping[str, Any], known: Collection[str]) -> list[Fault]:
+    """Return a fault for each key that is unknown, or has another type than a mapping says.
+
+    >>> type_faults("links[0]", {"form": "a.out", "to": 3}, {"from": str, "to": str})[0]
+    "links[0]: key 'form' is unknown; did you mean 'from'?"
+    """
+    schema = known if isinstance(known, Mapping) else dict.fromkeys(known, object)
+    faults = [
+        f"key '{key}' is unknown{did_you_mean(key, known)}" for key in table if key not in known
+    ]
+    faults += [
+        f"'{key}' must be {_EXAMPLES.get(key, _WORDS[kind])}, not {shown(table[key])}"
+        for key, kind in schema.items()
+        if key in table and kind not in (object, type(table[key]))
+    ]
+    return [Fault(fault, place=where) for fault in faults]
+
+
+def checked_table(raw: Any, known: Collection[str], needed: Iterable[str] = ()) -> dict[str, Any]:
+    """Return a table that has known keys alone, of their types, and those that it needs."""
+    if not isinstance(raw, dict):
+        raise PresetError(f"{shown(raw)} must be a table")
+    missing = [Fault(f"'{key}' is missing") for key in needed if key not in raw]
+    if faults := type_faults("", raw, known) or missing:
+        raise PresetError(*faults)
+    return raw
 
 
 def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
@@ -77,44 +88,11 @@ def readable(table: Mapping[str, Any], schema: Mapping[str, Any]) -> dict[str, A
     return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}
 
 
-def checked(
-    where: str, table: dict[str, Any], schema: Mapping[str, Any], faults: list[str]
-) -> dict[str, Any] | None:
-    """Return a table with its keys as they were meant; None where a value has another type."""
-    result = type_faults(where, table, schema)
-    if not result:
-        return table
-    faults += result
-    table = as_meant(table, schema)
-    return None if type_faults(where, table, schema) else table
-
-
-def texts_in(raw: Any) -> list[str]:
-    """Return the texts that stand anywhere in a value.
-
-    >>> texts_in({"index": {"n": "$n1", "k": 0.1}, "range": ["0 deg", "90 deg"]})
-    ['0 deg', '90 deg', '$n1']
-    """
-    result, left = [], [raw]
-    while left:
-        entry = left.pop()
-        if isinstance(entry, str):
-            result.append(entry)
-        elif isinstance(entry, dict):
-            left += entry.values()
-        elif isinstance(entry, list):
-            left += reversed(entry)
-    return result
-
-
 T = TypeVar("T")
 P = ParamSpec("P")
 
 _MOST = 4
 """How many places are named where the same is wrong."""
-
-_ENOUGH = 100
-"""After how many faults a file is not read on: each suggestion takes its time."""
 
 
 class Faults(list[str]):
@@ -137,27 +115,10 @@ class Faults(list[str]):
             self += [fault.under(where) for fault in error.faults]
             return None
 
-    def add(self, where: str, reason: str) -> None:
-        """Add what is wrong at a place."""
-        self.append(Fault(reason, place=where))
-
-    def refuse_many(self) -> None:
-        """Raise where there are more faults than anybody reads."""
-        if len(self) > _ENOUGH:
-            raise PathError(*joined(self))
-
-
-def unknown_keys(table: Mapping[str, Any], known: Collection[str], where: str = "") -> Faults:
-    """Return a sentence for each key of a table that is none of those that there are.
-
-    >>> unknown_keys({"form": "a.out"}, ["from", "to"], "links[0]")
-    ["links[0]: key 'form' is unknown; did you mean 'from'?"]
-    """
-    return Faults(
-        Fault(f"key '{key}' is unknown{did_you_mean(key, known)}", place=where)
-        for key in table
-        if key not in known
-    )
+    def refuse(self, most: int = 0) -> None:
+        """Raise where there are more faults than so many."""
+        if len(self) > most:
+            raise PresetError(*joined(self))
 
 
 def joined(faults: Iterable[str]) -> list[Fault]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import PresetError, UnitError, closest, shown
+from optipath.errors import PresetError, UnitError, shown
 from optipath.materials.material import K, N
 from optipath.materials.quantities import spectrum_meant
 from optipath.materials.spectrum import Spectrum
@@ -24,7 +24,7 @@ from optipath.materials.spectrum_kinds import (
     SumOfKinds,
 )
 from optipath.materials.tables import Tabulated
-from optipath.paths.files.schema import Faults, as_meant, unknown_keys
+from optipath.paths.files.schema import Faults, checked_table
 from optipath.values.columns import unit_doubted
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 from optipath.values.wavelength import WAVELENGTH, Wavelength
@@ -62,11 +62,9 @@ def decode_spectrum(
     when: Any = parameters.get(_WHEN) or Wavelength()
     if _WHEN in raw:
         when = faults.attempt(f".{_WHEN}", decode, raw[_WHEN], WAVELENGTH)
-    whole = {key: value for key, value in raw.items() if key != _WHEN}
-    result = faults.attempt("", spectrum_of, whole)
-    if faults or result is None:
-        raise PresetError(*faults)
-    return result.at(when)
+    spectrum = faults.attempt("", spectrum_of, {key: raw[key] for key in raw if key != _WHEN})
+    faults.refuse()
+    return spectrum.at(when)  # type: ignore[union-attr] # none without faults
 
 
 def spectrum_of(raw: Any) -> Spectrum:
@@ -79,22 +77,13 @@ def spectrum_of(raw: Any) -> Spectrum:
         raise PresetError(sentence)
     if not isinstance(raw, dict):
         raise PresetError(f"must be a table of a spectrum, {_known()}, not {shown(raw)}")
-    meant = [form for form in _FORMS if form in raw] or [
-        form for key in raw if (form := closest(key, _FORMS))
-    ]
-    if not meant:
+    form, *others = [form for form in _FORMS if form in raw] or [""]
+    if not form:
         raise PresetError(f"a table of a spectrum needs one of the keys {_known()}")
-    form, *others = meant
     if others:
         raise PresetError(f"'{form}' and '{others[0]}' are two spectra; write {{ sum = [...] }}")
-    keys = (form, *_FORMS[form], _SCALE, _OFFSET)
-    faults = unknown_keys(raw, keys)
-    raw = as_meant(raw, keys)
-    needed = _NEEDED.get(form)
-    if needed and needed not in raw:
-        faults.append(f"a table with '{form}' needs '{needed}'")
-    if faults:
-        raise PresetError(*faults)
+    known = (form, *_FORMS[form], _SCALE, _OFFSET)
+    checked_table(raw, known, filter(None, [_NEEDED.get(form)]))
     result = _terms(raw) if form == "sum" else _single(raw, form)
     if _SCALE in raw:
         result = result * raw[_SCALE]
@@ -120,8 +109,7 @@ def _terms(raw: Mapping[str, Any]) -> Spectrum:
         raise PresetError(f"'sum' must be a list of tables, not {shown(terms)}")
     faults = Faults()
     results = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     return reduce(add, results)  # type: ignore[return-value]
 
 
@@ -142,8 +130,7 @@ def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
         faults = Faults()
         places = faults.attempt(f".{form}", wavelengths_of, raw[form], raw.get("unit"))
         numbers = faults.attempt(f".{column}", samples_of, raw[column], "")
-        if faults:
-            raise PresetError(*faults)
+        faults.refuse()
         make = Spectrum.sampled if form == "wavelengths" else Spectrum.histogram
         return make(places, numbers, **arguments)
     if form == "led":
@@ -208,8 +195,7 @@ def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Doma
         samples.append(read)
         if read is not None and not of_numbers:
             faults.attempt(f".{key}", domains[key].check, key, read)
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     how = {key: raw[key] for key in ("interpolation", "extrapolate") if key in raw}
     usual = f"{domain.name} by wavelength" if of_numbers else "the table"
     parts = tuple(key.removesuffix("s") for key in arguments)

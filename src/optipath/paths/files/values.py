@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.elements.vertex_chain import VerticesByAngles, VerticesDomain
-from optipath.errors import OptipathError, PresetError, UnitError, closest, did_you_mean, shown
+from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
 from optipath.materials.index_domains import (
     FOLLOWED_OUTSIDE,
     FOLLOWS,
@@ -30,7 +29,7 @@ from optipath.paths.files.curve_tables import (
     material_table,
     number_table,
 )
-from optipath.paths.files.schema import Faults, as_meant, unknown_keys
+from optipath.paths.files.schema import Faults, checked_table
 from optipath.paths.files.spectrum_tables import decode_spectrum
 from optipath.values.arrays import array_of
 from optipath.values.curve_value import CurveValue
@@ -40,19 +39,18 @@ from optipath.values.domains import (
     FirstComponentDomain,
     IntensityDomain,
     is_pair,
-    pair_in,
 )
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 from optipath.values.use import axes_for
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping
 
     from optipath.values.use import Use
 
 
-_AFFINE = ("parameter", "scale", "offset")
+_AFFINE = {"parameter": str, "scale": object, "offset": object}
 """The keys of a multiple of a parameter with an offset."""
 
 _LISTED = (IntensityDomain, FirstComponentDomain)
@@ -69,7 +67,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     if isinstance(domain, Choice):
         return domain.check("the value", raw)
     if entry_domain(domain) is not None:
-        return decode_list(raw, domain, lambda entry, of: decode(entry, of, parameters))
+        return _list(raw, domain, parameters)
     if isinstance(domain, Followed) and raw == FOLLOWS.word:
         return FOLLOWS
     if isinstance(raw, str) and "$" in raw:
@@ -78,7 +76,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return decode_spectrum(raw, parameters, lambda one, of: decode(one, of, parameters))
     if isinstance(raw, dict) and is_curve(raw):
         return decode_curve(raw, domain, parameters, lambda one, of: decode(one, of, parameters))
-    if isinstance(raw, dict) and raw.keys() & _AFFINE:
+    if isinstance(raw, dict) and raw.keys() & _AFFINE.keys():
         return _affine(raw, domain, parameters)
     if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
         parts = _parts(raw, domain, parameters)
@@ -88,22 +86,21 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return _complex(_parts(raw, domain, {}))
     if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
         return chain_by_angles(raw, lambda angle: decode(angle, ANGLE, parameters))
-    if isinstance(raw, str) and raw.strip() in parameters:
-        return named(raw, domain)
-    if domain.complex_parts and pair_in(raw, domain):
-        raise PresetError(which_pair(raw, domain.complex_parts))
+    if isinstance(raw, str):
+        return _read(raw, domain, parameters)
     number = _several if isinstance(domain, _LISTED) else _number
-    return domain.parse(raw) if isinstance(raw, str) else number(raw, domain.unit)
+    return number(raw, domain.unit)
 
 
-def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
-    """Ask whether a pair of numbers is one complex number, or those of two paths."""
-    (first, second), (real, imaginary) = raw, names
-    return (
-        f"{shown(raw)} may be {real} and {imaginary}, or the numbers of two paths; write "
-        f"{{ {real} = {first}, {imaginary} = {second} }} for the one, "
-        f"{{ {real} = [{first}, {second}] }} for the other"
-    )
+def _read(text: str, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+    try:
+        return domain.parse(text)
+    except OptipathError:
+        if text.strip() in parameters:
+            raise PresetError(
+                f"'{text}' is no number; write \"${text.strip()}\" for the parameter"
+            ) from None
+        raise
 
 
 def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
@@ -113,7 +110,9 @@ def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) ->
         return parameter.parse(value) if isinstance(value, str) else value
     if isinstance(raw, list):
         several = [decode_argument(entry, parameter, uses) for entry in raw]
-        return _several(several) if several and {*map(type, several)} == {float} else several
+        # A pair is asked about where the parameter stands.
+        numbers = {*map(type, several)} == {float} and not is_pair(raw)
+        return array_of("the value", several) if numbers else several
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))
@@ -148,24 +147,34 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
 
 
+def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
+    """Return the parameter that ``"$name"`` or ``"-$name"`` stands for."""
+    sign, _, name = raw.partition("$")
+    if sign in ("", "-") and name in parameters:
+        return -parameters[name] if sign else parameters[name]
+    if sign in ("", "-") and name.isidentifier():
+        known = [f"${parameter}" for parameter in parameters]
+        raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
+    raise PresetError(
+        f"'{raw}' is no name of a parameter; write a multiple of one, with an offset, as "
+        f'{{ parameter = "NAME", scale = 0.5, offset = ... }}'
+    )
+
+
 def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Parameter:
     """Return a multiple of a parameter with an offset that is written as a table."""
-    faults = unknown_keys(raw, _AFFINE)
-    raw = as_meant(raw, _AFFINE)
-    name = raw.get("parameter")
-    if name is None:
-        faults.append("a table with 'scale' or 'offset' needs 'parameter', a name")
-    elif not isinstance(name, str) or name not in parameters:
-        faults.append(f"parameter {shown(name)} is not declared{did_you_mean(name, parameters)}")
-    results: dict[str, Any] = {}
-    for key, unit in (("scale", ""), ("offset", domain.unit)):
-        if isinstance(raw.get(key), (list, dict)):
-            faults.append(f"'{key}' must be one number, not {shown(raw[key])}")
-        elif key in raw:
-            results[key] = faults.attempt(f"'{key}'", _number, raw[key], unit)
-    if faults:
-        raise PresetError(*faults)
-    return replace(parameters[raw["parameter"]], **results)
+    checked_table(raw, _AFFINE, ("parameter",))
+    faults, name = Faults(), raw["parameter"]
+    if name not in parameters:
+        faults.append(f"parameter '{name}' is not declared{did_you_mean(name, parameters)}")
+    units = {"scale": "", "offset": domain.unit}
+    numbers: dict[str, Any] = {
+        key: faults.attempt(f".{key}", _one_number, raw[key], unit)
+        for key, unit in units.items()
+        if key in raw
+    }
+    faults.refuse()
+    return replace(parameters[name], **numbers)
 
 
 def _parameter(value: Parameter, unit: str) -> Any:
@@ -183,17 +192,16 @@ def _parameter(value: Parameter, unit: str) -> Any:
 def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
     """Return the parts of a complex number or a material that is written as a table."""
     names = domain.complex_parts or INDEX.complex_parts
-    faults = unknown_keys(raw, (*names, *FORMS) if names == INDEX.complex_parts else names)
-    if names[0] not in raw and not any(closest(key, FORMS) for key in raw):
-        faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
-    pure, of_index = Domain(domain.name), names == INDEX.complex_parts
-    domains = {key: K if of_index and key == "k" else pure for key in names if key in raw}
+    of_index = names == INDEX.complex_parts
+    checked_table(raw, (*names, *FORMS) if of_index else names, names[:1])
+    domains = dict.fromkeys(names, Domain(domain.name)) | ({"k": K} if of_index else {})
+    faults = Faults()
     parts = {
         key: faults.attempt(f".{key}", decode, raw[key], of, parameters)
         for key, of in domains.items()
+        if key in raw
     }
-    if faults:
-        raise PresetError(*faults)
+    faults.refuse()
     return parts
 
 
@@ -210,6 +218,12 @@ def _several(raw: Any, unit: str = "") -> Any:
     """Return a number, or an array of several: a file asks of pairs alone."""
     number = _number(raw, unit)
     return array_of("the value", number) if isinstance(number, list) else number
+
+
+def _one_number(raw: Any, unit: str) -> Any:
+    if isinstance(raw, list):
+        raise UnitError(f"{shown(raw)} must be one number")
+    return _number(raw, unit)
 
 
 def _number(raw: Any, unit: str) -> Any:
@@ -241,52 +255,25 @@ def entry_domain(domain: Domain) -> Domain | None:
     return LENGTH_OF_LAYER if isinstance(domain, LengthsDomain) else None
 
 
-def decode_list(raw: Any, domain: Domain, decode: Callable[[Any, Domain], Any]) -> list[Any]:
-    """Return the values of a list."""
-    of_indices, each = isinstance(domain, IndicesDomain), entry_domain(domain)
-    assert each is not None  # noqa: S101 - asked for lists alone
+def _list(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> list[Any]:
+    """Return the values of a list of indices, or of lengths."""
+    of_indices, each = isinstance(domain, IndicesDomain), entry_domain(domain) or domain
     if not isinstance(raw, list):
-        what, example = (
-            ("indices", "[1, 1.5, { n = 0.6, k = 2 }]")
-            if of_indices
-            else ("lengths", '["2 mm", "0.1 mm"]')
+        example = "[1, 1.5, { n = 0.6, k = 2 }]" if of_indices else '["2 mm", "0.1 mm"]'
+        raise PresetError(f"{shown(raw)} is no list; write one such as {example}")
+    faults = Faults()
+    result = [
+        faults.attempt(
+            f"[{place}]",
+            decode,
+            entry,
+            FOLLOWED_OUTSIDE if of_indices and place == 0 else each,
+            parameters,
         )
-        raise PresetError(f"{shown(raw)} is no list of {what}; write {example}")
-    faults, result = Faults(), []
-    for place, entry in enumerate(raw):
-        # The medium in front may be misspelt as well.
-        of_entry = FOLLOWED_OUTSIDE if of_indices and not place else each
-        follows = of_indices and entry == FOLLOWS.word
-        result.append(FOLLOWS if follows else faults.attempt(f"[{place}]", decode, entry, of_entry))
-    if faults:
-        raise PresetError(*faults)
+        for place, entry in enumerate(raw)
+    ]
+    faults.refuse()
     return result
-
-
-def named(raw: str, domain: Domain) -> Any:
-    """Return what a word stands for that is the name of a parameter, too."""
-    try:
-        return domain.parse(raw)
-    except OptipathError:
-        raise PresetError(
-            f"'{raw}' is no number; write \"${raw.strip()}\" for the parameter"
-        ) from None
-
-
-def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
-    """Return the parameter that ``"$name"`` or ``"-$name"`` stands for."""
-    sign, _, name = raw.partition("$")
-    if sign in ("", "-") and name in parameters:
-        return -parameters[name] if sign else parameters[name]
-    if raw.count("$") > 1:
-        raise PresetError(
-            f"'{raw}' is of several parameters, but a value takes one; declare a parameter for "
-            f"the whole"
-        )
-    if is_arithmetic(raw):
-        raise PresetError(f"'{raw}' is no name of a parameter; write {table_for(raw)}")
-    known = [f"${parameter}" for parameter in parameters]
-    raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
 
 
 def references_in(raw: Any) -> set[str]:
@@ -323,64 +310,14 @@ def wavelength_names(raw: Any) -> set[str]:
     while left:
         entry = left.pop()
         if isinstance(entry, dict):
-            result |= references_in(entry["wavelength"]) if "wavelength" in entry else set()
+            when = entry.get("wavelength")
+            name = when.get("parameter") if isinstance(when, dict) else when
+            if isinstance(name, str):
+                result.add(name.lstrip("-").lstrip("$"))
             left += entry.values()
         elif isinstance(entry, list):
             left += entry
     return result
-
-
-_NUMBER = r"\d+\.?\d*(?:e[-+]?\d+)?|\.\d+(?:e[-+]?\d+)?"
-_AFFINE_TEXT = re.compile(
-    rf"""
-    (?P<sign>-?) \s* (?:(?P<before>{_NUMBER}) \s* \*? \s*)?
-    \$?(?P<name>[^\W\d]\w*) \s* (?:(?P<way>[*/]) \s* (?P<behind>{_NUMBER}))? \s*
-    (?:(?P<plus>[-+]) \s* (?P<offset>(?:{_NUMBER}) [^$*/()+]*))?
-    """,
-    re.VERBOSE | re.IGNORECASE | re.ASCII,
-)
-_OFFSET_FIRST = re.compile(
-    rf"((?:{_NUMBER})[^$*/()+-]*)([-+])\s*([\d$.].*)", re.IGNORECASE | re.ASCII
-)
-_SIGNS = re.compile(r"[*/+()^\s\d]|(?<=.)-|\$.*\$")
-
-
-def table_for(text: str) -> str:
-    """Return how a file writes a multiple of a parameter with an offset; an example for others.
-
-    >>> table_for("$theta/2"), table_for("10 * $a - 5 deg")
-    ('{ parameter = "theta", scale = 0.5 }', '{ parameter = "a", scale = 10, offset = "-5 deg" }')
-    >>> table_for("90 deg - $theta")
-    '{ parameter = "theta", scale = -1, offset = "90 deg" }'
-    """
-    text = text.strip()
-    if first := _OFFSET_FIRST.fullmatch(text):
-        text = f"{first[2].replace('+', '')}{first[3]} + {first[1].strip()}"
-    result = _AFFINE_TEXT.fullmatch(text)
-    if result is None:
-        return '{ parameter = "NAME", scale = 0.5, offset = ... }'
-    scale = float(result["before"] or 1.0) * (-1.0 if result["sign"] else 1.0)
-    number = float(result["behind"] or 1.0)
-    if result["way"] == "*":
-        scale *= number
-    elif number:
-        scale /= number
-    row = f'{{ parameter = "{result["name"]}"'
-    if scale != 1.0:
-        row += f", scale = {scale:.12g}"
-    if result["offset"]:
-        offset = (result["plus"].replace("+", "") + result["offset"]).strip()
-        row += f', offset = "{offset}"' if offset[-1].isalpha() else f", offset = {offset}"
-    return row + " }"
-
-
-def is_arithmetic(text: str) -> bool:
-    """Tell whether a text with a ``$`` is more than one name.
-
-    >>> is_arithmetic("$theta/2"), is_arithmetic("$a + $b"), is_arithmetic("-$thta")
-    (True, True, False)
-    """
-    return _SIGNS.search(text.partition("$")[2] if text[:2] == "-$" else text) is not None
 
 
 _ANGLES = ("incidences", "turns")
@@ -393,22 +330,18 @@ def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> Ve
     >>> chain_by_angles({"incidences": [0.5], "backwards": True}, float)
     VerticesByAngles(incidences=(0.5,), turns=(), backwards=True)
     """
-    faults = unknown_keys(raw, (*_ANGLES, _BACKWARDS))
-    angles = []
-    for key in _ANGLES:
-        several = raw.get(key, [])
-        if not isinstance(several, list):
-            faults.append(f"{key} must be a list of angles, not {shown(several)}")
-            continue
-        places = [(f".{key}[{place}]", angle) for place, angle in enumerate(several)]
-        angles.append(tuple(faults.attempt(at, decoded, angle) for at, angle in places))
-    backwards = raw.get(_BACKWARDS, False)
-    if not isinstance(backwards, bool):
-        faults.append(f"{_BACKWARDS} must be true or false, not {shown(backwards)}")
-    if faults:
-        raise PresetError(*faults)
-    incidences, turns = angles
-    return VerticesByAngles(incidences, turns, backwards)
+    schema = {**dict.fromkeys(_ANGLES, list), _BACKWARDS: bool}
+    checked_table(raw, schema)
+    faults = Faults()
+    incidences, turns = (
+        tuple(
+            faults.attempt(f".{key}[{place}]", decoded, angle)
+            for place, angle in enumerate(raw.get(key, []))
+        )
+        for key in _ANGLES
+    )
+    faults.refuse()
+    return VerticesByAngles(incidences, turns, raw.get(_BACKWARDS, False))
 
 
 def table_of_angles(chain: VerticesByAngles, encoded: Callable[[Any], Any]) -> dict[str, Any]:
