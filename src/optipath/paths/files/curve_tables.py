@@ -205,6 +205,7 @@ WHEN = "wavelength"
 
 _OF_SAMPLES = ("unit", "interpolation", "extrapolate", "name")
 _OF_NUMBER = ("part", "scale", "offset")
+_TEXT_KEYS = (NAMED, CRYSTAL, "name", "unit", *_TEXTS)
 
 
 def is_curve(raw: Mapping[str, Any]) -> bool:
@@ -223,27 +224,30 @@ def decode_curve(
     form, *others = [key for key in FORMS if key in raw]
     if others:
         raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")
-    for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED, CRYSTAL):
-        if key in raw and not isinstance(raw[key], str):
-            raise PresetError(f"'{key}' must be a text, not {shown(raw[key])}")
     if domain.tail:
         raise PresetError(
             f"'{form}' gives one number, but several are asked for that belong together; give "
             f"them for each wavelength, as a parameter"
         )
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
-    if form in (SUM, DIFFERENCE) and not of_index:
-        return _together(raw, form, domain, decode)
     if form in (SUM, DIFFERENCE):
-        one = f"{{ n = {{ {form} = ... }} }}"
-        raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
+        if of_index:
+            raise PresetError(f"'{form}' gives one number; write {{ n = {{ {form} = ... }} }}")
+        return _together(raw, form, domain, decode)
     whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
     result = _parts(whole, form, domain, of_index, parameters, decode)
-    if of_index and _has_own_k(raw, form):
-        return _with_k(result, raw, form, decode)
-    if of_index:
-        return Material(**result)
-    return _placed(_chosen(result, raw, domain), raw, domain, decode)
+    if not of_index:
+        return _placed(_chosen(result, raw, domain), raw, domain, decode)
+    if _has_own_k(raw, form):
+        if "k" in result:
+            raise PresetError(f"'{form}' gives k as well; leave k out")
+        result["k"] = _at_place(".k", decode, raw["k"], K)
+    return Material(**result)
+
+
+def _typed(*keys: str) -> dict[str, type]:
+    """Return the types of some keys: a text, or anything."""
+    return {key: str if key in _TEXT_KEYS else object for key in keys}
 
 
 def _parts(
@@ -259,7 +263,7 @@ def _parts(
     own = {NAMED: OF_PAGES, SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
     keys = own.get(form, (*COMMON_KEYS, "k") if of_index else COMMON_KEYS)
     needed = ("n",) if form == SAMPLES and of_index else ()
-    checked_table(raw, (form, *keys, WHEN), needed)
+    checked_table(raw, _typed(form, *keys, WHEN), needed)
     when: Any = parameters.get(WHEN) or Wavelength()
     if WHEN in raw:
         when = _at_place(f".{WHEN}", decode, raw[WHEN], WAVELENGTH)
@@ -279,15 +283,6 @@ def _has_own_k(raw: Mapping[str, Any], form: str) -> bool:
     """Tell whether the k of a material stands beside a formula or samples, and is none of it."""
     sampled = form == SAMPLES and isinstance(raw.get("k"), list)
     return form in (SAMPLES, *FORMULAS) and "k" in raw and not sampled
-
-
-def _with_k(
-    results: Mapping[str, Any], raw: Mapping[str, Any], form: str, decode: Decode
-) -> Material:
-    """Return the material of a formula or of samples of n, with the k that stands beside it."""
-    if "k" in results:
-        raise PresetError(f"'{form}' gives k as well; leave k out")
-    return Material(results["n"], _at_place(".k", decode, raw["k"], K))
 
 
 def _at_place(where: str, decode: Decode, raw: Any, domain: Domain) -> Any:

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-from optipath.errors import Fault, OptipathError, PresetError, closest, did_you_mean, listed, shown
+from optipath.errors import (
+    Fault,
+    OptipathError,
+    PresetError,
+    UnitError,
+    closest,
+    did_you_mean,
+    listed,
+    shown,
+)
+from optipath.values.units import dimension_of, parse_quantity, with_article
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable
@@ -86,6 +97,29 @@ def readable(table: Mapping[str, Any], schema: Mapping[str, Any]) -> dict[str, A
     """Return what a table has by keys that are known or meant, where it is of the right type."""
     meant = as_meant(table, schema)
     return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}
+
+
+def number_of(raw: Any, unit: str) -> float | complex:
+    """Return a number in base units, which is written with its unit where it has one.
+
+    >>> number_of("1 mm", "m"), number_of(1.5, "")
+    (0.001, 1.5)
+    """
+    if isinstance(raw, str):
+        return parse_quantity(raw, dimension_of(unit))
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        written = str(raw).lower() if isinstance(raw, bool) else shown(raw)
+        raise UnitError(f"{written} is not a number")
+    try:
+        number = float(raw)
+    except OverflowError:
+        raise UnitError(f"{shown(raw)} is too large a number") from None
+    if unit and math.isfinite(number):
+        request = with_article(dimension_of(unit))
+        raise UnitError(
+            f"{shown(raw)} has no unit, but {request} is asked for; write '{raw} {unit}'"
+        )
+    return number
 
 
 T = TypeVar("T")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import reduce
 from operator import add
 from typing import TYPE_CHECKING, Any
@@ -24,9 +23,9 @@ from optipath.materials.spectrum_kinds import (
     SumOfKinds,
 )
 from optipath.materials.tables import Tabulated
-from optipath.paths.files.schema import Faults, checked_table
+from optipath.paths.files.schema import Faults, checked_table, number_of
 from optipath.values.columns import unit_doubted
-from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
+from optipath.values.units import format_quantity
 from optipath.values.wavelength import WAVELENGTH, Wavelength
 
 if TYPE_CHECKING:
@@ -39,17 +38,17 @@ if TYPE_CHECKING:
     Decode = Callable[[Any, Domain], Any]
 
 
-_FORMS = {
-    "wavelengths": ("values", "unit", "outside", "name"),
-    "edges": ("powers", "unit", "outside", "name"),
-    "line": ("power", "outside"),
-    "led": ("width", "power"),
-    "black_body": (),
-    "illuminant": (),
-    "constant": (),
-    "sum": (),
+_FORMS: dict[str, dict[str, type]] = {
+    "wavelengths": {"values": object, "unit": str, "outside": object, "name": str},
+    "edges": {"powers": object, "unit": str, "outside": object, "name": str},
+    "line": {"line": str, "power": object, "outside": object},
+    "led": {"led": str, "width": str, "power": object},
+    "black_body": {},
+    "illuminant": {"illuminant": str},
+    "constant": {},
+    "sum": {"sum": list},
 }
-"""The keys by which the kinds are known, and those that stand beside them."""
+"""The keys by which the kinds are known, and those that stand beside them, with their types."""
 _NEEDED = {"wavelengths": "values", "edges": "powers", "led": "width"}
 _WHEN, _SCALE, _OFFSET = "wavelength", "scale", "offset"
 
@@ -82,7 +81,7 @@ def spectrum_of(raw: Any) -> Spectrum:
         raise PresetError(f"a table of a spectrum needs one of the keys {_known()}")
     if others:
         raise PresetError(f"'{form}' and '{others[0]}' are two spectra; write {{ sum = [...] }}")
-    known = (form, *_FORMS[form], _SCALE, _OFFSET)
+    known = {form: object, _SCALE: object, _OFFSET: object} | _FORMS[form]
     checked_table(raw, known, filter(None, [_NEEDED.get(form)]))
     result = _terms(raw) if form == "sum" else _single(raw, form)
     if _SCALE in raw:
@@ -104,9 +103,7 @@ def _known() -> str:
 
 
 def _terms(raw: Mapping[str, Any]) -> Spectrum:
-    terms = raw["sum"]
-    if not isinstance(terms, list) or not terms:
-        raise PresetError(f"'sum' must be a list of tables, not {shown(terms)}")
+    terms = raw["sum"] or [None]
     faults = Faults()
     results = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
     faults.refuse()
@@ -114,16 +111,6 @@ def _terms(raw: Mapping[str, Any]) -> Spectrum:
 
 
 def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
-    if form not in ("wavelengths", "edges") and isinstance(raw[form], list) and raw[form]:
-        raise PresetError(
-            f"'{form}' is {shown(raw[form])}, but one is asked for; write a table for each, "
-            f"{{ sum = [{{ {form} = {json.dumps(raw[form][0])} }}, ...] }}"
-        )
-    for key in ("line", "led", "width", "illuminant", "name", "unit"):
-        if key in raw and not isinstance(raw[key], str):
-            example = f"{raw[key]} nm" if key in ("line", "led", "width") else "..."
-            wrong = f"'{key}' is {shown(raw[key])}, but a text is asked for"
-            raise PresetError(f'{wrong}; write {key} = "{example}"')
     arguments = {key: raw[key] for key in ("power", "outside", "name") if key in raw}
     if form in ("wavelengths", "edges"):
         column = _NEEDED[form]
@@ -208,26 +195,19 @@ def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
     >>> wavelengths_of([500, 520], "nm"), wavelengths_of(["0.5 um"])
     ([5e-07, 5.2e-07], [5e-07])
     """
-    entries = _list(raw)
-    results = [_wavelength(entry, place, unit) for place, entry in enumerate(entries)]
-    if not any(isinstance(entry, str) for entry in entries) and (
-        doubt := unit_doubted(results, unit)
-    ):
+    results = _each(raw, _wavelength, unit)
+    texts = [entry for entry in raw if isinstance(entry, str)]
+    if not texts and (doubt := unit_doubted(results, unit)):
         raise PresetError(doubt)
     return results
 
 
-def _wavelength(entry: Any, place: int, unit: Any) -> float:
-    if unit is not None and not isinstance(unit, str):
-        raise PresetError(f'the unit must be a text, such as "nm", not {shown(unit)}')
+def _wavelength(entry: Any, unit: str | None) -> float:
     if isinstance(entry, str):
         return float(WAVELENGTH.parse(entry))
-    number = _real(entry, place)
+    number = number_of(entry, "")
     if unit is None:
-        raise UnitError(
-            f'{shown(entry)} has no unit, but a wavelength is asked for; add unit = "nm" to the '
-            f'table, or write "{entry} nm"'
-        )
+        raise UnitError('a wavelength has no unit; add unit = "nm" to the table')
     return float(WAVELENGTH.parse(f"{number} {unit}"))
 
 
@@ -237,37 +217,24 @@ def samples_of(raw: Any, unit: str) -> list[float]:
     >>> samples_of([1.5, 1.6], ""), samples_of(["1 mm"], "mm")
     ([1.5, 1.6], [0.001])
     """
-    return [
-        _sample(entry, place, unit)
-        for place, entry in enumerate(_list(raw, "with a number for each wavelength or bin"))
-    ]
+    return _each(raw, _sample, unit)
 
 
-def _sample(entry: Any, place: int, unit: str) -> float:
-    if isinstance(entry, str):
-        number = parse_quantity(entry, dimension_of(unit))
-        if isinstance(number, complex):
-            raise PresetError(f"[{place}] is {shown(entry)}, but a real number is asked for")
-        return number
-    number = _real(entry, place)
-    if unit:
-        request = with_article(dimension_of(unit))
-        raise UnitError(
-            f'{shown(entry)} has no unit, but {request} is asked for; write "{entry} {unit}"'
-        )
+def _sample(entry: Any, unit: str) -> float:
+    number = number_of(entry, unit)
+    if isinstance(number, complex) or not np.isfinite(number):
+        raise PresetError(f"{shown(entry)} is no finite real number")
     return number
 
 
-def _list(raw: Any, of: str = "of one wavelength or more") -> list[Any]:
-    if isinstance(raw, list) and raw:
-        return raw
-    raise PresetError(f"must be a list {of}, not {shown(raw)}")
-
-
-def _real(entry: Any, place: int) -> float:
-    if isinstance(entry, bool) or not isinstance(entry, (int, float)) or not np.isfinite(entry):
-        raise PresetError(f"[{place}] is {shown(entry)}, but a finite number is asked for")
-    return float(entry)
+def _each(raw: Any, read: Callable[[Any, Any], float], unit: Any) -> list[float]:
+    """Return the numbers of a list, with the place of each fault."""
+    if not isinstance(raw, list) or not raw:
+        raise PresetError(f"{shown(raw)} must be a list of one number or more")
+    faults = Faults()
+    results = [faults.attempt(f"[{place}]", read, entry, unit) for place, entry in enumerate(raw)]
+    faults.refuse()
+    return results  # type: ignore[return-value] # none without faults
 
 
 def written_wavelengths(metres: Any) -> dict[str, Any]:

@@ -29,7 +29,7 @@ from optipath.paths.files.curve_tables import (
     material_table,
     number_table,
 )
-from optipath.paths.files.schema import Faults, checked_table
+from optipath.paths.files.schema import Faults, checked_table, number_of
 from optipath.paths.files.spectrum_tables import decode_spectrum
 from optipath.values.arrays import array_of
 from optipath.values.curve_value import CurveValue
@@ -41,7 +41,7 @@ from optipath.values.domains import (
     is_pair,
 )
 from optipath.values.parameters import Parameter
-from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
+from optipath.values.units import format_quantity
 from optipath.values.use import axes_for
 
 if TYPE_CHECKING:
@@ -227,25 +227,11 @@ def _one_number(raw: Any, unit: str) -> Any:
 
 
 def _number(raw: Any, unit: str) -> Any:
-    if isinstance(raw, list) and not raw:
+    if not isinstance(raw, list):
+        return number_of(raw, unit)
+    if not raw:
         raise UnitError("an empty list is no value; give at least one number")
-    if isinstance(raw, list):
-        return [_number(entry, unit) for entry in raw]
-    if isinstance(raw, str):
-        return parse_quantity(raw, dimension_of(unit))
-    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        written = str(raw).lower() if isinstance(raw, bool) else shown(raw)
-        raise UnitError(f"{written} is not a number")
-    try:
-        number = float(raw)
-    except OverflowError:
-        raise UnitError(f"{shown(raw)} is too large a number") from None
-    if unit and np.isfinite(number):
-        request = with_article(dimension_of(unit))
-        raise UnitError(
-            f"{shown(raw)} has no unit, but {request} is asked for; write '{raw} {unit}'"
-        )
-    return number
+    return [_number(entry, unit) for entry in raw]
 
 
 def entry_domain(domain: Domain) -> Domain | None:
