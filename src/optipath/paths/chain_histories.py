@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.vertex_chain import of_chain
-from optipath.errors import ValueFault, collecting, shown
+from optipath.errors import ValueFault, shown
 from optipath.kernels.vertex_chain import Event
 from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
@@ -211,18 +211,13 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any]) -> tuple[Any, 
     >>> media_by_ids([1.5, 1.0], np.array([[0, 1], [1, 1]]))
     (array([1.5, 1. ]), array([1., 1.]))
     """
-    faults: list[str] = []
     n, k = np.ones(len(materials)), np.zeros(len(materials))
     for place, material in enumerate(materials):
         name = f"materials[{place}]"
-        with collecting(faults, ValueFault):
-            one_n, one_k = index_parts(name, material)
-            if one_n.ndim or one_k.ndim:
-                faults.append(f"{name} is an array, and ids choose from numbers; give one number")
-            else:
-                n[place], k[place] = one_n, one_k
-    if faults:
-        raise ValueFault(*faults)
+        one_n, one_k = index_parts(name, material)
+        if one_n.ndim or one_k.ndim:
+            raise ValueFault(f"{name} is an array, and ids choose from numbers; give one number")
+        n[place], k[place] = one_n, one_k
     # Row by row, which is read faster than with a stride.
     rows = np.ascontiguousarray(np.moveaxis(ids, -1, 0))
     each = ((locked(n.take(row)), locked(k.take(row)) if np.any(k) else k[:1]) for row in rows)

@@ -83,13 +83,15 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     links = []
     for each, power in zip(lit, powers, strict=True):
         tap = each.tap or (each.start, each.leaves) not in spent
-        in_loop = not each.tap and _passes(each, round_and_round)
+        in_loop = (
+            not each.tap and {(each.start, each.leaves), (each.end, each.enters)} <= round_and_round
+        )
         links.append(PowerOnLink(*each[:5], power, tap, in_loop))
     flows = [link for link in links if not link.tap]
     inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
     begin = {node for node, e in wiring.elements.items() if not e.inputs}
     argument = _sums((link.start, link.power) for link in flows if link.start in begin)
-    taken = {node: _taken(node, flows) for node in _in_order(flows) if node in inner}
+    taken = {node: _taken(node, flows) for node in [link.end for link in flows] if node in inner}
     left = {link.name: link.power for link in flows if not link.end}
     ended = _sums((link.end, link.power) for link in flows if link.end and link.end not in inner)
     return EnergyAlong((*links,), argument, taken, left, ended, (*_notes(links, taken),))
@@ -101,20 +103,12 @@ def _power(light: Light) -> npt.NDArray[np.float64]:
     return np.where(np.abs(power) < light.noise, 0.0, power)
 
 
-def _passes(link: LightOnLink, ports: set[Any]) -> bool:
-    return {(link.start, link.leaves), (link.end, link.enters)} <= ports
-
-
 def _going_round(wiring: Wiring) -> set[Any]:
     """Return the ports that light passes again and again."""
     ways = nx.DiGraph(wiring.untapped)
     return set().union(
         *(ports for ports in nx.strongly_connected_components(ways) if len(ports) > 1)
     )
-
-
-def _in_order(flows: Iterable[PowerOnLink]) -> list[str]:
-    return list(dict.fromkeys(link.end for link in flows if link.end))
 
 
 def _sums(powers: Iterable[tuple[str, Any]]) -> dict[str, Any]:

@@ -535,8 +535,7 @@ class PathGraph(Chainable):
             detectors.
         """
         plan = self.compose()
-        if unnamed:
-            _refuse_unnamed(unnamed, plan)
+        check_named("trace", unnamed, plan.inputs.open)
         ends = isinstance(keep, str) and keep == KEEPABLE[0]
         if not ends and "keep" not in plan.inputs.open:
             if path := self._with_curves(parameters):
@@ -872,10 +871,3 @@ def path_of(first: Any) -> PathGraph:
             f"path.add(name, element) >> path['{first.name}']"
         )
     return path
-
-
-def _refuse_unnamed(unnamed: tuple[Any, ...], plan: Plan) -> None:
-    """Refuse values that `PathGraph.trace` is given without a name, and what is to be kept."""
-    if isinstance(unnamed[0], str) and unnamed[0] in KEEPABLE:
-        raise ParameterError(f"what is kept is given by name: trace(keep={shown(unnamed[0])})")
-    check_named("trace", unnamed, plan.inputs.open)

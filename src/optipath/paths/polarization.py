@@ -10,7 +10,6 @@ import numpy as np
 
 from optipath.composer.composer import Composer
 from optipath.engines.program import Evaluation
-from optipath.errors import ParameterError, shown
 from optipath.kernels.kernel import Kernel
 from optipath.plan.answers import only
 from optipath.plan.certificate import Certificate
@@ -116,16 +115,9 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     [-1.785 -3.167]
     """
     plan = Composer().compose(path)
-    ends = tuple(plan.whole.detectors)
-    if detector is None and len(ends) != 1:
-        raise ParameterError(
-            f"the path has {len(ends)} detectors ({', '.join(ends)}); name one, as in "
-            f"polarization(path, {shown(ends[0])})"
-            if ends
-            else "the path has no detector; give it one"
-        )
-    readings = tuple(plan.whole.readings)
-    name = ends[0] if detector is None else only("detector", readings, "run_all()", detector)
+    cure = "polarization(path, NAME)"
+    ends = tuple(plan.whole.detectors if detector is None else plan.whole.readings)
+    name = only("detector", ends, cure, detector)
     traced = plan.answers.whole.for_jax
     traced.refuse_traced(parameters, "comparisons with the scalar model are made")
     scalar, certificate = _scalar(plan, name, parameters)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from numbers import Integral
 from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import OptipathError, ParameterError, PresetError, closest, shown, there_are
+from optipath.errors import OptipathError, PresetError, closest, shown, there_are
 from optipath.paths.files.toml import file_of, names_in, presets_folder, text_of
 from optipath.values.messages import check_named
 
@@ -84,10 +83,6 @@ def load_preset(
     array([17.9613, 19.1245])
     """
     path = read_preset(locate(preset))
-    if unnamed and _number_of(unnamed[0]).strip("'") in path.cases:
-        raise ParameterError(
-            f"a case is given by name: load_preset({shown(preset)}, case={shown(unnamed[0])})"
-        )
     if unnamed:
         opened = [name for name, parameter in path.parameters.items() if not parameter.bound]
         check_named("load_preset", unnamed, opened, first=shown(preset))
@@ -128,13 +123,14 @@ def _of_case(
     path: PathGraph, preset: str | PathLike[str], case: str | int | None
 ) -> tuple[Mapping[str, Any], list[str]]:
     """Return the values of a case, and what is wrong with its name, a sentence."""
-    if isinstance(case, bool):
-        return {}, [f"case must be a name or a number, not {case}{there_are([*path.cases])}"]
-    name = case if isinstance(case, str) else _number_of(case)
-    if case is None or name in path.cases:
-        return {} if case is None else path.cases[name].values, []
-    near = closest(name, path.cases)
-    cure = there_are([*path.cases]) + (f"; did you mean '{near}'?" if near else "")
+    if case is None:
+        return {}, []
+    name = case if isinstance(case, str) else str(case)
+    if name in path.cases:
+        return path.cases[name].values, []
+    cure = there_are([*path.cases])
+    if near := closest(name, path.cases):
+        cure += f"; did you mean '{near}'?"
     return {}, [f"case '{name}' is unknown in preset '{preset}'{cure}"]
 
 
@@ -161,7 +157,3 @@ def read_preset(path: Path) -> PathGraph:
     from optipath.paths.files.reader import path_of_text  # noqa: PLC0415 - not for all
 
     return path_of_text(text_of(path, "preset"), str(path), path.name)
-
-
-def _number_of(case: object) -> str:
-    return shown(int(case) if isinstance(case, Integral) else case)

@@ -38,9 +38,8 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     faults = Faults()
     parameters = parameters_of(graph)
     top: dict[str, Any] = {"format": FORMAT, "description": description}
-    loops = graph.graph["loops"]
-    if loops != LOOPS[0]:
-        top["loops"] = loops
+    if graph.graph["loops"] != LOOPS[0]:
+        top["loops"] = graph.graph["loops"]
     tables: list[str] = [toml_lines("", top)]
     parts = complex_parts_of(graph)
     elements = {
@@ -84,14 +83,9 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
 
 def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
     """Return what the parts of complex numbers are called, for each parameter of such."""
-    return {name: domain.complex_parts for name, domain in complex_domains(graph).items()}
-
-
-def complex_domains(graph: nx.MultiDiGraph) -> dict[str, Domain]:
-    """Return the domain of each parameter that is a complex number."""
     quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
     return {
-        value.name: domain
+        value.name: domain.complex_parts
         for _, value, domain in quantities
         if isinstance(value, Parameter) and domain.complex_parts
     }
@@ -123,10 +117,8 @@ def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
         value = getattr(element, f.name)
         if value is not None:
             domain = element.domains()[f.name]
-            if isinstance(domain, Choice):
-                row[f.name] = domain.check(f.name, value)
-                continue
-            row[f.name] = _field(value, domain)
+            is_choice = isinstance(domain, Choice)
+            row[f.name] = domain.check(f.name, value) if is_choice else _field(value, domain)
     if frames:
         row["frames"] = {port: _frame(frame) for port, frame in frames.items()}
     return row
