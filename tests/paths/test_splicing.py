@@ -564,7 +564,7 @@ def test_a_place_is_chosen_by_its_word_before_a_path_runs(choose, told):
         ('"X1.reflected" }', '"X1.refl" }', "choices.place: place 'eye': port 'X1.refl' does not"),
         ('element = "P"', 'elemnt = "P"', "choices.place: key 'elemnt' is unknown"),
         ('element = "P"', "", "choices.place: 'element' is missing"),
-        ("[choices.place]", "[choices.rho]", "'rho' is a parameter and a choice"),
+        ("[choices.place]", "[choices.rho]", "choice or parameter 'rho' is there already"),
     ],
 )
 def test_choices_are_written_with_their_node_and_their_faults_have_a_place(

@@ -83,15 +83,15 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     links = []
     for each, power in zip(lit, powers, strict=True):
         tap = each.tap or (each.start, each.leaves) not in spent
-        in_loop = (
-            not each.tap and {(each.start, each.leaves), (each.end, each.enters)} <= round_and_round
-        )
+        ends = {(each.start, each.leaves), (each.end, each.enters)}
+        in_loop = not each.tap and ends <= round_and_round
         links.append(PowerOnLink(*each[:5], power, tap, in_loop))
     flows = [link for link in links if not link.tap]
     inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
     begin = {node for node, e in wiring.elements.items() if not e.inputs}
     argument = _sums((link.start, link.power) for link in flows if link.start in begin)
-    taken = {node: _taken(node, flows) for node in [link.end for link in flows] if node in inner}
+    entered = dict.fromkeys(link.end for link in flows)
+    taken = {node: _taken(node, flows) for node in entered if node in inner}
     left = {link.name: link.power for link in flows if not link.end}
     ended = _sums((link.end, link.power) for link in flows if link.end and link.end not in inner)
     return EnergyAlong((*links,), argument, taken, left, ended, (*_notes(links, taken),))

@@ -69,7 +69,7 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
             raise PathError(*(each.under(wrong) for each in fault.faults)) from None
 
 
-def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool = True) -> list[str]:
+def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
     """Return why the node of a choice cannot be put in its places, a sentence each."""
     node, faults = choice.node, list[str]()
     with collecting(faults, PathError):
@@ -78,7 +78,7 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool =
         if not goes_straight(element, enters, leaves):
             faults.append(f"light does not go straight through '{node}', so it has no other place")
     # What has no place at all says nothing of links.
-    links = Wiring(graph).links_from if linked and not faults else None
+    links = None if faults else Wiring(graph).links_from
     for word, port in choice.behind.items():
         at = f"place '{word}'"
         with collecting(faults, PathError, at):

@@ -97,11 +97,11 @@ def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
     faults.attempt(f".{form}", checked_table, table, known.keys(), needed)
     faults.refuse()
     arguments = {
-        name: faults.attempt(f".{form}.{name}", _nested, value, decode)
+        name: faults.attempt(f".{form}.{name}", _nested, value, REAL, decode)
         for name, value in table.items()
     }
     if "span" in raw:
-        arguments["span"] = faults.attempt(".span", _span, raw["span"], decode)
+        arguments["span"] = faults.attempt(".span", _nested, raw["span"], WAVELENGTH, decode)
     faults.refuse()
     return FORMULAS[form](raw.get("name", f"the formula '{form}'"), **arguments)
 
@@ -125,23 +125,17 @@ def _coefficients_of(form: str) -> dict[str, Any]:
     return {a.name: a.default for a in arguments if a.name not in ("label", "span")}
 
 
-def _nested(raw: Any, decode: Decode) -> Any:
-    """Return a coefficient, or a list of such, or of lists of them."""
+def _nested(raw: Any, domain: Domain, decode: Decode) -> Any:
+    """Return a number, or a list of such, or of lists of them."""
     if not isinstance(raw, list):
-        return decode(raw, REAL)
+        return decode(raw, domain)
     faults = Faults()
-    results = [faults.attempt(f"[{i}]", _nested, entry, decode) for i, entry in enumerate(raw)]
+    results = [
+        faults.attempt(f"[{place}]", _nested, entry, domain, decode)
+        for place, entry in enumerate(raw)
+    ]
     faults.refuse()
     return results
-
-
-def _span(raw: Any, decode: Decode) -> tuple[Any, ...]:
-    if not isinstance(raw, list):
-        raise PresetError(f'must be two wavelengths, ["400 nm", "700 nm"], not {shown(raw)}')
-    faults = Faults()
-    ends = [faults.attempt(f"[{i}]", decode, end, WAVELENGTH) for i, end in enumerate(raw)]
-    faults.refuse()
-    return tuple(ends)
 
 
 NAMED = "material"

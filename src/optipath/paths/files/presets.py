@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from numbers import Integral
 from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import OptipathError, PresetError, closest, shown, there_are
+from optipath.errors import OptipathError, ParameterError, PresetError, closest, shown, there_are
 from optipath.paths.files.toml import file_of, names_in, presets_folder, text_of
-from optipath.values.messages import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -84,8 +84,10 @@ def load_preset(
     """
     path = read_preset(locate(preset))
     if unnamed:
-        opened = [name for name, parameter in path.parameters.items() if not parameter.bound]
-        check_named("load_preset", unnamed, opened, first=shown(preset))
+        raise ParameterError(
+            f"a case and values are given by name, as in load_preset({shown(preset)}, "
+            f"case={shown(unnamed[0])})"
+        )
     known, faults = _of_case(path, preset, case)
     path = path.with_defaults(**known) if known else path
     return _bound(path, values, faults)
@@ -125,7 +127,9 @@ def _of_case(
     """Return the values of a case, and what is wrong with its name, a sentence."""
     if case is None:
         return {}, []
-    name = case if isinstance(case, str) else str(case)
+    if isinstance(case, Integral) and not isinstance(case, bool):
+        case = int(case)
+    name = case if isinstance(case, str) else shown(case)
     if name in path.cases:
         return path.cases[name].values, []
     cure = there_are([*path.cases])
