@@ -79,7 +79,7 @@ REFUSED = [
     ("chart --from r.json --near normal", "leave them out of --from"),
     ("chart npgr026 --peers none.json", "none.json"),
     ("chart malus --near normal", "has no interface"),
-    ("chart npgr026 --peers r.json --quick", "is no whole race"),
+    ("chart npgr026 --peers r.json --quick", "is no race"),
 ]
 PLOTS = [
     ("", "--kind is missing; say what is drawn, one of ellipse, poincare"),

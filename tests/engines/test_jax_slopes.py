@@ -66,7 +66,7 @@ def several(*, reflected):
     def light(*given):
         *indices, k, angle = given
         media = [mpmath.mpc(n) for n in indices[:-1]] + [mpmath.mpc(indices[-1], k)]
-        rows = stack(media, *cos_sin(angle), back=False, way=reflected)
+        rows = stack(media, *cos_sin(angle), way=reflected)
         return [mpmath.fdot(row, LIGHT) for row in rows]
 
     return light

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.engines.choice import ENGINES, REGISTRY, is_installed
+from optipath.engines.choice import ENGINES, is_installed
 from optipath.errors import ParameterError
 from optipath.kernels.catalog import METHODS
 
@@ -57,9 +57,6 @@ def bench(
 ) -> Report:
     """Measure a path."""
     result = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
-    for engine in result:
-        if not is_installed(engine):
-            raise REGISTRY[engine].missing
 
     @cache
     def plan_of(engine: str, dtype: str, method: str) -> Plan:
@@ -245,13 +242,13 @@ def throughput() -> dict[str, float]:
     """Return the ns of a square root and a division in cache, and the ns a byte from memory.
 
     >>> sorted(throughput())
-    ['byte', 'div', 'sqrt']
+    ['byte', 'divide', 'sqrt']
     """
     x, y = np.full(_INNER, 1.5), np.empty(_INNER)
     many, copy = np.ones(_OUTER), np.ones(_OUTER)
     return {
         "sqrt": _least_ns(partial(np.sqrt, x, out=y), 200) / _INNER,
-        "div": _least_ns(partial(np.divide, x, x, out=y), 200) / _INNER,
+        "divide": _least_ns(partial(np.divide, x, x, out=y), 200) / _INNER,
         # A copy reads and writes every byte once.
         "byte": _least_ns(partial(np.copyto, copy, many)) / (2 * many.nbytes),
     }
@@ -265,7 +262,7 @@ def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
     """Return the least ns a path: its roots and divisions, and its numbers in and out."""
     unit = throughput()
     results = {
-        "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],
+        "sqrt and division": sum(counts.get(name, 0) * unit[name] for name in ("sqrt", "divide")),
         "memory": 8 * numbers * unit["byte"],
     }
     return {name: ns for name, ns in results.items() if ns > 0.0}

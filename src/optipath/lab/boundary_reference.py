@@ -83,19 +83,22 @@ def refracted(ratio: Any, s: Any) -> tuple[Any, Any]:
     return (mpmath.sqrt(1 - s * s), s) if s < 1 else (mpmath.mpf(0), mpmath.mpf(1))
 
 
-def stack(indices: Sequence[Any], c: Any, s: Any, *, back: bool, way: bool) -> list[list[Any]]:
+def stack(indices: Sequence[Any], c: Any, s: Any, *, way: bool) -> list[list[Any]]:
     """Return the Mueller matrix of a stack, by adding boundary after boundary from the far side."""
     first, faces = indices[0].real, []
     for place, (n, behind) in enumerate(pairwise(indices)):
         angle = refracted(first / n.real, s) if place else (c, s)
         face = boundary(behind / n.real, *angle)
         faces.append(list(zip(*map(powers, face), strict=True)))
-    if back:
-        faces.reverse()
     total = faces[-1]
     for here in reversed(faces[:-1]):
         pairs = zip(here, total, strict=True)
-        total = [_added(r, t, below, through) for (r, t), (below, through) in pairs]
+        total = [_added(r, t, t, below, through) for (r, t), (below, through) in pairs]
+    return _rows(total, way=way)
+
+
+def _rows(total: Sequence[Any], *, way: bool) -> list[list[Any]]:
+    """Return the Mueller matrix of what is reflected, or let through, of each part."""
     A, B, C, S = mueller_numbers(*(pair[0] if way else pair[1] for pair in total))
     return [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
 
@@ -116,12 +119,12 @@ def cleaned(value: Any) -> Any:
     return value if abs(value) > mpmath.mpf(10) ** -(mpmath.mp.dps - 10) else mpmath.mpf(0)
 
 
-def _added(r: Any, t: Any, below: Any, through: Any) -> tuple[Any, Any]:
+def _added(r: Any, t: Any, up: Any, below: Any, through: Any) -> tuple[Any, Any]:
     """Return what is reflected and let through of a boundary with others below it."""
     if not t:
         return r, t
     rounds = 1 / (1 - r * below)
-    return r + t * t * below * rounds, t * through * rounds
+    return r + t * up * below * rounds, t * through * rounds
 
 
 def absorbing_stack(
@@ -133,11 +136,10 @@ def absorbing_stack(
     for here, n, depth in reversed([*zip(faces[:-1], indices[1:-1], depths, strict=True)]):
         left = mpmath.exp(-depth * mpmath.sqrt(n * n - y * y).imag) if n.imag else 1
         total = [
-            _added_layer(r, t, up, left**2 * below, left * through)
+            _added(r, t, up, left**2 * below, left * through)
             for (r, t, up), (below, through) in zip(here, total, strict=True)
         ]
-    A, B, C, S = mueller_numbers(*(pair[0] if way else pair[1] for pair in total))
-    return [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
+    return _rows(total, way=way)
 
 
 def _both_sides(first: Any, second: Any, y: Any) -> list[tuple[Any, Any, Any]]:
@@ -145,14 +147,6 @@ def _both_sides(first: Any, second: Any, y: Any) -> list[tuple[Any, Any, Any]]:
     front, behind = _lit(first, second, y), _lit(second, first, y)
     numbers = front.reflected, front.transmitted, behind.transmitted
     return list(zip(*map(powers, numbers), strict=True))
-
-
-def _added_layer(r: Any, t: Any, up: Any, below: Any, through: Any) -> tuple[Any, Any]:
-    """Return what is reflected and let through of a boundary with others below it."""
-    if not t:
-        return r, t
-    rounds = 1 / (1 - r * below)
-    return r + t * up * below * rounds, t * through * rounds
 
 
 def _lit(first: Any, second: Any, y: Any) -> ExactBoundary:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,9 +13,9 @@ import numpy as np
 from optipath.composer.composer import Composer
 from optipath.composer.path_values import Values
 from optipath.elements.ends import Source
+from optipath.engines.symbols import SYMBOLIC, Recorder
 from optipath.errors import ComposerError, OptipathError, ParameterError
 from optipath.kernels.catalog import METHODS, REFLECTION
-from optipath.kernels.primitives import Primitives
 from optipath.lab.bench import limits, processor, seconds_of, software
 from optipath.lab.chart_file import CRITICAL, FORMAT, KINDS, WORDS, contenders
 from optipath.lab.errors import (
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.engines.program import Program
     from optipath.kernels.kernel import Kernel
     from optipath.lab.regions import CriticalPlace
     from optipath.paths.path_graph import PathGraph
@@ -73,9 +72,6 @@ FULL = Effort()
 QUICK = Effort(samples=3, rounds=3, compiles_all=False)
 """Less than a minute for a path of some elements."""
 
-_COMPILED = 40.0
-"""About how many seconds a contender of Numba takes to be compiled for all regions."""
-
 
 def expected(effort: Effort) -> str:
     """Return about how long a chart of a path of some elements takes, before it is measured.
@@ -85,16 +81,10 @@ def expected(effort: Effort) -> str:
     >>> print(expected(FULL._replace(engines=("numpy",))))
     this takes about 2 minutes; --quick takes less than one
     """
-    compiled = [
-        runner
-        for runner in contenders(engines=effort.engines)
-        if runner.engine != "numpy" and effort.measures(runner)
-    ]
-    seconds = 20.0 + 4.0 * effort.samples + _COMPILED * len(compiled)
-    minutes = round(seconds / 60)
     if not effort.compiles_all:
         return "this takes less than a minute, more on a busy machine"
-    wait = " where Numba must compile (what it compiles is kept)" if compiled else ""
+    minutes = round((20.0 + 4.0 * effort.samples) / 60)
+    wait = ", and longer where Numba must compile" if "numba" in effort.engines else ""
     return f"this takes about {minutes} minutes{wait}; --quick takes less than one"
 
 
@@ -112,17 +102,21 @@ def path_chart(
     keep: Keep = lambda _: None,
 ) -> dict[str, Any]:
     """Measure every way to compute a path: first the times, then region after region."""
-    _refuse_batches(path)
+    if batch := path.compose().inputs.resolve({})[1]:
+        raise ParameterError(
+            f"a chart is of one path, and this is a batch of shape {batch}; give single values"
+        )
     runners = _different(path, effort)
     graph, values = many_paths(path, PATHS)
     results = [_entry(runner) for runner in runners]
     progress("composing and compiling", 0.0)
     plans = [runner.compose(graph) for runner in runners]
     _time(results, [partial(plan.run_all, **values) for plan in plans], effort, progress)
-    program = Composer(engine="numpy").compose(graph).program
     argument, _ = plans[0].inputs.resolve(values)
-    arrays = sum(operand.numbers(argument).size > 1 for operand in program.operands)
-    least = limits(arrays + 4 * len(program.readings), slow_operations(program))
+    plan = Composer(engine="numpy").compose(graph)
+    arrays = sum(operand.numbers(argument).size > 1 for operand in plan.program.operands)
+    counts = (plan.explanation().operations or {}).get("plan", {})
+    least = limits(arrays + 4 * len(plan.program.readings), counts)
     words = {name: p.text(p.default) for name, p in path.parameters.items()}
     made = {"parameters": words, **_chart(title, results, least, effort)}
     # Longdouble is given the numbers of float64, and so has its references.
@@ -137,8 +131,9 @@ def path_chart(
         for runner, entry in zip(runners, results, strict=True):
             trial = tests[rounded[runner.dtype]]
             _add(entry, trial.region, path_errors(runner, trial, runner.dtype))
-        keep({**made, "regions": {"measured": number + 1, "of": count}})
-    return {**made, "regions": {"measured": count, "of": count}}
+        made["regions"] = {"measured": number + 1, "of": count}
+        keep(made)
+    return made
 
 
 def interface_chart(
@@ -159,16 +154,9 @@ def interface_chart(
         for runner, entry in zip(runners, result, strict=True):
             off = interface_errors(runner.method, region, runner.dtype, effort.samples)
             _add(entry, region.name, off)
-        keep({**made, "regions": {"measured": number + 1, "of": count}})
-    return {**made, "regions": {"measured": count, "of": count}}
-
-
-def _refuse_batches(path: PathGraph) -> None:
-    _, batch = path.compose().inputs.resolve({})
-    if batch:
-        raise ParameterError(
-            f"a chart is of one path, and this is a batch of shape {batch}; give single values"
-        )
+        made["regions"] = {"measured": number + 1, "of": count}
+        keep(made)
+    return made
 
 
 def _different(path: PathGraph, effort: Effort) -> list[Composer]:
@@ -261,68 +249,16 @@ def many_paths(path: PathGraph, count: int) -> tuple[nx.MultiDiGraph, dict[str, 
     return graph, values
 
 
-@dataclass(frozen=True, eq=False)
-class _Counted:
-    """A number that nobody knows; what is done to it is counted."""
+def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
+    """Return how many operations of each sort one evaluation of a kernel takes.
 
-    counts: Counter[str]
-
-    def _same(self, *_: object) -> _Counted:
-        return self
-
-    def _divided(self, *_: object) -> _Counted:
-        self.counts["div"] += 1
-        return self
-
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _same
-    __neg__ = __pos__ = __abs__ = __pow__ = __rpow__ = __and__ = __rand__ = __or__ = __ror__ = _same
-    __lt__ = __le__ = __gt__ = __ge__ = __eq__ = __ne__ = _same  # type: ignore[assignment]
-    __truediv__ = __rtruediv__ = _divided
-    __hash__ = None  # type: ignore[assignment]
-
-
-def slow_operations(program: Program) -> dict[str, int]:
-    """Return the number of square roots ("sqrt") and divisions ("div") for one path.
-
-    >>> import optipath as op
-    >>> slow_operations(op.load_preset("malus").compose().program)["sqrt"]
+    >>> kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"]
     2
     """
-    counts: Counter[str] = Counter(sqrt=0, div=0)
-    for evaluation in program.evaluations:
-        counts += kernel_operations(evaluation.kernel, len(evaluation.arguments))
-    xp, number = _counting(counts)
-    for step in program.steps:
-        if step.evaluation is None:
-            continue
-        structure = program.evaluations[step.evaluation].kernel.structure
-        if structure is not None:
-            structure.action(xp)([number] * len(structure.identity), (number,) * 4, 4)
-    return {"sqrt": counts["sqrt"], "div": counts["div"]}
-
-
-def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
-    """Return the number of square roots and divisions of one evaluation of a kernel."""
-    counts: Counter[str] = Counter()
-    xp, number = _counting(counts)
+    recorder = Recorder(np.dtype("float64"))
     # Not made_for, which would keep what is made for these primitives, used once.
-    kernel.factory(xp)(*[number] * arguments)
-    return counts
-
-
-def _counting(counts: Counter[str]) -> tuple[Primitives, _Counted]:
-    number = _Counted(counts)
-
-    def root(_: object) -> _Counted:
-        counts["sqrt"] += 1
-        return number
-
-    one: Callable[..., Any] = lambda *_: number  # noqa: E731 - a def would need a name for each
-    pair: Callable[..., Any] = lambda *_: (number, number)  # noqa: E731
-    names = ("where", "absolute", "maximum", "minimum", "sin", "cos", "exp", "atan2")
-    others = ("scaling", "ldexp", "below_rounding", "fixed")
-    functions: dict[str, Any] = dict.fromkeys((*names, *others), one)
-    return Primitives(sqrt=root, two_product=pair, **functions), number
+    kernel.factory(SYMBOLIC)(*[recorder.input(str(place)) for place in range(arguments)])
+    return Counter(symbol.operation for symbol in recorder.symbols)
 
 
 DTYPE = "float64"
@@ -344,7 +280,7 @@ def critical_chart(
     wanted = places_called(places)
     measured = _of_interface(samples) if path is None else _of_path(path, title, samples)
     results: list[dict[str, Any]] = []
-    made = {
+    made: dict[str, Any] = {
         "format": FORMAT,
         "drawn": CRITICAL,
         "title": title,
@@ -369,8 +305,8 @@ def critical_chart(
                 own = entry["errors"].setdefault(method, {kind: [] for kind in KINDS})
                 for kind in KINDS:
                     own[kind].append(worst_and_median(getattr(errors, kind))["worst"])
-            done = number * len(DISTANCES) + step + 1
-            keep({**made, "regions": {"measured": done, "of": total}})
+            made["regions"] = {"measured": number * len(DISTANCES) + step + 1, "of": total}
+            keep(made)
     return made
 
 

@@ -233,23 +233,13 @@ def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
         )
     if indices[0] is not before:
         angle = refracted(before.real / indices[0].real, angle[1])
-    return stack(indices, *angle, back=False, way=way.reflects)
+    return stack(indices, *angle, way=way.reflects)
 
 
 def _depths(stack: LayerStack, way: Coupling, read: Reader) -> list[Any]:
     wavelength = read.real(stack.wavelength)
     depths = [4 * mpmath.pi * read.real(length) / wavelength for length in stack.lengths or ()]
     return depths[::-1] if way.enters == "back" else depths
-
-
-@mueller.register
-def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
-    return medium(element, read)
-
-
-@mueller.register
-def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]:
-    return elliptical_retarder(element, read)
 
 
 @mueller.register
@@ -280,8 +270,8 @@ def exponential(dichroism: Any, retardance: Any, depth: Any = 0, depolarization:
     return mpmath.expm(generator, method="taylor").tolist()
 
 
-def medium(element: Medium, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of a medium."""
+@mueller.register
+def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
     length = read.real(element.length)
     depth = length * read.real(element.absorption)
     rotation = read.angle_along(element.rotation, element.length, 2)
@@ -302,8 +292,8 @@ def medium(element: Medium, read: Reader) -> list[list[Any]]:
     )
 
 
-def elliptical_retarder(element: EllipticalRetarder, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of an elliptical retarder."""
+@mueller.register
+def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]:
     turns = tuple(read.angle(part) for part in (element.s1, element.s2, element.s3))
     return exponential((0, 0, 0), turns)  # type: ignore[no-any-return]
 

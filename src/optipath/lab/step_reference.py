@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.lab.boundary_reference import boundary, stack
@@ -44,25 +45,13 @@ def mueller_of(steps: Iterable[Step]) -> list[list[Any]]:
         return [[x if abs(x) > least else mpmath.mpf(0) for x in row] for row in rows]
 
 
-def _reflection(values: Values) -> list[list[Any]]:
-    return _of_jones(boundary(_index(values), *_incidence(values)).reflected)
-
-
-def _transmission(values: Values) -> list[list[Any]]:
-    return _of_jones(boundary(_index(values), *_incidence(values)).transmitted)
+def _boundary(values: Values, way: str) -> list[list[Any]]:
+    return _of_jones(getattr(boundary(_index(values), *_incidence(values)), way))
 
 
 def _layers(values: Values, *, reflected: bool) -> list[list[Any]]:
     indices = [mpmath.mpc(*map(mpmath.mpf, pair)) for pair in values["indices"]]
-    return stack(indices, *_incidence(values), back=False, way=reflected)
-
-
-def _reflecting_layers(values: Values) -> list[list[Any]]:
-    return _layers(values, reflected=True)
-
-
-def _transmitting_layers(values: Values) -> list[list[Any]]:
-    return _layers(values, reflected=False)
+    return stack(indices, *_incidence(values), way=reflected)
 
 
 def _polarizer(values: Values) -> list[list[Any]]:
@@ -101,22 +90,14 @@ def _circular_polarizer(values: Values) -> list[list[Any]]:
     return [[mean, 0, 0, half], [0, across, 0, 0], [0, 0, across, 0], [half, 0, 0, mean]]
 
 
-def _polarizing_reflection(values: Values) -> list[list[Any]]:
-    u, v = _leaks(values)
-    s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
-    return _of_jones(((mpmath.sqrt(s), 0), (0, -mpmath.sqrt(p))))
-
-
-def _polarizing_transmission(values: Values) -> list[list[Any]]:
-    u, v = _leaks(values)
-    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
-    return _of_jones(((mpmath.sqrt(s), 0), (0, mpmath.sqrt(p))))
-
-
-def _leaks(values: Values) -> tuple[Any, Any]:
+def _splitter(values: Values, *, reflected: bool) -> list[list[Any]]:
     names = "extinction_transmitted", "extinction_reflected"
     u, v = (1 / mpmath.mpf(values[name]) for name in names)
-    return u, v
+    if reflected:
+        s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
+        return _of_jones(((mpmath.sqrt(s), 0), (0, -mpmath.sqrt(p))))
+    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
+    return _of_jones(((mpmath.sqrt(s), 0), (0, mpmath.sqrt(p))))
 
 
 def _turned_frame(values: Values) -> list[list[Any]]:
@@ -124,10 +105,10 @@ def _turned_frame(values: Values) -> list[list[Any]]:
 
 
 STEPS = {
-    "reflection": _reflection,
-    "transmission": _transmission,
-    "reflection by layers": _reflecting_layers,
-    "transmission by layers": _transmitting_layers,
+    "reflection": partial(_boundary, way="reflected"),
+    "transmission": partial(_boundary, way="transmitted"),
+    "reflection by layers": partial(_layers, reflected=True),
+    "transmission by layers": partial(_layers, reflected=False),
     "polarizer": _polarizer,
     "retarder": _retarder,
     "rotator": _rotator,
@@ -135,8 +116,8 @@ STEPS = {
     "faraday rotator": _faraday_rotator,
     "waveplate": _waveplate,
     "circular polarizer": _circular_polarizer,
-    "reflection by a polarizing beam splitter": _polarizing_reflection,
-    "transmission by a polarizing beam splitter": _polarizing_transmission,
+    "reflection by a polarizing beam splitter": partial(_splitter, reflected=True),
+    "transmission by a polarizing beam splitter": partial(_splitter, reflected=False),
 }
 """What there is by its word: a function of the values, which returns the rows of a matrix."""
 
