@@ -107,6 +107,7 @@ def test_a_page_has_several_names_and_is_one_material():
     assert named_page("fused silica").page.place == "main/SiO2/Malitson"
     assert named_page("stainless steel", "Karlsson-austenitic").page.shelf == "other"
     assert named("vacuum") == op.Material(1.0)
+    assert named("gold/Johnson") == gold()
     told = refusal("Au")
     assert told.startswith("'Au' has ")
     assert "pages; name one in place of it, or say 'gold': 'main/Au/Johnson' (Johnson and" in told
@@ -130,14 +131,12 @@ MALITSON, BOYD = {"page": "Malitson"}, {"page": "Boyd-o", "k": 0.0}
     "name, given, told",
     [
         *((name, {}, told) for name, told in UNKNOWN.items()),
-        ("Au", {"page": "Jonson"}, "material 'Au' has no page 'Jonson'; did you mean 'Johnson'?"),
+        ("Au", {"page": "Jonson"}, "'Au/Jonson' is unknown; did you mean 'Au/Johnson'?"),
         ("gold", {"extrapolate": "x"}, "extrapolate 'x' is unknown; there are: nearest, linear"),
-        ("vacuum", {"page": "x"}, "has no page 'x'; leave page out"),
         ("SiO2", MALITSON, "has no k (extinction coefficient), only n within 210 nm"),
         ("SiO2", MALITSON, "or give it: k = 0.0"),
         ("BaF2", {"page": "Bosomworth-5K"}, "has no n (index of refraction), only k within 54945"),
         ("gold", {"n": 1.0, "k": 0.0}, "op.Material(n, k) needs no name"),
-        ("silica", {"interpolation": "monotone"}, "of which nothing is interpolated"),
         ("silica", {"extrapolate": "linear"}, 'ask for extrapolate="nearest", or stay within it'),
         ("gold", {"interpolation": "cubic"}, "interpolation 'cubic' is unknown; there are"),
         ("gold", {"extrapolate": "near"}, "did you mean 'nearest'?"),

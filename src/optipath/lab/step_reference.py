@@ -21,7 +21,7 @@ from optipath.lab.path_reference import coherency, passed, stokes_of
 from optipath.light.conventions import CONVENTIONS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from optipath.lab.boundary_reference import Jones
 
@@ -104,7 +104,7 @@ def _turned_frame(values: Values) -> list[list[Any]]:
     return _of_jones(turn(_degrees(values["angle"])))
 
 
-STEPS = {
+STEPS: dict[str, Callable[[Values], list[list[Any]]]] = {
     "reflection": partial(_boundary, way="reflected"),
     "transmission": partial(_boundary, way="transmitted"),
     "reflection by layers": partial(_layers, reflected=True),

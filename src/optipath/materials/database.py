@@ -11,7 +11,6 @@ from optipath.errors import (
     Fault,
     MaterialError,
     OptipathError,
-    ValueFault,
     collecting,
     shown,
     unknown,
@@ -141,7 +140,15 @@ def page_curve(
     if lacking := [part for part in wanted if part not in giving]:
         raise MaterialError(*[_lacking(label, part, giving) for part in lacking])
     chosen = {part: entry for part, entry in giving.items() if part in wanted}
-    _check_requested(label, chosen.values(), interpolation, extrapolate)
+    faults += unknown("interpolation", interpolation, INTERPOLATIONS)
+    faults += unknown("extrapolate", extrapolate, EXTRAPOLATIONS)
+    if extrapolate == "linear" and not all(entry.columns for entry in chosen.values()):
+        faults.append(
+            f"{label} is by a formula, which has no straight line beyond its range; "
+            f"{NEAREST_REQUESTED}, or stay within it"
+        )
+    if faults:
+        raise MaterialError(*faults)
     try:
         curves = [
             entry.curve(label, parts, interpolation, extrapolate)
@@ -173,29 +180,6 @@ def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:
     return f"{label} has no {part} ({_ADJECTIVES[part]}){has}; {wanted}"
 
 
-def _check_requested(
-    label: str, entries: Collection[PageEntry], interpolation: str, extrapolate: str
-) -> None:
-    """Refuse what is asked for in vain, or cannot be had."""
-    faults = [
-        *unknown("interpolation", interpolation, INTERPOLATIONS),
-        *unknown("extrapolate", extrapolate, EXTRAPOLATIONS),
-    ]
-    by_formula = [not entry.columns for entry in entries]
-    if not faults and interpolation != "linear" and all(by_formula):
-        faults.append(
-            f"{label} is by a formula, of which nothing is interpolated; leave interpolation = "
-            f"{shown(interpolation)} out"
-        )
-    if extrapolate == "linear" and any(by_formula):
-        faults.append(
-            f"{label} is by a formula, which has no straight line beyond its range; "
-            f"{NEAREST_REQUESTED}, or stay within it"
-        )
-    if faults:
-        raise MaterialError(*faults)
-
-
 _POWERS = 300
 """Up to which power of ten a number is a double in any case."""
 
@@ -210,7 +194,6 @@ class PageEntry(NamedTuple):
     span: tuple[float, float]
     columns: tuple[tuple[float, ...], ...] = ()
     coefficients: tuple[float, ...] = ()
-    rows: tuple[int, ...] = ()
 
     def curve(
         self, label: str, parts: Sequence[str], interpolation: str, extrapolate: str
@@ -221,27 +204,9 @@ class PageEntry(NamedTuple):
             return DispersionFormula(
                 label, number, self.coefficients, self.span, extrapolate=extrapolate
             )
-        if faults := self._faults_of_rows(label):
-            raise ValueFault(*faults)
         wanted = [self.columns[1 + self.parts.index(part)] for part in parts]
         how = {"interpolation": interpolation, "extrapolate": extrapolate}
         return Tabulated(label, tuple(parts), self.columns[0], wanted, **how)
-
-    def _faults_of_rows(self, label: str) -> list[str]:
-        """Return what is wrong with the wavelengths of a table."""
-        places = self.columns[0]
-        faults = [
-            f"row {row} of {label} has the wavelength {place * 1e6:.10g}; give lengths above 0"
-            for row, place in zip(self.rows, places, strict=True)
-            if place <= 0.0
-        ]
-        same = [at for at in range(1, len(places)) if places[at] == places[at - 1] > 0.0]
-        return faults + [
-            f"{label} has the wavelength {places[at] * 1e9:.10g} nm twice, in the rows "
-            f"{min(self.rows[at - 1 : at + 1])} and {max(self.rows[at - 1 : at + 1])}; give each "
-            f"once"
-            for at in same
-        ]
 
 
 def entries_of_page(contents: Any, faults: list[str]) -> list[PageEntry]:
@@ -293,28 +258,21 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
     if not isinstance(data, str) or not data.strip():
         raise OptipathError(f"('{kind}') has no 'data'; give rows of wavelength and {kind[10:]}")
     lines = [(at, line.split()) for at, line in enumerate(data.splitlines(), 1) if line.strip()]
-    rows: dict[tuple[float, ...], int] = {}
+    rows: set[tuple[float, ...]] = set()
     faults = []
     for at, words in lines:
         numbers = _decimals(words)
-        if not numbers:
-            faults.append(f"('{kind}') has no numbers in row {at}, {shown(' '.join(words))}")
-            continue
-        wavelength, *values = numbers
-        if len(values) != len(parts):
+        if len(numbers) != 1 + len(parts):
             faults.append(
-                f"('{kind}') has {len(words)} numbers in row {at}, {shown(' '.join(words))}; give "
-                f"{1 + len(parts)}"
+                f"('{kind}') has {shown(' '.join(words))} in row {at}; give {1 + len(parts)} "
+                f"numbers"
             )
             continue
-        rows.setdefault((_metres(wavelength), *map(float, values)), at)
+        rows.add((_metres(numbers[0]), *map(float, numbers[1:])))
     if faults:
         raise OptipathError(*faults)
-    ordered = sorted(rows)
-    columns = tuple(zip(*ordered, strict=True))
-    span = columns[0][0], columns[0][-1]
-    results = tuple([rows[row] for row in ordered])
-    return PageEntry(kind, parts, span, columns=columns, rows=results)
+    columns = tuple(zip(*sorted(rows), strict=True))
+    return PageEntry(kind, parts, (columns[0][0], columns[0][-1]), columns=columns)
 
 
 def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:
@@ -327,8 +285,6 @@ def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:
 
 def _decimals(words: Sequence[str]) -> list[Decimal]:
     """Return numbers, none of them rounded; nothing where one is no finite number."""
-    if not all(word.isascii() and "_" not in word for word in words):
-        return []  # Python reads 15 into 1_5.
     try:
         results = [Decimal(word) for word in words]
     except InvalidOperation:

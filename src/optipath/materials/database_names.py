@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -23,8 +22,6 @@ VACUUM = "vacuum"
 _MOST = 8
 """How many pages a sentence lists."""
 
-_MOST_WORDS = 1000
-
 
 class NamedPage(NamedTuple):
     """A page, and what sentences call the material."""
@@ -37,24 +34,24 @@ class NamedPage(NamedTuple):
 
 def named_page(name: str, page: str = "") -> NamedPage:
     """Return the page that a name stands for."""
-    for raw_value in (name, page):
-        if not isinstance(raw_value, str):
-            raise MaterialError(f"a material has a name, such as 'gold', not {shown(raw_value)}")
-    curated = curated_names().get(alike(name))
-    if curated is not None and not page:
+    if not isinstance(name, str):
+        raise MaterialError(f"a material has a name, such as 'gold', not {shown(name)}")
+    whole = f"{name}/{page}" if page else name
+    if (curated := curated_names().get(alike(whole))) is not None:
         return of_curated(curated)
-    if alike(name) == VACUUM:
-        raise MaterialError(f"'{name}' has no page {shown(page)}; leave page out")
-    if not page and f"{alike(name)} o" in curated_names():
+    if f"{alike(whole)} o" in curated_names():
         raise MaterialError(
             f"'{name}' is birefringent: '{name}-o' is its ordinary index, '{name}-e' its "
             f"extraordinary one"
         )
-    result = _matching(name, page, curated)
-    if len(result) > 1:
-        raise MaterialError(_ambiguous(f"{name}/{page}" if page else name, result))
+    book, line, last = whole.rpartition("/")
+    if line and (curated := curated_names().get(alike(book))) is not None:
+        whole = f"{curated.place.rpartition('/')[0]}/{last}"
+    result = _matching(_underscored(whole))
     if not result:
-        raise MaterialError(_unknown(name, page, curated))
+        raise MaterialError(_unknown(_underscored(whole)))
+    if len(result) > 1:
+        raise MaterialError(_ambiguous(whole, result))
     return of_page(result[0])
 
 
@@ -75,24 +72,16 @@ def of_page(page: CatalogPage) -> NamedPage:
     return NamedPage(page.place, label, page)
 
 
-def _matching(name: str, page: str, curated: CuratedName | None) -> list[CatalogPage]:
-    """Return the pages that names stand for: those of a book before others of that name."""
-    pages = catalog_pages()
-    if curated is not None and page:
-        name = curated.place.rpartition("/")[0]
-    words = [_underscored(word) for word in (name, page) if word]
-    keys = "/".join(words)
-    for whole in (lambda p: (p.shelf, p.book, p.page), lambda p: (p.book, p.page)):
-        if result := [p for p in pages if _underscored("/".join(whole(p))) == keys]:
-            return result
-    if page:
-        return []
-    for part in (
+def _matching(name: str) -> list[CatalogPage]:
+    """Return the pages that a name stands for: those of a book before others of that name."""
+    for called in (
+        lambda p: p.place,
+        lambda p: f"{p.book}/{p.page}",
         lambda p: f"{p.shelf}/{p.book}",
         lambda p: p.book,
         lambda p: p.page,
     ):
-        if result := [p for p in pages if _underscored(part(p)) == keys]:
+        if result := [page for page in catalog_pages() if _underscored(called(page)) == name]:
             return result
     return []
 
@@ -112,35 +101,18 @@ def _ambiguous(name: str, results: list[CatalogPage]) -> str:
     )
 
 
-def _unknown(name: str, page: str, curated: CuratedName | None) -> str:
+def _unknown(name: str) -> str:
     """Return the sentence for a name that nothing has, with the one that was meant."""
     pages = catalog_pages()
-    book = curated.place.split("/")[1] if curated else name
-    if page and (of_book := [p.page for p in pages if _underscored(p.book) == _underscored(book)]):
-        return f"material '{name}' has no page '{page}'{_meant(page, of_book)}"
-    if close := _page_meant(name, pages):
-        return f"material '{name}' is unknown; did you mean '{close}'?"
-    known = [*[n for c in CURATED for n in c.names], VACUUM, *dict.fromkeys(p.book for p in pages)]
-    glasses = [p.page for p in pages if p.shelf == "specs"]
-    near = get_close_matches(name, glasses, n=3, cutoff=0.75)
-    return f"material '{name}' is unknown{_meant(name, [*known[: _MOST_WORDS - 3], *near])}"
-
-
-def _page_meant(name: str, pages: tuple[CatalogPage, ...]) -> str:
-    """Return the page that was meant, of a book that there is; nothing where none is near."""
-    book, line, page = _underscored(name).rpartition("/")
-    if not line:
-        return ""
-    curated = curated_names().get(alike(book))
-    book = curated.place.rpartition("/")[0] if curated else book
-    result = closest(page, [p.page for p in pages if book in (p.book, f"{p.shelf}/{p.book}")])
-    return f"{book}/{result}" if result else ""
-
-
-def _meant(word: str, known: list[str]) -> str:
-    if (result := closest(word, known)) is not None:
-        return f"; did you mean '{result}'?"
-    return f"; 'optipath materials WORD' lists what there is, such as {', '.join(known[:8])}"
+    book, line, _ = name.rpartition("/")
+    known = [n for curated in CURATED for n in curated.names]
+    known += [VACUUM, *dict.fromkeys(page.book for page in pages)]
+    if line:
+        of_book = [p for p in pages if book in (p.book, f"{p.shelf}/{p.book}")]
+        known = [f"{book}/{page.page}" for page in of_book]
+    near = closest(name, known)
+    cure = f"did you mean '{near}'?" if near else "'optipath materials WORD' lists what there is"
+    return f"material '{name}' is unknown; {cure}"
 
 
 class CuratedName(NamedTuple):
@@ -161,7 +133,23 @@ class CuratedName(NamedTuple):
 
 _NOBLE, _TRANSITION = "Johnson and Christy 1972", "Johnson and Christy 1974"
 _METAL = "evaporated films, the usual reference from the ultraviolet to the near infrared"
-_O, _E = "ordinary ray", "extraordinary ray"
+
+
+def _rays(
+    names: tuple[str, ...], place: str, reference: str, clear: tuple[float, float] | None
+) -> list[CuratedName]:
+    """Return the names of the two rays of a crystal."""
+    return [
+        CuratedName(
+            tuple([f"{name}-{ray[0]}" for name in names]),
+            f"{place}-{ray[0]}",
+            reference,
+            ray,
+            clear,
+        )
+        for ray in ("ordinary ray", "extraordinary ray")
+    ]
+
 
 CURATED = (
     CuratedName(("gold",), "main/Au/Johnson", _NOBLE, _METAL),
@@ -212,8 +200,7 @@ CURATED = (
         "Siefke et al. 2016",
         "amorphous film; the crystal is rutile",
     ),
-    CuratedName(("rutile-o",), "main/TiO2/Devore-o", "Devore 1951", _O, (0.45e-6, 1.53e-6)),
-    CuratedName(("rutile-e",), "main/TiO2/Devore-e", "Devore 1951", _E, (0.45e-6, 1.53e-6)),
+    *_rays(("rutile",), "main/TiO2/Devore", "Devore 1951", (0.45e-6, 1.53e-6)),
     CuratedName(
         ("silica", "fused silica"),
         "main/SiO2/Malitson",
@@ -221,34 +208,14 @@ CURATED = (
         "the usual formula; water in it absorbs from 2.2 um on",
         (0.21e-6, 2.1e-6),
     ),
-    CuratedName(("quartz-o",), "main/SiO2/Ghosh-o", "Ghosh 1999", _O, (0.198e-6, 2.0531e-6)),
-    CuratedName(("quartz-e",), "main/SiO2/Ghosh-e", "Ghosh 1999", _E, (0.198e-6, 2.0531e-6)),
-    CuratedName(("calcite-o",), "main/CaCO3/Ghosh-o", "Ghosh 1999", _O, (0.23e-6, 2.1e-6)),
-    CuratedName(("calcite-e",), "main/CaCO3/Ghosh-e", "Ghosh 1999", _E, (0.23e-6, 2.1e-6)),
-    CuratedName(
-        ("sapphire-o",), "main/Al2O3/Malitson-o", "Malitson and Dodge 1972", _O, (0.2e-6, 4e-6)
+    *_rays(("quartz",), "main/SiO2/Ghosh", "Ghosh 1999", (0.198e-6, 2.0531e-6)),
+    *_rays(("calcite",), "main/CaCO3/Ghosh", "Ghosh 1999", (0.23e-6, 2.1e-6)),
+    *_rays(("sapphire",), "main/Al2O3/Malitson", "Malitson and Dodge 1972", (0.2e-6, 4e-6)),
+    *_rays(("MgF2",), "main/MgF2/Dodge", "Dodge 1984", (0.2e-6, 6e-6)),
+    *_rays(
+        ("LiNbO3", "lithium niobate"), "main/LiNbO3/Zelmon", "Zelmon et al. 1997", (0.42e-6, 4e-6)
     ),
-    CuratedName(
-        ("sapphire-e",), "main/Al2O3/Malitson-e", "Malitson and Dodge 1972", _E, (0.2e-6, 4e-6)
-    ),
-    CuratedName(("MgF2-o",), "main/MgF2/Dodge-o", "Dodge 1984", _O, (0.2e-6, 6e-6)),
-    CuratedName(("MgF2-e",), "main/MgF2/Dodge-e", "Dodge 1984", _E, (0.2e-6, 6e-6)),
-    CuratedName(
-        ("LiNbO3-o", "lithium niobate-o"),
-        "main/LiNbO3/Zelmon-o",
-        "Zelmon et al. 1997",
-        _O,
-        (0.42e-6, 4e-6),
-    ),
-    CuratedName(
-        ("LiNbO3-e", "lithium niobate-e"),
-        "main/LiNbO3/Zelmon-e",
-        "Zelmon et al. 1997",
-        _E,
-        (0.42e-6, 4e-6),
-    ),
-    CuratedName(("BBO-o",), "main/BaB2O4/Tamosauskas-o", "Tamošauskas et al. 2018", _O),
-    CuratedName(("BBO-e",), "main/BaB2O4/Tamosauskas-e", "Tamošauskas et al. 2018", _E),
+    *_rays(("BBO",), "main/BaB2O4/Tamosauskas", "Tamošauskas et al. 2018", None),
     CuratedName(
         ("CaF2", "fluorite"),
         "main/CaF2/Malitson",
@@ -427,10 +394,6 @@ def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
     # has no limit of depth, and would end Python where somebody else's file is too deep.
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader) if installed else yaml.BaseLoader
     try:
-        if file.stat().st_size > _LARGEST:
-            raise MaterialError(
-                f"{about} is too large for a material; give a file of at most 4 MiB"
-            )
         text = bytes_of(file, _LARGEST).decode("utf-8")
         return yaml.load(text, Loader=loader)  # noqa: S506 - a BaseLoader
     except OSError as error:
