@@ -16,14 +16,12 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
 
 
-_FEW, _PLANE = 4, 2
-"""As many numbers as light has, and as many directions as a matrix."""
+_FEW = 4
+"""As many numbers as light has."""
 
 
 def draw(path: PathGraph) -> str:
@@ -99,18 +97,14 @@ def value_text(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
         return "[" + ", ".join(value_text(one, unit) for one in value) + "]"
     if isinstance(value, np.ndarray):
-        return _array_text(value, unit)
+        if not value.ndim:
+            return value_text(value.item(), unit)
+        if value.ndim == 1 and value.size <= _FEW:
+            return value_text(tuple(value.tolist()), unit)
+        matrix = f"a {' x '.join(map(str, value.shape))} matrix"
+        return matrix if value.ndim == 2 else f"array of shape {value.shape}"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, (int, float)):
         return format_quantity(value, unit)
     return str(value)
-
-
-def _array_text(value: npt.NDArray[Any], unit: str) -> str:
-    """Write a few numbers out, and say of more how many there are."""
-    if value.ndim == 1 and value.size <= _FEW:
-        return value_text(tuple(value.tolist()), unit)
-    if value.ndim == _PLANE:
-        return f"a {value.shape[0]} x {value.shape[1]} matrix"
-    return f"array of shape {value.shape}" if value.ndim else value_text(value.item(), unit)

@@ -70,7 +70,7 @@ def load_preset(
     PresetError
         If there is no such preset or case, or its file cannot be read.
     PathError
-        With every fault of the file.
+        With the faults of the file.
     ParameterError
         With every parameter that is unknown or has a value that is not allowed.
 

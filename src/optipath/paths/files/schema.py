@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from optipath.errors import (
     Fault,
-    OptipathError,
     PresetError,
     UnitError,
     closest,
+    collecting,
     did_you_mean,
     listed,
     shown,
@@ -143,11 +143,9 @@ class Faults(list[str]):
         >>> faults
         ["parameters.delta: unit 'degg' is unknown; did you mean 'deg'?"]
         """
-        try:
+        with collecting(self, about=where):
             return action(*arguments, **keywords)
-        except OptipathError as error:
-            self += [fault.under(where) for fault in error.faults]
-            return None
+        return None
 
     def refuse(self, most: int = 0) -> None:
         """Raise where there are more faults than so many."""

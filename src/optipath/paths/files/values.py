@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -70,35 +71,42 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return _list(raw, domain, parameters)
     if isinstance(domain, Followed) and raw == FOLLOWS.word:
         return FOLLOWS
-    if isinstance(raw, str) and "$" in raw:
-        return referred(raw, parameters)
-    if isinstance(raw, dict) and isinstance(domain, SpectralDomain) and "parameter" not in raw:
-        return decode_spectrum(raw, parameters, lambda one, of: decode(one, of, parameters))
-    if isinstance(raw, dict) and is_curve(raw):
-        return decode_curve(raw, domain, parameters, lambda one, of: decode(one, of, parameters))
-    if isinstance(raw, dict) and raw.keys() & _AFFINE.keys():
-        return _affine(raw, domain, parameters)
-    if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
-        parts = _parts(raw, domain, parameters)
-        several = parts.keys() == {"n"} and is_pair(parts["n"])
-        return np.array(parts["n"]) if several else Material(**parts)
-    if isinstance(raw, dict) and domain.complex_parts:
-        return _complex(_parts(raw, domain, {}))
-    if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
-        return chain_by_angles(raw, lambda angle: decode(angle, ANGLE, parameters))
+    if isinstance(raw, dict):
+        return _of_table(raw, domain, parameters)
     if isinstance(raw, str):
-        return _read(raw, domain, parameters)
+        return _of_text(raw, domain, parameters)
     number = _several if isinstance(domain, _LISTED) else _number
     return number(raw, domain.unit)
 
 
-def _read(text: str, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+def _of_table(raw: dict[str, Any], domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+    one = partial(decode, parameters=parameters)
+    if isinstance(domain, SpectralDomain) and "parameter" not in raw:
+        return decode_spectrum(raw, parameters, one)
+    if is_curve(raw):
+        return decode_curve(raw, domain, parameters, one)
+    if raw.keys() & _AFFINE.keys():
+        return _affine(raw, domain, parameters)
+    if isinstance(domain, (IndexDomain, OutsideDomain)):
+        parts = _parts(raw, domain, parameters)
+        several = parts.keys() == {"n"} and is_pair(parts["n"])
+        return np.array(parts["n"]) if several else Material(**parts)
+    if domain.complex_parts:
+        return _complex(_parts(raw, domain, {}))
+    if isinstance(domain, VerticesDomain):
+        return chain_by_angles(raw, partial(one, domain=ANGLE))
+    return number_of(raw, domain.unit)  # Which it is not.
+
+
+def _of_text(raw: str, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+    if "$" in raw:
+        return referred(raw, parameters)
     try:
-        return domain.parse(text)
+        return domain.parse(raw)
     except OptipathError:
-        if text.strip() in parameters:
+        if raw.strip() in parameters:
             raise PresetError(
-                f"'{text}' is no number; write \"${text.strip()}\" for the parameter"
+                f"'{raw}' is no number; write \"${raw.strip()}\" for the parameter"
             ) from None
         raise
 
