@@ -96,24 +96,21 @@ OPERATORS = {
 }
 
 
-_COMPARES = ("allclose", "array_equal", "array_equiv", "isclose", "may_share_memory")
-_JOINS = (
-    "atleast_1d",
-    "atleast_2d",
-    "atleast_3d",
-    "concatenate",
-    "stack",
-    "vstack",
-    "copy",
-    "copyto",
-    "save",
-    "savetxt",
-    "savez",
-)
-_SHAPES = ("shape", "ndim", "size", "flip", "reshape", "shares_memory")
-_WRITES = ("array2string", "array_repr", "array_str")
-TAKES_LIGHT = frozenset([*_COMPARES, *_JOINS, *_SHAPES, *_WRITES])
-"""The functions of NumPy that mix no components."""
+_COMPARES = "allclose array_equal array_equiv isclose may_share_memory shares_memory"
+_JOINS = "atleast_1d atleast_2d atleast_3d concatenate stack vstack copy copyto"
+_WRITES = "array2string array_repr array_str save savetxt savez"
+TAKES_NUMBERS = frozenset(f"{_COMPARES} {_JOINS} {_WRITES}".split())
+"""The functions of NumPy that mix no components: they take the numbers of light."""
+
+
+def numbers_within(arguments: Any) -> Any:
+    """Return arguments with the numbers of light in place of it."""
+    if isinstance(arguments, (list, tuple)):
+        return [numbers_within(each) for each in arguments]
+    if isinstance(arguments, dict):
+        return {name: numbers_within(each) for name, each in arguments.items()}
+    return np.asarray(arguments) if isinstance(arguments, ArrayAxes) else arguments
+
 
 _COPIED = 1 << 16
 """Of how many lights components are copied when somebody asks for them."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from inspect import signature
 from typing import TYPE_CHECKING, Any, NoReturn, Self
 
@@ -10,9 +11,10 @@ import numpy as np
 from optipath.errors import FrameError, LightError, ParameterError, shown, unknown
 from optipath.light.arithmetic import (
     OPERATORS,
-    TAKES_LIGHT,
+    TAKES_NUMBERS,
     factor_of_light,
     handed_out,
+    numbers_within,
     product_of,
     refuse,
     refuse_call,
@@ -104,11 +106,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     >>> print(faint.intensity, faint.log10_intensity.round(), faint.normalized)
     0.0 -100000.0 [1.  0.6 0.  0.8]
     """
-
-    stokes: npt.NDArray[Any]
-    frame: Frame
-    exponent: npt.NDArray[np.int64]
-    mantissa: npt.NDArray[Any]
 
     _kind, _several = "light", "lights"
     _attribute, _axes = "stokes", 1
@@ -240,6 +237,30 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         argument = real_array("a Stokes vector", stokes, (4,))
         return cls(changed_stokes(convention, argument), frame, **options)
+
+    # What is there already is in `__dict__`, and what makes the rest has a name with an underscore.
+
+    @cached_property
+    def frame(self) -> Frame:
+        """The frame that the components refer to."""
+        return self.__dict__["_frame"]()  # type: ignore[no-any-return]
+
+    @cached_property
+    def stokes(self) -> npt.NDArray[Any]:
+        """The Stokes vectors, of shape (..., 4); read-only."""
+        return self.mantissa
+
+    @cached_property
+    def mantissa(self) -> npt.NDArray[Any]:
+        """The Stokes vectors over two to the power of `exponent`, of shape (..., 4)."""
+        stokes = self.__dict__["_stokes"]
+        stacked = stacked_components(stokes) if type(stokes) is tuple else stokes
+        return locked(stacked)  # type: ignore[no-any-return]
+
+    @cached_property
+    def exponent(self) -> npt.NDArray[np.int64]:
+        """The power of two times `mantissa`, of shape (...)."""
+        return np.broadcast_to(np.int64(0), self.mantissa.shape[:-1])
 
     @property
     def S0(self) -> Array:  # noqa: N802 - as everybody writes it
@@ -705,13 +726,10 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """Whether it is, or is made of, ``Light(..., physical=False)``."""
         return "_measured" in self.__dict__
 
-    @property
+    @cached_property
     def noise_floor(self) -> Any:
         """The noise in the mantissa, of shape (...)."""
-        own = self.__dict__
-        if "_floor" not in own:
-            own["_floor"] = locked(noise_in(self._numbers, own.get("_noise"), self.exponent))
-        return own["_floor"]
+        return locked(noise_in(self._numbers, self.__dict__.get("_noise"), self.exponent))
 
     @property
     def kept_wavelength(self) -> Any:
@@ -801,10 +819,14 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     def __array_function__(self, function: Any, _: Any, argument: Any, options: Any) -> Any:
         """Compare, join and write numbers; refuse what would mix the components."""
-        if function.__name__ in TAKES_LIGHT:
-            # By NEP 18, what NumPy does without us.
-            return function._implementation(*argument, **options)  # noqa: SLF001
-        return refuse_call(function.__name__)
+        name = function.__name__
+        if name in TAKES_NUMBERS:
+            return function(*numbers_within(argument), **numbers_within(options))
+        if name == "reshape":
+            return self.reshape(*argument[1:], **options)
+        if name in ("shape", "ndim", "size") and len(argument) == 1:
+            return getattr(self, name)
+        return refuse_call(name)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):
@@ -826,20 +848,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             return repr(self)
         quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
         return text_of(quiet, self.frame, self.exponent)
-
-    if not TYPE_CHECKING:  # Else any name would do for who checks types.
-
-        def __getattr__(self, name: str) -> Any:
-            own = self.__dict__
-            if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
-                return super().__getattr__(name)
-            if name == "exponent":
-                own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
-            else:
-                stokes = own["_stokes"]
-                stokes = stacked_components(stokes) if type(stokes) is tuple else stokes
-                own["stokes"] = own["mantissa"] = locked(stokes)
-            return own[name]
 
     def __getstate__(self) -> dict[str, Any]:
         # What computes the noise stays here.

@@ -8,7 +8,8 @@ unknown.
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from math import sqrt
 from typing import TYPE_CHECKING, Any, NoReturn, overload
 
@@ -48,7 +49,6 @@ _DEPOLARIZES, _MIXES = 0.02, 0.05
 """From where on a matrix is no r_p / r_s: beyond the noise of ellipsometers, of some 0.01."""
 
 
-@dataclass(frozen=True, eq=False)
 class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
@@ -81,15 +81,26 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     _written, _entry = "mueller.matrix", "mueller.matrix[..., 0, 0]"
 
     matrix: Any
-    frame_in: Frame = field(default_factory=Frame)
-    frame_out: Frame = field(default_factory=Frame)
 
-    def __post_init__(self) -> None:
-        if not (isinstance(self.frame_in, Frame) and isinstance(self.frame_out, Frame)):
+    def __init__(
+        self, matrix: Any, frame_in: Frame | None = None, frame_out: Frame | None = None
+    ) -> None:
+        frames = [Frame() if frame is None else frame for frame in (frame_in, frame_out)]
+        if not all(isinstance(frame, Frame) for frame in frames):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
-        matrix = real_array("a Mueller matrix", self.matrix, (4, 4))
+        matrix = real_array("a Mueller matrix", matrix, (4, 4))
         stored = matrix if is_jax(matrix) else read_only(matrix, widened=False)
-        vars(self).update(matrix=stored, _given=True)
+        vars(self).update(matrix=stored, frame_in=frames[0], frame_out=frames[1], _given=True)
+
+    @cached_property
+    def frame_in(self) -> Frame:
+        """The frame of the light that comes in."""
+        return vars(self)["_frame_in"]()  # type: ignore[no-any-return]
+
+    @cached_property
+    def frame_out(self) -> Frame:
+        """The frame of the light that goes out."""
+        return vars(self)["_frame_out"]()  # type: ignore[no-any-return]
 
     @classmethod
     def of(
@@ -113,8 +124,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         Mueller
         """
         result = cls.__new__(cls)
-        vars(result)["matrix"] = locked(matrix)
-        result._keep_frames(frame_in=frame_in, frame_out=frame_out)  # noqa: SLF001 - its own
+        own = vars(result)
+        own["matrix"] = locked(matrix)
+        own["frame_in" if type(frame_in) is Frame else "_frame_in"] = frame_in
+        own["frame_out" if type(frame_out) is Frame else "_frame_out"] = frame_out
         return result
 
     @classmethod
@@ -156,9 +169,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         array([0., 0., 1., 0.])
         """
         argument = real_array("a Mueller matrix", matrix, (4, 4))
-        frames = {"frame_in": frame_in, "frame_out": frame_out}
-        own = {name: frame for name, frame in frames.items() if frame is not None}
-        return cls(changed_matrix(convention, argument), **own)
+        return cls(changed_matrix(convention, argument), frame_in, frame_out)
 
     @property
     def diattenuation(self) -> Array:
@@ -292,7 +303,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         return decompositions.is_physical(self.matrix, tolerance)
 
-    @property
+    @cached_property
     def noise(self) -> Array:
         """Which entries of `matrix` are no more than rounding: those below it, shape (...).
 
@@ -305,13 +316,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(Mueller(np.eye(4)).noise)
         2.220446049250313e-16
         """
-        own = self.__dict__
-        if callable(own.get("_noise")):
-            own["_noise"] = own["_noise"](self.matrix)
-        if "_floor" not in own:
-            least = rounding(known(self.matrix)[..., 0, :])
-            own["_floor"] = locked(namespace(least).maximum(least, own.get("_noise", 0.0)))
-        return own["_floor"]  # type: ignore[no-any-return]
+        noise = vars(self).get("_noise", 0.0)
+        noise = noise(self.matrix) if callable(noise) else noise
+        least = rounding(known(self.matrix)[..., 0, :])
+        return locked(namespace(least).maximum(least, noise))  # type: ignore[no-any-return]
 
     def with_noise(self, noise: Array | Callable[[Any], Any], *, given: bool = False) -> Mueller:
         """Return the same matrix, of which more is noise than its own rounding.
@@ -519,6 +527,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return frames and same(known(self.matrix), known(other.matrix))
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        frames = f"frame_in={self.frame_in!r}, frame_out={self.frame_out!r}"
+        return f"Mueller(matrix={self.matrix!r}, {frames})"
 
     def __getstate__(self) -> dict[str, Any]:
         # What computes the noise stays here.

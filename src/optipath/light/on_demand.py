@@ -22,12 +22,7 @@ if TYPE_CHECKING:
 
 
 class FramesOnDemand:
-    """What has frames, each a `Frame`, or what returns it when somebody asks."""
-
-    def _keep_frames(self, **frames: Frame | Callable[[], Frame]) -> None:
-        """Keep each by its name; one that is not made yet with an underscore before it."""
-        for name, frame in frames.items():
-            self.__dict__[name if type(frame) is Frame else f"_{name}"] = frame
+    """What has frames by their names; what makes one has an underscore before its name."""
 
     def _cached_frame(self, name: str) -> Any:
         """Return a frame as it is kept, which nobody has to make for it."""
@@ -44,16 +39,6 @@ class FramesOnDemand:
         ):
             return indexed_frame(stored, batch, change)
         return lambda: indexed_frame(getattr(self, name), batch, change)
-
-    if not TYPE_CHECKING:  # Else any name would do for who checks types.
-
-        def __getattr__(self, name: str) -> Any:
-            own = self.__dict__
-            if not name.startswith("frame") or f"_{name}" not in own:
-                kind = type(self).__name__
-                raise AttributeError(f"a {kind} has no attribute '{name}'", name=name, obj=self)
-            own[name] = own[f"_{name}"]()
-            return own[name]
 
     def __getstate__(self) -> dict[str, Any]:
         # What makes frames stays here.

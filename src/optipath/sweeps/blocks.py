@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
 from concurrent.futures import (
     FIRST_COMPLETED,
     CancelledError,
     Executor,
     Future,
+    ProcessPoolExecutor,
     ThreadPoolExecutor,
     wait,
 )
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
 from functools import partial
 from itertools import islice
-from os import fspath
+from multiprocessing import get_context, parent_process
+from threading import Thread
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import cloudpickle
@@ -64,7 +69,7 @@ def keep_blocks(
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
-    stored = BlockStore.of(job, fspath(store))
+    stored = BlockStore.of(job, os.fspath(store))
     done = stored.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
@@ -141,6 +146,12 @@ def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
             f"the cluster was lost while block {number} was computed; start again when it is "
             f"back, and what is done is not computed again"
         ) from None
+    except BrokenProcessPool:
+        raise JobError(
+            f"a process was lost while block {number} was computed, for want of memory perhaps, or "
+            f"since a script starts processes outside of if __name__ == '__main__':; what is done "
+            f"is not computed again"
+        ) from None
     except Exception as fault:
         if type(fault).__name__ != "KilledWorker":
             raise
@@ -195,16 +206,28 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     elif argument == "threads":
         with ThreadPoolExecutor(CPU_COUNT) as executor:
             yield Workers(executor, lambda: _AHEAD * CPU_COUNT)
+    elif argument == "processes":
+        count = min(CPU_COUNT, blocks)
+        with ProcessPoolExecutor(count, get_context("spawn"), _obey_parent) as executor:
+            yield Workers(Travelling(executor), lambda: _AHEAD * count)
     else:
         # It takes a second to import.
         from optipath.sweeps.cluster import client_of, threads_of  # noqa: PLC0415
 
-        with client_of(argument, blocks) as client, dask.config.set(_LARGE_JOBS):
+        with client_of(argument) as client, dask.config.set(_LARGE_JOBS):
             yield Workers(
                 Travelling(client.get_executor(pure=False)),
                 lambda: _AHEAD * threads_of(client),
-                stay=argument != "processes",
+                stay=True,
             )
+
+
+def _obey_parent() -> None:
+    """Let the process that has started this one, alone, hear Ctrl-C and end it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = parent_process()
+    if parent is not None:
+        Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
 
 
 def active_client() -> Any:
@@ -232,7 +255,7 @@ class AtOnce(Executor):
 
 
 class Travelling(Executor):
-    """An executor of a cluster that reports why a worker cannot load its task."""
+    """An executor of other processes that reports why a worker cannot load its task."""
 
     def __init__(self, executor: Executor) -> None:
         self._executor = executor

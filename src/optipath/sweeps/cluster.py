@@ -1,18 +1,13 @@
-"""The client of a cluster: of one that is there, or of processes of this machine."""
+"""The client of a cluster."""
 
 from __future__ import annotations
 
 import asyncio
-import logging
-import signal
-import sys
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
-from multiprocessing import resource_tracker
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from dask.system import CPU_COUNT
-from distributed import Client, LocalCluster, Security
+from distributed import Client, Security
 from distributed.comm import connect
 
 from optipath.errors import JobError
@@ -38,12 +33,9 @@ def threads_of(client: Client) -> int:
 
 
 @contextmanager
-def client_of(argument: str | Client, blocks: int) -> Iterator[Client]:
+def client_of(argument: str | Client) -> Iterator[Client]:
     """Have a client; what is made for it is closed afterwards."""
-    if argument == "processes":
-        with _processes(min(CPU_COUNT, blocks)) as client:
-            yield client
-    elif isinstance(argument, str):
+    if isinstance(argument, str):
         with _reached(argument) as client:
             yield client
     else:
@@ -82,56 +74,3 @@ async def _knock(address: str) -> None:
     certificates = Security().get_connection_args("client")
     comm = await connect(address, timeout=_PATIENCE, **certificates)
     await comm.close()
-
-
-@contextmanager
-def _processes(count: int) -> Iterator[Client]:
-    """Have processes of this machine, which never hear Ctrl-C: who made them ends them."""
-    try:
-        with ExitStack() as stack:
-            with _interrupts_put_off():
-                cluster = stack.enter_context(_local_cluster(count))
-                client = stack.enter_context(Client(cluster, set_as_default=False))
-                client.run(_ignore_interrupts)
-                # What was put off is raised where all that is made here is closed in good order.
-            closing = stack.pop_all()
-    except (RuntimeError, OSError) as fault:
-        raise JobError(
-            f"no processes can be started ({fault}); in a script, put what is run under if "
-            f"__name__ == '__main__':, since each process imports it, or give scheduler='threads'"
-        ) from None
-    with closing:
-        yield client
-
-
-def _local_cluster(count: int) -> LocalCluster:
-    return LocalCluster(
-        n_workers=count,
-        threads_per_worker=1,
-        host="127.0.0.1",
-        dashboard_address=None,
-        # It has an HTTP server all the same, by default at one port for all.
-        scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-        # What goes wrong with a block comes back, and is told by who waits for it.
-        silence_logs=logging.CRITICAL,
-    )
-
-
-def _ignore_interrupts() -> None:
-    # Ctrl-C comes to all processes of a terminal.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-@contextmanager
-def _interrupts_put_off() -> Iterator[None]:
-    """Let Ctrl-C wait inside, and never come to processes that are started there."""
-    if sys.platform == "win32":
-        yield
-        return
-    # Were it started inside, it would let Ctrl-C through again.
-    resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
 from math import prod
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +15,7 @@ from optipath.values.arrays import memory
 from optipath.values.text import IdleValues
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -114,9 +112,6 @@ def sweep_axis(
 _LITTLE, _MOST_BYTES = 2**26, 2**9
 """What memory nobody misses, and what a point takes at most."""
 
-_GROUP_LIMITS = ("memory.max", "memory/memory.limit_in_bytes")
-"""Where Linux says how much a container may have."""
-
 
 def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     """Refuse a sweep in memory that takes more than there is.
@@ -164,20 +159,7 @@ def free_memory() -> int:
         psutil: Any = import_module("psutil")  # Dask's cluster brings it.
     except ImportError:
         return memory()
-    own = psutil.Process().memory_info()
-    free: list[int] = [psutil.virtual_memory().available]
-    free += [limit - own.rss for limit in _group_limits()]
-    with suppress(ImportError):  # Windows has none.
-        resource: Any = import_module("resource")
-        limit, _ = resource.getrlimit(resource.RLIMIT_AS)
-        free += [] if limit == resource.RLIM_INFINITY else [limit - own.vms]
-    return max(0, min(free))
-
-
-def _group_limits() -> Iterator[int]:
-    for name in _GROUP_LIMITS:
-        with suppress(OSError, ValueError):  # No such file, or "max".
-            yield int((Path("/sys/fs/cgroup") / name).read_text("ascii"))
+    return min(memory(), int(psutil.virtual_memory().available))
 
 
 def _text(size: int) -> str:
