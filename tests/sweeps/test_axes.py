@@ -239,8 +239,8 @@ def test_dimensions_are_called_as_parameters_in_the_order_given_or_as_zip_says()
         (("delta", "roh"), "zip names 'roh', which has no axis of its own; did you mean 'rho'?"),
         (("delta", "n1"), "zip names 'n1', which has no axis of its own"),
         ({"k1": PAIR}, "zip calls a dimension 'k1', which is the name of a parameter"),
-        ({3: PAIR}, "zip calls a dimension 3; give it a text for a name"),
-        ("delta", "zip is 'delta'; write zip=('a', 'b')"),
+        ({3: PAIR}, "write zip=('a', 'b'), zip=[('a', 'b')"),
+        ("delta", "zip is 'delta', and a group is two names or more; write zip=('a', 'b')"),
         (("delta",), "a group is two names or more"),
         ([("delta", 3)], "a group is two names or more"),
     ):
@@ -328,7 +328,7 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name_and_the_lines_of_cells(tm
         (fault,) = told_in(text)
         assert sentence in fault
     assert told_in("n1,delta (deg)\n1.5,20\nnan,120\n-1,130\n") == [
-        "line 3: parameter 'n1' is 'nan', which is not finite; write a number",
+        "line 3: parameter 'n1' cannot be 'nan', which is not finite; give a number",
         "line 4: parameter 'n1' is -1, outside its range; give 0 or more",
         "line 3: parameter 'delta' is 120 deg, outside its range; give 0 deg .. 90 deg",
         "line 4: parameter 'delta' is 130 deg, outside its range; give 0 deg .. 90 deg",

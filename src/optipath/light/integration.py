@@ -37,22 +37,16 @@ def spectral_axis(light: Light) -> tuple[Array, int]:
         )
     check_known("the wavelengths that light is added up over", wavelength)
     every = np.broadcast_to(wavelength, light.shape)
-    if not every.size:
-        raise LightError(
-            f"light of shape {light.shape} is none at all, and has no spectrum; trace several "
-            f"wavelengths, wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
-        )
     axes = [axis for axis in range(every.ndim) if _varies(every, axis)]
     if not axes:
         raise LightError(
-            f"light of one wavelength, {1e9 * every.flat[0]:g} nm, has no spectrum; trace several, "
-            f"wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
+            f"light of one wavelength or none, of shape {light.shape}, has no spectrum; trace "
+            f"several, wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
         )
     if len(axes) > 1:
         raise LightError(
             f"the wavelengths vary along axes {listed([*map(str, axes)])} of light of shape "
-            f"{light.shape}, and a spectrum has one; give them one, wavelengths[:, None], or "
-            f"take a part of the light"
+            f"{light.shape}, and a spectrum has one; take a part of the light"
         )
     axis = axes[0]
     grid = np.moveaxis(every, axis, 0).reshape(every.shape[axis], -1)[:, 0]

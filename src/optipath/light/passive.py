@@ -82,10 +82,9 @@ def problem_of(matrix: Array, tolerance: float) -> str:
     """
     lacks = decompositions.lack(matrix)
     if lacks <= tolerance:
-        times = _text(float(gain(matrix)))
         return (
-            f"makes light up to {times} times as bright (M00 + |(M01, M02, M03)|), as no passive "
-            f"element does"
+            f"makes light up to {float(gain(matrix)):.10g} times as bright "
+            f"(M00 + |(M01, M02, M03)|), as no passive element does"
         )
     return (
         f"is unphysical, having a coherency eigenvalue of {-lacks:.3g} times the largest (Cloude's "
@@ -103,20 +102,10 @@ def cure_of(matrices: Array, tolerance: float) -> str:
     if np.any(decompositions.lack(matrices) > tolerance):
         result = "op.Mueller(matrix).nearest_physical().matrix"
         matrices = decompositions.nearest_physical(matrices)
-    most = np.max(gain(matrices))
-    return f"{result} / {_rounded_up(most)}" if most > 1.0 else result
-
-
-def _text(number: float) -> str:
-    """Write a number with six digits, or ten where it is 1 otherwise."""
-    text = f"{number:.6g}"
-    return text if float(text) > 1.0 else _rounded_up(number)
-
-
-def _rounded_up(number: float) -> str:
-    """Write a number with ten digits, or somewhat more than it."""
-    text = f"{number:.10g}"
-    return text if float(text) >= number else f"{number * (1.0 + 1e-9):.10g}"
+    most = float(np.max(gain(matrices)))
+    # Somewhat more than it, if it has more digits than are written.
+    text = f"{most:.10g}" if float(f"{most:.10g}") >= most else f"{most * (1.0 + 1e-9):.10g}"
+    return f"{result} / {text}" if most > 1.0 else result
 
 
 def _is_passive(numbers: list[float], tolerance: float) -> bool:

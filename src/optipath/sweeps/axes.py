@@ -198,9 +198,17 @@ def zipped_dimensions(
     >>> zipped_dimensions(("delta", "rho"), {"delta": 3, "rho": 3, "phi": 2}, [], [])
     {'delta': 'delta_rho', 'rho': 'delta_rho'}
     """
-    groups = _groups(zipped, faults)
+    several = zipped or ()
+    if isinstance(several, (list, tuple)) and several and all(isinstance(n, str) for n in several):
+        several = [several]
+    groups = several.items() if isinstance(several, Mapping) else [("", each) for each in several]
     results: dict[str, str] = {}
-    for dimension, names in groups:
+    for given, names in groups:
+        is_group = isinstance(names, (list, tuple)) and all(isinstance(n, str) for n in names)
+        if not (is_group and len(names) > 1 and isinstance(given, str)):
+            faults.append(f"zip is {shown(zipped)}, and a group is two names or more; write {_AS}")
+            return {}
+        dimension = given or "_".join(names)
         messages = [
             f"zip names '{name}', which has no axis of its own{did_you_mean(name, lengths)}"
             for name in names
@@ -211,13 +219,11 @@ def zipped_dimensions(
             for name in dict.fromkeys(names)
             if name in results or names.count(name) > 1
         ]
-        if dimension in parameters:
+        if dimension in parameters or dimension in results.values():
             messages.append(
-                f"zip calls a dimension '{dimension}', which is the name of a parameter; give it "
-                f"another, such as zip={{'point': {(*names,)}}}"
+                f"zip calls a dimension '{dimension}', which is the name of a parameter or of "
+                f"another; give it another, such as zip={{'point': {(*names,)}}}"
             )
-        if dimension in results.values():
-            messages.append(f"zip has two dimensions '{dimension}'; name them by zip={{...}}")
         if not messages and len({lengths[name] for name in names}) > 1:
             counted = listed([f"{lengths[name]} of '{name}'" for name in names])
             messages.append(
@@ -245,30 +251,6 @@ def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -
                 f"vary together, or .rename({shared}='{names[-1]}') for all combinations"
             )
     return faults
-
-
-def _groups(zipped: Any, faults: list[str]) -> list[tuple[str, list[str]]]:
-    """Return the dimension and the names of each group."""
-    if zipped is None or (isinstance(zipped, (list, tuple, Mapping)) and not zipped):
-        return []
-    if isinstance(zipped, Mapping):
-        several: list[tuple[Any, Any]] = [*zipped.items()]
-    elif isinstance(zipped, (list, tuple)):
-        alone = any(isinstance(one, str) for one in zipped)
-        several = [(None, group) for group in ([zipped] if alone else zipped)]
-    else:
-        faults.append(f"zip is {shown(zipped)}; write {_AS}")
-        return []
-    results = []
-    for dimension, group in several:
-        are_names = isinstance(group, (list, tuple)) and all(isinstance(n, str) for n in group)
-        if not are_names or len(group) < 2:
-            faults.append(f"zip has {shown(group)}, and a group is two names or more; write {_AS}")
-        elif dimension is not None and not (isinstance(dimension, str) and dimension):
-            faults.append(f"zip calls a dimension {shown(dimension)}; give it a text for a name")
-        else:
-            results.append((dimension or "_".join(group), [*group]))
-    return results
 
 
 KEYWORDS = frozenset(PathGraph.sweep.__kwdefaults__ or ())

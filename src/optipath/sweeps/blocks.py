@@ -225,9 +225,13 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
 def _obey_parent() -> None:
     """Let the process that has started this one, alone, hear Ctrl-C and end it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = parent_process()
-    if parent is not None:
-        Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    if (parent := parent_process()) is not None:
+        parent.join()
+        os._exit(1)
 
 
 def active_client() -> Any:

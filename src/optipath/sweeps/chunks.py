@@ -14,7 +14,6 @@ from dask.delayed import delayed
 
 from optipath.errors import ParameterError, shown, unknown
 from optipath.light.quantities import QUANTITIES
-from optipath.plan.reading import pieces
 from optipath.sweeps.datasets import (
     attributes_of,
     coordinates_of,
@@ -22,7 +21,7 @@ from optipath.sweeps.datasets import (
     dimensions_of,
 )
 from optipath.sweeps.grid import SweepGrid
-from optipath.sweeps.labels import detectors_of, variable_names
+from optipath.sweeps.labels import detectors_of, regions, variable_names
 from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.values.messages import units_are_written
 from optipath.values.precision import is_whole
@@ -154,17 +153,10 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     plan, varied = recipe.plan, block.varied
     with units_are_written():  # Who reads the axes has told of degrees among them.
         results = [
-            plan.run_all(**varied.given(_region(piece.where, varied.shape)))
-            for piece in pieces(varied.shape, _AT_ONCE)
+            plan.run_all(**varied.given(region)) for region in regions(varied.shape, _AT_ONCE)
         ]
     lights = [tuple([light[name] for light in results]) for name in detectors_of(plan)]
     return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)
-
-
-def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slice]:
-    """Return an index as a slice for each dimension."""
-    messages = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
-    return messages + [slice(None)] * (len(shape) - len(messages))
 
 
 BLOCK = 1 << 20
@@ -198,31 +190,22 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
 
 def _sizes_by_name(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     """Return the sizes that somebody has chosen."""
-    if _auto(chunks):
-        return {}
-    forms = (
-        f"give 'auto', a number of values along each dimension, or {{'{next(iter(sizes))}': 10}}"
-    )
-    if isinstance(chunks, Mapping):
-        faults = [fault for name in chunks for fault in unknown("dimension", name, sizes)]
-        arguments = {
-            name: size for name, size in chunks.items() if name in sizes and not _auto(size)
-        }
-        wrong = [(f"chunks of '{name}'", size) for name, size in arguments.items()]
-    else:
-        faults, arguments, wrong = [], dict.fromkeys(sizes, chunks), [("chunks", chunks)]
-    faults += [
-        f"{what} cannot be {shown(size)}: {forms}; -1 keeps a dimension whole"
-        for what, size in wrong
-        if not (is_whole(size) or is_whole(size, -1, -1))
-    ]
+    given = chunks if isinstance(chunks, Mapping) else dict.fromkeys(sizes, chunks)
+    faults = [fault for name in given for fault in unknown("dimension", name, sizes)]
+    results = {}
+    for name, size in given.items():
+        if isinstance(size, str) and size == "auto":
+            continue
+        if not (is_whole(size) or is_whole(size, -1, -1)):
+            faults.append(
+                f"chunks cannot be {shown(size)}: give 'auto', a number of values along each "
+                f"dimension, or {{'{next(iter(sizes))}': 10}}; -1 keeps a dimension whole"
+            )
+        elif name in sizes:
+            results[name] = sizes[name] if size == -1 else int(size)
     if faults:
-        raise ParameterError(*faults)
-    return {name: sizes[name] if size == -1 else int(size) for name, size in arguments.items()}
-
-
-def _auto(size: Any) -> bool:
-    return isinstance(size, str) and size == "auto"
+        raise ParameterError(*dict.fromkeys(faults))
+    return results
 
 
 def _even(count: int, most: int) -> int:

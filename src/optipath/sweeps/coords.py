@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Mapping
 from os import PathLike
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import Fault, OptipathError, ParameterError, collecting, shown
+from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.labels import DETECTOR, is_variable
 from optipath.values.arrays import as_argument
 from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
@@ -220,9 +219,6 @@ def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -
     return np.array(results).reshape(numbers.shape)
 
 
-_ENDLESS = re.compile(r"[-+]?(nan|inf|infinity)\b.*", re.IGNORECASE)
-
-
 def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
     """Return the values of a column."""
     name = column.name
@@ -231,26 +227,17 @@ def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
     try:
         return _read(inputs, name, column.texts)
     except OptipathError as fault:
-        message: list[str] = [
-            Fault.of(each).under(f"line {line}")
-            for line, text in zip(column.lines, column.texts, strict=True)
-            for each in _faults(inputs, name, text)
-        ] or [*fault.faults]
-    raise ParameterError(*[Fault.of(each).under(str(column.file)) for each in first_of(message)])
+        message: list[str] = []
+        for line, text in zip(column.lines, column.texts, strict=True):
+            of_one: list[str] = []
+            with collecting(of_one):
+                _read(inputs, name, [text])
+            message += [f"line {line}: {sentence}" for sentence in of_one]
+        message = message or [*fault.faults]
+    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(message)])
 
 
 def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:
     result = read_entries(texts, inputs.open[name], "", inputs.uses)
-    inputs.numbers_for(name, result.given)  # Which looks at its range.
+    inputs.numbers_for(name, result.given if len(texts) > 1 else result.given[0])  # Its range.
     return result
-
-
-def _faults(inputs: Inputs, name: str, text: str) -> list[str]:
-    """Return what is wrong with a cell."""
-    if _ENDLESS.fullmatch(text):
-        return [f"parameter '{name}' is '{text}', which is not finite; write a number"]
-    faults: list[str] = []
-    with collecting(faults):
-        result = read_entries([text], inputs.open[name], "", inputs.uses)
-        inputs.numbers_for(name, result.given[0])
-    return faults

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import ParameterError
 from optipath.light.quantities import FAINT, QUANTITIES
+from optipath.plan.reading import pieces
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
@@ -78,19 +79,9 @@ def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ..
     >>> [[(cut.start, cut.stop) for cut in region] for region in regions((2, 3), 2)]
     [[(0, 1), (0, 2)], [(0, 1), (2, 3)], [(1, 2), (0, 2)], [(1, 2), (2, 3)]]
     """
-    whole, points = len(shape), 1
-    while whole and points * shape[whole - 1] <= most:
-        whole -= 1
-        points *= shape[whole]
-    behind = [slice(0, size) for size in shape[whole:]]
-    if not whole:
-        yield tuple(behind)
-        return
-    size, step = shape[whole - 1], max(most // points, 1)
-    for index in np.ndindex(*shape[: whole - 1]):
-        before = [slice(place, place + 1) for place in index]
-        for start in range(0, size, step):
-            yield (*before, slice(start, min(start + step, size)), *behind)
+    for piece in pieces(tuple(shape), most):
+        cuts = [each if isinstance(each, slice) else slice(each, each + 1) for each in piece.where]
+        yield (*cuts, *[slice(0, size) for size in shape[len(cuts) :]])
 
 
 def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:

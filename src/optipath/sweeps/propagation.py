@@ -283,16 +283,3 @@ def notes_of_lost_figures(missing: Any) -> list[str]:
     if not np.any(missing):
         return []
     return [f"nan: {_named(missing)}: some samples do not have it, as circular light has no AoP"]
-
-
-def notes_of_lost_light(missing: Any) -> list[str]:
-    """Return notes on light that no float holds.
-
-    >>> notes_of_lost_light(np.array(False))
-    []
-    """
-    count = int(np.count_nonzero(missing))
-    message = (
-        f"nan: the light of {count} in {missing.size} paths is too faint or bright for a float"
-    )
-    return [message] if count else []

@@ -81,13 +81,11 @@ def _place(store: Any, scheduler: Any, progress: Any) -> str | None:
         from optipath.sweeps.stored import place_of_store  # noqa: PLC0415
 
         return place_of_store(store)
-    arguments = {"scheduler": scheduler is not None, "progress": bool(progress)}
-    if message := [f"{name}=" for name, is_given in arguments.items() if is_given]:
+    if scheduler is not None or progress:
         raise ParameterError(
-            f"{' and '.join(message)} {'is' if len(message) == 1 else 'are'} for a sweep that "
-            "is kept; "
-            f"give store= besides, such as store='sweep.zarr', or let Dask compute what chunks= "
-            f"gives: sweep.compute(scheduler=...)"
+            "scheduler= and progress= are for a sweep that is kept; give store= besides, such as "
+            "store='sweep.zarr', or let Dask compute what chunks= gives: "
+            "sweep.compute(scheduler=...)"
         )
     return None
 

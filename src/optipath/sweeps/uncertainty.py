@@ -15,7 +15,7 @@ from optipath.sweeps.axes import unknown_names
 from optipath.sweeps.first_order import changes_of, nonlinearity_of, slopes_of, spread_of
 from optipath.sweeps.light_figures import LightAt
 from optipath.sweeps.monte_carlo import samples_at_once, spread_of_samples
-from optipath.sweeps.propagation import Propagation, notes_of_first_order, notes_of_lost_light
+from optipath.sweeps.propagation import Propagation, notes_of_first_order
 from optipath.sweeps.uncertain_value import UncertainValue, read_correlation
 from optipath.values.arrays import array_of, broadcast_fault, enough_for, first_place, numbers_for
 from optipath.values.jax_values import check_known
@@ -73,12 +73,11 @@ def propagate(
         block = min(options.count, samples_at_once(light.shape)), *light.shape
         with enough_for(block, _BYTES_OF_A_SAMPLE, error=ParameterError):
             return _by_samples(light_at, light, correlation, options)
-    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
-        if composer is None:
-            return _to_first_order(light_at, light, correlation, options)
+    if composer is not None:
         exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
-        smooth = replace(light_at, plan=exactly.compose(path))
-        return _to_first_order(smooth, light, correlation, options)
+        light_at = replace(light_at, plan=exactly.compose(path))
+    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
+        return _to_first_order(light_at, light, correlation, options)
 
 
 def _detector(plan: Plan, request: Any) -> tuple[str, list[str]]:
@@ -98,22 +97,12 @@ def _to_first_order(
     slopes, method, rounding = slopes_of(light_at, options.method)
     center = light_at({})
     changes = changes_of(center, slopes, light_at.uncertain, rounding)
-    changes = np.where(_is_missed(light)[..., np.newaxis, np.newaxis], np.nan, changes)
     spread = spread_of(changes, correlation)
     left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
-    there = np.where(_is_missed(light)[..., np.newaxis], 0.0, spread.uncertainties)
-    notes = notes_of_first_order(light, light_at.uncertain, there, left)
+    notes = notes_of_first_order(light, light_at.uncertain, spread.uncertainties, left)
     mean = np.asarray(light.stokes, np.float64)
     return Propagation(
-        light=light,
-        mean=mean,
-        covariance=spread.covariance,
-        uncertain=light_at.uncertain,
-        method=method,
-        notes=(*notes_of_lost_light(_is_missed(light)), *notes),
-        uncertainties=spread.uncertainties,
-        shares=spread.shares,
-        left=left,
+        light, mean, spread.covariance, light_at.uncertain, method, tuple(notes), *spread[1:], left
     )
 
 
@@ -125,26 +114,16 @@ def _by_samples(
 ) -> Propagation:
     count, seed = options.count, options.beginning
     spread, mean, notes = spread_of_samples(light_at, light, correlation, count, seed)
-    missing = _is_missed(light)
-    uncertainties = np.where(missing[..., np.newaxis], np.nan, spread.uncertainties)
     return Propagation(
-        light=light,
-        mean=mean,
-        covariance=np.where(missing[..., np.newaxis, np.newaxis], np.nan, spread.covariance),
-        uncertain=light_at.uncertain,
-        method=f"Monte Carlo, {count:,} samples, seed {seed}",
-        notes=(*notes_of_lost_light(missing), *notes),
-        uncertainties=uncertainties,
-        shares=spread.shares,
-        left=np.zeros_like(spread.shares),
+        light,
+        mean,
+        spread.covariance,
+        light_at.uncertain,
+        f"Monte Carlo, {count:,} samples, seed {seed}",
+        tuple(notes),
+        *spread[1:],
+        np.zeros_like(spread.shares),
     )
-
-
-def _is_missed(light: Light) -> npt.NDArray[np.bool_]:
-    """Return which light is too faint, or too bright, for a float."""
-    s0 = np.asarray(light.stokes)[..., 0]
-    missing = (np.abs(s0) < np.finfo(np.float64).tiny) | np.isinf(s0)
-    return np.asarray(missing & (light.exponent != 0))
 
 
 _PAIR = 2
@@ -205,10 +184,7 @@ def _read(inputs: Inputs, name: str, arguments: tuple[Any, ...]) -> UncertainVal
 
 def _value(inputs: Inputs, name: str, value: Any) -> Any:
     if isinstance(value, Material):
-        raise ParameterError(
-            f"parameter '{name}' is a Material, which has no one uncertainty; write "
-            f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
-        )
+        raise ParameterError(_in_parts(name, "a Material"))
     check_known(f"propagate({name}=...)", value)
     for use in inputs.uses:
         if use.value.name == name and (doubt := use.doubt(value)):
@@ -220,11 +196,15 @@ def _value(inputs: Inputs, name: str, value: Any) -> Any:
             f"uncertainty; give it without one, {name}='none'"
         )
     if np.iscomplexobj(value):
-        raise ParameterError(
-            f"parameter '{name}' is complex, and its parts have an uncertainty each; write "
-            f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
-        )
+        raise ParameterError(_in_parts(name, "complex"))
     return np.asarray(value, np.float64)
+
+
+def _in_parts(name: str, kind: str) -> str:
+    return (
+        f"parameter '{name}' is {kind}, whose parts have an uncertainty each; write "
+        f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
+    )
 
 
 def _sigma(inputs: Inputs, name: str, sigma: Any) -> Any:
