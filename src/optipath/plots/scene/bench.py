@@ -101,19 +101,26 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     below = write_notes(ax, notes, 0.85 * size)
     room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
     if flat.straight:
-        lines = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
+        high = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
         most = _most(widest, whole.width / inch, size)
-        flat = _fit_rows(ax, scene, flat, most, (room, lines))
+        flat = _fit_rows(ax, scene, flat, most, (room, high))
     else:
         _fit_plane(ax, flat, room)
     _draw(ax, scene, flat)
-    drawn: list[Any] = [*ax.lines, *ax.patches]
-    for line in drawn:
+    for line in (*ax.lines, *ax.patches):
         line.set_linewidth(min(size / _POINTS, 1.0) * line.get_linewidth())
+    style: dict[str, Any] = {"fontsize": size, "color": INK, "linespacing": 1.15}
     if flat.straight:
-        _write_below(ax, flat, texts, size)
-    else:
-        _write_then_move(ax, scene, flat, texts, (size, room))
+        for name, lines in texts.items():
+            at = flat.at[name] - [0.0, _BELOW]
+            ax.text(*at, "\n".join(lines), ha="center", va="top", **style)
+        return ax
+    labels = [
+        Label("\n".join(texts[n.name]), flat.at[n.name], style, 2.0 if n.normal is None else 0.8)
+        for n in scene.nodes
+    ]
+    beams = [np.asarray(line.get_xydata()) for line in ax.lines]
+    place_labels(ax, labels, beams, room, ax.patches)
     return ax
 
 
@@ -153,8 +160,11 @@ def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
     for ray, drawn in zip(scene.rays, flat.rays, strict=True):
         _beam(ax, ray, flat, drawn)
     for node in scene.nodes:
-        at, way = flat.at[node.name], direction_at(node, scene, flat)
-        draw_symbol(ax, node, at, way, _face(scene, flat, node))
+        at = flat.at[node.name]
+        rays = [ray for ray in scene.rays if ray.end == node.name]
+        rays += [ray for ray in scene.rays if ray.start == node.name]
+        # Of light that arrives, or else that leaves.
+        draw_symbol(ax, node, at, flat.sheet @ rays[0].axes[2], _face(scene, flat, node))
         if node.axis is not None:
             axes = next(frame.axes for frame in scene.frames if frame.port == f"{node.name}.in")
             dial(ax, at, flat.in_dial(axes, np.array([-node.axis, node.axis])), INK)
@@ -178,12 +188,9 @@ def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
         ax.plot(*np.array([tail, head]).T, color=colour, lw=width, ls=style, zorder=3)
         tip = head if ray.leaves or len(drawn.pieces) > 1 else tail + 0.3 * (head - tail)
         draw_head(ax, tip, head - tail, np.array([0.08, 0.025]), fc=colour, zorder=3.1)
-    if not (ray.leaves or ray.is_dark):
-        _polarisation(ax, ray, flat, drawn.middle)
-
-
-def _polarisation(ax: Axes, ray: SceneRay, flat: FlatSheet, at: Array) -> None:
-    """Draw the ellipse of light in a dial, and a star for light that has none."""
+    if ray.leaves or ray.is_dark:
+        return
+    at = drawn.middle
     if ray.ellipse is not None:
         points = flat.in_dial(ray.axes, ray.ellipse) / (LARGEST_ELLIPSE * flat.unit)
         seen = dial(ax, at, points, ELLIPSE)
@@ -191,34 +198,8 @@ def _polarisation(ax: Axes, ray: SceneRay, flat: FlatSheet, at: Array) -> None:
             draw_turn(ax, seen, 1.0, ELLIPSE, zorder=6.2)
         return
     dial(ax, at, np.zeros((0, 2)), FAINT)
-    for way in 0.6 * _STAR:
-        dial_line = np.array([at - 0.15 * way, at + 0.15 * way])
-        ax.plot(*dial_line.T, color=FAINT, lw=1.0, zorder=6.1)
-
-
-def _write_below(ax: Axes, flat: FlatSheet, texts: dict[str, list[str]], size: float) -> None:
-    for name, lines in texts.items():
-        at = flat.at[name] - [0.0, _BELOW]
-        style: Any = {"fontsize": size, "ha": "center", "va": "top", "linespacing": 1.15}
-        ax.text(at[0], at[1], "\n".join(lines), color=INK, **style)
-
-
-def _write_then_move(
-    ax: Axes,
-    scene: Scene,
-    flat: FlatSheet,
-    texts: dict[str, list[str]],
-    where: tuple[float, Bbox],
-) -> None:
-    """Write texts where they cover neither beams nor symbols."""
-    size, room = where
-    lines = [np.array(line.get_xydata()) for line in ax.lines]
-    style = {"fontsize": size, "color": INK, "linespacing": 1.15}
-    labels = [
-        Label("\n".join(texts[n.name]), flat.at[n.name], style, 2.0 if n.normal is None else 0.8)
-        for n in scene.nodes
-    ]
-    place_labels(ax, labels, lines, room, ax.patches)
+    for way in 0.09 * _STAR:  # For light that has no polarisation.
+        ax.plot(*np.array([at - way, at + way]).T, color=FAINT, lw=1.0, zorder=6.1)
 
 
 BLUE, ELLIPSE, _, _, FACE, LAMP = LINES
@@ -344,31 +325,31 @@ def values_below(element: Element) -> list[str]:
     """
     domains, result = element.domains(), []
     for name in _FIELDS:
-        value: Any = getattr(element, name, None)
-        if name not in domains or not isinstance(value, Parameter | float | int):
-            continue
         if name == "angle" and isinstance(element, Medium) and not has_axis(element):
             continue
-        if isinstance(value, Parameter) or value != 0.0 or name in _ALWAYS:
-            result.append(_text(element, name, value, domains[name].unit))
+        if name in domains:
+            value = getattr(element, name, None)
+            if name == "incidence" and isinstance(element, BoundaryElement):
+                result.append(shown_incidence(value, angles_at(element)[0]).text)
+            else:
+                result += _texts(name, value, domains[name].unit)
     incidence, turn = angles_in_chain(element)
     if incidence is not None:
         result.append(shown_incidence(incidence, number(incidence)).text)
-    if isinstance(turn, Parameter | float | int) and (isinstance(turn, Parameter) or turn != 0.0):
-        result.append(_text(element, "azimuth", turn, "deg"))
-    return result
+    return result + _texts("azimuth", turn, "deg")
 
 
-def _text(element: Element, name: str, value: Any, unit: str) -> str:
-    if name == "incidence" and isinstance(element, BoundaryElement):
-        return shown_incidence(value, angles_at(element)[0]).text
-    if not isinstance(value, Parameter):
-        said = quantity_text(number(value), unit)
-        return said if name == "angle" else f"{name} {said}"
-    if not bool(Operand(value, "present").numbers()):
-        return f"{value.name} = none"
-    said = f"{value.formula} = {quantity_text(number(value), value.unit or unit)}"
-    return f"azimuth {said}" if name == "azimuth" else said
+def _texts(name: str, value: Any, unit: str) -> list[str]:
+    """Return the text of a value that is no array and not left at nothing."""
+    if isinstance(value, Parameter):
+        if not bool(Operand(value, "present").numbers()):
+            return [f"{value.name} = none"]
+        said = f"{value.formula} = {quantity_text(number(value), value.unit or unit)}"
+        return [f"azimuth {said}" if name == "azimuth" else said]
+    if not isinstance(value, float | int) or (value == 0.0 and name not in _ALWAYS):
+        return []
+    said = quantity_text(number(value), unit)
+    return [said if name == "angle" else f"{name} {said}"]
 
 
 _IN_PLANE = 1e-7
@@ -403,15 +384,14 @@ class FlatSheet(NamedTuple):
 
 def flat_sheet(scene: Scene) -> FlatSheet:
     """Return a scene laid flat."""
-    right = scene.rays[0].axes[2] if scene.rays else np.eye(3)[0]
-    ways = np.array([ray.axes[2] for ray in scene.rays]).reshape(-1, 3)
+    _, up, right = scene.rays[0].axes
+    ways = np.array([ray.axes[2] for ray in scene.rays])
     aside = ways - np.outer(ways @ right, right)
-    largest = int(np.argmax(np.linalg.norm(aside, axis=1))) if len(aside) else 0
-    straight = not len(aside) or bool(np.linalg.norm(aside[largest]) < _IN_PLANE)
-    first = scene.rays[0].axes if scene.rays else np.eye(3)
-    up = first[1] if straight else aside[largest] / np.linalg.norm(aside[largest])
-    if not straight and up @ first[1] < -_IN_PLANE:
-        up = -up
+    largest = max(aside, key=np.linalg.norm)
+    straight = bool(np.linalg.norm(largest) < _IN_PLANE)
+    if not straight:
+        largest = largest / np.linalg.norm(largest)
+        up = -largest if largest @ up < -_IN_PLANE else largest
     normal = np.cross(right, up)
     out = [ray.end or ray.start for ray in scene.rays if abs(ray.axes[2] @ normal) > _IN_PLANE]
     if out:
@@ -449,13 +429,6 @@ def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]
         pieces = np.array([tail, tail + half]), np.array([head - half, head])
         rays.append(FlatRay(pieces, head - half + [min(_FROM_EDGE, 0.5 * half[0]), 0.0]))
     return flat._replace(at=at, rays=tuple(rays))
-
-
-def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
-    """Return the direction (2,) on the sheet of light that reaches a node or leaves a source."""
-    rays = [ray for ray in scene.rays if ray.end == node.name]
-    rays += [ray for ray in scene.rays if ray.start == node.name]
-    return np.asarray(flat.sheet @ rays[0].axes[2] if rays else np.array([1.0, 0.0]))
 
 
 def nearest_symbols(scene: Scene, flat: FlatSheet) -> float:

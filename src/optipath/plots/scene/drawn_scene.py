@@ -13,7 +13,7 @@ from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.text import broken
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     import numpy.typing as npt
     from matplotlib.artist import Artist
@@ -224,35 +224,25 @@ def chosen_view(scene: Scene, aspect: float) -> View:
 
 
 def _merit(scene: Scene, view: View, aspect: float) -> float:
-    nodes = view.points(np.array([node.at for node in scene.nodes]))
-    ends = [view.points(np.array([ray.tail, ray.head])) for ray in scene.rays]
-    size = np.ptp(np.concatenate([nodes, *ends]), axis=0)
-    scale = 1.0 / max(size[0] / aspect, size[1], 1e-9)
-    apart = min((*_distances(scene, nodes, ends), 1.0 / scale), default=1.0) * scale
-    towards = view.sheet[2]
+    at = view.points(np.array([node.at for node in scene.nodes]))
+    ends = view.points(np.array([(ray.tail, ray.head) for ray in scene.rays]))
+    width, height = np.ptp(np.concatenate([at, ends.reshape(-1, 2)]), axis=0)
+    size = max(width / aspect, height, 1e-9)
+    # Nodes are far from one another, and from rays that pass them.
+    distances = [float(np.linalg.norm(one - other)) for one, other in combinations(at, 2)]
+    for ray, (tail, head) in zip(scene.rays, ends, strict=True):
+        way = head - tail
+        share = np.clip((at - tail) @ way / max(float(way @ way), 1e-30), 0.0, 1.0)
+        apart = np.linalg.norm(at - tail - np.outer(share, way), axis=1)
+        passed = [node.name not in (ray.start, ray.end) for node in scene.nodes]
+        distances += [*(1.5 * apart[passed])]
     # Ellipses and surfaces are seen from aside, and rays not along themselves.
+    towards = view.sheet[2]
     faces = [abs(float(ray.axes[2] @ towards)) for ray in scene.rays]
     faces += [abs(float(n.normal @ towards)) for n in scene.nodes if n.normal is not None]
-    open_ones = float(np.mean(np.minimum(faces, 0.5))) if faces else 0.5
-    least = min(faces, default=0.5)
-    ahead = np.mean([ray.axes[2] @ view.sheet[0] for ray in scene.rays]) if scene.rays else 0.0
-    return float(apart * (0.1 + open_ones + 0.8 * min(least, 0.3)) * (1.0 + 0.05 * ahead))
-
-
-def _distances(scene: Scene, nodes: Array, ends: list[Array]) -> Iterator[float]:
-    """Yield how far nodes are from one another, and from rays that pass them."""
-    for one, other in combinations(nodes, 2):
-        yield float(np.linalg.norm(one - other))
-    for ray, (tail, head) in zip(scene.rays, ends, strict=True):
-        for node, at in zip(scene.nodes, nodes, strict=True):
-            if node.name not in (ray.start, ray.end):
-                yield 1.5 * _from_segment(at, tail, head)
-
-
-def _from_segment(point: Array, tail: Array, head: Array) -> float:
-    way = head - tail
-    share = np.clip((point - tail) @ way / max(float(way @ way), 1e-30), 0.0, 1.0)
-    return float(np.linalg.norm(point - tail - share * way))
+    seen = 0.1 + np.mean(np.minimum(faces, 0.5)) + 0.8 * min(*faces, 0.3)
+    ahead = np.mean([ray.axes[2] @ view.sheet[0] for ray in scene.rays])
+    return float(min(distances, default=size) / size * seen * (1.0 + 0.05 * ahead))
 
 
 _HALF, _RADIUS = 0.3, 0.24
@@ -269,9 +259,10 @@ def outline(scene: Scene, node: SceneNode) -> Array:
         return np.asarray(node.at + _RADIUS * scene.unit * circle)
     met = [ray.head for ray in scene.rays if ray.end == node.name]
     met += [ray.tail for ray in scene.rays if ray.start == node.name]
-    half = _HALF * scene.unit
-    low, high = _reach([float((point - node.at) @ along) for point in met], half)
-    left, right = _reach([float((point - node.at) @ across) for point in met], half)
+    # As far as light meets it, and half a side more.
+    half, sides = _HALF * scene.unit, np.array([across, along]).T
+    places = np.array([0.0 * node.at, *(point - node.at for point in met)]) @ sides
+    (left, low), (right, high) = places.min(axis=0) - half, places.max(axis=0) + half
     corners = [(left, low), (right, low), (right, high), (left, high)]
     return np.array([node.at + a * across + b * along for a, b in corners])
 
@@ -280,10 +271,6 @@ def axis_line(scene: Scene, node: SceneNode) -> Array:
     """Return the line along the axis of a plate. Shape: returns (2, 3)."""
     reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
     return np.array([node.at - reach, node.at + reach])
-
-
-def _reach(places: list[float], half: float) -> tuple[float, float]:
-    return min([0.0, *places]) - half, max([0.0, *places]) + half
 
 
 def write_notes(ax: Axes, notes: Sequence[str], points: float) -> float:
