@@ -54,19 +54,17 @@ def draw_curves(
     groups = units_of([quantity for quantity, _ in curves])
     order = np.argsort(along.numbers, kind="stable")
     numbers = along.numbers[order]
-    colours = dict(zip((q.name for q, _ in curves), range(len(curves)), strict=True))
+    places = {quantity.name: place for place, (quantity, _) in enumerate(curves)}
     sides = [ax, *(ax.twinx() for _ in groups[1:])]
     lines: list[Any] = []
     ax.set_xlim(numbers[0], numbers[-1])
     for side, group in zip(sides, groups, strict=True):
-        members = [(q, values[order]) for q, values in curves if q in group]
+        members = [(quantity, values[order]) for quantity, values in curves if quantity in group]
         for quantity, values in members:
-            lines += _draw(side, numbers, quantity, values, colours[quantity.name])
+            lines += _draw(side, numbers, quantity, values, places[quantity.name])
         _limit(side, members)
-        texts = [", ".join(q.short for q in group)]
-        if len(group) == 1:
-            texts.insert(0, group[0].label)
-        label_axes(side, along.labels, texts)
+        texts = [group[0].label] if len(group) == 1 else []
+        label_axes(side, along.labels, [*texts, ", ".join(quantity.short for quantity in group)])
     ax.grid(visible=True, alpha=0.3)
     mark_default(ax, along)
     tell_missing(ax, curves, reads)
@@ -86,7 +84,9 @@ def _draw(
         along, values = open_at_jumps(along, values, quantity.period)
     marked = np.isfinite(values)
     if len(argument) > _FEW:
-        marked &= _is_alone(values)
+        # Only those to which no line leads.
+        gaps = np.pad(~marked, 1, constant_values=True)
+        marked &= gaps[:-2] & gaps[2:]
     dash, colour = (place + place // len(LINES)) % len(DASHES), LINES[place % len(LINES)]
     if (marked := marked & np.isin(along, argument)).any():
         mark: dict[str, Any] = {"marker": _MARKS[place % len(_MARKS)], "markersize": 4.0}
@@ -95,23 +95,15 @@ def _draw(
     return ax.plot(along, values, label=quantity.short, gid=quantity.name, **style)
 
 
-def _is_alone(values: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """Return which points have none beside them that a line would lead to."""
-    gaps: npt.NDArray[np.bool_] = np.pad(~np.isfinite(values), 1, constant_values=True)
-    return gaps[:-2] & gaps[2:]
-
-
 def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
     """Let an axis reach from end to end where its quantities have ends, and else from 0."""
     ends = [quantity.limits for quantity, _ in members]
-    finite = [values[np.isfinite(values)] for _, values in members]
-    if all(ends):
-        low, high = min(each[0] for each in ends if each), max(each[1] for each in ends if each)
-    else:
-        together = np.concatenate([*finite, np.zeros(1)])
-        low, high = float(together.min()), float(together.max())
-        if low == high:
-            high = 1.0
+    if not all(ends):
+        finite = [values[np.isfinite(values)] for _, values in members]
+        ends = [(float(each.min()), float(each.max())) for each in finite if each.size]
+        ends.append((0.0, 0.0))
+    low, high = min(each[0] for each in ends if each), max(each[1] for each in ends if each)
+    high = high if low < high else low + 1.0
     room = _MARGIN * (high - low)
     ax.set_ylim(low - room, high + room)
     if members[0][0].unit == "°":
@@ -136,11 +128,10 @@ def tell_missing(ax: Axes, curves: Sequence[Drawn], reads: str) -> None:
         return
     read = [each.name for each in missing if each.is_read(reads)]
     unread = [each.name for each in missing if not each.is_read(reads)]
-    lines = [f"{listed(unread)}: not read"] if unread else []
-    message = "\n".join([f"{listed(read)}: the light has none", *lines] if read else lines)
-    ax.text(
-        0.5, 0.5, message, transform=ax.transAxes, ha="center", va="center", color=INK, fontsize=9
-    )
+    lines = [f"{listed(read)}: the light has none"] if read else []
+    lines += [f"{listed(unread)}: not read"] if unread else []
+    middle: dict[str, Any] = {"ha": "center", "va": "center", "transform": ax.transAxes}
+    ax.text(0.5, 0.5, "\n".join(lines), color=INK, fontsize=9, **middle)
 
 
 _FLIP = 0.05
@@ -163,14 +154,13 @@ def open_at_jumps(along: Numbers, angles: Numbers, period: float) -> tuple[Numbe
     places: list[int] = []
     more: list[tuple[float, float]] = []
     for at in np.flatnonzero(flips | jumps).tolist():
-        places += [at + 1] * (1 if flips[at] else 3)
         if flips[at]:
-            more.append((along[at], np.nan))
-            continue
-        share = (end[at] - angles[at]) / rest[at] if rest[at] else 0.5
-        meets = along[at] + share * (along[at + 1] - along[at])
-        more += [(meets, end[at]), (meets, np.nan), (meets, -end[at])]
-    if not places:
-        return along, angles
-    x, y = np.array(more).T
+            gap = [(along[at], np.nan)]
+        else:
+            share = (end[at] - angles[at]) / rest[at] if rest[at] else 0.5
+            meets = along[at] + share * (along[at + 1] - along[at])
+            gap = [(meets, end[at]), (meets, np.nan), (meets, -end[at])]
+        places += [at + 1] * len(gap)
+        more += gap
+    x, y = np.array(more).reshape(-1, 2).T
     return np.insert(along, places, x), np.insert(angles, places, y)

@@ -42,62 +42,48 @@ def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
     ['light[0]', 'light[1]']
     """
     if isinstance(light, Mapping):
-        several = _by_name(light, labels)
-    elif known_light(light).shape == ():
-        several = {_names(labels, 1, [""])[0]: light}
-    elif light.ndim > 1:
+        if labels is not None:
+            raise OptipathError("labels are for a batch; a mapping has names already")
+        several = {str(name): known_light(each) for name, each in light.items()}
+        for name, each in several.items():
+            if each.shape:
+                raise OptipathError(
+                    f"light {shown(name)} is a batch of shape {each.shape}; give one of it by its "
+                    "index"
+                )
+    elif known_light(light).ndim > 1:
         raise OptipathError(
             f"light of shape {light.shape} is more than a row; give one row of it, "
             f"light[{', '.join('0' for _ in light.shape[1:])}], or light.reshape(n)"
         )
     else:
-        _check_count(light.size, "light[:6], or every so many, light[::step]")
-        names = _names(labels, light.size, [f"light[{place}]" for place in range(light.size)])
-        several = dict(zip(names, light, strict=True))
-    return several
-
-
-def _by_name(light: Mapping[Any, Any], labels: Any) -> dict[str, Light]:
-    _check_count(len(light), "a mapping of fewer")
-    faults = [] if labels is None else ["labels are for a batch; a mapping has names already"]
-    several = {str(name): known_light(each) for name, each in light.items()}
-    faults += [
-        f"light {shown(name)} is a batch of shape {each.shape}; give one of it by its index"
-        for name, each in several.items()
-        if each.shape
-    ]
-    if faults:
-        raise OptipathError(*faults)
-    return several
-
-
-def _check_count(count: int, cure: str) -> None:
-    if count == 0:
-        raise OptipathError("there is no light to draw; give one at least")
-    if count > MOST:
-        raise OptipathError(
-            f"{count} lights are too many to tell apart in one picture, which has {MOST} at most; "
-            f"give {cure}"
+        names = (
+            [f"light[{place}]" for place in range(min(light.size, MOST))] if light.ndim else [""]
         )
+        lights = light[:MOST] if light.ndim else [light]
+        several = dict(zip(names, lights, strict=True))
+    if not 0 < (count := len(light) if isinstance(light, Mapping) else light.size) <= MOST:
+        raise OptipathError(
+            f"{count} lights are not drawn in one picture, which tells apart up to {MOST}; give 1 "
+            f"to {MOST}, such as light[:{MOST}] or every so many, light[::step]"
+        )
+    return (
+        several
+        if labels is None
+        else dict(zip(_names(labels, count), several.values(), strict=True))
+    )
 
 
-def _names(labels: Any, count: int, otherwise: list[str]) -> list[str]:
-    """Return the names that are given, or others."""
-    if labels is None:
-        return otherwise
-    if isinstance(labels, str):
-        arguments = [labels]
-    elif isinstance(labels, Sequence) and all(isinstance(each, str) for each in labels):
-        arguments = list(labels)
-    else:
+def _names(labels: Any, count: int) -> list[str]:
+    """Return the names that are given."""
+    names = [labels] if isinstance(labels, str) else labels
+    if not isinstance(names, Sequence) or not all(isinstance(each, str) for each in names):
         raise OptipathError(f"labels are {shown(labels)}; give a text for each light")
-    if len(arguments) != count:
+    if len(names) != count or len({*names}) < count:
         raise OptipathError(
-            f"there are {len(arguments)} labels for {count} lights; give one for each"
+            f"labels are {shown(labels)}; give {count} for {count} lights, each a name of its own"
         )
-    if len({*arguments}) < count:
-        raise OptipathError(f"labels {shown(arguments)} name two lights alike; give each its own")
-    return arguments
+    return [*names]
 
 
 _MINUS = "\N{MINUS SIGN}"

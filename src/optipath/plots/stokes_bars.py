@@ -123,7 +123,14 @@ def stokes(
         at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
         size, columns = ("small", 2) if is_wide(ax) else ("x-small", 1)
         draw_key(ax, keys, min(columns, len(keys)), fontsize=size, **at)
-    _fit_numbers(ax)
+    # As small as it takes for each number to stand by itself.
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    (left, _), (right, _) = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
+    texts = ax.get_xticklabels()
+    share = _FILLED * (right - left) / max(text.get_window_extent().width for text in texts)
+    if share < 1.0:
+        ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
     return ax
 
 
@@ -151,35 +158,26 @@ def _draw_bars(ax: Axes, numbers: _ByName, printed: _ByName) -> list[Any]:
 
 def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
     """Write below the bars what they are, of one light alone, and the differences."""
-    texts = [f"S{place}" for place in range(4)]
+    columns = [[f"S{place}"] for place in range(4)]
     if len(numbers) == 1:
         (result,) = numbers.values()
-        texts = [_lines(text, _number(each)) for text, each in zip(texts, result, strict=True)]
+        for column, each in zip(columns, result, strict=True):
+            column.append(_number(each))
         for argument in printed.values():
-            messages = [
-                f"({_number(each)})" if np.isfinite(each) else "(none)" for each in argument
-            ]
-            texts = [_lines(text, each) for text, each in zip(texts, messages, strict=True)]
+            for column, each in zip(columns, argument, strict=True):
+                column.append(f"({_number(each)})" if np.isfinite(each) else "(none)")
     if printed:
         apart = np.array([_apart(numbers[name], argument) for name, argument in printed.items()])
-        texts = [_lines(text, _largest(each)) for text, each in zip(texts, apart.T, strict=True)]
+        for column, each in zip(columns, apart.T, strict=True):
+            there = each[np.isfinite(each)]
+            if there.size:
+                column.append(f"Δ {digits(there[np.abs(there).argmax()], 2)}")
         legend = _ONE if len(numbers) == 1 else _SEVERAL
         ax.set_xlabel(fitting(ax, legend), fontsize="small")
-    ax.set_xticks(range(4), texts)
+    ax.set_xticks(range(4), ["\n".join(column) for column in columns])
     ax.tick_params(axis="x", length=0.0)
-    if any("\n" in text for text in texts):
+    if len(columns[0]) > 1:
         ax.tick_params(axis="x", labelsize="small" if is_wide(ax) else "xx-small")
-
-
-def _fit_numbers(ax: Axes) -> None:
-    """Write the numbers below the bars as small as it takes for each to stand by itself."""
-    figure: Any = ax.figure.figure
-    figure.draw_without_rendering()  # By which axes have the places of their layout.
-    (left, _), (right, _) = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
-    texts = ax.get_xticklabels()
-    share = _FILLED * (right - left) / max(text.get_window_extent().width for text in texts)
-    if share < 1.0:
-        ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
 
 
 def _apart(result: Any, argument: Any) -> Any:
@@ -187,16 +185,6 @@ def _apart(result: Any, argument: Any) -> Any:
     apart = result - argument
     largest = np.max(np.abs(result), initial=0.0, where=np.isfinite(result))
     return np.where(np.abs(apart) <= _ROUNDING * largest, 0.0, apart)
-
-
-def _largest(apart: npt.NDArray[np.float64]) -> str:
-    """Return the largest of some differences; none where nothing can be compared."""
-    there = apart[np.isfinite(apart)]
-    return f"Δ {digits(there[np.abs(there).argmax()], 2)}" if there.size else ""
-
-
-def _lines(*texts: str) -> str:
-    return "\n".join(text for text in texts if text)
 
 
 def _number(value: float) -> str:
@@ -234,13 +222,10 @@ def published_for(
 
 def _numbers(what: str, argument: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     numbers = array_of(what, argument, OptipathError)
-    if numbers.shape != shape or numbers.dtype.kind not in "iuf":
+    if numbers.shape != shape or numbers.dtype.kind not in "iuf" or np.isinf(numbers).any():
         raise OptipathError(
-            f"{what} is {shown(argument)}; give S0, S1, S2 and S3, numbers of shape {shape}"
-        )
-    if np.isinf(numbers).any():
-        raise OptipathError(
-            f"{what} is {shown(argument)}, which is not finite; write NaN for what is missing"
+            f"{what} is {shown(argument)}; give S0, S1, S2 and S3, finite numbers of shape "
+            f"{shape}, and NaN for what is missing"
         )
     return numbers.astype(float)
 
