@@ -151,7 +151,7 @@ def test_heads_turn_as_the_field_does_to_who_looks_at_the_source(s3):
     ],
 )
 def test_where_symbols_lie_over_one_another_that_is_said_with_the_cure(preset, folded):
-    said = "symbols lie over one another: op.plots.geometry(path) draws this path in space"
+    said = "symbols lie over one another: the picture 'geometry' has this path in space"
     for values, expected in ((folded, True), ({}, False)):
         ax = bench(op.load_preset(preset), **values)
         assert (said in " ".join(texts_in(ax)).replace("\n", " ")) is expected
@@ -215,7 +215,7 @@ def test_links_are_as_long_to_the_right_as_up_straight_paths_level_and_odd_views
     for draw in (bench, geometry):
         ax = Figure().add_subplot()
         assert draw(MALUS, ax) is ax
-    with pytest.raises(op.PathError, match=r"leaves that at 'X1'; op.plots.geometry"):
+    with pytest.raises(op.PathError, match=r"leaves that at 'X1'; draw the picture 'geometry'"):
         bench(op.load_preset("npgr026", case="8"))
     for view in (3, "front", (1, 2, 3), (np.nan, 0.0)):
         with pytest.raises(op.OptipathError, match="give elevation and azimuth"):

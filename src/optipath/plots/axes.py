@@ -33,7 +33,7 @@ def own_axes(argument: Any, size: tuple[float, float]) -> Axes:
         return own_lines(Figure(figsize=size, layout="constrained").add_subplot())
     if not isinstance(argument, Axes):
         raise OptipathError(f"ax is {shown(argument)}; give Axes of Matplotlib, or leave it out")
-    if not _is_flat(argument):
+    if argument.name != "rectilinear":
         raise OptipathError(
             f"ax has the projection '{argument.name}', and the picture is a flat one; give plain "
             f"Axes, as figure.add_subplot() makes them, or leave it out"
@@ -49,7 +49,8 @@ def own_panel(argument: Any, shape: tuple[int, int], size: tuple[float, float]) 
             own_lines(ax)
         return panel
     panel = np.array(argument, object)
-    if panel.size != shape[0] * shape[1] or not all(map(_is_flat, panel.flat)):
+    flat = all(isinstance(ax, Axes) and ax.name == "rectilinear" for ax in panel.flat)
+    if not flat or panel.size != np.prod(shape):
         rows, columns = shape
         raise OptipathError(
             f"axes are {shown(argument)}; give {rows} x {columns} Axes of Matplotlib, as "
@@ -62,10 +63,6 @@ def own_lines(ax: Drawn) -> Drawn:
     """Return axes whose lines are solid by default, whatever Matplotlib's settings are."""
     ax.set_prop_cycle(color=LINES)
     return ax
-
-
-def _is_flat(ax: Any) -> bool:
-    return isinstance(ax, Axes) and ax.name == "rectilinear"
 
 
 def fitting_text(text: Text, texts: Sequence[str], room: float) -> None:

@@ -94,11 +94,10 @@ def _rounded(largest: float, length: float) -> tuple[float, ...]:
     """
     top = int(np.floor(np.log10(largest)))
     results: list[float] = []
-    for power in range(top, top - 5, -1):
-        for digit in (5, 2, 1):
-            number = float(f"{digit}e{power}")
-            above = (results[-1] / largest) ** _TONE if results else np.inf
-            place = (number / largest) ** _TONE
-            if place <= 1.0 and min(place, above - place) * length >= _APART:
-                results.append(number)
+    reached = np.inf
+    for number in (float(f"{digit}e{top - power}") for power in range(5) for digit in (5, 2, 1)):
+        place = (number / largest) ** _TONE
+        if place <= 1.0 and min(place, reached - place) * length >= _APART:
+            results.append(number)
+            reached = place
     return tuple(reversed(results))

@@ -27,6 +27,15 @@ DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1.5, 2)), (0, (9, 3)), (0,
 """Of the same lines, which tells them apart without colours."""
 
 
+HATCHED: dict[str, Any] = {
+    "facecolor": "white",
+    "edgecolor": FAINT,
+    "hatch": "////",
+    "linewidth": 0.0,
+}
+"""Of places where there is no number."""
+
+
 def positive(what: str, number: Any) -> list[str]:
     """Return the sentence for what is no number above 0; none for one that is, or for None.
 

@@ -104,41 +104,29 @@ def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
         for dimension, size in dataset.sizes.items()
         if size > 1
     }
-    known = [name for each in along.values() for name in each]
-    arguments = [name for name in names if name is not None]
-    if faults := [one for name in arguments for one in unknown("coordinate", name, known)]:
-        raise OptipathError(*faults)
     of = {name: dimension for dimension, each in along.items() for name in each}
-    if len({of[name] for name in arguments}) < len(arguments):
+    arguments = [name for name in names if name is not None]
+    if faults := [one for name in arguments for one in unknown("coordinate", name, of)]:
+        raise OptipathError(*faults)
+    taken = {of[name] for name in arguments}
+    if len(taken) < len(arguments):
         raise OptipathError(f"{listed(arguments)} are along one dimension; give one of each")
-    rest = [dimension for dimension in along if dimension not in {of[name] for name in arguments}]
-    free = names.count(None)
-    if len(rest) != free:
-        raise OptipathError(_wrong_count(dataset, along, rest, len(names)))
-    results = [name if name is not None else _only(rest.pop(0), along) for name in names]
-    return [_axis(dataset, name) for name in results]
-
-
-def _wrong_count(dataset: Any, along: dict[str, list[str]], rest: list[str], count: int) -> str:
-    wanted = "one dimension" if count == 1 else f"{count} dimensions"
-    if len(along) < count:
+    rest = [dimension for dimension in along if dimension not in taken]
+    if len(rest) != names.count(None):
+        wanted = "one dimension" if len(names) == 1 else f"{len(names)} dimensions"
         has = listed([f"'{each}'" for each in along]) if along else "no dimension"
-        return f"a picture goes over {wanted}, and the Dataset has {has} with several values"
-    named = next((name for name in rest if name in dataset.coords), rest[0])
-    how = f".sel({named}=...)" if named in dataset.coords else f".isel({named}=0)"
-    several = listed([f"'{each}'" for each in along])
-    return (
-        f"a picture goes over {wanted}, and the Dataset has {several}; choose a value of what is "
-        f"too much, dataset{how}, and say what goes along the axes"
-    )
-
-
-def _only(dimension: str, along: dict[str, list[str]]) -> str:
-    names = along[dimension]
-    if len(names) != 1:
-        has = f"the coordinates {listed(names)}; say which" if names else "no coordinate; give one"
-        raise OptipathError(f"dimension '{dimension}' has {has}")
-    return names[0]
+        cure = " with several values"
+        if len(along) >= len(names):
+            cure = f"; choose a value of what is too much, dataset.isel({rest[0]}=0)"
+        raise OptipathError(f"a picture goes over {wanted}, and the Dataset has {has}{cure}")
+    results = []
+    for name in names:
+        known = [name] if name is not None else along[rest.pop(0)]
+        if len(known) != 1:
+            has = f"the coordinates {listed(known)}; say which" if known else "no coordinate"
+            raise OptipathError(f"a dimension of the Dataset has {has}")
+        results.append(_axis(dataset, known[0]))
+    return results
 
 
 def _axis(dataset: Any, name: str) -> AlongAxis:

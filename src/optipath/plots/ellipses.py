@@ -113,9 +113,10 @@ def _draw_one(ax: Axes, name: str, light: Light) -> list[Any]:
         keys.append(circle)
     if not no_ellipse(light):
         curve = draw_ellipse(ax, light, {"color": LINES[0], "linewidth": 2.2})
-        draw_axes_of(ax, light)
         curve.set_label(fitting(ax, f"polarised: {_percent(float(light.dop))} of S0", less=5))
         keys.insert(0, curve)
+        if not np.isnan(light.aop):
+            draw_axes_of(ax, light)
     return keys
 
 
@@ -187,29 +188,19 @@ def unpolarised_share(light: Light) -> float:
 
 def draw_axes_of(ax: Axes, light: Light) -> None:
     """Draw the axes of an ellipse with their names, and the angle of the major one."""
-    if no_ellipse(light) or np.isnan(light.aop):
-        return
     size, angle = np.sqrt(float(light.dop)), float(light.aop)
     major = size * np.cos(float(light.ellipticity_angle))
     minor = size * abs(np.sin(float(light.ellipticity_angle)))
     if 2.0 * major < _SEEN:
         return
     # Names stand where the angle does not.
-    side = np.copysign(0.5 * np.pi, angle)
-    _half_axes(ax, major, angle + np.pi, "a")
-    if minor > 0.5 * _SEEN:
-        _half_axes(ax, minor, angle + side, "b")
-    _draw_angle(ax, angle, angle_text(light))
-
-
-def _half_axes(ax: Axes, length: float, angle: float, name: str) -> None:
-    end = length * _toward(angle)
-    ax.plot(*np.transpose([-end, end]), color=FAINT, linewidth=0.9, zorder=3)
-    x, y = end + 0.07 * _toward(angle)
-    ax.text(x, y, name, ha="center", va="center", fontsize="small", style="italic", color=INK)
-
-
-def _draw_angle(ax: Axes, angle: float, text: str) -> None:
+    across = angle + np.copysign(0.5 * np.pi, angle)
+    for name, length, way in (("a", major, angle + np.pi), ("b", minor, across)):
+        if length > 0.5 * _SEEN:
+            end = length * _toward(way)
+            ax.plot(*np.transpose([-end, end]), color=FAINT, linewidth=0.9, zorder=3)
+            middle: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small"}
+            ax.text(*(end + 0.07 * _toward(way)), name, style="italic", color=INK, **middle)
     if angle == 0.0:
         return
     degrees, width = sorted((0.0, np.degrees(angle))), 2.0 * _ARC
@@ -220,7 +211,7 @@ def _draw_angle(ax: Axes, angle: float, text: str) -> None:
     small = abs(angle) < _SMALL
     x, y = (_ARC, -np.copysign(0.05, angle)) if small else (_ARC + 0.05) * _toward(0.5 * angle)
     place: dict[str, Any] = {"ha": "left", "va": "bottom" if y > 0.0 else "top", "zorder": 6}
-    ax.text(x, y, text, fontsize="small", color=INK, bbox=_BACKED, **place)
+    ax.text(x, y, angle_text(light), fontsize="small", color=INK, bbox=_BACKED, **place)
 
 
 def _toward(angle: float) -> npt.NDArray[np.float64]:

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
+from optipath.plots.colors import FAINT, HATCHED, INK
 from optipath.plots.hemisphere_side import degrees
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from optipath.plots.hemisphere_side import SeenSide
 
 
-_INK, _LINE = "#222222", "#9a9a9a"
 _RINGS = 30.0, 60.0
 _LABELLED_AT = np.radians(-62.0)
 """At which azimuth rings are labelled: away from the plane of incidence, where the light is."""
@@ -27,16 +27,10 @@ _LABELLED_AT = np.radians(-62.0)
 _AZIMUTHS = (0.0, "left", "center"), (90.0, "center", "bottom"), (180.0, "right", "center")
 _RING: dict[str, Any] = {
     "facecolor": "none",
-    "edgecolor": _LINE,
+    "edgecolor": FAINT,
     "linewidth": 0.6,
     "linestyle": (0, (4, 3)),
     "zorder": 4,
-}
-_UNKNOWN: dict[str, Any] = {
-    "facecolor": "white",
-    "edgecolor": _LINE,
-    "hatch": "////",
-    "linewidth": 0.0,
 }
 _KEY: dict[str, Any] = {
     "loc": "upper center",
@@ -64,12 +58,12 @@ def draw_disc(
     ax.set_axis_off()
     reach = 1.16 if labelled else 1.03
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
-    horizon = Circle((0.0, 0.0), 1.0, facecolor="none", edgecolor=_INK, linewidth=1.0, zorder=3)
+    horizon = Circle((0.0, 0.0), 1.0, facecolor="none", edgecolor=INK, linewidth=1.0, zorder=3)
     ax.add_patch(horizon)
     keys = []
     if np.isnan(values[~np.isnan(seen.measured.sensor.theta)]).any():
-        ax.add_patch(Circle((0.0, 0.0), 1.0, **_UNKNOWN))
-        keys += [Patch(label=hatched, **_UNKNOWN)] if hatched else []
+        ax.add_patch(Circle((0.0, 0.0), 1.0, **HATCHED))
+        keys += [Patch(label=hatched, **HATCHED)] if hatched else []
     image = ax.imshow(
         np.ma.masked_invalid(values),
         cmap=scale.colours,
@@ -101,28 +95,22 @@ def head_panel(axes: Any, argument: Any, seen: SeenSide, what: str, hatched: str
 
 
 def _draw_rings(ax: Axes, seen: SeenSide, *, labelled: bool) -> None:
+    style: dict[str, Any] = {"ha": "center", "va": "center", "color": INK, "zorder": 6}
+    place = np.array([np.cos(_LABELLED_AT), np.sin(_LABELLED_AT)])
+    backed = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.75}
     for angle in _RINGS:
         radius = seen.radius(np.radians(angle))
         ax.add_patch(Circle((0.0, 0.0), radius, **_RING))
         if labelled:
-            _label_ring(ax, radius, f"{angle:g}°", backed=True)
+            ax.text(*(radius * place), f"{angle:g}°", fontsize="x-small", bbox=backed, **style)
     if not labelled:
         return
-    _label_ring(ax, 1.08, "θ = 90°", backed=False)
+    ax.text(*(1.08 * place), "θ = 90°", fontsize="x-small", **style | {"ha": "left"})
     for azimuth, across, up in _AZIMUTHS:
         x, y = np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))
-        ax.plot([0.97 * x, 1.03 * x], [0.97 * y, 1.03 * y], color=_INK, linewidth=1.0, zorder=5)
+        ax.plot([0.97 * x, 1.03 * x], [0.97 * y, 1.03 * y], color=INK, linewidth=1.0, zorder=5)
         name = f"{azimuth:g}°" if azimuth else "φ = 0°"
-        ax.text(1.05 * x, 1.05 * y, name, ha=across, va=up, fontsize="small", color=_INK)
-
-
-def _label_ring(ax: Axes, radius: float, label: str, *, backed: bool) -> None:
-    x, y = radius * np.cos(_LABELLED_AT), radius * np.sin(_LABELLED_AT)
-    text = ax.text(x, y, label, ha="center", va="center", fontsize="x-small", color=_INK, zorder=6)
-    if backed:
-        text.set_bbox({"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.75})
-    else:
-        text.set_horizontalalignment("left")
+        ax.text(1.05 * x, 1.05 * y, name, ha=across, va=up, fontsize="small", color=INK)
 
 
 def _mark_mirrored(ax: Axes, seen: SeenSide) -> None:
@@ -131,13 +119,8 @@ def _mark_mirrored(ax: Axes, seen: SeenSide) -> None:
         return
     # White within black is seen on any colour.
     for size, width, colour in ((9.0, 3.0, "black"), (8.0, 1.2, "white")):
-        mark: dict[str, Any] = {
-            "marker": "+",
-            "markersize": size,
-            "markeredgewidth": width,
-            "color": colour,
-        }
-        ax.plot(seen.radius(angle), 0.0, linestyle="none", zorder=7, **mark)
+        mark: dict[str, Any] = {"marker": "+", "markersize": size, "markeredgewidth": width}
+        ax.plot(seen.radius(angle), 0.0, color=colour, linestyle="none", zorder=7, **mark)
 
 
 def _keys(seen: SeenSide) -> list[Any]:
@@ -146,4 +129,4 @@ def _keys(seen: SeenSide) -> list[Any]:
         return []
     what = "specular direction" if seen.side == "reflected" else "refracted by a smooth sample"
     label = f"{what}, {degrees(angle)}"
-    return [Line2D([], [], marker="+", color=_INK, linestyle="none", label=label)]
+    return [Line2D([], [], marker="+", color=INK, linestyle="none", label=label)]

@@ -11,7 +11,7 @@ from optipath.errors import OptipathError, shown
 from optipath.light.mueller import Mueller
 from optipath.plots.axes import own_axes
 from optipath.plots.color_scale import ColourScale
-from optipath.plots.colors import FAINT, INK
+from optipath.plots.colors import HATCHED, INK
 from optipath.plots.light_texts import digits
 from optipath.plots.text import head, is_wide, key_below
 from optipath.values.jax_values import check_known, known
@@ -24,13 +24,6 @@ if TYPE_CHECKING:
 _NAMES = tuple(f"S{place}" for place in range(4))
 _DARK = 0.62
 """From which share of the scale on white digits are read better than dark ones."""
-
-_UNKNOWN: dict[str, Any] = {
-    "facecolor": "white",
-    "edgecolor": FAINT,
-    "hatch": "////",
-    "linewidth": 0.0,
-}
 
 
 def mueller(matrix: Mueller, ax: Axes | None = None) -> Axes:
@@ -81,7 +74,7 @@ def mueller(matrix: Mueller, ax: Axes | None = None) -> Axes:
     scale.bar(image, ax, "")
     if np.isnan(cells).any():
         message = "not known (NaN)" if np.isnan(matrix.matrix).any() else "none: M00 is 0, or noise"
-        key_below(ax, [Patch(label=message, **_UNKNOWN)])
+        key_below(ax, [Patch(label=message, **HATCHED)])
     return ax
 
 
@@ -114,7 +107,7 @@ def _over_first(matrix: Mueller) -> tuple[float, npt.NDArray[np.float64]]:
 
 def _draw_cell(ax: Axes, row: int, column: int, value: float, scale: ColourScale) -> None:
     if np.isnan(value):
-        ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1.0, 1.0, **_UNKNOWN))
+        ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1.0, 1.0, **HATCHED))
         return
     apart = 2.0 * abs(float(scale.norm(value)) - 0.5)
     colour = "white" if apart > _DARK else INK

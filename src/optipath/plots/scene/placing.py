@@ -121,11 +121,10 @@ class Placing:
 
     def _begin(self, name: str) -> None:
         """Place a node that nothing else places."""
-        below = 1.6 * len([n for n in self.at if not self.wiring.elements[n].inputs])
-        at = np.array([0.0, 0.0, -below * self.unit])
+        sources = [n for n in self.at if not self.wiring.elements[n].inputs]
         element = self.wiring.elements[name]
         port = (*element.outputs, *element.inputs)[0]
-        self._stand(name, at, port, _START)
+        self._stand(name, np.array([0.0, 0.0, -1.6 * len(sources) * self.unit]), port, _START)
 
     def _stand(self, name: str, at: Array, port: str, axes: Array) -> None:
         """Place a node by the axes of one of its ports."""
@@ -188,9 +187,6 @@ class Placing:
     def _azimuth(self, link: Link) -> float:
         return number(azimuth_of(self.wiring, link))
 
-    def _length(self, link: Link) -> float:
-        return self._legs.get(link, self.unit)
-
     def _forwards(self, link: Link) -> DrawnLink:
         """Draw a link from where it begins."""
         start, end, (leaves, enters) = link
@@ -201,7 +197,7 @@ class Placing:
         if link in self._taps and fixed is None:
             axes = self._turned_aside((start, leaves), axes)
             self.note("taps, which only read light, are drawn dashed and aside")
-        head = tail + self._length(link) * axes[:, 2]
+        head = tail + self._legs.get(link, self.unit) * axes[:, 2]
         self._stand(end, head, enters, axes @ turn_about_z(self._azimuth(link)))
         return DrawnLink(tail, head, axes)
 
@@ -215,7 +211,7 @@ class Placing:
             axes = self._turned_aside((end, enters), axes)
             self.note(f"lights that meet at '{end}' are drawn from several sides")
         head = self.at[end]
-        tail = head - self._length(link) * axes[:, 2]
+        tail = head - self._legs.get(link, self.unit) * axes[:, 2]
         self._stand(start, tail, leaves, axes)
         return DrawnLink(tail, head, axes)
 
@@ -246,18 +242,10 @@ class Placing:
 
 def _carried(axes: Array, direction: Array) -> Array:
     """Return axes turned by the least turn that takes z to a direction."""
-    z = axes[:, 2]
-    across = np.cross(z, direction)
-    cosine = float(z @ direction)
+    cosine = float(axes[:, 2] @ direction)
     if cosine < -1.0 + 1e-12:
         return np.asarray(axes * np.array([1.0, -1.0, -1.0]))
-    matrix = np.array(
-        [
-            [0.0, -across[2], across[1]],
-            [across[2], 0.0, -across[0]],
-            [-across[1], across[0], 0.0],
-        ]
-    )
+    matrix = np.cross(np.cross(axes[:, 2], direction), np.eye(3)).T
     return np.asarray((np.eye(3) + matrix + matrix @ matrix / (1.0 + cosine)) @ axes)
 
 
@@ -360,32 +348,24 @@ def legs_and_chains(wiring: Wiring) -> dict[Link, float]:
         if isinstance(element.vertices, VerticesByAngles):
             continue
         points, place = chain_points(element), int(element.place)
-        for other, links in (
-            (place - 1, _links_before(wiring, name)),
-            (place + 1, _links_behind(wiring, name)),
-        ):
-            length = np.linalg.norm(points[other] - points[place])
-            results |= dict.fromkeys(links, float(length) / max(len(links), 1))
+        for side in (-1, 1):
+            links = _links_beside(wiring, name, behind=side > 0)
+            length = float(np.linalg.norm(points[place + side] - points[place]))
+            results |= dict.fromkeys(links, length / max(len(links), 1))
     return results
 
 
-def _links_before(wiring: Wiring, name: str) -> list[Link]:
+def _links_beside(wiring: Wiring, name: str, *, behind: bool) -> list[Link]:
+    """Return the links on one side of a node, as far as light goes straight on to other points."""
+    outputs = wiring.elements[name].outputs
     links = wiring.links_to.get((name, "in"), [])
-    if len(links) != 1 or links[0][0] in wiring.self_placed:
+    if behind:
+        links = wiring.links_from.get((name, outputs[0]), []) if outputs else []
+    if len(links) != 1 or (other := links[0][1 if behind else 0]) in wiring.self_placed:
         return []
-    start = links[0][0]
-    element = wiring.elements[start]
-    more = _links_before(wiring, start) if element.straight and element.inputs else []
-    return [links[0], *more]
-
-
-def _links_behind(wiring: Wiring, name: str) -> list[Link]:
-    element = wiring.elements[name]
-    links = wiring.links_from.get((name, element.outputs[0]), []) if element.outputs else []
-    if len(links) != 1 or links[0][1] in wiring.self_placed:
-        return []
-    more = _links_behind(wiring, links[0][1]) if wiring.elements[links[0][1]].straight else []
-    return [links[0], *more]
+    element = wiring.elements[other]
+    goes_on = element.straight and (element.outputs if behind else element.inputs)
+    return [links[0], *(_links_beside(wiring, other, behind=behind) if goes_on else [])]
 
 
 def _columns(frame: Frame) -> Array:
