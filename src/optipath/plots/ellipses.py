@@ -200,7 +200,8 @@ def draw_axes_of(ax: Axes, light: Light) -> None:
             end = length * _toward(way)
             ax.plot(*np.transpose([-end, end]), color=FAINT, linewidth=0.9, zorder=3)
             middle: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small"}
-            ax.text(*(end + 0.07 * _toward(way)), name, style="italic", color=INK, **middle)
+            x, y = end + 0.07 * _toward(way)
+            ax.text(x, y, name, style="italic", color=INK, **middle)
     if angle == 0.0:
         return
     degrees, width = sorted((0.0, np.degrees(angle))), 2.0 * _ARC

@@ -96,16 +96,17 @@ def head_panel(axes: Any, argument: Any, seen: SeenSide, what: str, hatched: str
 
 def _draw_rings(ax: Axes, seen: SeenSide, *, labelled: bool) -> None:
     style: dict[str, Any] = {"ha": "center", "va": "center", "color": INK, "zorder": 6}
-    place = np.array([np.cos(_LABELLED_AT), np.sin(_LABELLED_AT)])
+    x, y = np.cos(_LABELLED_AT), np.sin(_LABELLED_AT)
     backed = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.75}
     for angle in _RINGS:
         radius = seen.radius(np.radians(angle))
         ax.add_patch(Circle((0.0, 0.0), radius, **_RING))
         if labelled:
-            ax.text(*(radius * place), f"{angle:g}°", fontsize="x-small", bbox=backed, **style)
+            text = ax.text(radius * x, radius * y, f"{angle:g}°", fontsize="x-small", **style)
+            text.set_bbox(backed)
     if not labelled:
         return
-    ax.text(*(1.08 * place), "θ = 90°", fontsize="x-small", **style | {"ha": "left"})
+    ax.text(1.08 * x, 1.08 * y, "θ = 90°", fontsize="x-small", **style | {"ha": "left"})
     for azimuth, across, up in _AZIMUTHS:
         x, y = np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))
         ax.plot([0.97 * x, 1.03 * x], [0.97 * y, 1.03 * y], color=INK, linewidth=1.0, zorder=5)

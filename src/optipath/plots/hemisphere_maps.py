@@ -166,8 +166,7 @@ def mueller_hemisphere(
         seen.pixels, measured.own.estimate(lambda n: _over_first(measured.matrices(n)))
     )
     value = np.where(error <= limit, value, np.nan)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        light = seen.pixels(measured.mueller[0][..., 0, 0]) / measured.sensor.solid_angle
+    light = seen.per_steradian(measured.mueller[0][..., 0, 0])
     toned, signed = ColourScale.light(largest_of(light)), ColourScale.signed(1.0)
     first = draw_disc(panel[0, 0], seen, light, toned, labelled=False)
     for row, column in np.ndindex(4, 4):
@@ -226,15 +225,8 @@ def differences(
     """
     seen = SeenSide.of(measured, side, wavelength, UNPOLARISED)
     panel: Panel = own_panel(axes, (1, 3), (12.5, 4.3))[0]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        polarised, scalar, apart = (
-            seen.pixels(value) / measured.sensor.solid_angle
-            for value in (
-                measured.mueller[0][..., 0, 0],
-                measured.scalar[0],
-                measured.difference[0],
-            )
-        )
+    every = measured.mueller[0][..., 0, 0], measured.scalar[0], measured.difference[0]
+    polarised, scalar, apart = map(seen.per_steradian, every)
     light = ColourScale.light(max(largest_of(polarised), largest_of(scalar)))
     signed = ColourScale.signed_light(largest_of(apart))
     draw_disc(panel[0], seen, polarised, light)
@@ -304,11 +296,7 @@ def beside_facets(
     panel = own_panel(axes, (3, 4), (12.4, 9.2))
     result = measured.stokes(seen.source).values
     model = measured.single_scattering().values @ np.array(seen.source)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        by_photons, by_model = (
-            seen.pixels(each) / measured.sensor.solid_angle[..., np.newaxis]
-            for each in (result, model)
-        )
+    by_photons, by_model = map(seen.per_steradian, (result, model))
     brightest = largest_of(by_model[..., 0])
     apart = 100.0 * (by_photons - by_model) / brightest
     both = np.stack([by_photons, by_model])

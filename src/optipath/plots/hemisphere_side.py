@@ -52,6 +52,13 @@ class SeenSide:
         result[self.measured.sensor.solid_angle == 0.0] = np.nan
         return result
 
+    def per_steradian(self, numbers: Numbers) -> Numbers:
+        """Return the pixels of this side over their solid angles, NaN beyond the horizon."""
+        pixels = self.pixels(numbers)
+        area = self.measured.sensor.solid_angle
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return pixels / area.reshape(*area.shape, *[1] * (pixels.ndim - 2))
+
     def radius(self, theta: float) -> float:
         """Return the distance from the center for theta in radians, 1 at the horizon."""
         projection = PROJECTIONS[self.measured.sensor.projection]
@@ -176,10 +183,9 @@ class PixelQuantity(NamedTuple):
 
 
 def _component(number: int, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
-    result, area = seen.measured.stokes(seen.source), seen.measured.sensor.solid_angle
-    value, error = (seen.pixels(each[..., number]) for each in (result.values, result.se.values))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return KnownPixels(value / area, error / area)
+    result = seen.measured.stokes(seen.source)
+    both = (result.values[..., number], result.se.values[..., number])
+    return KnownPixels(*map(seen.per_steradian, both))
 
 
 def _state(name: str, unit: float, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:

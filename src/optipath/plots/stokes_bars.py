@@ -11,7 +11,6 @@ from matplotlib.patches import Patch
 
 from optipath.errors import OptipathError, shown, unknown
 from optipath.light.light import Light
-from optipath.light.underflow import normalise_exponent
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import INK, LINES
 from optipath.plots.light_texts import digits, lights_to_draw
@@ -267,12 +266,8 @@ def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]
     >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)
     array([ 2.,  0., nan,  1.])
     """
-    infinite = np.isinf(stokes)
-    numbers = np.where(infinite, np.nan, np.asarray(stokes, float))
+    numbers = np.asarray(stokes, float)
     if not power:
-        scaled = np.ldexp(numbers, exponent)
-    else:
-        mantissa, own = normalise_exponent(numbers, exponent)
-        with np.errstate(under="ignore"):
-            scaled = mantissa * np.exp2(float(own) - power * np.log2(10.0))
-    return np.asarray(np.where(infinite, stokes, scaled))
+        return np.asarray(np.ldexp(numbers, exponent))
+    with np.errstate(under="ignore"):
+        return np.asarray(numbers * np.exp2(float(exponent) - power * np.log2(10.0)))

@@ -107,13 +107,14 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     else:
         _fit_plane(ax, flat, room)
     _draw(ax, scene, flat)
-    for line in (*ax.lines, *ax.patches):
+    drawn: list[Any] = [*ax.lines, *ax.patches]
+    for line in drawn:
         line.set_linewidth(min(size / _POINTS, 1.0) * line.get_linewidth())
     style: dict[str, Any] = {"fontsize": size, "color": INK, "linespacing": 1.15}
     if flat.straight:
         for name, lines in texts.items():
-            at = flat.at[name] - [0.0, _BELOW]
-            ax.text(*at, "\n".join(lines), ha="center", va="top", **style)
+            x, y = flat.at[name]
+            ax.text(x, y - _BELOW, "\n".join(lines), ha="center", va="top", **style)
         return ax
     labels = [
         Label("\n".join(texts[n.name]), flat.at[n.name], style, 2.0 if n.normal is None else 0.8)

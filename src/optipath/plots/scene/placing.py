@@ -361,7 +361,11 @@ def _links_beside(wiring: Wiring, name: str, *, behind: bool) -> list[Link]:
     links = wiring.links_to.get((name, "in"), [])
     if behind:
         links = wiring.links_from.get((name, outputs[0]), []) if outputs else []
-    if len(links) != 1 or (other := links[0][1 if behind else 0]) in wiring.self_placed:
+    if len(links) != 1:
+        return []
+    start, end, _ = links[0]
+    other = end if behind else start
+    if other in wiring.self_placed:
         return []
     element = wiring.elements[other]
     goes_on = element.straight and (element.outputs if behind else element.inputs)
