@@ -184,8 +184,8 @@ class PixelQuantity(NamedTuple):
 
 def _component(number: int, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
     result = seen.measured.stokes(seen.source)
-    both = (result.values[..., number], result.se.values[..., number])
-    return KnownPixels(*map(seen.per_steradian, both))
+    value, error = result.values[..., number], result.se.values[..., number]
+    return KnownPixels(seen.per_steradian(value), seen.per_steradian(error))
 
 
 def _state(name: str, unit: float, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:

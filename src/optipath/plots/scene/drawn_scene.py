@@ -111,7 +111,8 @@ def _faces(ax: Axes, scene: Scene, view: View) -> None:
         if node.axis is not None:
             _line(ax, view.points(axis_line(scene, node)), color=INK, lw=1.3, zorder=4.5)
         if node.role == "surface":
-            normal = view.points(np.array([node.at, node.at + _NORMAL * scene.unit * node.normal]))
+            end = node.at + _NORMAL * scene.unit * np.asarray(node.normal)
+            normal = view.points(np.array([node.at, end]))
             _line(ax, normal, color=FAINT, lw=0.9, ls=(0, (4, 3)), zorder=2.2)
 
 
