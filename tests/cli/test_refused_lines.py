@@ -4,10 +4,8 @@ import pytest
 
 from tables import rows
 
-AT_THE_END = "unknown here; write it at the end: optipath"
-ALONE = "unknown here; it stands alone: optipath"
-BEFORE = "option '--import' is unknown here; write it before the command: optipath"
-QUOTED = "quote them: --filter '30 deg'"
+BEHIND = "is unknown; options of a command stand behind its name, those of a preset behind that"
+LEFT = "belongs to no option; leave it out, or quote words with spaces between: '30 deg'"
 REFUSED = [
     ("run npgr62", "'npgr62'", "did you mean 'npgr026'"),
     ("run npgr026 --detla 3", "option '--detla' is unknown; did you mean '--delta'?"),
@@ -26,8 +24,8 @@ REFUSED = [
     ("rnu", "command 'rnu' is unknown; did you mean 'run'?"),
     ("dance", "command 'dance' is unknown; there are: accuracy, bench, cache,"),
     ("--vrsion", "option '--vrsion' is unknown; did you mean '--version'?"),
-    ("-V presets", "option '-V' is unknown; there are: --version, --import, --help, -h"),
-    ("presets -v", "option '-v' is unknown; there are: --json, --help, -h"),
+    ("-V presets", f"option '-V' {BEHIND}"),
+    ("presets -v", "option '-v' is unknown; there are: --json, --help"),
     ("chart", "PRESET is missing"),
     ("chart --interface malus", "leave it out"),
     ("chart --out x.png malus", "behind the preset"),
@@ -38,27 +36,14 @@ REFUSED = [
     ("chart --from nothing.json", "nothing.json"),
     ("accuracy --samples 0", "samples"),
     ("accuracy --write nothing.md", "nothing.md"),
-    ("run npgr026 --filter 30 deg", "'deg' is cut off from its number;", QUOTED),
-    ("run npgr026 --filter=30 degrees", QUOTED),
-    ("run npgr026 --case 1 2", "give each case its own: --case 1 --case 2"),
-    ("run npgr026 --delta 30 malus", "'malus' belongs to no option; leave it out, or quote"),
-    ("run npgr026 delta=30", "'delta=30' is no option; write --delta 30"),
-    ("run npgr026 —delta '30 deg'", "'—delta' is no option; write --delta '30 deg'"),
-    ("run npgr026 json", "'json' is no option; write --json\n"),
-    ("run npgr026 delta --rho 3", "'delta' is no option; write --delta VALUE"),
-    ("run npgr026 --delta= 30", "'30' is cut off from --delta=; write --delta 30"),
-    ("run npgr026 -delta=30", "option '-delta' is unknown; did you mean '--delta'?"),
+    ("run npgr026 --filter 30 deg", f"'deg' {LEFT}"),
+    ("run npgr026 --case 1 2", f"'2' {LEFT}"),
+    ("run npgr026 --delta 30 malus", f"'malus' {LEFT}"),
+    ("run npgr026 -delta=30", "option '-d' is unknown"),
     ("run npgr026 --del 30", "option '--del' is unknown; did you mean '--delta'?"),
     ("run npgr026 --n1 0,170", "write '0.170' for one, and '0, 170' for two"),
-    ("run --detla 30 npgr026", f"{AT_THE_END} run npgr026 --delta ..."),
-    ("run --case 8", f"{AT_THE_END} run PRESET --case ..."),
-    ("--json presets", f"{AT_THE_END} presets --json ..."),
-    ("-import mine run x.toml", "option '-import' is unknown; did you mean '--import'?"),
-    ("run own.toml --import mine", f"{BEFORE} --import mine run own.toml"),
-    ("run npgr026 --import=mine.py --json", f"{BEFORE} --import=mine.py run npgr026 --json"),
-    ("explain npgr026 --import", f"{BEFORE} --import MODULE explain npgr026"),
-    ("run npgr026 --version", f"{ALONE} --version"),
-    ("chart npgr026 --from a.json", f"{ALONE} chart --from a.json"),
+    ("run --detla 30 npgr026", f"option '--detla' {BEHIND}"),
+    ("--json presets", f"option '--json' {BEHIND}"),
     ("run npgr026 --delta @none.csv", "none.csv: there is no such file"),
     ("run npgr026 --n1 gold,silver", "--n1 takes one material"),
     ("run npgr026 --n1 gold --k1 0:1:3 --wavelength 500nm", "--k1 takes one value"),
@@ -89,7 +74,6 @@ PLOTS = [
     ("--kind ellipse --x delta", "--x is of poincare or curve, and --kind ellipse"),
     ("--kind ellipse --y ''", "--y is of curve, and --kind ellipse has none"),
     ("--kind bench --detector ''", "--detector is of ellipse or"),
-    ("--kind stokes --out a.png --out b.png", "--out is given 2 times; give it once"),
     ("--kind poincare --detector E", "add --x NAME, or leave --detector out"),
     ("--kind ellipse --detector X1", "detector 'X1' is unknown"),
     ("--kind ellipse --case 77", "'77'"),
@@ -124,7 +108,6 @@ def test_a_wrong_line_is_refused_before_anything_is_done(line, parts, refused, t
     sentence = f"{refused(line)}\n"
     for part in parts:
         assert part in sentence
-    assert "here; " not in sentence or sentence.startswith("option ")
     assert {each.name for each in tmp_path.iterdir()} == {*files}
 
 

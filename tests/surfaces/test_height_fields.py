@@ -213,13 +213,13 @@ def test_the_size_that_is_offered_is_taken_and_little_larger_than_needed(alpha_x
         (1.0, 40.0, 10, "slopes are lost, and more than 12 % of the light that is transmitted"),
         (1.0, 40.0, 40, "slopes are lost, and about 12 % of the light that is transmitted"),
         (1.0, 40.0, 319, "slopes are lost, and about 0.2 % of the light that is transmitted"),
-        (1.0, 40.0, 80, r"80 x 80 cells has 4 a .* 16 at alpha 1: .* 4.7 % .*320 x 320 are"),
+        (1.0, 40.0, 80, r"80 x 80 cells has 4 a .* 16 at alpha 1: .* 4.7 % .*=\(320, 320\) are"),
         # Five cells are enough for smoother surfaces.
-        (0.3, 100.0, 74, r"75 x 75 are enough"),
-        (0.31, 100.0, 247, r"248 x 248 are enough"),
+        (0.3, 100.0, 74, r"cells=\(75, 75\) are enough"),
+        (0.31, 100.0, 247, r"cells=\(248, 248\) are enough"),
         (0.5, 80.0, (320, 160), "has 8 a correlation length"),
         # The rougher axis tells how many cells both need.
-        ((0.5, 0.2), 200.0, (400, 160), r"800 x 320 are enough"),
+        ((0.5, 0.2), 200.0, (400, 160), r"cells=\(800, 320\) are enough"),
     ],
 )
 def test_a_coarse_mesh_is_warned_of_with_what_is_lost_and_what_would_do(alpha, size, cells, said):

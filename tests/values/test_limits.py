@@ -264,7 +264,10 @@ def test_one_bad_path_of_many_is_told_with_its_place_and_no_number_of_one_is_off
     n = np.array([1.5, 1.6])
     for changed, cure in (
         ({"o": n}, "give o = 1.5, or op.FOLLOWS"),
-        ({"n": n - 0.1, "o": np.array([1.5, 1.5])}, "give op.FOLLOWS for outside (at 0"),
+        (
+            {"n": n - 0.1, "o": np.array([1.5, 1.5])},
+            "(at 0, of 2 paths); give op.FOLLOWS for outside",
+        ),
         ({"t": [0.1, 0.2]}, f"an incidence of {np.degrees(given['t']):.10g} deg in n = 1.5"),
         ({"n": n, "o": n}, "give 'back' an incidence of op.FOLLOWS ("),
     ):

@@ -168,7 +168,8 @@ def _invoke(arguments: Sequence[str]) -> None:
 
 def _tell(message: Warning | str, *_about: Any) -> None:
     """Write a warning as one line, without the place in the code that nobody asked for."""
-    _print_error(str(message))
+    fault = Fault.of(message if isinstance(message, str) else message.args[0])
+    _print_error(fault.written("command"))
 
 
 def _forget_output() -> None:

@@ -9,9 +9,9 @@ import click
 from optipath.cli.arguments import RANGES, refuse_axes
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
-from optipath.cli.options import StrictCommand, WholeHelp, refuse_outer_options
+from optipath.cli.options import StrictCommand, WholeHelp
 from optipath.composer.composer import CHOICES
-from optipath.errors import OptipathError, PresetError, printable
+from optipath.errors import PresetError, printable
 from optipath.kernels.catalog import METHODS
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.materials.quantities import READINGS
@@ -125,12 +125,7 @@ class PresetGroup(WholeHelp):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command of a preset, by a name that help may print."""
-        try:
-            name, command, rest = super().resolve_command(ctx, args)
-        except OptipathError:
-            # An option that stands at the wrong place may be why, such as --import.
-            refuse_outer_options(ctx, args)
-            raise
+        name, command, rest = super().resolve_command(ctx, args)
         return printable(name or ""), command, rest
 
 

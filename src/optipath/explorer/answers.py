@@ -10,9 +10,9 @@ from keyword import iskeyword
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import AngleWarning, LoopWarning, OptipathError
+from optipath.errors import AngleWarning, LoopWarning, OptipathError, ParameterError
 from optipath.explorer.as_json import path_as_json
-from optipath.explorer.state import FieldFault, FieldFaults, read_path, read_state, requested_state
+from optipath.explorer.state import faults_as_json, read_path, read_state, requested_state
 from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
 from optipath.materials.material import Material
 from optipath.materials.named_materials import extinction_with
@@ -104,10 +104,8 @@ def _or_faults(answer: Any) -> dict[str, Any]:
     """Return an answer, or what is wrong with the fields that it is asked by."""
     try:
         return dict(answer())
-    except FieldFaults as result:
-        return {"faults": [fault._asdict() for fault in result.faults]}
     except OptipathError as error:
-        return {"faults": [FieldFault.of(each, None)._asdict() for each in error.faults]}
+        return {"faults": faults_as_json(error)}
 
 
 _ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
@@ -142,7 +140,7 @@ def _table(state: ReadState, curve: RequestedCurve | None) -> str:
         for region in regions(grid.shape):
             rows += map(",".join, zip(*table_columns(plan, grid, region), strict=True))
     except OptipathError as error:
-        raise FieldFaults(FieldFault.of(each, "curve") for each in error.faults) from None
+        raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
     return "".join(f"{row}\n" for row in rows)
 
 

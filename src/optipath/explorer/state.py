@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from optipath.errors import (
     Fault,
@@ -29,7 +29,7 @@ from optipath.paths.files.presets import beside
 from optipath.values.parameters import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from optipath.explorer.paths import ExploredPath, ExploredPresets
     from optipath.values.parameters import Parameter
@@ -179,26 +179,10 @@ _READERS: dict[str, Any] = {
 }
 
 
-class FieldFault(NamedTuple):
-    """What is wrong, and where."""
-
-    field: str | None
-    sentence: str
-
-    @classmethod
-    def of(cls, fault: str, name: str | None) -> FieldFault:
-        """Return a fault as the page writes it beside a field; None is none of them."""
-        return cls(name, Fault.of(fault).written("page"))
-
-
-class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call it
-    """All that is wrong with the values that the page has."""
-
-    def __init__(self, faults: Iterable[FieldFault]) -> None:
-        # One line each, whatever stands in the names that they quote.
-        messages = [(field, printable(" ".join(text.split()))) for field, text in faults]
-        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(messages)]
-        super().__init__(*[fault.sentence for fault in self.faults])
+def faults_as_json(error: OptipathError) -> list[dict[str, Any]]:
+    """Return what is wrong as the page writes it, each beside its field; null is none of them."""
+    faults = [(fault.subject or None, fault.written("page")) for fault in error.faults]
+    return [{"field": name, "sentence": text} for name, text in dict.fromkeys(faults)]
 
 
 @dataclass(frozen=True)
@@ -225,21 +209,18 @@ class ReadState:
             return {}
         return self.explored.path.cases[self.asked.case].published
 
-    def faults(self, error: OptipathError) -> list[FieldFault]:
+    def faults(self, error: OptipathError) -> list[Fault]:
         """Return what is wrong, each beside the field that it is about."""
         known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
         media = [*self.materials]
         # Sentences on a medium name the element that it is in.
-        other = media[0] if len(media) == 1 else None
-        return [
-            FieldFault.of(each, each.subject if each.subject in known else other)
-            for each in error.faults
-        ]
+        other = media[0] if len(media) == 1 else ""
+        return [each if each.subject in known else each.but(subject=other) for each in error.faults]
 
 
 def read_state(presets: ExploredPresets, request: RequestedState) -> ReadState:
     """Return what the texts of the page stand for."""
-    faults: list[FieldFault] = []
+    faults: list[str] = []
     explored, places = _opened(presets, request, faults)
     cases = explored.path.cases
     known = cases[request.case].values if request.case in cases else {}
@@ -255,31 +236,31 @@ def read_state(presets: ExploredPresets, request: RequestedState) -> ReadState:
     except OptipathError as error:
         faults += state.faults(error)
     if faults:
-        raise FieldFaults(faults)
+        raise ParameterError(*faults)
     return state
 
 
 def read_path(presets: ExploredPresets, request: RequestedState) -> ExploredPath:
     """Return the path that is asked for, its places chosen, and no values looked at."""
-    faults: list[FieldFault] = []
+    faults: list[str] = []
     explored, _ = _opened(presets, request, faults)
     if faults:
-        raise FieldFaults(faults)
+        raise ParameterError(*faults)
     return explored
 
 
 def _opened(
-    presets: ExploredPresets, request: RequestedState, faults: list[FieldFault]
+    presets: ExploredPresets, request: RequestedState, faults: list[str]
 ) -> tuple[ExploredPath, dict[str, str]]:
     """Return the path with its places, those of the case among them, as far as there are any."""
     try:
         base = presets.base(request.preset)
     except OptipathError as error:
-        raise FieldFaults(FieldFault.of(each, "preset") for each in error.faults) from None
+        raise ParameterError(*(each.but(subject="preset") for each in error.faults)) from None
     case = base.cases.get(request.case or "")
     if case is None and request.case is not None:
         wrong = unknown(f"case of '{request.preset}'", request.case, base.cases)
-        faults += [FieldFault("case", sentence) for sentence in wrong]
+        faults += [Fault(sentence, subject="case") for sentence in wrong]
     known = {} if case is None else case.values
     places = {name: str(word) for name, word in known.items() if name in base.choices}
     places |= _places(base.choices, request.places, faults)
@@ -287,38 +268,38 @@ def _opened(
 
 
 def _places(
-    choices: Mapping[str, Any], arguments: Mapping[str, str], faults: list[FieldFault]
+    choices: Mapping[str, Any], arguments: Mapping[str, str], faults: list[str]
 ) -> dict[str, str]:
     results = {}
     for name, word in arguments.items():
         if wrong := unknown("choice", name, choices) or unknown(name, word, choices[name].behind):
-            faults += [FieldFault(name if name in choices else None, each) for each in wrong]
+            faults += [Fault(each, subject=name if name in choices else "") for each in wrong]
         else:
             results[name] = word
     return results
 
 
 def _value(
-    explored: ExploredPath, name: str, arguments: Mapping[str, str], faults: list[FieldFault]
+    explored: ExploredPath, name: str, arguments: Mapping[str, str], faults: list[str]
 ) -> Any:
     """Return what the text of a field stands for; None where it is faulty."""
     known, text = explored.parameters, arguments[name].strip()
     if name in explored.path.choices:
-        faults.append(FieldFault(name, f"'{name}' is a choice of places; give it among places"))
+        faults.append(Fault(f"'{name}' is a choice of places; give it among places", subject=name))
         return None
     if name not in known and name != WAVELENGTH.name:
-        faults.append(FieldFault(None, unknown_parameter(name, known)))
+        faults.append(unknown_parameter(name, known))
         return None
     parameter = known.get(name, WAVELENGTH)
     try:
         if parameter.bound:
-            faults.append(FieldFault(name, explored.plan.inputs.unknown(name)))
+            faults.append(Fault(explored.plan.inputs.unknown(name), subject=name))
             return None
         if is_material(parameter, text, explored.uses):
             return _material(explored, name, text, arguments)
         return single_text(explored, parameter, text)
     except OptipathError as error:
-        faults += [FieldFault.of(each, name) for each in error.faults]
+        faults += [each.but(subject=name) for each in error.faults]
         return None
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from optipath.errors import OptipathError, collecting, shown, unknown
+from optipath.errors import Fault, OptipathError, ParameterError, collecting, shown, unknown
 from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, link_as_json
-from optipath.explorer.state import FieldFault, FieldFaults, single_text
+from optipath.explorer.state import faults_as_json, single_text
 from optipath.light.quantities import QUANTITIES
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import plain
@@ -67,8 +67,8 @@ def _curve(state: ReadState) -> dict[str, Any]:
     try:
         detector = curve_detector(state)
         curve = None if request is None else curve_as_json(state, request, detector)
-    except FieldFaults as result:
-        return {"curve": None, "curve_faults": [fault._asdict() for fault in result.faults]}
+    except OptipathError as error:
+        return {"curve": None, "curve_faults": faults_as_json(error)}
     return {"curve": curve, "curve_faults": []}
 
 
@@ -84,7 +84,7 @@ def traced(state: ReadState) -> dict[str, Light]:
     try:
         lights = state.explored.plan.run_all(**state.values)
     except OptipathError as error:
-        raise FieldFaults(state.faults(error)) from None
+        raise ParameterError(*state.faults(error)) from None
     if any(light.stokes.ndim > 1 for light in lights.values()):
         inputs = state.explored.plan.inputs
         several = {
@@ -93,10 +93,8 @@ def traced(state: ReadState) -> dict[str, Light]:
             if np.ndim(state.values.get(name, parameter.default)) > len(inputs.tails.get(name, ()))
         }
         sentence = "has several values, and the page shows one path; give one value"
-        raise FieldFaults(
-            [FieldFault(name, f"parameter '{name}' {sentence}") for name in sorted(several)]
-            or [FieldFault(None, f"the path {sentence} each in its file")]
-        )
+        faults = [Fault(f"parameter '{name}' {sentence}", subject=name) for name in sorted(several)]
+        raise ParameterError(*faults or [Fault(f"the path {sentence} each in its file")])
     return lights
 
 
@@ -104,7 +102,7 @@ def curve_detector(state: ReadState) -> str:
     """Return whose light the curve is of: the detector that is asked for, or else the first."""
     known, name = state.explored.detectors, state.asked.detector
     if name is not None and (faults := unknown("detector", name, known)):
-        raise FieldFaults(FieldFault("detector", each) for each in faults)
+        raise ParameterError(*(Fault(each, subject="detector") for each in faults))
     return known[0] if name is None else name
 
 
@@ -199,7 +197,7 @@ def curve_as_json(state: ReadState, request: RequestedCurve, detector: str) -> d
         key = detector, request, *sorted(grid.fixed.items())
         lines = explored.stored_curve(key, lambda: _lines(explored.plan, grid, request.y, detector))
     except OptipathError as error:
-        raise FieldFaults(FieldFault.of(each, "curve") for each in error.faults) from None
+        raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
     (axis,) = grid.axes
     return {
         "x": axis.shown.tolist(),
@@ -219,7 +217,7 @@ def curve_grid(state: ReadState, request: RequestedCurve) -> SweepGrid:
     if not faults:
         faults += _end_faults(state, opened[name], request)
     if faults:
-        raise FieldFaults(FieldFault("curve", each) for each in faults)
+        raise ParameterError(*(Fault.of(each).but(subject="curve") for each in faults))
     text = f"{request.first}:{request.last}:{request.count}"
     unit = "" if unit_of(request.first) else opened[name].unit
     values = read_axis_text(text, opened[name], unit, explored.uses)

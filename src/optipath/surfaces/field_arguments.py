@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import MeshWarning, SurfaceError, did_you_mean, needing, shown
+from optipath.errors import Cure, Fault, MeshWarning, SurfaceError, did_you_mean, needing, shown
 from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
 from optipath.values.arrays import as_argument, enough_for
@@ -218,13 +218,14 @@ def warn_of_coarse(
     if all(have >= need for have, need in zip(cells, enough, strict=True)):
         return
     had = min(have / length for have, length in zip(cells, lengths, strict=True))
-    warnings.warn(
+    why = (
         f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
         f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and {_missing(had)} of the "
-        f"light that is transmitted after several events; {enough[0]} x {enough[1]} are enough",
-        MeshWarning,
-        stacklevel=calls_up(),
+        f"light that is transmitted after several events"
     )
+    ways = f"cells={enough}", f"--cells {','.join(map(str, enough))}"
+    cure = Cure.of("{} are enough".format, *ways)
+    warnings.warn(Fault(why, cure), MeshWarning, stacklevel=calls_up())
 
 
 def _cells(each: int, lengths: float) -> int:
