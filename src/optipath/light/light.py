@@ -182,15 +182,15 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         light = cls.__new__(cls)
         own = light.__dict__
-        if not isinstance(exponent, int) or exponent:
+        if isinstance(exponent, int) and not exponent:
+            own["_stokes"] = stokes
+        else:
             mantissa = stokes
             if type(stokes) is tuple:  # As it was carried, be it faint or not.
                 mantissa, exponent = folded(stacked_components(stokes), exponent)
             exponent = np.broadcast_to(np.asarray(exponent), mantissa.shape[:-1])
             plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
             own.update(stokes=locked(plain), mantissa=locked(mantissa), exponent=exponent)
-        else:
-            own["_stokes"] = stokes
         own["frame" if type(frame) is Frame else "_frame"] = frame
         if noise is not None:
             own["_noise"] = noise
@@ -334,14 +334,11 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> light.wavelength, light[1].wavelength
         (array([5.e-07, 6.e-07]), array(6.e-07))
         """
-        own = self.__dict__
-        stored = own.get("_wavelength")
-        if callable(stored):
-            result = stored()
-            if result is None:
-                return None  # What is kept says which ones are in doubt.
-            own["_wavelength"] = stored = result
-        return stored
+        stored = self.kept_wavelength
+        if callable(stored) and (made := stored()) is not None:
+            self.__dict__["_wavelength"] = made
+        # Where none is made, what is kept says which ones are in doubt.
+        return made if callable(stored) else stored
 
     @property
     def normalized(self) -> Array:
