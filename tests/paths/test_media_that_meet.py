@@ -31,7 +31,6 @@ N, M = op.Parameter("n"), op.Parameter("m")
 OPEN = op.Interface(N, op.Parameter("theta")), op.Interface(1.0, op.Parameter("phi"), outside=M)
 STEEP = op.Interface(1.5, "40 deg")
 OF_N, OF_M = op.Interface(N, 0.3), op.Interface(2 * M, 0.3)
-ARITHMETIC = "ParameterError.*FOLLOWS .* has no arithmetic; give the number"
 ANGLES = "n sin(incidence) is 0.5 at 'b1' and 0.6427876097 at 'face' (40 deg in n = 1)"
 MEDIA = "lit from 2 * m = 1.6 behind 'b1' (by 'b1.transmitted'), but has taken its outside over"
 SEEDS = st.integers(0, 10**6)
@@ -142,12 +141,11 @@ def test_where_nothing_can_be_taken_over_a_fault_says_so_once(boundaries, words)
 @rows(
     "call, sentence",
     [
-        (lambda: F + 0.1, ARITHMETIC),
-        (lambda: -F, ARITHMETIC),
-        (lambda: np.float64(2.0) * F, ARITHMETIC),
-        (lambda: np.ones(2) - F, ARITHMETIC),
         (lambda: op.Interface(F, 0.3), "ValueFault.*index must be an index of refraction"),
-        (lambda: op.LayerStack([1, F, 1], 0.3), r"ValueFault.*s\[1\] cannot be FOLLOWS"),
+        (
+            lambda: op.LayerStack([1, F, 1], 0.3),
+            "ValueFault.*first cannot be FOLLOWS",
+        ),
         (FOLLOWING.mueller, "PathError.*interface takes its outside and incidence over from"),
     ],
 )

@@ -26,7 +26,7 @@ from optipath.materials.index_domains import (
     LENGTHS,
     LOSSY,
     OPTIONAL_OUTSIDE,
-    InnerDomain,
+    inner_domain,
 )
 from optipath.materials.quantities import (
     Angle,
@@ -123,7 +123,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value; layers may absorb where lengths and a wavelength are given."""
         missing = [text for name, text in _NEEDED.items() if getattr(self, name) is None]
-        inner = InnerDomain.without(" and ".join(missing)) if missing else LOSSY
+        inner = inner_domain(" and ".join(missing)) if missing else LOSSY
         # Of indices that are no list, nobody knows how many layers are meant.
         layers = len(self._media) - 2 if self._media is self.indices else None
         narrowed = {

@@ -18,7 +18,7 @@ from optipath.kernels.kernel import Kernel, KernelFamily, called, guarded
 from optipath.kernels.primitives import NUMPY
 from optipath.light.decompositions import stacked, tolerance_of
 from optipath.light.passive import are_passive, cure_of, gain, problem_of
-from optipath.materials.index_domains import INDEX, INDICES, LENGTH_OF_LAYER, LENGTHS
+from optipath.materials.index_domains import RowDomain
 from optipath.materials.quantities import REAL, YES_OR_NO
 from optipath.values.agreement import is_single
 from optipath.values.arrays import as_argument, same
@@ -517,7 +517,7 @@ def _annotated(hint: Any) -> Iterator[Domain]:
 
 def same_value(first: Any, second: Any, domain: Domain) -> bool:
     """Tell whether two values of a field are equal, however an index is written."""
-    listed = {INDICES: INDEX, LENGTHS: LENGTH_OF_LAYER}.get(domain)
+    listed = domain.of_entries if isinstance(domain, RowDomain) else None
     if listed is not None and isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(
             same_value(one, other, listed) for one, other in zip(first, second, strict=True)

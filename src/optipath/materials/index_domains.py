@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar, NoReturn
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import Cure, Fault, ParameterError, UnitError, ValueFault, closest, shown
+from optipath.errors import Cure, Fault, UnitError, ValueFault, shown
 from optipath.materials.material import LEAST, K, Material, index_of
-from optipath.values.arrays import entries_of, first_place, read_only
+from optipath.values.arrays import first_place, read_only
 from optipath.values.domains import Domain, OptionalDomain, in_unit_of, pair_in
 from optipath.values.jax_values import namespace
 from optipath.values.precision import held
@@ -28,7 +28,7 @@ class Followed(Domain):
         return value if value is FOLLOWS else super().kept(value)
 
     def parse(self, text: str) -> Any:
-        if text.strip()[:1].isalpha() and closest(text.lower(), [FOLLOWS.word]) is not None:
+        if text.strip().lower() == FOLLOWS.word:
             cure = Cure.of("did you mean {}?".format, "op.FOLLOWS", FOLLOWS.in_file)
             raise UnitError(Fault(f"'{text}' is no number", cure))
         return super().parse(text)
@@ -48,8 +48,7 @@ class Follows:
 
     __slots__ = ()
 
-    # NumPy's numbers leave arithmetic to it.
-    __array_ufunc__ = None
+    __array_ufunc__ = None  # NumPy's numbers leave arithmetic to it, which has none.
 
     word = "follows"
     """How files write it."""
@@ -64,17 +63,6 @@ class Follows:
         # Copies are the same one.
         return "FOLLOWS"
 
-
-def _refused(*_: Any) -> NoReturn:
-    raise ParameterError(
-        "FOLLOWS stands for what the boundary before has, just as it is, and has no arithmetic; "
-        "give the number, or the Parameter that the boundary before has, which has it"
-    )
-
-
-_REFUSED = "add radd sub rsub mul rmul truediv rtruediv pow rpow matmul rmatmul neg pos abs"
-for _name in _REFUSED.split():
-    setattr(Follows, f"__{_name}__", _refused)
 
 FOLLOWS = Follows()
 """For ``outside`` the medium of arrival, for ``incidence`` that of the boundary before, refracted
@@ -92,21 +80,38 @@ class NoAbsorption(Domain):
     minimum: float = 0.0
     maximum: float = 0.0
     why: str = ""
-    otherwise: str = ""
 
     def described(self) -> str:
         """Say in words that it is 0, and how to have it."""
-        return f"0{self.why}: take the medium without its k{self.otherwise}"
+        return f"0{self.why}: take the medium without its k"
 
 
-_NO_K = NoAbsorption("extinction coefficient", why=", since light comes from there")
-_NO_K_BEHIND = NoAbsorption(
-    "extinction coefficient", why=", since light comes from there too (by port 'back')"
-)
-_NO_K_BEYOND = NoAbsorption("extinction coefficient", why=", since light goes on in there")
+class _IndexOrMaterial(Domain):
+    """Numbers that a `Material` has n and k in place of."""
+
+    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
+        """Return what n and k of a material may be."""
+        return material.domain_of_n, K
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        if not isinstance(value, Material):
+            return [(name, value, self)]
+        of_n, of_k = self.domains_of(value)
+        return [(f"{name}.n", value.n, of_n), (f"{name}.k", value.k, of_k)]
+
+    def parse(self, text: str) -> Any:
+        return index_of(text)
+
+    def read(self, owner: str, value: Any) -> Any:
+        if isinstance(value, (list, tuple)):
+            value = [_as_number(one) for one in value]
+        return super().read(owner, value)
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        return super().check(owner, _as_number(value))
 
 
-class IndexDomain(Domain):
+class IndexDomain(_IndexOrMaterial):
     """Complex numbers n + ik with n and k not negative."""
 
     complex_parts = ("n", "k")
@@ -116,18 +121,10 @@ class IndexDomain(Domain):
         """The limits of n and of k."""
         return 0.0, math.inf
 
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        if not isinstance(value, Material):
-            return [(name, value, self)]
-        return [(f"{name}.n", value.n, value.domain_of_n), (f"{name}.k", value.k, K)]
-
     def quickly_allows(self, value: Any) -> bool:
         if type(value) is complex:
             return value != 0.0 <= value.real < math.inf and 0.0 <= value.imag < math.inf
         return type(value) is float and 0.0 < value < math.inf
-
-    def parse(self, text: str) -> Any:
-        return index_of(text)
 
     def doubt(self, owner: str, value: Any) -> str:
         if (pair := pair_in(value, self)) is None:
@@ -145,10 +142,7 @@ class IndexDomain(Domain):
     def read(self, owner: str, value: Any) -> Any:
         if doubt := self.doubt(owner, value):
             raise ValueFault(doubt)
-        return super().read(owner, _as_numbers(value))
-
-    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
-        return super().check(owner, _as_number(value))
+        return super().read(owner, value)
 
     def described(self) -> str:
         return "an index of refraction n + ik with n and k not negative"
@@ -167,27 +161,26 @@ class IndexDomain(Domain):
             raise ValueFault(f"{owner} is {value}{first_place(bad)}; give {self.described()}{cure}")
 
 
-class OutsideDomain(Domain):
-    """Positive real numbers: the medium that light comes from does not absorb."""
+@dataclass(frozen=True)
+class OutsideDomain(_IndexOrMaterial):
+    """Positive real numbers: indices of media that do not absorb."""
 
-    of_k: ClassVar[Domain] = _NO_K
+    minimum: float = LEAST  # Beyond, waves across a layer have squares that vanish.
+    why: str = ", since light comes from there"
 
-    def read(self, owner: str, value: Any) -> Any:
-        return super().read(owner, _as_numbers(value))
+    @property
+    def of_k(self) -> Domain:
+        """What k may be."""
+        return NoAbsorption("extinction coefficient", why=self.why)
 
-    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
-        return super().check(owner, _as_number(value))
-
-    def parse(self, text: str) -> Any:
-        return index_of(text, "its index as a number, such as 1.33")
+    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
+        del material
+        return self, self.of_k
 
     def described(self) -> str:
-        return "a real index of refraction above 0, since light comes from there"
-
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        if not isinstance(value, Material):
-            return [(name, value, self)]
-        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, self.of_k)]
+        limited = math.isfinite(self.maximum)
+        which = f"within {self.minimum:g} .. {self.maximum:g}" if limited else "above 0"
+        return f"a real index of refraction {which}{self.why}"
 
 
 class LitIndexDomain(IndexDomain):
@@ -198,10 +191,9 @@ class LitIndexDomain(IndexDomain):
         """The limits of n."""
         return LEAST, math.inf
 
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        if not isinstance(value, Material):
-            return [(name, value, self)]
-        return [(f"{name}.n", value.n, OUTSIDE), (f"{name}.k", value.k, K)]
+    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
+        del material
+        return OUTSIDE, K
 
     def quickly_allows(self, value: Any) -> bool:
         return super().quickly_allows(value) and value.real >= LEAST
@@ -236,14 +228,6 @@ class OptionalOutside(OptionalDomain, OutsideDomain):
 class LitBehind(OutsideDomain):
     """Indices of a medium behind a boundary from which light comes as well."""
 
-    of_k = _NO_K_BEHIND
-
-    def described(self) -> str:
-        return (
-            "a real index of refraction above 0, since light comes from there too (by port "
-            "'back'), and let a Medium absorb between"
-        )
-
     def allows(self, numbers: Any) -> Any:
         # A complex number without an imaginary part will do.
         return super().allows(numbers.real) & (numbers.imag == 0.0)
@@ -253,105 +237,102 @@ class LitBehind(OutsideDomain):
         super()._check_numbers(owner, real, rounding)
 
 
-class ClearDomain(OutsideDomain):
-    """Indices of a medium that light goes on in."""
-
-    of_k = _NO_K_BEYOND
-
-    def described(self) -> str:
-        return (
-            "a real index of refraction above 0, since light goes on in there, and let a Medium "
-            "absorb on the way"
-        )
-
-
 def _as_number(index: Any) -> Any:
     return index.refractive_index if isinstance(index, Material) else index
 
 
-def _as_numbers(value: Any) -> Any:
-    """Return a list with the index of each medium in it; anything else as it is."""
-    return [_as_number(one) for one in value] if isinstance(value, (list, tuple)) else value
-
-
 INDEX = IndexDomain("index of refraction")
-OUTSIDE = OutsideDomain("index of refraction", minimum=LEAST)
+OUTSIDE = OutsideDomain("index of refraction")
 LIT_INDEX = LitIndexDomain("index of refraction")
 FOLLOWED_LIT_INDEX = FollowedLitIndex("index of refraction")
 OPTIONAL_LIT_INDEX = OptionalLitIndex("index of refraction")
-FOLLOWED_OUTSIDE = FollowedOutside("index of refraction", minimum=LEAST)
-OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=LEAST)
-LIT_BEHIND = LitBehind("index of refraction", minimum=LEAST)
-CLEAR = ClearDomain("index of refraction", minimum=LEAST)
-# Beyond, waves across a layer have squares that vanish.
+FOLLOWED_OUTSIDE = FollowedOutside("index of refraction")
+OPTIONAL_OUTSIDE = OptionalOutside("index of refraction")
+LIT_BEHIND = LitBehind(
+    "index of refraction",
+    why=", since light comes from there too (by port 'back'), and let a Medium absorb between",
+)
+CLEAR = OutsideDomain(
+    "index of refraction",
+    why=", since light goes on in there, and let a Medium absorb on the way",
+)
 
 
 MOST_MEDIA = 1000
 """How many media a stack may have: the time to order the work of a path grows with them."""
 
 
+def inner_domain(missing: str) -> OutsideDomain:
+    """Return what the layers of a stack may be that is not given something."""
+    why = f" (for a layer that absorbs, give the stack {missing}, too)"
+    return OutsideDomain("index of refraction", minimum=1e-60, maximum=1e60, why=why)
+
+
+INNER = inner_domain("the lengths (one for each layer) and the wavelength")
+
+
 @dataclass(frozen=True)
-class InnerDomain(OutsideDomain):
-    """Indices of the layers of a stack, between which light goes to and fro."""
-
-    missing: str = "the lengths (one for each layer) and the wavelength"
-
-    @classmethod
-    def without(cls, missing: str) -> InnerDomain:
-        """Return the domain of layers of a stack that is not given something."""
-        return cls(INNER.name, minimum=INNER.minimum, maximum=INNER.maximum, missing=missing)
+class RowDomain(Domain):
+    """Numbers of the parts of a stack, each of which may be an array or a parameter of its own."""
 
     @property
-    def of_k(self) -> Domain:  # type: ignore[override]
-        """What k may be."""
-        absorbing = f"; or, for a layer that absorbs, give the stack {self.missing}, too"
-        return NoAbsorption("extinction coefficient", otherwise=absorbing)
-
-    def described(self) -> str:
-        return (
-            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; or, for a "
-            f"layer that absorbs, give the stack {self.missing}, too"
-        )
-
-
-def _entries_in(value: Any, *kinds: type) -> tuple[Any, ...] | None:
-    """Return the entries of a list; None of what validation is to name."""
-    if not isinstance(value, (list, tuple, *kinds)):
-        return None
-    try:
-        return entries_of("", "", value)
-    except ValueFault:
-        return None
-
-
-@dataclass(frozen=True)
-class IndicesDomain(Domain):
-    """Indices of the media of a stack, the front medium first and the substrate last."""
-
-    inner: Domain | None = None
+    def of_entries(self) -> Domain:
+        """What an entry may be."""
+        raise NotImplementedError
 
     def quickly_allows(self, value: Any) -> bool:
         del value
         return False
 
     def read(self, owner: str, value: Any) -> Any:
-        if (listed := _entries_in(value)) is None:
+        if not isinstance(value, (list, tuple)):
             return value
-        entries = [*enumerate(listed)]
-        for place in (place for place, index in entries if place and index is FOLLOWS):
-            raise ValueFault(
-                f"{owner}[{place}] cannot be FOLLOWS; only {owner}[0], the medium in front, can be "
-                f"taken over; give an index of refraction"
-            )
-        return [INDEX.read(f"{owner}[{place}]", index) for place, index in entries]
+        return [self.of_entries.read(f"{owner}[{at}]", entry) for at, entry in enumerate(value)]
 
     def kept(self, value: Any) -> Any:
-        """Return the indices one by one, since each may be an array of its own."""
-        if (entries := _entries_in(value, np.ndarray)) is None:
+        """Return the entries one by one, since each may be an array of its own."""
+        is_row = isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) != 0
+        if not is_row or len(value) > MOST_MEDIA:
             return value
-        if len(entries) > MOST_MEDIA:
-            return value
-        return tuple(_plain_index(read_only(index)) for index in entries)
+        return tuple([self.entry_kept(read_only(entry)) for entry in value])
+
+    def entry_kept(self, entry: Any) -> Any:
+        """Return an entry in the form in which it is kept."""
+        return in_unit_of(entry, self.of_entries)
+
+    def check(self, owner: str, value: Any) -> Any:
+        # Good lists are checked by their parts.
+        if isinstance(value, (list, tuple, np.ndarray)) and np.size(value) > MOST_MEDIA:
+            raise ValueFault(f"{owner} has {len(value):,} entries; give {MOST_MEDIA:,} at most")
+        raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
+
+    def check_parameter(self, owner: str, parameter: Any) -> None:
+        raise ValueFault(
+            f"{owner} cannot be the parameter '{parameter.name}'; give a list, of parameters too"
+        )
+
+
+@dataclass(frozen=True)
+class IndicesDomain(RowDomain):
+    """Indices of the media of a stack, the front medium first and the substrate last."""
+
+    inner: Domain | None = None
+
+    @property
+    def of_entries(self) -> Domain:
+        return INDEX
+
+    def read(self, owner: str, value: Any) -> Any:
+        if isinstance(value, (list, tuple)) and any(index is FOLLOWS for index in value[1:]):
+            raise ValueFault(
+                f"an index of {owner} behind the first cannot be FOLLOWS; only {owner}[0], the "
+                f"medium in front, can be taken over"
+            )
+        return super().read(owner, value)
+
+    def entry_kept(self, entry: Any) -> Any:
+        """Return an index that came out of an array with others as the real one that it is."""
+        return entry.real if isinstance(entry, complex) and entry.imag == 0.0 else entry
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, tuple) or len(value) < 2:
@@ -363,30 +344,13 @@ class IndicesDomain(Domain):
             for part in domain.parts(f"{name}[{place}]", index)
         ]
 
-    def check(self, owner: str, value: Any) -> Any:
-        if value is not None and not isinstance(value, (float, int, complex)):
-            # Good lists are checked by their parts.
-            entries = entries_of(owner, "two indices or more", value)
-            if (media := len(entries)) > MOST_MEDIA:
-                raise ValueFault(f"{owner} has {media:,} media; give {MOST_MEDIA:,} at most")
-        raise ValueFault(
-            f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
-            f"first and the substrate last, such as [1, 1.5, 1.33]"
-        )
-
-    def check_parameter(self, owner: str, parameter: Any) -> None:
-        name = parameter.name
-        raise ValueFault(
-            f"{owner} cannot be the parameter '{name}'; give a list, of parameters too"
+    def described(self) -> str:
+        return (
+            "a list of two indices or more, the medium in front first and the substrate last, such "
+            "as [1, 1.5, 1.33]"
         )
 
 
-def _plain_index(index: Any) -> Any:
-    """Return an index that came out of an array with others as the real number that it is."""
-    return index.real if isinstance(index, complex) and index.imag == 0.0 else index
-
-
-INNER = InnerDomain("index of refraction", minimum=1e-60, maximum=1e60)
 INDICES = IndicesDomain("indices of refraction")
 
 
@@ -395,25 +359,14 @@ LENGTH_OF_LAYER = Domain("length", "length", minimum=0.0, maximum=1e100, own_uni
 
 
 @dataclass(frozen=True)
-class LengthsDomain(Domain):
+class LengthsDomain(RowDomain):
     """Lengths of the layers of a stack, one for each, or none at all."""
 
     layers: int | None = None
 
-    def quickly_allows(self, value: Any) -> bool:
-        del value
-        return False
-
-    def read(self, owner: str, value: Any) -> Any:
-        if (entries := _entries_in(value)) is None:
-            return value
-        return [LENGTH_OF_LAYER.read(f"{owner}[{i}]", one) for i, one in enumerate(entries)]
-
-    def kept(self, value: Any) -> Any:
-        """Return the lengths one by one, since each may be an array of its own."""
-        if (entries := _entries_in(value, np.ndarray)) is None:
-            return value
-        return tuple(in_unit_of(read_only(length), LENGTH_OF_LAYER) for length in entries)
+    @property
+    def of_entries(self) -> Domain:
+        return LENGTH_OF_LAYER
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if value is None:
@@ -423,32 +376,16 @@ class LengthsDomain(Domain):
         return [(f"{name}[{place}]", one, LENGTH_OF_LAYER) for place, one in enumerate(value)]
 
     def described(self) -> str:
-        return "a list of lengths, one for each layer between the first medium and the last"
-
-    def check(self, owner: str, value: Any) -> Any:
-        if isinstance(value, tuple):
-            raise ValueFault(
-                f"{owner} has {len(value)} entries, where the stack has {self.layers} between its "
-                f"first medium and its last; give {self.described()}"
-            )
-        if value is not None and not isinstance(value, (float, int, complex)):
-            # Good lists are checked by their parts.
-            entries_of(owner, "lengths", value)
-        raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
-
-    def check_parameter(self, owner: str, parameter: Any) -> None:
-        raise ValueFault(
-            f"{owner} cannot be the parameter '{parameter.name}'; give a list, of parameters too"
-        )
+        count = "" if self.layers is None else f" {self.layers}"
+        return f"a list of{count} lengths, one for each layer between the first medium and the last"
 
 
 class LossyDomain(IndexDomain):
     """Indices n + ik of the layers of a stack whose lengths are known."""
 
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        if not isinstance(value, Material):
-            return [(name, value, self)]
-        return [(f"{name}.n", value.n, _N), (f"{name}.k", value.k, _K)]
+    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
+        del material
+        return _N, _K
 
     def quickly_allows(self, value: Any) -> bool:
         return type(value) is float and INNER.minimum <= value <= INNER.maximum

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from optipath.errors import Cure, Fault, OptipathError, SurfaceError, ValueFault, shown
-from optipath.materials.index_domains import IndexDomain, LitBehind, NoAbsorption
+from optipath.materials.index_domains import IndexDomain, LitBehind
 from optipath.materials.material import Material
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.height_field import HeightField
@@ -176,18 +176,11 @@ def unused_faults(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool) 
 _NAME = "index of refraction"
 
 
+@dataclass(frozen=True)
 class ClearMediumDomain(LitBehind):
     """Positive real numbers: light goes to and fro in a medium above the last."""
 
-    of_k: ClassVar[NoAbsorption] = NoAbsorption(
-        "extinction coefficient", why=", since only the last medium may absorb"
-    )
-
-    def described(self) -> str:
-        return (
-            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}, since only "
-            f"the last medium may absorb"
-        )
+    why: str = ", since only the last medium may absorb"
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         if np.any(array.imag):
