@@ -138,14 +138,13 @@ def test_nothing_is_overwritten_and_no_table_there_in_part(run, refused, tmp_pat
 
 
 def test_all_that_is_wrong_with_options_values_and_cells_is_told(refused, run, tmp_path):
-    wrong = "--out a.txt --chunks 0 --scheduler hreads --zip delta --coords none.csv"
-    sentences = refused(f"sweep npgr026 {wrong} --delta 0:95:3 --phi 95", lines=9)
+    wrong = "--out a.txt --chunks 0 --scheduler hreads --zip delta"
+    sentences = refused(f"sweep npgr026 {wrong} --delta 0:95:3 --phi 95", lines=8)
     for part in (
         "'a.txt' has no ending of a sweep; write 'a.csv', .json, .nc or .zarr",
         "--chunks '0' is no size",
         "--scheduler 'hreads' is unknown",
         "--zip 'delta' names fewer than two",
-        "none.csv: there is no such file",
         "'delta' is 95 deg at 2",
         "'phi' is 95 deg,",
     ):

@@ -179,8 +179,6 @@ class PlotKind(NamedTuple):
 
 def drawn(request: PlotRequest) -> Any:
     """Return the picture that is asked for, with its title."""
-    import numpy as np  # noqa: PLC0415 - the command line starts without
-
     from optipath.plots.text import missing_letters_as_boxes  # noqa: PLC0415 - an extra
 
     with missing_letters_as_boxes():
@@ -266,33 +264,26 @@ def _texts(values: AxisValues | None) -> Any:
     return [f"{number} {values.unit}" for number in values.shown.tolist()]
 
 
-def _geometry(request: PlotRequest) -> Any:
-    from optipath.plots import geometry  # noqa: PLC0415 - an extra
+def _of_path(kind: str) -> Callable[[PlotRequest], Any]:
+    """Return what draws a picture of the path alone."""
 
-    return geometry(request.path)
+    def draw(request: PlotRequest) -> Any:
+        from optipath import plots  # noqa: PLC0415 - an extra
 
+        return getattr(plots, kind)(request.path)
 
-def _bench(request: PlotRequest) -> Any:
-    from optipath.plots import bench  # noqa: PLC0415 - an extra
-
-    return bench(request.path)
-
-
-def _energy(request: PlotRequest) -> Any:
-    from optipath.plots import energy  # noqa: PLC0415 - an extra
-
-    return energy(request.path)
+    return draw
 
 
 KINDS = {
     "ellipse": PlotKind(_ellipse, ("detector",)),
     "poincare": PlotKind(_poincare, ("x", "detector"), range(2)),
     "stokes": PlotKind(_stokes, ("detector",)),
-    "geometry": PlotKind(_geometry),
-    "bench": PlotKind(_bench),
+    "geometry": PlotKind(_of_path("geometry")),
+    "bench": PlotKind(_of_path("bench")),
     "curve": PlotKind(_curve, ("x", "y", "detector"), range(1, 3)),
     "mueller": PlotKind(_mueller, ("detector",)),
-    "energy": PlotKind(_energy),
+    "energy": PlotKind(_of_path("energy")),
 }
 
 

@@ -24,7 +24,7 @@ from optipath.cli.outcome import (
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.composer.composer import Composer
-from optipath.errors import OptipathError, ParameterError, listed, printable, shown
+from optipath.errors import ParameterError, listed, printable, shown
 from optipath.light.printed import Numbers
 from optipath.light.quantities import PRINTED
 from optipath.sweeps.axes import grid_of
@@ -118,22 +118,11 @@ def coords_names(coords: str | None) -> list[str]:
     return [column.name for column in columns_of(coords)] if coords is not None else []
 
 
-def coords_faults(coords: str | None) -> list[str]:
-    """Return what is wrong with a file of axes, a sentence each."""
-    try:
-        coords_names(coords)
-    except OptipathError as error:
-        about = f"{error.about}: " if error.about else ""
-        return [f"{about}{fault}" for fault in error.faults]
-    return []
-
-
 def option_faults(
     *,
     as_json: bool,
     out: str | None,
     zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
-    coords: str | None,
     chunks: str | None,
     scheduler: str | None,
     **_others: Any,
@@ -147,7 +136,6 @@ def option_faults(
         for names, group in zip_groups(zip).items()
         if len(group) < 2
     ]
-    faults += coords_faults(coords)
     if chunks is not None and chunks != "auto" and not (chunks.isdecimal() and int(chunks)):
         faults.append(
             f"--chunks {shown(chunks)} is no size of a block; write 'auto', or how many values "

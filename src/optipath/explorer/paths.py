@@ -9,7 +9,7 @@ from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, unknown
@@ -21,7 +21,7 @@ from optipath.paths.usual_range import usual_range
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Mapping
+    from collections.abc import Mapping
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
@@ -29,13 +29,8 @@ if TYPE_CHECKING:
     from optipath.values.use import Use
 
 
-T = TypeVar("T")
-
 _RUNS = 4
 """After so many runs a plan has made a function of its own."""
-
-_CURVES = 8
-"""How many curves are kept."""
 
 
 class ExploredPath:
@@ -44,7 +39,6 @@ class ExploredPath:
     def __init__(self, preset: str, path: PathGraph) -> None:
         self.preset = preset
         self.path = path
-        self._curves: OrderedDict[Hashable, Any] = OrderedDict()
 
     def warm_up(self) -> None:
         """Run a few times, after which a run of single values is as fast as it can be."""
@@ -52,18 +46,6 @@ class ExploredPath:
             for _ in range(_RUNS):
                 self.plan.run_all()
                 self.path.plan_by(KEEPING).run_all()
-
-    def stored_curve(self, key: Hashable, compute: Callable[[], T]) -> T:
-        """Return what was computed for a key; that of the parameter itself changes no curve."""
-        try:
-            known = key in self._curves
-        except TypeError:  # An array among the values.
-            return compute()
-        if not known:
-            self._curves[key] = compute()
-            if len(self._curves) > _CURVES:
-                self._curves.popitem(last=False)
-        return self._curves[key]  # type: ignore[no-any-return]
 
     @cached_property
     def plan(self) -> Plan:

@@ -81,23 +81,30 @@ def requested_state(
     >>> requested_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
     {'angle': '30 deg'}
     """
-    names = ("preset", *allowed)
+    readers = {name: _READERS[name] for name in ("preset", *allowed)}
+    return RequestedState(**_parts("", argument, readers, ("preset", *needed)))
+
+
+def _parts(
+    where: str, argument: Any, readers: Mapping[str, Any], needed: Sequence[str]
+) -> dict[str, Any]:
+    """Return the parts of an object, each read; what is null is left out unless it is needed."""
+    names = [*readers]
     if not isinstance(argument, dict):
-        raise ParameterError(
-            f"a request is an object with {listed([*names])}, not {_as_json(argument)}"
-        )
-    faults = [sentence for name in argument for sentence in unknown("name", name, names)]
-    faults += [
-        f"{name} is missing; give it" for name in ("preset", *needed) if name not in argument
-    ]
+        what = where or "a request"
+        raise ParameterError(f"{what} is an object with {listed(names)}, not {_as_json(argument)}")
+    prefix = f"{where}." if where else ""
+    what = f"name in {where}" if where else "name"
+    faults = [sentence for name in argument for sentence in unknown(what, name, names)]
+    faults += [f"{prefix}{name} is missing; give it" for name in needed if name not in argument]
     read: dict[str, Any] = {}
     for name in names:
-        if name in argument and (name in needed or name == "preset" or argument[name] is not None):
+        if name in argument and (name in needed or argument[name] is not None):
             with collecting(faults, ParameterError):
-                read[name] = _READERS[name](name, argument[name])
+                read[name] = readers[name](f"{prefix}{name}", argument[name])
     if faults:
         raise ParameterError(*faults)
-    return RequestedState(**read)
+    return read
 
 
 def _text(name: str, argument: Any) -> str:
@@ -152,19 +159,7 @@ def _count(name: str, argument: Any) -> int:
 
 def _curve(name: str, argument: Any) -> RequestedCurve:
     readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words(None)}
-    if not isinstance(argument, dict):
-        raise ParameterError(
-            f"{name} must be an object with {listed([*readers])}, not {_as_json(argument)}"
-        )
-    faults = [s for key in argument for s in unknown(f"name in {name}", key, [*readers])]
-    faults += [f"{name}.{key} is missing; give it" for key in readers if key not in argument]
-    read: list[Any] = []
-    for key, reader in readers.items():
-        with collecting(faults, ParameterError):
-            read.append(reader(f"{name}.{key}", argument[key]) if key in argument else None)
-    if faults:
-        raise ParameterError(*faults)
-    return RequestedCurve(*read)
+    return RequestedCurve(*_parts(name, argument, readers, [*readers]).values())
 
 
 _READERS: dict[str, Any] = {

@@ -191,11 +191,9 @@ _SEVERAL = ":,@"
 
 def curve_as_json(state: ReadState, request: RequestedCurve, detector: str) -> dict[str, Any]:
     """Return a curve for the page."""
-    explored = state.explored
     try:
         grid = curve_grid(state, request)
-        key = detector, request, *sorted(grid.fixed.items())
-        lines = explored.stored_curve(key, lambda: _lines(explored.plan, grid, request.y, detector))
+        lines = _lines(state.explored.plan, grid, request.y, detector)
     except OptipathError as error:
         raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
     (axis,) = grid.axes
