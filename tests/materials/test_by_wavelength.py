@@ -237,14 +237,15 @@ def test_tables_have_their_unit_from_texts_or_beside_them():
 
 
 OF_TABLES = [
-    *(({"values": v}, "must be a row of real numbers, not") for v in (np.zeros(0), [1.0, 2.0j])),
-    *(({"values": v}, "must be a row of real numbers, not") for v in ([1, 10**400], [True, False])),
-    ({"wavelengths": np.array([5e-7, 6e-7], complex)}, "must be a row of real numbers"),
+    ({"values": np.zeros(0)}, "must be a row of real numbers, not"),
+    *(({"values": v}, "must be a real number, not") for v in ([1, 10**400], [True, False])),
+    ({"values": [1.0, 2.0j]}, "is complex; give a real number"),
+    ({"wavelengths": np.array([5e-7, 6e-7], complex)}, "is complex; give a wavelength above 0"),
     ({"values": [[1.0], [1.0, 2.0]]}, "has rows of unequal lengths"),
     ({"values": [1, 10**400], "unit": "deg"}, "must be real numbers, not"),
     ({"unit": np.eye(3)}, "unit '.*' is unknown"),
     ({"label": 5}, "the name of a table is 5; give a text"),
-    ({"values": [1.0, math.nan]}, "value of the table: nan at 1 is no number"),
+    ({"values": [1.0, math.nan]}, "value of the table is nan at 1; give a finite number"),
     ({"values": [1.0, math.nan], "unit": "deg/mm"}, "'nan deg/mm' is not a quantity"),
     *(({"values": [1.0, "x"], "unit": unit}, "'x' is not a quantity") for unit in ("", "deg/mm")),
     ({"values": [1.0]}, "has 2 wavelengths and 1 of value"),

@@ -81,8 +81,8 @@ TWICE = "mine.yml has the wavelength 400 nm twice"
 REFUSED = [
     (of_row("0.4 1.7 0.1"), TWICE),
     (TABLE.replace("0.5 1.5 0.2", "0.4 1.5 0.2"), TWICE),
-    (of_row("0 1.7 0.1"), "a wavelength of mine.yml is 0; give lengths above 0"),
-    (of_row("-0.4 1.7 0.1"), "a wavelength of mine.yml is -4e-07; give lengths above 0"),
+    (of_row("0 1.7 0.1"), "wavelengths of mine.yml is 0 nm at 0; give a wavelength above 0"),
+    (of_row("-0.4 1.7 0.1"), "wavelengths of mine.yml is -400 nm at 0; give a wavelength above 0"),
     *((of_row(r), f"has '{r}' in row 3; give 3 numbers") for r in ("nan 1.7 0.1", "sNaN 1 1")),
     (of_row("0.6e999999999999 1 1"), "in row 3; give 3 numbers"),
     ("", "it has no list DATA of tables and formulas"),

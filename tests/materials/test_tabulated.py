@@ -97,15 +97,15 @@ def test_beyond_its_samples_it_is_the_nearest_one_or_the_line_goes_on():
     [
         ([500, 600], [1, 2], "500 metres, which is no wavelength of light"),
         ([5e-7, 5e-7], [1, 2], "has the wavelength 500 nm twice"),
-        ([5e-7, 7e-7, 6e-7], [1, 2, 3], "neither rise nor fall throughout: 600 nm stands behind"),
-        ([5e-7, np.nan], [1, 2], "wavelengths of gold: nan at 1 is no number"),
-        ([5e-7, 6e-7], [1, np.nan], "n of gold: nan at 1 is"),
+        ([5e-7, 7e-7, 6e-7], [1, 2, 3], "neither rise nor fall throughout"),
+        ([5e-7, np.nan], [1, 2], "wavelengths of gold is nan at 1"),
+        ([5e-7, 6e-7], [1, np.nan], "n of gold is nan at 1"),
         ([5e-7, 6e-7], [1, 2, 3], "has 2 wavelengths and 3 of n"),
-        ([-1.0, 6e-7], [1, 2], "a wavelength of gold is -1; give lengths above 0"),
+        ([-1.0, 6e-7], [1, 2], "give a wavelength above 0"),
         (["5 kg", 6e-7], [1, 2], "unit 'kg' of '5 kg' is unknown"),
         ([], [], "row of real numbers, not of shape (0,)"),
         ([5e-7], ["red"], "n of gold: 'red'"),
-        ([5e-7, 6e-7], [1, 2j], "n of gold must be a row of real numbers"),
+        ([5e-7, 6e-7], [1, 2j], "n of gold is complex; give a real number"),
     ],
 )
 def test_samples_that_are_wrong_are_refused_in_words_all_at_once(wavelengths, n, words):

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ValueFault, shown, unknown
-from optipath.values.arrays import as_argument, first_place, locked, numbers_for
+from optipath.errors import ValueFault, collecting, unknown
+from optipath.values.arrays import locked
 from optipath.values.curve import Curve, span_text
-from optipath.values.units import parse_quantity
+from optipath.values.domains import Domain
 from optipath.values.wavelength import LONGEST_FIRST, WAVELENGTH, too_long
 
 if TYPE_CHECKING:
@@ -117,51 +117,33 @@ class Tabulated(Curve):
         return tuple(results)
 
 
+_SAMPLE = Domain("number")
+
+
 def _samples(label: str, name: str, raw_value: Any, faults: list[str]) -> np.ndarray[Any, Any]:
     """Return samples as a copy of their numbers, and tell what is wrong with them."""
-    owner = f"{name} of {label}"
-    of_wavelengths = name == "wavelengths"
-    try:
-        parse = WAVELENGTH.parse if of_wavelengths else lambda text: parse_quantity(text, "")
-        array = _real(owner, numbers_for(owner, raw_value, parse))
-    except OptipathError as fault:
-        faults += fault.faults
-    except Exception:  # noqa: BLE001 - what is given may raise anything
-        faults.append(f"{owner} must be a row of real numbers, not {shown(raw_value)}")
-    else:
-        if array.ndim == 1 and array.size:
-            if np.any(bad := ~np.isfinite(array)):
-                result = f"{array[bad][0]}{first_place(bad)}"
-                faults.append(f"{owner}: {result} is no number; give one, or leave the sample out")
-            return array
-        faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")
-    return np.zeros(1)
-
-
-def _real(owner: str, raw_value: Any) -> np.ndarray[Any, Any]:
-    array = as_argument(owner, raw_value)
-    if array.dtype.kind not in "iufO":
-        raise TypeError
-    return array.astype(np.float64)
+    owner, array = f"{name} of {label}", np.zeros(0)
+    domain = WAVELENGTH if name == "wavelengths" else _SAMPLE
+    with collecting(faults):
+        array = np.array(domain.check(owner, raw_value), np.float64)
+        if array.ndim != 1 or not array.size:
+            faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")
+    return array
 
 
 def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
     """Return what is wrong with the wavelengths of samples, or nothing."""
     steps = np.diff(places)
-    if (least := float(places.min())) <= 0.0:
-        return f"a wavelength of {label} is {least:g}; give lengths above 0"
-    if least > LONGEST_FIRST:
+    if (least := float(places.min())) > LONGEST_FIRST:
         return f"the least wavelength of {label} is {too_long(least)}"
     if np.any(same := steps == 0.0):
         twice = float(places[:-1][same][0]) * 1e9
         return f"{label} has the wavelength {twice:.10g} nm twice; give each once"
-    turns = np.sign(steps) != np.sign(steps[:1])
-    if not np.any(turns):
+    if np.all(steps > 0.0) or np.all(steps < 0.0):
         return ""
-    first, other = places[int(np.argmax(turns)) :][:2] * 1e9
     return (
-        f"the wavelengths of {label} neither rise nor fall throughout: {other:.10g} nm stands "
-        f"behind {first:.10g} nm; sort them, with all that belongs to each"
+        f"the wavelengths of {label} neither rise nor fall throughout; sort them, with all that "
+        f"belongs to each"
     )
 
 
