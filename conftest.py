@@ -13,7 +13,6 @@ import pytest
 
 OF_JAX = [
     "src/optipath/engines/jax_path.py",
-    "src/optipath/sweeps/jax_slopes.py",
     "src/optipath/values/jax_primitives.py",
 ]
 

@@ -204,8 +204,8 @@ HALF = {"angle": (0.5, 0.01)}
 SIGMA = "the standard uncertainty of parameter 'intensity'"
 INDICES = {"n1": (1.5, 0.1), "k1": (0.2, 0.1), "n2": (1.5, 0.1)}
 CORRELATIONS = [
-    ({("n1", "k2"): 0.1}, "names 'k2', which has no uncertainty here"),
-    ({("n1", "n1"): 1.0}, 'is of pairs of parameters, such as {("n1", "k1"): 0.3}'),
+    ({("n1", "k2"): 0.1}, "not of ('n1', 'k2'); there are: n1, k1, n2"),
+    ({("n1", "n1"): 1.0}, "is of pairs of parameters that have an uncertainty"),
     ({"n1": 1.0}, "is of pairs of parameters"),
     ({("n1", "k1"): 1.1}, "give a number within -1 .. 1"),
     ({("n1", "k1"): "much"}, "give a number within -1 .. 1"),
@@ -255,8 +255,11 @@ def test_a_number_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_use
 def test_every_wrong_option_and_pair_is_told_but_that_of_a_value_that_cannot_be_read():
     for options, words in (
         ({"seed": -1, "correlation": 2}, ["seed", "correlation must be a mapping"]),
-        ({"samples": 1, "correlation": {("a", "b"): 2}}, ["samples", "names 'b'"]),
-        ({"correlation": {("a", "b"): 0.1, ("a", "c"): 0.1}}, ["names 'b'", "names 'c'"]),
+        ({"samples": 1, "correlation": {("a", "b"): 2}}, ["samples", "not of ('a', 'b')"]),
+        (
+            {"correlation": {("a", "b"): 0.1, ("a", "c"): 0.1}},
+            ["'b')", "'c')"],
+        ),
     ):
         faults = refused(DARKENED, a=(0.1, 0.1), method="monte-carlo", **options)
         assert all(word in told for word, told in zip(words, faults, strict=True))

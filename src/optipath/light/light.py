@@ -338,7 +338,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         if callable(stored) and (made := stored()) is not None:
             self.__dict__["_wavelength"] = made
         # Where none is made, what is kept says which ones are in doubt.
-        return made if callable(stored) else stored
+        return made if callable(stored) else stored  # type: ignore[no-any-return]
 
     @property
     def normalized(self) -> Array:

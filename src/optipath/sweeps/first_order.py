@@ -278,14 +278,39 @@ def slopes_of(light_at: LightAt, method: str) -> StokesSlopes:
 
 def _gradients(light_at: LightAt) -> StokesSlopes:
     need("gradients", "jax")
-    from optipath.sweeps.jax_slopes import slopes_by_jax  # noqa: PLC0415 - an extra
-
     try:
-        return StokesSlopes(slopes_by_jax(light_at), "gradients by JAX", 1e-12)
+        return StokesSlopes(_slopes_by_jax(light_at), "gradients by JAX", 1e-12)
     except Exception as fault:  # noqa: BLE001 - an element of one's own may raise anything
         raise ParameterError(
             f"JAX does not trace this path, which raises {shown(fault)}; write method='differences'"
         ) from None
+
+
+def _slopes_by_jax(light_at: LightAt) -> npt.NDArray[np.float64]:
+    """Return the slopes (..., 4, k) of the Stokes vector along each uncertain value, by JAX.
+
+    Not compiled: that would take seconds a path, for slopes mostly needed once.
+    """
+    import jax  # noqa: PLC0415 - an extra
+
+    from optipath.engines.jax_path import double_precision  # noqa: PLC0415 - an extra
+
+    uncertain = light_at.uncertain
+
+    def stokes(values: dict[str, Any]) -> Any:
+        return light_at(values).stokes
+
+    def along(tangents: dict[str, Any]) -> Any:
+        return jax.jvp(stokes, (values,), (tangents,))[1]
+
+    with double_precision()(True), jax.disable_jit():  # noqa: FBT003 - as JAX has it
+        values = {each.name: jax.numpy.asarray(each.value) for each in uncertain}
+        tangents = {
+            each.name: jax.numpy.asarray(np.multiply.outer(row, np.ones(each.value.shape)))
+            for row, each in zip(np.eye(len(uncertain)), uncertain, strict=True)
+        }
+        result = np.asarray(jax.vmap(along)(tangents))
+    return np.moveaxis(result, 0, -1)
 
 
 def _why_not(plan: Plan) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import did_you_mean, shown
+from optipath.errors import shown
 from optipath.values.arrays import Unchanging, locked, same_fields
 from optipath.values.units import dimension_of, displayed, format_range
 
@@ -92,15 +92,26 @@ def read_correlation(
     if not isinstance(argument, Mapping):
         return matrix, [f"correlation must be a mapping such as {_EXAMPLE}, not {shown(argument)}"]
     faults: list[str] = []
-    seen: set[frozenset[str]] = set()
+    seen: list[set[int]] = []
     for pair, coefficient in argument.items():
-        if wrong := _wrong(pair, coefficient, names):
-            faults.append(wrong)
-        elif frozenset(pair) in seen:
+        is_pair = isinstance(pair, tuple) and len(pair) == _PAIR and pair[0] != pair[1]
+        if not is_pair or any(name not in names for name in pair):
+            faults.append(
+                f"correlation is of pairs of parameters that have an uncertainty, such as "
+                f"{_EXAMPLE}, not of {shown(pair)}; there are: {', '.join(names)}"
+            )
+            continue
+        one, other = (names.index(name) for name in pair)
+        is_number = isinstance(coefficient, (int, float, np.number))
+        if not is_number or np.iscomplexobj(coefficient) or not -1.0 <= coefficient <= 1.0:
+            faults.append(
+                f"the correlation of {shown(pair)} is {shown(coefficient)}; give a number "
+                f"within -1 .. 1"
+            )
+        elif {one, other} in seen:
             faults.append(f"the correlation of {shown(pair)} is given twice; give it once")
         else:
-            seen.add(frozenset(pair))
-            one, other = (names.index(name) for name in pair)
+            seen.append({one, other})
             matrix[one, other] = matrix[other, one] = coefficient
     if not faults and len(names) and (least := np.linalg.eigvalsh(matrix)[0]) < -_ROUNDING:
         faults.append(
@@ -108,22 +119,6 @@ def read_correlation(
             f"eigenvalue {least:.3g}, and none may be negative; make the coefficients smaller"
         )
     return matrix, faults
-
-
-def _wrong(pair: Any, coefficient: Any, names: Sequence[str]) -> str:
-    if not isinstance(pair, tuple) or len(pair) != _PAIR or pair[0] == pair[1]:
-        return f"correlation is of pairs of parameters, such as {_EXAMPLE}, not of {shown(pair)}"
-    for name in pair:
-        if name not in names:
-            near = did_you_mean(name, names)
-            return f"correlation names {shown(name)}, which has no uncertainty here{near}"
-    real = isinstance(coefficient, (int, float, np.number)) and not isinstance(coefficient, bool)
-    if not real or np.iscomplexobj(coefficient) or not -1.0 <= coefficient <= 1.0:
-        return (
-            f"the correlation of {shown(pair)} is {shown(coefficient)}; give a number "
-            f"within -1 .. 1"
-        )
-    return ""
 
 
 def root_of(matrix: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
