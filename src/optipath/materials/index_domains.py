@@ -291,8 +291,7 @@ class RowDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return the entries one by one, since each may be an array of its own."""
-        is_row = isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) != 0
-        if not is_row or len(value) > MOST_MEDIA:
+        if not _is_row(value) or len(value) > MOST_MEDIA:
             return value
         return tuple([self.entry_kept(read_only(entry)) for entry in value])
 
@@ -302,7 +301,7 @@ class RowDomain(Domain):
 
     def check(self, owner: str, value: Any) -> Any:
         # Good lists are checked by their parts.
-        if isinstance(value, (list, tuple, np.ndarray)) and np.size(value) > MOST_MEDIA:
+        if _is_row(value) and len(value) > MOST_MEDIA:
             raise ValueFault(f"{owner} has {len(value):,} entries; give {MOST_MEDIA:,} at most")
         raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
 
@@ -310,6 +309,10 @@ class RowDomain(Domain):
         raise ValueFault(
             f"{owner} cannot be the parameter '{parameter.name}'; give a list, of parameters too"
         )
+
+
+def _is_row(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 
 @dataclass(frozen=True)
@@ -376,8 +379,8 @@ class LengthsDomain(RowDomain):
         return [(f"{name}[{place}]", one, LENGTH_OF_LAYER) for place, one in enumerate(value)]
 
     def described(self) -> str:
-        count = "" if self.layers is None else f" {self.layers}"
-        return f"a list of{count} lengths, one for each layer between the first medium and the last"
+        count = "" if self.layers is None else f" ({self.layers})"
+        return f"a list of lengths, one for each layer between the first medium and the last{count}"
 
 
 class LossyDomain(IndexDomain):
