@@ -39,7 +39,7 @@ def faults_of(path):
 def test_a_second_link_of_a_port_is_refused_with_the_cures():
     (fault,) = faults_of(filtered_before_the_eye())
     assert "port 'X1.reflected' feeds 'E.in' and 'P2.in'" in fault
-    for cure in ("path.disconnect(", "BeamSplitter", "connect(..., tap=True)"):
+    for cure in ("put one behind the other", "BeamSplitter", "connect(..., tap=True)"):
         assert cure in fault
     nodes = {"lamp": op.Source(), "left": op.Detector(), "right": op.Detector()}
     (fault,) = faults_of(wired(nodes, "lamp -> left, lamp -> right"))

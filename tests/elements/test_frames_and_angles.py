@@ -42,10 +42,10 @@ def fault_of(act, **given):
 @rows(
     "element, leaves, frame, message",
     [
-        (op.Interface(1.5, np.pi / 4 + 1e-6), "reflected", SIDE, "its incidence is 45.0000573 deg"),
+        (op.Interface(1.5, np.pi / 4 + 1e-6), "reflected", SIDE, "it is 45.0000573 deg"),
         (op.Interface(1.5, P("t")), "reflected", SIDE, "of 45 deg; give that, not the parameter"),
         (op.Interface(1.5, P("t", 0.1, bound=True)), "reflected", SIDE, "is 5.72957795 deg"),
-        (op.Interface(1.5, np.pi / 2), "reflected", NEARLY, "but its incidence is 90 deg"),
+        (op.Interface(1.5, np.pi / 2), "reflected", NEARLY, "of 'glass' it is 90 deg"),
         (op.Interface(1.5, np.pi / 4), "reflected", SIDE.turned(1e-4), "must share one x"),
         (op.BeamSplitter(), "reflected", SIDE.turned(1e-4), "must share one x"),
         (op.BeamSplitter(), "transmitted", START.turned(0.1), "straight through"),
@@ -64,7 +64,7 @@ def test_frames_that_agree_are_allowed_and_light_from_behind_is_held_to_them_too
     path = lit(op.Interface(P("n"), "45 deg"), frames, "transmitted")
     path.trace(n=1.5)
     fault = fault_of(path.trace, n=1.6)
-    assert "meet at an incidence of 28.1255057 deg, but behind 'glass' it is 26.2278" in fault
+    assert "meet at an incidence of 28.1255057 deg, but by" in fault
 
 
 def test_elements_stand_in_frames_of_single_precision(tmp_path):
@@ -113,12 +113,12 @@ def test_values_that_are_given_late_are_held_to_the_frames_as_constants_are(n, t
 def test_angles_are_compared_where_they_rest_on_what_is_known_alone():
     frames = {"in": MET.arriving, "reflected": MET.reflected}
     path = lit(op.Interface(P("n"), "10 deg"), frames, "reflected")
-    assert "incidence of 45 deg, but its incidence is 10 deg" in fault_of(path.check)
+    assert "incidence of 45 deg, but by the values of 'glass' it is 10 deg" in fault_of(path.check)
     measured = op.Interface(P("n"), "30 deg", P("m"), incidence_in=P("m0"))
     path = lit(measured, frames, "reflected")
     path.trace(n=1.5, m=1.0, m0=np.sqrt(2))
     fault = fault_of(path.trace, n=1.5, m=1.0, m0=1.5)
-    words = "incidence of 45 deg, but its incidence is 48.5903779 deg (n = 1 (parameter 'm')"
+    words = "by the values of 'glass' it is 48.5903779 deg (n = 1 (parameter 'm')"
     assert words in fault
 
 

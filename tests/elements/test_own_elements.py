@@ -285,11 +285,11 @@ def test_arguments_are_the_callers_and_entries_as_many_as_the_paths():
     assert not angles.any()
     assert pytest.approx(math.cos(1.0)) == path.trace(x=0.0).S0
     path = chain([Longer(X)])
-    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for one path; compute each"):
+    with pytest.raises(op.PathError, match=r"of shape \(3,\) for paths of shape \(\); compute"):
         path.trace(x=0.1)
     with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for paths of shape \(5,\)"):
         path.trace(x=np.zeros(5))
-    with pytest.raises(op.PathError, match="for one path"):
+    with pytest.raises(op.PathError, match=r"for paths of shape \(\)"):
         Longer().mueller()
 
 

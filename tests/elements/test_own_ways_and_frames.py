@@ -64,7 +64,7 @@ def doing(kernel, values):
         ([op.Coupling("inn", "out", operations(0.1))], "lead from 'inn'; its inputs are 'in'"),
         ([op.Coupling("in", "oot", operations(0.1))], "lead to 'oot'; its outputs are 'out'"),
         ([op.Coupling("in", "out", 3)], "operations 3; give a tuple of op.Operation"),
-        ([op.Coupling("in", "out", (op.Attenuator(0.5),))], r"operations \(Attenuator"),
+        ([op.Coupling("in", "out", (op.Attenuator(0.5),))], r"operations Attenuator"),
     ],
 )
 def test_ways_and_operations_that_cannot_be_are_told_with_the_class(couplings, told):
@@ -180,11 +180,7 @@ class TimesAnything(Times):
     physical = False
 
 
-def test_defaults_and_later_runs_are_looked_at():
-    chain([Times(op.Parameter("a", 1.0))]).check()
-    told = r"^with the default a = 4: 'e0' \(element class Times\).*2 times .*another default$"
-    with pytest.raises(op.PathError, match=told):
-        chain([Times(op.Parameter("a", 4.0))]).check()
+def test_later_runs_are_looked_at():
     plan = chain([Times(op.Parameter("a"))]).compose()
     assert plan.run(a=1.0).S0 == 1.0
     with pytest.raises(op.ParameterError, match="or the rows of 'e0' are not finite there"):

@@ -179,7 +179,6 @@ DAYS = np.timedelta64(3, "D")
         (lambda: op.Case({}, {"eye": "words"}), "published at eye must be numbers"),
         # A duration is no number.
         (lambda: op.Composer(threads=DAYS), "must be a"),
-        (lambda: op.Composer(tolerance=DAYS), "must be a"),
         (lambda: op.load_preset("malus").paths(limit=DAYS), "must be a"),
         (lambda: MALUS.engine_for(DAYS), "must be a"),
         (lambda: next(MALUS.stream(DAYS, angle=[0.1])), "must be a"),

@@ -112,8 +112,8 @@ def test_wavelengths_and_curves_out_of_range_are_named():
         known = ["300 nm .. 830 nm, for which illuminant D65", "350 nm .. 900 nm", "400 nm .. 800"]
         assert len(faults) == 3
         assert all(part in fault for part, fault in zip(known, faults, strict=True))
-    with pytest.raises(op.OptipathError, match="can have no value: glass 0 is known within 350 nm"):
-        panes((3.5e-7, 4e-7), (4.5e-7, 9e-7)).compose()
+    with pytest.raises(op.OptipathError, match="350 nm"):
+        panes((3.5e-7, 4e-7), (4.5e-7, 9e-7)).trace(wavelength="420 nm")
     assert panes((3.5e-7, 4e-7), (4e-7, 9e-7)).trace(wavelength="400 nm").intensity > 0.0
 
 

@@ -120,39 +120,30 @@ class Composer:
                 faults += unknown(option, value, choices)
         with collecting(faults, ComposerError):
             object.__setattr__(self, "dtype", precision_name(self.dtype))
-        engine, dtype, model, composing = (
-            word if isinstance(word, str) else ""  # an array equals no word, and has no truth
-            for word in (self.engine, self.dtype, self.model, self.composing)
-        )
-        if engine in ENGINES and not is_installed(engine):
-            faults += REGISTRY[engine].missing.faults
-        if (engine, dtype) == ("jax", "longdouble"):
+        if faults:
+            raise ComposerError(*faults)
+        if not is_installed(self.engine):
+            faults += REGISTRY[self.engine].missing.faults
+        if (self.engine, self.dtype) == ("jax", "longdouble"):
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         faults += whole_number("threads", self.threads)
-        faults += self._tolerance_faults(model, composing)
-        if composing == "jones" and model in MODELS[:-1]:
+        faults += self._tolerance_faults()
+        if self.composing == "jones" and self.model in MODELS[:-1]:
             faults.append(
-                f"model '{model}' is not for composing='jones', which carries columns whole; "
+                f"model '{self.model}' is not for composing='jones', which carries columns whole; "
                 f"use model 'auto' or composing='stokes'"
             )
         if faults:
             raise ComposerError(*faults)
 
-    def _tolerance_faults(self, model: str, composing: str) -> list[str]:
-        argument = self.tolerance
-        if argument is None:
+    def _tolerance_faults(self) -> list[str]:
+        if self.tolerance is None:
             return []
-        is_number = isinstance(argument, Real) and type(argument).__name__ not in (
-            "bool",
-            "timedelta64",
-        )
-        if not is_number or not 0.0 < argument < 1.0:
+        if not isinstance(self.tolerance, Real) or not 0.0 < self.tolerance < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
-            return [
-                f"tolerance must be {allowed}, not {shown(argument)}; leave it out for exact plans"
-            ]
-        if model == "full" or composing == "jones":
-            what = "model 'full'" if model == "full" else "composing='jones'"
+            return [f"tolerance must be {allowed}, not {shown(self.tolerance)}; leave it out"]
+        if self.model == "full" or self.composing == "jones":
+            what = "model 'full'" if self.model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
         return []
 
@@ -174,10 +165,7 @@ class Composer:
         """
         graph: Any = path
         if not isinstance(path, nx.MultiDiGraph):
-            try:
-                graph = path.graph
-            except Exception:  # noqa: BLE001 - somebody else's attribute may raise anything
-                graph = None
+            graph = getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():

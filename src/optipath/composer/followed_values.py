@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.media import FOLLOWING, SameMedium, absorption_of, are_same, parts_of
+from optipath.composer.media import SameMedium, absorption_of, are_same, parts_of
 from optipath.composer.meetings import Meetings
-from optipath.composer.path_values import TAKEN_OVER
+from optipath.composer.path_values import FOLLOWING
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary_media import MediaOfBoundary
 from optipath.materials.index_domains import FOLLOWS
@@ -40,10 +40,12 @@ def with_followed(
     taking = _Taking(elements, Meetings(Wiring(graph)))
     faults = {name: [*taking.faults(name)] for name in names if name not in unsure}
     result = graph.copy()
-    result.graph[FOLLOWING] = {name: elements[name].followed() for name in names}
-    result.graph[TAKEN_OVER] = frozenset(
-        (name, field) for name in names for field in _filled(elements[name])
-    )
+    following = {name: elements[name].followed() for name in names}
+    # An incidence comes with the medium in which it is measured.
+    result.graph[FOLLOWING] = {
+        name: (*fields, "incidence_in") if "incidence" in fields else fields
+        for name, fields in following.items()
+    }
     for name in names:
         if not faults.get(name):
             result.nodes[name]["element"] = taking.elements[name]
@@ -55,12 +57,6 @@ def with_followed(
         for name in going_round
     ]
     return result, messages
-
-
-def _filled(element: Any) -> set[str]:
-    """Return the fields of an element that are filled where it takes values over."""
-    fields = {*element.followed()}
-    return {*fields, "incidence_in"} if "incidence" in fields else fields
 
 
 class _Taking:
@@ -122,8 +118,7 @@ class _Taking:
                 f"to {port}; give the index of the medium in front"
             )
         took = "outside" in self.given[name].followed() and "outside" not in missing
-        absorbs = took and not element.lit_from_absorbing and _absorbs(element.medium_at("in"))
-        if absorbs:
+        if took and not element.lit_from_absorbing and _absorbs(element.medium_at("in")):
             yield (
                 f"'{name}' takes its {field} over (FOLLOWS), but the medium before {port} absorbs; "
                 f"give that an index without k, and link a Medium between, which absorbs on the way"
@@ -134,17 +129,12 @@ class _Taking:
                 f"{port}; give each light a face of its own"
             )
         if "incidence" in missing and not (_may_measure(element) and self.layers.get(name)):
-            why = (
-                "has an incidence_in of its own, which comes with it; leave that out"
-                if not _may_measure(element)
-                else "is not parallel to what is before it; give the angle"
-                if not element.parallel
-                else "its world frames say how it stands to what is before it; give the angle"
-                if name in self.in_space
-                else "no parallel boundary before it sends it light that it has refracted; give "
-                "the angle"
-            )
-            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}"
+            why = "no parallel boundary before it sends it light that it has refracted"
+            if not _may_measure(element):
+                why = "has an incidence_in of its own, which comes with it"
+            elif name in self.in_space:
+                why = "its world frames say how it stands to what is before it"
+            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}; give the angle"
 
 
 def _by_end(meetings: Any) -> dict[str, list[Meeting]]:

@@ -11,7 +11,7 @@ from optipath.composer.placement import alignment, frame_at, vertex_frame
 from optipath.composer.wiring import link_text
 from optipath.engines.program import Reading
 from optipath.errors import ComposerError, listed
-from optipath.kernels.catalog import DICHROISM_AND_RETARDANCE_ALONG, ELLIPTICAL_RETARDER, RESPONSE
+from optipath.kernels.catalog import RESPONSE
 from optipath.light.frame import Frame
 from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 from optipath.values.parameters import Parameter
@@ -27,9 +27,6 @@ _FEW = 8
 
 _UNIT = Frame()
 
-_WHOLE_BUT_PURE = (ELLIPTICAL_RETARDER, DICHROISM_AND_RETARDANCE_ALONG)
-"""What never depolarises, and still has no Jones matrix that columns could pass."""
-
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
 
@@ -42,19 +39,17 @@ def lower(wiring: Wiring, method: str) -> Program:
 
 
 def refuse_depolarizers(program: Program) -> None:
-    """Refuse elements that Jones columns cannot pass, and say of each whether it may depolarise."""
-    kernels = [evaluation.kernel for evaluation in program.evaluations]
-    why = {
-        i: "is computed as a whole Mueller matrix, and has no Jones matrix here"
-        if kernel in _WHOLE_BUT_PURE
-        else "has a whole Mueller matrix, which may depolarise, and so no Jones matrix"
-        for i, kernel in enumerate(kernels)
-        if kernel.structure and not kernel.structure.jones
+    """Refuse elements that Jones columns cannot pass."""
+    whole = {
+        place
+        for place, evaluation in enumerate(program.evaluations)
+        if evaluation.kernel.structure and not evaluation.kernel.structure.jones
     }
     faults = [
-        f"'{step.label}' {why[step.evaluation]}; compose with composing='stokes'"
+        f"'{step.label}' has a whole Mueller matrix, which may depolarise, and no Jones matrix; "
+        f"compose with composing='stokes'"
         for step in program.steps
-        if step.evaluation in why
+        if step.evaluation in whole
     ]
     if faults:
         raise ComposerError(*faults)

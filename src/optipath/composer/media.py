@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.composer.meetings import TURNED, Meetings, OnePlane, keys_of, turn_text, way_text
+from optipath.composer.path_values import FOLLOWING
 from optipath.elements.boundary import BoundaryElement, world_angles
 from optipath.elements.boundary_media import arriving_waves
 from optipath.errors import Cure, Fault
@@ -18,10 +19,8 @@ from optipath.kernels.primitives import of_module
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.values.agreement import Agreement, first_faults, is_single, text_of
-from optipath.values.curve_value import CurveValue
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
-from optipath.values.units import digits_until
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
@@ -29,10 +28,6 @@ if TYPE_CHECKING:
     from optipath.composer.meetings import Meeting
     from optipath.composer.wiring import Port, Wiring
     from optipath.elements.boundary import WorldAngle
-
-
-FOLLOWING = "following"
-"""By what a graph knows the boundaries that have taken something over, and of which fields."""
 
 
 class Media:
@@ -287,33 +282,16 @@ class SameMedium(Agreement):
         if self.follows:
             return (
                 f"{is_lit}, but has taken its {self.field} over (FOLLOWS) from other light, in "
-                f"{_called(behind)}; light of several media merges there: give each light a face "
-                f"of its own"
+                f"{_called(behind)}; give each light a face of its own"
             )
-        fixed = self._is_one_parameter or isinstance(self.operands[1].value, CurveValue)
-        cures = [] if fixed or 0 in varying else [self._cure(*numbers[0::2])]
-        if not self.enters.endswith(".back"):
-            cures.append([f"{way} for {self.field}" for way in ("op.FOLLOWS", FOLLOWS.in_file)])
-        elif not cures:
-            cures.append([f"the same for {self.field} as there"] * 2)
-        ways = [f"give {', or '.join(several)}" for several in zip(*cures, strict=True)]
-        return Fault(f"{is_lit}, but its {self.field} is {behind}", Cure(*ways))
-
-    @property
-    def _is_one_parameter(self) -> bool:
-        """Whether both are multiples of one parameter, so that no value of it is the cure."""
-        values = [operand.value for operand in self.operands[:2]]
-        both = all(isinstance(value, Parameter) for value in values)
-        return both and len({value.name for value in values}) == 1
-
-    def _cure(self, n: float, k: float = 0.0) -> list[str]:
-        """Return the index that would do, as Python writes it and as a file does."""
-        value: Any = self.operands[1].value
-        argument = value.formula if isinstance(value, Parameter) else self.field
-        if not k:
-            return [f"{argument} = {n:.12g}"] * 2
-        table = f"{{ n = {n:.12g}, k = {k:.12g} }}"
-        return [f"{argument} = {n:.12g}{k:+.12g}j", f"{argument} = {table}"]
+        reason = f"{is_lit}, but its {self.field} is {behind}"
+        is_open = isinstance(self.operands[1].value, Parameter) or 0 in varying
+        same = "" if is_open or any(numbers[2:]) else f"{self.field} = {numbers[0]:.12g}"
+        if self.enters.endswith(".back"):
+            return Fault(reason, f"give {same or f'the same for {self.field} as there'}")
+        same += ", or " if same else ""
+        ways = (f"give {same}{way} for {self.field}" for way in ("op.FOLLOWS", FOLLOWS.in_file))
+        return Fault(reason, Cure(*ways))
 
 
 def _called(number: str) -> str:
@@ -410,11 +388,7 @@ class SnellsLaw(Agreement):
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
         pairs = ((angle1, n1, k1), (angle2, n2, k2))
         here, there = (float(_index(np, a, n, k)) * math.sin(a) for a, n, k in pairs)
-        angles: list[str] = []
-        if not {0, 1, 2, 4, 5}.intersection(varying) and not (k1 or k2):
-            angles = self._angles(angle1, n1, n2)
-        digits = digits_until(lambda d: f"{here:.{d}g}" != f"{there:.{d}g}")
-        sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
+        sines = f"{here:.10g} at '{name}' and {there:.10g} at '{own}'"
         argument = text_of(self.operands[3], math.degrees(angle2), " deg")
         argument += f" in n = {text_of(self.operands[4], n2)}"
         if k2:
@@ -426,19 +400,17 @@ class SnellsLaw(Agreement):
             return (
                 f"light of '{self.leaves}' enters '{self.enters}', but '{own}' has taken its "
                 f"incidence over (FOLLOWS) from other light: n sin(incidence) is {sines} "
-                f"({argument}); light of several directions merges there: give each light a "
-                f"face of its own"
+                f"({argument}); give each light a face of its own"
             )
+        angle = ""
+        if not (k1 or k2 or {0, 1, 2, 4, 5}.intersection(varying)) and here <= n2:
+            angle = f"{math.degrees(math.asin(here / n2)):.10g} deg in n = {n2:.12g}, or "
+        whys = ("light goes to and fro between them, so they are parallel",) * 2
         if self.may_be_shown:
-            why = (
-                f"faces are taken as parallel behind one that refracts; if '{own}' stands at an "
-                f"angle to '{name}', as those of a prism do, say parallel"
-            )
+            why = "faces behind one that refracts are parallel, unless they say parallel"
             whys = f"{why}=False", f"{why} = false"
-        else:
-            whys = ("light goes to and fro between them, so they are parallel",) * 2
         cures = [
-            f"give '{own}' an incidence of {', or '.join([*angles, follows])} ({why})"
+            f"give '{own}' an incidence of {angle}{follows} ({why})"
             for follows, why in zip(("op.FOLLOWS", FOLLOWS.in_file), whys, strict=True)
         ]
         return Fault(
@@ -446,34 +418,6 @@ class SnellsLaw(Agreement):
             f"({argument})",
             Cure(*cures),
         )
-
-    def _angles(self, angle: float, n: float, own_n: float) -> list[str]:
-        """Return what the second may say of its angle, with as many digits as it takes to pass."""
-        results = []
-        there = math.degrees(angle)
-        if (sine := n * math.sin(angle) / own_n) <= 1.0:
-            exact = math.degrees(math.asin(sine))
-            digits = digits_until(
-                lambda d: self.fits(
-                    np, angle, n, 0.0, math.radians(float(f"{exact:.{d}g}")), own_n, 0.0
-                )
-            )
-            results.append(f"{exact:.{digits}g} deg in n = {own_n:.12g}")
-        if n != own_n:
-            elsewhere = replace(self, ends=(self.ends[0], False))
-            digits = digits_until(
-                lambda d: elsewhere.fits(
-                    np,
-                    angle,
-                    n,
-                    0.0,
-                    math.radians(float(f"{there:.{d}g}")),
-                    float(f"{n:.{d + 2}g}"),
-                    0.0,
-                )
-            )
-            results.append(f"{there:.{digits}g} deg with incidence_in = {n:.{digits + 2}g}")
-        return results
 
 
 def _index(xp: Any, angle: Any, n: Any, k: Any) -> Any:

@@ -13,7 +13,7 @@ from optipath.errors import ValueFault
 from optipath.materials.quantities import ANGLE, SPECTRAL
 from optipath.plan.inputs import Inputs
 from optipath.values.arrays import broadcast_fault, changed
-from optipath.values.curve import WavelengthRange, is_within, span_text
+from optipath.values.curve import WavelengthRange
 from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
@@ -22,7 +22,7 @@ from optipath.values.use import Use
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
+    from collections.abc import Collection, Iterator
 
     import networkx as nx
 
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Resolved
 
 
-TAKEN_OVER = "taken over"
-"""The attribute of a graph with the fields that have the value of another, as (node, field)."""
+FOLLOWING = "following"
+"""The attribute of a graph with the fields of each node that have the value of another node."""
 
 
 class Values:
@@ -64,8 +64,9 @@ class Values:
 
     def _is_taken_over(self, use: Use) -> bool:
         """Tell whether a value stands elsewhere, where what is wrong with it is told."""
-        taken = self.graph.graph.get(TAKEN_OVER)
-        return bool(taken) and tuple(use.owner.split(".")[:2]) in taken
+        following = self.graph.graph.get(FOLLOWING, {})
+        name, _, field = use.owner.partition(".")
+        return name in following and field.partition(".")[0] in following[name]
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
@@ -153,13 +154,10 @@ class Values:
         results: list[str] = []
         faulty: set[str] = set()
         looked_at = set()
-        ranges, out_of = [], set()
-        some_taken_over = TAKEN_OVER in self.graph.graph
-        for use in sorted(self.uses, key=self._is_taken_over) if some_taken_over else self.uses:
+        out_of = set()
+        for use in sorted(self.uses, key=self._is_taken_over):
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
-            if of_range := isinstance(use.domain, WavelengthRange):
-                ranges.append(use)
-            another = of_range and use.domain not in out_of
+            another = isinstance(use.domain, WavelengthRange) and use.domain not in out_of
             again = bool(results) and self._is_taken_over(use)
             if (_named(use) in faulty and not another) or follows or again:
                 continue  # For the same reason, mostly.
@@ -179,7 +177,6 @@ class Values:
             *results,
             *self._parameter_faults(),
             *self._optional_faults(),
-            *(range_faults(ranges) if ranges else ()),
             *broadcast_fault(sound),
         ]
 
@@ -209,26 +206,22 @@ class Values:
 
     def _difference(self, use: Use, known: Parameter) -> str:
         """Say in what a parameter differs from the one of its name that is met first."""
-        name, alike = known.name, changed(use.value, unit=known.unit)
+        name = known.name
         if known.bound and not use.value.bound:
             return (
                 f"parameter '{name}' is open at {use.owner}, and bound elsewhere to "
                 f"{known.text(known.default)}; bind it where the path is whole"
             )
-        if not alike.same_specification(known):
+        if not changed(use.value, unit=known.unit).same_specification(known):
             return (
                 f"parameter '{name}' at {use.owner} differs from the one of that name "
                 f"elsewhere; use one Parameter, or two names"
             )
         first = next(u for u in self.uses if getattr(u.value, "name", None) == name)
-        if use.domain.dimension == first.domain.dimension:
-            return (
-                f"parameter '{name}' is in {known.unit} at {first.owner}, and in {use.value.unit} "
-                f"at {use.owner}; give it one, unit='{known.unit}'"
-            )
         return (
-            f"parameter '{name}' is {first.domain.described()} at {first.owner}, and "
-            f"{use.domain.described()} at {use.owner}; use two names"
+            f"parameter '{name}' is {first.domain.described()} in {known.unit} at {first.owner}, "
+            f"and {use.domain.described()} in {use.value.unit} at {use.owner}; give it one unit, "
+            f"or use two names"
         )
 
     def _optional_faults(self) -> Iterator[str]:
@@ -275,24 +268,3 @@ def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:
 def value_faults(graph: nx.MultiDiGraph) -> list[str]:
     """Return what is wrong with the values of a graph of elements, a sentence each."""
     return Values(graph).faults()
-
-
-def range_faults(uses: Iterable[Use]) -> Iterator[str]:
-    """Yield a sentence for each parameter at no value of which all curves are known."""
-    requests: dict[str, list[tuple[tuple[float, float], WavelengthRange]]] = {}
-    for use in uses:
-        if use.is_open and isinstance(use.domain, WavelengthRange):
-            span = use.value.span_for(*use.domain.interval)
-            requests.setdefault(use.value.name, []).append((span, use.domain))
-    for name, ranges in requests.items():
-        (least, above) = max(ranges, key=lambda one: one[0][0])
-        (most, below) = min(ranges, key=lambda one: one[0][1])
-        if is_within(least[0], (0.0, most[1])):
-            continue
-        beyond = dict.fromkeys(filter(None, [below.beyond, above.beyond]))
-        spans = [f"{one.label} is known within {span_text(one.interval)}" for one in (below, above)]
-        otherwise = "".join(f", or {each}" for each in beyond)
-        yield (
-            f"parameter '{name}' can have no value: {' and '.join(spans)}; take what is known at "
-            f"a common wavelength{otherwise}"
-        )

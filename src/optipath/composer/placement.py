@@ -118,27 +118,29 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     if own is not None and not is_zero(element_turn):
         turns = f"{turn_text(own)} and {turn_text(element_turn)}"
         return [f"{text} and '{end}' both give an azimuth, {turns}; give it in one place"]
-    ends = ((start, leaves, arriving), (end, enters, expected))
-    for name, port, frame in ends:
-        if frame is None and wiring.graph.nodes[name]["frames"]:
-            other = f"{name}.{next(iter(wiring.graph.nodes[name]['frames']))}"
-            problem = f"'{name}.{port}' has no world frame, though '{other}' has"
-            return [f"{text}: {problem}; give it one"]
-    if (arriving is None) != (expected is None):
-        if expected is None and not wiring.elements[end].outputs and own is None:
-            return []
-        has, lacks = f"{start}.{leaves}", f"{end}.{enters}"
+    for name, port, frame in ((start, leaves, arriving), (end, enters, expected)):
+        if frame is None and (frames := wiring.graph.nodes[name]["frames"]):
+            other = f"'{name}.{port}' has no world frame, though '{name}.{next(iter(frames))}' has"
+            return [f"{text}: {other}; give it one"]
+    ends_relatively = expected is None and not wiring.elements[end].outputs and own is None
+    if (arriving is None) != (expected is None) and not ends_relatively:
+        has, lacks = f"'{start}.{leaves}'", f"'{end}.{enters}'"
         if arriving is None:
             has, lacks = lacks, has
-        return [f"{text}: '{has}' has a world frame but '{lacks}' has none; give both or neither"]
+        return [f"{text}: {has} has a world frame but {lacks} has none; give both or neither"]
     if arriving is None or expected is None:
         return []
     if not (own is None and is_zero(element_turn)):
         return [f"{text} is turned by its world frames and by an azimuth; give one of them"]
+    return [f"{text}: {fault}" for fault in _turn_faults(arriving, expected)]
+
+
+def _turn_faults(first: Frame, second: Frame) -> list[str]:
+    """Return why one frame is no turn of the other."""
     try:
-        arriving.turn_to(expected)
+        first.turn_to(second)
     except OptipathError as fault:
-        return [f"{text}: {fault}"]
+        return [str(fault)]
     return []
 
 
@@ -146,20 +148,18 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
     if not element.merges or frame_at(wiring, name, "in") is not None:
         return []
     links = wiring.links_to.get((name, "in"), [])
-    if len(links) > 1 and any(link[0] in wiring.self_placed for link in links):
+    if len(links) < 2:
+        return []
+    if any(link[0] in wiring.self_placed for link in links):
         return [
             f"several lights meet at '{name}' in frames of vertices; give each an end of its own"
         ]
-    placed = [link for link in links if frame_at(wiring, link[0], link[2][0]) is not None]
-    frames = [frame_at(wiring, link[0], link[2][0]) for link in placed]
-    for link, frame in zip(placed[1:], frames[1:], strict=True):
-        try:
-            frames[0].turn_to(frame)  # type: ignore[union-attr,arg-type]
-        except OptipathError as fault:
-            both = f"'{link_text(placed[0])}' and '{link_text(link)}'"
-            problem = f"light from directions that differ cannot meet at '{name}': {both}: {fault}"
+    frames = [frame for link in links if (frame := frame_at(wiring, link[0], link[2][0]))]
+    for frame in frames[1:]:
+        for fault in _turn_faults(frames[0], frame):
+            problem = f"light from directions that differ cannot meet at '{name}': {fault}"
             return [f"{problem}; give each its own detector"]
-    if len(links) > 1 and placed:
+    if frames:
         return [
             f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"
         ]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from optipath.composer.builder import Item, along_chains, label_of
 from optipath.composer.live import Live, known_numbers, left_out, number_of, vanishes
@@ -32,30 +32,23 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.structures import Structure
     from optipath.kernels.kernel import Kernel
 
-
-@dataclass(frozen=True)
-class Pass:
-    """One way in which a program gives the same light for less work."""
-
-    name: str
-    change: Callable[[Program], tuple[Program, list[str]]]
-
-    def __call__(self, program: Program) -> tuple[Program, list[str]]:
-        """Return the program that is left, and notes."""
-        return self.change(program)
+    Pass: TypeAlias = Callable[[Program], tuple[Program, list[str]]]
 
 
-def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...], int]:
+def passes_for(model: str, composing: str, dtype: str) -> tuple[dict[str, Pass], int]:
     """Return what programs go through, in order, and how often as long as one of them helps."""
     stokes, doubles = composing == "stokes", dtype != "longdouble"
-    every = (
-        (True, Pass("cheaper kernels", cheaper_kernels)),
-        (True, Pass("joined turns", partial(joined_turns, sums=doubles))),
-        (doubles, Pass("multiplied constants", partial(multiplied_constants, matrices=stokes))),
-        (stokes, Pass("left out", left_out)),
-    )
-    result = () if model == "full" else every
-    return tuple(each for is_wanted, each in result if is_wanted), 3 if stokes else 1
+    if model == "full":
+        return {}, 1
+    result: dict[str, Pass] = {
+        "cheaper kernels": cheaper_kernels,
+        "joined turns": partial(joined_turns, sums=doubles),
+    }
+    if doubles:
+        result["multiplied constants"] = partial(multiplied_constants, matrices=stokes)
+    if stokes:
+        result["left out"] = left_out
+    return result, 3 if stokes else 1
 
 
 def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:
@@ -64,7 +57,7 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
     program, notes = whole, list[str]()
     for _ in range(rounds):
         done = len(notes)
-        for each in passes:
+        for each in passes.values():
             program, result = each(program)
             notes += result
         if len(notes) == done:
@@ -107,14 +100,12 @@ def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
         return Tolerance(wanted, most)
     if model == "auto":
         return None
+    why = f"{listed([repr(name) for name in others])} reads more"
     if exact.program.loops:
-        raise ComposerError(
-            f"model '{model}' is not exact for this path, and there are no certificates for light "
-            f"that goes round; use model '{exact.model}'"
-        )
+        why = "the light of this path goes round"
     raise ComposerError(
-        f"model '{model}' is not exact for this path, and certificates are for intensities: "
-        f"{listed([repr(name) for name in others])} reads more; let all read 'intensity', as "
+        f"model '{model}' is not exact for this path, and certificates are for intensities of "
+        f"light that does not go round, but {why}; let all read 'intensity', as "
         f"path.reading('intensity') does, or use model '{exact.model}'"
     )
 

@@ -19,7 +19,7 @@ from optipath.composer.wiring import (
     sharing_faults,
     tap_faults,
 )
-from optipath.errors import Cure, Fault, PathError, listed
+from optipath.errors import Cure, Fault, PathError
 from optipath.values.operands import Operand
 from optipath.values.use import remember_sound
 
@@ -36,8 +36,6 @@ def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:
     if values is None or whole is not graph:
         values = Values(whole)
     refuse_faults(values, wiring, Media(wiring), unfollowed)
-    if faults := [*_default_faults(values, wiring)]:
-        raise PathError(*faults)
 
 
 def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list[str]) -> None:
@@ -83,15 +81,6 @@ def _own_faults(wiring: Wiring) -> Iterator[str]:
     for each in wiring.own_ways():
         if each.are_known():
             yield from (fault for _, fault in each.faults(Operand.numbers))
-
-
-def _default_faults(values: Values, wiring: Wiring) -> Iterator[str]:
-    """Yield what ways through elements of a user's own come to with defaults of parameters."""
-    for each in wiring.own_ways():
-        if each.units and each.are_known(values.defaults):
-            defaults = [f"{name} = {values.parameters[name].default_text()}" for name in each.units]
-            for _, fault in each.faults(lambda operand: operand.numbers(values.defaults)):
-                yield f"with the default {listed(defaults)}: {fault}; or give another default"
 
 
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:

@@ -12,7 +12,7 @@ from optipath.elements.own_element import OwnWays, couplings_of, own_ways
 from optipath.errors import Cure, Fault, listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.element import Element
@@ -304,35 +304,14 @@ def sharing_faults(wiring: Wiring) -> Iterator[str]:
     for (name, port), links in wiring.links_from.items():
         if len(links) > 1:
             ends = listed([f"'{link[1]}.{link[2][1]}'" for link in links])
-            taken = f"take all but one out, by {taken_out(wiring, links)}, and put one behind the "
-            share = (
-                "share the light with a BeamSplitter, or read it with a tap, which takes nothing:"
-            )
+            share = "put one behind the other, share the light with a BeamSplitter, or read it with"
             yield Fault(
                 f"port '{name}.{port}' feeds {ends}, and each would get all of its light",
                 Cure(
-                    f"{taken}other with path.insert(...), {share} connect(..., tap=True)",
-                    f"put one behind the other, {share} tap = true below its [[links]]",
+                    f"{share} a tap, which takes nothing: connect(..., tap=True)",
+                    f"{share} a tap, which takes nothing: tap = true below its [[links]]",
                 ),
             )
-
-
-def taken_out(wiring: Wiring, links: Sequence[Link]) -> str:
-    """Write down the calls that take links of one port out, as far as others lead there too."""
-    ends = {link: (link[1], link[2][1]) for link in links}
-    # What a way by another link comes to is cut short by the link straight there.
-    short = [
-        link
-        for link in links
-        if any(
-            ends[link] in reached(wiring.ports, [ends[other]]) for other in links if other != link
-        )
-    ]
-    calls = [
-        f'path.disconnect("{start}.{leaves}", "{end}.{enters}")'
-        for start, end, (leaves, enters) in (short if 0 < len(short) < len(links) else links)
-    ]
-    return " or ".join(calls)
 
 
 def tap_faults(wiring: Wiring) -> Iterator[str]:

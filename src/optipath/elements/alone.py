@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.elements.coupling import Coupling
-    from optipath.elements.own_element import OwnWays
     from optipath.values.operands import Operation
     from optipath.values.use import Use
 
@@ -67,7 +66,9 @@ def mueller_alone(
     for coupling in entering:
         if coupling.leaves == leaves:
             with enough_for(batch, _TWO_MATRICES, error=PathError):
-                _refuse_unphysical(own_ways(owner, element, entering, method))
+                for way in own_ways(owner, element, entering, method):
+                    if way.are_known() and (faults := way.faults(Operand.numbers)):
+                        raise PathError(*(text for _, text in faults))
                 matrix = coupling.matrix(method)
             arriving = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
             leaving = _frame_at(element, leaves, frames or {enters: arriving}) or Frame()
@@ -93,8 +94,9 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
     laws = [*arriving_waves(owner, element, enters), *element.agreements(owner)]
     faults = faults or first_faults(laws)
-    if not faults and element.frame_of(enters, frames) is not None:
-        faults = _twice_turned(owner, element, enters)
+    is_placed = not faults and element.frame_of(enters, frames) is not None
+    if is_placed and np.any(Operand(azimuth_at(element, enters)).numbers()):
+        faults = [f"{owner} is turned by its world frames and by an azimuth; give one of them"]
     if faults:
         raise PathError(*faults)
     return joint_shape(*shapes.values())
@@ -104,21 +106,12 @@ def _no_way(owner: str, enters: str, leaves: str, couplings: tuple[Coupling, ...
     """Say that there is no such way, and which there are."""
     ways = [(c.enters, c.leaves) for c in couplings if c.enters]
     if not ways:
-        where = "begins" if couplings else "ends"
-        return f"{owner} lets no light through, which {where} there; ask an element between"
+        return f"{owner} lets no light through; ask an element between source and detector"
     known = ", ".join(f"{begin} -> {end}" for begin, end in ways)
-    begin, end = next((way for way in ways if way[0] == enters), ways[0])
     return (
         f"{owner} has no way '{enters} -> {leaves or '...'}'; say the ports, such as "
-        f'element.mueller("{begin}", "{end}") @ light; there are: {known}'
+        f'element.mueller("{ways[0][0]}", "{ways[0][1]}"); there are: {known}'
     )
-
-
-def _refuse_unphysical(ways: list[OwnWays]) -> None:
-    """Refuse what no light can do, as paths do."""
-    known = [each for each in ways if each.are_known()]
-    if faults := [text for each in known for _, text in each.faults(Operand.numbers)]:
-        raise PathError(*faults)
 
 
 def _open(owner: str, use: Use) -> str:
@@ -129,13 +122,6 @@ def _open(owner: str, use: Use) -> str:
             f"what stands there .at('550 nm')"
         )
     return f"parameter '{use.value.name}' of {owner} has no value yet"
-
-
-def _twice_turned(owner: str, element: Any, enters: str) -> list[str]:
-    """Return the fault of an element that has a world frame and an azimuth, as a path does."""
-    if not np.any(Operand(azimuth_at(element, enters)).numbers()):
-        return []
-    return [f"{owner} is turned by its world frames and by an azimuth; give one of them"]
 
 
 def _frame_at(element: Any, port: str, frames: dict[str, Frame]) -> Frame | None:

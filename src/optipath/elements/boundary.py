@@ -181,26 +181,24 @@ class WorldAngle(Agreement):
         result, *argument = numbers
         front, behind = angles_of(np, *argument)
         there, expected = _degrees(result), _degrees(self._expected(front, behind))
-        incidence, *indices = self.operands[1:]
-        angle = text_of(incidence, math.degrees(argument[0]), " deg")
-        open_ones = [] if incidence.known else [angle]
-        parts = zip(indices, argument[1:], strict=True)
-        open_ones += [_index_text(o, number) for o, number in parts if _is_shown(o, number)]
-        by = f" ({', '.join(open_ones)})" if open_ones else ""
+        given = [
+            f"{'k' if o.part == 'imag' else 'n'} = {text_of(o, number)}"
+            for o, number in zip(self.operands[2:], argument[1:], strict=True)
+            if not o.known and (o.part != "imag" or number != 0.0)
+        ]
+        if not self.operands[1].known:
+            given.insert(0, text_of(self.operands[1], math.degrees(argument[0]), " deg"))
+        by = f" ({', '.join(given)})" if given else ""
         if self._is_passing:
             return (
                 f"light from '{self.owner}.{self.enters}' to '{self.owner}.{self.leaves}' is "
-                f"turned by {there} in the world, but by {expected} by Snell's law{by}; make them "
-                f"agree"
-            )
-        if self.enters == "in":
-            return (
-                f"the frames of '{self.owner}' meet at an incidence of {there}, but its incidence "
-                f"is {expected}{by}; make them agree"
+                f"turned by {there} in the world, but by {expected} by Snell's law{by}; "
+                f"make them agree"
             )
         return (
-            f"the frames of '{self.owner}.back' and '{self.owner}.transmitted' meet at an "
-            f"incidence of {there}, but behind '{self.owner}' it is {expected}{by}; make them agree"
+            f"the frames of '{self.owner}.{self.enters}' and '{self.owner}.{self.leaves}' meet at "
+            f"an incidence of {there}, but by the values of '{self.owner}' it is {expected}{by}; "
+            f"make them agree"
         )
 
     @property
@@ -264,16 +262,6 @@ def angles_of(
             c, s = refract(*phase(*before, c, s), n1, k1, c, s)
         behind, across = refract(*phase(n1, k1, c, s), n, k, c, s)
     return xp.arctan2(s, c), xp.arctan2(across, behind)
-
-
-def _is_shown(operand: Operand, number: float) -> bool:
-    """Tell whether a number is given when the path runs; no absorption is none."""
-    return not operand.known and (operand.part != "imag" or number != 0.0)
-
-
-def _index_text(operand: Operand, number: float) -> str:
-    """Write a part of an index, and whose value it is."""
-    return f"{'k' if operand.part == 'imag' else 'n'} = {text_of(operand, number)}"
 
 
 def _degrees(angle: Any) -> str:

@@ -76,18 +76,15 @@ class ArrivingWave(Agreement):
         n, k, n0, k0, _ = numbers
         goes_on, fades = self._wave(np, *numbers)
         medium = f"n = {text_of(self.operands[0], n)} and k = {text_of(self.operands[1], k)}"
-        cures = []
+        cure = f"an index there with k of at most n = {n:.12g}"
         if k <= n:
-            largest = math.degrees(self._largest(n, k, n0, k0))
-            there = "" if (n, k) == (n0, k0) else f" in n = {n0:.12g}"
-            there += f", k = {k0:.12g}" if there and k0 else ""
-            cures.append(f"an incidence of at most {_rounded_down(largest)} deg{there}")
-        else:
-            cures.append(f"an index there with k of at most n = {n:.12g}")
+            most = math.floor(math.degrees(self._largest(n, k, n0, k0)) * 1e6) / 1e6
+            there = "" if (n, k) == (n0, k0) else f" in n = {n0:.12g}, k = {k0:.12g}"
+            cure = f"an incidence of at most {most:.12g} deg{there}"
         return (
             f"'{self.enters}' is lit from {medium} at an incidence at which light fades along the "
             f"normal faster than it goes on there (Im g = {fades:.4g}, Re g = {goes_on:.4g}), so "
-            f"that the light that arrives carries no power of its own; give {', or '.join(cures)}"
+            f"that the light that arrives carries no power of its own; give {cure}"
         )
 
     def _wave(self, xp: Any, n: Any, k: Any, n0: Any, k0: Any, angle: Any) -> tuple[Any, Any]:
@@ -107,21 +104,14 @@ class ArrivingWave(Agreement):
         return float(np.arctan2(s, c))
 
 
-def _rounded_down(degrees: float) -> str:
-    """Write an angle so that what is written is no larger."""
-    return f"{math.floor(degrees * 1e6) / 1e6:.12g}"
-
-
 def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:
     """Return what must hold of light that enters a port, where its medium may absorb."""
     if not getattr(element, "lit_from_absorbing", False) or port not in element.inputs:
         return []
     incidence, measured = element.measured
     medium = element.medium_at(port)
-    if incidence is FOLLOWS or measured is FOLLOWS or medium is FOLLOWS:
-        return []  # What it takes over is looked at.
-    if type(medium) is float:
-        return []
+    if any(value is FOLLOWS for value in (incidence, measured, medium)) or type(medium) is float:
+        return []  # What it takes over is looked at; a plain number does not absorb.
     n, k = numbers_of(medium, INDEX)
     if type(k) is float and k == 0.0:
         return []

@@ -16,6 +16,8 @@ from optipath.values.arrays import read_only, same_fields
 from optipath.values.operands import Operand, Operation, operand_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.values.domains import Domain
 
 
@@ -43,16 +45,19 @@ class Coupling:
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
 
-    def matrix(self, method: str) -> np.ndarray[Any, Any]:
-        """Return the Mueller matrix of shape (..., 4, 4); every value must be a number.
+    def matrix(
+        self, method: str, read: Callable[[Operand], Any] = Operand.numbers
+    ) -> np.ndarray[Any, Any]:
+        """Return the Mueller matrix of shape (..., 4, 4), for the numbers of operands.
 
         What is so faint that floats lose its digits is 0, as what is fainter still.
         """
         matrix = np.eye(4)
         for operation in self.operations:
             kernel = operation.kernel.by_method(method)
-            numbers = operation.numbers(NUMPY, lambda value: operand_of(value).numbers({}), method)
-            assert kernel.structure is not None  # noqa: S101 - only sources have none
+            numbers = operation.numbers(NUMPY, lambda value: read(operand_of(value)), method)
+            if kernel.structure is None:
+                raise PathError(f"kernel '{kernel.name}' has no structure, and so no matrix")
             matrix = stacked(kernel.structure.rows(NUMPY, numbers)) @ matrix
         faint = np.abs(matrix[..., :1, :1]) < np.finfo(np.float64).tiny
         return np.where(faint, 0.0, matrix)

@@ -164,7 +164,7 @@ class Element(Chainable):
         """Make the subclass a frozen dataclass and enter its kind in the registry."""
         super().__init_subclass__(**keywords)
         dataclass(frozen=True, eq=False)(cls)
-        if faults := class_faults(cls, Element, kind):
+        if is_own(cls) and (faults := [*class_faults(cls, Element, kind)]):
             raise PathError(*faults)
         cls.kind = kind
         if kind:
@@ -423,10 +423,21 @@ class Element(Chainable):
                 f"{self._called} has an azimuth, which belongs to the link before it on the way "
                 f"back too; reverse the path that it stands in, path.reversed()"
             )
-        others = {name: getattr(self, name) for name in mirrored}
-        others = {name: _opposite(value) for name, value in others.items() if value is not None}
+        values = {name: getattr(self, name) for name in mirrored}
+        # The opposite of 0 is 0.
+        others = {
+            name: -value if isinstance(value, Parameter) else 0.0 - value
+            for name, value in values.items()
+            if value is not None
+        }
         if is_turned:
-            others = {name: self._turned_on(name, angle, turn) for name, angle in others.items()}
+            try:
+                others = {name: angle - turn for name, angle in others.items()}
+            except (OptipathError, ValueError):
+                raise PathError(
+                    f"{self._called}: its {listed([*others])} and azimuth are values that make no "
+                    f"one angle; reverse the path that it stands in, path.reversed()"
+                ) from None
         return with_values(self, **others) if others else self
 
     @classmethod
@@ -528,22 +539,6 @@ class Element(Chainable):
         domains = self.domains()
         axes = all(isinstance(domains[name], AxisDomain) for name in mirrored)
         return bool(mirrored) and axes and not is_own(type(self))
-
-    def _turned_on(self, name: str, angle: Any, turn: Any) -> Any:
-        """Return an angle less the azimuth, by which the frame stands turned."""
-        try:
-            return angle - turn
-        except (OptipathError, ValueError):
-            both = listed([f"{self._called}.{field}" for field in (name, "azimuth")])
-            raise PathError(
-                f"{both} are values that make no one angle; reverse the path that the element "
-                f"stands in, path.reversed()"
-            ) from None
-
-
-def _opposite(value: Any) -> Any:
-    """Return a value with the other sign; of 0 that is 0."""
-    return -value if isinstance(value, Parameter) else 0.0 - value
 
 
 def with_values(element: E, **values: Any) -> E:

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
-
-if TYPE_CHECKING:
-    from optipath.values.domains import Domain
 
 
 def bound_value(parameter: Parameter) -> Any:
@@ -52,20 +48,3 @@ def largest(value: Any) -> float:
         return abs(value)
     known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)
     return float(np.max(np.abs(known), initial=0.0)) if known.dtype.kind in "iuf" else math.inf
-
-
-def overflow(per_metre: Any, length: Any) -> bool:
-    """Tell whether two values are known, and their product is too large for a float.
-
-    >>> overflow(1e200, 1e200), overflow(1e200, 1e-3)
-    (True, False)
-    """
-    sizes = largest(per_metre), largest(length)
-    return max(sizes) < math.inf and math.prod(sizes) == math.inf
-
-
-def over_a_length(domain: Domain, length: float) -> Domain:
-    """Return the domain of what floats hold times a length. Units: length in metres."""
-    most = np.finfo(np.float64).max / length
-    name = f"{domain.name}, over a length of {length:g} m,"
-    return replace(domain, name=name, minimum=max(domain.minimum, -most), maximum=most)

@@ -10,9 +10,9 @@ import numpy as np
 
 from optipath.elements.coupling import Coupling, turned
 from optipath.elements.element import Element
-from optipath.elements.known_sizes import largest, over_a_length, overflow, vanishes
+from optipath.elements.known_sizes import largest, vanishes
 from optipath.elements.polarizers import along_circular_axes
-from optipath.errors import ValueFault, collecting, did_you_mean
+from optipath.errors import ValueFault, collecting
 from optipath.kernels.catalog import (
     ABSORPTION_ALONG,
     ABSORPTION_WITH_DICHROISM,
@@ -40,9 +40,8 @@ from optipath.materials.quantities import (
     RotatoryPower,
 )
 from optipath.values.agreement import Agreement, first_faults, text_of
-from optipath.values.arrays import check_broadcast, read_only, same
-from optipath.values.domains import Domain
-from optipath.values.jax_values import is_traced
+from optipath.values.arrays import check_broadcast, same
+from optipath.values.domains import Domain, Refused
 from optipath.values.operands import Operation, operand_of
 from optipath.values.parameters import Parameter
 from optipath.values.use import refuse
@@ -54,8 +53,6 @@ if TYPE_CHECKING:
 
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
-_TURNING = ("rotation", "retardance", "dextrorotation")
-_RATES = ("absorption", *_TURNING, "dichroism", "circular_dichroism", "depolarization")
 
 
 class Medium(Element, kind="medium"):
@@ -172,8 +169,8 @@ class Medium(Element, kind="medium"):
         Raises
         ------
         ValueFault
-            If `k` or `wavelength` is a Parameter or out of range, the absorption is too large
-            for a float, or another option is unknown.
+            If `k` or `wavelength` is a Parameter or out of range, or the absorption is too large
+            for a float.
         ShapeError
             If their arrays do not broadcast together.
 
@@ -182,44 +179,33 @@ class Medium(Element, kind="medium"):
         >>> round(Medium.from_extinction(1e-6, k=0.05, wavelength=500e-9).absorption)
         1256637
         """
-        k = read_only(_EXTINCTION.read("k", k))
-        wavelength = read_only(WAVELENGTH.read("wavelength", wavelength))
-        arguments = {"k": (k, _EXTINCTION), "wavelength": (wavelength, WAVELENGTH)}
-        faults = [
-            f for name, (v, domain) in arguments.items() for f in _value_faults(name, v, domain)
-        ]
-        faults += [cls._option_fault(name) for name in others if name not in cls._others()]
+        faults: list[str] = []
+        numbers = []
+        for name, value, domain in (("k", k, _EXTINCTION), ("wavelength", wavelength, WAVELENGTH)):
+            if isinstance(value, Parameter):
+                faults.append(
+                    f"{name} is parameter '{value.name}', but absorption is computed from it at "
+                    f"once; give a value, or give Medium a parameter for its absorption"
+                )
+                continue
+            with collecting(faults, ValueFault):
+                numbers.append(domain.check(name, domain.read(name, value)))
         if faults:
             raise ValueFault(*faults)
-        check_broadcast({name: np.shape(value) for name, (value, _) in arguments.items()})
-        return cls(length, _absorption(k, wavelength), **others)
-
-    @classmethod
-    def _option_fault(cls, name: str) -> str:
-        if name == "absorption":
-            return (
-                "absorption is computed from k and wavelength; leave it out, or give it to Medium "
-                "without them"
-            )
-        cure = did_you_mean(name, cls._others())
-        return f"option '{name}' of Medium.from_extinction is unknown{cure}"
-
-    @classmethod
-    def _others(cls) -> tuple[str, ...]:
-        """Return what is not computed from an extinction coefficient."""
-        return tuple(cls.domains())[2:]
+        check_broadcast({"k": np.shape(numbers[0]), "wavelength": np.shape(numbers[1])})
+        with np.errstate(over="ignore"):
+            absorption = 4.0 * math.pi * numbers[0] / numbers[1]
+        return cls(length, absorption, **others)
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value.
 
-        Only one of the two rotations may be other than 0, and what is given per metre no more
-        than what floats hold over the whole length.
+        Only one of the two rotations may be other than 0.
         """
         for name, value, domain in super().quantities():
-            if name == "rotation" and not vanishes(self.dextrorotation):
-                yield name, value, ROTATION_WITH_DEXTROROTATION
-            elif name in _RATES and overflow(value, self.length):
-                yield name, value, over_a_length(domain, largest(self.length))
+            if name == "rotation" and not (vanishes(value) or vanishes(self.dextrorotation)):
+                why = "stands beside a dextrorotation, the same rotation with the other sign"
+                yield name, value, Refused(name, why=why)
             else:
                 yield name, value, domain
 
@@ -247,30 +233,6 @@ class Medium(Element, kind="medium"):
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is done along the way, but for what is known to be 0."""
         return (Coupling("in", "out", operations_along(self)),)
-
-
-def _absorption(k: Any, wavelength: Any) -> Any:
-    if is_traced(k) or is_traced(wavelength):
-        return 4.0 * math.pi * k / wavelength
-    k, wavelength = np.asarray(k), np.asarray(wavelength)
-    with np.errstate(over="ignore"):
-        absorption = 4.0 * math.pi * k / wavelength
-    if not np.all(np.isfinite(absorption)):
-        raise ValueFault(
-            f"k is up to {np.max(k):g}, and absorption = 4 pi k / wavelength is too large for a "
-            f"float; give a smaller k"
-        )
-    return absorption
-
-
-def _value_faults(name: str, value: Any, domain: Domain) -> list[str]:
-    if isinstance(value, Parameter):
-        problem = f"{name} is parameter '{value.name}', but absorption is computed from it at once"
-        return [f"{problem}; give a value, or give Medium a parameter for its absorption"]
-    faults: list[str] = []
-    with collecting(faults, ValueFault):
-        domain.check(name, value)
-    return faults
 
 
 _ROUNDING = 1e-6
@@ -319,8 +281,6 @@ class WithinReach(Agreement):
         return ~((dichroism > LARGEST_DICHROISM) | (whole > LARGEST))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        import numpy as np  # noqa: PLC0415
-
         del varying
         dichroism, whole = _products(np, *numbers)
         return (
@@ -410,32 +370,3 @@ def _together(medium: Any, kernel: Kernel, *first: Any) -> tuple[Operation, ...]
 
 def _along(medium: Any, kernel: Kernel, per_metre: Any) -> tuple[Operation, ...]:
     return () if vanishes(per_metre) else (Operation(kernel, (per_metre, medium.length)),)
-
-
-@dataclass(frozen=True)
-class ZeroWith(Domain):
-    """A quantity that may be nothing but 0 beside another."""
-
-    why: str = ""
-
-    def described(self) -> str:
-        """Say in words which values are allowed."""
-        return f"0 beside {self.why}"
-
-    def check(self, owner: str, value: Any) -> Any:
-        if is_traced(value):
-            raise ValueFault(f"{owner} is traced by JAX; give {self.described()}")
-        return super().check(owner, value)
-
-    def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        if not parameter.bound:
-            raise ValueFault(f"{owner} is parameter '{parameter.name}'; give {self.described()}")
-
-
-def _zero_with(name: str, why: str) -> ZeroWith:
-    return ZeroWith(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
-
-
-ROTATION_WITH_DEXTROROTATION = _zero_with(
-    "rotation", "a dextrorotation, which is the same rotation with the other sign"
-)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, is_dataclass
-from decimal import Decimal
-from fractions import Fraction
 from functools import cache, partial
 from inspect import signature
 from typing import TYPE_CHECKING, Any, get_args, get_type_hints
@@ -16,16 +14,15 @@ from optipath.errors import PathError, ValueFault, listed, shown
 from optipath.kernels.carriers.structures import FULL
 from optipath.kernels.kernel import Kernel, KernelFamily, called, guarded
 from optipath.kernels.primitives import NUMPY
-from optipath.light.decompositions import stacked, tolerance_of
+from optipath.light.decompositions import tolerance_of
 from optipath.light.passive import are_passive, cure_of, gain, problem_of
 from optipath.materials.index_domains import RowDomain
 from optipath.materials.quantities import REAL, YES_OR_NO
 from optipath.values.agreement import is_single
-from optipath.values.arrays import as_argument, same
+from optipath.values.arrays import broadcast_fault, same
 from optipath.values.domains import Domain, StokesDomain
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand, Operation, ResultOf, operand_of
-from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator
@@ -81,46 +78,24 @@ class OwnWays:
 
     def faults(self, read: Callable[[Operand], Any]) -> list[tuple[int, str]]:
         """Return what is wrong with what they do to light: for which path, and in words."""
-        rounding = self._rounding(read)
-        tolerance = tolerance_of(rounding)
+        single = any(np.any(is_single(np, read(operand))) for operand in self.operands)
+        tolerance = tolerance_of(float(np.finfo(np.float32).eps) if single else 0.0)
         matrices: list[Array] = []
         results: list[tuple[int, str]] = []
         for coupling in self.couplings:
             with np.errstate(all="ignore"):
-                light = self._emitted(coupling, read)
-                matrix = self._matrix(coupling, read) if light is None else None
-            if light is not None:
-                results += self._emission_faults(light.astype(np.float32) if rounding else light)
-            if matrix is not None:
-                matrices.append(matrix)
-                results += self._matrix_faults(matrix.reshape(-1, 4, 4), tolerance)
+                if coupling.enters is not None:
+                    matrices.append(coupling.matrix(self.method, read))
+                    results += self._matrix_faults(matrices[-1].reshape(-1, 4, 4), tolerance)
+                elif coupling.operations:
+                    light = self._emitted(coupling.operations[0], read)
+                    results += self._emission_faults(light.astype(np.float32 if single else float))
         return results or self._sum_faults(matrices, tolerance)
 
-    def _rounding(self, read: Callable[[Operand], Any]) -> float:
-        """Return that of single precision where a number has been rounded so; else 0."""
-        single = any(np.any(is_single(np, read(operand))) for operand in self.operands)
-        return float(np.finfo(np.float32).eps) if single else 0.0
-
-    def _emitted(self, coupling: Coupling, read: Callable[[Operand], Any]) -> Any:
-        """Return the light that begins here, shape (..., 4); None where none does."""
-        if coupling.enters is not None or not coupling.operations:
-            return None
-        numbers = self._numbers(coupling.operations[0], read)
-        return np.stack(np.broadcast_arrays(*numbers), axis=-1).astype(np.float64)
-
-    def _numbers(self, operation: Any, read: Callable[[Operand], Any]) -> tuple[Any, ...]:
-        return operation.numbers(NUMPY, lambda a: read(operand_of(a)), self.method)  # type: ignore[no-any-return]
-
-    def _matrix(self, coupling: Coupling, read: Callable[[Operand], Any]) -> Array | None:
-        """Return the Mueller matrix of one way; None where it is none."""
-        matrix: Any = np.eye(4)
-        for operation in coupling.operations:
-            structure = operation.kernel.by_method(self.method).structure
-            if structure is None:
-                return None
-            rows = structure.rows(NUMPY, self._numbers(operation, read))
-            matrix = stacked(rows) @ matrix
-        return matrix  # type: ignore[no-any-return]
+    def _emitted(self, operation: Any, read: Callable[[Operand], Any]) -> Array:
+        """Return the light that begins here, shape (..., 4)."""
+        numbers = operation.numbers(NUMPY, lambda a: read(operand_of(a)), self.method)
+        return np.stack(np.broadcast_arrays(*numbers), axis=-1)
 
     def _matrix_faults(self, several: Array, tolerance: float) -> list[tuple[int, str]]:
         finite = np.isfinite(several).all(axis=(1, 2))
@@ -195,39 +170,38 @@ def _faults(what: str, element: Any, results: tuple[Any, ...]) -> Iterator[str]:
         if not isinstance(coupling, Coupling):
             yield f"{what} gives {shown(coupling)}; return a tuple of op.Coupling"
             continue
-        enters, leaves = way = (coupling.enters, coupling.leaves)
+        way = enters, leaves = coupling.enters, coupling.leaves
         if enters is not None and enters not in element.inputs:
-            yield f"{what} lead from {shown(enters)}; {_ports('inputs', element.inputs, enters)}"
+            yield f"{what} lead from {shown(enters)}; its inputs are {_ports(element.inputs)}"
         if leaves not in element.outputs:
-            yield f"{what} lead to {shown(leaves)}; {_ports('outputs', element.outputs, leaves)}"
+            yield f"{what} lead to {shown(leaves)}; its outputs are {_ports(element.outputs)}"
         if way in known:
-            yield (
-                f"{what} lead from {shown(enters)} to {shown(leaves)} more than once; give one "
-                f"op.Coupling for each way"
-            )
+            yield f"{what} lead from {shown(enters)} to {shown(leaves)} more than once"
         known.append(way)
-        operations = coupling.operations
-        if not isinstance(operations, (tuple, list)) or not all(
-            isinstance(operation, Operation) for operation in operations
-        ):
-            yield (
-                f"{what} give the operations {shown(operations)}; give a tuple of op.Operation: "
-                f"those of another element are element.couplings()[0].operations"
-            )
+        several: Any = coupling.operations
+        if not isinstance(several, (tuple, list)):
+            yield f"{what} give the operations {shown(several)}; give a tuple of op.Operation"
             continue
         names = {parameter.name for parameter in element.parameters()}
-        for operation in operations:
+        for operation in several:
             yield from _operation_faults(what, operation, names)
 
 
-def _operation_faults(what: str, operation: Operation, names: set[str]) -> Iterator[str]:
+def _ports(ports: tuple[str, ...]) -> str:
+    named = listed([shown(port) for port in ports]) or "none"
+    return f"{named}, and mueller_rows lead from 'in' to 'out'; name one of these"
+
+
+def _operation_faults(what: str, operation: Any, names: set[str]) -> Iterator[str]:
     """Say whether an operation has a kernel, and values that this takes."""
+    if not isinstance(operation, Operation):
+        yield f"{what} give the operations {shown(operation)}; give a tuple of op.Operation"
+        return
     kernel, values = operation.kernel, operation.arguments
     if not isinstance(kernel, (Kernel, KernelFamily)):
         yield (
             f"{what} give op.Operation the kernel {shown(kernel)}; give an "
-            f"optipath.kernels.kernel.Kernel: that of another element is "
-            f"element.couplings()[0].operations[0].kernel"
+            f"optipath.kernels.kernel.Kernel"
         )
         return
     to = f"{what} give kernel '{kernel.name}'"
@@ -237,7 +211,13 @@ def _operation_faults(what: str, operation: Operation, names: set[str]) -> Itera
     inner = {id(value.operation): value.operation for value in values if type(value) is ResultOf}
     for behind in inner.values():
         yield from _operation_faults(what, behind, names)
-    yield from (f"{to} {fault}" for value in values if (fault := _value_fault(value, names)))
+    for value in values:
+        operand = operand_of(value)
+        if not operand.known and operand.value.name not in names:
+            name = operand.value.name
+            yield f"{to} parameter '{name}', which is in no field; give it to one as well"
+        elif isinstance(value, (str, bytes)) or value is None:
+            yield f"{to} {shown(value)}, which is no number; give a number or a parameter"
     takes = signature(kernel.by_method("stable").made_for(NUMPY))
     try:
         takes.bind(*values)
@@ -245,118 +225,58 @@ def _operation_faults(what: str, operation: Operation, names: set[str]) -> Itera
         yield f"{to} the values {shown(values)}; give as many as it takes, {takes}"
 
 
-def _value_fault(value: Any, names: set[str]) -> str:
-    """Say what is wrong with a value for a kernel, given the parameters of the element."""
-    operand = operand_of(value)
-    if not operand.known and operand.value.name not in names:
-        return f"parameter '{operand.value.name}', which is in no field; give it to one as well"
-    if isinstance(value, (float, Parameter, Operand, ResultOf)) or is_traced(value):
-        return ""
-    if as_argument("a value for a kernel", value, PathError).dtype.kind in "biufc":
-        return ""
-    return f"{shown(value)}, which is no number; give a number or a parameter"
-
-
-def _ports(which: str, ports: tuple[str, ...], port: Any) -> str:
-    """Say which ports there are, and how another comes to be one."""
-    there = f"are {listed([shown(each) for each in ports])}" if ports else "are none"
-    return (
-        f"its {which} {there}: name one of these in op.Coupling, or say {which} = "
-        f"({shown(port)}, ...) in the class (mueller_rows lead from 'in' to 'out')"
-    )
-
-
 TURN = "azimuth"
 """The field that turns the frame, and is no value of a matrix."""
-
-_MEANT = {
-    "kind": 'write class Name(op.Element, kind="..."), or ',
-    "inputs": "write inputs: ClassVar[tuple[str, ...]], or ",
-    "outputs": "write outputs: ClassVar[tuple[str, ...]], or ",
-    "natural": "write natural: ClassVar[str], or ",
-    "physical": "write physical: ClassVar[bool], or ",
-    "straight": "write straight: ClassVar[bool], or ",
-    "mirrored": "write mirrored: ClassVar[tuple[str, ...]], or ",
-}
-"""What is meant by fields that are called like what every element has."""
 
 _OPTIONAL = ("physical", "straight")
 """What each element of a class may be given, with a domain; a class of one kind says it once."""
 
 
-def _is_name(port: Any) -> bool:
-    return isinstance(port, str)
-
-
-def _are_names(ports: Any) -> bool:
-    return isinstance(ports, (tuple, list)) and all(map(_is_name, ports))
-
-
-_PORTS = (
-    ("inputs", "the names of ports, such as ('in',)", _are_names),
-    ("outputs", "the names of ports, such as ('out',)", _are_names),
-    ("natural", "the name of a port", _is_name),
-    ("entry", "the name of a port", _is_name),
-)
-
-
-def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> list[str]:
-    """Return what is wrong with a class of elements, a sentence each."""
-    return [*_faults_of_class(element_class, base, kind)]
-
-
-def _faults_of_class(element_class: type[Any], base: type[Any], kind: Any) -> Iterator[str]:
+def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterator[str]:
+    """Yield what is wrong with a class of elements of a user's own, a sentence each."""
     name = element_class.__name__
     if not isinstance(kind, str):
         yield f"the kind of element class {name} must be a text, not {shown(kind)}"
     own = {field.name: field.type for field in fields(element_class)}
     for field, annotation in own.items():
         if hasattr(base, field) and not (field in _OPTIONAL and annotation not in (bool, "bool")):
+            what = "class Name(op.Element, kind=...)" if field == "kind" else f"{field}: ClassVar"
             yield (
                 f"field '{field}' of element class {name} is called like what every element has; "
-                f"{_MEANT.get(field, '')}give it another name"
+                f"write {what} where that is meant, or give it another name"
             )
-    for which, what, is_right in _PORTS:
-        if which not in own and not is_right(value := getattr(element_class, which)):
-            yield f"{which} of element class {name} must be {what}, not {shown(value)}"
-    if (said := vars(element_class).get("mirrored")) is not None and "mirrored" not in own:
-        yield from _mirrored_faults(name, said, [field for field in own if field != TURN])
+    for which in ("inputs", "outputs", "mirrored"):
+        ports = getattr(element_class, which)
+        are_names = isinstance(ports, (tuple, list)) and all(isinstance(p, str) for p in ports)
+        if which not in own and ports is not None and not are_names:
+            what = "fields" if which == "mirrored" else "ports"
+            yield f"{which} of element class {name} must be names of {what}, not {shown(ports)}"
+    values = [field for field in own if field != TURN]
+    said = vars(element_class).get("mirrored")
+    for field in said if isinstance(said, (tuple, list)) and "mirrored" not in own else ():
+        if isinstance(field, str) and field not in values:
+            why = "whose links say how it is turned" if field == TURN else "which is no field of it"
+            yield f"mirrored of element class {name} names '{field}', {why}; take it out"
     if "mueller_rows" in vars(element_class):
-        names = [field for field in own if field != TURN]
-        yield from _rows_faults(name, vars(element_class)["mueller_rows"], names)
-
-
-def _mirrored_faults(owner: str, said: Any, names: list[str]) -> Iterator[str]:
-    """Say which of the fields that change their sign on the way back are none."""
-    if not _are_names(said):
-        yield f"mirrored of element class {owner} must be names of fields, not {shown(said)}"
-        return
-    for name in (name for name in said if name not in names):
-        why = "whose links say how it is turned" if name == TURN else "which is none of its fields"
-        yield f"mirrored of element class {owner} names '{name}', {why}; take it out"
+        yield from _rows_faults(name, vars(element_class)["mueller_rows"], values)
 
 
 def _rows_faults(owner: str, rows: Any, names: list[str]) -> Iterator[str]:
     """Say what is wrong with `mueller_rows` of a class whose fields are called so."""
     what = f"mueller_rows of element class {owner}"
-    static = "put @staticmethod before it, and let it take xp and the number of each field"
-    function = rows.__func__ if isinstance(rows, (staticmethod, classmethod)) else rows
-    if not callable(function):
-        yield f"{what} is {shown(rows)}; make it a static method that returns the rows"
-        return
+    function = rows.__func__ if isinstance(rows, staticmethod) else rows
     code = getattr(function, "__code__", None)
     first, *taken = code.co_varnames[: code.co_argcount] if code and code.co_argcount else ("",)
-    if isinstance(rows, classmethod):
-        yield f"{what} is a class method; {static} in place of @classmethod: mueller_rows(xp, ...)"
-    elif first == "self":
-        yield f"{what} takes self; {static}: mueller_rows(xp, ...)"
-    else:
-        arguments = [name for name in names if name in taken]
-        if arguments != [name for name in taken if name in names]:
-            yield (
-                f"{what} takes {listed(taken)}, but values come in the order of the fields, "
-                f"{listed(names)}; take them in that order"
-            )
+    if not callable(function) or isinstance(rows, classmethod) or first == "self":
+        yield (
+            f"{what} must be a static method that returns the rows; put @staticmethod before it, "
+            f"and let it take xp and the number of each field: mueller_rows(xp, ...)"
+        )
+    elif [name for name in names if name in taken] != [name for name in taken if name in names]:
+        yield (
+            f"{what} takes {listed(taken)}, but values come in the order of the fields, "
+            f"{listed(names)}; take them in that order"
+        )
 
 
 _ROUNDINGS = 256.0
@@ -394,24 +314,14 @@ def _unchanging(value: Any) -> Any:
 
 def _check_shapes(what: str, entries: tuple[Any, ...], values: tuple[Any, ...]) -> None:
     """Refuse arrays that are not over the paths that the values are given for."""
-    shapes = {entry.shape for entry in entries if getattr(entry, "shape", ())}
-    if not shapes:
-        return
     paths = np.broadcast_shapes(*(getattr(value, "shape", ()) for value in values))
-    wrong = [shape for shape in shapes if not _is_within(shape, paths)]
-    if wrong:
-        of_paths = f"for paths of shape {paths}" if paths else "for one path"
-        raise PathError(
-            f"{what} gives an entry of shape {wrong[0]} {of_paths}; compute each entry of its "
-            f"arguments alone, elementwise"
-        )
-
-
-def _is_within(shape: tuple[int, ...], paths: tuple[int, ...]) -> bool:
-    try:
-        return np.broadcast_shapes(shape, paths) == paths
-    except ValueError:
-        return False
+    for entry in entries:
+        shape = getattr(entry, "shape", ())
+        if shape and (len(shape) > len(paths) or broadcast_fault({"": shape, "paths": paths})):
+            raise PathError(
+                f"{what} gives an entry of shape {shape} for paths of shape {paths}; compute each "
+                f"entry of its arguments alone, elementwise"
+            )
 
 
 def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -427,15 +337,13 @@ def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
             results.append(tuple(row))
     except TypeError:
         results = []
-    if len(results) != 4 or any(len(row) != 4 for row in results):
+    if [len(row) for row in results] != [4] * 4:
         raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
     entries = tuple(entry for row in results for entry in row)
-    if any(map(_is_complex, entries)):
-        return _real(what, entries, _rounding(entries + values))
     for entry in entries:
-        if entry is None or isinstance(entry, (str, bytes, list, tuple, dict, Decimal, Fraction)):
+        if entry is None or isinstance(entry, (str, bytes, list, tuple, dict)):
             raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
-    return entries
+    return _real(what, entries, values) if any(map(_is_complex, entries)) else entries
 
 
 def _check_array(what: str, argument: Any, values: tuple[Any, ...], shape: tuple[int, ...]) -> None:
@@ -457,17 +365,12 @@ def _is_complex(entry: Any) -> bool:
     return isinstance(entry, complex) or (kind is not None and kind.kind == "c")
 
 
-def _rounding(numbers: tuple[Any, ...]) -> float:
-    """Return the rounding of the coarsest of numbers; those without a type are doubles."""
-    kinds = {np.dtype(getattr(number, "dtype", np.float64)) for number in numbers}
-    return max(float(np.finfo(kind).eps) for kind in kinds if kind.kind in "fc")
-
-
-def _real(what: str, entries: tuple[Any, ...], rounding: float) -> tuple[Any, ...]:
+def _real(what: str, entries: tuple[Any, ...], values: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the real parts of entries whose imaginary parts are 0 to rounding."""
     if not any(map(is_traced, entries)):
-        sizes = np.broadcast_arrays(*[np.abs(entry) for entry in entries])
-        largest = np.max(sizes, axis=0)
+        kinds = {np.dtype(getattr(n, "dtype", np.float64)) for n in (*entries, *values)}
+        rounding = max(float(np.finfo(kind).eps) for kind in kinds if kind.kind in "fc")
+        largest = np.max(np.broadcast_arrays(*map(np.abs, entries)), axis=0)
         for place, entry in enumerate(entries):
             if np.any(abs(np.imag(entry)) > _ROUNDINGS * rounding * largest):
                 row, column = divmod(place, 4)

@@ -189,28 +189,7 @@ class VerticesDomain(Domain):
             if points.dtype.kind in "iuf":
                 self._check_shape(owner, points.shape)
                 return points
-        try:
-            return super().check(owner, value)
-        except ValueFault:
-            # Where all is well, nobody needs to know where.
-            if fault := self._not_finite(owner, value):
-                raise ValueFault(fault) from None
-            raise
-
-    def _not_finite(self, owner: str, value: Any) -> str:
-        try:
-            array = array_of(owner, value)
-        except ValueFault:
-            return ""
-        if array.dtype.kind not in "fc" or array.shape[-2:] != self.tail[-2:] or array.ndim < 2:
-            return ""
-        chains = array.reshape(-1, *array.shape[-2:])
-        bad = np.argwhere(~np.isfinite(chains))
-        if not len(bad):
-            return ""
-        chain, vertex = int(bad[0, 0]), int(bad[0, 1])
-        where, argument = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
-        return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {argument}; give finite coordinates"
+        return super().check(owner, value)
 
     def allows(self, numbers: Any) -> Any:
         """Return which chains of an array are allowed."""

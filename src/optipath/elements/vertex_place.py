@@ -242,21 +242,17 @@ class EventFits(Agreement):
         if event == Event.CANNOT:
             return f"there is no such chain, says the event at '{self.owner}'; {others}"
         three = np.reshape(points, (3, 3))
-        if not np.all(np.isfinite(three)):
-            return f"the points around '{self.owner}' are {three.tolist()}, not finite; {others}"
-        with np.errstate(over="ignore"):
+        with np.errstate(all="ignore"):
             lengths = np.max(np.abs(np.diff(three, axis=0)), axis=-1)
         if not np.all((lengths > SHORTEST) & (lengths < LONGEST)):
-            about = " and ".join(f"{length:.2g}" for length in lengths)
             return (
-                f"the legs before and behind '{self.owner}' are about {about} long; legs are "
-                f"within {SHORTEST:g} .. {LONGEST:g}: {others}"
+                f"the points around '{self.owner}' are {three.tolist()}; they must be finite, "
+                f"and legs within {SHORTEST:g} .. {LONGEST:g}: {others}"
             )
         if k > 0.0:
             return (
-                f"light is refracted at '{self.owner}' into a medium that absorbs, k = {k:g}, in "
-                f"which no light goes on to the next point; let it be reflected there (R for T), "
-                f"{others}"
+                f"light is refracted at '{self.owner}' into a medium that absorbs, k = {k:g}; let "
+                f"it be reflected there (R for T), {others}"
             )
         snell = SnellAtVertex((self.operands[1], self.operands[2], *self.operands[4:]), self.owner)
         return f"{snell.sentence(*numbers[1:3], *points)}; or give bad='mask'"

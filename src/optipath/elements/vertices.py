@@ -41,6 +41,7 @@ from optipath.kernels.vertex_chain import Event
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.materials.quantities import ClearIndex, Index, OutsideIndex, Whole
+from optipath.values.agreement import first_faults
 from optipath.values.operands import Operand, Operation, operand_of
 from optipath.values.precision import is_whole
 from optipath.values.use import is_checked_later, refuse
@@ -72,9 +73,12 @@ class ChainVertex(MediaOfBoundary, Element):
     outside: OutsideIndex = 1.0
 
     def __post_init__(self) -> None:
-        """Check besides that there is such a place in the chain."""
+        """Check besides that there is such a place in the chain, and that light can go there."""
         super().__post_init__()
-        refuse(self._place_faults(type(self).__name__))
+        if not is_checked_later():
+            name = type(self).__name__
+            known = [law for law in self.agreements(name) if not law.is_open]
+            refuse(self._place_faults(name) or first_faults(known))
 
     @property
     def in_chain(self) -> PlaceInChain:
@@ -189,13 +193,6 @@ class Vertex(ChainVertex, kind="vertex"):
     outside: OutsideIndex = 1.0
     events: Events = field(kw_only=True)
     bad: Bad = "refuse"
-
-    def __post_init__(self) -> None:
-        """Check besides that light can go so from point to point."""
-        super().__post_init__()
-        if not is_checked_later():
-            known = [law for law in self.agreements(type(self).__name__) if not law.is_open]
-            refuse([fault for law in known if (fault := law.fault())])
 
     @property
     def in_chain(self) -> PlaceInChain:
@@ -386,14 +383,6 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     outside: OutsideIndex = 1.0
     count: Whole | None = None
     bad: Bad = "refuse"
-
-    def __post_init__(self) -> None:
-        """Check besides that the points are those of a refraction."""
-        super().__post_init__()
-        name = type(self).__name__
-        if not is_checked_later():
-            known = [law for law in self.agreements(name) if not law.is_open]
-            refuse([fault for law in known if (fault := law.fault())])
 
     @property
     def in_chain(self) -> PlaceInChain:
