@@ -286,7 +286,7 @@ class SameMedium(Agreement):
             )
         reason = f"{is_lit}, but its {self.field} is {behind}"
         is_open = isinstance(self.operands[1].value, Parameter) or 0 in varying
-        same = "" if is_open or any(numbers[2:]) else f"{self.field} = {numbers[0]:.12g}"
+        same = "" if is_open or any(numbers[2:3]) else f"{self.field} = {numbers[0]:.12g}"
         if self.enters.endswith(".back"):
             return Fault(reason, f"give {same or f'the same for {self.field} as there'}")
         same += ", or " if same else ""

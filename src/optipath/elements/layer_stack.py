@@ -41,7 +41,7 @@ from optipath.values.agreement import Agreement, text_of
 from optipath.values.angles import calls_up
 from optipath.values.arrays import changed
 from optipath.values.operands import NOTHING, Operand, Operation, operand_of
-from optipath.values.use import not_known_sound
+from optipath.values.use import Use, not_known_sound
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
@@ -132,6 +132,25 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         }
         for name, domain in self.domains().items():
             yield from narrowed.get(name, domain).parts(name, getattr(self, name))
+
+    def uses_entered(self, owner: str, port: str) -> list[Use]:
+        """Return the substrate, which must not absorb where light comes from there.
+
+        Parameters
+        ----------
+        owner, port : str
+            What sentences call the stack, and the in-port.
+
+        Returns
+        -------
+        list of Use
+        """
+        last = f"indices[{len(self._media) - 1}]"
+        return [
+            Use(f"{owner}.{name}", value, domain)
+            for limits in self.domains_entered(port).values()
+            for name, value, domain in limits.parts(last, self.index)
+        ]
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side."""
