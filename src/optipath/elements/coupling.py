@@ -48,9 +48,18 @@ class Coupling:
     def matrix(
         self, method: str, read: Callable[[Operand], Any] = Operand.numbers
     ) -> np.ndarray[Any, Any]:
-        """Return the Mueller matrix of shape (..., 4, 4), for the numbers of operands.
+        """Return the Mueller matrix; what is so faint that floats lose its digits is 0.
 
-        What is so faint that floats lose its digits is 0, as what is fainter still.
+        Parameters
+        ----------
+        method : str
+            How Fresnel's equations are computed.
+        read : callable, optional
+            Returns the numbers of an `Operand`; by default those that are known.
+
+        Returns
+        -------
+        ndarray, shape (..., 4, 4)
         """
         matrix = np.eye(4)
         for operation in self.operations:
