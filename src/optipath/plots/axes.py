@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import product
 from math import ceil
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -12,7 +11,7 @@ from matplotlib.figure import Figure
 
 from optipath.errors import OptipathError, shown
 from optipath.plots.colors import LINES, positive
-from optipath.plots.text import missing_letters_as_boxes
+from optipath.plots.text import draw_key, missing_letters_as_boxes
 from optipath.values.files import input_file, message_of, write_picture
 
 if TYPE_CHECKING:
@@ -100,22 +99,14 @@ def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
     figure: Any = on_top.figure
     figure.draw_without_rendering()  # By which axes have the places of their layout.
     whole = on_top.get_window_extent()
-    for size, columns in product(_SIZES, range(len(lines), 0, -1)):
-        legend = on_top.legend(
-            handles=[*lines],
-            ncols=columns,
-            loc="upper center",
-            facecolor="white",
-            edgecolor="none",
-            framealpha=1.0,
-            borderaxespad=0.2,
-            columnspacing=1.2,
-            handlelength=2.6,
-            fontsize=size,
-        )
+    looks: dict[str, Any] = {"loc": "upper center", "borderaxespad": 0.2, "columnspacing": 1.2}
+    looks["handlelength"] = 2.6
+    looks |= {"frameon": True, "facecolor": "white", "edgecolor": "none", "framealpha": 1.0}
+    for size in _SIZES:
+        legend = draw_key(on_top, lines, len(lines), math=True, fontsize=size, **looks)
         legend.set_in_layout(False)  # It is within the axes, which need no more room for it.
         box = legend.get_window_extent()
-        if box.width <= 0.96 * whole.width and box.height <= _ENOUGH * whole.height:
+        if box.width <= whole.width and box.height <= _ENOUGH * whole.height:
             break
     line = legend.get_texts()[0].get_window_extent().height
     share = min(1.04 * box.height / whole.height, 0.8)

@@ -71,20 +71,13 @@ class DrawnQuantity(NamedTuple):
         """Return the colours of some numbers: in order, apart from 0, or round in a circle."""
         if self.period:
             return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()
-        low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, np.nan)
+        finite = numbers[np.isfinite(numbers)]
         if self.light is FAINT:
-            return ColourScale.ordered(*_ends(numbers))
-        largest = high if np.isfinite(high) else max(np.abs(_ends(numbers)))
+            ends = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+            return ColourScale.ordered(*ends)
+        low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, None)
+        largest = high or float(np.max(np.abs(finite), initial=0.0)) or 1.0
         return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
-
-
-def _ends(numbers: npt.NDArray[np.float64]) -> tuple[float, float]:
-    """Return the least and the largest number that is finite, apart."""
-    finite = numbers[np.isfinite(numbers)]
-    if not finite.size or not finite.any():
-        return 0.0, 1.0
-    low, high = float(finite.min()), float(finite.max())
-    return (low, high) if low < high else (low - abs(low) / 2, high + abs(high) / 2)
 
 
 def drawn_quantities(names: Any) -> list[DrawnQuantity]:

@@ -191,21 +191,19 @@ class PlaneCut:
     def light(self, numbers: Numbers) -> Light:
         """Return the light (columns,) per steradian among the numbers of `PartSums.estimate`."""
         own, plane = self._frames
-        matrices = self.seen.measured.matrices(self._pixels(numbers))
+        matrices = self.seen.measured.matrices(self.pixels(numbers))
         seen = Light.of(matrices @ np.array(self.seen.source), own, measured=True)
-        stokes = self._mean(seen.in_frame(plane).stokes)
-        noise = ROUNDED * self.seen.source[0] * self._mean(matrices[..., 0, 0])
+        stokes = self.mean(seen.in_frame(plane).stokes)
+        noise = ROUNDED * self.seen.source[0] * self.mean(matrices[..., 0, 0])
         return Light.of(stokes, Frame(), noise=noise, measured=True)
 
-    def scalar(self, numbers: Numbers) -> Numbers:
-        """Return the light (columns,) per steradian that there is without polarization."""
-        return self._mean(self.seen.measured.intensities(self._pixels(numbers)))
-
-    def _pixels(self, numbers: Numbers) -> Numbers:
+    def pixels(self, numbers: Numbers) -> Numbers:
+        """Return the numbers of the rows of pixels in the plane."""
         at = self.seen.measured.side(self.seen.side)
         return numbers[at, self._rows, :, self.seen.place]
 
-    def _mean(self, pixels: Numbers) -> Numbers:
+    def mean(self, pixels: Numbers) -> Numbers:
+        """Return the mean of the rows (columns, ...), per steradian."""
         area = self.seen.measured.sensor.solid_angle[self._rows].sum(axis=0)
         total = pixels.sum(axis=0)
         return np.asarray(total / area.reshape(-1, *[1] * (total.ndim - 1)))
@@ -227,12 +225,12 @@ _DIFFERENCE_KNOWN_TO = 5.0
 
 def _known(cut: PlaneCut, drawn: PixelQuantity, known_to: float | None) -> tuple[Numbers, Numbers]:
     """Return values and standard errors (columns,), NaN where not known."""
-    name = drawn.variable
+    name, scalar = drawn.variable, cut.seen.measured.intensities
 
     def at(numbers: Numbers) -> Numbers:
         light = cut.light(numbers)
         if name == "difference":
-            return 100.0 * (light.stokes[..., 0] / cut.scalar(numbers) - 1.0)
+            return 100.0 * (light.stokes[..., 0] / cut.mean(scalar(cut.pixels(numbers))) - 1.0)
         values = np.asarray(_OF_LIGHT[name].of(light))
         return np.degrees(values) if name == "AoP" else values
 

@@ -124,13 +124,16 @@ def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
     draw_key(ax, handles, 1, fontsize=size, borderaxespad=0.0, bbox_transform=place, **at)
 
 
-def draw_key(ax: Axes, handles: Sequence[Any], columns: int, **options: Any) -> Legend:
+def draw_key(
+    ax: Axes, handles: Sequence[Any], columns: int, *, math: bool = False, **options: Any
+) -> Legend:
     """Return a legend in as many columns as fit, of labels as they are, with "_" or "$" within."""
+    options = {"frameon": False, **options}
     room = inches_wide(ax) * ax.figure.figure.dpi
     for count in range(columns, 0, -1):
-        legend = ax.legend(handles, ["-"] * len(handles), ncols=count, frameon=False, **options)
+        legend = ax.legend(handles, ["-"] * len(handles), ncols=count, **options)
         for text, handle in zip(legend.get_texts(), handles, strict=True):
-            text.set(text=handle.get_label(), parse_math=False)
+            text.set(text=handle.get_label(), parse_math=math)
         if legend.get_window_extent().width <= room:
             break
     legend.set_zorder(10)

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements.element import Element
-    from optipath.light.frame import Frame
 
     Array = npt.NDArray[np.float64]
 
@@ -261,7 +260,7 @@ def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
         own = element.own_frame(port)
         frame = own.frame({}) if own is not None else frame_at(wiring, name, port)
         if frame is not None:
-            results[port] = _columns(frame)
+            results[port] = np.stack([frame.x, frame.y, frame.z], axis=-1)
     return results
 
 
@@ -370,10 +369,6 @@ def _links_beside(wiring: Wiring, name: str, *, behind: bool) -> list[Link]:
     element = wiring.elements[other]
     goes_on = element.straight and (element.outputs if behind else element.inputs)
     return [links[0], *(_links_beside(wiring, other, behind=behind) if goes_on else [])]
-
-
-def _columns(frame: Frame) -> Array:
-    return np.stack([frame.x, frame.y, frame.z], axis=-1)
 
 
 _RIGHT = np.pi / 2.0
