@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.colors import FuncNorm, Normalize
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
     from matplotlib.colorbar import Colorbar
+
+    from optipath.values.precision import Numbers
 
 
 _TONE = 0.4
@@ -77,10 +78,10 @@ class ColourScale(NamedTuple):
 
 
 def _toned(least: float, largest: float) -> Normalize:
-    def tone(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def tone(light: Numbers) -> Numbers:
         return np.sign(light) * np.abs(light) ** _TONE
 
-    def light_of(tone: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def light_of(tone: Numbers) -> Numbers:
         return np.sign(tone) * np.abs(tone) ** (1.0 / _TONE)
 
     return FuncNorm((tone, light_of), least, largest)

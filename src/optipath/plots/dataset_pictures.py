@@ -19,10 +19,10 @@ from optipath.values.units import in_unit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.plots.light_quantities import DrawnQuantity
+    from optipath.values.precision import Numbers
 
 
 _CURVE, _MAP = (6.4, 4.2), (6.4, 4.8)
@@ -41,12 +41,7 @@ def curve(dataset: Any, y: Any, x: str | None, ax: Axes | None, detector: str | 
 
 
 def quantity_map(
-    dataset: Any,
-    quantity: Any,
-    x: str | None,
-    y: str | None,
-    ax: Axes | None,
-    detector: str | None,
+    dataset: Any, quantity: Any, x: str | None, y: str | None, ax: Axes | None, detector: str | None
 ) -> Axes:
     """Draw a quantity over two coordinates; see `SweepPictures.map`."""
     drawn = drawn_quantity(quantity)
@@ -148,9 +143,7 @@ def _axis(dataset: Any, name: str) -> AlongAxis:
     return AlongAxis(name, unit, numbers, help_text)
 
 
-def numbers_of(
-    dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
-) -> npt.NDArray[np.float64]:
+def numbers_of(dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]) -> Numbers:
     """Return a quantity as it is drawn."""
     other = CAPITALIZED.get(quantity.name, quantity.name)
     name = other if other in dataset.data_vars else quantity.name

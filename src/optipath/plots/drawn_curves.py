@@ -13,14 +13,13 @@ from optipath.plots.colors import DASHES, FAINT, INK, LINES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.plots.light_at_detector import AlongAxis
     from optipath.plots.light_quantities import DrawnQuantity
+    from optipath.values.precision import Numbers
 
-    Drawn = tuple[DrawnQuantity, npt.NDArray[np.float64]]
-    Numbers = npt.NDArray[np.float64]
+    Drawn = tuple[DrawnQuantity, Numbers]
 
 
 _MARGIN = 0.04
@@ -73,11 +72,7 @@ def draw_curves(
 
 
 def _draw(
-    ax: Axes,
-    along: npt.NDArray[np.float64],
-    quantity: DrawnQuantity,
-    values: npt.NDArray[np.float64],
-    place: int,
+    ax: Axes, along: Numbers, quantity: DrawnQuantity, values: Numbers, place: int
 ) -> list[Any]:
     argument = along
     if quantity.period:

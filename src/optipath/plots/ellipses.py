@@ -24,10 +24,10 @@ from optipath.plots.text import fitting, head, key_below
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.light.light import Light
+    from optipath.values.precision import Numbers
 
 
 _REACH = 1.15
@@ -215,5 +215,5 @@ def draw_axes_of(ax: Axes, light: Light) -> None:
     ax.text(x, y, angle_text(light), fontsize="small", color=INK, bbox=_BACKED, **place)
 
 
-def _toward(angle: float) -> npt.NDArray[np.float64]:
+def _toward(angle: float) -> Numbers:
     return np.array([np.cos(angle), np.sin(angle)])

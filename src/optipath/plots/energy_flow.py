@@ -17,13 +17,11 @@ from optipath.plots.colors import FAINT, INK, LINES
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
     from matplotlib.text import Text
 
     from optipath.paths.energy import EnergyAlong, PowerOnLink
-
-    Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _WIDE, _ROW, _AROUND = 6.4, 0.42, 0.5

@@ -12,12 +12,12 @@ from optipath.plots.colors import FAINT, HATCHED, INK
 from optipath.plots.hemisphere_side import degrees
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
     from matplotlib.axes import Axes
     from matplotlib.image import AxesImage
 
     from optipath.plots.color_scale import ColourScale
     from optipath.plots.hemisphere_side import SeenSide
+    from optipath.values.precision import Numbers
 
 
 _RINGS = 30.0, 60.0
@@ -44,7 +44,7 @@ _KEY: dict[str, Any] = {
 def draw_disc(
     ax: Axes,
     seen: SeenSide,
-    values: npt.NDArray[np.float64],
+    values: Numbers,
     scale: ColourScale,
     *,
     labelled: bool = True,

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from optipath.plots.axes import Panel
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+    from optipath.values.precision import Numbers
 
 
 _COLUMNS = 56
@@ -182,7 +183,7 @@ def mueller_hemisphere(
     return panel
 
 
-def _over_first(matrices: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def _over_first(matrices: Numbers) -> Numbers:
     return np.asarray(matrices / matrices[..., :1, :1])
 
 

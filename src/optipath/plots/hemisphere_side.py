@@ -21,9 +21,7 @@ from optipath.values.wavelength import Wavelength
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
-    import numpy.typing as npt
-
-    Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.patches import Patch
 
-    Array = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _DIRECTIONS = np.radians(np.arange(0.0, 360.0, 22.5))
@@ -38,7 +38,7 @@ class Label(NamedTuple):
     """A text, and what it names. Shape: at (2,)."""
 
     text: str
-    at: Array
+    at: Numbers
     style: dict[str, Any]
     leader: float = 1.4
     """From which distance on a line leads to the text, in heights of a line."""
@@ -47,7 +47,7 @@ class Label(NamedTuple):
 def place_labels(
     ax: Axes,
     labels: Sequence[Label],
-    lines: Iterable[Array],
+    lines: Iterable[Numbers],
     within: Bbox,
     solids: Iterable[Patch] = (),
     taken: Iterable[Bbox] = (),
@@ -85,8 +85,13 @@ def place_labels(
 
 
 def _best(
-    anchor: Array, half: Array, drawn: Array, taken: list[Bbox], solids: list[Path], within: Bbox
-) -> Array:
+    anchor: Numbers,
+    half: Numbers,
+    drawn: Numbers,
+    taken: list[Bbox],
+    solids: list[Path],
+    within: Bbox,
+) -> Numbers:
     """Return the offset at which a text of so many pixels covers least, near and above best."""
     ways = np.stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)], axis=-1)
     steps = np.array(_STEPS)[:, np.newaxis]
@@ -108,14 +113,14 @@ def _best(
     return np.asarray(offsets[np.argmin(cost)])
 
 
-def _overlap(low: Array, high: Array, boxes: list[Bbox]) -> npt.NDArray[np.bool_]:
+def _overlap(low: Numbers, high: Numbers, boxes: list[Bbox]) -> npt.NDArray[np.bool_]:
     """Tell which rectangles overlap which boxes, shape (rectangles, boxes)."""
     corners = np.array([each.extents for each in boxes]).reshape(-1, 2, 2)
     apart = (low[:, np.newaxis] >= corners[:, 1]) | (high[:, np.newaxis] <= corners[:, 0])
     return np.asarray(~apart.any(axis=2))
 
 
-def _dense(line: Array, apart: float = 4.0) -> Iterator[Array]:
+def _dense(line: Numbers, apart: float = 4.0) -> Iterator[Numbers]:
     """Yield points along the parts of a line of pixels between NaN, so far apart at most."""
     for part in np.ma.clump_unmasked(np.ma.masked_invalid(line[:, 0])):
         points = line[part]

@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from optipath.plan.inputs import Inputs
     from optipath.plots.light_quantities import DrawnQuantity
     from optipath.values.parameters import Parameter
-
-    Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 def varied(
@@ -184,7 +183,7 @@ class AlongAxis(NamedTuple):
 
     name: str
     unit: str
-    numbers: npt.NDArray[np.float64]
+    numbers: Numbers
     help: str = ""
     default: float | None = None
 

@@ -13,6 +13,8 @@ from optipath.plots.color_scale import ColourScale
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from optipath.values.precision import Numbers
+
 
 _ALL = (*QUANTITIES, FAINT)
 
@@ -62,12 +64,12 @@ class DrawnQuantity(NamedTuple):
         """Return whether a detector reads enough, ``"stokes"``, ``"linear"`` or ``"intensity"``."""
         return _READS.index(self.light.reads) <= _READS.index(reads)
 
-    def of(self, numbers: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def of(self, numbers: npt.ArrayLike) -> Numbers:
         """Return numbers of the light, in radians where they are angles, as they are drawn."""
         plain = np.asarray(numbers, np.float64)
         return np.degrees(plain) if self.unit == "°" else plain
 
-    def colours(self, numbers: npt.NDArray[np.float64]) -> ColourScale:
+    def colours(self, numbers: Numbers) -> ColourScale:
         """Return the colours of some numbers: in order, apart from 0, or round in a circle."""
         if self.period:
             return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()

@@ -13,7 +13,7 @@ from optipath.plots.colors import LINES
 from optipath.values.jax_values import check_known
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from optipath.values.precision import Numbers
 
 
 MOST = len(LINES)
@@ -181,7 +181,7 @@ def angle_text(light: Light) -> str:
     return f"{digits(np.degrees(float(light.aop)))}°"
 
 
-def ellipse_points(light: Light, count: int = 73) -> npt.NDArray[np.float64]:
+def ellipse_points(light: Light, count: int = 73) -> Numbers:
     """Return points (..., count, 2) of the ellipse of the polarized part, in order of time.
 
     >>> import optipath as op

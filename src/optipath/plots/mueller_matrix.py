@@ -17,8 +17,9 @@ from optipath.plots.text import head, is_wide, key_below
 from optipath.values.jax_values import check_known, known
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
     from matplotlib.axes import Axes
+
+    from optipath.values.precision import Numbers
 
 
 _NAMES = tuple(f"S{place}" for place in range(4))
@@ -94,7 +95,7 @@ def _known_matrix(matrix: Any) -> Mueller:
     return matrix
 
 
-def _over_first(matrix: Mueller) -> tuple[float, npt.NDArray[np.float64]]:
+def _over_first(matrix: Mueller) -> tuple[float, Numbers]:
     """Return M00, and the elements over it; NaN where there is none."""
     numbers, noise = np.array(known(matrix.matrix), float), float(matrix.noise)
     first = float(numbers[0, 0])

@@ -26,14 +26,12 @@ from optipath.plots.text import head
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plots.light_at_detector import AlongAxis
     from optipath.plots.light_quantities import DrawnQuantity
-
-    Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _SIZE = 6.4, 4.2
@@ -234,7 +232,7 @@ def draw_map(
     along: AlongAxis,
     up: AlongAxis,
     quantity: DrawnQuantity,
-    numbers: npt.NDArray[np.float64],
+    numbers: Numbers,
     *,
     reads: str = "stokes",
 ) -> None:

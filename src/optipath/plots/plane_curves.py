@@ -26,8 +26,7 @@ if TYPE_CHECKING:
 
     from optipath.plots.hemisphere_side import PixelQuantity
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
-
-    Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 BAND = 2.0

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
     from optipath.paths.energy import LightOnLink
+    from optipath.values.precision import Numbers
 
 
 _MOST = 25_000
@@ -45,11 +46,7 @@ _FEW = 12
 
 
 def poincare(
-    light: Light,
-    ax: Axes3D | None = None,
-    *,
-    by: npt.ArrayLike | None = None,
-    label: str = "",
+    light: Light, ax: Axes3D | None = None, *, by: npt.ArrayLike | None = None, label: str = ""
 ) -> Axes3D:
     """Draw light as a point of the Poincaré sphere, or a batch as a trail.
 
@@ -130,7 +127,7 @@ def poincare(
     return ax
 
 
-def _values(by: Any, light: Light) -> npt.NDArray[np.float64]:
+def _values(by: Any, light: Light) -> Numbers:
     """Return the number of each light of a trail."""
     values = array_of("by", by, OptipathError)
     there = values.dtype.kind in "iuf" and light.ndim and values.shape == light.shape
@@ -153,10 +150,10 @@ def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = Non
     (parameter,) = varied(path, [name], {})
     along, argument = axis_of(path, parameter, values, START)
 
-    def light_at(values: npt.NDArray[np.float64]) -> Light:
+    def light_at(values: Numbers) -> Light:
         return path.trace_all(**{name: values})[detector]
 
-    def points_at(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def points_at(values: Numbers) -> Numbers:
         return sphere_point(light_at(values))
 
     message, numbers = "", along.numbers
@@ -211,7 +208,7 @@ def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
     return argument
 
 
-def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+def is_near(points: Numbers) -> npt.NDArray[np.bool_]:
     """Tell which points (..., 3) are on the near half of the sphere.
 
     >>> is_near(np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]))
@@ -220,12 +217,12 @@ def is_near(points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
     return np.asarray(points @ _towards_eye() >= -1e-9)
 
 
-def on_paper(ax: Axes3D, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def on_paper(ax: Axes3D, points: Numbers) -> Numbers:
     """Return where points (n, 3) are seen, in the flat coordinates (n, 2) of the axes."""
     return np.stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2], axis=-1)
 
 
-def _towards_eye() -> npt.NDArray[np.float64]:
+def _towards_eye() -> Numbers:
     up, round_ = np.radians(_ELEVATION), np.radians(_AZIMUTH)
     return np.array([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)])
 
@@ -249,14 +246,12 @@ def _draw_sphere(ax: Axes3D) -> None:
     _draw_axes(ax)
 
 
-def _circle(first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]) -> Any:
+def _circle(first: Numbers, second: Numbers) -> Any:
     turn = np.linspace(0.0, 2.0 * np.pi, 181)[:, np.newaxis]
     return np.cos(turn) * first + np.sin(turn) * second
 
 
-def _draw_circle(
-    ax: Axes3D, first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]
-) -> None:
+def _draw_circle(ax: Axes3D, first: Numbers, second: Numbers) -> None:
     points = _circle(first, second)
     near = is_near(points)[:, np.newaxis]
     front, back = np.where(near, points, np.nan), np.where(near, np.nan, points)
@@ -284,7 +279,7 @@ _FAR = 0.45
 """How much of a colour is seen on the far half."""
 
 
-def sphere_point(light: Any) -> npt.NDArray[np.float64]:
+def sphere_point(light: Any) -> Numbers:
     """Return S1, S2 and S3 over S0 (..., 3); NaN where light is dark or has not been read.
 
     >>> import optipath as op
@@ -294,7 +289,7 @@ def sphere_point(light: Any) -> npt.NDArray[np.float64]:
     return np.asarray(light.normalized, float)[..., 1:]
 
 
-def draw_points(ax: Axes3D, points: npt.NDArray[np.float64], colours: Any, size: float) -> None:
+def draw_points(ax: Axes3D, points: Numbers, colours: Any, size: float) -> None:
     """Draw points on the sphere and within it. Shapes: points (n, 3); colours (n, 4)."""
     near, colours = is_near(points), np.array(colours, float)
     face = np.where(near[:, np.newaxis], colours, 1.0)
@@ -303,13 +298,7 @@ def draw_points(ax: Axes3D, points: npt.NDArray[np.float64], colours: Any, size:
         ax.scatter(*points.T, facecolors=face, edgecolors=colours, **style)
 
 
-def draw_steps(
-    ax: Axes3D,
-    starts: npt.NDArray[np.float64],
-    ends: npt.NDArray[np.float64],
-    colours: Any,
-    **line: Any,
-) -> None:
+def draw_steps(ax: Axes3D, starts: Numbers, ends: Numbers, colours: Any, **line: Any) -> None:
     """Draw straight lines, fainter on the far half. Shapes: starts, ends (n, 3); colours (n, 4)."""
     there = np.isfinite(starts + ends).all(axis=1) & (starts != ends).any(axis=1)
     near = is_near(np.where(there[:, np.newaxis], starts + ends, 0.0))
@@ -322,7 +311,7 @@ def draw_steps(
             )
 
 
-def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D]:
+def side_keys(points: Numbers, colour: str = INK) -> list[Line2D]:
     """Return the key of hollow points, where there are some. Shape: points (n, 3)."""
     if is_near(points).all():
         return []
@@ -334,7 +323,7 @@ HALO = (withStroke(linewidth=2.5, foreground="white"),)
 """What keeps names readable over lines."""
 
 
-def name_points(ax: Axes, points: npt.NDArray[np.float64], names: Sequence[str]) -> None:
+def name_points(ax: Axes, points: Numbers, names: Sequence[str]) -> None:
     """Write names beside points (n, 2), over no point or text and few lines, with lines to them."""
     ax.figure.figure.draw_without_rendering()
     lines = [np.asarray(line.get_xydata()) for line in ax.lines]
@@ -412,7 +401,7 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     return ax
 
 
-def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: npt.NDArray[np.float64]) -> None:
+def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: Numbers) -> None:
     """Join the light that enters a node and the light that leaves it."""
     pairs = [
         (before, behind)
@@ -426,9 +415,9 @@ def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: npt.NDArray[np
     draw_steps(ax, points[starts], points[ends], colours, **dashes)
 
 
-def _states(points: npt.NDArray[np.float64]) -> list[tuple[npt.NDArray[np.float64], list[int]]]:
+def _states(points: Numbers) -> list[tuple[Numbers, list[int]]]:
     """Return points that are apart, each with the numbers of its links."""
-    results: list[tuple[npt.NDArray[np.float64], list[int]]] = []
+    results: list[tuple[Numbers, list[int]]] = []
     for number, point in enumerate(points, 1):
         if not np.isfinite(point).all():
             continue

@@ -17,10 +17,9 @@ from optipath.values.wavelength import Wavelength
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    Numbers = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _SIZE = 6.4, 4.4

@@ -21,10 +21,11 @@ from optipath.values.jax_values import known
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    _ByName = Mapping[str, npt.NDArray[np.float64]]
+    from optipath.values.precision import Numbers
+
+    _ByName = Mapping[str, Numbers]
 
 
 _HATCHES = "", "///", "...", "\\\\\\", "xx", "++"
@@ -192,9 +193,7 @@ def _number(value: float) -> str:
     return "not read" if np.isnan(value) else "infinite"
 
 
-def published_for(
-    published: Any, light: Any, several: Mapping[str, Any]
-) -> dict[str, npt.NDArray[np.float64]]:
+def published_for(published: Any, light: Any, several: Mapping[str, Any]) -> dict[str, Numbers]:
     """Return published Stokes vectors (4,) by the names of the lights that they belong to.
 
     >>> import optipath as op
@@ -219,7 +218,7 @@ def published_for(
     }
 
 
-def _numbers(what: str, argument: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+def _numbers(what: str, argument: Any, shape: tuple[int, ...]) -> Numbers:
     numbers = array_of(what, argument, OptipathError)
     if numbers.shape != shape or numbers.dtype.kind not in "iuf" or np.isinf(numbers).any():
         raise OptipathError(
@@ -245,7 +244,7 @@ def without_noise(light: Light) -> Light:
     return Light.of(np.where(noise, 0.0, numbers), light.frame, light.exponent, measured=True)
 
 
-def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float64]]) -> int:
+def power_of_ten(lights: Sequence[Light], others: Iterable[Numbers]) -> int:
     """Return over which power of ten some Stokes vectors are drawn; 0 where they need none.
 
     >>> import optipath as op
@@ -260,7 +259,7 @@ def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float6
     return 0 if power in _PLAIN else power
 
 
-def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]:
+def scaled_to(stokes: Any, exponent: Any, power: int) -> Numbers:
     """Return numbers (4,) times two to an exponent over a power of ten, be they floats or not.
 
     >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)

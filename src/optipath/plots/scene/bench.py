@@ -24,14 +24,12 @@ from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
     from optipath.plots.scene.scene import Scene, SceneNode, SceneRay
-
-    Array = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _WIDTH, _ROW, _PLANE = 9.0, 2.1, 5.4
@@ -171,7 +169,7 @@ def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
             dial(ax, at, flat.in_dial(axes, np.array([-node.axis, node.axis])), INK)
 
 
-def _face(scene: Scene, flat: FlatSheet, node: SceneNode) -> Array | None:
+def _face(scene: Scene, flat: FlatSheet, node: SceneNode) -> Numbers | None:
     """Return the normal of a surface on the sheet, and its two ends."""
     if node.normal is None or node.role == "plate":
         return None
@@ -224,7 +222,7 @@ _BOXES: dict[str, Any] = {
 """Half the length and the height of the symbol of a kind, its face and its edge."""
 
 
-def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | None) -> None:
+def draw_symbol(ax: Axes, node: SceneNode, at: Numbers, way: Numbers, face: Numbers | None) -> None:
     """Draw the symbol of an element. Shapes: at (2,); way (2,); face (3, 2)."""
     if node.role == "source":
         # No name stands between its rays.
@@ -257,7 +255,7 @@ def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | 
             ax.plot(*line.T, color=INK if is_mirror else BLUE, lw=1.6, zorder=5)
 
 
-def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> Array:
+def dial(ax: Axes, at: Numbers, line: Numbers, colour: str, zorder: float = 6.0) -> Numbers:
     """Draw a dial at (2,) with a line (points, 2) as seen by one who looks at the source."""
     _add(ax, Circle(tuple(at), DIAL, fc="white", ec=FAINT, lw=0.7), zorder)
     # Who looks at the source has x to the right where y is up, and z comes to him.
@@ -268,7 +266,7 @@ def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> 
     return seen
 
 
-def _box(ax: Axes, at: Array, way: Array, looks: tuple[float, float, Any, str]) -> None:
+def _box(ax: Axes, at: Numbers, way: Numbers, looks: tuple[float, float, Any, str]) -> None:
     length, height, face, edge = looks
     along, across = length * way, height * np.array([-way[1], way[0]])
     corners = [at - along - across, at + along - across, at + along + across, at - along + across]
@@ -344,20 +342,20 @@ _FROM_EDGE = 0.2
 class FlatRay(NamedTuple):
     """A ray on a sheet. Shapes: pieces (2, 2); middle (2,)."""
 
-    pieces: tuple[Array, ...]
-    middle: Array
+    pieces: tuple[Numbers, ...]
+    middle: Numbers
 
 
 class FlatSheet(NamedTuple):
     """A scene on a sheet, a link being about 1 long. Shapes: sheet (2, 3); at (2,)."""
 
-    sheet: Array
-    at: dict[str, Array]
+    sheet: Numbers
+    at: dict[str, Numbers]
     rays: tuple[FlatRay, ...]
     straight: bool
     unit: float
 
-    def in_dial(self, axes: Array, vectors: Array) -> Array:
+    def in_dial(self, axes: Numbers, vectors: Numbers) -> Numbers:
         """Return transverse vectors (..., 2) as seen by one who looks at the source."""
         right = np.cross(self.sheet[1], self.sheet[0])
         return np.asarray(vectors @ np.array([right, np.cross(axes[2], right)]).T)

@@ -15,13 +15,11 @@ from optipath.plots.text import broken
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from optipath.plots.scene.scene import Scene, SceneAngle, SceneFrame, SceneNode, SceneRay
-
-    Array = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 X_COLOUR, ELLIPSE, Y_COLOUR, ARC, FACE, LAMP = LINES
@@ -133,14 +131,14 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
             draw_turn(ax, curve, scene.unit, ELLIPSE, zorder=5.05)
 
 
-def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> None:
+def draw_head(ax: Axes, tip: Numbers, way: Numbers, size: Numbers, **style: Any) -> None:
     """Draw the head of an arrow. Shapes: tip, way (2,); size (2,)."""
     along = way / np.linalg.norm(way)
     foot, aside = tip - size[0] * along, size[1] * np.array([-along[1], along[0]])
     ax.add_patch(Polygon([tip, foot + aside, foot - aside], ec="none", **style))
 
 
-def draw_turn(ax: Axes, curve: Array, unit: float, colour: str, zorder: float) -> None:
+def draw_turn(ax: Axes, curve: Numbers, unit: float, colour: str, zorder: float) -> None:
     """Draw an arrowhead on an ellipse (points, 2) where it is flattest."""
     size = unit * np.array(_TURN)
     narrow = np.linalg.svd(curve[:-1] - curve[:-1].mean(axis=0))[1][1]
@@ -158,7 +156,7 @@ def _has_ellipse(ray: SceneRay) -> bool:
     return ray.ellipse is not None and not ray.leaves
 
 
-def _ellipse(ray: SceneRay) -> Array:
+def _ellipse(ray: SceneRay) -> Numbers:
     return np.asarray((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
 
 
@@ -173,11 +171,11 @@ def _angle(ax: Axes, angle: SceneAngle, view: View) -> None:
             _line(ax, np.array([centre, end]), color=ARC, lw=0.8, zorder=5.1)
 
 
-def _face(ax: Axes, points: Array, colour: str, alpha: float, zorder: float) -> None:
+def _face(ax: Axes, points: Numbers, colour: str, alpha: float, zorder: float) -> None:
     ax.add_patch(Polygon(points, fc=colour, ec="none", alpha=alpha, zorder=zorder))
 
 
-def _line(ax: Axes, points: Array, **style: Any) -> None:
+def _line(ax: Axes, points: Numbers, **style: Any) -> None:
     ax.plot(points[:, 0], points[:, 1], solid_capstyle="round", **style)
 
 
@@ -192,14 +190,14 @@ class View(NamedTuple):
     azimuth: float
 
     @property
-    def sheet(self) -> Array:
+    def sheet(self) -> Numbers:
         """The directions to the right and up on the sheet, and towards who looks, a row each."""
         c, s = np.cos(np.radians(self.azimuth)), np.sin(np.radians(self.azimuth))
         flat, high = np.cos(np.radians(self.elevation)), np.sin(np.radians(self.elevation))
         right, up = (-s, c, 0.0), (-high * c, -high * s, flat)
         return np.array([right, up, (flat * c, flat * s, high)])
 
-    def points(self, points: Array) -> Array:
+    def points(self, points: Numbers) -> Numbers:
         """Return points of space (..., 3) on the sheet (..., 2).
 
         >>> View(0.0, -90.0).points(np.array([2.0, 5.0, 3.0])).round(12)
@@ -240,7 +238,7 @@ _HALF, _RADIUS = 0.3, 0.24
 """Half the side of a surface, and the radius of a plate, of the length of a link."""
 
 
-def outline(scene: Scene, node: SceneNode) -> Array:
+def outline(scene: Scene, node: SceneNode) -> Numbers:
     """Return the outline of a surface or a plate. Shape: returns (points, 3)."""
     normal, across = np.asarray(node.normal), np.asarray(node.across)
     along = np.cross(normal, across)
@@ -258,7 +256,7 @@ def outline(scene: Scene, node: SceneNode) -> Array:
     return np.array([node.at + a * across + b * along for a, b in corners])
 
 
-def axis_line(scene: Scene, node: SceneNode) -> Array:
+def axis_line(scene: Scene, node: SceneNode) -> Numbers:
     """Return the line along the axis of a plate. Shape: returns (2, 3)."""
     reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
     return np.array([node.at - reach, node.at + reach])
@@ -274,7 +272,7 @@ def write_notes(ax: Axes, notes: Sequence[str], points: float) -> float:
     return float(text.get_window_extent().y1) if said else float(whole.y0)
 
 
-def set_limits(ax: Axes, point: Array, pixel: Array, per_unit: float) -> None:
+def set_limits(ax: Axes, point: Numbers, pixel: Numbers, per_unit: float) -> None:
     """Set limits by which a point (2,) lies on a pixel, and a unit is so many pixels long."""
     whole = ax.get_window_extent()
     left, bottom = point - (pixel - [whole.x0, whole.y0]) / per_unit

@@ -24,13 +24,11 @@ from optipath.plots.scene.layout import scene_of
 from optipath.plots.text import draw_key
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plots.scene.scene import Scene
-
-    Array = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _SIZE = 8.0, 6.0
@@ -114,7 +112,7 @@ def _view_argument(view: Any) -> View:
     return View(elevation, azimuth)
 
 
-def _fit(ax: Axes, scene: Scene, drawn: list[Array], room: Bbox) -> None:
+def _fit(ax: Axes, scene: Scene, drawn: list[Numbers], room: Bbox) -> None:
     """Set limits by which what is drawn fills a part of the axes."""
     points = np.concatenate(drawn)
     low, high = points.min(axis=0), points.max(axis=0)

@@ -30,13 +30,10 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    import numpy.typing as npt
-
     from optipath.composer.wiring import Link
     from optipath.paths.energy import LightOnLink
     from optipath.paths.path_graph import PathGraph
-
-    Array = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 LARGEST_ELLIPSE = 0.18
@@ -87,7 +84,7 @@ def _node(placing: Placing, name: str) -> SceneNode:
     return SceneNode(name, element.kind, *stands, posture.role, element, _axis(placing, name))
 
 
-def _axis(placing: Placing, name: str) -> Array | None:
+def _axis(placing: Placing, name: str) -> Numbers | None:
     """Return the axis of a plate that has one."""
     posture, element = placing.postures[name], placing.wiring.elements[name]
     if posture.role != "plate" or not has_axis(element):
@@ -233,7 +230,7 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
 
 
 def _arc(
-    message: ShownAngle, at: Array, first: Array, second: Array, angle: float, size: float
+    message: ShownAngle, at: Numbers, first: Numbers, second: Numbers, angle: float, size: float
 ) -> SceneAngle:
     """Return the arc from one direction to another, which are an angle apart."""
     across = second - (second @ first) * first
@@ -244,8 +241,8 @@ def _arc(
 
 def _turn(
     message: ShownAngle,
-    at: Array,
-    sides: tuple[Array, Array],
+    at: Numbers,
+    sides: tuple[Numbers, Numbers],
     angle: float,
     size: float,
     about: str,

@@ -22,12 +22,9 @@ from optipath.plots.scene.scene import number
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements.element import Element
-
-    Array = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 _ASIDE = np.radians([40.0, -40.0, 75.0, -75.0])
@@ -46,9 +43,9 @@ _START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 class DrawnLink(NamedTuple):
     """A link where it is drawn. Shapes: tail, head (3,); axes (3, 3)."""
 
-    tail: Array
-    head: Array
-    axes: Array
+    tail: Numbers
+    head: Numbers
+    axes: Numbers
 
 
 class Placing:
@@ -56,14 +53,14 @@ class Placing:
 
     def __init__(self, wiring: Wiring) -> None:
         self.wiring = wiring
-        self.at: dict[str, Array] = {}
+        self.at: dict[str, Numbers] = {}
         self.postures: dict[str, Posture] = {}
         self.links: dict[Link, DrawnLink] = {}
         self.notes: dict[str, None] = {}
         self.unit = 1.0
         self.by_angles = True
-        self._returning: dict[tuple[str, str], tuple[Array, Array]] = {}
-        self._begins: dict[tuple[str, str], Array] = {}
+        self._returning: dict[tuple[str, str], tuple[Numbers, Numbers]] = {}
+        self._begins: dict[tuple[str, str], Numbers] = {}
         self._aside: dict[tuple[str, str], int] = {}
         self._legs = legs_and_chains(self.wiring)
         self._taps = {*self.wiring.taps}
@@ -125,7 +122,7 @@ class Placing:
         port = (*element.outputs, *element.inputs)[0]
         self._stand(name, np.array([0.0, 0.0, -1.6 * len(sources) * self.unit]), port, _START)
 
-    def _stand(self, name: str, at: Array, port: str, axes: Array) -> None:
+    def _stand(self, name: str, at: Numbers, port: str, axes: Numbers) -> None:
         """Place a node by the axes of one of its ports."""
         self.at[name] = at
         if name not in self.postures:
@@ -153,7 +150,7 @@ class Placing:
                 self._returning[name, leaves] = arriving[:, 1], returning[:, 2]
                 self.note(f"light that '{name}' sends back is drawn beside the way it came")
 
-    def tail_of(self, name: str, port: str) -> Array:
+    def tail_of(self, name: str, port: str) -> Numbers:
         """Return where light begins that leaves a port. Shape: returns (3,)."""
         if (name, port) not in self._returning:
             return self.at[name]
@@ -166,7 +163,7 @@ class Placing:
             self._begins[name, port] = sides[int(other)]
         return self._begins[name, port]
 
-    def _free(self, start: Array, way: Array) -> float:
+    def _free(self, start: Numbers, way: Numbers) -> float:
         """Return how far a beam keeps from what is placed, in lengths of a link."""
         beam = start + np.linspace(0.0, _BACK * self.unit, 31)[:, np.newaxis] * way
         share = np.linspace(0.0, 1.0, 11)[:, np.newaxis]
@@ -175,7 +172,7 @@ class Placing:
         distances = np.linalg.norm(beam[:, np.newaxis] - taken, axis=2)
         return float(distances.min()) / self.unit
 
-    def axes_entering(self, link: Link) -> Array:
+    def axes_entering(self, link: Link) -> Numbers:
         """Return the axes in which the light of a link enters, a column each."""
         _, end, (_, enters) = link
         axes, drawn = self.postures[end].axes[enters], self.links[link]
@@ -214,11 +211,11 @@ class Placing:
         self._stand(start, tail, leaves, axes)
         return DrawnLink(tail, head, axes)
 
-    def _turned_aside(self, port: tuple[str, str], axes: Array) -> Array:
+    def _turned_aside(self, port: tuple[str, str], axes: Numbers) -> Numbers:
         count = self._aside[port] = self._aside.get(port, 0) + 1
         return axes @ turn_about_x(_ASIDE[(count - 1) % len(_ASIDE)])
 
-    def _closed(self, link: Link, tail: Array, axes: Array) -> DrawnLink:
+    def _closed(self, link: Link, tail: Numbers, axes: Numbers) -> DrawnLink:
         """Draw a link between nodes that stand both."""
         _, end, (_, enters) = link
         way, along = self.at[end] - tail, axes[:, 2]
@@ -239,7 +236,7 @@ class Placing:
         return DrawnLink(tail, self.at[end], _carried(axes, way / length))
 
 
-def _carried(axes: Array, direction: Array) -> Array:
+def _carried(axes: Numbers, direction: Numbers) -> Numbers:
     """Return axes turned by the least turn that takes z to a direction."""
     cosine = float(axes[:, 2] @ direction)
     if cosine < -1.0 + 1e-12:
@@ -252,7 +249,7 @@ _STRAIGHT_ON = 1e-12
 """The sine of an angle that is none."""
 
 
-def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
+def own_axes_of(wiring: Wiring, name: str) -> dict[str, Numbers]:
     """Return the axes that ports of a node have in the world. Shape: returns (3, 3)."""
     element = wiring.elements[name]
     results = {}
@@ -264,7 +261,7 @@ def own_axes_of(wiring: Wiring, name: str) -> dict[str, Array]:
     return results
 
 
-def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Posture:
+def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Numbers]) -> Posture:
     """Return the posture of a node in space, some of whose ports have axes (3, 3) there."""
     element = wiring.elements[name]
     usual = posture_of(element)
@@ -282,7 +279,7 @@ def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Array]) -> Postu
     return usual._replace(axes={**axes, **others}, normal=normal, across=across, told=message)
 
 
-def _normal(element: Element, port: str, arriving: Array, leaves: Array) -> Array:
+def _normal(element: Element, port: str, arriving: Numbers, leaves: Numbers) -> Numbers:
     """Return the normal of a surface between two directions, on the side that light comes from."""
     if port != "transmitted":
         return _bisector(arriving, leaves)
@@ -292,7 +289,7 @@ def _normal(element: Element, port: str, arriving: Array, leaves: Array) -> Arra
     return np.asarray(side * np.sin(front) * arriving[:, 1] - np.cos(front) * arriving[:, 2])
 
 
-def _normal_of_vertex(vertex: Any, arriving: Array, leaves: Array) -> Array:
+def _normal_of_vertex(vertex: Any, arriving: Numbers, leaves: Numbers) -> Numbers:
     """Return the normal of a vertex, across which light is reflected or refracted.
 
     Of a refraction along n2 k_out - n1 k_in (A. Glassner, ed., An Introduction to Ray Tracing,
@@ -310,7 +307,7 @@ def _normal_of_vertex(vertex: Any, arriving: Array, leaves: Array) -> Array:
     return np.asarray(-np.sign(across @ arrives) * across / length)
 
 
-def _bisector(arriving: Array, leaves: Array) -> Array:
+def _bisector(arriving: Numbers, leaves: Numbers) -> Numbers:
     across = leaves - arriving[:, 2]
     length = np.linalg.norm(across)
     # Light that grazes the surface is not turned, but its x tells the plane.
@@ -326,7 +323,7 @@ def incidence_at(element: Element, posture: Posture) -> float:
     return float(np.arctan2(across, -np.dot(arrives, normal)))
 
 
-def chain_points(element: Any) -> Array:
+def chain_points(element: Any) -> Numbers:
     """Return the points of the chain of a vertex, shape (m + 2, 3)."""
     chain = element.vertices
     if isinstance(chain, VerticesByAngles):
@@ -378,20 +375,20 @@ _SCHEMATIC = np.pi / 4.0
 class Posture(NamedTuple):
     """The frames of the ports of an element, in a basis of its own; normal, across (3,)."""
 
-    axes: dict[str, Array]
-    normal: Array | None
-    across: Array | None
+    axes: dict[str, Numbers]
+    normal: Numbers | None
+    across: Numbers | None
     role: str
     told: bool = True
 
 
-def turn_about_x(angle: float) -> Array:
+def turn_about_x(angle: float) -> Numbers:
     """Return the matrix of a turn about x by an angle in radians."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
-def turn_about_z(angle: float) -> Array:
+def turn_about_z(angle: float) -> Numbers:
     """Return the matrix of a turn about z by an angle in radians."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -17,14 +17,11 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from optipath.elements.element import Element
     from optipath.light.light import Light
     from optipath.paths.energy import LightOnLink
     from optipath.paths.path_graph import PathGraph
-
-    Vector = npt.NDArray[np.float64]
+    from optipath.values.precision import Numbers
 
 
 class SceneNode(NamedTuple):
@@ -32,12 +29,12 @@ class SceneNode(NamedTuple):
 
     name: str
     kind: str
-    at: Vector
-    normal: Vector | None
-    across: Vector | None
+    at: Numbers
+    normal: Numbers | None
+    across: Numbers | None
     role: str
     element: Element
-    axis: Vector | None
+    axis: Numbers | None
 
 
 class SceneRay(NamedTuple):
@@ -46,10 +43,10 @@ class SceneRay(NamedTuple):
     name: str
     start: str
     end: str
-    tail: Vector
-    head: Vector
-    axes: Vector
-    ellipse: Vector | None
+    tail: Numbers
+    head: Numbers
+    axes: Numbers
+    ellipse: Numbers | None
     light: Light
     leaves: bool
     tap: bool
@@ -69,15 +66,15 @@ class ScenePlane(NamedTuple):
     """A plane of incidence, as a rectangle. Shape: corners (4, 3)."""
 
     node: str
-    corners: Vector
+    corners: Numbers
 
 
 class SceneFrame(NamedTuple):
     """The frame of a port. Shapes: at (3,); axes (3, 3)."""
 
     port: str
-    at: Vector
-    axes: Vector
+    at: Numbers
+    axes: Numbers
 
 
 class SceneAngle(NamedTuple):
@@ -85,9 +82,9 @@ class SceneAngle(NamedTuple):
 
     name: str
     text: str
-    arc: Vector
-    at: Vector
-    centre: Vector
+    arc: Numbers
+    at: Numbers
+    centre: Numbers
     about: str
 
 
@@ -104,7 +101,7 @@ class Scene(NamedTuple):
     angles: tuple[SceneAngle, ...]
 
     @property
-    def bounds(self) -> Vector:
+    def bounds(self) -> Numbers:
         """The least and the largest coordinates of nodes and rays, shape (2, 3)."""
         ends = [point for ray in self.rays for point in (ray.tail, ray.head)]
         points = np.array([*(node.at for node in self.nodes), *ends])
@@ -126,17 +123,12 @@ class Scene(NamedTuple):
             "nodes": [_as_dict(node, "element", "axis") for node in self.nodes],
             "rays": [
                 {
-                    "name": ray.name,
-                    "start": ray.start,
-                    "end": ray.end,
+                    **_as_dict(ray, "tail", "head", "axes", "light"),
                     "from": _list(ray.tail),
                     "to": _list(ray.head),
                     "frame": _axes(ray.axes),
-                    "ellipse": None if ray.ellipse is None else _list(ray.ellipse),
                     "intensity": plain(float(ray.light.intensity)),
                     "dop": plain(float(ray.light.dop)),
-                    "leaves": ray.leaves,
-                    "tap": ray.tap,
                 }
                 for ray in self.rays
             ],
@@ -156,11 +148,11 @@ def _as_dict(message: Any, *stored: str) -> dict[str, Any]:
     return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in pairs}
 
 
-def _axes(axes: Vector) -> dict[str, Any]:
+def _axes(axes: Numbers) -> dict[str, Any]:
     return dict(zip("xyz", _list(axes), strict=True))
 
 
-def _list(numbers: Vector) -> Any:
+def _list(numbers: Numbers) -> Any:
     return (np.asarray(numbers, float) + 0.0).tolist()
 
 
