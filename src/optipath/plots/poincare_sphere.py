@@ -218,7 +218,7 @@ def is_near(points: Numbers) -> npt.NDArray[np.bool_]:
 
 
 def on_paper(ax: Axes3D, points: Numbers) -> Numbers:
-    """Return where points (n, 3) are seen, in the flat coordinates (n, 2) of the axes."""
+    """Return where points (..., 3) are seen, in the flat coordinates (..., 2) of the axes."""
     return np.stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2], axis=-1)
 
 
@@ -238,41 +238,31 @@ def _draw_sphere(ax: Axes3D) -> None:
     eye = _towards_eye()
     side = np.array([-eye[1], eye[0], 0.0]) / np.hypot(eye[0], eye[1])
     x, y, z = np.eye(3)
-    for first, second in ((x, y), (x, z), (y, z)):
-        _draw_circle(ax, first, second)
+    for first, second, width in ((x, y, 1.1), (x, z, 0.7), (y, z, 0.7)):
+        points = _circle(first, second)
+        near = is_near(points)[:, np.newaxis]
+        front, back = np.where(near, points, np.nan), np.where(near, np.nan, points)
+        ax.plot(*front.T, color=FAINT, linewidth=width, zorder=3)
+        ax.plot(*back.T, color=FAINT, linewidth=width, linestyle=(0, (2, 3)), alpha=0.6, zorder=1)
     outline = _circle(side, np.cross(eye, side))
     ax.plot(*outline.T, color=INK, linewidth=1.0, zorder=2, gid=_MARK)
     ax.add_collection3d(Poly3DCollection([outline], facecolor=_GROUND, zorder=0))
-    _draw_axes(ax)
+    style: dict[str, Any] = {"color": INK, "zorder": 8, "transform": ax.transData}
+    style["path_effects"] = [*HALO]
+    for name, place in _NAMES:
+        point = np.array(place, float)
+        bold = {"weight": "bold", "alpha": 1.0 if is_near(point) else 0.55}
+        ax.text2D(*on_paper(ax, 1.13 * point), name, ha="center", va="center", **bold, **style)
+    for axis, (name, across, up) in zip(np.eye(3), _AXES, strict=True):
+        ends = np.outer((0.0, _AXIS), axis)
+        ax.plot(*ends.T, color=FAINT, linewidth=0.7, linestyle=(0, (2, 3)), zorder=1)
+        where = on_paper(ax, _AXIS * axis)
+        ax.text2D(*where, name, ha=across, va=up, fontsize="small", **style)
 
 
 def _circle(first: Numbers, second: Numbers) -> Any:
     turn = np.linspace(0.0, 2.0 * np.pi, 181)[:, np.newaxis]
     return np.cos(turn) * first + np.sin(turn) * second
-
-
-def _draw_circle(ax: Axes3D, first: Numbers, second: Numbers) -> None:
-    points = _circle(first, second)
-    near = is_near(points)[:, np.newaxis]
-    front, back = np.where(near, points, np.nan), np.where(near, np.nan, points)
-    width = 1.1 if second[2] == 0.0 else 0.7
-    ax.plot(*front.T, color=FAINT, linewidth=width, zorder=3)
-    ax.plot(*back.T, color=FAINT, linewidth=width, linestyle=(0, (2, 3)), alpha=0.6, zorder=1)
-
-
-def _draw_axes(ax: Axes3D) -> None:
-    style: dict[str, Any] = {"color": INK, "zorder": 8, "transform": ax.transData}
-    style["path_effects"] = [*HALO]
-    for name, place in _NAMES:
-        point = np.array(place, float)
-        (where,) = on_paper(ax, 1.13 * point[np.newaxis])
-        bold = {"weight": "bold", "alpha": 1.0 if is_near(point) else 0.55}
-        ax.text2D(*where, name, ha="center", va="center", **bold, **style)
-    for axis, (name, across, up) in zip(np.eye(3), _AXES, strict=True):
-        ends = np.outer((0.0, _AXIS), axis)
-        ax.plot(*ends.T, color=FAINT, linewidth=0.7, linestyle=(0, (2, 3)), zorder=1)
-        (where,) = on_paper(ax, _AXIS * axis[np.newaxis])
-        ax.text2D(*where, name, ha=across, va=up, fontsize="small", **style)
 
 
 _FAR = 0.45
