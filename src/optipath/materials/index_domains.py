@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import Cure, Fault, UnitError, ValueFault, shown
+from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, index_of
 from optipath.values.arrays import first_place, read_only
 from optipath.values.domains import Domain, OptionalDomain, in_unit_of, pair_in
@@ -28,7 +28,7 @@ class Followed(Domain):
         return value if value is FOLLOWS else super().kept(value)
 
     def parse(self, text: str) -> Any:
-        if text.strip().lower() == FOLLOWS.word:
+        if closest(text.lower(), [FOLLOWS.word]) is not None:
             cure = Cure.of("did you mean {}?".format, "op.FOLLOWS", FOLLOWS.in_file)
             raise UnitError(Fault(f"'{text}' is no number", cure))
         return super().parse(text)
