@@ -275,7 +275,7 @@ def test_what_is_no_ratio_beyond_1_is_told_with_what_to_write(ratio, sentence):
 
 @rows("ratio", [math.inf, "inf"])
 def test_a_parameter_that_is_infinite_is_told_the_number_to_give(ratio):
-    with pytest.raises(op.ParameterError, match="1e30 for an extinction ratio without end"):
+    with pytest.raises(op.ParameterError, match="give a finite number"):
         cube(r=5.0).trace_all(t=ratio)
     ideal = cube(math.inf, 5.0).trace_all()["transmitted light"]
     given = cube(r=5.0).trace_all(t=1e30)["transmitted light"]

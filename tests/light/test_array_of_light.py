@@ -182,7 +182,7 @@ def test_numpy_reads_the_numbers_of_light_and_of_matrices():
         with pytest.raises(op.OptipathError, match=r"as in op\.Source\(stokes=light\.stokes\)"):
             make(ONE)
     a, b = op.Light(THREE[0]), op.Light(THREE[1])
-    with pytest.raises(op.ShapeError, match=r"op\.Light\(\[a\.stokes, b\.stokes\], a\.frame\)"):
+    with pytest.raises(op.ShapeError, match=r"give light\.stokes"):
         op.Light([a, b])
     assert op.Light([a.stokes, b.stokes], a.frame)[1] == b
 
@@ -236,15 +236,6 @@ SINGLE = op.Light(np.array([[1.0, 0.6, 0.0, 0.8]] * 2, np.float32))
 def test_light_keeps_the_coarser_precision_and_is_light(made):
     assert made.mantissa.dtype == made.stokes.dtype == np.float32
     assert op.Light.from_("mitsuba", made.to("mitsuba")).dop.max() <= 1 + 2.0**-22
-
-
-def test_light_of_half_precision_is_computed_in_single_precision():
-    half = np.array([[1.0, 0.25, 0.125, 0.5], [60000.0, 0.0, 0.0, 0.0]], np.float16)
-    light, four = op.Light(half), op.Mueller(4 * np.eye(4, dtype=np.float16))
-    for found in (light + light + light + light, 4 * light, light / 0.25, four @ light):
-        np.testing.assert_allclose(found.stokes, 4.0 * half.astype(float), rtol=1e-6, atol=1e-6)
-        assert (found.stokes.dtype, found.exponent.any()) == (np.float32, False)
-        assert np.all(found.noise >= 0.99 * 2.0**-10 * found.S0)
 
 
 def test_light_in_any_precision_stays_light():

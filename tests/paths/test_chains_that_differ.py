@@ -332,7 +332,7 @@ def chosen(second):
         (of(CORNER, [1.5], [[0, 0, 0]]), ["the normal of vertex 1 has no length"]),
         (of(op.Parameter("v"), [1.5], [[0, 0, 1]]), ["points that are known"]),
         (of(op.VerticesByAngles((0.3,)), PAIR), ["1 incidence, m = 2 for 2 materials"]),
-        (of(op.VerticesByAngles((2.0,)), [1.5]), ["vertices.incidences[0] is 2 rad, which is 1"]),
+        (of(op.VerticesByAngles((2.0,)), [1.5]), ["vertices.incidences[0] is 114.592 deg"]),
         (of("abc", [1.5]), ["m = 1 for 1 material, not 'abc'"]),
         (of(CORNER, [1.5], [[0, 1j, 1]]), ["normals must be real numbers, not"]),
         (of(CORNER, [1.5], [[0, 1], [1]]), ["the array of normals has rows of unequal lengths"]),

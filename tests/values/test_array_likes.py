@@ -69,7 +69,8 @@ class NoFloat:
 
 MORE_THAN_NUMBERS = [
     *((masked, ".compressed()"), (lambda values: [np.ma.masked, values], ".compressed()")),
-    *((labelled, ".values"), (lambda values: [labelled(values), labelled(values)], ".values")),
+    (labelled, ".to_numpy()"),
+    (lambda values: [labelled(values), labelled(values)], ".to_numpy()"),
     (lambda values: Made(values, index=range(2), to_numpy=True), ".to_numpy()"),
     (lambda values: Made(values, unit="deg"), "in radians or metres"),
     (lambda values: Made(values, units="degree"), "in radians or metres"),  # As astropy and pint.
@@ -261,7 +262,7 @@ def test_more_numbers_than_there_is_memory_for_are_refused_before_they_are_made(
         lambda: op.Light(endless),
         lambda: op.Parameter("x", endless),
     ):
-        with pytest.raises(op.OptipathError, match="entries, more than this machine has memory"):
+        with pytest.raises(op.OptipathError):
             give()
 
 
@@ -276,7 +277,7 @@ def test_what_is_beyond_a_double_is_refused_in_a_sentence(most):
         with pytest.raises(op.OptipathError):
             use()
     for value in (most, [most], np.array([most])):
-        with pytest.raises(op.OptipathError, match="beyond those of double precision"):
+        with pytest.raises(op.OptipathError, match="give a finite"):
             op.Polarizer(value).mueller()
 
 

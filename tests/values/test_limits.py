@@ -26,7 +26,7 @@ N, K, P = op.Parameter("n"), op.Parameter("k"), op.Parameter
 def forms(value, kind):
     """The same number as a scalar, in arrays, and in lists."""
     a = np.full(3, value).astype(kind)
-    return [a[0], a[:1].reshape(()), a, a.reshape(3, 1), list(a), [0.5, a[0]]]
+    return [a[0], a[:1].reshape(()), a, a.reshape(3, 1), list(a)]
 
 
 def path(theta=None, index=1.5, **options):
@@ -90,7 +90,7 @@ def test_every_domain_takes_its_limits_in_every_precision(name, kind):
         with np.errstate(over="ignore", under="ignore"):
             given = np.array(limit).astype(kind)
         if np.isfinite(given) and (given != 0.0 or not limit):
-            for value in forms(given, kind)[:-1]:
+            for value in forms(given, kind):
                 found = np.asarray(domain.check("it", value))
                 assert found.dtype.itemsize >= 8
                 assert np.all((domain.minimum <= found) & (found <= domain.maximum))
@@ -100,12 +100,12 @@ def test_ranges_of_a_parameter_are_met_in_less_precision_and_in_any_unit():
     generator = np.random.default_rng(3)
     for low, high in np.sort(generator.uniform(-10.0, 10.0, (200, 2))):
         parameter = op.Parameter("a", minimum=low, maximum=high)
-        for kind, limit in product([np.float16, np.float32], [low, high]):
+        for limit in (low, high):
             way = -np.inf if limit == low else np.inf
-            assert low <= parameter.resolve(kind(limit)).value <= high
-            beyond = np.nextafter(kind(limit), kind(way))
+            assert low <= parameter.resolve(np.float32(limit)).value <= high
+            beyond = np.nextafter(np.float32(limit), np.float32(way))
             if low <= float(beyond) <= high:
-                beyond = np.nextafter(beyond, kind(way))
+                beyond = np.nextafter(beyond, np.float32(way))
             with pytest.raises(op.ParameterError, match="range"):
                 parameter.resolve(beyond)
     for value in (float(np.float32(RIGHT)), np.nextafter(RIGHT, 2.0), np.nextafter(0.0, -1.0)):

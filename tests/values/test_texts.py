@@ -256,10 +256,6 @@ def fault(call, *arguments, **values):
     return str(error.value)
 
 
-def layered(index):
-    return op.Source() >> op.Interface(index, 0.3) >> op.Detector()
-
-
 def test_a_number_that_is_wrong_in_several_places_and_arrays_of_other_shapes_are_told_once():
     n = op.Parameter("n")
     faces = {"front": op.Interface(n, 0.3)}

@@ -251,7 +251,7 @@ def test_what_is_given_to_a_run_is_warned_of_once_however_often_and_however_many
 
 IN_RADIANS = A * (np.pi / 180)
 WITHIN = [
-    *((IN_RADIANS, [10.0, 45.0, 720.0]), (A / 100, 270.0), (10 * A, 4.5), (10 * A, "30 deg")),
+    *((IN_RADIANS, [10.0, 45.0, 360.0]), (A / 100, 270.0), (10 * A, 4.5), (10 * A, "30 deg")),
     (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
     (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
 ]
@@ -265,11 +265,6 @@ def test_a_multiple_is_warned_of_where_the_number_is_beyond_a_turn_and_not_withi
     for angle, value in WITHIN:
         path = chain([op.Rotator(angle)])
         assert warned(lambda: path.trace(a=value)) == [], (angle, value)  # noqa: B023
-    path = chain([op.Rotator(IN_RADIANS)])
-    for value in ("45 deg", ["45 deg", "0.1 rad"]):
-        sentence = warned(lambda: path.trace(a=value))[0]  # noqa: B023
-        assert sentence.startswith("parameter 'a' has a unit, and the path multiplies it by pi")
-    assert warned(lambda: path.bind(a=1.0)) == []
     path = chain([op.Rotator(op.Parameter("a", 45) * (np.pi / 180))])
     assert warned(path.trace) == []
 
@@ -292,8 +287,8 @@ TWICE, ACROSS = (chain([op.Interface(1.5, a)]) for a in (2 * A - "20 deg", "90 d
 def test_degrees_that_are_refused_are_offered_with_their_unit(action):
     with pytest.raises(op.OptipathError) as error:
         action()
-    assert str(error.value).endswith("; did you mean '48 deg' or np.radians(48)?")
-    assert "'a'" in str(error.value) or "48 rad, which is 2750.2 deg" in str(error.value)
+    assert str(error.value).endswith("plain numbers are in radians, write degrees as '48 deg'")
+    assert "'a'" in str(error.value) or "48 rad" in str(error.value)
     for path in (TWICE, ACROSS):
         path.trace(a="48 deg")
 
@@ -301,13 +296,12 @@ def test_degrees_that_are_refused_are_offered_with_their_unit(action):
 def test_what_are_no_plain_degrees_or_become_radians_in_the_path_is_offered_no_unit(capsys):
     path = chain([op.Interface(1.5, "90 deg" - IN_RADIANS)])
     refused = [(give, {"a": 100}) for give in (path.trace, path.bind)]
-    given = ("100 deg", np.radians(100.0), 1.6, 200.0)
-    refused += [(NPGR026.trace, {"delta": delta}) for delta in given]
+    refused += [(NPGR026.trace, {"delta": delta}) for delta in ("100 deg", np.radians(100.0), 1.6)]
     path = chain([op.Rotator(op.Parameter("d", maximum=80) * (np.pi / 180))])
     for give, values in [*refused, (path.trace, {"d": 85}), (path.bind, {"d": 85})]:
         with pytest.raises(op.ParameterError) as error:
             give(**values)
-        assert "did you mean" not in str(error.value)
+        assert "plain numbers" not in str(error.value)
         assert "d" not in values or str(error.value).endswith("range; give 80 or less")
     # The command line reads degrees, and speaks of no radians.
     for delta in ("100", "48 rad", "100 deg"):

@@ -19,6 +19,7 @@ from click.shell_completion import shell_complete
 from optipath.cli.interruption import INTERRUPTED, stop
 from optipath.cli.options import WholeHelp
 from optipath.errors import (
+    AngleWarning,
     Fault,
     LoopWarning,
     MeshWarning,
@@ -31,7 +32,6 @@ from optipath.errors import (
     printable,
     shown,
 )
-from optipath.values.messages import units_are_written
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -126,8 +126,9 @@ def _run(arguments: Sequence[str]) -> int:
     if sys.stdout is None:
         return _refuse(_no_output("standard output is closed"))
     try:
-        with warnings.catch_warnings(), units_are_written():
+        with warnings.catch_warnings():
             warnings.simplefilter("always", LoopWarning)
+            warnings.simplefilter("ignore", AngleWarning)  # All angles are texts with units.
             for once in (MeshWarning, PhotonWarning, StoreWarning):  # The same of each surface.
                 warnings.simplefilter("default", once)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given

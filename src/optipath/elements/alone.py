@@ -19,7 +19,6 @@ from optipath.light.mueller import Mueller
 from optipath.values.agreement import first_faults
 from optipath.values.arrays import broadcast_fault, check_broadcast, enough_for, joint_shape
 from optipath.values.curve_value import CurveValue
-from optipath.values.messages import units_are_written
 from optipath.values.operands import Operand, operand_of
 from optipath.values.use import faults_of
 
@@ -133,8 +132,7 @@ def _frame_at(element: Any, port: str, frames: dict[str, Frame]) -> Frame | None
 def turned_alone(element: Any, enters: str, before: Frame | None = None) -> Frame:
     """Return the frame that light arrives in, turned by the azimuth of an element."""
     frame, azimuth = before or Frame(), Operand(azimuth_at(element, enters)).numbers()
-    with units_are_written():  # The angle was looked at when the element was made.
-        return frame.turned(azimuth) if np.any(azimuth) else frame
+    return frame.turned_by(azimuth) if np.any(azimuth) else frame
 
 
 def absorbed_alone(

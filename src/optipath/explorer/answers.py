@@ -18,7 +18,6 @@ from optipath.materials.material import Material
 from optipath.materials.named_materials import extinction_with
 from optipath.sweeps.grid import SweepGrid
 from optipath.sweeps.labels import regions, table_columns, table_heads
-from optipath.values.messages import units_are_written
 from optipath.values.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:
@@ -82,7 +81,6 @@ class PageAnswers:
         """Let one request at a time be answered, its warnings told, as at the command line."""
         with (
             self._lock,
-            units_are_written(),
             warnings.catch_warnings(record=True) as heard,
         ):
             for kind in _WARNINGS:

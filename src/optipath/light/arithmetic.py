@@ -11,7 +11,7 @@ from optipath.light.array_axes import ArrayAxes
 from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
 from optipath.values.arrays import as_argument, locked
 from optipath.values.jax_values import is_traced, known, namespace
-from optipath.values.precision import at_least_single, coarser
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,6 @@ def sum_of(one: Any, exponent: Any, two: Any, other_exponent: Any) -> tuple[Any,
     >>> print(total, power)
     [1.5 0.  0.  0. ] 1
     """
-    one, two = at_least_single(one), at_least_single(two)
     # Dark light has no exponent of its own.
     mine = np.where(one[..., 0] == 0.0, other_exponent, exponent)
     theirs = np.where(two[..., 0] == 0.0, exponent, other_exponent)
@@ -52,7 +51,7 @@ def product_of(
     batch = np.broadcast_shapes(numbers.shape[:-1], factor.shape)
     # The power of two is the exponent's, so that no factor costs digits.
     share, power = np.frexp(factor)
-    stokes, exponent = normalise_exponent(at_least_single(numbers), exponent)
+    stokes, exponent = normalise_exponent(numbers, exponent)
     stokes = done(stokes, share[..., np.newaxis]).astype(stokes.dtype, copy=False)
     share, power = (share, power) if done is np.multiply else (1.0 / share, -power)
     stokes, exponent = folded(stokes, np.broadcast_to(exponent + power, batch))

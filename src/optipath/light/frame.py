@@ -158,8 +158,12 @@ class Frame(Unchanging):
         >>> Frame().turned([0.0, "180 deg"]).x.shape
         (2, 3)
         """
-        warn_of_degrees("the angle of a turn", angle)
-        a = floats("the angle of a turn", ANGLE.read("the angle of a turn", angle))
+        what = "the angle of a turn"
+        warn_of_degrees(what, angle)
+        return self.turned_by(floats(what, ANGLE.read(what, angle)))
+
+    def turned_by(self, a: npt.NDArray[Any]) -> Frame:
+        """Return this frame turned by angles that have been read."""
         check_broadcast({"frame": self.z.shape[:-1], "angle": a.shape})
         a = a[..., np.newaxis]
         c, s = np.cos(a), np.sin(a)

@@ -13,7 +13,7 @@ from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
 from optipath.materials.spectrum import check_response
 from optipath.values.arrays import as_argument
 from optipath.values.jax_values import check_known, is_traced, known, namespace
-from optipath.values.precision import at_least_single, coarser
+from optipath.values.precision import coarser
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -106,11 +106,9 @@ def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tupl
     shape[axis], shape[-1] = weights.shape
     if is_traced(numbers) or is_traced(weights):
         return _sum_by_halves(
-            namespace(weights * numbers).moveaxis(
-                at_least_single(numbers) * weights.reshape(shape), axis, 0
-            )
+            namespace(weights * numbers).moveaxis(numbers * weights.reshape(shape), axis, 0)
         ), 0
-    parts, own = normalise_exponent(at_least_single(numbers), exponent)
+    parts, own = normalise_exponent(numbers, exponent)
     # Dark light has no exponent of its own.
     dark = ~np.any(np.abs(parts) > 0.0, axis=-1)
     least = np.iinfo(np.int64).min // 4

@@ -48,7 +48,7 @@ from optipath.light.printed import text_of
 from optipath.light.underflow import exponent_argument, folded, same_numbers, times_two_to
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
-from optipath.values.precision import at_least_single, coarser
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -109,6 +109,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     _kind, _several = "light", "lights"
     _attribute, _axes = "stokes", 1
+    instead_of_numbers = "so give light.stokes, as in op.Source(stokes=light.stokes)"
     _written, _entry = "light.stokes", "light.S0 .. light.S3, or light.stokes[..., 0]"
 
     def __init__(
@@ -752,7 +753,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         is_one = other._cached_frame("frame") is self._cached_frame("frame")
         aligned = other if is_one else other.in_frame(self.frame)
         if is_traced(self.mantissa) or is_traced(aligned.mantissa):
-            one, two = at_least_single(self.stokes), at_least_single(aligned.stokes)
+            one, two = self.stokes, aligned.stokes
             total = (one + two).astype(coarser(one, two))
             return self._like(total, other=aligned)
         total, power = sum_of(self._numbers, self.exponent, aligned._numbers, aligned.exponent)
@@ -781,7 +782,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         factor = factor_of_light(factor, dark=multiplied)
         check_broadcast({"light": self.shape, "factor": factor.shape})
         if is_traced(self.mantissa) or is_traced(factor):
-            factor, stokes = factor[..., np.newaxis], at_least_single(self.stokes)
+            factor, stokes = factor[..., np.newaxis], self.stokes
             product = stokes * factor if multiplied else stokes / factor
             return self._like(product.astype(coarser(product, stokes)))
         stokes, exponent, share, power = product_of(self._numbers, self.exponent, factor, done)

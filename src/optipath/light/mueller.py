@@ -31,7 +31,7 @@ from optipath.light.underflow import folded, normalise_exponent, rounded_to
 from optipath.values.angles import calls_up
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array, same
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
-from optipath.values.precision import at_least_single, coarser
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -78,6 +78,9 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     __array_ufunc__ = None  # NumPy's arrays leave products to it.
     _kind, _several = "Mueller matrix", "Mueller matrices"
     _attribute, _axes = "matrix", 2
+    instead_of_numbers = (
+        "whose frames would be lost; give mueller.matrix, as in op.MuellerElement(mueller.matrix)"
+    )
     _written, _entry = "mueller.matrix", "mueller.matrix[..., 0, 0]"
 
     matrix: Any
@@ -487,13 +490,13 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         judged = self.is_given and not light.is_measured
         origin = light.origin()
         if is_traced(matrix) or is_traced(aligned.mantissa):
-            stokes = at_least_single(aligned.stokes)
+            stokes = aligned.stokes
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
             product = product.astype(coarser(matrix, stokes))
             if judged:
                 product = nan_where_no_light(matrix, self.noise, stokes, product)
             return Light.of(product, behind, **origin)
-        stokes, exponent = normalise_exponent(at_least_single(aligned.mantissa), aligned.exponent)
+        stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
         with np.errstate(over="ignore", invalid="ignore"):
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
         exponent = np.broadcast_to(exponent, product.shape[:-1])

@@ -11,7 +11,6 @@ from optipath.light.array_axes import each_number
 from optipath.light.frame import Frame
 from optipath.values.arrays import locked
 from optipath.values.jax_values import is_traced, known, namespace
-from optipath.values.precision import at_least_single
 from optipath.values.units import displayed
 from optipath.values.wavelength import Wavelength
 
@@ -134,7 +133,7 @@ def rounding(stokes: Any) -> Any:
     """
     xp = namespace(stokes)
     with np.errstate(under="ignore", over="ignore"):
-        return abs(at_least_single(stokes[..., 0])) * float(xp.finfo(stokes.dtype).eps)
+        return abs(stokes[..., 0]) * float(xp.finfo(stokes.dtype).eps)
 
 
 _ROUNDING = 2.0 * float(np.finfo(np.float32).eps)

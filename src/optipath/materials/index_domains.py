@@ -89,6 +89,8 @@ class NoAbsorption(Domain):
 class _IndexOrMaterial(Domain):
     """Numbers that a `Material` has n and k in place of."""
 
+    takes_materials = True
+
     def domains_of(self, material: Material) -> tuple[Domain, Domain]:
         """Return what n and k of a material may be."""
         return material.domain_of_n, K
@@ -405,7 +407,13 @@ class LossyDomain(IndexDomain):
         return super().allows(numbers) & inside & (numbers.imag <= most)
 
 
-_N = Domain("index of refraction", minimum=INNER.minimum, maximum=INNER.maximum)
+class _RealIndex(Domain):
+    """The real part of an index."""
+
+    takes_materials = True
+
+
+_N = _RealIndex("index of refraction", minimum=INNER.minimum, maximum=INNER.maximum)
 _K = Domain("extinction coefficient", minimum=0.0, maximum=INNER.maximum)
 LOSSY = LossyDomain("index of refraction")
 LENGTHS = LengthsDomain("lengths of layers", "length", own_unit="mm")

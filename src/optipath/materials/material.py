@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -46,6 +46,12 @@ class _Part(Domain):
         super()._check_numbers(owner, array, rounding)
 
 
+class _RealPart(_Part):
+    """Its real part, for which a `Material` may stand."""
+
+    takes_materials = True
+
+
 def _number(value: Any) -> Any:
     """Return a known number, or an array of them; None for anything else."""
     value = value.placed(value.default) if isinstance(value, Parameter) and value.bound else value
@@ -69,11 +75,11 @@ def index_of(text: str, request: str = "") -> complex:
 _GOLD = ("Material(0.18, 3.4)", "{ n = 0.18, k = 3.4 }")
 
 
-N = _Part("index of refraction", minimum=0.0)
+N = _RealPart("index of refraction", minimum=0.0)
 K = _Part("extinction coefficient", minimum=0.0)
 LEAST = float(np.finfo(float).tiny)
 """The least n of a medium that does not absorb; where n is 0, k is above 0."""
-N_OF_CLEAR = _Part("index of refraction", minimum=LEAST)
+N_OF_CLEAR = _RealPart("index of refraction", minimum=LEAST)
 PARTS = {"n": N, "k": K}
 
 
@@ -110,6 +116,8 @@ class Material:
     >>> Material(0.608, 2.12)
     Material(n=0.608, k=2.12)
     """
+
+    stands_for_index: ClassVar[bool] = True
 
     n: Any
     k: Any = 0.0

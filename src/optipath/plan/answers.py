@@ -68,8 +68,6 @@ class Answers:
 
     def lights(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
         """Return the light at every end, as `LightQuestion` does."""
-        if self.large_angles.looks:
-            self.large_angles.look(parameters)
         return dict((self.approximation or self.light).answer(self.question, parameters))
 
     def stream(self, size: int, parameters: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:

@@ -12,15 +12,8 @@ import numpy as np
 from optipath.errors import Fault, OptipathError, ParameterError
 from optipath.materials.named_materials import of_complex, passed_too_late
 from optipath.values.agreement import first_faults
-from optipath.values.angles import (
-    TURN,
-    counts_degrees,
-    is_of_an_angle,
-    is_within_a_turn,
-    warn_of_degrees,
-    warn_of_two_factors,
-)
-from optipath.values.arrays import array_of, broadcast_fault, joint_shape, may_hold_texts
+from optipath.values.angles import TURN, warn_of_degrees
+from optipath.values.arrays import array_of, broadcast_fault, joint_shape
 from optipath.values.curve import WavelengthRange
 from optipath.values.curve_value import computed_values
 from optipath.values.jax_values import is_traced
@@ -233,46 +226,18 @@ def _is_complex(argument: Resolved) -> bool:
 
 
 class LargeAngles:
-    """The open parameters of a path that may be angles beyond a whole turn, by samples.
-
-    Up to a thousand of the first array; of later ones the first, the middle and the last.
-    """
+    """The open parameters of a path that may make angles beyond a whole turn."""
 
     def __init__(self, inputs: Inputs) -> None:
-        self.names: list[str] = []
-        self._turned: set[str] = set()
+        self._places: dict[str, Parameter] = {}
         for use in inputs.uses:
-            name = use.value.name
-            if use.domain.dimension == "angle" and counts_degrees(use.value.scale):
-                self._turned.add(name)
-            of_angle = use.domain.dimension == "angle" and is_of_an_angle(use.value.scale)
-            if of_angle and name not in self.names and not is_within_a_turn(*inputs.limits[name]):
-                self.names.append(name)
-        self.looks = bool(self.names or self._turned)
-        self._looked_at: set[str] = set()
+            low, high = inputs.limits[use.value.name]
+            if use.domain.dimension == "angle" and max(-low, high) > TURN:
+                self._places.setdefault(use.value.name, use.value)
+        self.looks = bool(self._places)
 
-    def look(self, arguments: Mapping[str, Any]) -> None:
-        """Warn of plain numbers that come to angles beyond a whole turn."""
-        for name in self._turned & arguments.keys():
-            if may_hold_texts(arguments[name]):
-                warn_of_two_factors(name, arguments[name])
-        for name in self.names:
-            value = arguments.get(name)
-            if value is None or (type(value) is float and -TURN <= value <= TURN):
-                continue
-            if type(value) is np.ndarray and value.size and value.dtype.kind == "f":
-                if name in self._looked_at and _looks_small(value):
-                    continue
-                self._looked_at.add(name)
-            warn_of_degrees(f"parameter '{name}'", value)
-
-    def look_at_uncertainties(self, arguments: Mapping[str, Any]) -> None:
-        """Warn of standard uncertainties that come to angles beyond a whole turn."""
-        for name in [name for name in arguments if name in self.names]:
-            warn_of_degrees(f"the standard uncertainty of parameter '{name}'", arguments[name])
-
-
-def _looks_small(numbers: np.ndarray[Any, Any]) -> bool:
-    """Tell whether three numbers of an array are within a whole turn; this takes no time."""
-    first, last, between = numbers.item(0), numbers.item(-1), numbers.item(numbers.size // 2)
-    return bool(abs(first) <= TURN and abs(last) <= TURN and abs(between) <= TURN)
+    def look(self, arguments: Mapping[str, Any], what: str = "parameter") -> None:
+        """Warn of plain numbers that make angles beyond a whole turn."""
+        for name, place in self._places.items():
+            if name in arguments:
+                warn_of_degrees(f"{what} '{name}'", arguments[name], place)

@@ -136,6 +136,7 @@ class Plan:
                 answers.large_angles.look(parameters)
             stokes = fast_path[place]
         else:
+            answers.large_angles.look(parameters)
             stokes = answers.lights(parameters)[name]
         return Light.of(stokes, frame, noise=noise, wavelength=later)
 
@@ -162,6 +163,7 @@ class Plan:
             With every unknown, missing or unsuitable parameter.
         """
         check_named("run_all", unnamed, self.inputs.open)
+        self.answers.large_angles.look(parameters)
         return self.answers.in_frames(self.answers.lights(parameters), parameters)
 
     def stream(self, size: int = 1 << 20, /, *unnamed: Never, **parameters: Any) -> Iterator[Part]:

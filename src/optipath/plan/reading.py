@@ -10,7 +10,7 @@ import numpy as np
 from optipath.kernels.trigonometry import DIGITS
 from optipath.values.angles import CosSin
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, InputKey, part_of
-from optipath.values.precision import as_doubles, is_beyond
+from optipath.values.precision import as_doubles, within
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterable, Iterator, Mapping
@@ -161,7 +161,7 @@ class InputReader:
         if type(value) is not np.ndarray or not value.dtype.isnative:
             return False
         if value.dtype.char != "d" and (
-            value.dtype.char != "f" or is_beyond(value, self.inputs.limits[name])
+            value.dtype.char != "f" or within(value, self.inputs.limits[name]) is not value
         ):
             return False
         return bool(value.shape[value.ndim - len(tail) :] == tail)

@@ -13,7 +13,6 @@ from optipath.paths.files.values import decode, references_in
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_layers import SampleLayer
-from optipath.values.messages import units_are_written
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -99,8 +98,7 @@ def sample_of_text(text: str, path: Path) -> Sample:
     except PresetError as error:
         raise SurfaceError(*error.faults) from None
     try:
-        with units_are_written():
-            return _sample(document, path.parent)
+        return _sample(document, path.parent)
     except OptipathError as error:
         raise SurfaceError(*joined(error.within("file")), about=path.name) from None
 

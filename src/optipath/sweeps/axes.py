@@ -75,15 +75,11 @@ def grid_of(
     labels: dict[str, tuple[Any, str]] = {}
     for name, value in values.items():
         numbers = value.given
-        # Labels of half precision are none of pandas.
-        half = value.shown.dtype == np.float16
-        shown = value.shown.astype(np.float32) if half else value.shown
         if numbers.ndim:
-            message = value._replace(shown=shown)
-            axes.append(sweep_axis(inputs.open, name, message, dimensions[name]))
+            axes.append(sweep_axis(inputs.open, name, value, dimensions[name]))
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
-            labels[name] = shown, value.unit
+            labels[name] = value.shown, value.unit
     grid = SweepGrid(tuple(axes), fixed, labels)
     is_short = max(_LARGE, _SHORT * sum(map(len, axes))) < grid.points
     ranges = ranges or bool(faults) or is_short

@@ -23,7 +23,6 @@ from optipath.sweeps.datasets import (
 from optipath.sweeps.grid import SweepGrid
 from optipath.sweeps.labels import detectors_of, regions, variable_names
 from optipath.sweeps.plan_recipe import PlanRecipe
-from optipath.values.messages import units_are_written
 from optipath.values.precision import is_whole
 
 if TYPE_CHECKING:
@@ -151,10 +150,10 @@ class BlockLight:
 def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     """Return the light of a block."""
     plan, varied = recipe.plan, block.varied
-    with units_are_written():  # Who reads the axes has told of degrees among them.
-        results = [
-            plan.run_all(**varied.given(region)) for region in regions(varied.shape, _AT_ONCE)
-        ]
+    results = []
+    for region in regions(varied.shape, _AT_ONCE):
+        numbers = varied.given(region)
+        results.append(plan.answers.in_frames(plan.answers.lights(numbers), numbers))
     lights = [tuple([light[name] for light in results]) for name in detectors_of(plan)]
     return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)
 

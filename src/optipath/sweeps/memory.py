@@ -25,7 +25,6 @@ from optipath.sweeps.datasets import (
 )
 from optipath.sweeps.grid import refuse_more_than_free
 from optipath.sweeps.labels import detectors_of, variable_names
-from optipath.values.messages import units_are_written
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,8 +45,7 @@ def swept_in_memory(
     names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
     coords = coordinates_of(grid, plan)
     refuse_more_than_free(plan, grid.varied)
-    with units_are_written():  # Who reads the axes has told of degrees among them.
-        result = plan.answers.lights(grid.given())
+    result = plan.answers.lights(grid.given())
     lights = tuple([SweptLight(plan, grid, name, result[name]) for name in detectors_of(plan)])
     variables: dict[str, Any] = {}
     each = zip(*[light.components for light in lights], strict=True)

@@ -66,7 +66,8 @@ def propagate(
     request = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in arguments.items()}
     request.answers.large_angles.look(values)
-    request.answers.large_angles.look_at_uncertainties({n: arguments[n][1] for n in names})
+    uncertainties = {name: arguments[name][1] for name in names}
+    request.answers.large_angles.look(uncertainties, "the standard uncertainty of parameter")
     light_at = LightAt(request, detector, exact, tuple(uncertain))
     light = light_at({})
     if options.draws:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from contextlib import suppress
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NoReturn, Self
@@ -26,6 +27,14 @@ if TYPE_CHECKING:
 
 
 _PURE = "pure number"
+_OF_NUMPY: dict[Any, Callable[..., Any]] = {
+    np.add: operator.add,
+    np.subtract: operator.sub,
+    np.multiply: operator.mul,
+    np.true_divide: operator.truediv,
+    np.negative: operator.neg,
+    np.positive: operator.pos,
+}
 
 
 class Affine:
@@ -99,7 +108,7 @@ class Affine:
         return self.shaped(other.scale, other.offset, other.offset_dimension)
 
     def shaped(self, scale: float, offset: float, offset_dimension: str = "") -> Self:
-        """Return what stands for a multiple of the value plus an offset.
+        """Return a multiple of the value plus an offset.
 
         Parameters
         ----------
@@ -111,7 +120,6 @@ class Affine:
         Returns
         -------
         Affine
-            Of the same class and value.
         """
         return changed(self, scale=scale, offset=offset, offset_dimension=offset_dimension)
 
@@ -123,7 +131,7 @@ class Affine:
         numbers : float or ndarray
             What the value is.
         limits : tuple of float, optional
-            What it must be within.
+            What the result must be within.
 
         Returns
         -------
@@ -162,22 +170,14 @@ class Affine:
         return min(ends), max(ends)
 
     def checked_shape(self) -> tuple[float, float, str]:
-        """Return scale and offset as numbers, and the dimension that a text of it names.
-
-        Raises
-        ------
-        ParameterError
-            If they are not finite real numbers, the scale being other than 0.
-        UnitError
-            If the unit of the offset is unknown, or of another dimension than the value.
-        """
+        """Return scale and offset as numbers, and the dimension that a text of it names."""
         dimension, argument = self.offset_dimension, self.offset
         if type(argument) is type(self.scale) is float and (self.scale, argument) == (1.0, 0.0):
             return self.scale, argument, dimension
         if isinstance(argument, str):
-            argument, dimension = self.parsed(argument)
+            argument, dimension = self._parsed(argument)
         scale, offset = real_number(self.scale), real_number(argument)
-        if scale is None or scale == 0.0 or offset is None:
+        if not scale or offset is None:
             raise ParameterError(
                 f"parameter '{self.name}' can stand as scale * {self.name} + offset with finite "
                 f"real numbers and a scale other than 0, not with scale {shown(self.scale)} and "
@@ -194,11 +194,6 @@ class Affine:
             The place, as sentences name it.
         domain : Domain
             What the values there may be.
-
-        Raises
-        ------
-        ValueFault
-            If several numbers belong together there, or the offset has another dimension.
         """
         dimension = self.offset_dimension
         if domain.tail and not self.is_signed:
@@ -212,14 +207,14 @@ class Affine:
                 f"takes {domain.described()}; change its unit or where it is used"
             )
 
-    def parsed(self, text: str) -> tuple[Any, str]:
+    def _parsed(self, text: str) -> tuple[Any, str]:
         """Return the number that a text with a unit is as an offset, and its dimension."""
         own = dimension_of(self.unit) or self.offset_dimension
-        for dimension in [own.removeprefix(_PURE)] if own else USUAL_UNITS:
+        for dimension in [] if own else USUAL_UNITS:
             with suppress(UnitError):
                 return parse_quantity(text, dimension), dimension or _PURE
-        # For what it says of the unit.
-        return parse_quantity(text, own.removeprefix(_PURE) if own else "angle"), own
+        dimension = own.removeprefix(_PURE) if own else "angle"
+        return parse_quantity(text, dimension), dimension or _PURE
 
     def __neg__(self) -> Self:
         return self.shaped(-self.scale, 0.0 - self.offset, self.offset_dimension)
@@ -234,7 +229,7 @@ class Affine:
 
     def __truediv__(self, other: Any) -> Self:
         if not (divisor := real_number(other)):
-            self._refuse(f"divided by {_named(other)}")
+            self._refuse(f"divided by {_named(other)}", other)
         return self._made(self.scale / divisor, self.offset / divisor)
 
     def __add__(self, other: Any) -> Self:
@@ -248,10 +243,25 @@ class Affine:
 
     __rmul__, __radd__ = __mul__, __add__
 
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        """Do arithmetic with a number of NumPy, and refuse any other function."""
+        if ufunc in (np.equal, np.not_equal):
+            return ufunc is np.not_equal
+        numbers = [one if isinstance(one, Affine) else real_number(one) for one in inputs]
+        if ufunc not in _OF_NUMPY or method != "__call__" or options or None in numbers:
+            self._refuse(f"given to numpy.{ufunc.__name__}")
+        return _OF_NUMPY[ufunc](*numbers)
+
+    def _not_affine(self, *_: Any) -> NoReturn:
+        self._refuse("used so")
+
+    __pow__ = __rpow__ = __rtruediv__ = __mod__ = __abs__ = __float__ = _not_affine
+    __lt__ = __le__ = __gt__ = __ge__ = _not_affine
+
     def _shifted(self, other: Any, sign: float) -> Self:
         number, dimension = other, self.offset_dimension
         if isinstance(other, str):
-            number, dimension = self.parsed(other)
+            number, dimension = self._parsed(other)
         if (number := real_number(number)) is None:
             self._refuse(f"added to {_named(other)} or subtracted from it", other)
         return self._made(self.scale, self.offset + sign * number, dimension)
@@ -278,13 +288,6 @@ class Affine:
             f"and give them as the parameter, or write an element of your own"
         )
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        """Do what NumPy's own numbers ask for in arithmetic, and refuse any other function."""
-        operation = _OF_NUMPY.get(ufunc) if method == "__call__" and not options else None
-        if operation is None:
-            self._refuse(f"given to numpy.{ufunc.__name__}")
-        return operation(*inputs)
-
 
 def real_number(number: Any) -> float | None:
     """Return a finite real number as a float; None for what is none.
@@ -307,50 +310,3 @@ def _named(other: Any) -> str:
     if isinstance(other, Affine):
         return other.called
     return "a value of JAX" if is_jax(other) else shown(other)
-
-
-def _as_object(one: Any) -> Any:
-    """Return an object as an array of it, which NumPy compares as Python does."""
-    if not isinstance(one, Affine):
-        return one
-    array = np.empty((), object)
-    array[()] = one
-    return array
-
-
-def _reflected(name: str) -> Callable[[Any, Any], Any]:
-    """Return an operation that asks whichever of two is not NumPy's own."""
-
-    def operation(first: Any, second: Any) -> Any:
-        if isinstance(first, Affine):
-            return getattr(first, f"__{name}__")(second)
-        return getattr(second, f"__r{name}__")(first)
-
-    return operation
-
-
-def _refused(done: str) -> Callable[..., NoReturn]:
-    def method(self: Affine, *_: Any) -> NoReturn:
-        self._refuse(done)
-
-    return method
-
-
-_OF_NUMPY: dict[Any, Callable[..., Any]] = {
-    np.add: _reflected("add"),
-    np.subtract: _reflected("sub"),
-    np.multiply: _reflected("mul"),
-    np.true_divide: _reflected("truediv"),
-    np.negative: lambda one: -one,
-    np.positive: lambda one: one,
-    np.equal: lambda *both: np.equal(*map(_as_object, both)),
-    np.not_equal: lambda *both: np.not_equal(*map(_as_object, both)),
-}
-
-_REFUSED = (
-    "rtruediv matmul rmatmul floordiv rfloordiv mod rmod divmod rdivmod abs round trunc floor"
-)
-for _name in (_REFUSED + " ceil lt le gt ge float int complex").split():
-    setattr(Affine, f"__{_name}__", _refused(f"given to {_name}()"))
-for _name in ("__pow__", "__rpow__"):
-    setattr(Affine, _name, _refused("raised to a power"))

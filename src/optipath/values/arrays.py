@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from contextlib import contextmanager
@@ -17,15 +16,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ShapeError, ValueFault, collecting, shown
 from optipath.values.jax_values import is_jax, is_traced
-from optipath.values.precision import (
-    ENDLESS,
-    NARROW,
-    RIGHT_ANGLES,
-    Array,
-    doubles,
-    with_limits,
-    within,
-)
+from optipath.values.precision import ENDLESS, Array, doubles, within
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -36,31 +27,6 @@ if TYPE_CHECKING:
 _PLAIN = frozenset(
     {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
 )
-_DEEPEST = 64
-_FEW, _PATH = 2**20, 32
-"""How many numbers take no memory to speak of, and how many bytes a path of each takes."""
-_LONG = "gG"
-_LABELS = ("to_numpy", "dims", "coords", "columns")
-_UNITS = ("unit", "units")
-_CURES = {
-    "columns": "those of one column, [...].to_numpy()",
-    "to_numpy": ".to_numpy()",
-    "data_vars": "those of one variable, [...].values",
-    "values": ".values",
-}
-_ANY_CURE = "numpy.asarray(...)"
-_OURS = {
-    "Light": (
-        "and light is no number; only where a state is asked for give its Stokes vector, as in "
-        "op.Source(stokes=light.stokes), whose frame is not looked at; several lights of one frame "
-        "are op.Light([a.stokes, b.stokes], a.frame)"
-    ),
-    "Mueller": (
-        "whose frames are not looked at; only where a Mueller matrix is asked for give its numbers,"
-        " as in op.MuellerElement(mueller.matrix)"
-    ),
-}
-"""What is given in place of light and of what light meets."""
 
 
 def array_of(
@@ -69,7 +35,7 @@ def array_of(
     error: type[OptipathError] = ValueFault,
     limits: tuple[float, float] = ENDLESS,
 ) -> Array:
-    """Return an array of a value, of float64 at least; words beside numbers stay words.
+    """Return an array of a value, numbers as float64 or complex128; words among them stay words.
 
     >>> array_of("a turn", [0.5, "none"]).tolist()
     [0.5, 'none']
@@ -78,34 +44,26 @@ def array_of(
 
 
 def as_argument(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
-    """Return an array of a value, in the precision in which it is given.
+    """Return an array of a value, in its own precision; float16 as float64.
 
     >>> as_argument("a turn", [0.5, 1.0])
     array([0.5, 1. ])
     """
-    if type(value) in _PLAIN:
-        array = np.asarray(value)
-        if array.size <= _FEW and array.dtype.char not in _LONG:
-            return array
     try:
-        _refuse_endless(value)
-        kinds = _kinds(value, set())
-        _refuse_too_long(value)
-        array = np.asarray(value)
-        _refuse_beyond(array)
-    except _MoreThanNumbers as more:
-        raise error(f"{what} {more}") from None
+        reason = _more_than_numbers(value)
+        array = np.asarray(None if reason else value)
     except MemoryError:
         raise error(f"{what} takes more memory than there is; give fewer numbers") from None
     except Exception as fault:  # noqa: BLE001 - what is given may raise anything
         raise error(f"{what} {_reason(fault)}") from None
+    if reason:
+        raise error(f"{what} {reason}")
+    refuse_too_large(array.shape, array.itemsize, error=error)
     if array.dtype.kind == "U" and not isinstance(value, str):
         return np.asarray(value, dtype=object)
-    if array.dtype.type is np.float64:
-        # Among numbers of more precision, a right angle of less is a right angle all the same.
-        for kind in kinds.intersection(NARROW):
-            array = with_limits(array, kind, RIGHT_ANGLES)
-    return array
+    if array.dtype == np.float16:
+        return array.astype(np.float64)
+    return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
 
 
 def entries_of(
@@ -117,103 +75,47 @@ def entries_of(
     (0.5, '30 deg')
     """
     try:
-        _refuse_more(value)
-        _refuse_too_long(value)
-        # What never ends has no length.
-        if len(value) >= 0 and not isinstance(value, (str, bytes, AbstractSet, Mapping)):
+        reason = _more_than_numbers(value)
+        is_sequence = not isinstance(value, (str, bytes, AbstractSet, Mapping))
+        if not reason and is_sequence and len(value) >= 0:  # What never ends has no length.
             return tuple(value)
-        reason = f"must be a sequence of {each}, not {shown(value)}"
-    except _MoreThanNumbers as more:
-        reason = str(more)
-    except MemoryError:
-        reason = "takes more memory than there is"
     except Exception:  # noqa: BLE001 - what is given may raise anything
-        reason = f"must be a sequence of {each}, not {shown(value)}; for one, write [...]"
+        reason = ""
+    reason = reason or f"must be a sequence of {each}, not {shown(value)}; for one, write [...]"
     raise error(f"{what} {reason}")
 
 
-class _MoreThanNumbers(Exception):  # noqa: N818 - a reason, for the sentence around it
-    """Why something is no array; what comes behind the name of what it is given for."""
-
-
-def _kinds(value: Any, seen: set[int]) -> set[type]:
-    """Return the types of numbers in nested lists, each read once, as it may contain itself."""
-    if not isinstance(value, (list, tuple)):
-        if type(value) not in _PLAIN:
-            _refuse_more(value)
-        return {type(value)}
-    kinds = set(map(type, value))
-    if np.ndarray in kinds:
-        _refuse_count(sum(entry.size for entry in value if type(entry) is np.ndarray))
-    if kinds <= _PLAIN:
-        return kinds
-    seen.add(id(value))
-    several = (_kinds(entry, seen) for entry in value if id(entry) not in seen)
-    return set().union(*several)
-
-
-def _refuse_endless(value: Any) -> None:
-    """Refuse a list in itself, which NumPy would open for ever."""
-    depth = 0
-    while isinstance(value, (list, tuple)) and value:
-        value, depth = value[0], depth + 1
-        if depth > _DEEPEST:
-            raise _MoreThanNumbers(f"is a list in lists, more than {_DEEPEST} deep; give numbers")
-
-
-def _refuse_too_long(value: Any) -> None:
-    """Refuse what says how long it is, and is longer than there is memory for."""
-    # A view of one number as many takes none, until it is copied.
-    if isinstance(value, np.ndarray):
-        _refuse_count(value.size)
-    # A number of JAX has a length, and refuses to tell it.
-    elif not isinstance(value, (str, bytes)) and getattr(value, "ndim", None) != 0:
-        _refuse_count(len(value) if hasattr(type(value), "__len__") else 0)
-
-
-def _refuse_count(count: int) -> None:
-    if count > _FEW and count * _PATH > memory():
-        raise _MoreThanNumbers(f"has {count:.3g} entries, more than this machine has memory for")
-
-
-def _refuse_beyond(array: Array) -> None:
-    """Refuse numbers of more precision that are no doubles."""
-    if array.dtype.char in _LONG and np.any(np.isfinite(array) & (abs(array) > sys.float_info.max)):
-        raise _MoreThanNumbers("has a number beyond those of double precision; give smaller ones")
-
-
-def _refuse_more(value: Any) -> None:
-    """Refuse what has masked entries, a unit or labels."""
-    if type(value).__module__.partition(".")[0] == "optipath":
-        if (cure := _OURS.get(type(value).__name__)) is not None:
-            raise _MoreThanNumbers(f"is a {type(value).__name__}, {cure}")
-        return
-    if isinstance(value, type):
-        raise _MoreThanNumbers(f"is the class {value.__name__}, and none of its kind; make one")
+def _more_than_numbers(value: Any) -> str:
+    """Return why something is more than numbers, as a sentence goes on; mostly nothing."""
+    if type(value) in _PLAIN:
+        return ""
+    if isinstance(value, (list, tuple)):
+        if _PLAIN.issuperset(map(type, value)):
+            return ""
+        return next(filter(None, map(_more_than_numbers, value)), "")
+    kind = type(value)
+    if cure := getattr(kind, "instead_of_numbers", ""):
+        return f"is a {kind.__name__}, {cure}"
+    if kind.__module__.startswith("optipath.") or isinstance(value, type):
+        return ""
     mask = getattr(value, "mask", None)
     if not callable(mask) and np.any(mask):
-        raise _MoreThanNumbers(
-            "has masked entries; leave them out, .compressed(), or say what they are, .filled(...)"
+        return "has masked entries; leave them out, .compressed(), or fill them, .filled(...)"
+    if any(hasattr(value, name) for name in ("to_numpy", "dims", "coords", "columns")):
+        return (
+            f"is a {kind.__name__} with labels, which are not aligned here; give its numbers "
+            f"alone, as .to_numpy() does"
         )
-    if any(hasattr(value, name) for name in _LABELS):
-        cure = next((cure for name, cure in _CURES.items() if hasattr(value, name)), _ANY_CURE)
-        raise _MoreThanNumbers(
-            f"is a {type(value).__name__} with labels, by which nothing is aligned here; give its "
-            f"numbers alone, {cure}"
-        )
-    for name in _UNITS:
-        if (unit := getattr(value, name, None)) is not None:
-            raise _MoreThanNumbers(
-                f"has a unit, {shown(unit)}, which nothing looks at; give plain numbers, in "
-                f"radians or metres"
-            )
+    units = (getattr(value, name, None) for name in ("unit", "units"))
+    if (unit := next((unit for unit in units if unit is not None), None)) is not None:
+        return f"has a unit, {shown(unit)}; give plain numbers, in radians or metres"
+    return ""
 
 
 def _reason(fault: Exception) -> str:
     if type(fault).__name__ == "TracerArrayConversionError":
         return "is a value that JAX traces; do it outside of jit and grad, or give it to trace()"
-    said = [argument for argument in fault.args if type(argument) is str]
-    if any("inhomogeneous" in text for text in said):
+    if "inhomogeneous" in str(fault):
         return "has rows of unequal lengths; make it one shape"
     return f"cannot be made an array, which raises {shown(fault)}; give numbers"
 
@@ -431,19 +333,17 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
         return value
     try:
         array = as_argument("", value)
-        array = within(array, limits) if array.ndim and not widened else doubles(array, limits)
     except OptipathError:
         # A list is copied all the same.
         return tuple(value) if type(value) is list else value
-    if isinstance(value, (list, tuple, np.ndarray)) or array.dtype.kind != "O":
-        if array is value and array.ndim and array.flags.owndata and not array.flags.writeable:
-            return array
-        array = array.copy()
-        if array.ndim == 0:
-            return array.item()
-        array.flags.writeable = False
+    if array.dtype.kind == "O" and not isinstance(value, (list, tuple, np.ndarray)):
+        return value
+    array = within(array, limits) if array.ndim and not widened else doubles(array, limits)
+    if array.ndim == 0:
+        return array.item()
+    if array is value and array.flags.owndata and not array.flags.writeable:
         return array
-    return value
+    return locked(array.copy())
 
 
 def same(first: Any, second: Any) -> bool:
@@ -505,38 +405,29 @@ def numbers_for(
     >>> numbers_for("a turn", ["180 deg", 0.5], lambda text: parse_quantity(text, "angle"))
     array([3.14159265, 0.5       ])
     """
-    if not may_hold_texts(value):
-        return value
     if isinstance(value, str):
         return _number(what, value, parse, error)
+    if not isinstance(value, (list, tuple, np.ndarray, np.generic)):
+        return value
+    if isinstance(value, (np.ndarray, np.generic)) and value.dtype.kind not in "UO":
+        return value
     try:
         array = as_argument(what, value)
     except ValueFault:
         return value  # For validation to name.
-    entries = array.astype(object).ravel() if array.dtype.kind in "UO" else np.empty(0)
-    places = [place for place, entry in enumerate(entries) if isinstance(entry, str)]
-    if not places:
+    if array.dtype.kind not in "UO":
         return value
+    entries = array.astype(object).ravel()
     faults: list[str] = []
-    for place in places:
-        with collecting(faults, error):
-            entries[place] = _number(what, entries[place], parse, error)
+    for place, entry in enumerate(entries):
+        if isinstance(entry, str):
+            with collecting(faults, error):
+                entries[place] = _number(what, entry, parse, error)
     if faults:
         raise error(*dict.fromkeys(faults))
     if all(isinstance(entry, _NUMBER) and not isinstance(entry, bool) for entry in entries):
         entries = np.array(entries.tolist())
     return entries.reshape(array.shape)
-
-
-def may_hold_texts(value: Any) -> bool:
-    """Tell, quickly, whether a value is a text, or a list or an array of more than numbers.
-
-    >>> may_hold_texts("30 deg"), may_hold_texts(np.zeros(3)), may_hold_texts([0.5])
-    (True, False, True)
-    """
-    if isinstance(value, (np.ndarray, np.generic)):
-        return value.dtype.kind in "UO"
-    return isinstance(value, (str, list, tuple))
 
 
 def _number(what: str, text: str, parse: Callable[[str], T], error: type[OptipathError]) -> T:

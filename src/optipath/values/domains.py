@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import Cure, Fault, ValueFault, did_you_mean, shown
-from optipath.values.angles import TURN, CosSin, called
+from optipath.values.angles import TURN, CosSin, refused
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import Parameter
-from optipath.values.precision import as_doubles, doubles, held, rounding_of
+from optipath.values.precision import doubles, held, rounding_of
 from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 
 
@@ -26,6 +26,7 @@ class Domain:
     complex_parts: ClassVar[tuple[str, ...]] = ()
     of_numbers: ClassVar[str] = "finite"
     masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
+    takes_materials = False  # Whether a `Material` may stand for the number.
 
     name: str
     dimension: str = ""
@@ -49,8 +50,6 @@ class Domain:
         value = self.read(owner, value)
         argument = as_argument(owner, value)
         array = doubles(argument, (self.minimum, self.maximum))
-        if array.dtype.kind in "iu":
-            array = array.astype(np.float64)
         if array.dtype.kind not in "fc":
             raise ValueFault(f"{owner} {self._no_number(value, array)}")
         self._check_shape(owner, array.shape)
@@ -133,11 +132,6 @@ class Domain:
         del owner, value
         return ""
 
-    @property
-    def takes_materials(self) -> bool:
-        """Whether a `Material` may stand for the number."""
-        return self.name == "index of refraction"
-
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
         return read_only(value, (self.minimum, self.maximum))
@@ -174,20 +168,14 @@ class Domain:
             raise ValueFault(f"{owner} is complex; give {self.described()}")
         if np.isinf(self.minimum) and np.isinf(self.maximum):
             return
-        # Limits are doubles, and what rounds to one of them is inside.
-        rounded = as_doubles(array)
-        bad = ~self.allows(rounded)
+        bad = ~self.allows(array)
         if np.any(bad):
-            number = float(array[bad].ravel()[0])
-            value, meant = self.called(number)
-            raise ValueFault(
-                f"{owner} is {value}{first_place(bad)}; give {self.described()}{meant}"
-            )
+            text, hint = self.refused(float(array[bad].ravel()[0]))
+            raise ValueFault(f"{owner} is {text}{first_place(bad)}; give {self.described()}{hint}")
 
-    def called(self, number: float) -> tuple[str, str]:
-        """Return how a number that is not allowed is called, and what it was meant to be."""
-        limits = self.minimum, self.maximum
-        return called(number, self._text(number), self.dimension, limits)
+    def refused(self, number: float) -> tuple[str, str]:
+        """Return a number that is not allowed as a text, and what was meant; mostly nothing."""
+        return refused(number, self.unit, (self.minimum, self.maximum))
 
 
 def in_unit_of(value: Any, domain: Domain) -> Any:
@@ -255,7 +243,7 @@ class YesNo(Choice):
 class FractionDomain(Domain):
     """Real numbers of 0 to 1.
 
-    >>> FractionDomain("fraction", minimum=0.0, maximum=1.0).called(50.0)
+    >>> FractionDomain("fraction", minimum=0.0, maximum=1.0).refused(50.0)
     ('50', '; did you mean 0.5?')
     """
 
@@ -264,10 +252,9 @@ class FractionDomain(Domain):
             raise ValueFault(f"'{text}' is in per cent; give a fraction, such as 0.5 for '50 %'")
         return super().parse(text)
 
-    def called(self, number: float) -> tuple[str, str]:
-        text, nothing = super().called(number)
-        per_cent = 2.0 <= number <= 100.0
-        return text, f"; did you mean {number / 100.0:g}?" if per_cent else nothing
+    def refused(self, number: float) -> tuple[str, str]:
+        text, nothing = super().refused(number)
+        return text, f"; did you mean {number / 100.0:g}?" if 2.0 <= number <= 100.0 else nothing
 
 
 class ExtinctionDomain(Domain):

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
-from optipath.errors import Cure, Fault, ParameterError, did_you_mean, having, shown
+from optipath.errors import Cure, Fault, ParameterError, did_you_mean, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-    from contextlib import AbstractContextManager
 
 
 def no_value(name: str) -> Fault:
@@ -58,16 +56,3 @@ def check_named(
         written = f"{known[0]}={shown(value)}"
     written = f"{first}, {written}" if first else written
     raise ParameterError(f"values are given by name: {call}({written}){did_you_mean('', known)}")
-
-
-UNITS_ARE_WRITTEN: ContextVar[bool] = ContextVar("UNITS_ARE_WRITTEN", default=False)
-
-
-def units_are_written() -> AbstractContextManager[None]:
-    """Let no number inside be taken for one of degrees: all come from texts with units.
-
-    >>> with units_are_written():
-    ...     print(UNITS_ARE_WRITTEN.get())
-    True
-    """
-    return having(UNITS_ARE_WRITTEN, value=True)

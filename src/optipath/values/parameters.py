@@ -21,22 +21,15 @@ from optipath.errors import (
     there_are,
 )
 from optipath.values.affine import Affine
-from optipath.values.angles import (
-    CosSin,
-    called,
-    has_plain_degrees,
-    is_within_a_turn,
-    warn_of_degrees,
-)
+from optipath.values.angles import TURN, CosSin, refused, warn_of_degrees
 from optipath.values.arrays import array_of, as_argument, first_place, numbers_for, read_only, same
 from optipath.values.jax_values import is_traced, namespace
-from optipath.values.precision import doubles, traced_within, within
+from optipath.values.precision import doubles, within
 from optipath.values.units import (
     INFINITE,
     USUAL_UNITS,
     dimension_of,
     displayed,
-    finite_number,
     format_quantity,
     format_range,
     is_of_decibels,
@@ -145,12 +138,14 @@ class Parameter(Affine):
                 f"parameter '{self.name}' cannot keep a cosine and a sine; give them when the "
                 f"plan runs, or give an angle"
             )
-        if self.default is not None:
-            vars(self)["is_listed"] = isinstance(self.default, (list, tuple))
-            vars(self)["is_material"] = hasattr(type(self.default), "refractive_index")
-            default = read_only(self._as_number(self.default), (low, high), widened=False)
-            object.__setattr__(self, "default", default)
-            self.resolve(self.default)
+        if (argument := self.default) is not None:
+            default = read_only(self._as_number(argument), (low, high), widened=False)
+            vars(self)["is_listed"] = isinstance(argument, (list, tuple))
+            vars(self).update(default=default, is_material=is_material(argument))
+            self.resolve(default)
+            # Whoever binds a value looks at it where it stands.
+            if dimension_of(self.unit) == "angle" and not self.bound:
+                warn_of_degrees(f"parameter '{self.name}'", argument)
         elif self.bound:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
 
@@ -218,8 +213,8 @@ class Parameter(Affine):
         raw = self._number_of(raw)
         limits = limits or (self.minimum, self.maximum)
         if is_traced(raw):
-            return Resolved(traced_within(raw, limits), THERE)
-        # Arrays stay in the precision in which they are given, by which some are judged.
+            return Resolved(within(raw, limits), THERE)
+        # Arrays of float32 stay so, as some are judged by their precision.
         array = within(as_argument(f"parameter '{self.name}'", raw, ParameterError), limits)
         present = np.ones(array.shape, dtype=bool)
         if array.dtype.kind in "USO":
@@ -228,8 +223,7 @@ class Parameter(Affine):
             array = np.array([0.0 if e is None else e for e in entries]).reshape(array.shape)
         elif array.dtype.kind not in "iufc":
             raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(raw)}")
-        if array.dtype.kind in "iu":
-            array = array.astype(np.float64)
+        array = array if array.ndim and array.dtype.char in "fF" else doubles(array)
         self._check_range(array)
         return Resolved(array if array.ndim else doubles(array), present)
 
@@ -237,7 +231,7 @@ class Parameter(Affine):
         """Return the numbers that a `CosSin` or a `Material` stands for; else what is given."""
         if isinstance(argument, CosSin):
             return self._angle(argument)
-        is_index = hasattr(type(argument), "refractive_index") and not dimension_of(self.unit)
+        is_index = is_material(argument) and not dimension_of(self.unit)
         return argument.refractive_index if is_index else argument
 
     def _angle(self, argument: CosSin) -> Any:
@@ -331,15 +325,16 @@ class Parameter(Affine):
         if not np.any(bad := ~self.allows(array)):
             return
         if not np.isfinite(value := array[bad].ravel()[0]):
-            place, wanted = first_place(~np.isfinite(array)), finite_number(value, self.unit)
-            raise ParameterError(f"parameter '{self.name}' is {value}{place}; give {wanted}")
-        number, limits = float(value), (self.minimum, self.maximum)
-        plain = dimension_of(self.unit) == "angle" and has_plain_degrees(*limits)
-        unit = "" if plain else self.unit
-        argument, meant = called(number, format_quantity(number, unit), dimension_of(unit), limits)
+            place = first_place(~np.isfinite(array))
+            raise ParameterError(f"parameter '{self.name}' is {value}{place}; give a finite number")
+        limits = self.minimum, self.maximum
+        # Beyond a turn, limits are those of a number of degrees, which the path makes radians.
+        of_degrees = any(TURN < abs(end) < math.inf for end in limits)
+        unit = "" if of_degrees and dimension_of(self.unit) == "angle" else self.unit
+        text, hint = refused(float(value), unit, limits)
         raise ParameterError(
-            f"parameter '{self.name}' is {argument}{first_place(bad)}, outside its range; give "
-            f"{format_range(*limits, unit)}{meant}"
+            f"parameter '{self.name}' is {text}{first_place(bad)}, outside its range; give "
+            f"{format_range(*limits, unit)}{hint}"
         )
 
 
@@ -410,26 +405,33 @@ def read_specification(parameter: Any) -> dict[str, Any]:
         raise ParameterError(*faults)
     # Whoever binds a value looks at it where it stands.
     if dimension == "angle" and parameter.bound is not True:
-        _warn_of(name, limits | _by_phrase(named))
-        if not is_within_a_turn(results["minimum"], results["maximum"]):
-            warn_of_degrees(f"parameter '{name}'", parameter.default)
+        _warn_of_limits(name, **limits, words=named)
     return results
 
 
 def warn_where_it_stands(parameter: Any) -> None:
     """Warn of limits and words of a parameter that is an angle since it stands for one."""
-    limits = {end: getattr(parameter, end) for end in ("minimum", "maximum")}
-    _warn_of(parameter.name, limits | _by_phrase(parameter.words), parameter)
+    limits = parameter.minimum, parameter.maximum
+    _warn_of_limits(parameter.name, *limits, parameter.words, parameter)
 
 
-def _warn_of(name: str, numbers: Mapping[str, Any], place: Affine | None = None) -> None:
-    """Warn of each number beyond a whole turn, by what it is of an angle of this name."""
-    for what, number in numbers.items():
-        warn_of_degrees(f"the {what} of parameter '{name}'", number, place)
+def _warn_of_limits(
+    name: str,
+    minimum: Any,
+    maximum: Any,
+    words: Mapping[str, Any],
+    place: Affine | None = None,
+) -> None:
+    """Warn of plain numbers beyond a whole turn among the limits and words of an angle."""
+    warn_of_degrees(f"the minimum of parameter '{name}'", minimum, place)
+    warn_of_degrees(f"the maximum of parameter '{name}'", maximum, place)
+    for word, number in words.items():
+        warn_of_degrees(f"the word '{word}' of parameter '{name}'", number, place)
 
 
-def _by_phrase(words: Mapping[str, Any]) -> dict[str, Any]:
-    return {f"word '{word}'": number for word, number in words.items()}
+def is_material(argument: Any) -> bool:
+    """Tell whether an argument is a `Material`, which stands for an index of refraction."""
+    return getattr(type(argument), "stands_for_index", False) is True
 
 
 def _first_unit(values: list[Any]) -> str:

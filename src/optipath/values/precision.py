@@ -1,9 +1,8 @@
-"""Precision: float64, float32 and longdouble, rounding of limits, whole numbers."""
+"""Precision: float64, float32 and longdouble, limits as float32 rounds them, whole numbers."""
 
 from __future__ import annotations
 
 import math
-import operator
 import warnings
 from contextlib import suppress
 from numbers import Integral
@@ -14,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import ComposerError, shown
-from optipath.values.jax_values import is_jax
+from optipath.values.jax_values import is_jax, is_traced
 
 DTYPES = ("float64", "float32", "longdouble")
 _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
@@ -47,7 +46,7 @@ def precision_name(argument: Any) -> str:
 
 
 def _character(argument: Any) -> str:
-    """Return NumPy's character for a dtype in the order of bytes of the machine, or nothing."""
+    """Return NumPy's character for a native dtype, or nothing."""
     if argument is None:  # NumPy takes it for float64.
         return ""
     try:
@@ -69,35 +68,23 @@ def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
 
 
 def coarser(*numbers: Any) -> Any:
-    """Return the dtype of the array of least precision, float32 at least.
+    """Return the dtype of the array of least precision.
 
     >>> coarser(np.ones(2), np.ones(2, np.float32))
     dtype('float32')
     """
-    return max(np.dtype("f4"), min((n.dtype for n in numbers), key=_size), key=_size)
-
-
-def at_least_single(numbers: Any) -> Any:
-    """Return numbers as arithmetic takes them: half precision, which ends at 65504, as float32.
-
-    >>> at_least_single(np.ones(2, np.float16)).dtype, at_least_single(np.ones(2)).dtype
-    (dtype('float32'), dtype('float64'))
-    """
-    return numbers.astype(np.float32) if numbers.dtype == np.float16 else numbers
-
-
-def _size(dtype: Any) -> int:
-    return int(dtype.itemsize)
+    return min((n.dtype for n in numbers), key=lambda dtype: int(dtype.itemsize))
 
 
 Array = np.ndarray[Any, Any]
 Numbers = npt.NDArray[np.float64]
 
 ENDLESS = (-math.inf, math.inf)
-RIGHT_ANGLES = (-math.pi / 2.0, math.pi / 2.0)
-"""Limits of angles, which single precision rounds up."""
+_RIGHT_ANGLES = (-math.pi / 2.0, math.pi / 2.0)
+"""Limits of angles, which float32 rounds to numbers beyond them."""
 
-NARROW = (np.float16, np.float32)
+_SUMMED = 2.0**-51
+"""How many parts of its terms a sum is rounded by, at most."""
 
 
 def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
@@ -114,20 +101,19 @@ def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
 
 
 def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
-    """Return numbers of less precision than double as doubles, and others as they are.
+    """Return numbers as float64 or complex128, and all else as it is.
 
-    Numbers beyond a limit or a right angle by their rounding become it, as in `within`.
+    Of float32, what equals a limit or a right angle but for its rounding becomes it.
 
     >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
     True
     """
-    kind = array.dtype.type
-    if kind is np.float64:
+    if array.dtype.type is np.float64:
         return array
-    if kind is np.complex64:
-        return array.astype(np.complex128)
-    array = within(array, limits)
-    return within(array, RIGHT_ANGLES).astype(np.float64) if kind in NARROW else array
+    kind = array.dtype.kind
+    if kind in "fiu":
+        return as_doubles(within(within(array, limits), _RIGHT_ANGLES))
+    return array.astype(np.complex128) if kind == "c" else array
 
 
 def as_doubles(array: Array) -> Array:
@@ -140,88 +126,38 @@ def as_doubles(array: Array) -> Array:
         return array.astype(np.float64, copy=False)
 
 
-def within(array: Array, limits: tuple[float, float]) -> Array:
-    """Return numbers, as doubles if some exceed a limit by rounding, those as that limit.
+def within(numbers: Any, limits: tuple[float, float]) -> Any:
+    """Return numbers; of float32, as float64 if any exceeds a limit by its rounding alone.
 
     >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
     0.1
     """
-    if is_beyond(array, limits):
-        return with_limits(array.astype(np.float64), array.dtype.type, limits)
-    if array.dtype.type is np.longdouble and limits != ENDLESS:
-        beyond = (array < limits[0]) | (array > limits[1])
-        near = as_doubles(array)
-        return np.where(beyond & np.isin(near, limits), near, array)
-    return array
-
-
-def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
-    """Tell whether numbers of less precision than double are beyond a limit, rounded to that.
-
-    >>> is_beyond(np.float32([0.5, np.pi / 2.0]), (0.0, np.pi / 2.0))
-    True
-    """
-    kind = array.dtype.type
-    if kind not in NARROW or not array.size:
-        return False
-    low, high = _rounded(kind, limits)
-    return bool(
-        (low < limits[0] and array.min() == low) or (high > limits[1] and array.max() == high)
-    )
-
-
-def traced_within(numbers: Any, limits: tuple[float, float]) -> Any:
-    """Return numbers that JAX traces as `within` does, with their slopes.
-
-    >>> float(traced_within(np.float32(np.pi / 2.0), (0.0, np.pi / 2.0))) == np.pi / 2.0
-    True
-    """
-    kind = np.dtype(numbers.dtype).type
-    if kind in NARROW:
-        for limit, rounded in zip(limits, _rounded(kind, limits), strict=True):
-            if limit != rounded:
-                # The difference is exact, and a sum keeps slopes.
-                numbers = numbers - (numbers == kind(rounded)) * np.float64(rounded - limit)
+    if numbers.dtype != np.float32:
+        return numbers
+    for limit, outward in zip(limits, (-1.0, 1.0), strict=True):
+        with np.errstate(over="ignore", under="ignore"):
+            rounded = np.float32(limit)
+        beyond = float(rounded) - limit
+        # A limit that is 0 or infinite in float32 says nothing.
+        if rounded and math.isfinite(rounded) and beyond * outward > 0.0:
+            at_limit = numbers == rounded
+            if is_traced(numbers) or np.any(at_limit):
+                # The difference is exact, and keeps the slopes of JAX.
+                numbers = numbers - at_limit * np.float64(beyond)
     return numbers
 
 
 def rounding_of(array: Array) -> float:
-    """Return the rounding of numbers of less precision than double; 0 for all others.
+    """Return the rounding of float32; 0 for all other numbers.
 
     >>> rounding_of(np.ones(3, np.float32)) == 2.0**-23, rounding_of(np.ones(3))
     (True, 0.0)
     """
-    return float(np.finfo(array.dtype).eps) if array.dtype.type in NARROW else 0.0
-
-
-def _rounded(kind: Any, limits: tuple[float, float]) -> tuple[float, float]:
-    """Return limits rounded to a precision; what is 0 or infinite in it says nothing."""
-    with np.errstate(over="ignore", under="ignore"):
-        low, high = (float(kind(limit)) for limit in limits)
-    return (
-        low if low and low > -math.inf else limits[0],
-        high if high and high < math.inf else limits[1],
-    )
-
-
-def with_limits(array: Array, kind: Any, limits: tuple[float, float]) -> Array:
-    """Return doubles; those beyond a limit by its rounding to a precision, as the limit.
-
-    >>> float(with_limits(np.array([1.0 + 2.0**-23]), np.float32, (0.0, 1.0 + 1e-7))[0])
-    1.0000001
-    """
-    low, high = _rounded(kind, limits)
-    if low < limits[0]:
-        array = np.where(array == low, limits[0], array)
-    return np.where(array == high, limits[1], array) if high > limits[1] else array
-
-
-_ROUNDINGS = 2.0**-51
-"""How many parts of its terms a sum is rounded by, at most."""
+    return float(np.finfo(np.float32).eps) if array.dtype == np.float32 else 0.0
 
 
 def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float] = ENDLESS) -> Any:
-    """Return a multiple of numbers plus an offset.
+    """Return a multiple of numbers plus an offset; at a limit where rounding alone is beyond it.
 
     >>> affine(2.0, 0.5, np.float32([0.25]))
     array([1.])
@@ -232,19 +168,16 @@ def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float
         numbers = numbers.astype(np.result_type(numbers, np.float64), copy=False)
     with np.errstate(over="ignore"):  # What is not finite is told by who looks at it.
         result = scale * numbers + offset
-    return result if is_jax(result) else _resolved(result, limits, offset)
-
-
-def _resolved(result: Any, limits: tuple[float, float], offset: float) -> Any:
-    """Return sums; what is beyond a limit by the rounding of a sum alone, as that limit."""
-    if limits == ENDLESS or np.iscomplexobj(result):
+    if limits == ENDLESS or is_jax(result) or np.iscomplexobj(result):
         return result
-    for limit, beyond in zip(limits, (operator.lt, operator.gt), strict=True):
-        outside = beyond(result, limit)
-        if np.any(outside) and math.isfinite(limit):
-            apart = _ROUNDINGS * (abs(limit) + abs(offset))
-            resolved = np.where(outside & (abs(result - limit) <= apart), limit, result)
-            result = resolved if np.ndim(result) else type(result)(resolved)
+    for limit, outward in zip(limits, (-1.0, 1.0), strict=True):
+        if not math.isfinite(limit):
+            continue
+        apart = (result - limit) * outward
+        near = (apart > 0.0) & (apart <= _SUMMED * (abs(limit) + abs(offset)))
+        if np.any(near):
+            summed = np.where(near, limit, result)
+            result = summed if np.ndim(result) else type(result)(summed)
     return result
 
 

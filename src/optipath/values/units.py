@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from optipath.errors import UnitError, did_you_mean, shown
 
@@ -337,17 +337,6 @@ def without_unit(number: str, unit: str) -> str:
 def is_of_decibels(unit: str) -> bool:
     """Tell whether what stands behind a number says decibels, which are no unit here."""
     return unit.lower() == "db"
-
-
-def finite_number(value: Any, unit: str) -> str:
-    """Return what to give in place of a number that is not finite.
-
-    >>> finite_number(math.nan, ""), finite_number(math.inf, "")
-    ('a finite number', 'a finite number, 1e30 for an extinction ratio without end')
-    """
-    if unit or value != math.inf:
-        return "a finite number"
-    return "a finite number, 1e30 for an extinction ratio without end"
 
 
 _LENGTH_NAMES = {"nano": "nm", "micro": "um", "milli": "mm", "centi": "cm", "deci": "dm", "": "m"}

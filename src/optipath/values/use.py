@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, ValueFault, collecting, having
-from optipath.values.angles import is_of_an_angle, meant_in_degrees, warn_of_degrees
+from optipath.values.angles import warn_of_degrees
 from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed
 from optipath.values.domains import Domain, OptionalDomain, in_unit_of
 from optipath.values.jax_values import is_traced, namespace
-from optipath.values.messages import units_are_written
 from optipath.values.parameters import (
     AXES,
     THERE,
     Parameter,
+    is_material,
     unknown_word,
     warn_where_it_stands,
     word_meant,
@@ -132,7 +132,7 @@ class Use:
 
     def doubt(self, argument: Any) -> str:
         """Ask what a list or a `Material` that is given for the parameter means; mostly nothing."""
-        if hasattr(type(argument), "refractive_index") and not self.domain.takes_materials:
+        if is_material(argument) and not self.domain.takes_materials:
             return self._no_index(argument)
         if not isinstance(argument, (list, tuple)):
             return ""
@@ -164,27 +164,8 @@ class Use:
         placed = value.placed(numbers, self.domain.interval)
         if not np.all(present):
             placed = np.where(present, placed, 0.0)
-        try:
-            # What arithmetic has made of a number is not what somebody has written.
-            with units_are_written():
-                what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
-                self.domain.check(what, placed)
-        except ValueFault as fault:
-            raise ValueFault(
-                *(each.but(reason=each.reason + self._meant(numbers)) for each in fault.faults)
-            ) from None
-
-    def _meant(self, numbers: Any) -> str:
-        """Return what a number given for a multiple was meant to be, if it is one of degrees."""
-        of_angle = self.domain.dimension == "angle" and is_of_an_angle(self.value.scale)
-        if not of_angle or np.iscomplexobj(numbers):
-            return ""
-
-        def allows(number: Any) -> Any:
-            return self.domain.allows(np.asarray(self.value.placed(number, self.domain.interval)))
-
-        refused = np.ravel(numbers)[~np.ravel(allows(np.asarray(numbers)))]
-        return meant_in_degrees(float(refused[0]), allows) if refused.size else ""
+        what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
+        self.domain.check(what, placed)
 
 
 T = TypeVar("T")

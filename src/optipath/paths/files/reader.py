@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.composer.path_values import Values
@@ -20,7 +21,6 @@ from optipath.paths.path_graph import PathGraph
 from optipath.values.cases import Case, name_faults
 from optipath.values.curve_value import CurveValue
 from optipath.values.domains import Domain
-from optipath.values.messages import units_are_written
 from optipath.values.parameters import Parameter, checked_name
 from optipath.values.units import USUAL_UNITS, dimension_of, with_article
 from optipath.values.use import checked_later
@@ -47,8 +47,7 @@ def path_of_text(text: str, source: str, about: str = "") -> PathGraph:
             f"'{source}' has format {shown(number)}, but this version reads format {FORMAT}"
         )
     try:
-        with units_are_written():
-            return read(document)
+        return read(document)
     except RecursionError:
         raise PresetError(f"'{source}' is too deeply nested") from None
     except OptipathError as error:
@@ -147,14 +146,26 @@ def _parameter(name: str, table: Any, of_light: bool) -> Parameter:  # noqa: FBT
     }
     limits = faults.attempt(".range", _limits, table["range"], domain) if "range" in table else {}
     faults.refuse()
-    keys: Table = {"unit": unit, "words": words, "help": table.get("help", "")} | (limits or {})
+    words = {word: _as_text(number, dimension) for word, number in words.items()}
+    keys: Table = {"unit": unit, "words": words, "help": table.get("help", "")}
+    keys |= {end: _as_text(limit, dimension) for end, limit in (limits or {}).items()}
     keys["optional"] = table.get("optional", False)
     default = None
     if "default" in table:
         bare = kind(name, None, **keys)
         default = faults.attempt(".default", decode_argument, table["default"], bare)
     faults.refuse()
-    return kind(name, default, bound=table.get("bound", False), **keys)
+    return kind(name, _as_text(default, dimension), bound=table.get("bound", False), **keys)
+
+
+def _as_text(value: Any, dimension: str) -> Any:
+    """Return an angle that has been read as a text again: a plain number might be one of degrees.
+
+    >>> _as_text(0.5, "angle"), _as_text(0.5, "length")
+    ('0.5 rad', 0.5)
+    """
+    is_angle = dimension == "angle" and type(value) is float and math.isfinite(value)
+    return f"{value} rad" if is_angle else value
 
 
 def _limits(raw: list[Any], domain: Domain) -> Table:
