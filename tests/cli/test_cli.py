@@ -211,13 +211,7 @@ def test_accuracy_prints_its_tables_and_writes_them_into_their_place(run, tmp_pa
     assert text.count("| generic |") == 3
 
 
-def test_faint_light_psi_and_delta_and_a_warning_are_told(run, told, found, tmp_path):
-    path = op.Source() >> op.Attenuator(1e-200) >> op.Attenuator(1e-200) >> op.Detector()
-    (tmp_path / "faint.toml").write_text(path.to_toml(), "utf-8")
-    assert re.search(r"log10 S0 +│ -400 ", told("run faint.toml"))
-    (light,) = found("run faint.toml")["detectors"].values()
-    assert light["log10_intensity"] == pytest.approx(-400)
-    assert light["normalized"] == [1, 0, 0, 0]
+def test_psi_and_delta_and_a_warning_are_told(run, told, found, tmp_path):
     status, _, err = run("run glass-slab --theta 89.9999")
     assert (status, err.count("\n")) == (0, 1)
     assert err.startswith("optipath: of the light that goes round at 'front.transmitted'")

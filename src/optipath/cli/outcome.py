@@ -174,10 +174,6 @@ def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
     }
     messages["units"] = {key: each.shown_unit for key, each in FIGURES.items() if each.shown_unit}
     results = {"stokes": plain(light.stokes), "polarization": messages}
-    if np.any(light.exponent):
-        # Too faint for the numbers above: they are 0, and these are not.
-        results["log10_intensity"] = plain(light.log10_intensity)
-        results["normalized"] = plain(light.normalized)
     return results | ({"published": list(published)} if published else {})
 
 
@@ -300,9 +296,6 @@ def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
             yield word, f"{numbers.text(number)} {unit}".strip() + behind
         elif not unread:
             yield word, _UNDEFINED
-    if light.exponent:
-        yield "log10 S0", numbers.text(float(light.log10_intensity))
-        yield "over S0", ", ".join(map(numbers.text, light.normalized.tolist()))
 
 
 def _batch_table(
