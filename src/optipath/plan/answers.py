@@ -9,7 +9,7 @@ from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.plan.inputs import LargeAngles
-from optipath.plan.interpreters import noise_at
+from optipath.plan.noise import noise_at
 from optipath.plan.outlets import LaterFrame, LaterWavelength, wavelengths_among
 from optipath.plan.questions import BoundsQuestion, ErrorsQuestion, LightQuestion, MatrixQuestion
 from optipath.plan.reading import RunOptions
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from optipath.engines.program import Program, Reading
     from optipath.plan.approximation import Approximation
     from optipath.plan.certificate import Certificate
-    from optipath.plan.interpreters import NoiseInterpreter
+    from optipath.plan.noise import NoiseInterpreter
     from optipath.plan.runner import Runner
 
 
@@ -44,7 +44,7 @@ class Answers:
     @cached_property
     def noise(self) -> NoiseInterpreter:
         """What finds the noise of light."""
-        from optipath.plan.interpreters import NoiseInterpreter  # noqa: PLC0415 - hardly ever needed
+        from optipath.plan.noise import NoiseInterpreter  # noqa: PLC0415 - hardly ever needed
 
         return NoiseInterpreter(self.plan.whole, self.light.dtype)
 

@@ -1,23 +1,26 @@
-"""Interpreter: a program run step by step, loops and physical checks included.
-
-Where little light leaves a loop, 1 - gain loses digits, so elements of a loop are evaluated and
-summed in twice the precision, by the same kernels.
-"""
+"""Interpreter: a program run step by step, physical checks included."""
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from functools import partial, reduce
 from math import prod
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from optipath.engines.execute import evaluated, execute, whole_matrices
+from optipath.engines.formula import (
+    DOUBLE,
+    FROM_ANY,
+    FROM_NEARER,
+    LEFT,
+    is_in_first_quadrant,
+    of_angle,
+)
 from optipath.engines.path_formula import slack_of
-from optipath.engines.program import LoopSolver
-from optipath.errors import LoopWarning, ParameterError
+from optipath.engines.program import carrying
+from optipath.errors import ParameterError
 from optipath.kernels.carriers.carrier import (
     JonesCarrier,
     MatrixCarrier,
@@ -25,24 +28,24 @@ from optipath.kernels.carriers.carrier import (
     StokesCarrier,
 )
 from optipath.kernels.carriers.intensities import BoundsCarrier
-from optipath.kernels.carriers.structures import ROTATION
-from optipath.kernels.double_double import DoubleDouble, twice
+from optipath.kernels.exponential import reproducible_numpy
 from optipath.kernels.primitives import NUMPY
+from optipath.kernels.trigonometry import DIGITS
 from optipath.light.decompositions import lack, tolerance_for
 from optipath.light.underflow import underflows, unscaled
-from optipath.values.angles import calls_up
+from optipath.plan.loops import CloserLook, check_gains
 from optipath.values.arrays import joint_shape
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
-    from optipath.engines.program import Loop, Program, Reading
+    from optipath.engines.program import LoopSolver, Program, Reading
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.kernels.carriers.structures import Numbers
     from optipath.plan.reading import ResolvedInputs
-    from optipath.values.operands import Operand
+    from optipath.values.operands import Operand, Ranges
 
     Array = np.ndarray[Any, Any]
 
@@ -60,23 +63,44 @@ def carrier_of(program: Program, composing: str) -> type[Carrier]:
 
 
 class Interpreter:
-    """Runs a program without compiling anything."""
+    """Runs a program without compiling anything.
 
-    def __init__(self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any]) -> None:
+    With limits, a path comes to the same bits alone and in any batch, and to those of formulas. A
+    given number is an array then, since kernels choose the cheaper way where one is a plain 0.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        carrier: type[Carrier],
+        dtype: np.dtype[Any],
+        limits: Ranges | None = None,
+    ) -> None:
         self.program = program
         self.carrier = carrier
         self.dtype = dtype
-        self._carriers = {kind: kind(NUMPY) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
+        self.limits = limits
+        self.xp = NUMPY if limits is None else reproducible_numpy(dtype.name)
+        self._carriers = {k: k(self.xp) for k in (carrier, ScaledCarrier, MatrixCarrier)}
+        self._carrying = program, self._carriers[carrier]
+        if limits is not None:
+            self._carrying = carrying(program, carrier, self.xp, dtype.name)
         self._known: list[Any] | None = None
 
     def lights(
         self, arguments: ResolvedInputs, shared: Shared | None = None
     ) -> list[np.ndarray[Any, Any]]:
         """Return Stokes vectors (..., 4) at every end; for parts, see `shared`."""
+        batch, arguments = arguments.batch, self._as_batch(arguments)
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
-        return self._results(arguments, own)
+        return [stokes.reshape(*batch, 4) for stokes in self._results(arguments, own)]
+
+    def _as_batch(self, arguments: ResolvedInputs) -> ResolvedInputs:
+        """Return what is given, one path as a batch of one if it is to have the same bits."""
+        alone = self.limits is not None and not arguments.batch
+        return arguments._replace(batch=(1,)) if alone else arguments
 
     def shared(self, arguments: ResolvedInputs) -> Shared:
         """Return evaluations along a few axes of a batch only, no larger than its light."""
@@ -99,7 +123,8 @@ class Interpreter:
         self, arguments: ResolvedInputs, source: str, reading: Reading
     ) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
-        none = self.dtype.type(0.0)
+        none, shape = self.dtype.type(0.0), (*arguments.batch, 4, 4)
+        arguments = self._as_batch(arguments)
         begin, _ = self.program.sources[source]
 
         def emitted(part: ResolvedInputs) -> dict[int, Components]:
@@ -109,10 +134,11 @@ class Interpreter:
 
         lights = self._execute(arguments, self._carriers[MatrixCarrier], emitted)
         stokes = _stack(lights[reading.light][0], (4, *arguments.batch), reading, self.dtype)
-        return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
+        return np.ascontiguousarray(np.moveaxis(stokes, 0, -1)).reshape(shape)
 
     def bounds(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
         """Return what `BoundsCarrier` reads at every end, shape (4, ...)."""
+        batch, arguments = arguments.batch, self._as_batch(arguments)
         operands = self.operands(arguments)
         with np.errstate(all="ignore"):
             matrices = whole_matrices(
@@ -130,15 +156,28 @@ class Interpreter:
             message = np.all(np.isfinite(parts), axis=0)
             parts[1] = np.where(message, parts[1], 0.0)
             parts[2] = np.where(message, parts[2], np.inf)
-            read.append(parts)
+            read.append(parts.reshape(4, *batch))
         return read
 
     def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[Array]:
         """Return light; what is so faint that numbers on the way underflow is carried scaled."""
-        result = self._stacked(arguments, self._carriers[self.carrier], shared)
-        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s in result):
-            result = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
-        return result
+        program, carrier = self._carrying
+        if program is self.program:
+            result = self._stacked(arguments, carrier, shared)
+        else:
+            with np.errstate(all="ignore"):
+                lights = execute(program, self.operands(arguments), carrier, number=self.number)
+            result = self._read(arguments, lights)
+        if self.carrier is not StokesCarrier:
+            return result
+        faint = np.any([underflows(stokes[..., 0]) for stokes in result], axis=0)
+        if not np.any(faint):
+            return result
+        again = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
+        return [
+            np.where(faint[..., np.newaxis], one, other)
+            for other, one in zip(result, again, strict=True)
+        ]
 
     def _stacked(self, arguments: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Array]:
         return self._read(arguments, self._execute(arguments, carrier, None, shared))
@@ -190,18 +229,49 @@ class Interpreter:
                 self._cast(operand.numbers(kind=wide(self.dtype))) if operand.known else None
                 for operand in self.program.operands
             ]
-        return [
-            self._operand_array(operand, arguments) if fixed is None else arguments.cut(fixed)
-            for fixed, operand in zip(self._known, self.program.operands, strict=True)
-        ]
+        results = []
+        for known, operand in zip(self._known, self.program.operands, strict=True):
+            if known is None:
+                results.append(self._operand_array(operand, arguments))
+            else:
+                cut = arguments.cut(known)
+                # No array where it is one number, so that kernels see which are 0.
+                results.append(cut if self.limits is None else cut[()])
+        return results
 
     def _operand_array(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
-        if operand.part == "imag" and arguments.numbers[operand.input_key] is False:
+        key, numbers = operand.input_key, arguments.numbers
+        if operand.part == "imag" and numbers[key] is False:
             # Not an array, so that kernels see an index that does not absorb.
             return self.dtype.type(0.0)  # type: ignore[no-any-return]
-        kind = wide(self.dtype) if operand.part in ("cos", "sin") else None
-        raw = operand.number_in(arguments.numbers, partial(np.asarray, dtype=kind))
-        return self._cast(operand.evaluated(NUMPY, raw))
+        circular = operand.part in ("cos", "sin")
+        if self.limits is None or operand.part == "present":
+            kind = wide(self.dtype) if circular else None
+            raw = operand.number_in(numbers, partial(np.asarray, dtype=kind))
+        elif circular and key in numbers:
+            return self._circular(operand, np.atleast_1d(numbers[key]))
+        else:
+            raw = operand.number_in(numbers, lambda n: self._cast(np.atleast_1d(n)))
+        return self._cast(operand.evaluated(self.xp, raw))
+
+    def _circular(self, operand: Operand, angle: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        """Return the cosines or sines of angles, as formulas have them."""
+        assert self.limits is not None  # noqa: S101 - for mypy
+        digits, negative = DIGITS[self.dtype.name], operand.value.is_negative
+        first = is_in_first_quadrant(operand, self.limits[operand.input_key.quantity])
+        left: Any = None
+        if self.dtype != np.float64:
+            left = LEFT[FROM_NEARER if first else FROM_ANY](NUMPY, DOUBLE)(angle)
+            left = self._cast(-left if negative else left)
+        signed = self._cast(-angle if negative else angle)
+        small = np.abs(signed) <= digits.most
+        if first or np.all(small):
+            return of_angle(self.xp, digits, operand.part, signed, left, first=first)  # type: ignore[no-any-return]
+        left = None if left is None else np.where(small, left, 0.0).astype(self.dtype)
+        near = np.where(small, signed, 0.0).astype(self.dtype)
+        near = of_angle(self.xp, digits, operand.part, near, left, first=False)
+        far = operand.evaluated(reproducible_numpy("float64"), angle)
+        return np.where(small, near, self._cast(far))
 
     def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
         array = np.asarray(numbers)
@@ -271,248 +341,3 @@ def _stacked(numbers: Sequence[Any]) -> np.ndarray[Any, Any]:
         single = flat.astype(np.float32)
     matrix = single if np.array_equal(single, flat) else flat
     return matrix.reshape(*flat.shape[:-1], 4, 4)
-
-
-_MOST = 1 << 22
-"""How many entries of matrices are looked at together; larger systems are judged by sums."""
-
-_WARNED = 1e-4
-"""What leaves a loop each time round below which it is told, as a share."""
-
-_FEW_DIGITS, _NEAR = 1e-9, 1e-3
-"""How near to 1 a gain has lost its digits, and how near it may have, where light gains."""
-
-_ROUNDING = 1e-15
-
-
-class LargestGain(NamedTuple):
-    """That path of a batch of which most stays in a loop."""
-
-    closed: bool
-    leaves: float
-    condition: float
-
-
-def check_gains(solvers: Sequence[LoopSolver]) -> None:
-    """Refuse light that gains going round; warn where nearly all of it comes back.
-
-    Without amplifiers, some light stays where a pivot is 0. Else the spectral radius of the round
-    trip tells; next to 1, whether unpolarized light given to every junction adds up to physical
-    light, which it does just where the radius is below 1 (Krein & Rutman, Uspekhi Mat. Nauk 3,
-    1948).
-    """
-    faults = []
-    for solver in solvers:
-        if np.all(reduce(np.logical_and, solver.conditions, np.True_)):
-            continue
-        place = solver.program.steps[solver.loop.start].label
-        worst = _Judged(solver).worst()
-        if worst is None:
-            faults.append(
-                f"what comes back of the light that goes round at '{place}' is no finite number: "
-                f"a value is too extreme; give values nearer to 1, or compose with "
-                f"method='stable' and dtype='float64'"
-            )
-        elif worst.closed:
-            faults.append(
-                f"light that goes round at '{place}' never fades: {1.0 - worst.leaves:.9g} of it "
-                f"comes back each time; let some of it leave, or absorb some"
-            )
-        elif worst.leaves < _WARNED:
-            warnings.warn(
-                f"of the light that goes round at '{place}', all but {worst.leaves:.2g} comes back "
-                f"each time; the condition number of the sum is {worst.condition:.2g}, by which "
-                f"errors of the values that are given may be enlarged",
-                LoopWarning,
-                stacklevel=calls_up(),
-            )
-    if faults:
-        raise ParameterError(*faults)
-
-
-class _Judged:
-    """The doubtful paths of a batch, by what the unknowns of a loop are to each other."""
-
-    def __init__(self, solver: LoopSolver) -> None:
-        self.solver = solver
-        self.columns = [solver.scattered(column.back) for column in solver.columns]
-        numbers = [*solver.pivots, *(n for column in self.columns for n in column.values())]
-        self.shape = np.broadcast_shapes((1,), *(np.shape(_high(number)) for number in numbers))
-        holds = reduce(np.logical_and, solver.conditions, np.True_)
-        self.where = tuple(np.argwhere(~np.broadcast_to(holds, self.shape)).T)
-        # What no light ever gets to may keep all of it.
-        self.lit = self._stacked(_lit(number, self.shape) for number in solver.found) > 0.0
-        self.pivots = np.where(self.lit, self._stacked(solver.pivots), 1.0)
-        self.fades = self._picked(reduce(np.logical_and, solver.fading(), np.True_)) > 0.0
-
-    def worst(self) -> LargestGain | None:
-        """Return the worst of them; None where one is no finite number."""
-        if not np.all(np.isfinite(self.pivots)):
-            return None
-        least = self.pivots.min(axis=-1)
-        closed = self.fades & (least <= 0.0)
-        first = self._doubtful(least)
-        if len(self.solver.unknowns) ** 2 > _MOST:
-            closed = np.where(self.fades, closed, ~self._adds_up())
-            left = float(least.min(initial=1.0))
-            return LargestGain(bool(closed.any()), left, 2.0 / max(left, np.finfo(float).tiny))
-        if not first.size:
-            return _HARMLESS
-        matrices = self._matrices(first)
-        if not np.all(np.isfinite(matrices)):
-            return None
-        leaves, least, fades = 1.0 - _radius(matrices), least[first], self.fades[first]
-        # Next to 1, a gain has lost the digits that the pivots still have.
-        leaves = np.where(fades & (leaves < _FEW_DIGITS), np.maximum(leaves, least), leaves)
-        near = np.abs(leaves) < _NEAR
-        gains = np.where(near, ~self._adds_up()[first], leaves <= 0.0) & ~fades
-        closed = closed[first] | gains
-        leaves = np.where(gains, np.minimum(leaves, 0.0), leaves)
-        worst = np.lexsort((leaves, ~closed))[0]
-        return LargestGain(bool(closed[worst]), float(leaves[worst]), _condition(matrices[worst]))
-
-    def _doubtful(self, least: Array) -> Array:
-        """Return the paths that must be looked at: all that may gain, and the most closed."""
-        order = np.argsort(least)
-        order = order[self.fades[order] & (least[order] < _WARNED)]
-        most = max(1, _MOST // len(self.solver.unknowns) ** 2)
-        return np.concatenate([np.flatnonzero(~self.fades), order[:most]])
-
-    def _matrices(self, paths: Array) -> Array:
-        """Return what of each unknown comes back as which, for some paths."""
-        count = len(self.solver.unknowns)
-        matrices = np.zeros((len(paths), count, count))
-        for place, column in enumerate(self.columns):
-            for row, number in column.items():
-                matrices[:, row, place] = self._picked(number)[paths]
-        lit = self.lit[paths]
-        return np.where(lit[:, :, np.newaxis] & lit[:, np.newaxis, :], matrices, 0.0)
-
-    def _adds_up(self) -> Array:
-        """Return where unpolarised light at every junction adds up to light that can be."""
-        unpolarised = {
-            junction: ((1.0,), (0.5, 0.5), (0.5, 0.5, 0.0), (0.5, 0.5, 0.0, 0.0))[count - 1]
-            for junction in self.solver.loop.junctions
-            if (count := self.solver.count(junction))
-        }
-        with np.errstate(all="ignore"):
-            self.solver.lights(unpolarised)
-            return self._picked(self.solver.adds_up(_ROUNDING)) > 0.0
-
-    def _picked(self, number: Any) -> Array:
-        return np.broadcast_to(np.asarray(_high(number), float), self.shape)[self.where]
-
-    def _stacked(self, numbers: Iterable[Any]) -> Array:
-        return np.stack([self._picked(number) for number in numbers], axis=-1)
-
-
-_HARMLESS = LargestGain(closed=False, leaves=1.0, condition=1.0)
-
-
-def _radius(matrices: Array) -> Array:
-    """Return the spectral radius of each of several matrices."""
-    return np.asarray(np.abs(np.linalg.eigvals(matrices)).max(axis=-1))
-
-
-def _condition(matrix: Array) -> float:
-    """Return the condition number of (I - M)^-1 with respect to I and M, not to I - M."""
-    with np.errstate(all="ignore"):
-        sums = np.linalg.pinv(np.eye(len(matrix)) - matrix, rcond=0.0)
-    return float((1.0 + np.linalg.norm(matrix, 2)) * np.linalg.norm(sums, 2))
-
-
-def _high(number: Any) -> Any:
-    return number.high if isinstance(number, DoubleDouble) else number
-
-
-def _lit(number: Any, shape: tuple[int, ...]) -> Array:
-    """Return where an unknown is not 0, for any of the paths that share a loop."""
-    lit = np.asarray(np.asarray(number) != 0.0)
-    while lit.ndim > len(shape):
-        lit = np.asarray(lit.any(axis=0))
-    own = shape[len(shape) - lit.ndim :]
-    shared = tuple(axis for axis, length in enumerate(own) if length == 1)
-    return np.asarray(lit.any(axis=shared, keepdims=True))
-
-
-_TWICE = twice(NUMPY)
-
-
-class CloserLook:
-    """Solves the loops of a program for what is given."""
-
-    def __init__(
-        self,
-        program: Program,
-        arguments: ResolvedInputs,
-        plain: list[np.ndarray[Any, Any]],
-        dtype: np.dtype[Any],
-    ) -> None:
-        self.program = program
-        self.given = arguments
-        self.plain = plain
-        self.dtype = dtype
-        self._operands: dict[int, Any] = {}
-        self._numbers: dict[int, Numbers] = {}
-
-    def meet(self, loop: Loop) -> LoopSolver:
-        """Return the lights at the junctions of a loop."""
-        return LoopSolver(self.program, loop, self.numbers, _TWICE, _longer, self._rounded)
-
-    def evaluations(self) -> dict[int, tuple[np.ndarray[Any, Any], ...]]:
-        """Return what every evaluation comes to, rounded, as `execute` may be given it.
-
-        Reflection, entry and return at a boundary then share each digit of its angle.
-        """
-        used = (index for index, uses in enumerate(self.program.evaluation_uses) if uses)
-        return {index: tuple(map(self._rounded, self.numbers(index))) for index in used}
-
-    def numbers(self, index: int) -> Numbers:
-        """Return what an evaluation comes to."""
-        if index not in self._numbers:
-            self._numbers[index] = self._evaluated(index)
-        return self._numbers[index]
-
-    def _evaluated(self, index: int) -> Numbers:
-        evaluation = self.program.evaluations[index]
-        operands = list(self.plain)
-        for place in self.program.passed_to[index]:
-            operands[place] = self._operand(place)
-        try:
-            numbers = evaluated(self.program, index, operands, StokesCarrier(_TWICE), _longer)
-        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            numbers = evaluated(self.program, index, self.plain, StokesCarrier(NUMPY), _longer)
-        if evaluation.kernel.structure is ROTATION:
-            # A cosine and a sine that are rounded belong to no angle; their ratio does.
-            numbers = _of_an_angle(*numbers)
-        return numbers
-
-    def _operand(self, place: int) -> Any:
-        if place not in self._operands:
-            operand, kind = self.program.operands[place], wide(self.dtype)
-            if operand.known:
-                raw = _longer(self.given.cut(np.asarray(operand.raw(), kind)))
-            else:
-                raw = operand.number_in(self.given.numbers, lambda n: _longer(np.asarray(n, kind)))
-            raw = _of_an_angle(*raw) if isinstance(raw, tuple) else raw
-            self._operands[place] = operand.evaluated(_TWICE, raw)
-        return self._operands[place]
-
-    def _rounded(self, number: Any) -> Any:
-        high = number.high if isinstance(number, DoubleDouble) else number
-        return np.asarray(high, self.dtype)
-
-
-def _longer(number: Any) -> DoubleDouble:
-    if isinstance(number, DoubleDouble):
-        return number
-    array = np.asarray(number)
-    # Not a plain 0: the rest has the precision of the number.
-    kind = np.result_type(array, np.float64)
-    array = array.astype(kind, copy=False)
-    return DoubleDouble(NUMPY, array, 0.0 * array)
-
-
-def _of_an_angle(c: DoubleDouble, s: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    length = (c * c + s * s).sqrt()
-    return c / length, s / length

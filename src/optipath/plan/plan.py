@@ -13,7 +13,7 @@ from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import Mueller
 from optipath.plan.answers import by_place, only
-from optipath.plan.interpreters import matrix_noise_at, noise_at
+from optipath.plan.noise import matrix_noise_at, noise_at
 from optipath.plan.outlets import LaterWavelength
 from optipath.values.arrays import MOST_PATHS
 from optipath.values.messages import check_named

@@ -15,8 +15,7 @@ from optipath.kernels.kernel import is_defined_in
 from optipath.kernels.primitives import NUMPY
 from optipath.plan.batch_runner import Results
 from optipath.plan.for_jax import ForJax
-from optipath.plan.interpreter import carrier_of
-from optipath.plan.interpreters import interpreter_for
+from optipath.plan.interpreter import Interpreter, carrier_of
 from optipath.plan.prepared import BatchKind, Prepared, Recipe, keep
 from optipath.plan.questions import FormulaMaker
 from optipath.plan.reading import InputReader, Layout, pieces
@@ -86,7 +85,8 @@ class Runner(Answering):
         self.carrier = carrier_of(program, options.composing)
         self.for_jax = ForJax(program, inputs, self.carrier, options)
         self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
-        self.interpreter = interpreter_for(program, inputs, self.carrier, options)
+        limits = inputs.limits if options.reproducible else None
+        self.interpreter = Interpreter(program, self.carrier, self.dtype, limits)
         self.formulas = FormulaMaker(program, inputs, self.carrier, options, unreduced=unreduced)
         self.single = ScalarRunner(program, inputs, self.formulas, own_ways)
         self._ran = ""

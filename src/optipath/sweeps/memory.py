@@ -15,7 +15,7 @@ from xarray.core import indexing
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import COMPONENTS, DERIVED
-from optipath.plan.interpreters import noise_at
+from optipath.plan.noise import noise_at
 from optipath.plan.reading import pieces
 from optipath.sweeps.datasets import (
     attributes_of,

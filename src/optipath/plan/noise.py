@@ -1,4 +1,4 @@
-"""Interpreters with the bits of formulas, and with bounds of rounding noise."""
+"""Noise: how much of light may be rounding, by every element in its way."""
 
 from __future__ import annotations
 
@@ -7,22 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.execute import evaluated, execute
-from optipath.engines.formula import (
-    DOUBLE,
-    FROM_ANY,
-    FROM_NEARER,
-    LEFT,
-    is_in_first_quadrant,
-    of_angle,
-)
-from optipath.engines.program import carrying
-from optipath.kernels.carriers.carrier import MatrixCarrier, ScaledCarrier, StokesCarrier
+from optipath.engines.execute import evaluated
+from optipath.kernels.carriers.carrier import ScaledCarrier
 from optipath.kernels.carriers.noise import NoiseCarrier
-from optipath.kernels.exponential import reproducible_numpy
 from optipath.kernels.primitives import NUMPY
-from optipath.kernels.trigonometry import DIGITS
-from optipath.light.underflow import underflows
 from optipath.plan.interpreter import Interpreter
 from optipath.plan.reading import pieces
 from optipath.values.jax_values import is_traced
@@ -32,117 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.engines.program import Program, Reading
-    from optipath.kernels.carriers.carrier import Carrier
-    from optipath.plan.inputs import Inputs
-    from optipath.plan.interpreter import Shared
-    from optipath.plan.reading import ResolvedInputs, RunOptions
+    from optipath.plan.reading import ResolvedInputs
     from optipath.values.operands import Operand
     from optipath.values.precision import Array
-
-
-def interpreter_for(
-    program: Program, inputs: Inputs, carrier: type[Carrier], options: RunOptions
-) -> Interpreter:
-    """Return what runs a program step by step."""
-    dtype = np.dtype(options.dtype)
-    if options.reproducible:
-        return ReproducibleInterpreter(program, carrier, dtype, inputs)
-    return Interpreter(program, carrier, dtype)
-
-
-class ReproducibleInterpreter(Interpreter):
-    """Runs a program so that a path comes to the same bits alone and in any batch.
-
-    A given number is an array here, since kernels choose the cheaper way where one is a plain 0.
-    """
-
-    def __init__(
-        self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any], inputs: Inputs
-    ) -> None:
-        super().__init__(program, carrier, dtype)
-        self.limits = inputs.limits
-        self.xp = reproducible_numpy(dtype.name)
-        self._carriers = {kind: kind(self.xp) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
-        self._carrying = carrying(program, carrier, self.xp, dtype.name)
-
-    def lights(
-        self, arguments: ResolvedInputs, shared: Shared | None = None
-    ) -> list[np.ndarray[Any, Any]]:
-        result = super().lights(_as_batch(arguments), shared)
-        return [stokes.reshape(*arguments.batch, 4) for stokes in result]
-
-    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[Array]:
-        program, carrier = self._carrying
-        if program is self.program:
-            result = self._stacked(arguments, carrier, shared)
-        else:
-            with np.errstate(all="ignore"):
-                lights = execute(program, self.operands(arguments), carrier, number=self.number)
-            result = self._read(arguments, lights)
-        if self.carrier is not StokesCarrier:
-            return result
-        faint = np.any([underflows(stokes[..., 0]) for stokes in result], axis=0)
-        if not np.any(faint):
-            return result
-        again = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
-        return [
-            np.where(faint[..., np.newaxis], one, other)
-            for other, one in zip(result, again, strict=True)
-        ]
-
-    def matrix(
-        self, arguments: ResolvedInputs, source: str, reading: Reading
-    ) -> np.ndarray[Any, Any]:
-        return super().matrix(_as_batch(arguments), source, reading).reshape(*arguments.batch, 4, 4)
-
-    def bounds(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
-        return [
-            result.reshape(4, *arguments.batch) for result in super().bounds(_as_batch(arguments))
-        ]
-
-    def operands(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
-        # Numbers that are known are no arrays, so that kernels see which of them are 0.
-        return [
-            number[()] if operand.known else number
-            for operand, number in zip(
-                self.program.operands, super().operands(arguments), strict=True
-            )
-        ]
-
-    def _operand_array(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
-        key, numbers = operand.input_key, arguments.numbers
-        if operand.part == "present" or numbers.get(key) is False:
-            return super()._operand_array(operand, arguments)
-        if key not in numbers:
-            raw = operand.number_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
-            return self._cast(operand.evaluated(self.xp, raw))
-        number = np.atleast_1d(numbers[key])
-        if operand.part in ("cos", "sin"):
-            return self._circular(operand, number)
-        return self._cast(operand.evaluated(self.xp, number))
-
-    def _circular(self, operand: Operand, angle: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        """Return the cosines or sines of angles, as formulas have them."""
-        digits, negative = DIGITS[self.dtype.name], operand.value.is_negative
-        first = is_in_first_quadrant(operand, self.limits[operand.input_key.quantity])
-        left: Any = None
-        if self.dtype != np.float64:
-            left = LEFT[FROM_NEARER if first else FROM_ANY](NUMPY, DOUBLE)(angle)
-            left = self._cast(-left if negative else left)
-        signed = self._cast(-angle if negative else angle)
-        small = np.abs(signed) <= digits.most
-        if first or np.all(small):
-            return of_angle(self.xp, digits, operand.part, signed, left, first=first)  # type: ignore[no-any-return]
-        left = None if left is None else np.where(small, left, 0.0).astype(self.dtype)
-        near = np.where(small, signed, 0.0).astype(self.dtype)
-        near = of_angle(self.xp, digits, operand.part, near, left, first=False)
-        far = operand.evaluated(reproducible_numpy("float64"), angle)
-        return np.where(small, near, self._cast(far))
-
-
-def _as_batch(arguments: ResolvedInputs) -> ResolvedInputs:
-    """Return what is given, one path as a batch of one."""
-    return arguments if arguments.batch else arguments._replace(batch=(1,))
 
 
 _AT_ONCE = 8192
