@@ -44,7 +44,7 @@ FEW, SEVERAL = 1 << 10, 3
 _BY_FLOATS, _BY_NUMPY = 9e-9, 0.3e-9
 _CALL = 0.5e-6
 _LOOKING, _LOOKING_AGAIN = 0.15, 0.02
-_BEGINNING, _COMPILING = 0.6, 7e-3
+_BEGINNING, _COMPILING, _OPTIMIZING = 0.1, 0.5e-3, 0.5e-6
 
 HANDFUL = int(_CALL / (_BY_FLOATS - _BY_NUMPY)) + 1
 """From how many paths NumPy takes less time than floats one by one, of formulas of any length."""
@@ -117,7 +117,7 @@ class EngineChoice:
             self._looked = earned > (_LOOKING_AGAIN if loaded else _LOOKING)
             if self._looked and work.is_stored:
                 return True
-        return earned > _BEGINNING + _COMPILING * operations
+        return earned > compiling(operations)
 
 
 class _Unseen:
@@ -152,6 +152,11 @@ def cost(operations: int, count: int) -> float:
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
 
 
+def compiling(operations: int) -> float:
+    """Return how many seconds it takes to compile so many operations."""
+    return _BEGINNING + _COMPILING * operations + _OPTIMIZING * operations**2
+
+
 def most_operations(engine: str, dtype: str) -> float:
     """Return how many operations are compiled: as many as the engine can take."""
     limits = REGISTRY[COMPILER if engine == "auto" else engine]
@@ -181,8 +186,7 @@ def batches(engine: str, operations: int | None, dtype: str) -> str:
     runs = f"fewer than {HANDFUL} paths are run {how}, more by numpy"
     if not operations or not is_installed(COMPILER):
         return runs
-    price = _BEGINNING + _COMPILING * operations
-    paths = price / (FORESIGHT * _BY_NUMPY * operations)
+    paths = compiling(operations) / (FORESIGHT * _BY_NUMPY * operations)
     return (
         f"{runs}, and all by {COMPILER} where it has compiled the path before, or after some "
         f"{float(f'{paths:.2g}'):,.0f} paths, when compiling takes less time than it saves"

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.plan.reading import pieces
-from optipath.plan.runner import Answering
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -25,7 +24,7 @@ _MOST = 0.5
 
 
 @dataclass(eq=False, repr=False)
-class Approximation(Answering):
+class Approximation:
     """Runs an inexact model path by path within a tolerance: first its errors, then the light."""
 
     whole: Runner
@@ -37,9 +36,11 @@ class Approximation(Answering):
 
     @property
     def ran_by(self) -> tuple[str, ...]:
+        """The engines that have given the last light; none before the first."""
         return tuple(dict.fromkeys(engine for one in self._ran for engine in one.ran_by))
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        """Return what is asked for."""
         if self.exact.for_jax.is_requested(parameters):
             self._ran = (self.exact,)
             return self.exact.answer(question, parameters)
@@ -48,6 +49,7 @@ class Approximation(Answering):
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
+        """Yield what is asked for, part by part."""
         if self.exact.for_jax.is_requested(parameters):
             yield from self.exact.stream(question, size, parameters)
             return

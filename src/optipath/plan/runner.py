@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from contextlib import nullcontext
 from threading import Lock
 from typing import TYPE_CHECKING, Any
@@ -38,25 +37,6 @@ if TYPE_CHECKING:
     Array = np.ndarray[Any, Any]
 
 
-class Answering(ABC):
-    """What answers questions about a path."""
-
-    @property
-    @abstractmethod
-    def ran_by(self) -> tuple[str, ...]:
-        """The engines that have answered the last question; none before the first."""
-
-    @abstractmethod
-    def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
-        """Return what is asked for."""
-
-    @abstractmethod
-    def stream(
-        self, question: Question, size: int, parameters: Mapping[str, Any]
-    ) -> Iterator[tuple[Any, Any]]:
-        """Yield what is asked for, part by part."""
-
-
 CACHED = 8192
 """How many paths are taken at once, step after step."""
 
@@ -64,7 +44,7 @@ _LITTLE = 1 << 20
 """How many bytes every machine has memory for."""
 
 
-class Runner(Answering):
+class Runner:
     """Runs one program, and keeps what has been prepared."""
 
     def __init__(
@@ -95,9 +75,11 @@ class Runner(Answering):
 
     @property
     def ran_by(self) -> tuple[str, ...]:
+        """The engines that have answered the last question; none before the first."""
         return (self._ran,) if self._ran else ()
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        """Return what is asked for."""
         key = self.reader.key(parameters)
         recipe = None if key is None else self._recipes.get((question.key, key))
         numbers = None if recipe is None else recipe.numbers(parameters)
@@ -110,6 +92,7 @@ class Runner(Answering):
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
+        """Yield what is asked for, part by part."""
         if self.for_jax.is_requested(parameters):
             raise ParameterError(
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
