@@ -67,7 +67,7 @@ def test_a_run_reads_the_file_of_its_preset_once_and_calls_few_functions(run, mo
         main(command.split())
     finally:
         sys.setprofile(before)
-    assert sum(calls) < 8000
+    assert sum(calls) < 7000
 
 
 PARAMETERS = op.load_preset("npgr026").parameters

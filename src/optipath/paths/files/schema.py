@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from optipath.errors import (
     Fault,
+    OptipathError,
     PresetError,
     UnitError,
     closest,
-    collecting,
     did_you_mean,
     listed,
     shown,
@@ -143,9 +143,11 @@ class Faults(list[str]):
         >>> faults
         ["parameters.delta: unit 'degg' is unknown; did you mean 'deg'?"]
         """
-        with collecting(self, about=where):
+        try:
             return action(*arguments, **keywords)
-        return None
+        except OptipathError as error:
+            self += [fault.under(where) for fault in error.faults]
+            return None
 
     def refuse(self, most: int = 0) -> None:
         """Raise where there are more faults than so many."""
