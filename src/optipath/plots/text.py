@@ -64,6 +64,9 @@ def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
     ['grazing, n near 0,', 'metals']
     """
     lines: list[str] = []
+    words = [*words]
+    if words and width_of(whole := " ".join(words), points) <= inches:  # Which most are.
+        return [whole]
     for word in words:
         if lines and width_of(f"{lines[-1]} {word}", points) <= inches:
             lines[-1] += f" {word}"
