@@ -78,7 +78,7 @@ def lights_formula(
         read, sound = _masked(xp, read, sound) if masks else (read, sound)
         if not isinstance(exponent, int):
             read = [xp.ldexp(component, exponent) for component in read]
-            lit = read[0] >= tiny
+            lit = reduce(xp.maximum, map(xp.absolute, read)) >= tiny
             read = [xp.where(lit, component, tiny.dtype.type(0.0)) for component in read]
         outputs += [*read, *[np.nan] * (4 - len(read))]
         holds.append(sound)

@@ -68,14 +68,15 @@ def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
 
 
 def unscaled(stokes: Array, exponent: Any) -> Array:
-    """Return vectors (..., 4) times two to a power; 0 where S0 is no normal number any more.
+    """Return vectors (..., 4) times two to a power; 0 where none is a normal number any more.
 
     >>> unscaled(np.array([[0.5, 0.25, 0, 0], [0.5, 0.25, 0, 0]]), np.array([1, -1080]))
     array([[1. , 0.5, 0. , 0. ],
            [0. , 0. , 0. , 0. ]])
     """
     result = times_two_to(stokes, exponent)
-    result[result[..., 0] < np.finfo(result.dtype).tiny] = 0.0
+    largest = np.max(np.abs(np.where(np.isnan(result), 0.0, result)), axis=-1)
+    result[largest < np.finfo(result.dtype).tiny] = 0.0
     return result
 
 
