@@ -78,8 +78,9 @@ def lights_formula(
         read, sound = _masked(xp, read, sound) if masks else (read, sound)
         if not isinstance(exponent, int):
             read = [xp.ldexp(component, exponent) for component in read]
-            lit = reduce(xp.maximum, map(xp.absolute, read)) >= tiny
-            read = [xp.where(lit, component, tiny.dtype.type(0.0)) for component in read]
+            # NaN is not dark.
+            dark = reduce(xp.maximum, map(xp.absolute, read)) < tiny
+            read = [xp.where(dark, tiny.dtype.type(0.0), component) for component in read]
         outputs += [*read, *[np.nan] * (4 - len(read))]
         holds.append(sound)
     return _formula(recorder, outputs, holds)

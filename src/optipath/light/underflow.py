@@ -75,8 +75,8 @@ def unscaled(stokes: Array, exponent: Any) -> Array:
            [0. , 0. , 0. , 0. ]])
     """
     result = times_two_to(stokes, exponent)
-    largest = np.max(np.abs(np.where(np.isnan(result), 0.0, result)), axis=-1)
-    result[largest < np.finfo(result.dtype).tiny] = 0.0
+    # Components that are not read are NaN, as is light that cannot be, which is not dark.
+    result[np.fmax.reduce(np.abs(result), axis=-1) < np.finfo(result.dtype).tiny] = 0.0
     return result
 
 
