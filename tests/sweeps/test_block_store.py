@@ -1,7 +1,6 @@
 """The store of a job: what stands in its place is left alone, and what cannot be is told."""
 
 import shutil
-from contextlib import suppress
 from unittest.mock import Mock
 
 import numpy as np
@@ -84,80 +83,74 @@ DAMAGES = [
 ]
 
 
-def test_a_damaged_block_is_named_and_computed_anew_and_no_other(store, tmp_path):
+def unfinished(store):
+    """A lost mark is a block that is not done, and no damage."""
+    (store / "blocks" / "done" / "0.0").unlink()
+
+
+def test_a_damaged_block_is_computed_anew_where_a_store_goes_on_and_no_other(store, tmp_path):
     job, count = Powers(3, log=str(tmp_path / "log")), 0
     keep_blocks(job, store, "synchronous")
     before = content_of(store)
-    for name in ("power/3.0", "total/1", "blocks/done/1.0"):
+    for name in ("power/3.0", "total/1"):
         for harm in DAMAGES:
             harm(store / name)
+            unfinished(store)
             count += 1
-            with pytest.warns(StoreWarning, match=r"of '.*' are damaged and computed anew: 1$"):
+            with pytest.warns(StoreWarning, match=r"1 of 3 blocks of '.*' are damaged and comp"):
                 keep_blocks(job, store, "synchronous")
-            assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count]
+            assert computed(tmp_path / "log") == [0, 1, 2, *[0, 1] * count]
             assert content_of(store) == before
+    # A chunk that is missing is noticed in a finished store, too.
     (store / "power" / "3.0").unlink()
-    with pytest.warns(StoreWarning, match=r"computed anew: 1$"):
+    with pytest.warns(StoreWarning, match=r"1 of 3 blocks of '.*' are damaged"):
         keep_blocks(job, store, "synchronous")
-    # A lost mark is a block that is not done, and no damage.
-    (store / "blocks" / "done" / "1.0").unlink()
-    keep_blocks(job, store, "synchronous")
-    assert computed(tmp_path / "log") == [0, 1, 2, *[1] * (count + 2)]
     assert content_of(store) == before
+    keep_blocks(job, store, "synchronous")
+    assert computed(tmp_path / "log") == [0, 1, 2, *[0, 1] * count, 1]
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("step", [slow(25), 401])
-def test_whatever_bit_of_a_store_is_lost_no_wrong_number_is_taken(store, step):
-    job = Powers(1)
+@pytest.mark.parametrize("step", [slow(3), 41])
+def test_whatever_bit_of_a_block_is_lost_no_wrong_number_is_taken(store, step):
+    job = Powers(2)
     keep_blocks(job, store)
-    with xr.open_zarr(store) as whole:
-        whole.load()
-    done = store / "blocks" / "done" / "0.0"
+    unfinished(store)
+    whole = xr.open_zarr(store).load()
+    done = store / "blocks" / "done" / "1.0"
     mark = done.read_bytes()
-    for file in sorted(each for each in store.rglob("*") if each.is_file()):
+    for file in (done, store / "power" / "2.0", store / "power" / "3.0", store / "total" / "1"):
         content = file.read_bytes()
         for place in range(0, 8 * len(content), step):  # It has no factor in common with 8.
             damaged = bytearray(content)
             damaged[place // 8] ^= 1 << place % 8
             file.write_bytes(damaged)
-            # What cannot be read is told, by us or by xarray.
-            with suppress(JobError, ValueError, TypeError, KeyError, RuntimeError):
-                if block_store.BlockStore.of(job, str(store)).done(job):
-                    with xr.open_zarr(store) as found:
-                        assert found.identical(whole), (file, place)
+            if block_store.BlockStore.of(job, str(store)).done(job):
+                with xr.open_zarr(store) as found:
+                    assert found.identical(whole), (file, place)
             file.write_bytes(content)
             done.write_bytes(mark)
 
 
-def test_a_block_of_another_job_is_none_and_twenty_damaged_ones_are_named(store, tmp_path):
-    keep_blocks(Powers(25), store)
+def test_a_block_of_another_job_is_none(store, tmp_path):
+    keep_blocks(Powers(3), store)
     other = tmp_path / "others.zarr"
     keep_blocks(Powers(2, title="others"), other)
     shutil.copy(other / "blocks" / "done" / "1.0", store / "blocks" / "done")
-    with pytest.warns(StoreWarning, match="anew: 1$"):
-        keep_blocks(Powers(25), store)
-    for file in (store / "total").glob("[0-9]*"):
-        file.write_bytes(b"")
-    with pytest.warns(StoreWarning, match=r"anew: 0, 1, .*, 18, 19 and 5 more$"):
-        keep_blocks(Powers(25), store)
+    unfinished(store)
+    with pytest.warns(StoreWarning, match="1 of 3 blocks"):
+        keep_blocks(Powers(3), store)
 
 
-METADATA = [".zmetadata", "called/.zattrs", "power/.zarray", "number/.zarray", "number/0"]
-
-
-def test_damaged_metadata_are_told_in_a_sentence_and_attributes_may_be_added(store):
+def test_metadata_that_cannot_be_read_are_told_and_attributes_may_be_added(store):
     keep_blocks(Powers(2), store)
-    for name in METADATA:
+    for name in ("power/.zarray", "blocks/.zattrs"):
         content = (store / name).read_bytes()
-        for harm in (lambda file: file.unlink(), lambda file: file.write_bytes(b"[]")):
-            harm(store / name)
-            refused(store, r"metadata.* of the store '.*' are damaged; take another name, or del")
-            (store / name).write_bytes(content)
+        (store / name).write_bytes(b"[")
+        refused(store, r"metadata.* of the store '.*' are damaged; take another name, or del")
+        (store / name).write_bytes(content)
     zarr.open_group(store, mode="r+", use_consolidated=False).attrs["note"] = "mine"
     keep_blocks(Powers(2), store)
-    (store / ".zattrs").write_text("{}")
-    refused(store, "the attributes of the store")
 
 
 def test_a_store_goes_into_an_empty_folder_and_stays_where_a_block_is_done(tmp_path, store):

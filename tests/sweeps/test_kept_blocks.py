@@ -126,14 +126,14 @@ def test_not_too_much_is_handed_out_and_two_runs_come_to_the_same_bits(tmp_path,
 
 
 def test_what_is_no_scheduler_or_does_not_answer_is_told(store, monkeypatch):
-    monkeypatch.setattr("optipath.sweeps.cluster._PATIENCE", 0.2)
+    monkeypatch.setattr("optipath.sweeps.blocks._PATIENCE", 0.2)
     for scheduler, told in {
         "thread": "scheduler 'thread' is unknown; did you mean 'threads'",
         "10.0.0.1:8786": "the address of a cluster begins with 'tcp://'",
         4: "not 4; of a cluster, give cluster.get_client",
         "tcpp://127.0.0.1:1": "no cluster answers at 'tcpp://127.0.0.1:1'",
         "tcp://127.0.0.1:1": r"no cluster answers at 'tcp://127.0.0.1:1'.*runs",
-        "tls://127.0.0.1:9": r"tls://.* give a client that has the certificates",
+        "tls://127.0.0.1:9": r"tls://.* certificates, give a distributed.Client",
     }.items():
         with pytest.raises(JobError, match=told):
             keep_blocks(Powers(2), store, scheduler)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import sys
@@ -72,7 +73,8 @@ def keep_blocks(
     stored = BlockStore.of(job, os.fspath(store))
     done = stored.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
-    _tell(progress, len(done), job)
+    tell = progress or (lambda *_: None)
+    tell(len(done), job.blocks)
     if missing:
         are_at_work = False
         try:
@@ -82,21 +84,16 @@ def keep_blocks(
             ):
                 are_at_work = workers.stay
                 for finished, _ in enumerate(result, len(done) + 1):
-                    _tell(progress, finished, job)
+                    tell(finished, job.blocks)
         except KeyboardInterrupt:
             # Blocks that were in work have come to their end meanwhile.
-            _tell(progress, sum(map(stored.holds, range(job.blocks))), job)
+            tell(sum(map(stored.holds, range(job.blocks))), job.blocks)
             raise
         except OptipathError:
             if not are_at_work:  # They might write into another job's store of the same name.
                 stored.discard_unused()
             raise
     return stored.group
-
-
-def _tell(progress: Callable[[int, int], None] | None, done: int, job: BlockJob) -> None:
-    if progress is not None:
-        progress(done, job.blocks)
 
 
 def _handed_out(
@@ -137,15 +134,15 @@ def _keep_block(
     return None
 
 
+_LOST = "the cluster was lost; start again when it is back, and what is done is not computed again"
+
+
 def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
     """Raise what went wrong with a block, as it is or, where its worker was lost, in a sentence."""
     try:
         message = finished.result()
     except CancelledError:
-        raise JobError(
-            f"the cluster was lost while block {number} was computed; start again when it is "
-            f"back, and what is done is not computed again"
-        ) from None
+        raise JobError(_LOST) from None
     except BrokenProcessPool:
         raise JobError(
             f"a process was lost while block {number} was computed, for want of memory perhaps, or "
@@ -204,22 +201,67 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     if argument == "synchronous":
         yield Workers(AtOnce(), lambda: 1)
     elif argument == "threads":
-        with ThreadPoolExecutor(CPU_COUNT) as executor:
-            yield Workers(executor, lambda: _AHEAD * CPU_COUNT)
+        with ThreadPoolExecutor(CPU_COUNT) as threads:
+            yield Workers(threads, lambda: _AHEAD * CPU_COUNT)
     elif argument == "processes":
         count = min(CPU_COUNT, blocks)
-        with ProcessPoolExecutor(count, get_context("spawn"), _obey_parent) as executor:
-            yield Workers(Travelling(executor), lambda: _AHEAD * count)
+        with ProcessPoolExecutor(count, get_context("spawn"), _obey_parent) as processes:
+            yield Workers(Travelling(processes), lambda: _AHEAD * count)
     else:
-        # It takes a second to import.
-        from optipath.sweeps.cluster import client_of, threads_of  # noqa: PLC0415
+        with _client_of(argument) as client, dask.config.set(_LARGE_JOBS):
+            executor = Travelling(client.get_executor(pure=False))
+            yield Workers(executor, lambda: _AHEAD * _threads_of(client), stay=True)
 
-        with client_of(argument) as client, dask.config.set(_LARGE_JOBS):
-            yield Workers(
-                Travelling(client.get_executor(pure=False)),
-                lambda: _AHEAD * threads_of(client),
-                stay=True,
-            )
+
+_PATIENCE = 10.0
+"""How many seconds a cluster has to answer."""
+
+
+@contextmanager
+def _client_of(argument: Any) -> Iterator[Any]:
+    """Have the client of a cluster; what is made for an address is closed afterwards."""
+    if isinstance(argument, str):
+        with _reached(argument) as client:
+            yield client
+    elif argument.asynchronous or argument.status != "running":
+        how = "asynchronous" if argument.asynchronous else argument.status
+        raise JobError(
+            f"the client of the cluster is {how}; give one that is connected and waits for "
+            f"results, such as distributed.Client(address)"
+        )
+    else:
+        yield argument
+
+
+def _reached(address: str) -> Any:
+    from distributed import Client, Security  # noqa: PLC0415 - it takes a second
+    from distributed.comm import connect  # noqa: PLC0415
+
+    async def knock() -> None:
+        certificates = Security().get_connection_args("client")
+        comm = await connect(address, timeout=_PATIENCE, **certificates)
+        await comm.close()
+
+    try:
+        # A client that waits in vain cannot be closed, so that somebody else asks first.
+        with ThreadPoolExecutor(1) as elsewhere:
+            elsewhere.submit(asyncio.run, knock()).result()
+        return Client(address, set_as_default=False)
+    except (OSError, ValueError, ImportError, TypeError) as fault:
+        raise JobError(
+            f"no cluster answers at '{address}' ({fault}); see that its scheduler runs and that "
+            f"the address is as it prints it; where it asks for certificates, give a "
+            f"distributed.Client that has them"
+        ) from None
+
+
+def _threads_of(client: Any) -> int:
+    """Return how many threads a cluster has now; one if it waits for work to have any."""
+    try:
+        threads: int = sum(client.nthreads().values())
+    except (OSError, AttributeError):  # a client that is closed meanwhile has no scheduler
+        raise JobError(_LOST) from None
+    return max(threads, 1)
 
 
 def _obey_parent() -> None:

@@ -7,7 +7,6 @@ of the job, the number of the block, and its values; it is 0 of a block that is 
 
 from __future__ import annotations
 
-import asyncio
 import json
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -28,7 +27,6 @@ from zarr.storage import FsspecStore, LocalStore
 from optipath.errors import JobError, OptipathError, StoreWarning, shown
 from optipath.sweeps.jobs import StoredArray
 from optipath.values.angles import calls_up
-from optipath.values.files import write_own_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -43,9 +41,6 @@ FORMAT = 3
 
 _OTHER_PLACE = "take another name, or delete it"
 _RECORD, _MARKS = "blocks", "blocks/done"
-_DIMENSIONS = "_ARRAY_DIMENSIONS"
-_NAMED = 20
-"""How many damaged blocks are named."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +65,7 @@ class BlockStore:
             store._check_record(record)
             if _MARKS not in store.group:
                 _make(store.group, job)
-            store._check_metadata(job)
+            _ = store.arrays
         return store
 
     def __getstate__(self) -> dict[str, Any]:
@@ -80,7 +75,7 @@ class BlockStore:
     @cached_property
     def group(self) -> zarr.Group:
         """The group, open for writing."""
-        files = FsspecStore.from_url(self.place) if "://" in self.place else _Files(self.place)
+        files = FsspecStore.from_url(self.place) if "://" in self.place else LocalStore(self.place)
         # Metadata in one place, as xarray reads it, may be of another time.
         mode: Literal["a", "r+"] = "a" if self.is_new else "r+"
         return zarr.open_group(files, mode=mode, zarr_format=2, use_consolidated=False)
@@ -91,8 +86,15 @@ class BlockStore:
         return dict(self.group.arrays()) | {_MARKS: self.group[_MARKS]}
 
     def done(self, job: BlockJob) -> set[int]:
-        """Return the numbers of intact blocks, and remove the marks of damaged ones."""
+        """Return the numbers of intact blocks, and remove the marks of damaged ones.
+
+        Values are compared with the marks where blocks or chunks are missing, and not of a whole
+        store, which would be read twice.
+        """
         marks = self._marks(job.blocks)
+        stored = [self.arrays[name] for name in job.arrays]
+        if len(marks) == job.blocks and all(n.nchunks_initialized == n.nchunks for n in stored):
+            return {*marks}
         with ThreadPoolExecutor() as executor:
             intact = executor.map(self._is_intact, marks.values(), marks, map(job.places, marks))
             damaged = [number for number, good in zip(marks, intact, strict=True) if not good]
@@ -100,10 +102,9 @@ class BlockStore:
             for number in damaged:
                 self.arrays[_MARKS][number] = 0
         if damaged:
-            more = f" and {len(damaged) - _NAMED:,} more" if len(damaged) > _NAMED else ""
             warnings.warn(
-                f"blocks of '{self.place}' are damaged and computed anew: "
-                f"{', '.join(map(str, damaged[:_NAMED]))}{more}",
+                f"{len(damaged):,} of {job.blocks:,} blocks of '{self.place}' are damaged and "
+                f"computed anew",
                 StoreWarning,
                 stacklevel=calls_up(),
             )
@@ -143,23 +144,17 @@ class BlockStore:
             digest.update(np.ascontiguousarray(each).tobytes())
         return np.frombuffer(digest.digest(), np.uint8)
 
-    def _marks(self, blocks: int) -> dict[int, npt.NDArray[np.uint8] | None]:
-        """Return the marks of all blocks that have one; None for one that cannot be read."""
+    def _marks(self, blocks: int) -> dict[int, npt.NDArray[np.uint8]]:
+        """Return the marks of all blocks that have one that can be read."""
         array = self.arrays[_MARKS]
-        try:
-            marks: Any = array[...]
-        except Exception:  # noqa: BLE001 - codecs may raise anything
+        marks = _read(array, ...)
+        if marks is None:
             marks = [_read(array, number) for number in range(blocks)]
-        return {n: mark for n, mark in enumerate(marks) if mark is None or np.any(mark)}
+        return {n: mark for n, mark in enumerate(marks) if mark is not None and np.any(mark)}
 
     def _is_intact(
-        self,
-        mark: npt.NDArray[np.uint8] | None,
-        number: int,
-        places: Mapping[str, tuple[slice, ...]],
+        self, mark: npt.NDArray[np.uint8], number: int, places: Mapping[str, tuple[slice, ...]]
     ) -> bool:
-        if mark is None:
-            return False
         values = {name: _read(self.arrays[name], place) for name, place in places.items()}
         is_read = all(each is not None for each in values.values())
         return is_read and np.array_equal(mark, self._mark(number, values))
@@ -191,12 +186,6 @@ class BlockStore:
                 )
         raise JobError(f"the record of '{place}' is damaged; {_OTHER_PLACE}")
 
-    def _check_metadata(self, job: BlockJob) -> None:
-        """Refuse a store whose metadata are damaged, for Zarr or for xarray."""
-        consolidated = zarr.open_group(self.group.store, mode="r", use_consolidated=True)
-        if bad := _difference(self.group, consolidated, job):
-            raise JobError(f"the {bad} of the store '{self.place}' are damaged; {_OTHER_PLACE}")
-
     @contextmanager
     def _reading(self) -> Iterator[None]:
         """Refuse metadata that cannot be read, of which Zarr may raise anything."""
@@ -218,18 +207,6 @@ class BlockStore:
                 f"the store '{self.place}' cannot be written: {fault.strerror or fault}; mend "
                 f"that and start again, and what is done is not computed again"
             ) from None
-
-
-class _Files(LocalStore):
-    """The files of a folder, each written whole or not at all, as later versions of Zarr do."""
-
-    async def set(self, key: str, value: Any) -> None:
-        await asyncio.to_thread(_put, self.root / key, value.to_bytes())
-
-
-def _put(file: Path, content: bytes) -> None:
-    file.parent.mkdir(parents=True, exist_ok=True)
-    write_own_file(file, content, 0o666)
 
 
 def _is_free(place: str) -> bool:
@@ -260,7 +237,9 @@ def _record_of(job: BlockJob) -> dict[str, Any]:
 
 def _make(group: zarr.Group, job: BlockJob) -> None:
     """Write the arrays of a job and its coordinates; the array of marks last."""
-    group.attrs.update(_group_attrs(job))
+    # Coordinates that do not bear the name of a dimension are told apart by this attribute.
+    others = [name for name, each in job.coords.items() if each.dims != (name,)]
+    group.attrs.update({**job.attrs, **({"coordinates": " ".join(others)} if others else {})})
     for name, stored in job.arrays.items():
         _create(group, name, stored)
     for name, whole in job.coords.items():
@@ -280,49 +259,8 @@ def _create(group: zarr.Group, name: str, stored: StoredArray) -> Any:
     with suppress(ContainsArrayError):  # Another run is making the same.
         group.create_array(name, shape=stored.shape, chunks=chunks, dtype=dtype, fill_value=fill)
     array = group[name]
-    array.attrs.update(_array_attrs(stored.attrs, stored.dims))
+    array.attrs.update({**stored.attrs, "_ARRAY_DIMENSIONS": list(stored.dims)})
     return array
-
-
-def _array_attrs(attrs: Mapping[str, Any], dims: tuple[str, ...]) -> dict[str, Any]:
-    return {**attrs, _DIMENSIONS: list(dims)}
-
-
-def _group_attrs(job: BlockJob) -> dict[str, Any]:
-    # Coordinates that do not bear the name of a dimension are told apart by this attribute.
-    others = [name for name, each in job.coords.items() if each.dims != (name,)]
-    return {**job.attrs, **({"coordinates": " ".join(others)} if others else {})}
-
-
-def _difference(group: zarr.Group, consolidated: zarr.Group, job: BlockJob) -> str:
-    """Return what of a group is not as a job has it; attributes may have been added by hand."""
-    needed = _group_attrs(job).items()
-    if not all(needed <= dict(each.attrs).items() for each in (group, consolidated)):
-        return "attributes"
-    for name in (*job.arrays, *job.coords):
-        if _layout(group[name]) != _layout(consolidated[name]):
-            return f"metadata of '{name}'"
-    array: Any
-    for name, stored in job.arrays.items():
-        array = group[name]
-        layout = array.shape, array.chunks, array.dtype
-        is_same = layout == (stored.shape, stored.chunks, stored.dtype)
-        is_same &= array.dtype.kind != "f" or np.isnan(array.fill_value)
-        if not is_same or dict(array.attrs) != _array_attrs(stored.attrs, stored.dims):
-            return f"metadata of '{name}'"
-    for name, whole in job.coords.items():
-        array = group[name]
-        may_be_nan = whole.values.dtype.kind == "f"
-        is_same = array.dtype == whole.values.dtype
-        is_same &= np.array_equal(array[...], whole.values, equal_nan=may_be_nan)
-        if not is_same or dict(array.attrs) != _array_attrs(whole.attrs, whole.dims):
-            return f"metadata of '{name}'"
-    return ""
-
-
-def _layout(array: Any) -> tuple[Any, ...]:
-    layout = array.shape, array.chunks, array.dtype, array.order, array.filters, array.compressors
-    return *layout, repr(array.fill_value), dict(array.attrs)
 
 
 def _read(array: Any, place: Any) -> Any:

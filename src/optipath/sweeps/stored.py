@@ -7,8 +7,8 @@ import secrets
 import shutil
 import sys
 from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass
+from functools import cached_property, partial
 from hashlib import sha256
 from importlib.metadata import version
 from math import prod
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import xarray as xr
 
-from optipath.errors import OptipathError, ParameterError, shown
+from optipath.errors import OptipathError, ParameterError, PathError, shown
 from optipath.sweeps.blocks import keep_blocks
 from optipath.sweeps.chunks import run_block
 from optipath.sweeps.jobs import StoredArray, WholeArray, place_of_blocks
@@ -72,24 +72,37 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
 class SweepJob:
     """A sweep that is computed block by block and kept; see `BlockJob`."""
 
-    recipe: PlanRecipe
-    grid: SweepGrid
-    sizes: Mapping[str, int]
-    quantities: Mapping[str, LightQuantity]
-    arrays: Mapping[str, StoredArray]
-    coords: Mapping[str, WholeArray]
-    attrs: Mapping[str, Any] = field(default_factory=dict)
+    chunked: ChunkedSweep
 
-    @classmethod
-    def of(cls, chunked: ChunkedSweep) -> SweepJob:
-        """Return the job that keeps a sweep in chunks."""
-        if chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
+    def __post_init__(self) -> None:
+        """Refuse what stores do not have."""
+        if names := self.chunked.recipe.without_source:
+            raise PathError(
+                f"element class '{names[0]}' is defined in no file by which a store could tell it "
+                f"from others; put it at the top level of a module and import it, or leave store= "
+                f"out"
+            )
+        if self.chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
             raise ParameterError(
                 "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
                 "composer=op.Composer(dtype='float64')"
             )
-        dataset, sizes = chunked.dataset, chunked.dataset.chunksizes
-        arrays = {
+
+    @property
+    def grid(self) -> SweepGrid:
+        """All that is swept."""
+        return self.chunked.grid
+
+    @cached_property
+    def sizes(self) -> dict[str, int]:
+        """How many values a block has along each dimension of the grid."""
+        return {name: self.chunked.dataset.chunksizes[name][0] for name in self.grid.sizes}
+
+    @cached_property
+    def arrays(self) -> dict[str, StoredArray]:
+        """The variables, by name."""
+        sizes = self.chunked.dataset.chunksizes
+        return {
             str(name): StoredArray(
                 tuple(map(str, each.dims)),
                 each.shape,
@@ -97,28 +110,27 @@ class SweepJob:
                 str(each.dtype),
                 each.attrs,
             )
-            for name, each in dataset.data_vars.items()
+            for name, each in self.chunked.dataset.data_vars.items()
         }
-        coords = {
+
+    @property
+    def coords(self) -> dict[str, WholeArray]:
+        """The coordinates, by name."""
+        return {
             str(name): WholeArray(tuple(map(str, each.dims)), _fixed(each.to_numpy()), each.attrs)
-            for name, each in dataset.coords.items()
+            for name, each in self.chunked.dataset.coords.items()
         }
-        each_size = {name: sizes[name][0] for name in chunked.grid.sizes}
-        return cls(
-            chunked.recipe,
-            chunked.grid,
-            each_size,
-            chunked.quantities,
-            arrays,
-            coords,
-            dataset.attrs,
-        )
+
+    @property
+    def attrs(self) -> dict[str, Any]:
+        """Those of the Dataset."""
+        return self.chunked.dataset.attrs
 
     @property
     def identity(self) -> str:
         """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
         types = {name: each.dtype for name, each in self.arrays.items()}
-        return sweep_identity(self.recipe, self.grid, self.sizes, types)
+        return sweep_identity(self.chunked.recipe, self.grid, self.sizes, types)
 
     @property
     def _counts(self) -> tuple[int, ...]:
@@ -150,7 +162,7 @@ class SweepJob:
     def task(self, number: int) -> partial[dict[str, npt.NDArray[Any]]]:
         """Return what computes a block, with its own part of the axes: whole ones may be large."""
         grid = self.grid.part(self.region(number))
-        return partial(compute_block, number, self.recipe, grid, self.quantities)
+        return partial(compute_block, number, self.chunked.recipe, grid, self.chunked.quantities)
 
 
 def compute_block(
