@@ -6,7 +6,7 @@ from distributed import WorkerPlugin
 
 CHUNK = 1 << 14
 _HOME = "optipath.surfaces.hemisphere"
-PLACES = [f"{_HOME}.{name}.CHUNK" for name in ("beam", "chunks", "stored_sums", "measure")]
+PLACES = [f"{_HOME}.{name}.CHUNK" for name in ("beam", "chunks", "measure")]
 
 
 class SmallChunks(WorkerPlugin):

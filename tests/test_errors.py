@@ -173,7 +173,7 @@ EXACT = {
     "engines/numpy_engine.py": {"text"},
     "engines/symbols.py": {"opaque"},
     "explorer/answers.py": {"python_lines", "_by_name", "_material"},
-    "surfaces/hemisphere/chunks.py": {"chunk_identity", "_sample_lines", "_roughness_text"},
+    "surfaces/hemisphere/chunks.py": {"_roughness_text"},
     "sweeps/stored.py": {"sweep_identity"},
     "values/units.py": {"format_quantity"},
 }

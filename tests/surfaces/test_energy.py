@@ -129,7 +129,7 @@ COUNT = "must be a whole number of 1 or more, not 0"
         *(({"incidence": each}, "within 0 deg .. 90 deg") for each in (2.0, -0.1)),
         ({"incidence": [0.1, 0.2]}, r"incidence has the shape \(2,\)"),
         ({"incidence": np.nan}, "incidence is nan"),
-        ({"stokes": (0.0, 0.0, 0.0, 0.0)}, "stokes has no intensity"),
+        ({"stokes": (0.0, 0.0, 0.0, 0.0)}, "give S0 > 0 and"),
         ({"sample": "glass"}, "sample is 'glass'; give an op.Sample"),
         ({"azimuth": "north"}, "azimuth"),
         (MISSED, "photons meet nothing of the sample"),

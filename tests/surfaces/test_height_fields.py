@@ -132,10 +132,10 @@ def test_heights_of_any_real_type_become_float64_that_do_not_change_nor_do_their
         assert not found.heights.flags.writeable
 
 
-ALPHA = "alpha must be a positive number (HeightField.flat() is a flat surface), not "
-PAIR = "or two of them for x and y, not "
-SIZE, LIMITS = f"size must be a positive number, {PAIR}", "give it in a unit of which it is 1e-30 "
-CELLS = f"cells must be a whole number of 2 or more, {PAIR}"
+PAIR = "or two for x and y, not "
+ALPHA = f"alpha must be a positive number, {PAIR}"
+SIZE = f"size must be a positive number, {PAIR}"
+CELLS = f"cells must be a whole number from 2, {PAIR}"
 SEED = "seed must be a whole number of 0 or more, or a numpy.random.SeedSequence, not "
 MESH = "and this machine has"
 
@@ -143,14 +143,12 @@ MESH = "and this machine has"
 @rows(
     "wrong, said",
     [
-        *(({"alpha": each}, ALPHA) for each in (0, np.inf, True, (0.1, 0.2))),
+        *(({"alpha": each}, ALPHA) for each in (0, np.inf, True, (0.1, 0.2, 0.3))),
         *(({"cells": each}, CELLS) for each in (1, 2.5, (640,), (640, 1))),
         *(({"seed": each}, SEED) for each in (-1, None)),
-        ({"waves": 10**13}, "a sum of 1e+13 waves"),
         *(({"alpha": 1.0} | each, MESH) for each in ({"size": 1e20}, {"cells": 10**7})),
         *(({"size": each}, SIZE) for each in (0, "400 um", (1, 2, 3), (400.0, 0.0), [])),
-        *(({"size": each}, LIMITS) for each in (9e-31, 1.1e30)),
-        ({"periodic": 1}, "periodic must be True or False, not 1"),
+        ({"periodic": 1}, "periodic is 1; give True or False"),
     ],
 )
 def test_a_random_field_is_refused_that_cannot_be(wrong, said):
@@ -162,17 +160,13 @@ def test_a_random_field_is_refused_that_cannot_be(wrong, said):
 @rows(
     "heights, periodic, said",
     [
-        ([[1.0, 2.0]] * 2, False, "heights of shape (2, 2) are too few; give 3 x 3 or more"),
-        (MAP[:1], True, "give 2 x 2 or more"),
-        (np.zeros((3, 4, 3)), False, "along y and columns along x, not the shape (3, 4, 3)"),
+        ([[1.0, 2.0]] * 2, False, "of shape (2, 2); give real numbers, rows along y and"),
+        (MAP[:1], True, "columns along x, 2 x 2 or more"),
+        (np.zeros((3, 4, 3)), False, "an array of float64 of shape (3, 4, 3); give real"),
         ([[0.0, np.nan, 1.0]] * 3, False, "3 of 9 heights are not finite, the first nan at heigh"),
-        (np.where(MAP == 8.0, -np.inf, MAP), False, "1 of 12 heights is not finite, the first -i"),
-        *(
-            (each, False, "heights must be real numbers, not an arr")
-            for each in (MAP + 1j, MAP > 2)
-        ),
+        (np.where(MAP == 8.0, -np.inf, MAP), False, "1 of 12 heights are not finite, the first -i"),
+        *((each, False, "; give real numbers, rows along y") for each in (MAP + 1j, MAP > 2)),
         (np.ma.masked_greater(MAP, 4.0), False, "the array of heights has masked entries"),
-        (1e300 * MAP, False, "give them in a unit in which they are numbers of 1e+30 at most"),
     ],
 )
 def test_a_map_of_heights_is_refused_that_cannot_be(heights, periodic, said):
@@ -184,16 +178,16 @@ def test_a_map_of_heights_is_refused_that_cannot_be(heights, periodic, said):
 def test_all_faults_of_a_field_are_told_at_once():
     wrong = {"size": -1, "cells": 1, "waves": 0, "seed": -1, "periodic": "no"}
     faults = faults_of(HeightField.beckmann, 0, np.nan, **wrong)
-    places = ["alpha", "alpha_y", "size", "periodic", "cells", "seed", "waves"]
-    assert [fault.split(" must")[0] for fault in faults] == places
-    assert len(faults_of(HeightField, [[np.nan]], -1, periodic=1, alpha=0.0)) == 5
+    places = ["alpha", "size", "periodic", "cells", "seed", "waves"]
+    assert [fault.split(" ")[0] for fault in faults] == places
+    assert len(faults_of(HeightField, [[np.nan]], -1, periodic=1, alpha=0.0)) == 4
 
 
 def test_a_period_of_too_few_correlation_lengths_is_refused_and_the_cures_work():
     (fault,) = faults_of(HeightField.beckmann, 0.3, 0.07, size=100.0)
     assert "has 15 x 3.5 correlation lengths 2/alpha" in fault
-    assert "write size=(66.667, 285.72) or more, or periodic=False" in fault
-    HeightField.beckmann(0.3, 0.07, size=(66.667, 285.72))
+    assert "write size=(67, 286) or more, or periodic=False" in fault
+    HeightField.beckmann(0.3, 0.07, size=(67, 286))
     assert HeightField.beckmann(0.3, 0.07, size=100.0, periodic=False).cells == (240, 56)
     # In spite of roundings.
     assert period_faults((0.1545, 0.1545), (20.0 / 0.1545, 20.0 / 0.1545)) == []
@@ -204,16 +198,15 @@ def test_the_size_that_is_offered_is_taken_and_little_larger_than_needed(alpha_x
     (fault,) = period_faults((alpha_x, alpha_y), (1.0, 1.0))
     offered = ast.literal_eval(re.search(r"size=(\(.*?\))", fault)[1])
     assert period_faults((alpha_x, alpha_y), offered) == []
-    assert offered == pytest.approx((20.0 / alpha_x, 20.0 / alpha_y), rel=2e-4)
+    assert offered == (math.ceil(20.0 / alpha_x), math.ceil(20.0 / alpha_y))
 
 
 @rows(
     "alpha, size, cells, said",
     [
-        (1.0, 40.0, 10, "slopes are lost, and more than 12 % of the light that is transmitted"),
-        (1.0, 40.0, 40, "slopes are lost, and about 12 % of the light that is transmitted"),
-        (1.0, 40.0, 319, "slopes are lost, and about 0.2 % of the light that is transmitted"),
-        (1.0, 40.0, 80, r"80 x 80 cells has 4 a .* 16 at alpha 1: .* 4.7 % .*=\(320, 320\) are"),
+        (1.0, 40.0, 10, "slopes are lost, and light of several events"),
+        (1.0, 40.0, 319, r"cells=\(320, 320\) are enough"),
+        (1.0, 40.0, 80, r"80 x 80 cells has 4 a .* 16 at alpha 1: .*=\(320, 320\) are"),
         # Five cells are enough for smoother surfaces.
         (0.3, 100.0, 74, r"cells=\(75, 75\) are enough"),
         (0.31, 100.0, 247, r"cells=\(248, 248\) are enough"),

@@ -132,8 +132,8 @@ def test_angles_of_light_turned_by_a_right_angle_have_the_same_errors():
 @rows(
     "source, told",
     [
-        ([1, 1, 1, 0], "polarised by more than 100 %"),
-        ([0, 0, 0, 0], "has no intensity; give S0 > 0"),
+        ([1, 1, 1, 0], r"give S0 > 0 and S1\^2"),
+        ([0, 0, 0, 0], "give S0 > 0 and"),
         ([1, 0, 0], r"must have shape \(..., 4\)"),
         ([[1, 0, 0, 0], [1, 1, 0, 0]], "give one Stokes vector"),
         ([1, np.nan, 0, 0], "finite Stokes vector"),
@@ -148,9 +148,7 @@ def test_what_is_no_source_is_told(silver, source, told):
 
 def test_what_follows_comes_of_a_function_that_returns_real_numbers(glass):
     for estimate in (glass.own.estimate, lambda found: glass.estimate_toward(found, "56 deg")):
-        with pytest.raises(op.SurfaceError, match="found is 3; give a function"):
-            estimate(3)
-        for value in (None, [[1.0], [1.0, 2.0]], 1j, True):
+        for value in (None, 1j, True):
             with pytest.raises(op.SurfaceError, match="let the function return real numbers"):
                 estimate(lambda _, value=value: value)
     assert glass.estimate_toward(lambda _: 2, "56 deg") == (2, 0.0)
@@ -160,7 +158,7 @@ def test_maps_are_of_both_and_of_enough_photons():
     for options, sentence in (
         ({"polarized": "scalar"}, "with polarized='both'"),
         ({"polarized": "polarized"}, "with polarized='both'"),
-        ({}, "measure with more photons, or give noise=None"),
+        ({}, "measure with more photons$"),
     ):
         few = op.measure(GLASS, 0.5, 100, sensor=8, **options)
         with pytest.raises(op.SurfaceError, match=sentence):
@@ -336,7 +334,7 @@ def off_the_lobe(sample, incidence, at, wavelengths=None):
 def test_simulation_1_tends_to_nearly_smooth_interfaces_off_the_lobe(angle, at):
     sample = op.load_sample("glass-on-glass")
     value, error = off_the_lobe(sample, f"{angle} deg", at)
-    smooth = smooth_exit(sample, f"{angle} deg", f"{at} deg")
+    smooth = smooth_exit(sample, np.radians(angle), np.radians(at))
     assert smooth - 2.0 * error[0] < value[0] < 0.85 * smooth + 2.0 * error[0]
 
 
@@ -344,10 +342,10 @@ def test_simulation_1_tends_to_nearly_smooth_interfaces_off_the_lobe(angle, at):
 def test_half_the_roughness_is_nearer_and_simulation_7_tends_to_it_where_light_is_taken_away():
     sample = op.Sample([(1.5, 0.05), (2.4, 0.05)])
     value, error = off_the_lobe(sample, "60 deg", 80)
-    assert abs(value[0] - smooth_exit(sample, "60 deg", "80 deg")) < 0.01 + 2.0 * error[0]
+    assert abs(value[0] - smooth_exit(sample, *np.radians([60, 80]))) < 0.01 + 2.0 * error[0]
     sample, lights = op.load_sample("wang-2017-simulation-07"), 1e-9 * np.arange(380, 501, 40)
     value, error = off_the_lobe(sample, "60 deg", 80, lights)
-    smooth = smooth_exit(sample, "60 deg", "80 deg", wavelengths=lights)
+    smooth = smooth_exit(sample, *np.radians([60, 80]), wavelengths=lights)
     assert (smooth - 2.0 * error < value).all()
     assert (value < 0.85 * smooth + 2.0 * error).all()
 

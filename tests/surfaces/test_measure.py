@@ -184,7 +184,7 @@ def test_rounds_between_two_faces_add_up_to_a_geometric_series(incidence, percen
     assert 100.0 * float(known.adm().max()) == pytest.approx(percent, abs=6e-4)
 
 
-def test_nothing_is_counted_and_nothing_is_uncertain_nor_kept(tmp_path):
+def test_nothing_is_counted_and_nothing_is_uncertain():
     known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8)
     assert known.photons == known.dataset.attrs["photons"] == 0
     for name in ("count", "mueller_se", "scalar_se", "difference_se"):
@@ -194,10 +194,6 @@ def test_nothing_is_counted_and_nothing_is_uncertain_nor_kept(tmp_path):
         known = op.measure(GLASS_ON_DIAMOND, "65 deg", sensor=8, polarized=polarized)
         assert known.parts.sums.shape[-1] == numbers
         assert known.parts.sums[..., 0].sum() == pytest.approx(1.0, abs=1e-14)
-    for extra in ("zarr", "dask", "distributed"):
-        pytest.importorskip(extra)
-    with pytest.raises(op.OptipathError, match=r"flat: .* leave out store and scheduler"):
-        op.measure(GLASS_ON_DIAMOND, 0.5, store=tmp_path / "kept.zarr")
     # Light that is cut short is walked: what the first face reflects.
     once = op.measure(GLASS_ON_DIAMOND, "65 deg", 20_000, sensor=8, events=1)
     assert once.photons == 20_000

@@ -143,9 +143,9 @@ def test_several_wavelengths_ride_on_one_photon_and_its_path():
         alone = sample.photon(4, ANGLE, wavelength=wavelength)
         assert np.array_equal(alone.stokes, photon.stokes[place])
     for which in (3, True):
-        with pytest.raises(op.SurfaceError, match=r"which is .*shape \(3,\); .* such as 2$"):
+        with pytest.raises(op.SurfaceError, match=r"which is .*shape \(3,\); give the place"):
             photon.path(which)
-    with pytest.raises(op.SurfaceError, match="one light; leave it out"):
+    with pytest.raises(op.SurfaceError, match=r"which is 0, but wavelengths have the shape \(\)"):
         op.Sample([(1.5, 0.0)]).photon(0, ANGLE).path(0)
 
 
@@ -208,7 +208,6 @@ FLAT = op.Sample([(1.5, 0.0)])
     [
         (lambda: FLAT.photon(-1), "number must be a whole number of 0 or more"),
         (lambda: FLAT.photon(-1, "95 deg", seed=-1, wavelength="550 nm"), "4 faults"),
-        (lambda: FLAT.photon(0, most_events=10**15), "fewer most_events"),
         (missing_a_wall, "photons meet nothing of the sample"),
     ],
 )

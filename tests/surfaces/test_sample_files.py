@@ -177,6 +177,7 @@ def test_only_what_is_not_usual_is_written_and_materials_as_in_presets(loaded):
 
 
 CURE = "give one, such as 1.5 or { n = 0.5, k = 2.1 }, and make a sample for each"
+ROUGH = "an interface is rough by its 'alpha' (0 is flat), or by 'heights' with a 'size'"
 NO_PARAMETERS = "a sample has no parameters; write a number, or a table of a material"
 OF_INDICES = {
     "[0.5, 2.1]": ": [0.5, 2.1] is a list; write one index, such as 1.5 or { n = 0.5, k = 2.1 }",
@@ -187,16 +188,19 @@ OF_INDICES = {
 @rows(
     "text, sentence",
     [
-        ("", "the sample has no layers; add a table [[layers]] for each, from the top"),
-        ("layers = 3", "the sample: 'layers' must be a list of tables, each headed [[layers]]"),
-        ("layers = [3]", "layers[0] must be a table headed [[layers]], not 3"),
-        (LAYER.replace("layers", "layer"), "key 'layer' is unknown; did you mean 'layers'?"),
-        ("surfaces = 2.5\n" + LAYER, "the sample: 'surfaces' must be a whole number, not 2.5"),
-        ("outside = 0\n" + LAYER, "outside is 0; give a real index of refraction within 1e-60"),
+        ("", "'layers' is missing"),
+        ("layers = 3", "'layers' must be a list of tables, each headed [[layers]]"),
+        ("layers = [3]", "layers[0]: 3 must be a table"),
+        (LAYER + "[other]", "key 'other' is unknown; there are: format, description, layers"),
+        ("surfaces = 2.5\n" + LAYER, "'surfaces' must be a whole number, not 2.5"),
+        (
+            "outside = 0\n" + LAYER,
+            "outside is 0.0; give an index of refraction n + ik with n and k",
+        ),
         (LAYER + "rough = 0.1\n", "'rough' is unknown; there are: index, alpha, heights, size, pe"),
-        (LAYER[:11] + LAYER[23:], "layers[0]: 'index' is missing; write that of the medium below"),
-        ("[[layers]]\nindex = 1.5", "layers[0]: 'alpha' is missing; write alpha = 0.1, alpha = 0"),
-        (LAYER + "size = 3.0\n", "layers[0]: 'size' is of heights out of a file; leave it out"),
+        (LAYER[:11] + LAYER[23:], "layers[0]: 'index' is missing"),
+        ("[[layers]]\nindex = 1.5", f"layers[0]: {ROUGH}"),
+        (LAYER + "size = 3.0\n", f"layers[0]: {ROUGH}"),
         *(
             (f"[[layers]]\nindex = {of}\nalpha = 0.1", f"layers[0].index{told}")
             for of, told in OF_INDICES.items()
@@ -207,21 +211,22 @@ def test_a_fault_is_told_with_its_place_and_its_cure(faults, text, sentence):
     (fault,) = faults(text)
     assert sentence in fault
     for before, told in (
-        ("", "the sample: 'format' is missing; add format = 1"),
+        ("", "'format' is missing"),
         ("format = 2\n", "format is 2, but this version reads format 1"),
-        ("format = true\n", "format is True, but this version reads format 1"),
+        ("format = true\n", "'format' must be a whole number, not True"),
     ):
         assert faults(LAYER, before=before) == [told]
 
 
-def test_all_faults_of_a_file_are_told_at_once_with_their_file(loaded, faults):
-    text = 'outside = "glass"\nseed = -1\ncells = 1\ncolour = 3\n'
-    text += "[[layers]]\nindx = 1.5\nalpha = -0.1\n"
-    text += '[[layers]]\nindex = { n = 1.5, k = 0.1 }\nheights = "none.npy"\nsize = 3\n'
-    text += '[[layers]]\nindex = 0\nalpha = "steep"\n'
-    first = "the outside layers[0] layers[1].heights layers[0].alpha layers[1].index"
+def test_faults_of_keys_and_then_of_values_are_told_at_once_with_their_file(loaded, faults):
+    text = 'outside = "glass"\nseed = -1\ncells = 1\n'
+    text += '[[layers]]\nindx = 1.5\nalpha = -0.1\nsize = "a"\n'
+    text += '[[layers]]\nindex = "glass"\nheights = "none.npy"\nsize = 3\n'
     places = [fault.partition(" ")[0].rstrip(":") for fault in faults(text)]
-    assert places == [*first.split(), "layers[2].index", "layers[2].alpha", "cells", "seed"]
+    assert places == ["layers[0]", "layers[1].index", "outside"]
+    text = "seed = -1\ncells = 1\n[[layers]]\nindex = { n = 1.5, k = 0.1 }\nalpha = -0.1\n"
+    places = [fault.partition(" ")[0] for fault in faults(text + LAYER)]
+    assert places == ["layers[0].index", "layers[0].alpha", "cells", "seed"]
     with pytest.raises(op.SurfaceError, match=r"^own\.toml: layers\[0\]\.alpha is -1"):
         loaded("[[layers]]\nindex = 1.5\nalpha = -1")
     assert "own.toml' is not TOML" in faults("layers = [")[0]
@@ -293,33 +298,25 @@ def test_heights_of_a_file_beside_that_of_the_sample_are_read_and_written(
     assert op.load_sample(folder / "copy.toml") == sample
 
 
-def test_no_other_file_can_be_named_and_ones_that_are_elsewhere_or_too_large_are_told(
-    folder, faults
-):
+def test_no_other_file_can_be_named_and_ones_that_are_not_there_are_told(folder, faults):
     (folder / "link.npy").symlink_to(folder.parent / "own.npy")
     (folder / "out").symlink_to(folder.parent)
     (folder / "round.npy").symlink_to(folder / "round.npy")
-    with (folder / "large.npy").open("wb") as file:
-        file.truncate(256 * 1024**2 + 1)
-    away, none = "leads out of the folder of the sample", "is no file beside that of the sample"
-    told = dict.fromkeys(("link.npy", "out/own.npy"), away)
-    told |= dict.fromkeys(("none.npy", "maps", "none/own.npy"), none)
-    told |= {"round.npy": "", "large.npy": "is larger than 256 MiB"}
-    no_name = "is no name of a file beside that of the sample; write one such as"
-    told |= dict.fromkeys(("../own.npy", "/etc/hosts", "", "own.npy/"), no_name)
+    away = "leads out of the folder of the sample"
+    told = dict.fromkeys(("link.npy", "out/own.npy", "../own.npy", "/etc/hosts"), away)
+    told |= dict.fromkeys(("none.npy", "round.npy", "a\\u0000b"), "cannot be read")
     for name, said in told.items():
         (fault,) = faults(naming(name))
-        assert fault.startswith(f"layers[0].heights: '{name}' {said}"), name
-    for name in ("a\\\\b.npy", "a\\nb", "a" * 201):
-        assert no_name in faults(naming(name))[0]
+        assert fault.startswith("layers[0].heights '"), name
+        assert said in fault, name
 
 
 @rows(
     "name, more, sentence",
     [
         ("own.npy", "size = -1", "layers[0].heights 'own.npy': size must be a positive number"),
-        ("own.npy", "", "layers[0]: 'size' is missing; write the lengths of the sides"),
-        ("own.npy", "size = 3\nalpha = 0.1", "layers[0]: 'alpha' and 'heights' say one thing twi"),
+        ("own.npy", "", f"layers[0]: {ROUGH}"),
+        ("own.npy", "size = 3\nalpha = 0.1", f"layers[0]: {ROUGH}"),
         ("own.npy", 'size = 3\nperiodic = "yes"', "layers[0]: 'periodic' must be true or false"),
         ("nan.npy", "size = 3", "layers[0].heights 'nan.npy': 16 of 16 heights are not finite"),
         ("own.toml", "size = 3", "layers[0].heights 'own.toml': a file of heights cannot end"),
@@ -380,15 +377,15 @@ def test_a_picture_is_read(tmp_path, dtype, ending):
 @rows(
     "name, text, said",
     [
-        ("a.txt", "# only remarks\n", "holds no numbers; write a line of heights for each row"),
-        ("a.txt", b"\xff\xfe1", "is no text in UTF-8; save it as UTF-8"),
-        ("a.txt", "1 2 3\n\n1 2\n", "line 3 has 2 numbers, and line 1 has 3; write as many"),
-        ("a.txt", "# x\nx y z\n1 2 3\n", "'x' in line 2 is no number"),
-        ("a.csv", "1,2,\n3,4,\n", "'' in line 1 is no number"),
-        ("a.txt", "1_0 2 3\n", "it has numbers that are written in an unusual way"),
+        ("a.txt", "# only remarks\n", "is no table of heights: it holds no numbers"),
+        ("a.txt", b"\xff\xfe1", "'utf-8' codec can't decode byte 0xff in position 0"),
+        ("a.txt", "1 2 3\n\n1 2\n", "the number of columns changed from 3 to 2"),
+        ("a.txt", "# x\nx y z\n1 2 3\n", "could not convert string 'x'"),
+        ("a.csv", "1,2,\n3,4,\n", "could not convert string ''"),
+        ("a.txt", "1_0 2 3\n", "could not convert string '1_0'"),
         ("a.txt", "1 nan 3\n" * 3, "3 of 9 heights are not finite, the first nan at heights[0, 1]"),
-        ("a.npy", "", "is no array of numbers: EOF: reading magic string"),
-        ("a.npy", "1 2 3\n4 5 6\n", "is no array of numbers: the magic string is not correct"),
+        ("a.npy", "", "is no table of heights: EOF: reading magic string"),
+        ("a.npy", "1 2 3\n4 5 6\n", "the magic string is not correct"),
         ("a.png", "", f"a file of heights cannot end in '.png'; there are: {ENDINGS}"),
         ("a.tiif", "", "cannot end in '.tiif'; did you mean '.tif'?"),
     ],
@@ -402,7 +399,7 @@ def test_arrays_that_are_cut_off_or_could_run_something_and_no_files_are_refused
     assert "Object arrays cannot be loaded" in refused(tmp_path / "a.npy")
     np.save(tmp_path / "a.npy", MAP)
     whole = (tmp_path / "a.npy").read_bytes()
-    assert "is no array of numbers" in refused(written(tmp_path, "b.npy", whole[:-20]))
+    assert "Failed to read all data" in refused(written(tmp_path, "b.npy", whole[:-20]))
     assert refused(tmp_path / "a.txt") == "cannot be read: No such file or directory"
     (tmp_path / "a.txt").mkdir()
     assert refused(tmp_path / "a.txt") == "cannot be read: Is a directory"
@@ -424,17 +421,17 @@ def test_pictures_in_colours_in_several_and_cut_short_are_refused(tmp_path):
     tifffile = pytest.importorskip("tifffile")
     for text in ("nothing", "II*\0\x08\0\0\0"):
         fault = refused(written(tmp_path, "a.tif", text))
-        assert fault.startswith(("is no TIFF that can be read: ", "has no pictures; save that"))
+        assert fault.startswith("is no table of heights: ")
     tifffile.imwrite(file, np.zeros((5, 6, 3), np.uint8), photometric="rgb")
-    assert "must have two dimensions" in refused(file)
+    assert "of shape (5, 6, 3); give real numbers" in refused(file)
     numbers, colours = np.zeros((5, 6), np.uint8), np.zeros((3, 256), np.uint16)
     tifffile.imwrite(file, numbers, photometric="palette", colormap=colours)
     assert "numbers of colours in a palette" in refused(file)
     with tifffile.TiffWriter(file) as several:
         several.write(MAP)
         several.write(MAP[:2, :2])
-    assert "has 2 pictures; save that of the heights alone" in refused(file)
+    assert "save one picture, whole" in refused(file)
     tifffile.imwrite(file, np.ones((40, 40)))
     whole = file.read_bytes()
     cut = written(tmp_path, "a.tif", whole[: len(whole) // 2])
-    assert "it may be cut short, so save it again" in refused(cut)
+    assert "save one picture, whole" in refused(cut)

@@ -99,8 +99,6 @@ def test_fields_are_forty_correlation_lengths_wide_with_sixteen_cells_each():
     sample = op.Sample([(1.5, 0.4)], cells=200)
     with pytest.warns(op.MeshWarning, match="200 x 200 cells"):
         sample.fields()
-    with pytest.raises(op.SurfaceError, match="surface must be a whole number of 0 or more"):
-        sample.fields(-1)
 
 
 def test_a_sample_is_isotropic_where_all_its_interfaces_are():
@@ -110,30 +108,20 @@ def test_a_sample_is_isotropic_where_all_its_interfaces_are():
         assert not op.Sample(layers).isotropic
 
 
-RANGE = "give a roughness within 1e-06 .. 100, or 0 for a flat interface"
-ONE_SIDE = "give two numbers above 0, or 0 for a flat interface"
-PAIR = "give one number, a pair along x and y, or heights"
-
-
 @rows(
-    "sentence, roughness",
+    "roughness",
     [
-        *((RANGE, each) for each in (9e-7, 101.0, (0.1, -0.1))),
-        ("give a finite roughness", np.nan),
-        ("", None),
-        *((PAIR, each) for each in ((0.1,), (0.1, 0.2, 0.3), np.linspace(0.1, 0.5, 5))),
-        ("for one number; give a pair along x and y", ((0.1, 0.2), 0.1)),
-        *((ONE_SIDE, each) for each in ((0.1, 0), (0, 0.1))),
-        (" is parameter 'a'; give a number, and make a sample for each", op.Parameter("a", 0.1)),
+        *(9e-7, 101.0, np.nan, None, op.Parameter("a", 0.1), np.linspace(0.1, 0.5, 5)),
+        *((0.1, -0.1), (0.1,), (0.1, 0.2, 0.3), ((0.1, 0.2), 0.1), (0.1, 0), (0, 0.1)),
     ],
 )
-def test_what_is_no_roughness_is_refused(sentence, roughness):
+def test_what_is_no_roughness_is_refused(roughness):
     fault = fault_of([(1.5, roughness)])
-    assert fault.startswith("layers[0].alpha")
-    assert fault.endswith(sentence)
+    assert fault.startswith("layers[0].alpha is ")
+    assert fault.endswith("along x and y, 0 for a flat interface, or a HeightField")
 
 
-@rows("roughness", [0, (0, 0), "0", 1e-6, 100.0])
+@rows("roughness", [0, (0, 0), 1e-6, 100.0])
 def test_all_of_the_range_can_be_drawn_and_0_is_flat(roughness):
     sample = op.Sample([(1.5, roughness)], seed=2)
     (field,) = sample.fields()
@@ -152,7 +140,7 @@ ABSORBS = "which absorbs; give a real index of refraction"
     "layers, start, within",
     [
         *(([(each, 0.1)], FIRST, "") for each in (0, -1.5, np.nan, 1.5 - 0.1j)),
-        *(([(each, 0.1), (1.5, 0.1)], FIRST, "") for each in (0, 1e-70, 1e70)),
+        *(([(each, 0.1), (1.5, 0.1)], FIRST, "") for each in (0, -1.5)),
         *(([(each, 0.1)], "layers[0].index", "") for each in (None, "gold", op.Polarizer())),
         *(
             ([(each, 0.1)], FIRST, f"{SEVERAL} 0.5+2.1j")
@@ -179,12 +167,12 @@ def test_media_that_do_not_absorb_may_be_anywhere_and_the_last_may_absorb():
     for index in (0.5 + 2.1j, "0.5+2.1j", op.Material(0.5, 2.1), GOLD):
         op.Sample([(1.5, 0.1), (index, 0.1)])
     assert fault_of([(1.5, 0.1)], outside=1j).startswith(f"outside is 1j, {ABSORBS}")
-    # A material that absorbs at every wavelength is known without one.
-    assert refused([(GOLD, 0.1), (2.4, 0.1)], outside=GOLD) == tuple(
-        f"k of gold is 0 at no wavelength, and {place}.k takes 0, since only the last medium may "
-        f"absorb: take the medium without its k"
-        for place in ("outside", "layers[0].index")
-    )
+    # A material is looked at where its index is known.
+    sample = [(GOLD, 0.1), (2.4, 0.1)]
+    for place, fault in zip(
+        ("outside", "layers[0].index"), faults_at(sample, "500 nm", outside=GOLD), strict=True
+    ):
+        assert fault.startswith(f"{place} is (0.9+1.8j), {ABSORBS}")
     op.Sample([(op.Material(GOLD.n), 0.1), (2.4, 0.1)])
 
 
@@ -194,8 +182,7 @@ def test_media_that_do_not_absorb_may_be_anywhere_and_the_last_may_absorb():
         ("surfaces", 0, "must be a whole number of 1 or more, not 0"),
         ("seed", -1, "must be a whole number of 0 or more, not -1"),
         ("periodic", 1, "is 1; give True or False"),
-        ("cells", 1, "must be a whole number of 2 or more, or two of them for x and y, not 1"),
-        ("description", 3, "must be a text, not 3"),
+        ("cells", 1, "must be a whole number from 2, or two for x and y, not 1"),
     ],
 )
 def test_an_option_that_is_none_is_told_with_the_cure_and_all_faults_at_once(
@@ -211,8 +198,6 @@ def test_an_option_that_is_none_is_told_with_the_cure_and_all_faults_at_once(
     for roughness in (0, HeightField.flat(), heights()):
         fault = fault_of([(1.5, roughness)], cells=640)
         assert fault == "cells is given, but no interface is random; leave it out"
-    fault = fault_of([(1.5, 0.1), (2.4, heights(periodic=True))], periodic=False)
-    assert fault.startswith("periodic is False, but the heights of layers[1] are periodic")
     op.Sample([(1.5, 0.1), (2.4, heights()), (1.5, HeightField.flat())], periodic=False)
 
 
@@ -274,7 +259,7 @@ ONE, BOTH = "give one wavelength at a time", ["400 nm", "500 nm"]
     [
         ([GLASS, METAL], None, "depends on the wavelength; give one, such as '550 nm'$"),
         ([1.5], "550 nm", "^wavelength is given, but no medium depends on it; leave it out"),
-        ([INK, 1.5], "500 nm", r"^k of ink at 500 nm is 0\.1, and layers\[0\]\.index\.k takes 0"),
+        ([INK, 1.5], "500 nm", r"^layers\[0\]\.index is \(1\.5\+0\.1j\), which absorbs"),
         ([INK], BOTH, rf"^layers\[0\]\.index lets light .*{ONE}$"),
         ([INK], BOTH[::-1], rf"^layers\[0\]\.index lets light .*{ONE}$"),
         ([GLASS], 550, "550 metres, which is no wavelength of light; for nanometres write"),
@@ -289,8 +274,8 @@ def test_what_is_no_wavelength_or_does_not_fit_the_media_is_refused(layers, wave
 
 def test_a_wavelength_that_several_places_cannot_have_is_told_for_each():
     faults = faults_at([(WHITE, 0.1), (METAL, 0.1)], "700 nm")
-    assert [fault.partition(" is ")[0] for fault in faults] == [
-        f"parameter 'wavelength' (at layers[{place}].index)" for place in (0, 1)
+    assert [fault.partition(": the wavelength is ")[0] for fault in faults] == [
+        f"layers[{place}].index" for place in (0, 1)
     ]
     # Media above the base must be the same at all wavelengths.
     faults = faults_at([(GLASS, 0.1), (METAL, 0.1)], BOTH, outside=GLASS)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.facets import plane_at_facet
@@ -21,12 +20,10 @@ from optipath.surfaces.walk.layout import (
     END_K,
     END_LIGHTS,
     END_X,
-    ENDS,
     EVENTS,
     OUTCOME,
     OUTCOME_NAMES,
 )
-from optipath.values.arrays import refuse_too_large
 from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
@@ -97,61 +94,37 @@ def photon_ends(
         most_events=most_events,
         others=whole_number("photons", photons),
     )
-    refuse_too_large(
-        (int(photons),),
-        16 * (ENDS + CARRIED * beam.lights),
-        cure="give fewer photons",
-        error=SurfaceError,
-        what="ends of {:.3g} photons",
-    )
-    blocks = range(-(-photons // BLOCK))
-    return _ends_of(beam, np.concatenate([_block(beam, number, photons) for number in blocks]))
-
-
-def _block(beam: PhotonBeam, number: int, photons: int) -> Numbers:
-    return beam.block(number, min(BLOCK, photons - BLOCK * number), keeps=True).ends
+    blocks = [
+        beam.block(first // BLOCK, min(BLOCK, photons - first), keeps=True).ends
+        for first in range(0, photons, BLOCK)
+    ]
+    return _ends_of(beam, np.concatenate(blocks))
 
 
 def _ends_of(beam: PhotonBeam, results: Numbers) -> PhotonEnds:
-    turned, shape = turned_ends(beam, results), (len(results), *beam.indices.n.shape)
+    """Return the ends of photons in frames that belong to their directions."""
+    k, x, turns = turned_directions(beam, results)
+    shape = len(results), *beam.indices.n.shape
+    lights = results[:, END_LIGHTS:].reshape(len(results), -1, CARRIED)
+    carried = tuple(lights[..., place] for place in range(4))
+    rotation = [each[:, np.newaxis] for each in turns.T]
+    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
     return PhotonEnds(
-        ends=np.array(OUTCOME_NAMES)[turned.outcomes],
-        events=turned.events,
-        directions=turned.directions,
-        x=turned.x,
-        stokes=turned.stokes.reshape(*shape, 4),
-        scalar=turned.scalar.reshape(shape),
+        ends=np.array(OUTCOME_NAMES)[results[:, OUTCOME].astype(int)],
+        events=results[:, EVENTS].astype(int),
+        directions=k,
+        x=x,
+        stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1).reshape(*shape, 4),
+        scalar=lights[..., 4].reshape(shape),
     )
 
 
-_ACROSS = 0.0, 1.0, 0.0
+def turned_directions(beam: PhotonBeam, results: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return directions and x (photons, 3) of found (photons, ENDS + CARRIED lights), and turns.
 
-
-class TurnedDirections(NamedTuple):
-    """k, x (photons, 3) and turns (photons, 2); if isotropic, as if all had come along x."""
-
-    k: Numbers
-    x: Numbers
-    turns: Numbers
-
-
-class TurnedEnds(NamedTuple):
-    """Where photons end, with their lights; directions are those of `TurnedDirections`.
-
-    Shapes: outcomes, events (photons,); directions, x (photons, 3); stokes (photons, lights, 4);
-    scalar (photons, lights).
+    On an isotropic sample as if all photons had come along x; turns (photons, 2) are those into
+    the frames.
     """
-
-    outcomes: npt.NDArray[np.int64]
-    events: npt.NDArray[np.int64]
-    directions: Numbers
-    x: Numbers
-    stokes: Numbers
-    scalar: Numbers
-
-
-def turned_directions(beam: PhotonBeam, results: Numbers) -> TurnedDirections:
-    """Return the directions of found (photons, ENDS + CARRIED lights), and their frames."""
     back = -results[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(results))
     k, old_x = (_turned(results[:, place : place + 3], back) for place in (END_K, END_X))
     _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
@@ -161,25 +134,8 @@ def turned_directions(beam: PhotonBeam, results: Numbers) -> TurnedDirections:
         # There is no meridional plane, and x is that of light beside it that goes on towards x.
         old, z = x[along], k[along, 2]
         turns[along] = np.stack(align(NUMPY)(old[:, 1], z * old[:, 0]), axis=-1)
-        x[along] = _ACROSS
-    return TurnedDirections(k, x, turns)
-
-
-def turned_ends(beam: PhotonBeam, results: Numbers) -> TurnedEnds:
-    """Return the ends of photons in frames that belong to their directions."""
-    directions = turned_directions(beam, results)
-    lights = results[:, END_LIGHTS:].reshape(len(results), -1, CARRIED)
-    carried = tuple(lights[..., place] for place in range(4))
-    rotation = [each[:, np.newaxis] for each in directions.turns.T]
-    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
-    return TurnedEnds(
-        outcomes=results[:, OUTCOME].astype(int),
-        events=results[:, EVENTS].astype(int),
-        directions=directions.k,
-        x=directions.x,
-        stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1),
-        scalar=lights[..., 4],
-    )
+        x[along] = 0.0, 1.0, 0.0
+    return k, x, turns
 
 
 def _turned(vectors: Numbers, angle: Numbers) -> Numbers:

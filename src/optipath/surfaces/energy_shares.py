@@ -7,7 +7,6 @@ import warnings
 from contextlib import closing
 from dataclasses import dataclass
 from math import ceil
-from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,8 +26,9 @@ from optipath.surfaces.walk.layout import (
     STUCK,
     UP,
 )
+from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
-from optipath.values.precision import Numbers, is_whole, whole_number
+from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -133,24 +133,14 @@ def walk_wanted(
     tolerance: float | None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Energy:
-    """Walk as many photons as are wanted."""
-    if tolerance is not None:
-        return walk_until(run, tolerance, most, progress)
-    run.walk(most, progress)
-    return checked_energy(run)
-
-
-def walk_until(
-    run: EnergyRun, tolerance: float, most: int, progress: Callable[[int, int], None] | None
-) -> Energy:
-    """Walk photons until the standard error of R is within a tolerance."""
-    # A block on every surface, so that their differences are known.
-    wanted = min(2 * BLOCK * run.beam.surfaces, most)
+    """Walk photons until there are as many, or the standard error of R is within a tolerance."""
+    # A block on every surface at first, so that their differences are known.
+    wanted = most if tolerance is None else min(2 * BLOCK * run.beam.surfaces, most)
     while True:
         run.walk(wanted, progress)
         result = checked_energy(run)
         error = float(np.max(result.R_se))
-        if error <= tolerance:
+        if tolerance is None or error <= tolerance:
             return result
         if run.photons >= most:
             warnings.warn(
@@ -203,23 +193,6 @@ _PARTS: dict[str, tuple[list[int], slice]] = {
 }
 
 
-def energy_shares(photons: Numbers, total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
-    """Return the shares of light out of sums over photons.
-
-    Shapes: photons (surfaces,); total, squares (surfaces, ends, events, ...).
-    """
-    results: dict[str, Numbers] = {}
-    for name, (ends, events) in _PARTS.items():
-        part = [each[:, ends, events].sum(axis=(1, 2)) for each in (total, squares)]
-        results[name], results[f"{name}_se"] = mean_and_error(photons, *part)
-    results["absorbed"] = whole - results["absorbed"]
-    for name, end in (("reflected", UP), ("transmitted", DOWN)):
-        results[name], results[f"{name}_se"] = mean_and_error(
-            photons, total[:, end], squares[:, end]
-        )
-    return EnergyShares(**results)
-
-
 def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[Numbers, Numbers]:
     """Return the mean over photons, and its standard error.
 
@@ -266,12 +239,16 @@ class Energy(EnergyShares):
 
         def shares(total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
             wanted = (*sums.shape[:3], *shape)
-            return energy_shares(
-                photons,
-                (total / source).reshape(wanted),
-                (squares / source**2).reshape(wanted),
-                whole,
-            )
+            total, squares = (total / source).reshape(wanted), (squares / source**2).reshape(wanted)
+            results: dict[str, Numbers] = {}
+            for name, (ends, events) in _PARTS.items():
+                part = [each[:, ends, events].sum(axis=(1, 2)) for each in (total, squares)]
+                results[name], results[f"{name}_se"] = mean_and_error(photons, *part)
+            results["absorbed"] = whole - results["absorbed"]
+            for name, end in (("reflected", UP), ("transmitted", DOWN)):
+                part = [each[:, end] for each in (total, squares)]
+                results[name], results[f"{name}_se"] = mean_and_error(photons, *part)
+            return EnergyShares(**results)
 
         polarised, scalar = sums[..., INTENSITY], sums[..., SCALAR]
         squares, scalar_squares = sums[..., INTENSITY_SQUARED], sums[..., SCALAR_SQUARED]
@@ -307,8 +284,8 @@ class EnergyRun:
 
     def _add(self, walked: WalkedBlock) -> None:
         for surface, sums in walked.sums.items():
-            while len(self._sums) <= surface:
-                self._sums.append(np.zeros_like(sums))
+            missing = surface + 1 - len(self._sums)
+            self._sums += [np.zeros_like(sums) for _ in range(missing)]
             self._sums[surface] += sums
         self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
 
@@ -318,13 +295,8 @@ class EnergyRun:
         return Energy.of(self.beam, np.array(self._sums))
 
 
-_USUAL = 1_000_000
-"""How many photons are walked by default."""
-
-_MOST_WITH_TOLERANCE, _MOST = 1_000_000_000, 1_000_000_000_000
-"""How many at most where a tolerance is given, and how many anybody may ask for."""
-
-_MOST_THREADS = 1024
+_USUAL, _MOST_WITH_TOLERANCE = 1_000_000, 1_000_000_000
+"""How many photons are walked by default, and how many at most where a tolerance is given."""
 
 
 def run_arguments(
@@ -337,8 +309,9 @@ def run_arguments(
     **light: Any,
 ) -> tuple[EnergyRun, int]:
     """Return the run of photons that a user asks for, of which none is walked yet."""
-    faults = _faults("photons", photons, _MOST) + _faults("threads", threads, _MOST_THREADS)
-    if tolerance is not None and not _is_error(tolerance):
+    faults = [] if photons is None else whole_number("photons", photons)
+    faults += [] if threads is None else whole_number("threads", threads)
+    if tolerance is not None and not 0.0 < (real_number(tolerance) or 0.0) < 1.0:
         faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
     beam = beam_of(sample, incidence, **light, others=faults)
     usual = _USUAL if tolerance is None else _MOST_WITH_TOLERANCE
@@ -346,22 +319,9 @@ def run_arguments(
     return run, usual if photons is None else int(photons)
 
 
-def _faults(name: str, number: Any, most: int) -> list[str]:
-    if number is None or is_whole(number, 1, most):
-        return []
-    return whole_number(name, number) or [f"{name} is {shown(number)}; give {most:,} at most"]
-
-
-def _is_error(tolerance: Any) -> bool:
-    is_number = isinstance(tolerance, Real) and not isinstance(tolerance, bool)
-    return is_number and 0.0 < float(tolerance) < 1.0
-
-
 def processors() -> int:
     """Return how many processors this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 _ERRORS, _ROUNDINGS = 6.0, 1e-9
@@ -381,9 +341,8 @@ def checked_energy(run: EnergyRun) -> Energy:
     if abs(missing) > _ERRORS * error + _ROUNDINGS:
         warnings.warn(
             f"R + T + lost is {1.0 - missing:.4f} where nothing absorbs, off by "
-            f"{abs(missing) / error:.0f} standard errors: light that is trapped is carried by few "
-            f"photons, which these have not met often enough; trust the shares without "
-            f"polarisation",
+            f"{abs(missing) / error:.0f} standard errors: few photons carry light that is trapped; "
+            f"walk more of them, or trust the shares without polarisation",
             PhotonWarning,
             calls_up(),
         )

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.elements.fresnel import number_within, parts_of
-from optipath.errors import SurfaceError, ValueFault, unknown
+from optipath.errors import SurfaceError, unknown
 from optipath.kernels.catalog import REFLECTION
 from optipath.kernels.facets import MASKINGS, FacetScattering
 from optipath.light.frame import Frame, rounding_in, vectors
@@ -15,6 +15,8 @@ from optipath.light.mueller import Mueller
 from optipath.materials.index_domains import INDEX, OUTSIDE
 from optipath.materials.material import Material
 from optipath.paths.files.schema import Faults
+from optipath.surfaces.height_field import HeightField
+from optipath.surfaces.hemisphere.sensor import pixel_points
 from optipath.surfaces.sample_layers import depends_on_wavelength
 from optipath.values.arrays import check_broadcast, first_place
 from optipath.values.domains import Domain
@@ -23,12 +25,11 @@ from optipath.values.operands import kernel_values
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import numpy.typing as npt
 
-
-_STABLE = REFLECTION.methods["stable"]
+    from optipath.surfaces.hemisphere.beam import SensedBeam
+    from optipath.surfaces.sample import Sample
+    from optipath.values.precision import Numbers
 
 
 def single_scattering(
@@ -97,13 +98,28 @@ def single_scattering(
     """
     arguments = {"index": index, "outside": outside, "alpha": alpha}
     arguments |= {} if alpha_y is None else {"alpha_y": alpha_y}
-    arguments |= {"incoming": incoming, "outgoing": outgoing}
-    media, alphas, before, behind = read_facets(arguments, masking, wavelength)
-    kernel, media = _STABLE.specialised(media, _vanishes)
+    faults = Faults(unknown("masking", masking, MASKINGS))
+    if wavelength is not None and not any(map(depends_on_wavelength, (index, outside))):
+        faults.append("wavelength is given, but no medium depends on it; leave it out")
+    numbers: dict[str, Any] = {
+        name: faults.attempt("", _number, name, arguments[name], wavelength)
+        for name in _DOMAINS
+        if name in arguments
+    }
+    before: Any = faults.attempt("", frame_along, "incoming", incoming, up=False)
+    behind: Any = faults.attempt("", frame_along, "outgoing", outgoing, up=True)
+    if not faults:
+        shaped = numbers | {"incoming": before.z[..., 0], "outgoing": behind.z[..., 0]}
+        faults.attempt("", check_broadcast, {name: each.shape for name, each in shaped.items()})
+    if faults:
+        raise SurfaceError(*faults)
+    alphas = numbers["alpha"], numbers.get("alpha_y", numbers["alpha"])
+    media: tuple[Any, ...] = numbers["outside"], *parts_of(numbers["index"])
+    kernel, media = REFLECTION.methods["stable"].specialised(media, _vanishes)
     axes = (before.z, before.x, behind.z, behind.x)
     vectors = (part for axis in axes for part in np.moveaxis(axis, -1, 0))
-    numbers = kernel_values(FacetScattering(kernel, masking), *alphas, *vectors, *media)
-    matrix = namespace(numbers[0]).stack(numbers, axis=-1)
+    entries = kernel_values(FacetScattering(kernel, masking), *alphas, *vectors, *media)
+    matrix = namespace(entries[0]).stack(entries, axis=-1)
     return Mueller.of(matrix.reshape(*matrix.shape[:-1], 4, 4), before, behind)
 
 
@@ -111,65 +127,8 @@ def _vanishes(number: Any) -> bool:
     return not is_traced(number) and not np.any(number)
 
 
-class PositiveAlpha(Domain):
-    """The roughness of a surface that has a density of slopes."""
-
-    def read(self, owner: str, value: Any) -> Any:
-        if isinstance(value, (list, tuple)) and len(value) == 2:
-            raise ValueFault(
-                f"{owner} is {value}, which may be along x and y, or of two surfaces; give alpha= "
-                f"and alpha_y= for the one, np.array({list(value)}) for the other"
-            )
-        return super().read(owner, value)
-
-    def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
-        if array.dtype.kind == "f" and np.any(bad := array <= 0.0):
-            raise ValueFault(
-                f"{owner} is {array[bad].flat[0]:g}{first_place(bad)}; give one above 0, or for a "
-                f"flat surface, whose slopes have no density, take an Interface"
-            )
-        super()._check_numbers(owner, array, rounding)
-
-
-ALPHA = PositiveAlpha("alpha", minimum=1e-12, maximum=1e6)
-_DOMAINS = {"outside": OUTSIDE, "index": INDEX, "alpha": ALPHA, "alpha_y": ALPHA}
-
-
-class FacetInputs(NamedTuple):
-    """What the model is computed of."""
-
-    media: tuple[Any, Any, Any]
-    alphas: tuple[Any, Any]
-    before: Frame
-    behind: Frame
-
-
-def read_facets(arguments: Mapping[str, Any], masking: str, wavelength: Any) -> FacetInputs:
-    """Return what is given as numbers.
-
-    >>> up = {"incoming": (0, 0, -1), "outgoing": (0, 0, 1)}
-    >>> given = {"index": 0.5 + 2j, "outside": 1.0, "alpha": 0.3} | up
-    >>> list(map(float, read_facets(given, "smith", None).media))
-    [1.0, 0.5, 2.0]
-    """
-    faults = Faults(unknown("masking", masking, MASKINGS))
-    if wavelength is not None and not any(map(depends_on_wavelength, arguments.values())):
-        faults.append("wavelength is given, but no medium depends on it; leave it out")
-    numbers: dict[str, Any] = {
-        name: faults.attempt("", _number, name, arguments[name], wavelength)
-        for name in _DOMAINS
-        if name in arguments
-    }
-    before: Any = faults.attempt("", frame_along, "incoming", arguments["incoming"], up=False)
-    behind: Any = faults.attempt("", frame_along, "outgoing", arguments["outgoing"], up=True)
-    if not faults:
-        shaped = numbers | {"incoming": before.z[..., 0], "outgoing": behind.z[..., 0]}
-        shapes = {name: value.shape for name, value in shaped.items()}
-        faults.attempt("", check_broadcast, shapes)
-    if faults:
-        raise SurfaceError(*faults)
-    alphas = numbers["alpha"], numbers.get("alpha_y", numbers["alpha"])
-    return FacetInputs((numbers["outside"], *parts_of(numbers["index"])), alphas, before, behind)
+_ALPHA = Domain("alpha above 0", minimum=1e-12, maximum=1e6)
+_DOMAINS = {"outside": OUTSIDE, "index": INDEX, "alpha": _ALPHA, "alpha_y": _ALPHA}
 
 
 def _number(name: str, value: Any, wavelength: Any) -> Any:
@@ -203,9 +162,6 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
     """
     check_known(name, direction)
     argument, rounding = vectors(name, direction), rounding_in(direction)
-    # Of components of which each is at most 1, so that no square overflows.
-    size = np.max(np.abs(argument), axis=-1, initial=0.0, keepdims=True)
-    argument = argument / np.where(size > 2.0, size / 2.0, 1.0)
     length = np.linalg.norm(argument, axis=-1)
     if np.any(bad := np.abs(length - 1.0) > max(_UNIT, 2.0 * rounding)):
         raise SurfaceError(
@@ -214,23 +170,15 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
         )
     # What is one to the last digits keeps them, by which directions next to each other differ.
     z = argument / np.where(np.abs(length - 1.0) > _LAST_DIGITS, length, 1.0)[..., np.newaxis]
-    _check_side(name, z[..., 2], max(rounding, _LEVEL), up=up)
-    x = _across_meridian(z)
-    return Frame.trusted(x, np.cross(z, x), z, rounding)
-
-
-def _check_side(name: str, height: npt.NDArray[np.float64], level: float, *, up: bool) -> None:
-    if np.any(bad := np.abs(height) < level):
-        raise SurfaceError(
-            f"{name}{first_place(bad)} is along the surface, which light that travels along it "
-            f"does not meet; give an angle to the normal below 90 deg"
-        )
-    if np.any(bad := (height > 0.0) != up):
+    height = z[..., 2] if up else -z[..., 2]
+    if np.any(bad := height < max(rounding, _LEVEL)):
         way, sign = ("up from", "above") if up else ("down to", "below")
         raise SurfaceError(
-            f"{name}{first_place(bad)} has z = {height[bad].flat[0]:.6g}; it is the direction in "
-            f"which light travels {way} the surface, so give a z {sign} 0"
+            f"{name}{first_place(bad)} has z = {z[..., 2][bad].flat[0]:.6g}; it is the direction "
+            f"in which light travels {way} the surface, so give a z {sign} 0"
         )
+    x = _across_meridian(z)
+    return Frame.trusted(x, np.cross(z, x), z, rounding)
 
 
 def _across_meridian(z: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
@@ -239,3 +187,34 @@ def _across_meridian(z: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     level = np.stack([-z[..., 1], z[..., 0], np.zeros(z.shape[:-1])], axis=-1)
     # Adding 0 turns -0 into 0.
     return np.where(along_normal, (0.0, 1.0, 0.0), level / np.where(along_normal, 1.0, size)) + 0.0
+
+
+def alpha_of(sample: Sample) -> tuple[float, float] | None:
+    """Return alpha of the topmost surface along x and y; None where it has none above 0."""
+    rough = sample.layers[0].roughness
+    alpha = rough.alpha if isinstance(rough, HeightField) else rough
+    return alpha if alpha and alpha != (0.0, 0.0) else None
+
+
+def reflected_once(
+    seen: SensedBeam, alpha: tuple[float, float], masking: str, points: int
+) -> Numbers:
+    """Return Mueller matrices, (rows, columns, wavelengths, 4, 4)."""
+    beam, indices = seen.beam, seen.beam.indices
+    below: Any = np.array(indices.inner[:1]) if indices.inner else np.ravel(indices.base)
+    comes = Mueller(np.eye(4), beam.frame, beam.frame)
+    lights = indices.n.size
+    total = np.zeros((*(2 * [seen.sensor.pixels]), lights, 4, 4))
+    for directions, areas in pixel_points(seen.sensor, points):
+        result = single_scattering(
+            below,
+            alpha[0],
+            beam.frame.z,
+            directions[:, :, np.newaxis],
+            outside=indices.outside,
+            alpha_y=alpha[1],
+            masking=masking,
+        )
+        weight = (areas * directions[..., 2])[..., np.newaxis, np.newaxis, np.newaxis]
+        total += (result @ comes).matrix * weight
+    return total

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.errors import SurfaceError
-from optipath.surfaces.field_arguments import Pair, heights_of, pair_of, period_or_not, read_heights
-from optipath.surfaces.random_field import RandomField
+from optipath.materials.quantities import YES_OR_NO
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.field_arguments import Pair, heights_of, pair_of, read_heights
+from optipath.surfaces.random_field import random_field
 from optipath.values.arrays import Unchanging, same_fields
 
 if TYPE_CHECKING:
@@ -62,8 +64,8 @@ class HeightField(Unchanging):
     alpha: Pair | None = None
 
     def __post_init__(self) -> None:
-        faults = period_or_not(self.periodic)
-        periodic = not faults and bool(self.periodic)
+        faults = Faults()
+        periodic = bool(faults.attempt("", YES_OR_NO.check, "periodic", self.periodic))
         heights = heights_of(self.heights, faults, periodic=periodic)
         size = pair_of("size", self.size, faults)
         alpha = None if self.alpha is None else pair_of("alpha", self.alpha, faults)
@@ -134,8 +136,7 @@ class HeightField(Unchanging):
         >>> brushed.cells, brushed.isotropic
         ((240, 240), False)
         """
-        argument = RandomField.of(alpha, alpha_y, size, cells, waves, seed, periodic=periodic)
-        return cls(argument.heights(), argument.size, argument.periodic, argument.alpha)
+        return cls(*random_field(alpha, alpha_y, size, cells, waves, seed, periodic=periodic))
 
     @classmethod
     def flat(cls) -> HeightField:
@@ -274,9 +275,7 @@ class HeightField(Unchanging):
         """
         return np.pad(self.heights, (0, 1), mode="wrap") if self.periodic else self.heights
 
-    def __eq__(self, other: object) -> bool:
-        same: bool = same_fields(self, other)
-        return same
+    __eq__ = same_fields
 
     def __hash__(self) -> int:
         return hash((self.heights.shape, self.size, self.periodic, self.alpha))

@@ -3,31 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from numbers import Real
-from typing import TYPE_CHECKING, Any, NamedTuple, Self, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
 from optipath.paths.files.schema import Faults
-from optipath.surfaces.height_field import HeightField
-from optipath.surfaces.hemisphere.beam import PixelMask
+from optipath.surfaces.facet_model import alpha_of
+from optipath.surfaces.hemisphere.beam import SIDES, PixelMask
 from optipath.surfaces.hemisphere.measure import measure
 from optipath.surfaces.smooth import smooth_difference, smooth_exit
 from optipath.surfaces.walk.beam import beam_of
+from optipath.values.affine import real_number
 from optipath.values.messages import PHOTONS_REPORTED, no_function
-from optipath.values.precision import Numbers, whole_number
+from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.surfaces.sample import Sample
 
-
-_SIDES = ("reflected", "transmitted")
 
 _EXIT = np.radians(80.0)
 """Where light comes out that is told of: far from the lobe of the topmost interface."""
@@ -87,38 +84,71 @@ def decide(
     """
     faults = Faults(whole_number("photons", photons))
     faults += no_function("progress", progress, PHOTONS_REPORTED)
-    if not _is_share(tolerance):
-        faults.append(
-            f"tolerance is {shown(tolerance)}; give one above 0 and below 1, such as 0.02"
-        )
-    if side not in _SIDES:
-        faults.append(f"no side is called {shown(side)}; give {' or '.join(_SIDES)}")
+    if not 0.0 < (real_number(tolerance) or 0.0) < 1.0:
+        faults.append(f"tolerance is {shown(tolerance)}; give one within 0 .. 1, such as 0.02")
+    if side not in SIDES:
+        faults.append(f"no side is called {shown(side)}; give {' or '.join(SIDES)}")
     mask = faults.attempt("", PixelMask, brighter_than, None)
-    beam = beam_of(
-        sample,
-        incidence,
-        azimuth,
-        wavelength=wavelengths,
-        seed=seed,
-        most_events=most_events,
-        others=faults,
-    )
+    light = {"seed": seed, "azimuth": azimuth, "most_events": most_events}
+    beam = beam_of(sample, incidence, wavelength=wavelengths, **light, others=faults)
+    assert mask is not None  # noqa: S101 - or a fault has been raised
     if side == "transmitted" and beam.indices.opaque:
         raise SurfaceError("nothing goes through an opaque sample; give side='reflected'")
-    angle = float(np.arctan2(beam.sin, beam.cos))
+    tolerance, angle = float(tolerance), float(np.arctan2(beam.sin, beam.cos))
     smooth = smooth_difference(beam.indices, angle, side)
     change = f"{100.0 * smooth:z.3f} %"
-    messages = [f"smooth interfaces, exact: polarisation changes all {side} light by {change}"]
-    if _is_flat(sample):
+    evidence = [f"smooth interfaces, exact: polarisation changes all {side} light by {change}"]
+    if sample.is_flat:
         model = "scalar" if abs(smooth) <= tolerance else "polarized"
-        messages.append("the sample is flat, so that this is all")
-        return ModelChoice(model, float(tolerance), (), smooth, None, None, None, tuple(messages))
+        evidence.append("the sample is flat, so that this is all")
+        return ModelChoice(model, tolerance, (), smooth, None, None, None, tuple(evidence))
     if len(sample.layers) > 1 and side == "reflected":
-        messages.append(_exit_evidence(sample, angle, wavelengths))
-    walked = {"photons": photons, "wavelengths": wavelengths, "sensor": sensor, "seed": seed}
-    walked |= {"azimuth": azimuth, "most_events": most_events, "threads": threads}
-    run = PairedRun(sample, angle, cast("PixelMask", mask), side, walked | {"progress": progress})
-    return chosen_model(run, float(tolerance), smooth, messages)
+        evidence.append(_exit_evidence(sample, angle, wavelengths))
+    walked = {"photons": photons, "wavelengths": wavelengths, "sensor": sensor, **light}
+    walked |= {"threads": threads, "progress": progress}
+    found = measure(sample, angle, **walked)
+    counts = _bright(found, side, mask)
+    pixels = found.sensor.pixels
+    evidence.append(
+        f"{found.photons:,} photons, {pixels} x {pixels} pixels, of which {counts.sum()} count: "
+        f"{mask}"
+    )
+    single: bool | None = False
+    multiple = apart = None
+    if reason := _beyond_the_model(sample, side):
+        evidence.append(f"single scattering: {reason}")
+    else:
+        once = measure(sample, angle, **walked, polarized="scalar", events=1)
+        multiple, apart = _multiple(found, once, counts), _beside_model(found, counts)
+        single = apart.within(tolerance)
+        how = "has met the surface more than once, noise taken in"
+        evidence.append(f"of a pixel's light at most {multiple} {how}")
+        how = "the analytic model is off all light of a pixel at most"
+        evidence.append(f"{how} by {apart}{_VERDICTS[single]}")
+    relative = found.relative_difference(side, brighter_than=mask.brighter_than)
+    difference = LargestOf.of(relative.values[counts], relative.se.values[counts])
+    scalar = difference.within(tolerance)
+    evidence.append(
+        f"polarisation changes the light of a pixel at most by {difference}{_VERDICTS[scalar]}"
+    )
+    suffices = {"single-scattering": single, "scalar": scalar}
+    return ModelChoice(
+        next((name for name, is_enough in suffices.items() if is_enough), "polarized"),
+        tolerance,
+        () if single else tuple([name for name, known in suffices.items() if known is None]),
+        smooth,
+        difference[:2],
+        multiple and multiple[:2],
+        apart and apart[:2],
+        tuple(evidence),
+    )
+
+
+_VERDICTS = {
+    True: ", noise taken in: less than the tolerance",
+    False: ", noise taken in: more than the tolerance",
+    None: ", noise taken in: walk more photons to know if that is too much",
+}
 
 
 def _exit_evidence(sample: Sample, incidence: float, wavelengths: Any) -> str:
@@ -134,16 +164,46 @@ def _exit_evidence(sample: Sample, incidence: float, wavelengths: Any) -> str:
     )
 
 
-def _is_flat(sample: Sample) -> bool:
-    return all(
-        each.roughness.is_flat if isinstance(each.roughness, HeightField) else not each.is_random
-        for each in sample.layers
+def _bright(found: Hemisphere, side: str, mask: PixelMask) -> npt.NDArray[np.bool_]:
+    """Return the pixels that count, (rows, columns): at least one."""
+    light = found.scalar_light(found.side(side))
+    counts = mask.bright(light)
+    if not counts.any():
+        brightest = np.nanmax(light) / (np.nanmean(light) or 1.0)
+        raise SurfaceError(
+            f"no pixel counts: of {found.photons:,} photons the brightest pixel of {side} light "
+            f"has {brightest:.3g} times the mean, and brighter_than is {mask.brighter_than:g}; "
+            f"walk more photons, or give a smaller brighter_than, such as 0.2"
+        )
+    return counts
+
+
+def _multiple(found: Hemisphere, once: Hemisphere, counts: npt.NDArray[np.bool_]) -> LargestOf:
+    """Return the largest share of a pixel's light that has met the surface more than once."""
+    sums = [each.own.sums[..., -1:] for each in (found, once)]
+    both = found.own._replace(sums=np.concatenate(sums, axis=-1))
+    value, error = both.estimate(lambda light: 1.0 - light[..., 1] / light[..., 0])
+    return LargestOf.of(value[0][counts], error[0][counts])
+
+
+def _beside_model(found: Hemisphere, counts: npt.NDArray[np.bool_]) -> LargestOf:
+    """Return how far the analytic model is off all light of a pixel, over that light, at most."""
+    model = found.single_scattering().values[..., 0, 0]
+    value, error = found.own.estimate(
+        lambda light: model / found.matrices(light)[:1, ..., 0, 0] - 1.0
     )
+    return LargestOf.of(value[0][counts], error[0][counts])
 
 
-def _is_share(value: Any) -> bool:
-    real = isinstance(value, Real) and not isinstance(value, bool | np.bool_)
-    return real and 0.0 < float(value) < 1.0
+def _beyond_the_model(sample: Sample, side: str) -> str:
+    """Return why the analytic model cannot tell the light of the sample; nothing if it can."""
+    if len(sample.layers) > 1:
+        return "the sample is layered, and it tells the light of one interface"
+    if side == "transmitted":
+        return "it tells reflected light"
+    if alpha_of(sample) is None:
+        return "the interface has no alpha, and it takes a density of slopes"
+    return ""
 
 
 @dataclass(frozen=True)
@@ -218,168 +278,6 @@ _REASONS = {
 _NAMES = {"single-scattering": "single scattering", "scalar": "the model without polarisation"}
 
 
-@dataclass(frozen=True, eq=False)
-class PairedRun:
-    """Photons that fall on a sample, all that come back, and those that have met it once."""
-
-    sample: Sample
-    incidence: Any
-    mask: PixelMask
-    side: str
-    walked: dict[str, Any]
-
-    @cached_property
-    def hemisphere(self) -> Hemisphere:
-        """The light of all photons."""
-        return measure(self.sample, self.incidence, **self.walked)
-
-    @cached_property
-    def once(self) -> Hemisphere:
-        """The light of those of the same photons that have met the surface once."""
-        return measure(self.sample, self.incidence, **self.walked, polarized="scalar", events=1)
-
-    @cached_property
-    def counts(self) -> npt.NDArray[np.bool_]:
-        """The pixels that count, (rows, columns): at least one."""
-        result = self.hemisphere
-        light = result.scalar_light(result.side(self.side))
-        counts = self.mask.bright(light)
-        if not counts.any():
-            raise SurfaceError(self._none_counts(light))
-        return counts
-
-    @cached_property
-    def difference(self) -> LargestOf:
-        """The largest abs(S0 - U) / U of a pixel at a wavelength."""
-        result = self.hemisphere.relative_difference(
-            self.side, brighter_than=self.mask.brighter_than
-        )
-        counts = self.counts
-        return LargestOf.of(result.values[counts], result.se.values[counts])
-
-    @cached_property
-    def multiple(self) -> LargestOf:
-        """The largest share of a pixel's light that has met the surface more than once."""
-        every, single = self.hemisphere.own, self.once.own
-        both = every._replace(
-            sums=np.concatenate([every.sums[..., -1:], single.sums[..., -1:]], axis=-1)
-        )
-        value, error = both.estimate(lambda light: 1.0 - light[..., 1] / light[..., 0])
-        at, counts = self.hemisphere.side(self.side), self.counts
-        return LargestOf.of(value[at][counts], error[at][counts])
-
-    @cached_property
-    def beside_model(self) -> LargestOf:
-        """How far the analytic model is off all light of a pixel, over that light, at most."""
-        result = self.hemisphere
-        model = result.single_scattering().values[..., 0, 0]
-        value, error = result.own.estimate(
-            lambda light: model / result.matrices(light)[:1, ..., 0, 0] - 1.0
-        )
-        return LargestOf.of(value[0][self.counts], error[0][self.counts])
-
-    @property
-    def told(self) -> str:
-        """How it was made, in words."""
-        sensor = self.hemisphere.sensor
-        return (
-            f"{self.hemisphere.photons:,} photons, {sensor.pixels} x {sensor.pixels} pixels, of "
-            f"which {self.counts.sum()} count: {self.mask}"
-        )
-
-    def _none_counts(self, light: Numbers) -> str:
-        photons, most = self.hemisphere.photons, np.nanmax(light)
-        if not most:
-            other = ", or look at the other side" if len(self.hemisphere.seen.sides) > 1 else ""
-            return (
-                f"no pixel counts: of {photons:,} photon{'s' if photons > 1 else ''} none is "
-                f"{self.side}; walk more photons{other}"
-            )
-        brightest = most / np.nanmean(light)
-        return (
-            f"no pixel counts: none has {self.mask.brighter_than:g} times the mean light of the "
-            f"hemisphere's pixels, and the brightest {brightest:.3g} times; give a smaller "
-            f"brighter_than, such as 0.2"
-        )
-
-
-def chosen_model(
-    run: PairedRun, tolerance: float, smooth: float, messages: Sequence[str]
-) -> ModelChoice:
-    """Return the simplest model that photons allow."""
-    single, multiple, apart, evidence = _single_scattering(run, tolerance)
-    difference = run.difference
-    scalar = _serves(difference, tolerance)
-    evidence.append(
-        f"polarisation changes the light of a pixel at most by {difference}"
-        f"{_verdict(difference, tolerance)}"
-    )
-    model = "single-scattering" if single else "scalar" if scalar else "polarized"
-    requests = {"single-scattering": single, "scalar": scalar}
-    undecided = () if single else tuple([name for name, good in requests.items() if good is None])
-    return ModelChoice(
-        model,
-        tolerance,
-        undecided,
-        smooth,
-        _known(difference),
-        _known(multiple),
-        _known(apart),
-        (*messages, run.told, *evidence),
-    )
-
-
-def _single_scattering(
-    run: PairedRun, tolerance: float
-) -> tuple[bool | None, LargestOf | None, LargestOf | None, list[str]]:
-    """Return whether the analytic model serves, None if that is not known, and what says so."""
-    if reason := _beyond_the_model(run):
-        return False, None, None, [f"single scattering: {reason}"]
-    multiple, apart = run.multiple, run.beside_model
-    messages = [
-        (
-            f"of a pixel's light at most {multiple} has met the surface more than once, noise "
-            "taken in"
-        ),
-        (
-            f"the analytic model is off all light of a pixel at most by {apart}"
-            f"{_verdict(apart, tolerance)}"
-        ),
-    ]
-    return _serves(apart, tolerance), multiple, apart, messages
-
-
-def _known(result: LargestOf | None) -> tuple[float, float] | None:
-    return None if result is None else (result.value, result.error)
-
-
-def _serves(result: LargestOf, tolerance: float) -> bool | None:
-    """Return whether something is within the tolerance; None if the noise does not tell."""
-    if result.is_below(tolerance):
-        return True
-    return False if result.is_above(tolerance) else None
-
-
-def _verdict(result: LargestOf, tolerance: float) -> str:
-    if result.is_below(tolerance):
-        return ", noise taken in: less than the tolerance"
-    if result.is_above(tolerance):
-        return ", noise taken in: more than the tolerance"
-    return ", noise taken in: walk more photons to know if that is too much"
-
-
-def _beyond_the_model(run: PairedRun) -> str:
-    """Return why the analytic model cannot tell the light of the sample; nothing if it can."""
-    if len(run.sample.layers) > 1:
-        return "the sample is layered, and it tells the light of one interface"
-    if run.side == "transmitted":
-        return "it tells reflected light"
-    rough = run.sample.layers[0].roughness
-    if isinstance(rough, HeightField) and rough.alpha is None:
-        return "the interface has no alpha, and it takes a density of slopes"
-    return ""
-
-
 _SURE = 3.0
 """How many standard errors one number is taken to be away from what it is, at most."""
 
@@ -400,13 +298,12 @@ class LargestOf(NamedTuple):
         >>> print(round(found.value, 3), found.is_below(0.07), found.is_above(0.03))
         0.05 True True
         """
-        sizes, known = np.abs(np.ravel(values)), np.ravel(errors)
-        message = ~np.isnan(sizes)
-        if not message.any():
+        sizes = np.abs(np.ravel(values))
+        if np.isnan(sizes).all():
             return cls(np.nan, np.nan, 0.0, np.inf)
         # A pixel that is dark at one of several wavelengths has no ratio there.
-        sizes, known = np.where(message, sizes, 0.0), np.where(message, known, np.nan)
-        known = np.where(np.isnan(known), np.inf, known)
+        known = np.where(np.isnan(sizes + np.ravel(errors)), np.inf, np.ravel(errors))
+        sizes = np.nan_to_num(sizes)
         at = int(np.argmax(sizes))
         # The tail of the normal distribution beyond k is below exp(-k^2 / 2).
         several = max(int(np.isfinite(known).sum()), 1)
@@ -423,6 +320,10 @@ class LargestOf(NamedTuple):
     def is_above(self, limit: float) -> bool:
         """Tell whether one is above a limit, noise taken in."""
         return self.least > limit
+
+    def within(self, tolerance: float) -> bool | None:
+        """Tell whether all are within a tolerance; None if the noise does not tell."""
+        return True if self.is_below(tolerance) else False if self.is_above(tolerance) else None
 
     def __str__(self) -> str:
         least, most = 100.0 * self.least, 100.0 * self.most

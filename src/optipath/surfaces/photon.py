@@ -7,17 +7,16 @@ from math import atan2, degrees, prod
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from optipath.elements.ends import Detector, Source
+from optipath.elements.ends import Source
 from optipath.elements.interface import Interface
 from optipath.errors import SurfaceError, shown
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.fresnel.boundary import lossless_boundary
 from optipath.kernels.primitives import FLOAT, NUMPY
 from optipath.light.frame import Frame
-from optipath.paths.path_graph import PathGraph
-from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, beam_of
+from optipath.surfaces.smooth import path_of_steps
+from optipath.surfaces.walk.beam import BLOCK, beam_of
 from optipath.surfaces.walk.layout import (
     COLUMN,
     COS,
@@ -38,19 +37,18 @@ from optipath.surfaces.walk.layout import (
     OUTCOME,
     OUTCOME_NAMES,
     POINT,
-    RECORD,
     REFLECTED,
     SHARE,
     SIN,
     SIN_2A,
 )
-from optipath.surfaces.walk.meshes import HIGH, NUMBERS, cached_meshes
-from optipath.values.arrays import refuse_too_large
+from optipath.surfaces.walk.meshes import HIGH, NUMBERS, meshes_of
 from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from optipath.paths.path_graph import PathGraph
     from optipath.surfaces.sample import Sample
     from optipath.surfaces.walk.beam import PhotonBeam, WalkedBlock
 
@@ -139,8 +137,12 @@ class Photon:
         >>> photon, bool(abs(path.trace().stokes - photon.stokes).max() < 1e-13)
         (<Photon 7 of seed 0: down after 1 event>, True)
         """
-        if which is not None:
-            _check_place(which, self.beam.indices.n.shape)
+        shape = self.beam.indices.n.shape
+        if which is not None and not _is_place(which, shape):
+            raise SurfaceError(
+                f"which is {shown(which)}, but wavelengths have the shape {shape}; give the place "
+                f"of one, or leave it out"
+            )
         source = Source(self.weight, self.beam.states[0])
         return event_path(source, self.events, which, repr(self)[1:-1])
 
@@ -154,21 +156,12 @@ class Photon:
         return f"{repr(self)[1:-1]}, with light\n{stokes}\n{event_table(self.events)}"
 
 
-def _check_place(which: Place, shape: tuple[int, ...]) -> None:
-    """Refuse a place at which there is no wavelength."""
+def _is_place(which: Place, shape: tuple[int, ...]) -> bool:
+    """Tell whether there is one wavelength at a place."""
     try:
-        is_one = not isinstance(which, bool) and np.empty(shape)[which].ndim == 0
+        return not isinstance(which, bool) and np.empty(shape)[which].ndim == 0
     except (IndexError, TypeError, ValueError):
-        is_one = False
-    if is_one:
-        return
-    if not shape:
-        raise SurfaceError(f"which is {shown(which)}, but the photon has one light; leave it out")
-    last = tuple(each - 1 for each in shape)
-    raise SurfaceError(
-        f"which is {shown(which)}, but wavelengths have the shape {shape}; give the place of one, "
-        f"such as {last[0] if len(last) == 1 else last}"
-    )
+        return False
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,14 +195,24 @@ def event_of(
     """Return an event out of the record of a photon."""
     row = walked.record[number]
     layer, column, line, facet = (int(row[place]) for place in (LAYER, COLUMN, LINE, FACET))
-    position = row[POINT : POINT + 3].copy()
+    position, normal, direction = (
+        row[place : place + 3].copy() for place in (POINT, NORMAL, DIRECTION)
+    )
+    # The point as one of the layer's own field, in the cell that was met.
+    field = beam.sample.fields(surface)[layer]
+    top = meshes_of(beam.sample, surface).numbers[NUMBERS * layer + HIGH]
+    shift = *walked.starts[2 * layer : 2 * layer + 2], field.heights.max() - top
+    on_mesh = position + np.array(shift)
+    if field.periodic:
+        middle = (np.array([column, line]) + 0.5) * field.spacing
+        on_mesh[:2] -= np.round((on_mesh[:2] - middle) / field.size) * field.size
     return PhotonEvent(
         layer=layer,
         facet=(column, line, facet),
         position=position,
-        on_mesh=_on_mesh(beam, surface, layer, (column, line), position, walked.starts),
-        normal=row[NORMAL : NORMAL + 3].copy(),
-        direction=row[DIRECTION : DIRECTION + 3].copy(),
+        on_mesh=on_mesh,
+        normal=normal,
+        direction=direction,
         onwards=onwards,
         cos=float(row[COS]),
         sin=float(row[SIN]),
@@ -221,25 +224,6 @@ def event_of(
     )
 
 
-def _on_mesh(
-    beam: PhotonBeam,
-    surface: int,
-    layer: int,
-    cell: tuple[int, int],
-    position: Numbers,
-    starts: Numbers,
-) -> Numbers:
-    """Return a point of the walk as that of a layer's own field, in the cell that was met."""
-    field = beam.sample.fields(surface)[layer]
-    top = cached_meshes(beam.sample).of(surface).numbers[NUMBERS * layer + HIGH]
-    shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
-    result: Numbers = position + np.array(shift)
-    if field.periodic:
-        middle = (np.array(cell) + 0.5) * field.spacing
-        result[:2] -= np.round((result[:2] - middle) / field.size) * field.size
-    return result
-
-
 Place: TypeAlias = int | tuple[int, ...]
 
 
@@ -247,17 +231,12 @@ def event_path(
     source: Source, events: Iterable[PhotonEvent], which: Place | None, description: str
 ) -> PathGraph:
     """Return the path of a photon through its events."""
-    path = PathGraph(description=description)
-    path.add("source", source)
-    last = "source"
-    for number, event in enumerate(events, 1):
-        name = f"facet-{number}"
-        path.add(name, _interface(event, which))
-        path.connect(last, name)
-        last = f"{name}.{'reflected' if event.reflected else 'transmitted'}"
-    path.add("detector", Detector())
-    path.connect(last, "detector")
-    return path
+    ports = {True: "reflected", False: "transmitted"}
+    steps = [
+        (f"facet-{number}", _interface(event, which), ports[event.reflected])
+        for number, event in enumerate(events, 1)
+    ]
+    return path_of_steps(source, steps, description)
 
 
 def _interface(event: PhotonEvent, which: Place | None) -> Interface:
@@ -303,53 +282,20 @@ def _index(index: Any) -> str:
     return f"{index.real:g}+{index.imag:g}j" if np.iscomplexobj(index) else f"{index:g}"
 
 
-def replayed_photon(
-    sample: Sample,
-    number: int,
-    incidence: Any = 0.0,
-    *,
-    seed: int = 0,
-    azimuth: Any = 0.0,
-    wavelength: str | npt.ArrayLike | None = None,
-    stokes: npt.ArrayLike = UNPOLARISED,
-    most_events: int = 1000,
-) -> Photon:
+def replayed_photon(sample: Sample, number: int, incidence: Any, **light: Any) -> Photon:
     """Return one of the photons that `energy` counts, with all that happens to it."""
-    beam = beam_of(
-        sample,
-        incidence,
-        azimuth,
-        wavelength=wavelength,
-        stokes=stokes,
-        seed=seed,
-        most_events=most_events,
-        others=whole_number("number", number, 0),
-    )
-    refuse_too_large(
-        (beam.most_events + 1,),
-        8 * RECORD,
-        cure="give fewer most_events",
-        error=SurfaceError,
-        what="record of {:.3g} events",
-    )
+    beam = beam_of(sample, incidence, **light, others=whole_number("number", number, 0))
     block, place = divmod(int(number), BLOCK)
-    walked = beam.block(block, wanted=place)
-    return _photon_of(beam, int(number), walked)
-
-
-def _photon_of(beam: PhotonBeam, number: int, walked: WalkedBlock) -> Photon:
-    surface = beam.surface(number)
-    ends = walked.record[0]
+    walked, surface = beam.block(block, wanted=place), beam.surface(int(number))
+    ends, shape = walked.record[0], beam.indices.n.shape
     first, start_x, last, x = (
         ends[place : place + 3].copy() for place in (FIRST_K, FIRST_X, LAST_K, LAST_X)
     )
     count = int(ends[EVENTS])
     directions = [*walked.record[2 : count + 1, DIRECTION : DIRECTION + 3].copy(), last][:count]
-    shape = beam.indices.n.shape
-    carried = walked.lights.T[:4]
     return Photon(
         beam=beam,
-        number=number,
+        number=int(number),
         surface=surface,
         events=tuple(
             event_of(beam, surface, walked, place, onwards)
@@ -358,6 +304,6 @@ def _photon_of(beam: PhotonBeam, number: int, walked: WalkedBlock) -> Photon:
         end=OUTCOME_NAMES[int(ends[OUTCOME])],
         start=Frame.from_direction(first, start_x),
         frame=Frame.from_direction(last, x),
-        stokes=np.stack(stokes_of(NUMPY, tuple(carried)), axis=-1).reshape(*shape, 4),
+        stokes=np.stack(stokes_of(NUMPY, tuple(walked.lights.T[:4])), axis=-1).reshape(*shape, 4),
         scalar=walked.lights[:, 4].reshape(shape),
     )

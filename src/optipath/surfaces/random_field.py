@@ -7,79 +7,52 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import SurfaceError
+from optipath.errors import SurfaceError, shown
+from optipath.materials.quantities import YES_OR_NO
+from optipath.paths.files.schema import Faults
 from optipath.surfaces.field_arguments import (
+    Pair,
     cells_of,
     converged_cells,
-    length_faults,
     pair_of,
     period_faults,
-    period_or_not,
-    seed_of,
     warn_of_coarse,
 )
-from optipath.values.arrays import enough_for
-from optipath.values.precision import Array, whole_number
+from optipath.values.arrays import refuse_too_large
+from optipath.values.precision import Array, is_whole, whole_number
 
-_CELL, _WAVE = 32, 128
-"""How many bytes a cell and a wave take, with what is made of them."""
-_FEWER = "take fewer cells, or a smaller field"
+_CELL = 32
+"""How many bytes a cell takes, with what is made of it."""
 
 
-class RandomField(NamedTuple):
-    """A random surface to be drawn."""
-
-    alpha: tuple[float, float]
-    size: tuple[float, float]
-    cells: tuple[int, int]
-    waves: int
-    seed: np.random.SeedSequence
-    periodic: bool
-
-    @classmethod
-    def of(
-        cls,
-        alpha: Any,
-        alpha_y: Any,
-        size: Any,
-        cells: Any,
-        waves: Any,
-        seed: Any,
-        *,
-        periodic: Any,
-    ) -> RandomField:
-        """Read what `HeightField.beckmann` is given."""
-        faults = length_faults("alpha", alpha, " (HeightField.flat() is a flat surface)")
-        if alpha_y is not None:
-            faults += length_faults("alpha_y", alpha_y)
-        sides = pair_of("size", size, faults)
-        faults += period_or_not(periodic)
-        rough = (1.0, 1.0)
-        if not faults:
-            rough = float(alpha), float(alpha if alpha_y is None else alpha_y)
-            faults += period_faults(rough, sides) if periodic else []
-        meshed = converged_cells(rough, sides) if cells is None else cells_of(cells, faults)
-        sequence = seed_of(seed, faults)
-        faults += whole_number("waves", waves)
-        if faults:
-            raise SurfaceError(*faults)
-        return cls(rough, sides, meshed, int(waves), sequence, bool(periodic))
-
-    def heights(self) -> Array:
-        """Draw the surface, and return the heights of its vertices. Shape (rows, columns)."""
-        with (
-            enough_for(self.cells, _CELL, _FEWER, SurfaceError, "mesh of {:.3g} cells"),
-            enough_for(
-                (self.waves,), _WAVE, "take fewer waves", SurfaceError, "sum of {:.3g} waves"
-            ),
-        ):
-            warn_of_coarse(self.alpha, self.size, self.cells)
-            period = self.size if self.periodic else None
-            x, y = (
-                np.arange(cells + (not self.periodic)) * (side / cells)
-                for cells, side in zip(self.cells, self.size, strict=True)
-            )
-            return RandomWaves.drawn(self.alpha, self.waves, self.seed, period).heights(x, y)
+def random_field(
+    alpha: Any, alpha_y: Any, size: Any, cells: Any, waves: Any, seed: Any, *, periodic: Any
+) -> tuple[Array, Pair, bool, Pair]:
+    """Draw the surface of `HeightField.beckmann`: heights, size, whether periodic, alpha."""
+    faults = Faults()
+    rough = pair_of("alpha", alpha if alpha_y is None else (alpha, alpha_y), faults)
+    sides = pair_of("size", size, faults)
+    is_periodic = bool(faults.attempt("", YES_OR_NO.check, "periodic", periodic))
+    if not faults and is_periodic:
+        faults += period_faults(rough, sides)
+    mesh = converged_cells(rough, sides) if cells is None else cells_of(cells, faults)
+    if not (isinstance(seed, np.random.SeedSequence) or is_whole(seed, 0)):
+        faults.append(
+            f"seed must be a whole number of 0 or more, or a numpy.random.SeedSequence, not "
+            f"{shown(seed)}"
+        )
+    faults += whole_number("waves", waves)
+    if faults:
+        raise SurfaceError(*faults)
+    fewer = "take fewer cells, or a smaller field"
+    refuse_too_large(mesh, _CELL, fewer, SurfaceError, "mesh of {:.3g} cells")
+    warn_of_coarse(rough, sides, mesh)
+    x, y = (
+        np.arange(count + (not is_periodic)) * (side / count)
+        for count, side in zip(mesh, sides, strict=True)
+    )
+    drawn = RandomWaves.drawn(rough, int(waves), seed, sides if is_periodic else None)
+    return drawn.heights(x, y), sides, is_periodic, rough
 
 
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
@@ -118,10 +91,7 @@ class RandomWaves(NamedTuple):
         >>> round(float(slopes.sum()), 12) == 0.3**2 / 2
         True
         """
-        sequence = (
-            seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
-        )
-        random = np.random.Generator(np.random.PCG64(sequence))
+        random = np.random.Generator(np.random.PCG64(seed))
         order = np.arange(waves)
         turn = 2.0 * np.pi * (random.random() + order * _GOLDEN)
         length = np.sqrt(-np.log((order + 0.5) / waves))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -112,9 +111,13 @@ def reproduce(
     """
     count = experiment.photons if photons is None else photons
     for walks, measurements in experiment.by_walks():
-        walked = Walked(experiment, walks, count, seed, threads, progress)
+        options = {"seed": seed, "threads": threads, "progress": progress}
+        walked = Walked(experiment, walks, count, options)
         for measurement in measurements:
-            result = MEASURES[measurement.measure].of(walked, measurement)
+            with warnings.catch_warnings():
+                if walks.cells is not None:  # A coarse mesh is what is looked at.
+                    warnings.simplefilter("ignore", MeshWarning)
+                result = MEASURES[measurement.measure].of(walked, measurement)
             yield Reproduced(measurement, result, count)
 
 
@@ -140,72 +143,59 @@ class Measure(NamedTuple):
     several: bool = False
 
 
-def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement], Measured]:
-    def of(walked: Walked, measurement: Measurement) -> Measured:
-        whole = walked.energy(measurement.stokes)
-        energy = whole.scalar if scalar else whole
-        if name == "R+T":
-            error = np.hypot(energy.absorbed_se, energy.lost_se)
-            return Measured(float(energy.R + energy.T), float(error))
-        return Measured(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
-
-    return of
-
-
-def _largest(name: str) -> Callable[[Walked, Measurement], Measured]:
-    def of(walked: Walked, measurement: Measurement) -> Measured:
-        made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
-        result: xr.DataArray = made(
-            brighter_than=measurement.brighter_than, noise=measurement.noise
-        )
-        # The other side of the plane of incidence is its image.
-        theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
-        value = np.where(azimuth <= measurement.azimuth, result.values, np.nan)
-        mask = f"{sensor.pixels} x {sensor.pixels} pixels: {result.attrs['mask']}"
-        if measurement.azimuth < ANY_AZIMUTH:
-            mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
-        if np.isnan(value).all():
-            return Measured(np.nan, np.nan, mask)
-        at = np.unravel_index(np.nanargmax(value), value.shape)
-        pixel = f"{theta[at]:.0f} deg, {azimuth[at]:.0f} deg"
-        return Measured(float(value[at]), float(result["se"].values[at]), mask, pixel)
-
-    return of
+def _share(
+    name: str, walked: Walked, measurement: Measurement, *, scalar: bool = False
+) -> Measured:
+    whole = walked.energy(measurement.stokes)
+    energy = whole.scalar if scalar else whole
+    if name == "R+T":
+        error = np.hypot(energy.absorbed_se, energy.lost_se)
+        return Measured(float(energy.R + energy.T), float(error))
+    return Measured(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
 
 
-def _mirrored(name: str) -> Callable[[Walked, Measurement], Measured]:
+def _largest(name: str, walked: Walked, measurement: Measurement) -> Measured:
+    made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
+    result: xr.DataArray = made(brighter_than=measurement.brighter_than, noise=measurement.noise)
+    # The other side of the plane of incidence is its image.
+    theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
+    value = np.where(azimuth <= measurement.azimuth, result.values, np.nan)
+    mask = f"{sensor.pixels} x {sensor.pixels} pixels: {result.attrs['mask']}"
+    if measurement.azimuth < ANY_AZIMUTH:
+        mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
+    if np.isnan(value).all():
+        return Measured(np.nan, np.nan, mask)
+    at = np.unravel_index(np.nanargmax(value), value.shape)
+    pixel = f"{theta[at]:.0f} deg, {azimuth[at]:.0f} deg"
+    return Measured(float(value[at]), float(result["se"].values[at]), mask, pixel)
+
+
+def _mirrored(name: str, walked: Walked, measurement: Measurement) -> Measured:
     """Return what is measured in the pixel towards which a mirror would send the light."""
-
-    def of(walked: Walked, measurement: Measurement) -> Measured:
-        hemisphere = walked.hemisphere
-        beam, sensor = hemisphere.seen.beam, hemisphere.sensor
-        at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
-        result: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
-        value, error = (float(each[0, *at, 0]) for each in (result.values, result["se"].values))
-        mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
-        if name == "aop":
-            # The paper folds it: half the arc tangent of |S2 / S1|.
-            value = abs(value) if abs(value) <= np.pi / 4.0 else np.pi / 2.0 - abs(value)
-            return Measured(float(np.degrees(value)), float(np.degrees(error)), mask)
-        return Measured(value, error, mask)
-
-    return of
+    hemisphere = walked.hemisphere
+    beam, sensor = hemisphere.seen.beam, hemisphere.sensor
+    at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
+    result: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
+    value, error = (float(each[0, *at, 0]) for each in (result.values, result["se"].values))
+    mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
+    if name == "aop":
+        # The paper folds it: half the arc tangent of |S2 / S1|.
+        value = abs(value) if abs(value) <= np.pi / 4.0 else np.pi / 2.0 - abs(value)
+        return Measured(float(np.degrees(value)), float(np.degrees(error)), mask)
+    return Measured(value, error, mask)
 
 
-def _excess(component: int) -> Callable[[Walked, Measurement], Measured]:
-    def of(walked: Walked, _: Measurement) -> Measured:
-        return Measured(*model_excess(walked.hemisphere, component))
+FARTHEST = 60.0
+"""Up to how many degrees from the normal the two are compared: 30 deg from grazing."""
 
-    return of
+BLOCKS = 16
+"""How many blocks of pixels there are along a side, whose light is compared."""
 
-
-def _model_s3(walked: Walked, _: Measurement) -> Measured:
-    return Measured(float(np.max(np.abs(model_of(walked.hemisphere)[..., 3]))), 0.0)
+_NEAR = f"{BLOCKS} x {BLOCKS} blocks of pixels within {FARTHEST:.0f} deg of the normal"
 
 
-def _off(walked: Walked, _: Measurement) -> Measured:
-    mask = f"{BLOCKS} x {BLOCKS} blocks of pixels within {FARTHEST:.0f} deg of the normal"
-    return Measured(*model_off(walked.once), mask)
+def _excess(component: int, walked: Walked, _: Measurement) -> Measured:
+    return Measured(*model_excess(walked.hemisphere, component))
 
 
 _SHARES = {
@@ -220,26 +210,45 @@ _SHARES = {
 
 _LIGHT = ("cells", "stokes")
 _PIXELS = ("cells", "sensor")
-_SEVERAL_PIXELS = (*_PIXELS, "brighter_than", "noise", "azimuth")
 
 MEASURES = {
-    **{name: Measure(told, _share(name), _LIGHT) for name, told in _SHARES.items()},
+    **{name: Measure(told, partial(_share, name), _LIGHT) for name, told in _SHARES.items()},
     **{
         f"scalar-{name}": Measure(
-            f"{told}, without polarisation", _share(name, scalar=True), ("cells",)
+            f"{told}, without polarisation", partial(_share, name, scalar=True), ("cells",)
         )
         for name, told in _SHARES.items()
     },
-    "adm": Measure("largest ADM of a pixel", _largest("adm"), _SEVERAL_PIXELS, several=True),
-    "mdm": Measure("largest MDM of a pixel", _largest("mdm"), _SEVERAL_PIXELS, several=True),
-    "dolp": Measure("DoLP of mirrored light", _mirrored("dolp"), (*_PIXELS, "stokes")),
-    "aop": Measure("AoP of mirrored light, 0 .. 45 deg", _mirrored("aop"), (*_PIXELS, "stokes")),
-    "model-S0": Measure("S0 of the facet model, over that of photons, less 1", _excess(0), _PIXELS),
-    "model-S1": Measure("S1 of the facet model, over that of photons, less 1", _excess(1), _PIXELS),
-    "model-S2": Measure("S2 of the facet model, over that of photons, less 1", _excess(2), _PIXELS),
-    "model-S3": Measure("largest S3 of the facet model", _model_s3, ("sensor",)),
+    **{
+        name.lower(): Measure(
+            f"largest {name} of a pixel",
+            partial(_largest, name.lower()),
+            (*_PIXELS, "brighter_than", "noise", "azimuth"),
+            several=True,
+        )
+        for name in ("ADM", "MDM")
+    },
+    "dolp": Measure("DoLP of mirrored light", partial(_mirrored, "dolp"), (*_PIXELS, "stokes")),
+    "aop": Measure(
+        "AoP of mirrored light, 0 .. 45 deg", partial(_mirrored, "aop"), (*_PIXELS, "stokes")
+    ),
+    **{
+        f"model-S{each}": Measure(
+            f"S{each} of the facet model, over that of photons, less 1",
+            partial(_excess, each),
+            _PIXELS,
+        )
+        for each in range(3)
+    },
+    "model-S3": Measure(
+        "largest S3 of the facet model",
+        lambda walked, _: Measured(np.abs(model_of(walked.hemisphere)[..., 3]).max().item(), 0.0),
+        ("sensor",),
+    ),
     "model-off": Measure(
-        "facet model off photons after one event, over the largest S0", _off, _PIXELS
+        "facet model off photons after one event, over the largest S0",
+        lambda walked, _: Measured(*model_off(walked.once), _NEAR),
+        _PIXELS,
     ),
 }
 """By the names that files of experiments have."""
@@ -252,23 +261,20 @@ class Walked:
     experiment: Experiment
     walks: Walks
     photons: int
-    seed: int = 0
-    threads: int | None = None
-    progress: Callable[[int, int], None] | None = None
+    options: dict[str, Any]
 
     def energy(self, stokes: tuple[float, ...]) -> Energy:
         """Return what share of light of a Stokes vector comes back and goes through."""
         known: dict[tuple[float, ...], Energy] = vars(self).setdefault("_energies", {})
         if stokes not in known:
-            with self._meant_mesh():
-                known[stokes] = energy(
-                    self.sample,
-                    self.walks.incidence,
-                    self.photons,
-                    wavelength=self.walks.wavelengths[0] if self.walks.wavelengths else None,
-                    stokes=stokes,
-                    **self._walking,
-                )
+            known[stokes] = energy(
+                self.sample,
+                self.walks.incidence,
+                self.photons,
+                wavelength=next(iter(self.walks.wavelengths), None),
+                stokes=stokes,
+                **self.options,
+            )
         return known[stokes]
 
     @cached_property
@@ -288,35 +294,15 @@ class Walked:
         return sample if cells is None else replace(sample, cells=(cells, cells))
 
     def _hemisphere(self, events: int | None) -> Hemisphere:
-        with self._meant_mesh():
-            return measure(
-                self.sample,
-                self.walks.incidence,
-                self.photons,
-                [*self.walks.wavelengths] or None,
-                self.experiment.sensor,
-                events=events,
-                **self._walking,
-            )
-
-    @property
-    def _walking(self) -> dict[str, Any]:
-        return {"seed": self.seed, "threads": self.threads, "progress": self.progress}
-
-    @contextmanager
-    def _meant_mesh(self) -> Iterator[None]:
-        """Warn of no coarse mesh where it is what is looked at."""
-        with warnings.catch_warnings():
-            if self.walks.cells is not None:
-                warnings.simplefilter("ignore", MeshWarning)
-            yield
-
-
-FARTHEST = 60.0
-"""Up to how many degrees from the normal the two are compared: 30 deg from grazing."""
-
-BLOCKS = 16
-"""How many blocks of pixels there are along a side, whose light is compared."""
+        return measure(
+            self.sample,
+            self.walks.incidence,
+            self.photons,
+            [*self.walks.wavelengths] or None,
+            self.experiment.sensor,
+            events=events,
+            **self.options,
+        )
 
 
 def model_of(hemisphere: Hemisphere) -> Numbers:

@@ -8,18 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.layer_stack import LayerStack
-from optipath.errors import SurfaceError, shown
+from optipath.errors import SurfaceError
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.field_arguments import cells_of
 from optipath.surfaces.height_field import HeightField
-from optipath.surfaces.sample_layers import (
-    CLEAR_MEDIUM,
-    indices_of,
-    layers_of,
-    medium_of,
-    unused_faults,
-)
+from optipath.surfaces.sample_layers import indices_of, layers_of, medium_of
 from optipath.values.arrays import Unchanging, same_fields
 from optipath.values.parameters import Parameter
 from optipath.values.precision import whole_number
@@ -94,15 +88,13 @@ class Sample(Unchanging):
     def __post_init__(self) -> None:
         """Keep what is given as it is meant; refuse all faults."""
         faults = Faults()
-        outside = faults.attempt("", medium_of, "outside", self.outside, CLEAR_MEDIUM)
+        outside = faults.attempt("", medium_of, "outside", self.outside, clear=True)
         layers = layers_of(self.layers, faults)
         cells = None if self.cells is None else cells_of(self.cells, faults)
         faults += whole_number("surfaces", self.surfaces) + whole_number("seed", self.seed, 0)
         periodic = faults.attempt("", YES_OR_NO.check, "periodic", self.periodic)
-        if not isinstance(self.description, str):
-            faults.append(f"description must be a text, not {shown(self.description)}")
-        if not faults:
-            faults += unused_faults(layers, cells, periodic=bool(periodic))
+        if cells is not None and layers and not any(layer.is_random for layer in layers):
+            faults.append("cells is given, but no interface is random; leave it out")
         if faults:
             raise SurfaceError(*faults)
         surfaces, seed = int(self.surfaces), int(self.seed)
@@ -113,6 +105,11 @@ class Sample(Unchanging):
     def isotropic(self) -> bool:
         """Whether no direction along the surface is any other."""
         return all(layer.isotropic for layer in self.layers)
+
+    @property
+    def is_random(self) -> bool:
+        """Whether the heights of an interface are drawn."""
+        return any(layer.is_random for layer in self.layers)
 
     @property
     def is_flat(self) -> bool:
@@ -135,7 +132,7 @@ class Sample(Unchanging):
         Raises
         ------
         SurfaceError
-            If that is no number of a surface, or there is no memory for it.
+            If there is no memory for it.
 
         Warns
         -----
@@ -147,8 +144,6 @@ class Sample(Unchanging):
         >>> Sample([(1.5, 0.25)], cells=320).fields(3)
         (HeightField.beckmann of alpha (0.25, 0.25), 320 x 320 cells, 320 x 320, periodic,)
         """
-        if faults := whole_number("surface", surface, 0):
-            raise SurfaceError(*faults)
         known: dict[int, tuple[HeightField, ...]] = vars(self).setdefault("_drawn", {})
         if surface not in known:
             drawn = tuple(self._field(int(surface), place) for place in range(len(self.layers)))
@@ -279,7 +274,7 @@ class Sample(Unchanging):
         SurfaceError
             If heights stand in no file, or a material has no form in files.
         """
-        from optipath.surfaces.sample_writer import toml_of  # noqa: PLC0415 - brings graphs
+        from optipath.surfaces.sample_files import toml_of  # noqa: PLC0415 - reads samples
 
         return toml_of({"description": self.description, **self._unusual()}, self.layers)
 

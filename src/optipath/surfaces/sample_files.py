@@ -1,26 +1,28 @@
-"""Sample files: rough and layered samples by name or path."""
+"""Files of rough and layered samples: found by name or path, read and written."""
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.errors import OptipathError, PresetError, SurfaceError, shown
 from optipath.materials.index_domains import INDEX
-from optipath.paths.files.schema import FORMAT, Faults, as_meant, joined, readable, type_faults
+from optipath.paths.files.schema import FORMAT, Faults, checked_table
 from optipath.paths.files.toml import file_of, names_in, parsed, presets_folder, text_of
-from optipath.paths.files.values import decode, references_in
+from optipath.paths.files.values import decode, encode, references_in
+from optipath.paths.files.writer import toml_lines
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_layers import SampleLayer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
     from pathlib import Path
 
 
-_WHAT = "sample"
+_FOLDER = presets_folder() / "samples"
+
+T = TypeVar("T")
 
 
 def sample_names() -> list[str]:
@@ -31,7 +33,7 @@ def sample_names() -> list[str]:
     >>> "glass-on-glass" in sample_names()
     True
     """
-    return names_in(_folder())
+    return names_in(_FOLDER)
 
 
 def sample_descriptions() -> dict[str, str]:
@@ -40,10 +42,8 @@ def sample_descriptions() -> dict[str, str]:
     >>> sample_descriptions()["glass-rough"]
     'A rough face of glass, lit from the air'
     """
-    from optipath.paths.files.toml import parsed  # noqa: PLC0415 - not for every import
-
-    files = {name: _folder() / f"{name}.toml" for name in sample_names()}
-    return {name: parsed(text_of(f, _WHAT), str(f))["description"] for name, f in files.items()}
+    files = {name: _FOLDER / f"{name}.toml" for name in sample_names()}
+    return {name: parsed(text_of(f, "sample"), str(f))["description"] for name, f in files.items()}
 
 
 def load_sample(sample: str | PathLike[str]) -> Sample:
@@ -68,76 +68,78 @@ def load_sample(sample: str | PathLike[str]) -> Sample:
     >>> load_sample("glass-on-glass").layers
     ((1.5, 0.1), (2.4, 0.1))
     """
+    return sample_of_text(*text_and_file(sample, "sample", _FOLDER, "`optipath surface`"))
+
+
+def text_and_file(argument: Any, what: str, folder: Path, see: str) -> tuple[str, Path]:
+    """Return the text of the file that a name or a path stands for, and where it is."""
     try:
-        path = file_of(sample, _WHAT, _folder(), "`optipath surface`")
-        text = text_of(path, _WHAT)
+        path = file_of(argument, what, folder, see)
+        return text_of(path, what), path
     except PresetError as error:
         raise SurfaceError(*error.faults) from None
-    # A wrong name is told at once.
-
-    return sample_of_text(text, path)
 
 
-def _folder() -> Path:
-    return presets_folder() / "samples"
-
-
-TOP: dict[str, Any] = {"format": int, "description": str, "layers": list, "outside": object}
-TOP |= {"cells": object, "surfaces": int, "seed": int, "periodic": bool}
-LAYER: dict[str, Any] = {"index": object, "alpha": object, "heights": str, "size": object}
-LAYER |= {"periodic": bool}
-
-_INDEX, _ROUGHNESS = 1.5, (0.1, 0.1)
-"""What takes the place of what is faulty, so that the rest is checked too."""
-
-
-def sample_of_text(text: str, path: Path) -> Sample:
-    """Return the sample that a text describes, as `Sample.to_toml` writes it."""
+def described(
+    text: str,
+    path: Path,
+    known: Mapping[str, Any],
+    needed: Sequence[str],
+    made: Callable[[dict[str, Any], Path], T],
+) -> T:
+    """Return what is made of a text and of the folder of its file, which all faults name."""
     try:
         document = parsed(text, str(path))
     except PresetError as error:
         raise SurfaceError(*error.faults) from None
     try:
-        return _sample(document, path.parent)
+        checked_table(document, known, ("format", *needed))
+        if document["format"] != FORMAT:
+            number = document["format"]
+            raise SurfaceError(f"format is {number}, but this version reads format {FORMAT}")
+        return made(document, path.parent)
     except OptipathError as error:
-        raise SurfaceError(*joined(error.within("file")), about=path.name) from None
+        raise SurfaceError(*error.within("file"), about=path.name) from None
+
+
+_TOP: dict[str, Any] = {"format": int, "description": str, "layers": list, "outside": object}
+_TOP |= {"cells": object, "surfaces": int, "seed": int, "periodic": bool}
+_LAYER: dict[str, Any] = {"index": object, "alpha": object, "heights": str, "size": object}
+_LAYER |= {"periodic": bool}
+
+
+def sample_of_text(text: str, path: Path) -> Sample:
+    """Return the sample that a text describes, as `Sample.to_toml` writes it."""
+    return described(text, path, _TOP, ["layers"], _sample)
 
 
 def _sample(document: dict[str, Any], folder: Path) -> Sample:
-    number = document.get("format", FORMAT)
-    if number != FORMAT or isinstance(number, bool):
-        raise SurfaceError(f"format is {shown(number)}, but this version reads format {FORMAT}")
-    faults = Faults(type_faults("the sample", document, TOP))
-    if "format" not in document:
-        faults.append(f"the sample: 'format' is missing; add format = {FORMAT}")
-    if not as_meant(document, TOP).get("layers"):
-        faults.append("the sample has no layers; add a table [[layers]] for each, from the top")
-    argument = readable(document, TOP)
-    tables = argument.pop("layers", [])
-    outside = faults.attempt("outside", _index, argument.pop("outside", 1.0))
-    argument |= {"outside": 1.0 if outside is None else outside}
-    layers = [_layer(f"layers[{at}]", table, folder, faults) for at, table in enumerate(tables)]
-    argument.pop("format", None)
-    made = faults.attempt("", Sample, layers or [(_INDEX, _ROUGHNESS)], **argument)
-    if made is None or faults:
+    faults = Faults()
+    tables = enumerate(document["layers"])
+    layers = [faults.attempt(f"layers[{at}]", _layer, each, folder) for at, each in tables]
+    others = {key: value for key, value in document.items() if key not in ("format", "layers")}
+    if "outside" in others:
+        others["outside"] = faults.attempt("outside", _index, others["outside"])
+    if faults:
         raise SurfaceError(*faults)
-    return made
+    return Sample(layers, **others)
 
 
-def _layer(where: str, table: Any, folder: Path, faults: Faults) -> SampleLayer:
-    """Return a layer, in which something else stands for what is faulty."""
-    if not isinstance(table, dict):
-        faults.append(f"{where} must be a table headed [[layers]], not {shown(table)}")
-        return SampleLayer(_INDEX, _ROUGHNESS)
-    faults += type_faults(where, table, LAYER)
-    argument = readable(table, LAYER)
-    if "index" not in argument:
-        faults.append(f"{where}: 'index' is missing; write that of the medium below")
-    index = faults.attempt(f"{where}.index", _index, argument.get("index", _INDEX))
-    rough = None
-    if "heights" in argument or "heights" not in as_meant(table, LAYER):
-        rough = faults.attempt(where, roughness_of_table, argument, folder)
-    return SampleLayer(_INDEX if index is None else index, *(rough or (_ROUGHNESS,)))
+def _layer(table: Any, folder: Path) -> SampleLayer:
+    checked_table(table, _LAYER, ["index"])
+    faults = Faults()
+    index: Any = faults.attempt(".index", _index, table["index"])
+    if ("heights" in table) != ("size" in table) or ("heights" in table) == ("alpha" in table):
+        faults.append(
+            "an interface is rough by its 'alpha' (0 is flat), or by 'heights' with a 'size' and, "
+            'if it is, periodic = true; write alpha = 0.1, or heights = "FILE" and size = [X, Y]'
+        )
+    name, rough = table.get("heights", ""), table.get("alpha")
+    if not faults and rough is None:
+        rough = faults.attempt(f".heights {shown(name)}", _heights, table, folder)
+    if faults:
+        raise SurfaceError(*faults)
+    return SampleLayer(index, rough, name)
 
 
 def _index(raw: Any) -> Any:
@@ -151,71 +153,41 @@ def _index(raw: Any) -> Any:
     return decode(raw, INDEX, {})
 
 
-_LARGEST = 256 * 1024 * 1024
-_LONGEST = 200
-_NAME = re.compile(r"[\w-][\w. -]*(/[\w-][\w. -]*)*")
-
-
-def roughness_of_table(table: Mapping[str, Any], folder: Path) -> tuple[Any, str]:
-    """Return the roughness of an interface, and the file that it has been read from."""
-    if "heights" in table:
-        return _heights(table, folder), table["heights"]
-    faults = [
-        f"'{key}' is of heights out of a file; leave it out"
-        for key in ("size", "periodic")
-        if key in table
-    ]
-    if "alpha" not in table:
-        faults.append(
-            "'alpha' is missing; write alpha = 0.1, alpha = 0 for a flat interface, or heights "
-            '= "FILE" with a size'
-        )
-    if faults:
-        raise SurfaceError(*faults)
-    return table["alpha"], ""
-
-
 def _heights(table: Mapping[str, Any], folder: Path) -> HeightField:
-    faults = Faults()
-    if "alpha" in table:
-        faults.append("'alpha' and 'heights' say one thing twice; leave one of them out")
-    if "size" not in table:
-        faults.append(
-            "'size' is missing; write the lengths of the sides along x and y in the unit of the "
-            "heights, such as size = [100.0, 80.0]"
-        )
-    name = table["heights"]
-    path = faults.attempt(".heights", _in_folder, folder, name)
-    if faults or path is None:
-        raise SurfaceError(*faults)
-    size, periodic = table["size"], table.get("periodic", False)
-    made = faults.attempt(
-        f".heights '{name}'", HeightField.from_file, path, size, periodic=periodic
-    )
-    if faults or made is None:
-        raise SurfaceError(*faults)
-    return made
-
-
-def _in_folder(folder: Path, name: str) -> Path:
-    """Return the path of a file of heights, which is in the folder of the sample's."""
-    if not _NAME.fullmatch(name) or len(name) > _LONGEST:
-        raise SurfaceError(
-            f"{shown(name)} is no name of a file beside that of the sample; write one such as "
-            f'"heights.npy" or "maps/heights.tif"'
-        )
-    path = folder / name
+    """Return the heights of a file in the folder of the sample's, or below it."""
+    path = folder / table["heights"]
     try:
         if not path.resolve().is_relative_to(folder.resolve()):
-            raise SurfaceError(f"'{name}' leads out of the folder of the sample; put it there")
-        if not path.is_file():
-            raise SurfaceError(f"'{name}' is no file beside that of the sample")
-        size = path.stat().st_size
-    except (OSError, RuntimeError) as error:  # A link that leads to itself is the second.
-        raise SurfaceError(f"'{name}' cannot be read: {error}") from None
-    if size > _LARGEST:
+            raise SurfaceError("leads out of the folder of the sample; put it there")
+    except (OSError, RuntimeError, ValueError) as error:  # A link to itself, or no name at all.
+        raise SurfaceError(f"cannot be read: {error}") from None
+    return HeightField.from_file(path, table["size"], periodic=table.get("periodic", False))
+
+
+def toml_of(options: Mapping[str, Any], layers: Sequence[SampleLayer]) -> str:
+    """Return the text of the file of a sample."""
+    faults = Faults()
+    top = {"format": FORMAT} | {
+        name: value if isinstance(value, bool) else faults.attempt(name, encode, value, "")
+        for name, value in options.items()
+    }
+    rows = [faults.attempt(f"layers[{at}]", _row, layer) for at, layer in enumerate(layers)]
+    if faults:
+        raise SurfaceError(*faults)
+    return "\n".join([toml_lines("", top), *[toml_lines("[[layers]]", row or {}) for row in rows]])
+
+
+def _row(layer: SampleLayer) -> dict[str, Any]:
+    index, rough = {"index": encode(layer.index, "")}, layer.roughness
+    if not isinstance(rough, HeightField):
+        along_x, along_y = rough
+        return index | {"alpha": along_x if along_x == along_y else [along_x, along_y]}
+    if rough.is_flat:
+        return index | {"alpha": 0.0}
+    if not layer.file:
         raise SurfaceError(
-            f"'{name}' is larger than {_LARGEST // 1024**2} MiB; cut out a part of it, or give it "
-            f"to HeightField.from_file in Python"
+            "its heights are in no file that it knows of; save them by numpy.save('heights.npy', "
+            'field.heights), and load a sample whose file has heights = "heights.npy"'
         )
-    return path
+    row = index | {"heights": layer.file, "size": [*rough.size]}
+    return row | ({"periodic": True} if rough.periodic else {})

@@ -39,25 +39,19 @@ class BrdfOfHemispheres:
         for each in hemispheres:
             if not isinstance(each, Hemisphere):
                 raise SurfaceError(f"{shown(each)} is no hemisphere; give what op.measure returns")
-        if len(hemispheres) < 2:
-            raise SurfaceError(
-                f"{len(hemispheres) or 'no'} hemisphere is not enough for all incidences; measure "
-                f"at several, such as every 5 deg from 0 to 85 deg"
-            )
         results = tuple(sorted(hemispheres, key=_incidence))
-        first = results[0]
-        for each, before in zip(results[1:], results, strict=False):
-            if not np.array_equal(each.wavelengths, first.wavelengths, equal_nan=True):
-                raise SurfaceError(f"{each} has other wavelengths than {first}")
-            if each.seen.beam.sample != first.seen.beam.sample:
-                raise SurfaceError(f"{each} is of another sample than {first}")
-            if _incidence(each) == _incidence(before):
-                raise SurfaceError(f"{each} is there twice; leave one of them out")
-        if not first.seen.beam.sample.isotropic:
+        if len({_incidence(each) for each in results}) < max(len(results), 2):
             raise SurfaceError(
-                "the table is of samples that look the same from all sides, and this one is not "
-                "isotropic"
+                "hemispheres are from too few incidences, or from one of them twice; measure at "
+                "several, such as every 5 deg from 0 to 85 deg"
             )
+        first = results[0]
+        for each in results[1:]:
+            alike = np.array_equal(each.wavelengths, first.wavelengths, equal_nan=True)
+            if not alike or each.seen.beam.sample != first.seen.beam.sample:
+                raise SurfaceError(f"{each} is of another sample or other wavelengths than {first}")
+        if not first.seen.beam.sample.isotropic:
+            raise SurfaceError("the table is of isotropic samples, and this one is not")
         return cls(results)
 
     @property

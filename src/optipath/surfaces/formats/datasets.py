@@ -10,15 +10,14 @@ import shutil
 from dataclasses import asdict, dataclass, replace
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
-import numpy as np
 import xarray as xr
 
 from optipath.errors import OptipathError, SurfaceError, shown
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.arrays import PIXELS
-from optipath.surfaces.hemisphere.beam import STATES, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.beam import NUMBERS, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.sample import Sample
@@ -38,14 +37,12 @@ LAYOUT = 1
 """The version of what is in such a file."""
 
 _SUMS = ("part", *PIXELS, "number")
-_LARGEST = 2**63
+_OF_BEAM = "cos", "sin", "azimuth", "seed", "most_events"
 
 
 def stored_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a file, of which `hemisphere_of` makes the hemisphere again."""
     parts, indices = hemisphere.parts, hemisphere.seen.beam.indices
-    names = [f"M{row}{column}" for row in range(4) for column in range(4)]
-    numbers = {"scalar": ["scalar"], "polarized": names, "both": [*names, "scalar"]}
     what = "sum over the photons of a part, as counted: of Mueller matrices and the scalar"
     result: xr.Dataset = hemisphere.dataset.assign(
         sums=(_SUMS, parts.sums, {"long_name": what, "units": "1"}),
@@ -53,9 +50,10 @@ def stored_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
         index_n=("wavelength", indices.n.ravel(), {"long_name": "n of the last medium"}),
         index_k=("wavelength", indices.k.ravel(), {"long_name": "k of the last medium"}),
     )
-    result = result.assign_coords(number=numbers[hemisphere.seen.polarized])
-    attributes = {name: _attribute(each) for name, each in hemisphere.dataset.attrs.items()}
-    result.attrs = attributes | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
+    result = result.assign_coords(number=list(NUMBERS[hemisphere.seen.polarized]))
+    result.attrs = result.attrs | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
+    if result.attrs["seed"] >= 2**63:  # Files have whole numbers of up to 64 bits.
+        result.attrs["seed"] = str(result.attrs["seed"])
     # Words of a fixed length are in the specifications of all forms.
     texts = {name: each.astype(str) for name, each in result.coords.items() if each.dtype == object}
     return result.assign_coords(texts)
@@ -69,15 +67,18 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
             f"it has layout {message['layout']}, but this version reads layout {LAYOUT}; load "
             f"it by optipath {dataset.attrs['optipath_version']}"
         )
-    result = sample_of(message["sample"], sample)
-    seen = SensedBeam(
-        _beam(dataset, message, result),
-        Sensor(message["pixels"], message["projection"], message["parts"]),
-        message["polarized"],
-        message["events"],
+    n, k = [
+        dataset[name].to_numpy().reshape(message["wavelengths"]) for name in ("index_n", "index_k")
+    ]
+    beam = PhotonBeam(
+        sample=sample_of(message["sample"], sample),  # type: ignore[arg-type]
+        indices=SampleIndices(message["outside"], tuple(message["inner"]), n, k),
+        states=(UNPOLARISED,) if message["polarized"] == "scalar" else STATES,
+        **{name: message[name] for name in _OF_BEAM},
     )
-    read = {name: dataset[name].to_numpy() for name in ("sums", "count", "part_photons")}
-    sums = PartSums(*read.values())
+    sensor = Sensor(message["pixels"], message["projection"], message["parts"])
+    seen = SensedBeam(beam, sensor, message["polarized"], message["events"])
+    sums = PartSums(*(dataset[name].to_numpy() for name in ("sums", "count", "part_photons")))
     if (sums.sums.shape, sums.counts.shape) != (seen.shape, seen.shape[1:4]):
         raise ValueError(sums.sums.shape)
     return Hemisphere(seen, sums, dataset.wavelength.to_numpy(), message["symmetric"])
@@ -85,48 +86,13 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
 
 def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
     """Return all of what a hemisphere is that is no array; JSON keeps every bit of a float."""
-    seen = hemisphere.seen
-    beam, sensor = seen.beam, seen.sensor
     return {
         "layout": LAYOUT,
-        "sample": stored_sample(beam.sample),
-        "cos": beam.cos,
-        "sin": beam.sin,
-        "azimuth": beam.azimuth,
-        "outside": beam.indices.outside,
-        "inner": beam.indices.inner,
-        "wavelengths": beam.indices.n.shape,
-        "seed": beam.seed,
-        "most_events": beam.most_events,
-        "pixels": int(sensor.pixels),
-        "projection": sensor.projection,
-        "parts": int(sensor.parts),
-        "polarized": seen.polarized,
-        "events": None if seen.events is None else int(seen.events),
-        "symmetric": bool(hemisphere.symmetric),
+        "sample": stored_sample(hemisphere.seen.beam.sample),
+        "wavelengths": hemisphere.seen.beam.indices.n.shape,
+        "symmetric": hemisphere.symmetric,
+        **hemisphere.seen.facts,
     }
-
-
-def _beam(dataset: xr.Dataset, messages: Mapping[str, Any], sample: Any) -> PhotonBeam:
-    n, k = [
-        dataset[name].to_numpy().reshape(messages["wavelengths"]) for name in ("index_n", "index_k")
-    ]
-    return PhotonBeam(
-        sample,
-        messages["cos"],
-        messages["sin"],
-        messages["azimuth"],
-        SampleIndices(messages["outside"], tuple(messages["inner"]), n, k),
-        (UNPOLARISED,) if messages["polarized"] == "scalar" else STATES,
-        messages["seed"],
-        messages["most_events"],
-    )
-
-
-def _attribute(value: Any) -> Any:
-    """Return an attribute as files take it: whole numbers of more than 64 bits as texts."""
-    is_long = isinstance(value, int | np.integer) and abs(int(value)) >= _LARGEST
-    return str(value) if is_long else value
 
 
 def stored_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
@@ -147,9 +113,11 @@ def stored_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
 
 
 def sample_of(stored: Mapping[str, Any], argument: Any = None) -> Sample | UnknownSample:
-    """Return the sample of a file."""
+    """Return the sample of a file, or the one that is given, if it is the one that was measured."""
     if argument is not None:
-        return _known_again(argument, stored)
+        if not isinstance(argument, Sample) or _digest(argument) != stored["digest"]:
+            raise SurfaceError(f"sample is {shown(argument)}, which is not the one measured")
+        return argument
     unknown = UnknownSample(**stored)
     if unknown.why:
         return unknown
@@ -159,17 +127,7 @@ def sample_of(stored: Mapping[str, Any], argument: Any = None) -> Sample | Unkno
         return replace(unknown, why=str(fault))
     if _digest(result) == unknown.digest:
         return result
-    return replace(
-        unknown, why="this optipath reads its text in another way than the one that wrote it"
-    )
-
-
-def _known_again(argument: Any, stored: Mapping[str, Any]) -> Sample:
-    if not isinstance(argument, Sample):
-        raise SurfaceError(f"sample is {shown(argument)}; give the op.Sample that was measured")
-    if _digest(argument) != stored["digest"]:
-        raise SurfaceError(f"sample is {argument}, which is not the one that was measured")
-    return argument
+    return replace(unknown, why="this optipath reads its text in another way than its writer did")
 
 
 def _heights(sample: Sample) -> list[HeightField]:
@@ -205,6 +163,7 @@ no file; give it, op.load_hemisphere(path, sample=...)
     isotropic: bool
     digest: str
     text: str | None = None
+    is_flat: ClassVar[bool] = False
 
     def to_toml(self) -> str:
         """Return the text of its file, as it has been read."""
@@ -222,10 +181,6 @@ no file; give it, op.load_hemisphere(path, sample=...)
 
     def __repr__(self) -> str:
         return "a sample that is not known"
-
-
-_RECORD = ".zattrs"
-"""The file of a Zarr group in which its attributes are."""
 
 
 def write_netcdf(dataset: xr.Dataset, file: Path) -> None:
@@ -278,6 +233,6 @@ def _chunks(dataset: xr.Dataset) -> tuple[int, ...]:
 
 def _is_hemisphere(folder: Path) -> bool:
     try:
-        return f'"{MEASUREMENT}"' in (folder / _RECORD).read_text("utf-8")
+        return f'"{MEASUREMENT}"' in (folder / ".zattrs").read_text("utf-8")
     except (OSError, UnicodeDecodeError):
         return False

@@ -94,17 +94,16 @@ def write_measured_polarized(
     faults = Faults()
     place = faults.attempt("", _place, path)
     table = faults.attempt("", _table, brdf, wavelengths)
-    faults += _shape_faults(shape)
-    if not isinstance(description, str):
-        faults.append(f"description must be a text, not {shown(description)}")
+    if not (isinstance(shape, tuple) and len(shape) == 3 and all(is_whole(n, 2) for n in shape)):
+        faults.append(f"shape is {shown(shape)}; give three whole numbers from 2 on, as {_SHAPE}")
     if faults or place is None or table is None:
         raise SurfaceError(*faults)
-    colours = faults.attempt("", _nanometres, table.wavelengths)
-    if colours is None:
-        raise SurfaceError(*faults)
-    axes = HalfAngles.of(shape)
+    colours, axes = _nanometres(table.wavelengths), HalfAngles.of(shape)
+    if not description:
+        several = table.hemispheres if isinstance(table, BrdfOfHemispheres) else ()
+        description = "; ".join(map(repr, several)) or "a polarised BRDF"
     with message_of(place, SurfaceError), written_whole(place) as stream:
-        write_tensors(stream, _tensors(axes, colours, table, description or _measured(brdf)))
+        write_tensors(stream, _tensors(axes, colours, table, description))
 
 
 def _place(path: Any) -> Any:
@@ -128,28 +127,17 @@ def _table(brdf: Any, wavelengths: Any) -> BrdfFunction | BrdfOfHemispheres:
     return BrdfFunction(brdf, np.atleast_1d(np.ravel(when)))
 
 
-def _shape_faults(shape: Any) -> list[str]:
-    fits = isinstance(shape, tuple) and len(shape) == 3
-    if fits and all(is_whole(each, 2, 10_000) for each in shape):
-        return []
-    return [f"shape is {shown(shape)}; give three whole numbers from 2 on, such as {_SHAPE}"]
-
-
 def _nanometres(wavelengths: Numbers) -> npt.NDArray[np.uint16]:
     """Return the wavelengths as the file has them."""
     if np.isnan(wavelengths).any():
         return np.array([_ANY], np.uint16)
     result = wavelengths / _NANOMETRE
     whole = np.round(result)
-    if np.any(np.abs(result - whole) > 1e-6) or np.any(whole < 1) or np.any(whole > _LONGEST):
+    fits = np.all(np.abs(result - whole) <= 1e-6) and whole.min() >= 1 and whole.max() <= _LONGEST
+    if not fits or whole.size > _MOST or np.any(np.diff(whole) <= 0.0):
         raise SurfaceError(
-            f"wavelengths are {result.tolist()} nm; the table has whole nanometres from 1 to "
-            f"{_LONGEST}"
-        )
-    if whole.size > _MOST or np.any(np.diff(whole) <= 0.0):
-        raise SurfaceError(
-            f"wavelengths are {whole.tolist()} nm; the plugin reads up to {_MOST} that differ, the "
-            f"shortest first"
+            f"wavelengths are {result.tolist()} nm; the plugin reads up to {_MOST} whole "
+            f"nanometres that differ, from 1 to {_LONGEST}, the shortest first"
         )
     return whole.astype(np.uint16)
 
@@ -192,10 +180,6 @@ def _matrices(
         yield result
 
 
-def _measured(brdf: Any) -> str:
-    return "; ".join(map(repr, brdf)) if isinstance(brdf, (list, tuple)) else "a polarised BRDF"
-
-
 @dataclass(frozen=True)
 class BrdfFunction:
     """A function of the directions in which light comes and goes. Units: wavelengths in metres."""
@@ -210,9 +194,8 @@ class BrdfFunction:
             at = {} if np.isnan(wavelength) else {"wavelength": float(wavelength)}
             brdf = self.function(before.z, behind.z, **at)
             if not isinstance(brdf, Mueller) or brdf.shape != before.x.shape[:-1]:
-                what = f"of shape {brdf.shape}" if isinstance(brdf, Mueller) else shown(brdf)
                 raise SurfaceError(
-                    f"brdf returns {what}; for {len(before.x)} directions it must return an "
+                    f"brdf returns {shown(brdf)}; for {len(before.x)} directions it must return an "
                     f"op.Mueller of shape {before.x.shape[:-1]}"
                 )
             results.append(in_frames(brdf, before, behind))
@@ -235,11 +218,6 @@ class Tensor(NamedTuple):
     def of(cls, array: npt.NDArray[Any]) -> Tensor:
         """Return an array that is there as a whole."""
         return cls(str(array.dtype), array.shape, (array,))
-
-    @property
-    def size(self) -> int:
-        """How many bytes it has."""
-        return int(np.prod(self.shape)) * np.dtype(self.type).itemsize
 
 
 def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
@@ -265,7 +243,7 @@ def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
         stream.write(struct.pack("<H", len(names[name])) + names[name])
         stream.write(struct.pack("<HBQ", len(each.shape), _CODES[each.type], place))
         stream.write(struct.pack(f"<{len(each.shape)}Q", *each.shape))
-        place += each.size
+        place += int(np.prod(each.shape)) * np.dtype(each.type).itemsize
     for name, each in tensors.items():
         stream.write(bytes(gaps[name]))
         for part in each.parts:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 import xarray as xr
 
 from optipath.errors import SurfaceError
-from optipath.surfaces.hemisphere.beam import PixelMask
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from optipath.surfaces.hemisphere.beam import PixelMask
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.values.precision import Numbers
 
@@ -32,9 +31,8 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     results["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
     area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
     results["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
-    return xr.Dataset(
-        results, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
-    )
+    known = coordinates(hemisphere, (*PIXELS, "out", "in"))
+    return xr.Dataset(results, known, _attributes(hemisphere))
 
 
 _MUELLER = "Mueller matrix: share of the light on the sample that goes into the pixel"
@@ -44,18 +42,21 @@ _DIFFERENCE = "share of unpolarised light that goes into the pixel, less that wi
 
 def _with_error(name: str, dims: tuple[str, ...], result: Any, what: str) -> dict[str, Any]:
     value, error = result
-    messages = {"units": "1"}
+    about = {"long_name": f"standard error of '{name}'", "units": "1"}
     return {
-        name: (dims, value, {"long_name": what, **messages}),
-        f"{name}_se": (dims, error, {"long_name": f"standard error of '{name}'", **messages}),
+        name: (dims, value, {"long_name": what, "units": "1"}),
+        f"{name}_se": (dims, error, about),
     }
 
 
 def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
-    seen = hemisphere.seen
-    beam = seen.beam
+    seen, beam = hemisphere.seen, hemisphere.seen.beam
+    try:
+        sample = beam.sample.to_toml()
+    except SurfaceError as fault:
+        sample = f"the sample cannot be written here, since it has no form in TOML: {fault}"
     return {
-        "sample": _toml(hemisphere),
+        "sample": sample,
         "incidence": float(np.arctan2(beam.sin, beam.cos)),
         "azimuth": "each photon its own" if beam.sample.isotropic else beam.azimuth,
         "photons": hemisphere.photons,
@@ -70,49 +71,23 @@ def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
     }
 
 
-def _toml(hemisphere: Hemisphere) -> str:
-    try:
-        return hemisphere.seen.beam.sample.to_toml()
-    except SurfaceError as fault:
-        return f"the sample cannot be written here, since it has no form in TOML: {fault}"
-
-
-_Shown = dict[str, str | float]
-
-
-class _Measure(NamedTuple):
-    """What is made of the relative differences at all wavelengths, the last axis."""
-
-    called: str
-    told: str
-    made: Callable[[Numbers], Numbers]
-
-
-_MEASURES = {
-    "signed": _Measure("relative_difference", "(S0 - U) / U", np.asarray),
-    "adm": _Measure(
-        "adm", "mean of |S0 - U| / U over wavelengths", lambda found: np.abs(found).mean(axis=-1)
-    ),
-    "mdm": _Measure(
-        "mdm", "largest |S0 - U| / U over wavelengths", lambda found: np.abs(found).max(axis=-1)
-    ),
-}
-
-
 def difference_map(
     hemisphere: Hemisphere,
-    measure: str,
+    name: str,
+    told: str,
+    made: Callable[[Numbers], Numbers],
     side: str,
-    brighter_than: float,
-    noise: float | None,
-    known_to: float = 0.001,
+    mask: PixelMask,
 ) -> xr.DataArray:
-    """Return what polarisation makes of each pixel."""
-    mask = PixelMask(brighter_than, noise, known_to)
-    at, what = hemisphere.side(side), _MEASURES[measure]
-    result = hemisphere.own.estimate(lambda light: what.made(_relative(hemisphere, light)))
-    value, error = (each[at] for each in result)
-    if noise is not None and np.isnan(error).all():
+    """Return what is made of the relative differences of each pixel, wavelengths last."""
+    at = hemisphere.side(side)
+
+    def relative(light: Numbers) -> Numbers:
+        scalar = hemisphere.intensities(light)
+        return made((hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar)
+
+    value, error = (each[at] for each in hemisphere.own.estimate(relative))
+    if mask.noise is not None and np.isnan(error).all():
         raise SurfaceError(
             f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
             f"it; measure with more photons"
@@ -121,23 +96,12 @@ def difference_map(
     counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
     value, error = (np.where(counts, each, np.nan) for each in (value, error))
     dims = ("y", "x", "wavelength")[: value.ndim]
-    se = xr.Variable(dims, error, {"long_name": f"standard error of '{what.called}'", "units": "1"})
-    message: _Shown = {"long_name": what.told, "units": "1", "side": side}
-    message |= _mask_attributes(mask, counts, error)
-    message |= _pixel_attributes(hemisphere)
-    return xr.DataArray(
-        value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, message
-    )
-
-
-def _relative(hemisphere: Hemisphere, light: Numbers) -> Numbers:
-    scalar = hemisphere.intensities(light)
-    return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
-
-
-def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numbers) -> _Shown:
-    known = error[counts & ~np.isnan(error)]
-    return {
+    se = xr.Variable(dims, error, {"long_name": f"standard error of '{name}'", "units": "1"})
+    known, sensor = error[counts & ~np.isnan(error)], hemisphere.sensor
+    about = {
+        "long_name": told,
+        "units": "1",
+        "side": side,
         "mask": str(mask),
         "brighter_than": mask.brighter_than,
         "noise": "any" if mask.noise is None else mask.noise,
@@ -145,18 +109,13 @@ def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numb
         "pixels_left": int(counts.sum()),
         "median_se": float(np.median(known)) if known.size else np.nan,
         "largest_se": float(known.max()) if known.size else np.nan,
-    }
-
-
-def _pixel_attributes(hemisphere: Hemisphere) -> _Shown:
-    sensor = hemisphere.sensor
-    return {
         "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",
         "pixel_degrees_at_normal": float(np.degrees(sensor.width_at_normal)),
         "largest_pixel_solid_angle": float(sensor.solid_angle.max()),
         "photons": hemisphere.photons,
         "symmetric": int(hemisphere.symmetric),
     }
+    return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, name, about)
 
 
 PIXELS = ("side", "y", "x", "wavelength")
@@ -175,21 +134,20 @@ FRAME = (
 def pixel_array(
     hemisphere: Hemisphere,
     name: str,
-    value: Numbers,
+    result: tuple[Numbers, Numbers | None],
     what: str,
     units: str,
     more: tuple[str, ...] = (),
-    *,
-    error: Numbers | None = None,
-    **messages: Any,
+    **attributes: Any,
 ) -> xr.DataArray:
-    """Return what is known of each pixel as an array with names."""
+    """Return a value of each pixel and its error as an array with names."""
+    value, error = result
     dims = (*PIXELS, *more)
     known = coordinates(hemisphere, dims)
     known["side"] = "side", known["side"][1][: len(value)]
     if error is not None:
         known["se"] = dims, error, {"long_name": f"standard error of '{name}'", "units": units}
-    about = {"long_name": what, "units": units, "frame": FRAME, **messages}
+    about = {"long_name": what, "units": units, "frame": FRAME, **attributes}
     return xr.DataArray(value, known, dims, name, about)
 
 
@@ -198,16 +156,12 @@ def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]
     sensor, place = hemisphere.sensor, {"units": "1"}
     towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
     across = {"long_name": "place on the sensor, across the plane of incidence"}
-    angle = {"units": "rad"}
+    angle, when = {"units": "rad"}, {"long_name": "wavelength in vacuum", "units": "m"}
     results = {
         "side": ("side", np.array(hemisphere.seen.sides, object)),
         "y": ("y", sensor.coordinates, across | place),
         "x": ("x", sensor.coordinates, towards | place),
-        "wavelength": (
-            "wavelength",
-            hemisphere.wavelengths,
-            {"long_name": "wavelength in vacuum", "units": "m"},
-        ),
+        "wavelength": ("wavelength", hemisphere.wavelengths, when),
         "out": ("out", np.array(COMPONENTS, object)),
         "in": ("in", np.array(COMPONENTS, object)),
         "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from contextlib import closing
-from dataclasses import dataclass
-from numbers import Real
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
@@ -12,10 +11,10 @@ import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
 from optipath.surfaces.ends import turned_directions
-from optipath.surfaces.hemisphere.arguments import following
 from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order
 from optipath.surfaces.walk.code import pixel_code
 from optipath.surfaces.walk.layout import DOWN, EVENTS, OUTCOME, UP
+from optipath.values.affine import real_number
 from optipath.values.arrays import same_fields
 
 if TYPE_CHECKING:
@@ -41,13 +40,10 @@ STATES = (
 """The states of the source that ride on one photon: between them they say its Mueller matrix."""
 
 
-class _Seen(NamedTuple):
-    """Where the photons of a block are seen, and what `pixel_sums` needs of them."""
+_MATRIX = tuple(f"M{row}{column}" for row in range(4) for column in range(4))
 
-    parts: npt.NDArray[np.int64]
-    places: npt.NDArray[np.int64]
-    turns: Numbers
-    ends: Numbers
+NUMBERS = {"both": (*_MATRIX, "scalar"), "polarized": _MATRIX, "scalar": ("scalar",)}
+"""What may be measured, and the names of the numbers of a light that are summed up for it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,15 +64,27 @@ class SensedBeam:
         return tuple(SIDES)[: 1 if self.beam.indices.opaque else 2]
 
     @property
-    def numbers(self) -> int:
-        """How many are summed up of a light: those of a Mueller matrix, its scalar, or both."""
-        return {"both": 17, "polarized": 16, "scalar": 1}[self.polarized]
-
-    @property
     def shape(self) -> tuple[int, ...]:
         """That of the sums: (parts, sides, rows, columns, wavelengths, numbers)."""
         side, lights = self.sensor.pixels, self.beam.indices.n.size
-        return self.sensor.parts, len(self.sides), side, side, lights, self.numbers
+        return self.sensor.parts, len(self.sides), side, side, lights, len(NUMBERS[self.polarized])
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """All of what is measured but for the sample itself and the indices of its base."""
+        beam = self.beam
+        return {
+            "cos": beam.cos,
+            "sin": beam.sin,
+            "azimuth": beam.azimuth,
+            "outside": beam.indices.outside,
+            "inner": beam.indices.inner,
+            "seed": beam.seed,
+            "most_events": beam.most_events,
+            **asdict(self.sensor),
+            "polarized": self.polarized,
+            "events": None if self.events is None else int(self.events),
+        }
 
     def chunk(
         self,
@@ -93,20 +101,20 @@ class SensedBeam:
         todo = range(CHUNK * number // BLOCK, -(-wanted // BLOCK))
         walked = walked_in_order(self.beam, todo, wanted, threads, self._seen)
         with closing(walked):
-            for seen in walked:
-                arrays, size = (seen.places, seen.turns, seen.ends), len(seen.places)
-                add(*arrays, size, lights, len(self.beam.states), *stored, result.sums)
-                pixels = seen.places[seen.places >= 0] % result.counts.size
+            for parts, places, turns, ends in walked:
+                sizes = len(places), lights, len(self.beam.states)
+                add(places, turns, ends, *sizes, *stored, result.sums)
+                pixels = places[places >= 0] % result.counts.size
                 result.counts.reshape(-1)[:] += np.bincount(pixels, minlength=result.counts.size)
-                result.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)
+                result.photons[:] += np.bincount(parts, minlength=self.sensor.parts)
                 if progress is not None:
-                    progress(size)
+                    progress(len(places))
         return result
 
-    def _seen(self, number: int, photons: int) -> _Seen:
-        """Walk a block."""
+    def _seen(self, number: int, photons: int) -> tuple[npt.NDArray[Any], ...]:
+        """Walk a block; return parts and pixels of its photons, turns into frames, and ends."""
         ends = self.beam.block(number, photons, keeps=True).ends
-        directions = turned_directions(self.beam, ends)
+        k, _, turns = turned_directions(self.beam, ends)
         side = np.full(photons, -1)
         for place, name in enumerate(self.sides):
             side[ends[:, OUTCOME] == SIDES[name]] = place
@@ -114,8 +122,8 @@ class SensedBeam:
             side[ends[:, EVENTS] != self.events] = -1
         parts = self._parts(number, photons)
         image = self.sensor.pixels**2
-        places = (parts * len(self.sides) + side) * image + self.sensor.place(directions.k)
-        return _Seen(parts, np.where(side < 0, -1, places), directions.turns, ends)
+        places = (parts * len(self.sides) + side) * image + self.sensor.place(k)
+        return parts, np.where(side < 0, -1, places), turns, ends
 
     def _parts(self, number: int, photons: int) -> npt.NDArray[np.int64]:
         """Return to which part each photon belongs; all that walk over one surface to the same."""
@@ -163,14 +171,15 @@ class PartSums(NamedTuple):
 
         B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982, eq. 3.13.
         """
-        result = following(result)
         total, photons = self.sums.sum(axis=0), self.photons.sum()
-        if not photons:
-            with np.errstate(invalid="ignore", divide="ignore"):
-                value = result(total)
-            return value, np.zeros_like(value)
         with np.errstate(invalid="ignore", divide="ignore"):
-            value = result(total / photons)
+            value = np.asarray(result(total / (photons or 1)))
+            if value.dtype.kind not in "iuf":
+                raise SurfaceError(
+                    f"what is estimated is {shown(value)}; let the function return real numbers"
+                )
+            if not photons:
+                return value, np.zeros_like(value)
             # Of the differences from the whole, since the squares of the values cancel.
             mean, square, parts = np.zeros_like(value), np.zeros_like(value), 0
             for part, size in zip(self.sums, self.photons, strict=True):
@@ -199,13 +208,11 @@ class PixelMask:
 
     def __post_init__(self) -> None:
         """Refuse all faults."""
-        arguments = {"brighter_than": self.brighter_than, "known_to": self.known_to}
-        if self.noise is not None:
-            arguments["noise"] = self.noise
         faults = [
-            f"{name} is {shown(value)}; give a number from 0, such as {_USUAL[name]:g}"
-            for name, value in arguments.items()
-            if not _is_threshold(value)
+            f"{name} is {shown(value)}; give a number from 0, such as 0.2"
+            for name, value in vars(self).items()
+            if not (name == "noise" and value is None)
+            and (real_number(value) is None or value < 0.0)
         ]
         if faults:
             raise SurfaceError(*faults)
@@ -221,21 +228,9 @@ class PixelMask:
         return np.asarray(error <= np.maximum(self.noise * np.abs(difference), self.known_to))
 
     def __str__(self) -> str:
-        bright = (
-            f"light without polarisation above {self.brighter_than:g} of the mean over the "
-            "hemisphere's pixels"
-        )
-        if self.noise is None:
-            return f"{bright}, any noise"
-        return (
-            f"{bright}, standard error at most {self.noise:g} of the difference, or at most "
-            f"{self.known_to:g}"
-        )
-
-
-_USUAL = {"brighter_than": 0.2, "noise": 0.2, "known_to": 0.001}
-
-
-def _is_threshold(value: Any) -> bool:
-    real = isinstance(value, Real) and not isinstance(value, bool | np.bool_)
-    return real and 0.0 <= float(value) < np.inf
+        bright = f"light without polarisation above {self.brighter_than:g} of the mean over the"
+        noise = "any noise"
+        if self.noise is not None:
+            noise = f"standard error at most {self.noise:g} of the difference, or at most "
+            noise += f"{self.known_to:g}"
+        return f"{bright} hemisphere's pixels, {noise}"

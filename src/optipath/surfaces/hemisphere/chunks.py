@@ -1,4 +1,4 @@
-"""A measurement as a job of chunks that are kept, each walked by itself."""
+"""A measurement as a job of chunks, of which each is walked by itself and kept."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import SurfaceError
+from optipath.surfaces.energy_shares import processors
 from optipath.surfaces.height_field import HeightField
-from optipath.surfaces.hemisphere.beam import CHUNK, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, PartSums, SensedBeam
 from optipath.surfaces.walk.code import digest_of
+from optipath.sweeps.blocks import active_client, keep_blocks
 from optipath.sweeps.jobs import StoredArray, WholeArray
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable
 
     import numpy.typing as npt
 
-    from optipath.surfaces.hemisphere.sensor import Sensor
-    from optipath.surfaces.sample import Sample
     from optipath.surfaces.sample_layers import Roughness
 
 
-LAYOUT = 1
+LAYOUT = 2
 """The version of what a store of a measurement has in it."""
 
 _SOURCES = "kernels", "engines", "surfaces"
@@ -40,46 +40,6 @@ def measuring_code() -> str:
     return f"{version('optipath')}, {digest_of(_SOURCES)[:16]}"
 
 
-def chunk_identity(
-    seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photons: int, code: str
-) -> str:
-    """Return all of what is measured, a line each; wavelengths in metres."""
-    beam = seen.beam
-    lines = [
-        f"a measurement by optipath {code}, layout {LAYOUT}",
-        *_sample_lines(beam.sample),
-        f"index outside: {beam.indices.outside!r}",
-        f"indices between: {beam.indices.inner!r}",
-        f"base n: {beam.indices.n.ravel().tolist()}",
-        f"base k: {beam.indices.k.ravel().tolist()}",
-        f"wavelengths in m: {wavelengths.tolist()}",
-        f"incidence, cosine and sine: {beam.cos!r}, {beam.sin!r}",
-        f"azimuth: {beam.azimuth!r}",
-        f"states: {beam.states!r}",
-        f"sensor: {_sensor(seen.sensor)}",
-        f"polarized: {seen.polarized}",
-        f"events: {seen.events}",
-        f"most_events: {beam.most_events}",
-        f"seed: {beam.seed}",
-        f"photons: {photons}",
-    ]
-    return "\n".join(lines)
-
-
-def _sample_lines(sample: Sample) -> Iterator[str]:
-    for place, layer in enumerate(sample.layers):
-        yield f"layers[{place}]: {_roughness_text(layer.roughness)}"
-    if any(layer.is_random for layer in sample.layers):
-        yield f"cells: {sample.cells!r}"
-        yield f"periodic: {sample.periodic}"
-        yield f"surfaces: {sample.surfaces}, of seed {sample.seed}"
-
-
-def _sensor(sensor: Sensor) -> str:
-    side = int(sensor.pixels)
-    return f"{side} x {side} pixels, {sensor.projection}, {int(sensor.parts)} parts"
-
-
 def _roughness_text(roughness: Roughness) -> str:
     if not isinstance(roughness, HeightField):
         return f"alpha {roughness!r}"
@@ -88,7 +48,6 @@ def _roughness_text(roughness: Roughness) -> str:
 
 
 _PIXELS = ("side", "y", "x")
-_MATRIX = [f"m{row}{column}" for row in range(4) for column in range(4)]
 _SUMS = "sum over photons of the Mueller matrix, row by row, and of the light without polarisation"
 
 
@@ -105,7 +64,19 @@ class ChunkJob:
     @property
     def identity(self) -> str:
         """All of what is measured, a line each."""
-        return chunk_identity(self.seen, self.wavelengths, self.photons, self.code)
+        sample, indices = self.seen.beam.sample, self.seen.beam.indices
+        known: dict[str, Any] = {
+            f"layers[{place}]": _roughness_text(layer.roughness)
+            for place, layer in enumerate(sample.layers)
+        }
+        if sample.is_random:
+            known |= {name: getattr(sample, name) for name in ("cells", "periodic", "surfaces")}
+            known["seed of the sample"] = sample.seed
+        known |= {"base n": indices.n.ravel().tolist(), "base k": indices.k.ravel().tolist()}
+        known |= {"wavelengths in m": self.wavelengths.tolist(), "photons": self.photons}
+        known |= self.seen.facts
+        lines = [f"{name}: {value}" for name, value in known.items()]
+        return "\n".join([f"a measurement by optipath {self.code}, layout {LAYOUT}", *lines])
 
     @property
     def blocks(self) -> int:
@@ -115,38 +86,34 @@ class ChunkJob:
     @property
     def arrays(self) -> dict[str, StoredArray]:
         """The fields of `PartSums`, with the chunks before all other dimensions."""
-        parts, *pixels, wavelengths, numbers = self.seen.shape
-        shapes: dict[str, tuple[tuple[str, ...], tuple[int, ...], str]] = {
-            "sums": (("part", *_PIXELS, "wavelength", "number"), self.seen.shape, "float64"),
-            "counts": (_PIXELS, tuple(pixels), "int64"),
-            "photons": (("part",), (parts,), "int64"),
+        shape = self.seen.shape
+        kept = {
+            # Part by part, since codecs take no more than 2 GiB at a time.
+            "sums": (("part", *_PIXELS, "wavelength", "number"), shape, (1, *shape[1:]), _SUMS),
+            "counts": (_PIXELS, shape[1:4], shape[1:4], "photons of a pixel"),
+            "photons": (("part",), shape[:1], shape[:1], "photons of a part"),
         }
-        # Codecs take no more than 2 GiB at a time.
-        files = {"sums": (1, *pixels, wavelengths, numbers)}
-        messages = {"sums": _SUMS, "counts": "photons of a pixel", "photons": "photons of a part"}
         return {
             name: StoredArray(
                 ("chunk", *dims),
-                (self.blocks, *shape),
-                (1, *files.get(name, shape)),
-                dtype,
-                {"long_name": messages[name], "units": "1"},
+                (self.blocks, *whole),
+                (1, *part),
+                "float64" if name == "sums" else "int64",
+                {"long_name": what, "units": "1"},
             )
-            for name, (dims, shape, dtype) in shapes.items()
+            for name, (dims, whole, part, what) in kept.items()
         }
 
     @property
     def coords(self) -> dict[str, WholeArray]:
         """Where pixels are, and what is summed up."""
         place = self.seen.sensor.coordinates
-        matrix = [] if self.seen.polarized == "scalar" else _MATRIX
-        scalar = [] if self.seen.polarized == "polarized" else ["scalar"]
         return {
             "side": WholeArray(("side",), np.array(self.seen.sides)),
             "y": WholeArray(("y",), place, {"units": "1"}),
             "x": WholeArray(("x",), place, {"units": "1"}),
             "wavelength": WholeArray(("wavelength",), self.wavelengths, {"units": "m"}),
-            "number": WholeArray(("number",), np.array([*matrix, *scalar])),
+            "number": WholeArray(("number",), np.array(NUMBERS[self.seen.polarized])),
         }
 
     @property
@@ -173,3 +140,30 @@ class ChunkJob:
         own = replace(self.seen.beam, sample=copy(self.seen.beam.sample))
         result = replace(self.seen, beam=own).chunk(number, self.photons, self.threads)
         return {name: each[np.newaxis] for name, each in zip(PartSums._fields, result, strict=True)}
+
+
+def kept_sums(
+    job: ChunkJob,
+    store: str,
+    scheduler: Any,
+    threads: Any,
+    progress: Callable[[int, int], None] | None,
+) -> PartSums:
+    """Walk those chunks that a store does not hold, and add up all of them in their order."""
+    if scheduler is None:
+        scheduler = active_client() or "synchronous"
+    if threads is None:
+        threads = processors() if scheduler == "synchronous" else 1
+
+    def tell(chunks: int, _: int) -> None:
+        if progress is not None:
+            progress(min(CHUNK * chunks, job.photons), job.photons)
+
+    # Whoever asks is warned of coarse meshes, and not workers.
+    job.seen.beam.sample.fields()
+    group = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
+    there = [group[name] for name in PartSums._fields]
+    result = PartSums.none(job.seen.shape)
+    for number in range(job.blocks):
+        result.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type, index]
+    return result

@@ -16,9 +16,9 @@ from optipath.kernels.facets import MASKINGS
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import DERIVED
-from optipath.surfaces.hemisphere.arguments import direction_of, following, wavelength_place
-from optipath.surfaces.hemisphere.facet_model import alpha_of, reflected_once
-from optipath.surfaces.sample import Sample
+from optipath.surfaces.facet_model import alpha_of, reflected_once
+from optipath.surfaces.hemisphere.arguments import direction_of, wavelength_place
+from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
 from optipath.values.angles import calls_up
 from optipath.values.arrays import first_place, same
@@ -95,11 +95,9 @@ class Hemisphere:
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All of it with names, units and standard errors: see `hemisphere_dataset`."""
-        from optipath.surfaces.hemisphere.arrays import (  # noqa: PLC0415 - an extra
-            hemisphere_dataset,
-        )
+        from optipath.surfaces.hemisphere import arrays  # noqa: PLC0415 - an extra
 
-        return hemisphere_dataset(self)
+        return arrays.hemisphere_dataset(self)
 
     @property
     def sensor(self) -> Sensor:
@@ -196,7 +194,7 @@ class Hemisphere:
         >>> print(light.sum().round(6).item())
         1.0
         """
-        state = _state(source)
+        state = np.array(state_argument("source", source))
         result = self.own.estimate(lambda light: self.matrices(light) @ state)
         what = "Stokes vector of the light that goes into the pixel"
         return self._array("stokes", result, what, "1", ("out",), source=state)
@@ -309,10 +307,8 @@ class Hemisphere:
         >>> model.dims == measured.dims
         True
         """
-        from optipath.surfaces.hemisphere.arrays import pixel_array  # noqa: PLC0415 - an extra
-
         faults = unknown("masking", masking, MASKINGS) + whole_number("points", points)
-        alpha = alpha_of(self.seen.beam)
+        alpha = alpha_of(self.seen.beam.sample)
         if alpha is None:
             faults.append(
                 "the topmost surface has no alpha above 0, and the model takes a density of "
@@ -321,14 +317,8 @@ class Hemisphere:
         if faults or alpha is None:
             raise SurfaceError(*faults)
         result = reflected_once(self.seen, alpha, masking, int(points))[np.newaxis]
-        return pixel_array(
-            self,
-            "single_scattering",
-            result,
-            "Mueller matrix of light that is reflected once, by the analytic model",
-            "1",
-            ("out", "in"),
-        )
+        what = "Mueller matrix of light that is reflected once, by the analytic model"
+        return self._array("single_scattering", (result, None), what, "1", ("out", "in"))
 
     def relative_difference(
         self, side: str = "reflected", *, brighter_than: float = 0.2
@@ -359,7 +349,8 @@ class Hemisphere:
         >>> found.relative_difference().dims
         ('y', 'x', 'wavelength')
         """
-        return self._difference("signed", side, brighter_than, None)
+        mask = PixelMask(brighter_than, None)
+        return self._difference("relative_difference", "(S0 - U) / U", np.asarray, side, mask)
 
     def adm(
         self,
@@ -414,7 +405,9 @@ class Hemisphere:
         light without polarisation above 0.2 of the mean over the hemisphere's pixels, standard \
 error at most 0.2 of the difference, or at most 0.001
         """
-        return self._difference("adm", side, brighter_than, noise, known_to)
+        told = "mean of |S0 - U| / U over wavelengths"
+        mask = PixelMask(brighter_than, noise, known_to)
+        return self._difference("adm", told, lambda each: np.abs(each).mean(axis=-1), side, mask)
 
     def mdm(
         self,
@@ -441,7 +434,9 @@ error at most 0.2 of the difference, or at most 0.001
         SurfaceError
             As `adm` raises it.
         """
-        return self._difference("mdm", side, brighter_than, noise, known_to)
+        told = "largest |S0 - U| / U over wavelengths"
+        mask = PixelMask(brighter_than, noise, known_to)
+        return self._difference("mdm", told, lambda each: np.abs(each).max(axis=-1), side, mask)
 
     def toward(
         self,
@@ -497,7 +492,11 @@ error at most 0.2 of the difference, or at most 0.001
         self._warn_next_to_normal(direction, side)
         matrices, _ = pixels.estimate(self.matrices)
         if np.any(dark := matrices[..., 0, 0] == 0.0):
-            raise SurfaceError(self._nothing_falls(direction, dark, side))
+            raise SurfaceError(
+                f"no light has fallen on the pixel of direction{first_place(dark)} "
+                f"({shown(direction)}); measure with more photons or larger pixels, and of a flat "
+                f"sample give the direction into which all light goes"
+            )
         try:
             return MuellerElement(matrices, straight=False)
         except ValueFault:
@@ -541,8 +540,8 @@ error at most 0.2 of the difference, or at most 0.001
         >>> print(0.0 < error < 0.1 * share)
         True
         """
-        follows, pixels = following(found), self._toward(direction, side, wavelength)
-        return pixels.estimate(lambda light: follows(self.matrices(light)))
+        pixels = self._toward(direction, side, wavelength)
+        return pixels.estimate(lambda light: found(self.matrices(light)))
 
     def frames_toward(self, direction: Any, side: str = "reflected") -> dict[str, Frame]:
         """Return the frames in space of what `toward` returns, as `PathGraph.add` takes them.
@@ -573,13 +572,8 @@ error at most 0.2 of the difference, or at most 0.001
         [0. 1. 0.] [ 0.707  0.    -0.707] [0.707 0.    0.707]
         """
         self.side(side)
-        beam, azimuth = self.seen.beam, self.seen.beam.plane_azimuth
-        c, s = np.cos(azimuth), np.sin(azimuth)
-        z, x = np.array([beam.sin * c, beam.sin * s, -beam.cos]), np.array([-s, c, 0.0]) + 0.0
-        return {
-            "in": Frame(x, np.cross(z, x), z),
-            "out": direction_of(direction, azimuth, up=side == "reflected"),
-        }
+        beam, up = self.seen.beam, side == "reflected"
+        return {"in": beam.frame, "out": direction_of(direction, beam.plane_azimuth, up=up)}
 
     def save(
         self,
@@ -719,7 +713,7 @@ error at most 0.2 of the difference, or at most 0.001
         self, variable: str, source: npt.ArrayLike, period: float | None = None
     ) -> xr.DataArray:
         """Return a quantity of `Light`, the same in any frame or an angle of some period."""
-        state, quantity = _state(source), _QUANTITIES[variable]
+        state, quantity = np.array(state_argument("source", source)), _QUANTITIES[variable]
 
         def value(light: Numbers) -> Numbers:
             matrices = self.matrices(light)
@@ -734,27 +728,15 @@ error at most 0.2 of the difference, or at most 0.001
         name = quantity.variable.lower()
         return self._array(name, (whole, error), quantity.name, quantity.unit, source=state)
 
-    def _array(
-        self,
-        name: str,
-        results: tuple[Numbers, Numbers],
-        what: str,
-        units: str,
-        more: tuple[str, ...] = (),
-        **messages: Any,
-    ) -> xr.DataArray:
-        """Return numbers with their names, units and errors."""
+    def _array(self, *arguments: Any, **attributes: Any) -> xr.DataArray:
         from optipath.surfaces.hemisphere.arrays import pixel_array  # noqa: PLC0415 - an extra
 
-        value, error = results
-        return pixel_array(self, name, value, what, units, more, error=error, **messages)
+        return pixel_array(self, *arguments, **attributes)
 
-    def _difference(self, measure: str, *arguments: Any) -> xr.DataArray:
-        from optipath.surfaces.hemisphere.arrays import (  # noqa: PLC0415 - an extra
-            difference_map,
-        )
+    def _difference(self, *arguments: Any) -> xr.DataArray:
+        from optipath.surfaces.hemisphere.arrays import difference_map  # noqa: PLC0415 - an extra
 
-        return difference_map(self, measure, *arguments)
+        return difference_map(self, *arguments)
 
     def _toward(self, direction: Any, side: str, wavelength: Any) -> PartSums:
         """Return the sums over the pixels of each direction."""
@@ -771,9 +753,7 @@ error at most 0.2 of the difference, or at most 0.001
     def _warn_next_to_normal(self, direction: Any, side: str) -> None:
         z = direction_of(direction, self.seen.beam.plane_azimuth, up=side == "reflected").z
         radius = 0.5 * self.sensor.pixels * self.sensor.radius(z)
-        sample = self.seen.beam.sample
-        is_flat = isinstance(sample, Sample) and sample.is_flat
-        if not is_flat and np.any(near := radius < _FEW_PIXELS):
+        if not self.seen.beam.sample.is_flat and np.any(near := radius < _FEW_PIXELS):
             warnings.warn(
                 f"direction{first_place(near)} ({shown(direction)}) is within {_FEW_PIXELS:.0f} "
                 f"pixels of the normal, where frames turn within a pixel and linear polarisation "
@@ -782,22 +762,9 @@ error at most 0.2 of the difference, or at most 0.001
                 calls_up(),
             )
 
-    def _nothing_falls(self, direction: Any, dark: npt.NDArray[np.bool_], side: str) -> str:
-        where = f"direction{first_place(dark)} ({shown(direction)})"
-        if self.photons:
-            return (
-                f"no photon has fallen on the pixel of {where}; measure with more photons, or with "
-                f"fewer and larger pixels"
-            )
-        return (
-            f"no light goes toward {where}: a flat sample has all of it {side} into one direction, "
-            f"in the plane of incidence"
-        )
-
     def __eq__(self, other: object) -> Any:
-        if type(other) is not type(self):
+        if not isinstance(other, Hemisphere):
             return NotImplemented
-        assert isinstance(other, Hemisphere)  # noqa: S101 - for who checks types
         mine, its = ((each.seen, each.parts, each.symmetric) for each in (self, other))
         # No wavelength is NaN, which is here the same as itself.
         alike = np.array_equal(self.wavelengths, other.wavelengths, equal_nan=True)
@@ -806,16 +773,12 @@ error at most 0.2 of the difference, or at most 0.001
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        sensor, beam = self.sensor, self.seen.beam
+        pixels, beam = self.sensor.pixels, self.seen.beam
         angle = np.degrees(np.arctan2(beam.sin, beam.cos))
+        known = f"{self.photons} photons" if self.photons else "known without photons"
         return (
-            f"Hemisphere of {beam.sample!r} at {angle:.4g} deg, {sensor.pixels} x {sensor.pixels} "
-            f"pixels, {f'{self.photons} photons' if self.photons else 'known without photons'}"
+            f"Hemisphere of {beam.sample!r} at {angle:.4g} deg, {pixels} x {pixels} pixels, {known}"
         )
-
-
-def _state(source: npt.ArrayLike) -> Numbers:
-    return np.array(state_argument("source", source))
 
 
 def _missing(what: str, kind: str) -> str:

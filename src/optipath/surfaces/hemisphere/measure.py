@@ -7,20 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import SurfaceError, need, shown
+from optipath.errors import SurfaceError, need, unknown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.energy_shares import processors
 from optipath.surfaces.hemisphere.arguments import store_argument
-from optipath.surfaces.hemisphere.beam import CHUNK, STATES, PartSums, SensedBeam
-from optipath.surfaces.hemisphere.chunks import ChunkJob
+from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
-from optipath.surfaces.smooth import flat_light, is_flat
+from optipath.surfaces.smooth import flat_light
 from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
 from optipath.values.arrays import refuse_too_large
 from optipath.values.messages import PHOTONS_REPORTED, no_function
-from optipath.values.precision import is_whole, whole_number
+from optipath.values.precision import whole_number
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -32,12 +31,9 @@ if TYPE_CHECKING:
     from optipath.surfaces.sample import Sample
 
 
-_KINDS = ("both", "polarized", "scalar")
-_NOTHING_TO_KEEP = (
-    "all interfaces of the sample are flat: its light is known without photons, and there is "
-    "nothing to keep; leave out store and scheduler"
-)
-_MOST = 1_000_000_000_000
+_MOST_EVENTS = 1000
+"""From how many events on nothing is left of light between flat interfaces."""
+
 _IN_PLANE = 1e-9
 """The sine of an azimuth whose plane of incidence is that of x, but for roundings."""
 
@@ -128,11 +124,16 @@ def measure(
     >>> found.dataset.mueller.dims, dict(found.dataset.scalar.sizes)
     (('side', 'y', 'x', 'wavelength', 'out', 'in'), {'side': 1, 'y': 16, 'x': 16, 'wavelength': 1})
     """
-    faults = Faults(_faults(photons, events, polarized, threads))
+    faults = Faults(whole_number("photons", photons))
+    for name, number in {"events": events, "threads": threads}.items():
+        faults += [] if number is None else whole_number(name, number)
+    faults += unknown("polarized", polarized, NUMBERS)
     faults += no_function("progress", progress, PHOTONS_REPORTED)
     pixels = faults.attempt("", Sensor.of, sensor)
     place = faults.attempt("", store_argument, store, scheduler)
-    mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)
+    mirrors = (
+        None if symmetric is None else faults.attempt("", YES_OR_NO.check, "symmetric", symmetric)
+    )
     beam = beam_of(
         sample,
         incidence,
@@ -163,22 +164,19 @@ def measure(
     need("hemispheres", "numba", "llvmlite", "xarray", *stored)
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
     when = np.atleast_1d(np.ravel(when))
-    is_known = is_flat(seen)
+    is_known = sample.is_flat and events is None and most_events >= _MOST_EVENTS
     if mirrors is None:  # What a flat sample reflects is in one pixel, and has no noise.
         mirrors = sample.isotropic and not is_known
     if is_known:
-        if place is not None:
-            raise SurfaceError(_NOTHING_TO_KEEP)
         sums = flat_light(seen)
     elif place is None:
         walking = processors() if threads is None else int(threads)
         sums = _summed(seen, int(photons), walking, progress)
     else:
-        from optipath.surfaces.hemisphere.stored_sums import sums_in_store  # noqa: PLC0415 - an extra
+        from optipath.surfaces.hemisphere import chunks  # noqa: PLC0415 - an extra
 
-        sums = sums_in_store(
-            ChunkJob(seen, when, int(photons)), place, scheduler, threads, progress
-        )
+        job = chunks.ChunkJob(seen, when, int(photons))
+        sums = chunks.kept_sums(job, place, scheduler, threads, progress)
     return Hemisphere(seen, sums, when, bool(mirrors))
 
 
@@ -197,18 +195,3 @@ def _summed(
     for number in range(-(-photons // CHUNK)):
         result.add(seen.chunk(number, photons, threads, tell))
     return result
-
-
-def _faults(photons: Any, events: Any, polarized: Any, threads: Any) -> list[str]:
-    faults = whole_number("photons", photons)
-    if not faults and not is_whole(photons, 1, _MOST):
-        faults = [f"photons is {shown(photons)}; give {_MOST:,} at most"]
-    for name, number in (("events", events), ("threads", threads)):
-        faults += [] if number is None else whole_number(name, number)
-    if polarized not in _KINDS:
-        faults.append(f"polarized is {shown(polarized)}; give one of {', '.join(_KINDS)}")
-    return faults
-
-
-def _yes(value: Any) -> Any:
-    return YES_OR_NO.check("symmetric", value)

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, closest, shown
-from optipath.paths.files.schema import Faults
+from optipath.errors import SurfaceError, unknown
 from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
@@ -62,13 +61,11 @@ class Sensor:
 
     def __post_init__(self) -> None:
         """Refuse all faults."""
-        faults = Faults(whole_number("pixels", self.pixels) + whole_number("parts", self.parts, 2))
-        if not isinstance(self.projection, str) or self.projection not in PROJECTIONS:
-            near = closest(str(self.projection), [*PROJECTIONS])
-            cure = f"did you mean '{near}'?" if near else f"give one of {', '.join(PROJECTIONS)}"
-            faults.append(f"projection is {shown(self.projection)}; {cure}")
+        faults = whole_number("pixels", self.pixels) + whole_number("parts", self.parts, 2)
+        faults += unknown("projection", self.projection, PROJECTIONS)
         if faults:
             raise SurfaceError(*faults)
+        vars(self).update(pixels=int(self.pixels), parts=int(self.parts))
 
     @classmethod
     def of(cls, given: Any) -> Self:

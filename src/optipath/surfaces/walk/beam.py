@@ -15,6 +15,7 @@ import numpy.typing as npt
 from optipath.errors import SurfaceError, shown
 from optipath.kernels.carriers.carried import carry
 from optipath.kernels.primitives import FLOAT
+from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE, INCIDENCE
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.sample import Sample
@@ -29,7 +30,7 @@ from optipath.surfaces.walk.layout import (
     SUMS,
     UP,
 )
-from optipath.surfaces.walk.meshes import cached_meshes
+from optipath.surfaces.walk.meshes import meshes_of
 from optipath.values.arrays import same_fields
 from optipath.values.domains import StokesDomain
 from optipath.values.precision import whole_number
@@ -81,6 +82,13 @@ class PhotonBeam:
         """That of the plane of incidence as directions are told; on an isotropic sample 0."""
         return 0.0 if self.sample.isotropic else self.azimuth
 
+    @property
+    def frame(self) -> Frame:
+        """That of the light that comes, x perpendicular to the plane of incidence."""
+        c, s = np.cos(self.plane_azimuth), np.sin(self.plane_azimuth)
+        z, x = np.array([self.sin * c, self.sin * s, -self.cos]), np.array([-s, c, 0.0]) + 0.0
+        return Frame(x, np.cross(z, x), z)
+
     def smooth_sine(self, outcome: int) -> float:
         """Return the sine of the angle at which a smooth sample sends light up or down."""
         if outcome == UP:
@@ -90,22 +98,18 @@ class PhotonBeam:
     @property
     def surfaces(self) -> int:
         """How many realisations of the surfaces take turns; one where nothing is random."""
-        return self.sample.surfaces if self._is_random else 1
-
-    @property
-    def _is_random(self) -> bool:
-        return any(each.is_random for each in self.sample.layers)
+        return self.sample.surfaces if self.sample.is_random else 1
 
     def surface(self, photon: int) -> int:
         """Return over which realisation of the surfaces a photon walks."""
-        if not self._is_random:
+        if not self.sample.is_random:
             return 0
         drawn, place = divmod(photon // PORTION, TURN // PORTION * self.surfaces)
         return drawn * self.surfaces + place % self.surfaces
 
     def portions(self, number: int, photons: int) -> Iterator[tuple[int, int, int]]:
         """Yield the portions of a block: the first photon, how many, and over which surface."""
-        size = PORTION if self._is_random else BLOCK
+        size = PORTION if self.sample.is_random else BLOCK
         for first in range(0, photons, size):
             yield first, min(size, photons - first), self.surface(BLOCK * number + first)
 
@@ -122,18 +126,15 @@ class PhotonBeam:
         azimuth = np.nan if self.sample.isotropic else self.azimuth
         media, base, source = self._arrays
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
-        code, stored = walk_code(), cached_meshes(self.sample)
+        code = walk_code()
         sums: dict[int, npt.NDArray[np.float64]] = {}
         for first, size, surface in self.portions(number, photons):
             own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
-            last = wanted - first if first <= wanted else -1
-            result = code(
-                *stored.of(surface),
-                *before,
-                *(size, self.most_events, last if last < size else -1),
-                *(state, starts, lights, own, record, ends[keeps * first :], int(keeps)),
-            )
-            if not result:
+            last = wanted - first if first <= wanted < first + size else -1
+            into = (state, starts, lights, own, record, ends[keeps * first :], int(keeps))
+            if not code(
+                *meshes_of(self.sample, surface), *before, size, self.most_events, last, *into
+            ):
                 raise SurfaceError(
                     "photons meet nothing of the sample: its finite fields are too small for this "
                     "incidence; give larger or periodic ones"
@@ -173,31 +174,20 @@ def beam_of(
 ) -> PhotonBeam:
     """Return the photons that a user asks for."""
     if not isinstance(sample, Sample):
-        raise SurfaceError(
-            *others,
-            f"sample is {shown(sample)}; give an op.Sample, such as op.Sample([(1.5, 0.1)]), or "
-            f"op.load_sample(name)",
-        )
+        fault = f"sample is {shown(sample)}; give an op.Sample, such as op.Sample([(1.5, 0.1)])"
+        raise SurfaceError(*others, fault)
     faults = Faults(others)
-    incidence = faults.attempt("", _one, "incidence", incidence, INCIDENCE)
+    angle = faults.attempt("", _one, "incidence", incidence, INCIDENCE)
     azimuth = faults.attempt("", _one, "azimuth", azimuth, ANGLE)
-    if incidence is not None and cos(incidence) < _LEAST_COSINE:
+    if angle is not None and cos(angle) < _LEAST_COSINE:
         faults.append("incidence is 90 deg, along the sample, where no light gets to it; give less")
     faults += whole_number("seed", seed, 0) + whole_number("most_events", most_events)
     light = faults.attempt("", state_argument, "stokes", stokes)
     indices = faults.attempt("", sample.indices, wavelength)
-    if faults or indices is None or light is None:
+    if faults or angle is None or indices is None or light is None:
         raise SurfaceError(*faults)
-    return PhotonBeam(
-        sample,
-        cos(incidence),
-        sin(incidence),
-        azimuth,
-        indices,
-        (light,),
-        int(seed),
-        int(most_events),
-    )
+    towards = cos(angle), sin(angle), azimuth
+    return PhotonBeam(sample, *towards, indices, (light,), int(seed), int(most_events))
 
 
 def state_argument(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
@@ -208,14 +198,10 @@ def state_argument(name: str, stokes: npt.ArrayLike) -> tuple[float, float, floa
     """
     faults = Faults()
     state: Any = faults.attempt("", _one, name, stokes, _STOKES.unphysical)
-    if state is None:
+    if state is not None and not (state[0] > 0.0 and _STOKES.allows(np.array(state))):
+        faults.append(f"{name} is {[*state]}; give S0 > 0 and S1^2 + S2^2 + S3^2 <= S0^2")
+    if faults:
         raise SurfaceError(*faults)
-    if not state[0] > 0.0:
-        raise SurfaceError(f"{name} has no intensity; give S0 > 0")
-    if not _STOKES.allows(np.array(state)):
-        raise SurfaceError(
-            f"{name} is {[*state]}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
-        )
     return state  # type: ignore[no-any-return]
 
 
@@ -260,7 +246,6 @@ def walked_in_order(
 ) -> Generator[Block]:
     """Yield blocks in their order, however many threads; closing the generator stops them."""
     walk_code()
-    stored = cached_meshes(beam.sample)
     executor = ThreadPoolExecutor(threads)
     waiting: deque[Future[Block]] = deque()
     try:
@@ -268,7 +253,7 @@ def walked_in_order(
             size = min(BLOCK, photons - BLOCK * number)
             # Here and not by a thread, whose warnings nobody would know where from.
             for _, _, surface in beam.portions(number, size):
-                stored.of(surface)
+                meshes_of(beam.sample, surface)
             waiting.append(executor.submit(work, number, size))
             if len(waiting) > _AHEAD * threads:
                 yield waiting.popleft().result()

@@ -214,11 +214,8 @@ def photon_walk(
             if record[0] != 0.0:
                 at = RECORD * events
                 record[at + LAYER], record[at + COLUMN], record[at + LINE] = layer, column, line
-                record[at + FACET], record[at + SIDE], record[at + REFLECTED] = (
-                    facet,
-                    side,
-                    reflected,
-                )
+                record[at + FACET], record[at + SIDE] = facet, side
+                record[at + REFLECTED] = reflected
                 for place in range(5):
                     record[at + COS + place] = plane[place]
                 record[at + N1], record[at + N2] = n1, n2

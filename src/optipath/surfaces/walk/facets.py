@@ -158,29 +158,23 @@ def _act(lights: Any, at: int, cos2: float, sin2: float, numbers: Any) -> None:
 def compiled_kernel(
     name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], argument: int
 ) -> Any:
-    """Return a kernel as a function of Numba.
+    """Return a kernel as a function of Numba, common terms found once.
 
     >>> from optipath.kernels.filters import align
     >>> compiled_kernel("aligned", align, 2)(0.0, 1.0)
     (-1.0, 0.0)
     """
-    space: dict[str, Any] = {**_SPACE, "__name__": __name__}
-    exec(kernel_text(name, kernel, argument), space)  # noqa: S102 - our own
-    # With the flags of the loops that it goes into: nothing is an error, all is a number.
-    return nb.njit(space[name], error_model="numpy")
-
-
-def kernel_text(
-    name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], argument: int
-) -> str:
-    """Return the text of what `compiled_kernel` compiles, common terms found once."""
     recorder = Recorder(np.dtype(float))
     inputs = [recorder.input(f"a{place}") for place in range(argument)]
     formula = Formula(recorder.dtype, tuple(kernel(SYMBOLIC)(*inputs)))
     lines = assignments(formula.steps, _written)
     results = ", ".join(map(_written, formula.results))
     parameters = ", ".join(map(_written, inputs))
-    return "\n".join([f"def {name}({parameters}):", *indented(*lines, f"return ({results},)"), ""])
+    body = indented(*lines, f"return ({results},)")
+    space: dict[str, Any] = {**_SPACE, "__name__": __name__}
+    exec("\n".join([f"def {name}({parameters}):", *body, ""]), space)  # noqa: S102 - our own
+    # With the flags of the loops that it goes into: nothing is an error, all is a number.
+    return nb.njit(space[name], error_model="numpy")
 
 
 def _written(operand: Any) -> str:
