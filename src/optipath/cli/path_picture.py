@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from itertools import accumulate, pairwise
+from typing import TYPE_CHECKING, TypeAlias
 from xml.etree.ElementTree import Element as Tag
 from xml.etree.ElementTree import SubElement, indent, tostring
 
@@ -24,316 +23,322 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.values.parameters import Parameter
 
-    Labels: TypeAlias = Sequence[tuple["Link", str]]
-
 
 Item: TypeAlias = "str | tuple[Link, int]"
 """What takes a place in a layer: a node by its name, or a link that passes, with the layer."""
 
-_SWEEPS = 8
+_SMALL, _NAME, _TITLE = 12.0, 14.0, 16.0  # The sizes of letters.
+_CELL = 0.6  # The width of a letter, as a part of its size.
+_STEP = 17.0  # From one line to the next.
+_MARGIN, _PADDING = 24.0, 10.0  # Around the page, and around the texts of a box.
+_NARROWEST, _NARROWEST_BOX = 760.0, 140.0
+_BOX_CELLS, _LEGEND_CELLS = 36, 98  # How many letters a line has at most.
+_GAP = 22.0  # Between what stands beside each other in a layer.
+_BESIDE, _APART = 6.0, 14.0  # Between a link and its label, and between a label and a link.
+_LABEL, _BEND, _LANE = 20.0, 46.0, 12.0  # The heights of labels, bends and lanes of the way back.
+_OUTLET, _ARROW = 18.0, 28.0  # How far outlets stand from one another, and how long they are.
+_SWEEPS = 12
+
+# As of paper, and dark where the viewer is; the page has a ground of its own in both.
+_STYLE = """
+text { font-family: ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace;
+fill: #222222; white-space: pre }
+.page { fill: #ffffff } .name, .title { font-weight: bold } .faint { fill: #5c5c5c }
+.box { fill: #f4f6f8; stroke: #5c5c5c } .source { fill: #fdf3d9 } .end { fill: #e1effa }
+.link { fill: none; stroke: #222222; stroke-width: 1.5 } .tap { stroke-dasharray: 5 4 }
+.head { fill: #222222 }
+@media (prefers-color-scheme: dark) {
+text { fill: #e8e8e8 } .faint { fill: #b0b0b0 } .page { fill: #16191d }
+.box { fill: #23282e; stroke: #b0b0b0 } .source { fill: #3d3418 } .end { fill: #1b3347 }
+.link { stroke: #e8e8e8 } .head { fill: #e8e8e8 } }
+"""
 
 
-@dataclass(frozen=True)
-class GraphLayers:
-    """Layers of nodes, from the first that light passes to the last."""
+def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
+    """Return the drawing of a path, as SVG.
 
-    rows: list[list[Item]]
-    ways: dict[Link, list[Item]]
-    back: list[Link]
+    Nodes are below all that send light to them; taps are dashed, and loops led back at the right.
 
-    @property
-    def layer(self) -> dict[Item, int]:
-        """The number of the layer of each item."""
-        return {item: number for number, row in enumerate(self.rows) for item in row}
+    >>> import optipath as op
+    >>> path_picture(op.load_preset("malus"), "malus")[:42]
+    '<svg xmlns="http://www.w3.org/2000/svg" wi'
+    """
+    name += f", case {case}" if case else ""
+    graph = _Graph(path)
+    width = max(_NARROWEST, graph.width + 2 * _MARGIN)
+    page = _page(path, name)
+    below = _MARGIN
+    for text, size, kind in ((name, _TITLE, "title"), (path.description, _SMALL + 1, "ink")):
+        for line in lines_of(text, int((width - 2 * _MARGIN) / text_width("x", size))):
+            below += size * 1.4
+            _add_text(page, line, _MARGIN, below, kind, size)
+    below = graph.draw(page, (width - graph.width) / 2, below + _MARGIN) + _MARGIN
+    for rows, most in _legend(path, case):
+        below = _add_table(page, rows, most, below)
+    page.attrib |= {"width": f"{width:g}", "height": f"{below:g}"}
+    page.set("viewBox", f"0 0 {width:g} {below:g}")
+    indent(page, "")
+    return tostring(page, "unicode") + "\n"
 
 
-def graph_layers(order: Sequence[str], links: Sequence[Link]) -> GraphLayers:
-    """Return the layers of a graph.
+def _page(path: PathGraph, name: str) -> Tag:
+    page = Tag("svg", {"xmlns": "http://www.w3.org/2000/svg", "width": "0", "height": "0"})
+    page.attrib |= {"role": "img", "aria-labelledby": "title description"}
+    SubElement(page, "title", {"id": "title"}).text = f"The path {drawable(name)}"
+    messages = [drawable(line) for line in (path.description, *draw(path).splitlines())]
+    SubElement(page, "desc", {"id": "description"}).text = "\n".join(messages)
+    SubElement(page, "style").text = _STYLE
+    head = {"id": "head", "viewBox": "0 0 10 10", "refX": "9", "refY": "5", "orient": "auto"}
+    marker = SubElement(page, "marker", {**head, "markerWidth": "7", "markerHeight": "7"})
+    SubElement(marker, "path", {"d": "M0 1L10 5L0 9z", "class": "head"})
+    SubElement(page, "rect", {"width": "100%", "height": "100%", "class": "page"})
+    return page
+
+
+class _Graph:
+    """The boxes and links of a path: where they stand from the left, and in which layer."""
+
+    def __init__(self, path: PathGraph) -> None:
+        wiring = Wiring(path.graph)
+        order, links = _order(wiring), sorted(path.graph.edges(keys=True))
+        self.rows, self.ways = graph_layers(order, links)
+        self.back = [link for link in links if link not in self.ways]
+        self.layer = {item: number for number, row in enumerate(self.rows) for item in row}
+        self.taps = {link for link in links if path.graph.edges[link].get("tap")}
+        self.labels: dict[Link, tuple[str, str]] = {}
+        for link in links:
+            azimuth, (leaves, enters) = path.graph.edges[link]["azimuth"], link[2]
+            turn = "" if azimuth is None else f", turned by {value_text(azimuth, 'deg')}"
+            tap = ", a tap" if link in self.taps else ""
+            self.labels[link] = drawable(leaves + tap), drawable(enters + turn)
+        self.boxes = {name: self._box(name, wiring) for name in order}
+        self.places = self._places()
+        self.right = max([place + self._right(one) for one, place in self.places.items()])
+        self.width = self.right + 1.5 * _LANE * len(self.back)
+
+    def _box(self, name: str, wiring: Wiring) -> _Box:
+        place = {item: number for row in self.rows for number, item in enumerate(row)}
+
+        def beside(end: int) -> dict[Link, str]:
+            """Return the labels of the links that begin (0) or end here (1), from left to right."""
+            several = [link for link in self.labels if link[end] == name]
+            # As what they go to, or come from, stands in the next layer; loops come last.
+            near = {one: self.ways[one][1 - 3 * end] for one in several if one in self.ways}
+            several.sort(key=lambda one: place[near[one]] if one in near else len(place))
+            return {link: self.labels[link][end] for link in several}
+
+        outlets = [
+            one for one in wiring.elements[name].outputs if f"{name}.{one}" in wiring.outlets
+        ]
+        return _Box(name, wiring.elements[name], outlets, beside(0), beside(1))
+
+    def _left(self, item: Item) -> float:
+        return self.boxes[item].width / 2 if isinstance(item, str) else 9.0
+
+    def _right(self, item: Item) -> float:
+        return self.boxes[item].right if isinstance(item, str) else 9.0
+
+    def _places(self) -> dict[Item, float]:
+        """Return the middle of each item: near those that it is linked with, and over none."""
+        ends = {
+            one: (self.boxes[one[0]].leaving[one], self.boxes[one[1]].entering[one])
+            for one in self.ways
+        }
+        above, below = _linked(self.ways, ends)
+        places: dict[Item, float] = {item: 0.0 for row in self.rows for item in row}
+        for sweep in range(_SWEEPS):
+            # At last downwards, so that a chain hangs straight from where it begins.
+            near, rows = (above, self.rows) if sweep % 2 else (below, self.rows[::-1])
+            for row in rows:
+                room = [self._right(one) + _GAP + self._left(other) for one, other in pairwise(row)]
+                wanted = [
+                    _mean([places[one] + shift for one, shift in near.get(item, [(item, 0.0)])])
+                    for item in row
+                ]
+                places |= zip(row, _apart(wanted, room), strict=True)
+        left = min(place - self._left(item) for item, place in places.items())
+        return {item: place - left for item, place in places.items()}
+
+    def draw(self, page: Tag, left: float, top: float) -> float:
+        """Draw all at a place; return where it ends."""
+        lanes = _LABEL + _LANE * (len(self.back) + 1) if self.back else 0.0
+        between = 2 * _LABEL + _BEND + _LANE * len(self.back)
+        tops, bottoms = [top + lanes], []
+        for row in self.rows:
+            heights = [self.boxes[item].height for item in row if isinstance(item, str)]
+            bottoms.append(tops[-1] + max(heights))
+            tops.append(bottoms[-1] + between)
+        places = {item: left + place for item, place in self.places.items()}
+        for link, (leaves, enters) in self.labels.items():
+            begin, end = self.layer[link[0]], self.layer[link[1]]
+            x = places[link[0]] + self.boxes[link[0]].leaving[link]
+            to = places[link[1]] + self.boxes[link[1]].entering[link]
+            y = tops[begin] + self.boxes[link[0]].height
+            drawn = f"M{x:g} {y:g}"
+            _add_text(page, leaves, x + _BESIDE, y + 14, "faint")
+            _add_text(page, enters, to + _BESIDE, tops[end] - 10, "faint")
+            if link in self.ways:
+                columns = [x, *(places[item] for item in self.ways[link][1:-1]), to]
+                for number, (here, there) in enumerate(pairwise(columns), begin):
+                    y = bottoms[number] + _LABEL
+                    under = tops[number + 1] - _LABEL
+                    middle = (y + under) / 2
+                    drawn += f"V{y:g}C{here:g} {middle:g} {there:g} {middle:g} {there:g} {under:g}"
+            else:
+                lane = 1 + self.back.index(link)
+                column = left + self.right + 1.5 * _LANE * lane
+                y, over = (bottoms[begin] + _LABEL, tops[end] - _LABEL)
+                drawn += f"V{y + _LANE * lane:g}H{column:g}V{over - _LANE * lane:g}H{to:g}"
+            _add_arrow(page, f"{drawn}V{tops[end]:g}", "link tap" if link in self.taps else "link")
+        for name, box in self.boxes.items():
+            box.draw(page, places[name] - box.width / 2, tops[self.layer[name]])
+        return bottoms[-1] + lanes
+
+
+class _Box:
+    """What is drawn of a node: texts, outlets, and where links leave and enter, from its middle."""
+
+    def __init__(
+        self,
+        name: str,
+        element: Element,
+        outlets: Sequence[str],
+        leaving: Mapping[Link, str],
+        entering: Mapping[Link, str],
+    ) -> None:
+        self.texts = [(line, _NAME, "name") for line in lines_of(name, _BOX_CELLS - 4)]
+        for kind, texts in (("faint", [element.kind]), ("ink", element_values(element))):
+            self.texts += [(line, _SMALL, kind) for t in texts for line in lines_of(t, _BOX_CELLS)]
+        self.outlets = [f"{drawable(port)}: leaves the path" for port in outlets]
+        inner = element.inputs and element.outputs
+        self.role = "inner" if inner else "end" if element.inputs else "source"
+        self.leaving, self.entering = _slots(leaving), _slots(entering)
+        slots = [*self.leaving.items(), *self.entering.items()]
+        reach = [2 * abs(place) for _, place in slots]
+        widths = [text_width(line, size) for line, size, _ in self.texts]
+        self.width = max(_NARROWEST_BOX, *(2 * _PADDING + each for each in (*widths, *reach)))
+        lines = 2 * _PADDING + _STEP * len(self.texts)
+        self.height = max(lines, _OUTLET * (len(self.outlets) + 1))
+        labels = [*leaving.values(), *entering.values()]
+        starts = [self.width / 2 + _ARROW] * len(outlets) + [place for _, place in slots]
+        beside = [
+            start + _BESIDE + text_width(label)
+            for start, label in zip(starts, [*self.outlets, *labels], strict=True)
+        ]
+        self.right = max(self.width / 2, *beside)
+        """How far it reaches from its middle, with what is written beside."""
+
+    def draw(self, page: Tag, x: float, y: float) -> None:
+        """Draw it at a place."""
+        size = {"width": f"{self.width:g}", "height": f"{self.height:g}", "rx": "6"}
+        attributes = {"x": f"{x:g}", "y": f"{y:g}", **size, "class": f"box {self.role}"}
+        SubElement(page, "rect", attributes)
+        for number, (line, letters, kind) in enumerate(self.texts):
+            below = y + _PADDING + _STEP * number + 0.9 * letters
+            _add_text(page, line, x + _PADDING, below, kind, letters)
+        for number, message in enumerate(self.outlets, 1):
+            height, begin = y + _OUTLET * number, x + self.width
+            _add_arrow(page, f"M{begin:g} {height:g}H{begin + _ARROW:g}", "link")
+            _add_text(page, message, begin + _ARROW + _BESIDE, height + 4, "faint")
+
+
+def _slots(labels: Mapping[Link, str]) -> dict[Link, float]:
+    """Return where links stand beside one another, with room for what is written at each."""
+    if len(labels) == 1:
+        return dict.fromkeys(labels, 0.0)
+    rooms = [_BESIDE + text_width(label) + _APART for label in labels.values()]
+    return dict(zip(labels, accumulate(rooms, initial=-sum(rooms) / 2), strict=False))
+
+
+def _order(wiring: Wiring) -> list[str]:
+    """Return the nodes so that links lead onwards, but for those with which light goes round."""
+    travelled = [name for name, _ in wiring.order]
+    place = {one: at for at, one in enumerate(dict.fromkeys([*travelled, *wiring.elements]))}
+    rounds = nx.condensation(wiring.graph)
+    members = {one: sorted(rounds.nodes[one]["members"], key=place.__getitem__) for one in rounds}
+    order = nx.lexicographical_topological_sort(rounds, key=lambda one: place[members[one][0]])
+    return [name for one in order for name in members[one]]
+
+
+def graph_layers(
+    order: Sequence[str], links: Sequence[Link]
+) -> tuple[list[list[Item]], dict[Link, list[Item]]]:
+    """Return the layers of a graph, and the items that each link passes that leads onwards.
 
     Each node is behind all that send it light; few links cross (barycenters: Sugiyama, Tagawa and
     Toda, IEEE Trans. SMC 11, 109, 1981).
 
     >>> links = [("a", "b", ("out", "in")), ("b", "c", ("out", "in")), ("a", "c", ("left", "in"))]
-    >>> graph_layers(["a", "b", "c"], links).rows
+    >>> graph_layers(["a", "b", "c"], links)[0]
     [['a'], ['b', (('a', 'c', ('left', 'in')), 1)], ['c']]
     """
     place = {name: number for number, name in enumerate(order)}
     onwards = [link for link in links if place[link[0]] < place[link[1]]]
-    layer = _layer_of(order, onwards)
+    layer = dict.fromkeys(order, 0)
+    for start, end, _ in sorted(onwards, key=lambda link: place[link[0]]):
+        layer[end] = max(layer[end], layer[start] + 1)
+    # Where nothing comes from above, a node stands next to what it sends light to.
+    for name in {start for start, _, _ in onwards} - {end for _, end, _ in onwards}:
+        layer[name] = min(layer[end] for start, end, _ in onwards if start == name) - 1
     rows: list[list[Item]] = [[] for _ in range(1 + max(layer.values(), default=0))]
     for name in order:
         rows[layer[name]].append(name)
     ways: dict[Link, list[Item]] = {}
     for link in onwards:
-        passed: list[Item] = [
-            (link, number) for number in range(layer[link[0]] + 1, layer[link[1]])
-        ]
-        for number, item in enumerate(passed, layer[link[0]] + 1):
-            rows[number].append(item)
+        passed: list[Item] = [(link, at) for at in range(layer[link[0]] + 1, layer[link[1]])]
+        for at, item in enumerate(passed, layer[link[0]] + 1):
+            rows[at].append(item)
         ways[link] = [link[0], *passed, link[1]]
-    back = [link for link in links if place[link[0]] >= place[link[1]]]
-    return GraphLayers(_in_order(rows, ways), ways, back)
-
-
-def _layer_of(order: Sequence[str], onwards: Sequence[Link]) -> dict[str, int]:
-    layer = dict.fromkeys(order, 0)
-    ends: dict[str, list[str]] = {name: [] for name in order}
-    for start, end, _ in onwards:
-        ends[start].append(end)
-    for name in order:
-        for end in ends[name]:
-            layer[end] = max(layer[end], layer[name] + 1)
-    # Where nothing comes from above, a node stands next to what it sends light to.
-    reached = {end for _, end, _ in onwards}
-    for name in order:
-        if name not in reached and ends[name]:
-            layer[name] = min(layer[end] for end in ends[name]) - 1
-    return layer
-
-
-def _neighbours(ways: Mapping[Link, Sequence[Item]], step: int) -> dict[Item, list[Item]]:
-    """Return what each item is linked with in the layer before (-1) or behind it (1)."""
-    results: dict[Item, list[Item]] = {}
-    for way in ways.values():
-        for one, next_one in pairwise(way):
-            here, there = (one, next_one) if step > 0 else (next_one, one)
-            results.setdefault(here, []).append(there)
-    return results
-
-
-def _in_order(rows: list[list[Item]], ways: Mapping[Link, Sequence[Item]]) -> list[list[Item]]:
+    above, below = _linked(ways, {})
     for sweep in range(_SWEEPS):
-        down = sweep % 2 == 0
-        linked = _neighbours(ways, -1 if down else 1)
-        place: dict[Item, float] = {}
-        for row in rows if down else reversed(rows):
-            near = {item: [place[one] for one in linked.get(item, ())] for item in row}
+        near, turned = (below, rows[::-1]) if sweep % 2 else (above, rows)
+        middle: dict[Item, float] = {}
+        for row in turned:
             here = {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
-            row.sort(key=lambda one: sum(near[one]) / len(near[one]) if near[one] else here[one])
-            place |= {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
-    return rows
+            row.sort(key=lambda o: _mean([middle[n] for n, _ in near[o]]) if o in near else here[o])
+            middle |= {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
+    return rows, ways
 
 
-_PLACE_SWEEPS = 12
-
-
-class Extent(NamedTuple):
-    """How far something reaches from its middle."""
-
-    left: float
-    right: float
-
-
-def layer_places(
-    layers: GraphLayers,
-    extents: Mapping[Item, Extent],
-    gap: float,
-    ends: Mapping[Link, tuple[float, float]],
-) -> dict[Item, float]:
-    """Return the middle of each item: near those that it is linked with, and over none beside.
-
-    >>> from optipath.cli.path_picture import graph_layers
-    >>> links = [("a", "b", ("out", "in")), ("a", "c", ("left", "in"))]
-    >>> extents = dict.fromkeys("abc", Extent(10, 10))
-    >>> layer_places(graph_layers("abc", links), extents, 4, dict.fromkeys(links, (0, 0)))
-    {'a': 22.0, 'b': 10.0, 'c': 34.0}
-    """
-    places: dict[Item, float] = {item: 0.0 for row in layers.rows for item in row}
-    linked = {step: _linked(layers, ends, step) for step in (-1, 1)}
-    for sweep in range(_PLACE_SWEEPS):
-        # At last downwards, so that a chain hangs straight from where it begins.
-        step = -1 if sweep % 2 else 1
-        for row in layers.rows if step < 0 else reversed(layers.rows):
-            near = [
-                [places[one] + shift for one, shift in linked[step].get(item, [(item, 0.0)])]
-                for item in row
-            ]
-            wanted = [_mean(each) for each in near]
-            places |= zip(row, _apart(wanted, [extents[item] for item in row], gap), strict=True)
-    left = min((place - extents[item].left for item, place in places.items()), default=0.0)
-    return {item: place - left for item, place in places.items()}
+_Linked: TypeAlias = "dict[Item, list[tuple[Item, float]]]"
 
 
 def _linked(
-    layers: GraphLayers, ends: Mapping[Link, tuple[float, float]], step: int
-) -> dict[Item, list[tuple[Item, float]]]:
-    """Return what each item hangs on in the layer before (-1) or behind (1), and how far beside."""
-    results: dict[Item, list[tuple[Item, float]]] = {}
-    for link, way in layers.ways.items():
-        leaves, enters = ends[link]
+    ways: Mapping[Link, Sequence[Item]], ends: Mapping[Link, tuple[float, float]]
+) -> tuple[_Linked, _Linked]:
+    """Return what each item hangs on in the layer above and in that below, and how far beside."""
+    above: _Linked = {}
+    below: _Linked = {}
+    for link, way in ways.items():
+        leaves, enters = ends.get(link, (0.0, 0.0))
         offsets = [leaves, *[0.0] * (len(way) - 2), enters]
-        for (above, left), (below, right) in pairwise(zip(way, offsets, strict=True)):
-            if step < 0:
-                results.setdefault(below, []).append((above, left - right))
-            else:
-                results.setdefault(above, []).append((below, right - left))
-    return results
+        for (upper, left), (lower, right) in pairwise(zip(way, offsets, strict=True)):
+            above.setdefault(lower, []).append((upper, left - right))
+            below.setdefault(upper, []).append((lower, right - left))
+    return above, below
 
 
-def _apart(wanted: Sequence[float], extents: Sequence[Extent], gap: float) -> list[float]:
-    """Return places nearest to those wanted (least squares) without overlap.
+def _apart(wanted: Sequence[float], room: Sequence[float]) -> list[float]:
+    """Return places nearest to those wanted (least squares), with room between neighbors.
 
     Isotonic regression by pooling adjacent violators, of places less the room before them.
+
+    >>> _apart([0.0, 1.0, 9.0], [3.0, 3.0])
+    [-1.0, 2.0, 9.0]
     """
-    room = [0.0]
-    for before, after in pairwise(extents):
-        room.append(room[-1] + before.right + gap + after.left)
+    before = [*accumulate(room, initial=0.0)]
     pools: list[list[float]] = []
-    for place, taken in zip(wanted, room, strict=True):
+    for place, taken in zip(wanted, before, strict=True):
         pools.append([place - taken])
         while len(pools) > 1 and _mean(pools[-2]) > _mean(pools[-1]):
             last = pools.pop()
             pools[-1] += last
     level = [_mean(pool) for pool in pools for _ in pool]
-    return [one + taken for one, taken in zip(level, room, strict=True)]
+    return [one + taken for one, taken in zip(level, before, strict=True)]
 
 
 def _mean(numbers: Sequence[float]) -> float:
     return sum(numbers) / len(numbers)
-
-
-NAME, SMALL = 14.0, 12.0
-"""The sizes of letters."""
-
-_CELLS = 36  # How many letters a line of a box has at most.
-_NARROWEST, _PADDING = 120.0, 10.0
-_NAME_STEP, _STEP = 18.0, 16.0
-_OUTLET, _ARROW = 18.0, 28.0  # How far outlets stand from one another, and how long they are.
-_BESIDE, _APART = 6.0, 14.0  # Between a link and its label, and between a label and a link.
-
-
-@dataclass(frozen=True)
-class NodeBox:
-    """What is drawn of a node."""
-
-    name: list[str]
-    kind: list[str]
-    values: list[str]
-    role: str
-    outlets: list[str]
-    leaving: dict[Link, float]
-    entering: dict[Link, float]
-    width: float
-    height: float
-    extent: Extent
-
-    def draw(self, parent: Tag, x: float, y: float) -> None:
-        """Add the texts to a drawing."""
-        below = y + _PADDING
-        for lines, size, step, kind in (
-            (self.name, NAME, _NAME_STEP, "name"),
-            (self.kind, SMALL, _STEP, "faint"),
-            (self.values, SMALL, _STEP, "ink"),
-        ):
-            for line in lines:
-                add_text(parent, line, x + _PADDING, below + size * 0.9, size, kind)
-                below += step
-
-    def outlet_places(self, y: float) -> list[tuple[str, float, float]]:
-        """Return each outlet with its height, and how long its arrow is."""
-        return [
-            (message, y + _OUTLET * (number + 1), _ARROW)
-            for number, message in enumerate(self.outlets)
-        ]
-
-
-def node_box(
-    name: str, element: Element, outlets: Sequence[str], leaving: Labels, entering: Labels
-) -> NodeBox:
-    """Return the box of a node."""
-    texts = lines_of(name, _CELLS - 4), lines_of(element.kind, _CELLS)
-    values = [line for each in element_values(element) for line in lines_of(each, _CELLS)]
-    messages = [f"{drawable(port)}: leaves the path" for port in outlets]
-    below, above = _slots(leaving), _slots(entering)
-    widths = [text_width(line, NAME) for line in texts[0]]
-    widths += [text_width(line, SMALL) for line in (*texts[1], *values)]
-    reach = max((abs(place) for place in (*below.values(), *above.values())), default=0.0)
-    width = max(_NARROWEST, *widths, 2 * reach) + 2 * _PADDING
-    height = 2 * _PADDING + _NAME_STEP * len(texts[0]) + _STEP * (len(texts[1]) + len(values))
-    labelled = [
-        place + _BESIDE + text_width(label, SMALL)
-        for slots, labels in ((below, leaving), (above, entering))
-        for (_, label), place in zip(labels, slots.values(), strict=True)
-    ]
-    others = [_ARROW + _BESIDE + text_width(one, SMALL) for one in messages]
-    return NodeBox(
-        *texts,
-        values,
-        "inner" if element.inputs and element.outputs else "end" if element.inputs else "source",
-        messages,
-        below,
-        above,
-        width,
-        max(height, _OUTLET * (len(messages) + 1)),
-        Extent(width / 2, max(width / 2 + max(others, default=0.0), *labelled, 0.0)),
-    )
-
-
-def _slots(labels: Labels) -> dict[Link, float]:
-    """Return where links stand beside one another, with room for what is written at each."""
-    if len(labels) == 1:
-        return {labels[0][0]: 0.0}
-    rooms = [_BESIDE + text_width(label, SMALL) + _APART for _, label in labels]
-    begin = -sum(rooms) / 2
-    return {link: begin + sum(rooms[:number]) for number, (link, _) in enumerate(labels)}
-
-
-_WIDEST, _LAST, _LEGEND_CELLS, _BETWEEN = (22, 22, 24), 40, 98, 2  # In letters.
-_STEP, _APART = 16.0, 4.0
-
-
-@dataclass(frozen=True)
-class PictureLegend:
-    """Tables of texts, one under the other."""
-
-    tables: list[list[tuple[list[str], ...]]]
-    columns: list[list[int]]
-
-    @property
-    def width(self) -> float:
-        """How wide the widest table is."""
-        cells = (sum(columns) + _BETWEEN * (len(columns) - 1) for columns in self.columns)
-        return text_width(" ", SMALL) * max(cells, default=0)
-
-    def draw(self, parent: Tag, x: float, y: float) -> float:
-        """Add the tables to a drawing; return where they end."""
-        letter = text_width(" ", SMALL)
-        for rows, columns in zip(self.tables, self.columns, strict=True):
-            for number, row in enumerate(rows):
-                for place, cell in enumerate(row):
-                    left = x + letter * (sum(columns[:place]) + _BETWEEN * place)
-                    kind = "name" if number == 0 else "ink" if place else "name"
-                    for line, text in enumerate(cell):
-                        add_text(parent, text, left, y + SMALL + _STEP * line, SMALL, kind)
-                y += _STEP * max(map(len, row)) + _APART
-            y += _STEP
-        return y
-
-
-def legend_of(path: PathGraph, case: str | None = None) -> PictureLegend:
-    """Return the legend of a path."""
-    result = PictureLegend([], [])
-    if rows := parameter_rows(path):
-        _add(result, [headings(case), *rows], _WIDEST)
-    named: dict[str, list[str]] = {}
-    for name, each in path.cases.items():
-        named.setdefault(each.note, []).append(name)
-    if named:
-        alone = [*named] == [""]
-        notes = [(", ".join(names), note) for note, names in named.items()]
-        _add(result, [("cases", ""), *notes], [_LEGEND_CELLS if alone else _WIDEST[0]])
-    return result
-
-
-def _add(legend: PictureLegend, rows: Sequence[tuple[str, ...]], widest: Sequence[int]) -> None:
-    """Add a table whose last column takes the room that the others leave."""
-    others = [[lines_of(row[place], most) for row in rows] for place, most in enumerate(widest)]
-    columns = [max(cell_len(line) for cell in each for line in cell) for each in others]
-    rest = max(_LAST, _LEGEND_CELLS - sum(columns) - _BETWEEN * len(columns))
-    last = [lines_of(row[-1], rest) for row in rows]
-    legend.tables.append([*zip(*others, last, strict=True)])
-    widest_last = max((cell_len(line) for cell in last for line in cell), default=0)
-    legend.columns.append([*columns, widest_last])
 
 
 Row = tuple[str, str, str, str]
@@ -369,34 +374,58 @@ def _row(parameter: Parameter) -> Row:
     return parameter.name, default, parameter.range_text(), described
 
 
-FACE = "ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
-"""Typefaces whose letters have one width."""
-
-_CELL = 0.6  # The width of a letter, as a part of its height.
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_Table: TypeAlias = "tuple[list[tuple[str, ...]], Sequence[int]]"
+"""Rows, and how many letters a line of each column has at most, but of the last."""
 
 
-def text_width(text: str, size: float) -> float:
+def _legend(path: PathGraph, case: str | None) -> list[_Table]:
+    """Return the tables below a path: its parameters, and its cases with their notes."""
+    tables: list[_Table] = []
+    if rows := parameter_rows(path):
+        tables.append(([headings(case), *rows], (22, 22, 24)))
+    named: dict[str, list[str]] = {}
+    for name, each in path.cases.items():
+        named.setdefault(each.note, []).append(name)
+    if named:
+        notes = [(", ".join(names), note) for note, names in named.items()]
+        most = _LEGEND_CELLS - 4 if [*named] == [""] else 22
+        tables.append(([("cases", ""), *notes], (most,)))
+    return tables
+
+
+def _add_table(page: Tag, rows: Sequence[tuple[str, ...]], most: Sequence[int], y: float) -> float:
+    """Add a table whose last column takes the room that the others leave; return where it ends."""
+    *first, last = zip(*rows, strict=True)
+    columns = [[lines_of(c, cells) for c in each] for each, cells in zip(first, most, strict=True)]
+    widths = [max(cell_len(line) for c in each for line in c) + 2 for each in columns]
+    columns.append([lines_of(c, _LEGEND_CELLS - sum(widths)) for c in last])
+    lefts = [_MARGIN + text_width(" ") * width for width in accumulate(widths, initial=0)]
+    for number, row in enumerate(zip(*columns, strict=True)):
+        for left, lines in zip(lefts, row, strict=True):
+            kind = "name" if number == 0 or left == _MARGIN else "ink"
+            for at, line in enumerate(lines):
+                _add_text(page, line, left, y + _SMALL + _STEP * at, kind)
+        y += _STEP * max(map(len, row)) + 4
+    return y + _STEP
+
+
+def text_width(text: str, size: float = _SMALL) -> float:
     """Return how wide a text is drawn."""
     return cell_len(text) * _CELL * size
 
 
-def add_text(parent: Tag, text: str, x: float, y: float, size: float, kind: str) -> None:
+def _add_text(page: Tag, text: str, x: float, y: float, kind: str, size: float = _SMALL) -> None:
     """Add a text of one line, stretched or squeezed to the width that is reckoned with."""
-    if not text:
-        return
-    SubElement(
-        parent,
-        "text",
-        {
-            "x": f"{x:g}",
-            "y": f"{y:g}",
-            "class": kind,
-            "font-size": f"{size:g}",
-            "textLength": f"{text_width(text, size):g}",
-            "lengthAdjust": "spacingAndGlyphs",
-        },
-    ).text = text
+    place = {"x": f"{x:g}", "y": f"{y:g}", "class": kind, "font-size": f"{size:g}"}
+    place |= {"textLength": f"{text_width(text, size):g}", "lengthAdjust": "spacingAndGlyphs"}
+    SubElement(page, "text", place).text = text
+
+
+def _add_arrow(page: Tag, drawn: str, kind: str) -> None:
+    SubElement(page, "path", {"d": drawn, "class": kind, "marker-end": "url(#head)"})
+
+
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def drawable(text: str) -> str:
@@ -423,221 +452,3 @@ def lines_of(text: str, cells: int) -> list[str]:
         else:
             lines += chop_cells(word, cells)
     return lines
-
-
-_MARGIN, _NARROWEST, _GAP = 24.0, 760.0, 22.0
-_LABEL, _ROUTE, _LANE = 20.0, 34.0, 12.0  # The heights of labels, bends and lanes of the way back.
-_PASSING = Extent(9.0, 9.0)
-_TITLE = 16.0
-
-# As of paper, and dark where the viewer is; the page has a ground of its own in both.
-_STYLE = """
-text { font-family: FACE; fill: #222222; white-space: pre }
-.page { fill: #ffffff } .name, .title { font-weight: bold } .faint { fill: #5c5c5c }
-.box { fill: #f4f6f8; stroke: #5c5c5c } .source { fill: #fdf3d9 } .end { fill: #e1effa }
-.link { fill: none; stroke: #222222; stroke-width: 1.5 } .tap { stroke-dasharray: 5 4 }
-.head { fill: #222222 }
-@media (prefers-color-scheme: dark) {
-text { fill: #e8e8e8 } .faint { fill: #b0b0b0 } .page { fill: #16191d }
-.box { fill: #23282e; stroke: #b0b0b0 } .source { fill: #3d3418 } .end { fill: #1b3347 }
-.link { stroke: #e8e8e8 } .head { fill: #e8e8e8 } }
-""".replace("FACE", FACE)
-
-
-def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
-    """Return the drawing of a path, as SVG.
-
-    Nodes are below all that send light to them; taps are dashed, and loops led back at the right.
-
-    >>> import optipath as op
-    >>> path_picture(op.load_preset("malus"), "malus")[:42]
-    '<svg xmlns="http://www.w3.org/2000/svg" wi'
-    """
-    name += f", case {case}" if case else ""
-    layers, boxes, labels = _laid_out(path)
-    items = [item for row in layers.rows for item in row]
-    extents = {one: boxes[one].extent if isinstance(one, str) else _PASSING for one in items}
-    ends = {link: (boxes[link[0]].leaving[link], boxes[link[1]].entering[link]) for link in labels}
-    places = layer_places(layers, extents, _GAP, ends)
-    right = max((place + extents[item].right for item, place in places.items()), default=0.0)
-    legend = legend_of(path, case)
-    graph_width = right + _LANE * 1.5 * len(layers.back)
-    width = max(_NARROWEST, graph_width + 2 * _MARGIN, legend.width + 2 * _MARGIN)
-    page = _page(path, name)
-    below = _heading(page, name, path.description, width)
-    shift = (width - graph_width) / 2
-    places = {item: place + shift for item, place in places.items()}
-    below = _Drawn(page, layers, boxes, labels, places, right + shift).draw(below)
-    below = legend.draw(page, _MARGIN, below + _MARGIN) + _MARGIN
-    page.set("width", f"{width:g}")
-    page.set("height", f"{below:g}")
-    page.set("viewBox", f"0 0 {width:g} {below:g}")
-    indent(page, "")
-    return tostring(page, "unicode") + "\n"
-
-
-def _laid_out(path: PathGraph) -> tuple[GraphLayers, dict[str, NodeBox], dict[Link, _Labels]]:
-    wiring = Wiring(path.graph)
-    order = _order(wiring)
-    links = sorted(path.graph.edges(keys=True))
-    labels = {link: _Labels(path, link) for link in links}
-    layers = graph_layers(order, links)
-    place = {item: number for row in layers.rows for number, item in enumerate(row)}
-
-    def at(link: Link, end: int) -> tuple[float, Link]:
-        way = layers.ways.get(link, ())
-        return (float(place[way[end]]) if way else float("inf")), link
-
-    boxes = {}
-    for name in order:
-        leaving = sorted((one for one in links if one[0] == name), key=lambda one: at(one, 1))
-        entering = sorted((one for one in links if one[1] == name), key=lambda one: at(one, -2))
-        element = wiring.elements[name]
-        boxes[name] = node_box(
-            name,
-            element,
-            [port for port in element.outputs if f"{name}.{port}" in wiring.outlets],
-            [(one, labels[one].leaves) for one in leaving],
-            [(one, labels[one].enters) for one in entering],
-        )
-    return layers, boxes, labels
-
-
-def _order(wiring: Wiring) -> list[str]:
-    """Return the nodes so that links lead onwards, but for those with which light goes round."""
-    travelled = [name for name, _ in wiring.order]
-    place = {one: at for at, one in enumerate(dict.fromkeys([*travelled, *wiring.elements]))}
-    rounds = nx.condensation(wiring.graph)
-    members = {one: sorted(rounds.nodes[one]["members"], key=place.__getitem__) for one in rounds}
-    order = nx.lexicographical_topological_sort(rounds, key=lambda one: place[members[one][0]])
-    return [name for one in order for name in members[one]]
-
-
-class _Labels:
-    """What is written where a link leaves and where it enters."""
-
-    def __init__(self, path: PathGraph, link: Link) -> None:
-        data, (leaves, enters) = path.graph.edges[link], link[2]
-        self.tap = bool(data.get("tap"))
-        azimuth = data["azimuth"]
-        turn = "" if azimuth is None else f", turned by {value_text(azimuth, 'deg')}"
-        self.leaves = drawable(leaves + ", a tap" * self.tap)
-        self.enters = drawable(enters + turn)
-
-
-class _Drawn:
-    """The graph, drawn row by row."""
-
-    def __init__(
-        self,
-        page: Tag,
-        layers: GraphLayers,
-        boxes: Mapping[str, NodeBox],
-        labels: Mapping[Link, _Labels],
-        places: Mapping[Item, float],
-        right: float,
-    ) -> None:
-        self.page, self.layers, self.boxes, self.labels = page, layers, boxes, labels
-        self.places, self.right = places, right
-        self.layer = layers.layer
-        self.tops: list[float] = []
-        self.bottoms: list[float] = []
-        self.bends: list[float] = []
-
-    def draw(self, top: float) -> float:
-        """Draw all below a height; return where it ends."""
-        back, layer, count = self.layers.back, self.layer, len(self.layers.rows)
-        # The lanes in which links come back, below each row and above it.
-        down = [[one for one in back if layer[one[0]] == row] for row in range(count)]
-        up = [[one for one in back if layer[one[1]] == row] for row in range(count)]
-        below = top + (_LABEL + _LANE * (len(up[0]) + 1) if up[0] else 0.0)
-        for number, row in enumerate(self.layers.rows):
-            heights = [self.boxes[item].height for item in row if isinstance(item, str)]
-            self.tops.append(below)
-            self.bottoms.append(below + max(heights))
-            is_last = number + 1 == count
-            lanes = len(down[number]) + len([] if is_last else up[number + 1])
-            self.bends.append(_ROUTE + _LANE * lanes)
-            below = self.bottoms[-1] + 2 * _LABEL + self.bends[-1]
-        below = self.bottoms[-1] + (_LABEL + _LANE * (len(down[-1]) + 1) if down[-1] else 0.0)
-        for link, way in self.layers.ways.items():
-            self._onwards(link, way)
-        for number, link in enumerate(back, 1):
-            under = self.bottoms[layer[link[0]]] + _LABEL
-            under += _LANE * (down[layer[link[0]]].index(link) + 1)
-            over = self.tops[layer[link[1]]] - _LABEL
-            over -= _LANE * (up[layer[link[1]]].index(link) + 1)
-            self._back(link, under, over, self.right + _LANE * 1.5 * number)
-        for name, box in self.boxes.items():
-            self._box(name, box)
-        return below
-
-    def _ends(self, link: Link) -> tuple[tuple[float, float], tuple[float, float]]:
-        start, end = link[0], link[1]
-        leaves = self.places[start] + self.boxes[start].leaving[link]
-        enters = self.places[end] + self.boxes[end].entering[link]
-        bottom = self.tops[self.layer[start]] + self.boxes[start].height
-        return (leaves, bottom), (enters, self.tops[self.layer[end]])
-
-    def _onwards(self, link: Link, way: Sequence[Item]) -> None:
-        (x, y), (enters, top) = self._ends(link)
-        first = self.layer[way[0]]
-        drawn = f"M{x:g} {y:g}"
-        for number, item in enumerate(way[1:], first):
-            begin = self.bottoms[number] + _LABEL
-            end = begin + self.bends[number]
-            there = enters if item == way[-1] else self.places[item]
-            middle = (begin + end) / 2
-            drawn += f"V{begin:g}C{x:g} {middle:g} {there:g} {middle:g} {there:g} {end:g}"
-            x = there
-        self._link(link, f"{drawn}V{top:g}")
-
-    def _back(self, link: Link, under: float, over: float, column: float) -> None:
-        (x, y), (enters, top) = self._ends(link)
-        self._link(link, f"M{x:g} {y:g}V{under:g}H{column:g}V{over:g}H{enters:g}V{top:g}")
-
-    def _link(self, link: Link, drawn: str) -> None:
-        labels = self.labels[link]
-        kind = "link tap" if labels.tap else "link"
-        SubElement(self.page, "path", {"d": drawn, "class": kind, "marker-end": "url(#head)"})
-        (x, bottom), (enters, top) = self._ends(link)
-        add_text(self.page, labels.leaves, x + 6, bottom + 14, SMALL, "faint")
-        add_text(self.page, labels.enters, enters + 6, top - 10, SMALL, "faint")
-
-    def _box(self, name: str, box: NodeBox) -> None:
-        x, y = self.places[name] - box.width / 2, self.tops[self.layer[name]]
-        size = {"width": f"{box.width:g}", "height": f"{box.height:g}", "rx": "6"}
-        SubElement(
-            self.page, "rect", {"x": f"{x:g}", "y": f"{y:g}", **size, "class": f"box {box.role}"}
-        )
-        box.draw(self.page, x, y)
-        for message, height, length in box.outlet_places(y):
-            begin = x + box.width
-            drawn = f"M{begin:g} {height:g}H{begin + length:g}"
-            attributes = {"d": drawn, "class": "link", "marker-end": "url(#head)"}
-            SubElement(self.page, "path", attributes)
-            add_text(self.page, message, begin + length + 6, height + 4, SMALL, "faint")
-
-
-def _page(path: PathGraph, name: str) -> Tag:
-    labelled = {"role": "img", "aria-labelledby": "title description"}
-    page = Tag("svg", {"xmlns": "http://www.w3.org/2000/svg", "width": "0", "height": "0"})
-    page.attrib |= labelled
-    SubElement(page, "title", {"id": "title"}).text = f"The path {drawable(name)}"
-    messages = [drawable(line) for line in (path.description, *draw(path).splitlines())]
-    SubElement(page, "desc", {"id": "description"}).text = "\n".join(messages)
-    SubElement(page, "style").text = _STYLE
-    head = {"id": "head", "viewBox": "0 0 10 10", "refX": "9", "refY": "5", "orient": "auto"}
-    marker = SubElement(page, "marker", {**head, "markerWidth": "7", "markerHeight": "7"})
-    SubElement(marker, "path", {"d": "M0 1L10 5L0 9z", "class": "head"})
-    SubElement(page, "rect", {"width": "100%", "height": "100%", "class": "page"})
-    return page
-
-
-def _heading(page: Tag, name: str, description: str, width: float) -> float:
-    below = _MARGIN
-    for text, size, kind in ((name, _TITLE, "title"), (description, SMALL + 1, "ink")):
-        for line in lines_of(text, int((width - 2 * _MARGIN) / text_width("x", size))):
-            below += size * 1.4
-            add_text(page, line, _MARGIN, below, size, kind)
-    return below + _MARGIN

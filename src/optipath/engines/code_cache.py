@@ -107,7 +107,7 @@ class CodeCache:
                 return MachineCode(code)
             except (RuntimeError, ValueError):
                 self.tell("a file of compiled code cannot be run; it is compiled anew")
-        self.tell("compiling, which may take some seconds; what is compiled is kept")
+        self.tell("compiling, which may take some seconds")
         code = compiled(text)
         self.keep(text, code)
         return MachineCode(code)
