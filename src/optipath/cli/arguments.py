@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -122,3 +123,22 @@ def write(file: Path, content: bytes) -> None:
     """Write a file, whole or not at all."""
     with message_of(file, click.ClickException, ""):
         write_file(file, content)
+
+
+def whole(text: str) -> int:
+    """Return a whole number, which may be written as 1e6."""
+    with suppress(ValueError):
+        return int(text)
+    with suppress(ValueError):
+        if (number := float(text)).is_integer():
+            return int(number)
+    raise click.BadParameter(f"{shown(text)} is no whole number; write one such as 1000, or 1e6")
+
+
+SEED = click.Option(["--seed"], type=whole, metavar="NUMBER", default=0, help="Of the photons.")
+THREADS = click.Option(
+    ["--threads"],
+    type=whole,
+    metavar="NUMBER",
+    help="How many walk at a time; by default one a processor.",
+)

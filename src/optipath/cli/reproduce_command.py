@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
+from optipath.cli.arguments import SEED, THREADS, whole
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json, title
 from optipath.cli.options import StrictCommand
-from optipath.cli.surface_options import SEED, THREADS, whole
 from optipath.cli.surface_output import measured
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import plain

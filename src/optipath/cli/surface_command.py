@@ -2,34 +2,100 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
 
-from optipath.cli.arguments import NewFile, check_place
-from optipath.cli.console import (
-    JSON,
-    PlainConsole,
-    photon_bar,
-    say,
-    say_descriptions,
-    say_json,
-    title,
-)
+from optipath.cli import console
+from optipath.cli.arguments import SEED, THREADS, NewFile, axis_argument, check_place, whole
+from optipath.cli.console import JSON, say, say_descriptions, say_json
 from optipath.cli.options import StrictCommand
-from optipath.cli.surface_options import DECIDE, REDRAWING, SAMPLE, WALKING
-from optipath.errors import SurfaceError, listed
-from optipath.surfaces.sample_files import load_sample, sample_descriptions
+from optipath.errors import SurfaceError, listed, shown
+from optipath.materials.named_materials import WAVELENGTH
+from optipath.paths.files.schema import Faults
+from optipath.surfaces.energy_shares import run_arguments
+from optipath.surfaces.sample_files import load_sample, sample_descriptions, sample_names
+from optipath.surfaces.walk.beam import UNPOLARISED
 from optipath.values.files import check_form
+from optipath.values.parameters import Parameter
+from optipath.values.text import AxisValues, read_entries
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from optipath.cli.surface_options import WalkArguments
-    from optipath.cli.surface_output import EnergyOutcome
-    from optipath.plots.hemisphere_side import PixelQuantity
+    from optipath.cli.surface_output import ChoiceOutcome, EnergyOutcome, Walk
+    from optipath.surfaces.sample import Sample
 
+
+def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
+    """Return the samples whose names begin so, and the command in their place, for shells."""
+    return [name for name in (*sample_names(), "reproduce") if name.startswith(incomplete)]
+
+
+SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]", shell_complete=_names)
+INCIDENCE = click.Option(
+    ["--incidence", "incidences"],
+    metavar="DEG",
+    multiple=True,
+    help="The angle of incidence; several by '10, 20', by 0:80:9 (start:stop:count), or repeated.",
+)
+PHOTONS = click.Option(
+    ["--photons"],
+    type=whole,
+    metavar="NUMBER",
+    help="How many photons are walked, such as 1e7; 1e6 by default. With --tolerance, at most.",
+)
+TOLERANCE = click.Option(
+    ["--tolerance"],
+    type=float,
+    help="Walk until the standard error of what is reflected is no larger, such as 0.002.",
+)
+DECIDE = click.Option(
+    ["--decide"],
+    is_flag=True,
+    help="Tell which model suffices, polarised or not or single scattering, and why. --tolerance "
+    "is then the relative error of a pixel's light that will do, 0.02 by default.",
+)
+WAVELENGTHS = click.Option(
+    ["--wavelength"],
+    metavar="'516 nm'",
+    help="Where an index depends on it; several by '400 nm:700 nm:4' on an opaque base.",
+)
+AZIMUTH = click.Option(
+    ["--azimuth"],
+    default="0",
+    metavar="DEG",
+    help="Towards which side the light goes, from x towards y; of anisotropic samples.",
+)
+STOKES = click.Option(
+    ["--stokes"],
+    default="1,0,0,0",
+    metavar="S0,S1,S2,S3",
+    help="The light; the x of its frame is horizontal.",
+)
+EVENTS = click.Option(
+    ["--most-events"],
+    type=whole,
+    metavar="NUMBER",
+    default=1000,
+    help="After how many events a photon is given up.",
+)
+SURFACES = click.Option(
+    ["--surfaces"],
+    type=whole,
+    metavar="NUMBER",
+    help="How many surfaces take turns, in place of the sample's.",
+)
+CELLS = click.Option(
+    ["--cells"], metavar="N|N,N", help="Cells of random surfaces along x and y, ditto."
+)
+SAMPLE_SEED = click.Option(
+    ["--sample-seed"], type=whole, metavar="NUMBER", help="Of random surfaces, ditto."
+)
 
 MAP = click.Option(
     ["--map", "quantity"],
@@ -46,62 +112,118 @@ OUT = click.Option(
     ["--out"], type=NewFile(), help="Of --map: the file; its ending is .png, .svg or .pdf."
 )
 
-DRAWING = (MAP, SIDE, OUT)
+WALKING = (INCIDENCE, PHOTONS, TOLERANCE, WAVELENGTHS, AZIMUTH, STOKES, SEED, EVENTS, THREADS)
+REDRAWING = (SURFACES, CELLS, SAMPLE_SEED)
 
 
-def draw_map(
-    sample: str, quantity: str, side: str, out: Path | None, *, as_json: bool, **options: Any
-) -> None:
-    """Walk photons from one direction, and draw what goes into each direction."""
-    if out is None:
-        raise click.UsageError("--map draws into a file; name it, --out map.png")
-    for name, argument in (("--json", as_json), ("--tolerance", options["tolerance"])):
-        if argument:
-            raise click.UsageError(f"{name} is of tables, and --map draws; leave one of them out")
-    check_form(out)
-    check_place(out)
-    # Before photons are walked: these tell whether what draws is there.
-    from optipath.cli.surface_options import walk_arguments  # noqa: PLC0415 - needs numbers
-    from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
-    from optipath.plots.hemisphere_side import QUANTITIES, quantity_of  # noqa: PLC0415 - ditto
-    from optipath.surfaces.hemisphere.measure import measure  # noqa: PLC0415 - needs numbers
+_MOST = 1000
+"""How many values there may be of which each has tables."""
 
-    walk = _only(
-        walk_arguments(load_sample(sample), **options), quantity_of(quantity, QUANTITIES), side
-    )
-    beam, source = walk.run.beam, walk.run.beam.states[0]
-    with photon_bar(walk.direction) as progress:
-        measured = measure(
-            beam.sample,
-            walk.incidence.given.item(),
-            walk.wanted,
-            None if walk.wavelengths is None else walk.wavelengths.given,
-            seed=beam.seed,
-            azimuth=beam.azimuth,
-            most_events=beam.most_events,
-            threads=walk.run.threads,
-            progress=progress,
+_INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "azimuth"))
+
+
+def incidences_of(texts: Sequence[str]) -> list[AxisValues]:
+    """Return the angles of incidence that options give, each alone.
+
+    >>> [one.shown.item() for one in incidences_of(["0:60:3", "1 rad"])]
+    [0.0, 30.0, 60.0, 1.0]
+    """
+    if not texts:
+        raise SurfaceError("--incidence is missing; give the angle of incidence: --incidence 60")
+    several = [_values(text, _INCIDENCE, "deg") for text in texts]
+    _refuse_many("--incidence", sum([len(one.given) for one in several]))
+    return [
+        AxisValues(one.shown[at], one.unit, one.given[at])
+        for one in several
+        for at in range(len(one.given))
+    ]
+
+
+def _wavelengths_of(text: str | None) -> AxisValues | None:
+    """Return the wavelengths that an option gives, without an axis where it is one."""
+    if text is None:
+        return None
+    result = _values(text, WAVELENGTH, "")
+    _refuse_many("--wavelength", len(result.given))
+    return result if axis_argument(WAVELENGTH, text, ()) else result.reshaped(())
+
+
+def _azimuth_of(text: str) -> float:
+    """Return an azimuth in radians."""
+    if len(result := _values(text, _AZIMUTH, "deg").given) > 1:
+        raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
+    return float(result[0])
+
+
+def _numbers_of(option: str, text: str, usual: str, counts: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return numbers with commas between them, of the kind of those that are usual.
+
+    >>> _numbers_of("--cells", "640, 320", "640", (1, 2))
+    (640, 320)
+    """
+    kind = int if usual.isdecimal() else float
+    try:
+        results = tuple([kind(part) for part in text.split(",")])
+    except ValueError:
+        results = ()
+    if len(results) not in counts:
+        raise SurfaceError(
+            f"{option} takes {' or '.join(map(str, counts))} numbers with commas between, such as "
+            f"{usual}, and not {shown(text)}"
         )
-    drawn = hemisphere(measured, quantity, source=source, side=side)
-    save(drawn, out)
-    say(f"wrote {out}")
+    return results
 
 
-def _only(walks: list[WalkArguments], drawn: PixelQuantity, side: str) -> WalkArguments:
-    """Return the walk of which a map can be drawn."""
-    if len(walks) > 1:
-        raise SurfaceError("--map is of one angle of incidence; give --incidence once")
-    walk, faults = walks[0], []
-    beam = walk.run.beam
-    if side == "transmitted" and beam.indices.opaque:
-        faults.append("nothing goes through an opaque sample; leave --side out")
-    if not drawn.over_wavelengths and beam.indices.n.size > 1:
-        faults.append(f"a map of {drawn.variable} is of one wavelength; give --wavelength one")
-    if drawn.masked and any(beam.states[0][1:]):
-        faults.append(f"{drawn.variable} is of unpolarised light; leave --stokes out")
+def _refuse_many(option: str, count: int) -> None:
+    if count > _MOST:
+        raise SurfaceError(
+            f"{option} gives {count:,} values, of which each has tables of its own; give "
+            f"{_MOST:,} at most"
+        )
+
+
+def _values(text: str, parameter: Parameter, unit: str) -> AxisValues:
+    return axis_argument(parameter, text, ()) or read_entries([text], parameter, unit)
+
+
+def _walks(
+    sample: Sample,
+    *,
+    incidences: Sequence[str],
+    wavelength: str | None,
+    azimuth: str,
+    stokes: str,
+    surfaces: int | None,
+    cells: str | None,
+    sample_seed: int | None,
+    **options: Any,
+) -> list[Walk]:
+    """Return the walks that options ask for, one for each angle of incidence."""
+    from optipath.cli.surface_output import Walk  # noqa: PLC0415 - slow to import
+
+    faults = Faults()
+    angles = faults.attempt("", incidences_of, incidences) or incidences_of(["0"])
+    lights = faults.attempt("", _wavelengths_of, wavelength)
+    light: dict[str, Any] = {
+        "azimuth": faults.attempt("", _azimuth_of, azimuth) or 0.0,
+        "stokes": faults.attempt("", _numbers_of, "--stokes", stokes, "1,0,0,0", (4,))
+        or UNPOLARISED,
+        "wavelength": None if lights is None else lights.given,
+    }
+    mesh = faults.attempt("", _numbers_of, "--cells", cells, "640", (1, 2)) if cells else None
+    drawn = {"surfaces": surfaces, "cells": mesh and (*mesh, mesh[0])[:2], "seed": sample_seed}
+    changes = {name: value for name, value in drawn.items() if value is not None}
+    sample = faults.attempt("the sample", replace, sample, **changes) or sample
+    runs = [
+        faults.attempt("", partial(run_arguments, sample, angle.given, **light, **options))
+        for angle in angles
+    ]
     if faults:
-        raise SurfaceError(*faults)
-    return walk
+        raise SurfaceError(*dict.fromkeys(faults))
+    return [
+        Walk(angle, lights, *run, options["tolerance"])
+        for angle, run in zip(angles, filter(None, runs), strict=True)
+    ]
 
 
 def _surface(
@@ -121,22 +243,22 @@ def _surface(
     """
     if sample == "reproduce":
         raise click.UsageError("options stand behind it; write optipath surface reproduce first")
+    if quantity is not None and decide:
+        raise click.UsageError("--decide and --map are two questions; ask one at a time")
     if sample is None:
         _list_samples(as_json=as_json)
     elif quantity is not None:
-        if decide:
-            raise click.UsageError("--decide and --map are two questions; ask one at a time")
-        draw_map(sample, quantity, side, out, as_json=as_json, **options)
+        _draw_map(sample, quantity, side, out, as_json=as_json, **options)
     elif out is not None or (side != "reflected" and not decide):
         message = "--out is" if out is not None else "--side is of --decide, and"
         raise click.UsageError(f"{message} of a map; say of what, --map S0")
     elif decide:
-        # Neither a list of samples nor an energy needs it.
-        from optipath.cli.surface_output import print_choices  # noqa: PLC0415
-
-        print_choices(sample, side, as_json=as_json, **options)
+        _decide(sample, side, as_json=as_json, **options)
     else:
-        _walk(sample, as_json=as_json, **options)
+        walks = _walks(load_sample(sample), **options)
+        from optipath.cli.surface_output import walked  # noqa: PLC0415 - slow to import
+
+        _tell(sample, walks, walked, as_json=as_json)
 
 
 class _SurfaceCommand(StrictCommand):
@@ -148,47 +270,16 @@ class _SurfaceCommand(StrictCommand):
         """Return the context of ``reproduce`` where that stands first, else the own one."""
         if args[:1] != ["reproduce"]:
             return super().make_context(info_name, args, parent, **extra)
-        # Neither a list of samples nor a wrong name needs it.
-        from optipath.cli.reproduce_command import reproduce  # noqa: PLC0415
+        from optipath.cli.reproduce_command import reproduce  # noqa: PLC0415 - takes options of it
 
         return reproduce.make_context(f"{info_name} reproduce", args[1:], parent, **extra)
 
 
 surface = click.command(
-    "surface", cls=_SurfaceCommand, params=[SAMPLE, DECIDE, *WALKING, *REDRAWING, *DRAWING, JSON]
+    "surface",
+    cls=_SurfaceCommand,
+    params=[SAMPLE, DECIDE, *WALKING, *REDRAWING, MAP, SIDE, OUT, JSON],
 )(_surface)
-
-
-def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
-    """Walk photons from each direction, and tell of them at once, or all in one JSON object."""
-    loaded = load_sample(sample)
-    # Neither a list of samples nor a wrong name needs numbers.
-    from optipath.cli.console import photon_bar  # noqa: PLC0415
-    from optipath.cli.surface_options import walk_arguments  # noqa: PLC0415
-    from optipath.cli.surface_output import (  # noqa: PLC0415
-        energy_as_json,
-        print_energy,
-        walked,
-    )
-
-    walks = walk_arguments(loaded, **options)
-    results: list[EnergyOutcome] = []
-    try:
-        for walk in walks:
-            with photon_bar(walk.direction) as progress:
-                results.append(walked(walk, progress))
-            if not as_json:
-                if len(results) == 1:
-                    PlainConsole().print(title(sample, loaded.description))
-                say("")
-                print_energy(results[-1])
-            if results[-1].interrupted:
-                raise KeyboardInterrupt
-    finally:
-        if as_json and results:
-            several = [energy_as_json(outcome) for outcome in results]
-            one = several[0] if len(walks) == 1 else {"directions": several}
-            say_json({"sample": sample, **one})
 
 
 def _list_samples(*, as_json: bool) -> None:
@@ -206,3 +297,80 @@ def _list_samples(*, as_json: bool) -> None:
             f"SAMPLE is missing, beside {listed(arguments)}; give a file or one of: {names}"
         )
     say_descriptions("sample", descriptions, as_json=as_json)
+
+
+def _tell(
+    sample: str,
+    walks: Sequence[Walk],
+    find: Callable[[Walk, Callable[[int, int], None]], EnergyOutcome | ChoiceOutcome],
+    *,
+    as_json: bool,
+) -> None:
+    """Find what each direction tells, and print it at once, or all in one JSON object."""
+    results: list[EnergyOutcome | ChoiceOutcome] = []
+    try:
+        for walk in walks:
+            with console.photon_bar(walk.direction) as progress:
+                results.append(find(walk, progress))
+            if not as_json:
+                if len(results) == 1:
+                    description = walk.run.beam.sample.description
+                    console.PlainConsole().print(console.title(sample, description))
+                say("")
+                results[-1].print()
+            if results[-1].interrupted:
+                raise KeyboardInterrupt
+    finally:
+        if as_json and results:
+            several = [outcome.as_json() for outcome in results]
+            one = several[0] if len(walks) == 1 else {"directions": several}
+            say_json({"sample": sample, **one})
+
+
+def _decide(
+    sample: str, side: str, *, as_json: bool, tolerance: float | None, **options: Any
+) -> None:
+    """Decide for each angle of incidence which model suffices."""
+    walks = _walks(load_sample(sample), **options, tolerance=None)
+    if walks[0].run.beam.states[0] != UNPOLARISED:
+        raise SurfaceError("--decide is of unpolarised light; leave --stokes out")
+    wanted = 0.02 if tolerance is None else tolerance
+    from optipath.cli.surface_output import decided  # noqa: PLC0415 - slow to import
+
+    _tell(sample, walks, partial(decided, wanted, side), as_json=as_json)
+
+
+def _draw_map(
+    sample: str, quantity: str, side: str, out: Path | None, *, as_json: bool, **options: Any
+) -> None:
+    """Walk photons from one direction, and draw what goes into each direction."""
+    if out is None:
+        raise click.UsageError("--map draws into a file; name it, --out map.png")
+    for name, argument in (("--json", as_json), ("--tolerance", options["tolerance"])):
+        if argument:
+            raise click.UsageError(f"{name} is of tables, and --map draws; leave one of them out")
+    check_form(out)
+    check_place(out)
+    # Before photons are walked: these tell whether what draws is there.
+    from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
+    from optipath.plots.hemisphere_side import QUANTITIES, quantity_of  # noqa: PLC0415 - ditto
+    from optipath.surfaces.hemisphere.measure import measure  # noqa: PLC0415 - slow to import
+
+    drawn = quantity_of(quantity, QUANTITIES)
+    walk, *others = _walks(load_sample(sample), **options)
+    beam, faults = walk.run.beam, []
+    if others:
+        faults.append("--map is of one angle of incidence; give --incidence once")
+    if side == "transmitted" and beam.indices.opaque:
+        faults.append("nothing goes through an opaque sample; leave --side out")
+    if not drawn.over_wavelengths and beam.indices.n.size > 1:
+        faults.append(f"a map of {drawn.variable} is of one wavelength; give --wavelength one")
+    if drawn.masked and any(beam.states[0][1:]):
+        faults.append(f"{drawn.variable} is of unpolarised light; leave --stokes out")
+    if faults:
+        raise SurfaceError(*faults)
+    with console.photon_bar(walk.direction) as progress:
+        incidence = walk.incidence.given.item()
+        measured = measure(beam.sample, incidence, **walk.keywords, progress=progress)
+    save(hemisphere(measured, quantity, source=beam.states[0], side=side), out)
+    say(f"wrote {out}")
