@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.plan.questions import Question
-    from optipath.plan.reading import ResolvedInputs
+    from optipath.plan.reading import Batch
     from optipath.plan.runner import Runner
 
     Array = np.ndarray[Any, Any]
@@ -54,7 +54,7 @@ class Approximation:
             yield from self.exact.stream(question, size, parameters)
             return
         argument = self.whole.read_for_bounds(parameters)
-        for piece in pieces(argument.batch, size):
+        for piece in pieces(argument.shape, size):
             part = argument.part(piece.where)
             yield piece.where, self._of(question, part, parameters, argument.paths)
 
@@ -67,11 +67,11 @@ class Approximation:
     def _of(
         self,
         question: Question,
-        arguments: ResolvedInputs,
+        arguments: Batch,
         parameters: Mapping[str, Any],
         ahead: int = 0,
     ) -> dict[str, Any]:
-        def run(runner: Runner, numbers: ResolvedInputs) -> dict[str, Any]:
+        def run(runner: Runner, numbers: Batch) -> dict[str, Any]:
             self._ran = (*self._ran, runner)
             answer = runner.answer_for(question, numbers, parameters, ahead=ahead)
             return dict(answer)

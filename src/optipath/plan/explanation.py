@@ -354,7 +354,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     for step in program.steps:
         if step.evaluation is None:
             continue
-        shapes: list[tuple[int, ...]] = [argument.batch] if runner.unreduced else []
+        shapes: list[tuple[int, ...]] = [argument.shape] if runner.unreduced else []
         for place in program.passed_to[step.evaluation]:
             operand = program.operands[place]
             if operand.known:

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.kernels.carriers.structures import Numbers
-    from optipath.plan.reading import ResolvedInputs
+    from optipath.plan.reading import Batch
     from optipath.values.operands import Operand, Ranges
 
     Array = np.ndarray[Any, Any]
@@ -88,21 +88,21 @@ class Interpreter:
         self._known: list[Any] | None = None
 
     def lights(
-        self, arguments: ResolvedInputs, shared: Shared | None = None
+        self, arguments: Batch, shared: Shared | None = None
     ) -> list[np.ndarray[Any, Any]]:
         """Return Stokes vectors (..., 4) at every end; for parts, see `shared`."""
-        batch, arguments = arguments.batch, self._as_batch(arguments)
+        batch, arguments = arguments.shape, self._as_batch(arguments)
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
         return [stokes.reshape(*batch, 4) for stokes in self._results(arguments, own)]
 
-    def _as_batch(self, arguments: ResolvedInputs) -> ResolvedInputs:
+    def _as_batch(self, arguments: Batch) -> Batch:
         """Return what is given, one path as a batch of one if it is to have the same bits."""
-        alone = self.limits is not None and not arguments.batch
-        return arguments._replace(batch=(1,)) if alone else arguments
+        alone = self.limits is not None and not arguments.shape
+        return arguments._replace(shape=(1,)) if alone else arguments
 
-    def shared(self, arguments: ResolvedInputs) -> Shared:
+    def shared(self, arguments: Batch) -> Shared:
         """Return evaluations along a few axes of a batch only, no larger than its light."""
         operands, carrier = self.operands(arguments), self._carriers[self.carrier]
         left, result = 4 * arguments.paths, {}
@@ -120,25 +120,25 @@ class Interpreter:
         return result
 
     def matrix(
-        self, arguments: ResolvedInputs, source: str, reading: Reading
+        self, arguments: Batch, source: str, reading: Reading
     ) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
-        none, shape = self.dtype.type(0.0), (*arguments.batch, 4, 4)
+        none, shape = self.dtype.type(0.0), (*arguments.shape, 4, 4)
         arguments = self._as_batch(arguments)
         begin, _ = self.program.sources[source]
 
-        def emitted(part: ResolvedInputs) -> dict[int, Components]:
-            columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(part.batch))
+        def emitted(part: Batch) -> dict[int, Components]:
+            columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(part.shape))
             dark = {step: (none,) * 4 for step, _ in self.program.sources.values()}
             return {**dark, begin: tuple(columns[:, row] for row in range(4))}
 
         lights = self._execute(arguments, self._carriers[MatrixCarrier], emitted)
-        stokes = _stack(lights[reading.light][0], (4, *arguments.batch), reading, self.dtype)
+        stokes = _stack(lights[reading.light][0], (4, *arguments.shape), reading, self.dtype)
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1)).reshape(shape)
 
-    def bounds(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+    def bounds(self, arguments: Batch) -> list[np.ndarray[Any, Any]]:
         """Return what `BoundsCarrier` reads at every end, shape (4, ...)."""
-        batch, arguments = arguments.batch, self._as_batch(arguments)
+        batch, arguments = arguments.shape, self._as_batch(arguments)
         operands = self.operands(arguments)
         with np.errstate(all="ignore"):
             matrices = whole_matrices(
@@ -149,7 +149,7 @@ class Interpreter:
         result = self._execute(arguments, carrier, shared=matrices)
         read = []
         for reading in self.program.readings.values():
-            parts = np.empty((4, *arguments.batch), self.dtype)
+            parts = np.empty((4, *arguments.shape), self.dtype)
             for row, part in enumerate(result[reading.light][0]):
                 parts[row] = part
             # What is too extreme for floats is bounded by nothing.
@@ -159,7 +159,7 @@ class Interpreter:
             read.append(parts.reshape(4, *batch))
         return read
 
-    def _results(self, arguments: ResolvedInputs, shared: Shared) -> list[Array]:
+    def _results(self, arguments: Batch, shared: Shared) -> list[Array]:
         """Return light; what is so faint that numbers on the way underflow is carried scaled."""
         program, carrier = self._carrying
         if program is self.program:
@@ -179,21 +179,21 @@ class Interpreter:
             for other, one in zip(result, again, strict=True)
         ]
 
-    def _stacked(self, arguments: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Array]:
+    def _stacked(self, arguments: Batch, carrier: Carrier, shared: Shared) -> list[Array]:
         return self._read(arguments, self._execute(arguments, carrier, None, shared))
 
-    def _read(self, arguments: ResolvedInputs, lights: Mapping[int, Any]) -> list[Array]:
+    def _read(self, arguments: Batch, lights: Mapping[int, Any]) -> list[Array]:
         """Return the light at every end as Stokes vectors."""
         results = []
         for reading in self.program.readings.values():
             components, exponent = lights[reading.light]
-            stokes = _stack(components, arguments.batch, reading, self.dtype)
+            stokes = _stack(components, arguments.shape, reading, self.dtype)
             results.append(stokes if isinstance(exponent, int) else unscaled(stokes, exponent))
         return results
 
     def _execute(
         self,
-        arguments: ResolvedInputs,
+        arguments: Batch,
         carrier: Carrier,
         emitted: Any = None,
         shared: Shared | None = None,
@@ -203,7 +203,7 @@ class Interpreter:
         with np.errstate(all="ignore"):
             operands = self.operands(arguments)
             result = execute(self.program, operands, carrier, begin, self.number, shared, solvers)
-            doubtful = _doubtful(solvers, arguments.batch)
+            doubtful = _doubtful(solvers, arguments.shape)
             if not np.any(doubtful):
                 return result
             part = arguments if np.all(doubtful) else arguments.part((doubtful,))
@@ -222,7 +222,7 @@ class Interpreter:
         # Plain numbers among what kernels give have no precision of their own.
         return np.asarray(number, self.dtype)
 
-    def operands(self, arguments: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+    def operands(self, arguments: Batch) -> list[np.ndarray[Any, Any]]:
         """Return the numbers behind the operands of the program."""
         if self._known is None:
             self._known = [
@@ -239,7 +239,7 @@ class Interpreter:
                 results.append(cut if self.limits is None else cut[()])
         return results
 
-    def _operand_array(self, operand: Operand, arguments: ResolvedInputs) -> np.ndarray[Any, Any]:
+    def _operand_array(self, operand: Operand, arguments: Batch) -> np.ndarray[Any, Any]:
         key, numbers = operand.input_key, arguments.numbers
         if operand.part == "imag" and numbers[key] is False:
             # Not an array, so that kernels see an index that does not absorb.

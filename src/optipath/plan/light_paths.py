@@ -117,7 +117,7 @@ class Search:
         self.program = whole.program
         self.carrier = StokesCarrier(NUMPY)
         argument = whole.reader.read(parameters)
-        self.batch = argument.batch
+        self.batch = argument.shape
         operands = whole.interpreter.operands(argument)
         with np.errstate(all="ignore"):
             self.numbers = [

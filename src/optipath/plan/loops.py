@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.program import Loop, Program
     from optipath.kernels.carriers.structures import Numbers
-    from optipath.plan.reading import ResolvedInputs
+    from optipath.plan.reading import Batch
 
     Array = np.ndarray[Any, Any]
 
@@ -203,7 +203,7 @@ class CloserLook:
     def __init__(
         self,
         program: Program,
-        arguments: ResolvedInputs,
+        arguments: Batch,
         plain: list[np.ndarray[Any, Any]],
         dtype: np.dtype[Any],
     ) -> None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.engines.program import Program, Reading
-    from optipath.plan.reading import ResolvedInputs
+    from optipath.plan.reading import Batch
     from optipath.values.operands import Operand
     from optipath.values.precision import Array
 
@@ -35,11 +35,11 @@ class NoiseInterpreter(Interpreter):
     def __init__(self, program: Program, dtype: np.dtype[Any]) -> None:
         super().__init__(program, ScaledCarrier, dtype)
 
-    def noise(self, arguments: ResolvedInputs, reading: Reading) -> tuple[Any, Any]:
+    def noise(self, arguments: Batch, reading: Reading) -> tuple[Any, Any]:
         """Return the intensity at an end, and its noise."""
         carrier = NoiseCarrier(NUMPY, self.eps)
-        result = np.zeros((2, *arguments.batch), self.dtype)
-        for piece in pieces(arguments.batch, _AT_ONCE):
+        result = np.zeros((2, *arguments.shape), self.dtype)
+        for piece in pieces(arguments.shape, _AT_ONCE):
             part = arguments.part(piece.where)
             lights = self._execute(part, carrier)
             (intensity, noise, _, _), power = lights[reading.light]
@@ -48,7 +48,7 @@ class NoiseInterpreter(Interpreter):
                     result[(row, *piece.where)] = np.ldexp(number, power)
         return result[0], result[1]
 
-    def emitted(self, arguments: ResolvedInputs, source: str) -> Array:
+    def emitted(self, arguments: Batch, source: str) -> Array:
         """Return the light that a source emits, as Stokes vectors (..., 4), in its own shape."""
         evaluation = self.program.steps[self.program.sources[source][0]].evaluation
         operands, carrier = self.operands(arguments), self._carriers[self.carrier]
@@ -58,7 +58,7 @@ class NoiseInterpreter(Interpreter):
         parts = np.broadcast_arrays(*numbers, *[0.0] * (4 - len(numbers)))
         return np.stack(parts, axis=-1)
 
-    def most(self, arguments: ResolvedInputs) -> Any:
+    def most(self, arguments: Batch) -> Any:
         """Return an upper bound of the noise at any end: all rounding of what is emitted."""
         return self._most(self.operands(arguments))
 
@@ -129,9 +129,9 @@ def noise_at(
     doubtful = _as_little(stokes, interpreter.most(argument)).any(axis=-1)
     if not doubtful.any():
         return result
-    part = argument.part((doubtful,)) if argument.batch else argument
+    part = argument.part((doubtful,)) if argument.shape else argument
     again, noise = interpreter.noise(part, readings[end])
-    intensity = stokes[doubtful][..., 0].reshape(part.batch)
+    intensity = stokes[doubtful][..., 0].reshape(part.shape)
     with np.errstate(over="ignore", invalid="ignore"):
         same = np.abs(again - intensity) <= 4.0 * noise + _SAME * np.abs(intensity)
     result[doubtful] = np.where(same, noise, 0.0)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.plan.questions import FormulaMaker, Question
-    from optipath.plan.reading import InputReader, Layout, ResolvedInputs, RunOptions
+    from optipath.plan.reading import Batch, InputReader, Layout, RunOptions
     from optipath.plan.scalar_runner import FloatFunction, ScalarRunner
     from optipath.values.operands import InputKey
 
@@ -105,12 +105,12 @@ class Recipe:
         self,
         prepared: Prepared,
         reader: InputReader,
-        arguments: ResolvedInputs,
+        arguments: Batch,
         parameters: Mapping[str, Any],
     ) -> None:
         self.prepared = prepared
         self.reader = reader
-        self.batch = arguments.batch
+        self.batch = arguments.shape
         self.names: dict[str, str] = {}
         self.parts: list[InputKey] = []
         self.fixed: dict[str, Any] = dict(prepared.known)
@@ -135,7 +135,7 @@ class Recipe:
 
     @staticmethod
     def holds(
-        reader: InputReader, arguments: ResolvedInputs, parameters: Mapping[str, Any]
+        reader: InputReader, arguments: Batch, parameters: Mapping[str, Any]
     ) -> bool:
         """Tell whether what was read says as much of the next batch of the same shapes."""
         if not parameters.keys() <= {key.name for key in arguments.numbers}:

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from optipath.plan.for_jax import ForJax
     from optipath.plan.inputs import Inputs
     from optipath.plan.interpreter import Interpreter, Shared
-    from optipath.plan.reading import ResolvedInputs, RunOptions
+    from optipath.plan.reading import Batch, RunOptions
     from optipath.values.operands import InputKey
 
     Array = np.ndarray[Any, Any]
-    Batch = tuple[int, ...]
+    Shape = tuple[int, ...]
 
 
 class Requested(Protocol):
@@ -61,15 +61,15 @@ class Question(ABC):
         """Return the formula of the results, for numbers of some forms."""
 
     @abstractmethod
-    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: Batch, shared: Shared) -> Array:
         """Return the results step by step. Shape: returns (results, paths)."""
 
-    def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Requested, resolved: Any, shape: Shape, parameters: Any) -> Any:
         """Return what the user gets of JAX; None where NumPy is to be asked."""
-        del runner, resolved, batch, parameters
+        del runner, resolved, shape, parameters
 
     @abstractmethod
-    def answer(self, results: Results, batch: Batch) -> Any:
+    def answer(self, results: Results, shape: Shape) -> Any:
         """Return what the user gets."""
 
 
@@ -93,15 +93,15 @@ class LightQuestion(Question):
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         return maker.lights(forms, axes=axes, unreduced=maker.unreduced)
 
-    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: Batch, shared: Shared) -> Array:
         result = runner.interpreter.lights(arguments, shared)
         for stokes, count in zip(result, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
             stokes[np.isnan(stokes[..., 0])] = np.nan
         return np.concatenate([stokes.reshape(-1, 4).T for stokes in result])
 
-    def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        result, sound = runner.for_jax.path.lights(resolved, batch, parameters)
+    def by_jax(self, runner: Requested, resolved: Any, shape: Shape, parameters: Any) -> Any:
+        result, sound = runner.for_jax.path.lights(resolved, shape, parameters)
         if runner.for_jax.needs_closer_look(sound, resolved):
             return None
         lights = {}
@@ -110,18 +110,18 @@ class LightQuestion(Question):
             runner.refuse_infinite(lights[name][..., :count])
         return lights
 
-    def answer(self, results: Results, batch: Batch) -> dict[str, Any]:
+    def answer(self, results: Results, shape: Shape) -> dict[str, Any]:
         return {
-            name: self._stokes(results, batch, 4 * end, self.counts[end])
+            name: self._stokes(results, shape, 4 * end, self.counts[end])
             for end, name in enumerate(self.ends)
         }
 
-    def _stokes(self, results: Results, batch: Batch, first: int, count: int) -> Any:
+    def _stokes(self, results: Results, shape: Shape, first: int, count: int) -> Any:
         block = None if count < 4 else results.together(first, first + 4)
         if block is not None:
-            return _behind(block, batch, (4,))
-        rest = [_in_shape(part, batch) for part in results.each[first + 1 : first + count]]
-        return (results.array(first).reshape(batch), *rest, *[np.nan] * (4 - count))
+            return _behind(block, shape, (4,))
+        rest = [_in_shape(part, shape) for part in results.each[first + 1 : first + count]]
+        return (results.array(first).reshape(shape), *rest, *[np.nan] * (4 - count))
 
 
 class MatrixQuestion(Question):
@@ -152,24 +152,24 @@ class MatrixQuestion(Question):
             masks=maker.masks,
         )
 
-    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: Batch, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.
         result = runner.interpreter.matrix(arguments, self.source, self.reading)
         runner.refuse_infinite(result[..., : self.reading.components, :])
         result[np.isnan(result[..., 0, 0])] = np.nan
         return result.reshape(-1, 16).T
 
-    def by_jax(self, runner: Requested, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Requested, resolved: Any, shape: Shape, parameters: Any) -> Any:
         name = next(n for n, end in self.program.readings.items() if end is self.reading)
-        result, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
+        result, sound = runner.for_jax.path.matrix(resolved, shape, parameters, self.source, name)
         if runner.for_jax.needs_closer_look(sound, resolved):
             return None
         result = runner.for_jax.nan_outside(result, resolved, 2)
         runner.refuse_infinite(result[..., : self.reading.components, :])
         return result
 
-    def answer(self, results: Results, batch: Batch) -> Array:
-        return _behind(results.block(0, 16), batch, (4, 4))
+    def answer(self, results: Results, shape: Shape) -> Array:
+        return _behind(results.block(0, 16), shape, (4, 4))
 
 
 class BoundsQuestion(Question):
@@ -191,14 +191,14 @@ class BoundsQuestion(Question):
         kind, limits = maker.dtype.name, maker.limits
         return bounds_formula(self.program, kind, forms, limits, axes, self.model)
 
-    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: Batch, shared: Shared) -> Array:
         del shared  # Those of bounds are of another sort.
         return np.concatenate(
             [rows.reshape(4, -1) for rows in runner.interpreter.bounds(arguments)]
         )
 
-    def answer(self, results: Results, batch: Batch) -> dict[str, Certificate]:
-        each = results.block(0, self.read).reshape(len(self.ends), 4, *batch)
+    def answer(self, results: Results, shape: Shape) -> dict[str, Certificate]:
+        each = results.block(0, self.read).reshape(len(self.ends), 4, *shape)
         return {
             name: Certificate(*map(np.asarray, result[:3]))
             for name, result in zip(self.ends, each, strict=True)
@@ -213,26 +213,26 @@ class ErrorsQuestion(BoundsQuestion):
         super().__init__(program)
         self.read = len(self.ends) + 1
 
-    def rows(self, runner: Requested, arguments: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Requested, arguments: Batch, shared: Shared) -> Array:
         bounds = super().rows(runner, arguments, shared).reshape(-1, 4, arguments.paths)
         assert self.model is not None  # noqa: S101 - for mypy
         errors = [Certificate(*result[:3]).error_of(self.model) for result in bounds]
         return np.array([*bounds[:, 0], np.max(errors, axis=0)])
 
-    def answer(self, results: Results, batch: Batch) -> Any:
-        *totals, error = (row.reshape(batch) for row in results.block(0, self.read))
+    def answer(self, results: Results, shape: Shape) -> Any:
+        *totals, error = (row.reshape(shape) for row in results.block(0, self.read))
         return dict(zip(self.ends, totals, strict=True)), error
 
 
-def _behind(block: Array, batch: Batch, tail: tuple[int, ...]) -> Array:
+def _behind(block: Array, shape: Shape, tail: tuple[int, ...]) -> Array:
     """Return rows of results as arrays of a batch's shape, with the rows behind it."""
     count = len(tail)
-    axes = (*range(count, count + len(batch)), *range(count))
-    return block.reshape(*tail, *batch).transpose(axes)
+    axes = (*range(count, count + len(shape)), *range(count))
+    return block.reshape(*tail, *shape).transpose(axes)
 
 
-def _in_shape(part: Any, batch: Batch) -> Any:
-    return part.reshape(batch) if isinstance(part, np.ndarray) else part
+def _in_shape(part: Any, shape: Shape) -> Any:
+    return part.reshape(shape) if isinstance(part, np.ndarray) else part
 
 
 LONGEST = 200

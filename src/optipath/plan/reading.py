@@ -25,32 +25,32 @@ _PAIR = ("cos", "sin")
 _DOUBLE = np.dtype(np.float64)
 
 
-class ResolvedInputs(NamedTuple):
-    """Numbers for a program."""
+class Batch(NamedTuple):
+    """Numbers for a program by their keys, and the shape that they broadcast to."""
 
     numbers: Mapping[InputKey, Any]
-    batch: tuple[int, ...]
-    before: ResolvedInputs | None = None
+    shape: tuple[int, ...]
+    before: Batch | None = None
     where: tuple[Any, ...] = ()
 
     @property
     def paths(self) -> int:
         """The number of paths."""
-        return int(np.prod(self.batch, dtype=np.int64))
+        return int(np.prod(self.shape, dtype=np.int64))
 
     def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         """Return what belongs to this part of an array that broadcasts to the whole batch."""
         if self.before is None or not array.ndim:
             return array
-        return sliced(self.before.cut(array), self.before.batch, self.where)
+        return sliced(self.before.cut(array), self.before.shape, self.where)
 
-    def part(self, where: tuple[Any, ...]) -> ResolvedInputs:
+    def part(self, where: tuple[Any, ...]) -> Batch:
         """Return a part of what is given: an index for each axis, or a mask of the paths."""
         numbers = {
-            key: _one_number(sliced(n, self.batch, where)) if isinstance(n, np.ndarray) else n
+            key: _one_number(sliced(n, self.shape, where)) if isinstance(n, np.ndarray) else n
             for key, n in self.numbers.items()
         }
-        return ResolvedInputs(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
+        return Batch(numbers, np.broadcast_to(0.0, self.shape)[where].shape, self, where)
 
     def within(self, limits: Mapping[Hashable, tuple[float, float]]) -> bool:
         """Tell whether each single number is within the range of its parameter."""
@@ -130,7 +130,7 @@ class InputReader:
                 return None
         return tuple(results)
 
-    def read(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
+    def read(self, parameters: Mapping[str, Any]) -> Batch:
         """Return the given numbers; ranges of plain floats and arrays are checked by the caller."""
         resolved, batch = self.inputs.resolve(parameters, self.is_plain)
         numbers: dict[InputKey, Any] = {}
@@ -147,7 +147,7 @@ class InputReader:
                 continue
             for key in self.keys[name]:
                 numbers[key] = self._number(self.part(key, value, present))
-        return ResolvedInputs(numbers, batch)
+        return Batch(numbers, batch)
 
     def is_plain(self, name: str, value: Any) -> bool:
         """Tell whether a value is taken as it stands: a float, an array of them, or an angle."""

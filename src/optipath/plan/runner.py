@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from optipath.engines.program import Program
     from optipath.plan.inputs import Inputs
     from optipath.plan.questions import Question
-    from optipath.plan.reading import ResolvedInputs, RunOptions
+    from optipath.plan.reading import Batch, RunOptions
     from optipath.values.operands import InputKey, Operand
 
     Array = np.ndarray[Any, Any]
@@ -98,14 +98,14 @@ class Runner:
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
             )
         argument = self.reader.read(parameters)
-        for piece in pieces(argument.batch, size):
+        for piece in pieces(argument.shape, size):
             part = argument.part(piece.where)
             yield piece.where, self.answer_for(question, part, parameters, ahead=argument.paths)
 
     def answer_for(
         self,
         question: Question,
-        arguments: ResolvedInputs,
+        arguments: Batch,
         parameters: Mapping[str, Any],
         *,
         key: Any = None,
@@ -113,17 +113,17 @@ class Runner:
     ) -> Any:
         """Return what is asked for numbers that have been read."""
         if self.first_values.ways:
-            kind = (arguments.forms(self.dtype), arguments.batch, *parameters)
+            kind = (arguments.forms(self.dtype), arguments.shape, *parameters)
             self.first_values.check(kind, lambda: arguments)
         floats = question.is_light and self.dtype == np.float64 and arguments.is_of_floats
-        if floats and not arguments.batch:
+        if floats and not arguments.shape:
             lights = self.single.lights(arguments)
             if lights is not None:
                 self._ran = FLOATS
                 return dict(zip(self.program.readings, lights, strict=True))
         known = {name: arguments.cut(array) for name, array in self.formulas.known_arrays.items()}
         arrays = {str(key): n for key, n in arguments.numbers.items() if isinstance(n, np.ndarray)}
-        layout = Layout(arguments.batch, arrays | known)
+        layout = Layout(arguments.shape, arrays | known)
         prepared = Prepared(self._kind(question, arguments, layout, floats=floats), layout, known)
         if not arguments.within(self.inputs.limits):
             self.inputs.resolve(parameters)
@@ -133,7 +133,7 @@ class Runner:
         numbers = {str(key): number for key, number in arguments.numbers.items()} | known
         return self._run(question, prepared, numbers, parameters, arguments, ahead)
 
-    def read_for_bounds(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
+    def read_for_bounds(self, parameters: Mapping[str, Any]) -> Batch:
         """Return what is given, for both the bounds of light and the light."""
         if self.program.loops:
             raise ParameterError(
@@ -144,7 +144,7 @@ class Runner:
         return self.reader.read(parameters)
 
     def _kind(
-        self, question: Question, arguments: ResolvedInputs, layout: Layout, *, floats: bool
+        self, question: Question, arguments: Batch, layout: Layout, *, floats: bool
     ) -> BatchKind:
         """Return what this batch has in common with others."""
         forms = arguments.forms(self.dtype)
@@ -162,7 +162,7 @@ class Runner:
         prepared: Prepared,
         numbers: Mapping[str, Any],
         parameters: Mapping[str, Any],
-        arguments: ResolvedInputs | None = None,
+        arguments: Batch | None = None,
         ahead: int = 0,
     ) -> Any:
         kind, layout = prepared.kind, prepared.layout
@@ -192,13 +192,13 @@ class Runner:
                 )
             return question.answer(results, layout.batch)
 
-    def _stepped(self, question: Question, arguments: ResolvedInputs) -> Any:
+    def _stepped(self, question: Question, arguments: Batch) -> Any:
         """Return what is asked for, step by step."""
         several = arguments.paths > CACHED and not self.unreduced
         shared = self.interpreter.shared(arguments) if several and question.is_light else {}
         parts = [question.rows(self, part, shared) for part in self.parts(arguments)]
         rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-        return question.answer(Results.of(rows, self.dtype), arguments.batch)
+        return question.answer(Results.of(rows, self.dtype), arguments.shape)
 
     def _by_jax(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         resolved, batch = self.inputs.resolve(parameters)
@@ -231,11 +231,11 @@ class Runner:
         """Return a context for so many numbers a path."""
         return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
 
-    def parts(self, arguments: ResolvedInputs) -> Iterator[ResolvedInputs]:
+    def parts(self, arguments: Batch) -> Iterator[Batch]:
         """Return what is given in parts that stay in the cache, step after step."""
         if arguments.paths <= CACHED:
             return iter([arguments])
-        return (arguments.part(piece.where) for piece in pieces(arguments.batch, CACHED))
+        return (arguments.part(piece.where) for piece in pieces(arguments.shape, CACHED))
 
     def refuse_infinite(self, numbers: Array) -> None:
         """Refuse light that is not finite, but for NaN where that says what cannot be."""
@@ -339,7 +339,7 @@ class FirstValues:
         owners = dict.fromkeys(f"'{way.owner}'" for way in self.ways)
         return f", or the rows of {listed([*owners])} are not finite there" if owners else ""
 
-    def check(self, kind: Hashable, read: Callable[[], ResolvedInputs]) -> None:
+    def check(self, kind: Hashable, read: Callable[[], Batch]) -> None:
         """Refuse what no light can do, found with some of the values that are given."""
         if not self.ways or kind in self._seen:
             return
@@ -352,18 +352,18 @@ class FirstValues:
         self._seen.add(kind)
 
 
-def _faults(way: OwnWays, arguments: ResolvedInputs) -> list[str]:
+def _faults(way: OwnWays, arguments: Batch) -> list[str]:
     """Return what is wrong with a way for a few of the paths, the first and the last among them."""
     units = way.units
     some = np.unique(
         np.linspace(0.0, arguments.paths - 1.0, min(_LOOKED_AT, arguments.paths)).astype(int)
     )
-    where = np.unravel_index(some, arguments.batch) if arguments.batch else ()
+    where = np.unravel_index(some, arguments.shape) if arguments.shape else ()
 
     def few(number: Any) -> Any:
         several = np.asarray(number)
         if several.ndim:  # One number for all stays one, as elements are given it.
-            several = np.broadcast_to(several, arguments.batch)[where]
+            several = np.broadcast_to(several, arguments.shape)[where]
         return several if several.dtype == bool else several.astype(np.float64)
 
     mine = {key: few(n) for key, n in arguments.numbers.items() if key.name in units}

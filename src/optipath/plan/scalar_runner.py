@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from optipath.engines.program import Program
     from optipath.plan.inputs import Inputs
     from optipath.plan.questions import FormulaMaker
-    from optipath.plan.reading import Layout, ResolvedInputs
+    from optipath.plan.reading import Batch, Layout
     from optipath.values.operands import InputKey
 
 
@@ -95,7 +95,7 @@ class ScalarRunner:
         get = numbers.get
         return _called(path, [get(name, default) for name, default in order])
 
-    def lights(self, arguments: ResolvedInputs) -> Lights | None:
+    def lights(self, arguments: Batch) -> Lights | None:
         """Return (S0, S1, S2, S3) at every end; None where that takes more care."""
         nothing = arguments.nothing
         function = self.function(nothing)
@@ -108,7 +108,7 @@ class ScalarRunner:
         return _called(function.path, [arguments.numbers[key] for key in function.keys])
 
     def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
-        """Return the function for what is not there, as `ResolvedInputs.nothing`, if it can be."""
+        """Return the function for what is not there, as `Batch.nothing`, if it can be."""
         if nothing not in self.functions:
             self.functions[nothing] = self._made(nothing)
         return self.functions[nothing]
@@ -125,7 +125,7 @@ class ScalarRunner:
         own = [named[name] for name in names if name in named]
         return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, formula.length)
 
-    def _is_default(self, arguments: ResolvedInputs) -> bool:
+    def _is_default(self, arguments: Batch) -> bool:
         """Tell whether the optional elements are there as they are by default."""
         there = {key.name: n for key, n in arguments.numbers.items() if key.part == "present"}
         opened = self.inputs.open
@@ -138,7 +138,7 @@ class ScalarRunner:
         known = [way for way in self.own_ways if way.are_known(defaults)]
         return not any(way.faults(lambda operand: operand.numbers(defaults)) for way in known)
 
-    def _unread(self, arguments: ResolvedInputs, function: FloatFunction) -> Any:
+    def _unread(self, arguments: Batch, function: FloatFunction) -> Any:
         """Return what `fast_path` needs: the function, and the default of each that it takes."""
         keys = {str(key): key for key in arguments.numbers}
         optional = {key.name for key in arguments.numbers if key.part == "present"}
