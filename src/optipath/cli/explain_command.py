@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
     """Explain the plan of a preset."""
-    result = Composer(**options).compose(chosen.path(reads)).explanation()
+    result = chosen.path(reads).plan_by(Composer(**options)).explanation()
     if as_json:
         say_json({"preset": chosen.preset, **result.as_dict()})
     else:

@@ -41,7 +41,7 @@ def _run_several(
 def _outcome(chosen: Chosen, reads: str | None, options: Mapping[str, Any]) -> Outcome:
     path = chosen.path(reads)
     refuse_arrays(path, chosen.axes)
-    plan = Composer(**options).compose(path)
+    plan = path.plan_by(Composer(**options))
     return outcome_of(chosen, path, plan, grid_of_axes(path, chosen.axes))
 
 

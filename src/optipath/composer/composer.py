@@ -163,17 +163,16 @@ class Composer:
             If an element may depolarise, and Jones columns are composed, or if the model is
             not exact for the path.
         """
-        graph: Any = path
-        if not isinstance(path, nx.MultiDiGraph):
-            graph = getattr(path, "graph", None)
+        graph = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():
-            return self._plan(graph)
+            return self._plan(path if isinstance(path, Values) else Values(graph))
 
-    def _plan(self, graph: nx.MultiDiGraph) -> Plan:
-        graph, unfollowed = with_followed(graph)
-        values, wiring = Values(graph), Wiring(graph, self.loops, self.keep)
+    def _plan(self, values: Values) -> Plan:
+        graph, unfollowed = with_followed(values.graph)
+        values = values if graph is values.graph else Values(graph)
+        wiring = Wiring(graph, self.loops, self.keep)
         media = Media(wiring)
         refuse_faults(values, wiring, media, unfollowed)
         whole = lower(wiring, self.method)

@@ -16,16 +16,14 @@ from optipath.materials.material import Material
 from optipath.values.arrays import read_only
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     import networkx as nx
 
     from optipath.composer.meetings import Meeting
 
 
-def with_followed(
-    graph: nx.MultiDiGraph, unsure: Collection[str] = ()
-) -> tuple[nx.MultiDiGraph, list[str]]:
+def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
     """Return a graph of elements in which boundaries have what they take over from others.
 
     The medium in front is that of the boundary whose light enters at ``in``; the incidence is that
@@ -38,7 +36,7 @@ def with_followed(
     if not names:
         return graph, []
     taking = _Taking(elements, Meetings(Wiring(graph)))
-    faults = {name: [*taking.faults(name)] for name in names if name not in unsure}
+    faults = {name: [*taking.faults(name)] for name in names}
     result = graph.copy()
     following = {name: elements[name].followed() for name in names}
     # An incidence comes with the medium in which it is measured.

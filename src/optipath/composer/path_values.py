@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from optipath.values.use import Use
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     import networkx as nx
 
@@ -37,9 +37,8 @@ FOLLOWING = "following"
 class Values:
     """Every number of a path, gathered once: node by node, then link by link."""
 
-    def __init__(self, graph: nx.MultiDiGraph, doubtful: Collection[str] = ()) -> None:
+    def __init__(self, graph: nx.MultiDiGraph) -> None:
         self.graph = graph
-        self.doubtful = doubtful
 
     @cached_property
     def uses(self) -> tuple[Use, ...]:
@@ -55,12 +54,7 @@ class Values:
             if isinstance(use.value, CurveValue):
                 results = [each for one in results for each in one.with_arguments()]
                 break
-        if self.doubtful:
-            return tuple(use for use in results if not self._is_doubtful(use.value))
         return tuple(results)
-
-    def _is_doubtful(self, value: Any) -> bool:
-        return isinstance(value, Parameter) and value.name in self.doubtful
 
     def _is_taken_over(self, use: Use) -> bool:
         """Tell whether a value stands elsewhere, where what is wrong with it is told."""
@@ -149,8 +143,9 @@ class Values:
             for_complex=tuple([a for a in agreements if a.waits_for_complex]),
         )
 
+    @cached_property
     def faults(self) -> list[str]:
-        """Return what is wrong with the values that are known, a sentence each."""
+        """What is wrong with the values that are known, a sentence each."""
         results: list[str] = []
         faulty: set[str] = set()
         looked_at = set()
@@ -218,11 +213,11 @@ class Values:
                 f"elsewhere; use one Parameter, or two names"
             )
         first = next(u for u in self.uses if getattr(u.value, "name", None) == name)
-        return (
-            f"parameter '{name}' is {first.domain.described()} in {known.unit} at {first.owner}, "
-            f"and {use.domain.described()} in {use.value.unit} at {use.owner}; give it one unit, "
-            f"or use two names"
+        places = ", and ".join(
+            f"{use.domain.described()}{f' in {unit}' if unit else ''} at {use.owner}"
+            for use, unit in ((first, known.unit), (use, use.value.unit))
         )
+        return f"parameter '{name}' is {places}; give it one unit, or use two names"
 
     def _optional_faults(self) -> Iterator[str]:
         optional: dict[str, set[str]] = {}
@@ -258,13 +253,3 @@ def _yields(value: Parameter) -> bool:
 def _named(use: Use) -> str:
     """Return what has a value that is known: the parameter that is bound to it, or the field."""
     return use.value.name if isinstance(use.value, Parameter) else use.owner
-
-
-def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:
-    """Return the parameters of a graph of elements by name."""
-    return Values(graph).parameters
-
-
-def value_faults(graph: nx.MultiDiGraph) -> list[str]:
-    """Return what is wrong with the values of a graph of elements, a sentence each."""
-    return Values(graph).faults()

@@ -24,7 +24,7 @@ from optipath.values.operands import Operand
 from optipath.values.use import remember_sound
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     from optipath.composer.wiring import Ways
 
@@ -33,47 +33,29 @@ def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:
     """Raise unless a graph of elements can be composed."""
     whole, unfollowed = with_followed(graph)
     wiring = Wiring(whole)
-    if values is None or whole is not graph:
+    if values is None or whole is not values.graph:
         values = Values(whole)
     refuse_faults(values, wiring, Media(wiring), unfollowed)
 
 
 def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list[str]) -> None:
     """Raise unless values, wiring and media can be composed."""
-    faults = unfollowed + _faults(values, wiring, media, set(), whole=True)
+    faults = unfollowed + _faults(values, wiring, media)
     if faults:
         raise PathError(*faults)
     for _, element in values.graph.nodes(data="element"):
         remember_sound(element)
 
 
-def partial_faults(
-    graph: nx.MultiDiGraph, suspects: set[str], doubtful: Collection[str], *, whole: bool
-) -> list[str]:
-    """Return the faults of a graph of elements of which some may be missing."""
-    unsure: set[str] = set()
-    for together in nx.weakly_connected_components(graph):
-        if together & suspects:
-            unsure |= together
-    graph, unfollowed = with_followed(graph, unsure)
-    wiring = Wiring(graph)
-    values = Values(graph, doubtful)
-    return unfollowed + _faults(values, wiring, Media(wiring), unsure, whole=whole)
-
-
-def _faults(
-    values: Values, wiring: Wiring, media: Media, unsure: set[str], *, whole: bool
-) -> list[str]:
+def _faults(values: Values, wiring: Wiring, media: Media) -> list[str]:
     # In a cycle by mistake, light meets media and misses ends in consequence.
     cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring.untapped))
-    results = [*values.faults(), *placement_faults(wiring), *([] if cyclic else media.faults())]
+    results = [*values.faults, *placement_faults(wiring), *([] if cyclic else media.faults())]
     results += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
-    results += [*_dark_link_faults(wiring), *cyclic]
-    if whole:
-        results += _missing_end_faults(wiring)
+    results += [*_dark_link_faults(wiring), *cyclic, *_missing_end_faults(wiring)]
     results += [] if results else _own_faults(wiring)
     if wiring.starts and wiring.ends and not cyclic:
-        results += _reach_faults(wiring, unsure)
+        results += _reach_faults(wiring)
     return results
 
 
@@ -117,12 +99,11 @@ def _feeding_faults(wiring: Wiring) -> Iterator[str]:
             )
 
 
-def _reach_faults(wiring: Wiring, unsure: set[str]) -> Iterator[str]:
+def _reach_faults(wiring: Wiring) -> Iterator[str]:
     """Yield where a link is missing, and not what is cut off in consequence."""
     ports = {
         name: [(name, port) for port in (*element.inputs, *element.outputs)]
         for name, element in wiring.elements.items()
-        if name not in unsure
     }
     dark = [name for name, each in ports.items() if not wiring.lit.intersection(each)]
     missing = [name for name, each in ports.items() if not wiring.useful.intersection(each)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer.path_values import Values, parameters_of, value_faults
+from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
@@ -32,32 +32,30 @@ if TYPE_CHECKING:
     from optipath.values.use import Use
 
 
-def bind(
-    graph: nx.MultiDiGraph, values: Mapping[str, Any], *, for_good: bool = True
-) -> nx.MultiDiGraph:
-    """Return a copy of a graph of elements in which parameters have values."""
+def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> Values:
+    """Return the values of a copy of a path in which parameters have values."""
     if any(map(is_by_wavelength, values.values())):
-        values, placed = materials_placed(values, Values(graph).uses)
+        values, placed = materials_placed(values, known.uses)
         if placed and not for_good:
             raise ParameterError(
                 f"parameter '{min(placed)}' cannot have as its default what depends on "
                 f"other parameters; bind it, by path.bind({min(placed)}=...)"
             )
-        graph = exchanged(graph, placed)
+        known = Values(exchanged(known.graph, placed))
         # A material may follow from a wavelength to which the path is bound already.
-        graph = exchanged(graph, {n: p for n, p in parameters_of(graph).items() if p.bound})
-    known_values = Values(graph)
-    parameters, inputs = known_values.parameters, known_values.inputs()
-    known_names = [*parameters, *graph.graph["choices"]]
+        wholly = {name: p for name, p in known.parameters.items() if p.bound}
+        known = Values(exchanged(known.graph, wholly))
+    parameters, inputs = known.parameters, known.inputs()
+    known_names = [*parameters, *known.graph.graph["choices"]]
     bound: dict[str, Parameter] = {}
     faults: list[str] = []
     for name, value in values.items():
         if name not in parameters:
             faults.append(unknown_parameter(name, known_names))
         elif parameters[name].bound:
-            known = parameters[name]
+            bound_to = parameters[name].text(parameters[name].default)
             faults.append(
-                f"parameter '{name}' is bound to {known.text(known.default)} already; give the "
+                f"parameter '{name}' is bound to {bound_to} already; give the "
                 f"value where it is bound, or leave it open there"
             )
         elif value is None:
@@ -67,16 +65,16 @@ def bind(
             try:
                 # Whether it is one of degrees is looked at below, where all is well.
                 known_value = axes_for(name, value, inputs.uses)
-                result = replace(parameters[name], default=known_value, bound=True)
-                bound[name] = changed(result, bound=for_good)
+                parameter = replace(parameters[name], default=known_value, bound=True)
+                bound[name] = changed(parameter, bound=for_good)
             except OptipathError as fault:
-                faults += of_complex(fault.faults, Values(graph).uses, name, value)
-    copy = exchanged(graph, bound)
-    faults += value_faults(copy)
+                faults += of_complex(fault.faults, known.uses, name, value)
+    result = Values(exchanged(known.graph, bound))
+    faults += result.faults
     if faults:
         raise ParameterError(*faults)
     LargeAngles(inputs).look(values)
-    return copy
+    return result
 
 
 def materials_placed(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 import networkx as nx
 
 from optipath.composer.composer import Composer
-from optipath.composer.path_values import parameters_of
+from optipath.composer.path_values import Values
 from optipath.composer.validate import validate
 from optipath.composer.wiring import KEEPABLE, LOOPS
 from optipath.elements.element import Chainable, Element, NamedElement, begun
@@ -94,6 +94,7 @@ class PathGraph(Chainable):
         self._graph = nx.MultiDiGraph(declared=names, loops=loops, choices={})
         # What the graph has been composed to, until it changes.
         self._plans: dict[str | Composer, Plan] = {}
+        self._gathered: Values | None = None
 
     @property
     def graph(self) -> nx.MultiDiGraph:
@@ -107,7 +108,7 @@ class PathGraph(Chainable):
     @property
     def parameters(self) -> dict[str, Parameter]:
         """The parameters of all elements and links, by name, bound ones included."""
-        return parameters_of(self._graph)
+        return dict(self._values.parameters)
 
     @property
     def choices(self) -> dict[str, PlaceChoice]:
@@ -177,7 +178,7 @@ class PathGraph(Chainable):
             does not exist.
         """
         add(self._graph, name, element, frames)
-        self._plans.clear()
+        self._changed()
         return Node(self, name)
 
     def connect(self, leaves: str, enters: str, azimuth: Any = None, *, tap: bool = False) -> None:
@@ -202,7 +203,7 @@ class PathGraph(Chainable):
             already.
         """
         connect(self._graph, leaves, enters, azimuth, tap)
-        self._plans.clear()
+        self._changed()
 
     def disconnect(self, leaves: str, enters: str | None = None) -> None:
         """Take a link out.
@@ -219,7 +220,7 @@ class PathGraph(Chainable):
             If there is no such link, or there are several.
         """
         disconnect(self._graph, leaves, enters)
-        self._plans.clear()
+        self._changed()
 
     def insert(
         self, name: str, element: Element, behind: str | None = None, *, before: str | None = None
@@ -343,7 +344,7 @@ class PathGraph(Chainable):
         if faults := choice_faults(self._graph, choice):
             raise PathError(*faults)
         self._graph.graph["choices"] = self.choices | {name: choice}
-        self._plans.clear()
+        self._changed()
 
     def __rshift__(self, behind: Element | NamedElement | Self) -> Self:
         """Return the path in which light goes on from here to what stands behind.
@@ -369,7 +370,7 @@ class PathGraph(Chainable):
         PathError
             A sentence for each fault.
         """
-        validate(self._graph)
+        validate(self._graph, self._values)
 
     def bind(self, /, *unnamed: Never, **values: Any) -> Self:
         """Return a copy of the path in which parameters have these values for good.
@@ -395,7 +396,7 @@ class PathGraph(Chainable):
         if unnamed:
             opened = [name for name, p in self.parameters.items() if not p.bound]
             check_named("bind", unnamed, opened)
-        path = self._with(with_arguments(self._graph, values, for_good=True))
+        path = self._having(with_arguments(self._values, values, for_good=True))
         if any(map(is_by_wavelength, values.values())):
             path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
         return path
@@ -417,7 +418,7 @@ class PathGraph(Chainable):
         >>> crossed.trace().intensity, crossed.trace(angle=0.0).intensity
         (array(0.), array(0.5))
         """
-        return self._with(with_arguments(self._graph, values, for_good=False))
+        return self._having(with_arguments(self._values, values, for_good=False))
 
     def reading(self, reads: str) -> Self:
         """Return a copy of the path whose detectors and dumps all read this, and no more.
@@ -629,7 +630,7 @@ class PathGraph(Chainable):
         """Return the plan of a default `Composer`, composed once and kept."""
         # By a word, which costs each run less to look up than a composer.
         if "usual" not in self._plans:
-            self._plans["usual"] = Composer().compose(self._graph)
+            self._plans["usual"] = Composer().compose(self._values)
         return self._plans["usual"]
 
     def plan_by(self, composer: Composer) -> Plan:
@@ -644,7 +645,7 @@ class PathGraph(Chainable):
             argument, example = shown(composer), "op.Composer(engine='numpy')"
             raise ComposerError(f"a plan is made by a Composer, not {argument}; write {example}")
         if composer not in self._plans:
-            self._plans[composer] = composer.compose(self._graph)
+            self._plans[composer] = composer.compose(self._values)
         return self._plans[composer]
 
     def sweep(
@@ -803,13 +804,29 @@ class PathGraph(Chainable):
 
     def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
         edit(self._graph, lambda graph: change(graph, *arguments))
-        self._plans.clear()
+        self._changed()
 
     def _append(self, port: str, others: PathGraph) -> str:
         """Add other elements behind a port, and return the name of the last of them."""
         last = append(self._graph, port, others._graph)
-        self._plans.clear()
+        self._changed()
         return last
+
+    @property
+    def _values(self) -> Values:
+        """The values of the path, gathered once until it changes."""
+        if self._gathered is None:
+            self._gathered = Values(self._graph)
+        return self._gathered
+
+    def _changed(self) -> None:
+        self._plans.clear()
+        self._gathered = None
+
+    def _having(self, values: Values) -> Self:
+        path = self._with(values.graph)
+        path._gathered = values  # noqa: SLF001 - its own
+        return path
 
     def _with(self, graph: nx.MultiDiGraph) -> Self:
         path = type(self)(self.description, self.cases)

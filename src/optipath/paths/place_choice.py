@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from optipath.composer.path_values import Values
 from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
 from optipath.errors import Fault, ParameterError, PathError, collecting, shown, unknown
@@ -89,17 +90,16 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
     return faults
 
 
-def with_arguments(
-    graph: nx.MultiDiGraph, values: dict[str, Any], *, for_good: bool
-) -> nx.MultiDiGraph:
-    """Return a copy of the graph with nodes in the places chosen, and other values given."""
-    graph = graph.copy()
+def with_arguments(known: Values, values: dict[str, Any], *, for_good: bool) -> Values:
+    """Return the values of a path with nodes in the places chosen, and other values given."""
     faults: list[str] = []
-    for name in [name for name in graph.graph["choices"] if name in values]:
-        with collecting(faults, PathError):
-            put_in_place(graph, name, values.pop(name))
+    if places := [name for name in known.graph.graph["choices"] if name in values]:
+        known = Values(known.graph.copy())
+        for name in places:
+            with collecting(faults, PathError):
+                put_in_place(known.graph, name, values.pop(name))
     with collecting(faults, ParameterError):
-        graph = bind(graph, values, for_good=for_good)
+        known = bind(known, values, for_good=for_good)
     if faults:
         raise ParameterError(*faults)
-    return graph
+    return known

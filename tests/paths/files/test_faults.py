@@ -73,14 +73,18 @@ ROOT_CAUSES = [
     ('"30 deg"', '"30 dge"', "did you mean 'deg'?"),
     *(('"30 deg"', '"100 deg"', "outside its range"), ('"30 deg"', '"up"', "no word 'up'")),
     ('"30 deg"', "true", "true is not a number"),
-    ('unit = "deg"\n', "", "theta.range: '0 deg' has the unit 'deg', but a pure number is asked"),
+    ('unit = "deg"\n', "", "'theta' has values in deg, but no unit; write unit = \"deg\""),
     (
         DECLARED,
         "default = 45",
         'in no unit, but mirror.incidence takes an angle; write unit = "deg"',
     ),
     ('unit = "deg"', 'unit = "degg"', "unit 'degg' is unknown; did you mean 'deg'?"),
-    ('unit = "deg"', 'unit = "nm"', "parameters.theta.range: '0 deg' is no length"),
+    (
+        'unit = "deg"',
+        'unit = "nm"',
+        "minimum of parameter 'theta': '0 deg' is no length | maximum of",
+    ),
     (DECLARED, 'default = "3 nm"\nunit = "nm"', "is in nm, but mirror.incidence takes an angle"),
     ('unit = "deg"', "unit = 3", "'unit' must be a text"),
     ('["0 deg", "90 deg"]', "[0, 90]", "parameters.theta.range: 0 has no unit"),
@@ -96,7 +100,7 @@ ROOT_CAUSES = [
     (
         "default = 1.2",
         'default = "1.2 nm"',
-        "'n': '1.2 nm' has the unit 'nm', but",
+        "parameters.n: parameter 'n' has values in nm, but no unit",
     ),
     ("[parameters.theta]", "[parameters.thta]", "filter.angle and elements.mirror.incidence"),
     (
@@ -118,7 +122,7 @@ ROOT_CAUSES = [
     ("index =", "indx =", "key 'indx' is unknown; did you mean 'index'?"),
     *((f"index = {INDEX}\n", "", "'index' is missing"), (INDEX, '"gold"', "'gold'")),
     *((INDEX, "[]", "an empty list is no value"), (INDEX, f"{10**400}", "too large a number")),
-    (INDEX, "{ n = [1, 2], k = [3, 4, 5] }", "no element takes it"),
+    (INDEX, "{ n = [1, 2], k = [3, 4, 5] }", "mirror.index.n"),
     (INDEX, '{ n = "$nn", k = 7.0 }', "elements.mirror.index.n: parameter '$nn' is not"),
     (INDEX, '{ n = "$n", kk = 7.0 }', "key 'kk' is unknown"),
     ("k = 7.0", "k = -7.0", "mirror.index.k is -7"),

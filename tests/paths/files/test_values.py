@@ -215,7 +215,7 @@ FIELDS = [
 WAVELENGTHS = [
     ("default = 516", "default: 516 has no unit, but a length is asked for; write '516 nm'"),
     ("range = [400, 700]", "range: 400 has no unit"),
-    ('default = "30 deg"', "default: parameter 'wavelength': '30 deg' is no length"),
+    ('default = "30 deg"', "parameter 'wavelength': '30 deg' is no length"),
     ('default = "2.4 ev"', "did you mean 'eV'?"),
     ('unit = "eV"\ndefault = 2.4', "unit 'eV' is unknown; there are: deg"),
     ('range = ["700 nm", "400 nm"]', "begin with the lower end"),

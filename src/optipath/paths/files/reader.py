@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.composer.path_values import Values
@@ -16,20 +15,20 @@ from optipath.materials.quantities import ANGLE
 from optipath.paths.files import schema
 from optipath.paths.files.schema import FORMAT, Faults, checked_table
 from optipath.paths.files.toml import parsed
-from optipath.paths.files.values import decode, decode_argument, wavelength_names
+from optipath.paths.files.values import decode, decode_argument, text_or_number, wavelength_names
 from optipath.paths.path_graph import PathGraph
 from optipath.values.cases import Case, name_faults
 from optipath.values.curve_value import CurveValue
-from optipath.values.domains import Domain
-from optipath.values.parameters import Parameter, checked_name
+from optipath.values.parameters import Parameter
 from optipath.values.units import USUAL_UNITS, dimension_of, with_article
 from optipath.values.use import checked_later
-from optipath.values.wavelength import WAVELENGTH, Wavelength, falls_with_wavelength
+from optipath.values.wavelength import WAVELENGTH, Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.elements.element import Element
+    from optipath.values.use import Use
 
     Table: TypeAlias = dict[str, Any]
 
@@ -57,8 +56,8 @@ def path_of_text(text: str, source: str, about: str = "") -> PathGraph:
 def read(document: Table) -> PathGraph:
     """Return the path that a parsed TOML document describes.
 
-    Faults of parameters, elements and links are reported together, then those of units, of cases,
-    of the whole path, and of choices.
+    Faults of parameters, elements and links are reported together, then those of units, of the
+    whole path, of cases, and of choices.
     """
     faults = Faults(schema.type_faults("the preset", document, schema.TOP))
     if "format" not in document:
@@ -80,21 +79,16 @@ def read(document: Table) -> PathGraph:
             faults.refuse(_ENOUGH)
     faults.refuse()
     values = Values(path.graph)
+    faults += _unit_faults(values, parameters)
+    faults.refuse()
+    validate(path.graph, values)
     faults += [
         f"parameter '{name}' is declared, but no element takes it"
         for name in parameters
         if name not in values.parameters
     ]
-    faults += _unit_faults(values, parameters)
+    _read_cases(path, sections["cases"], {**values.parameters, **parameters}, values, faults)
     faults.refuse()
-    for name, table in sections["cases"].items():
-        faults += name_faults(name)
-        case = faults.attempt(f"cases.{name}", _case, path, table, values, parameters)
-        if case is not None:
-            path.cases[name] = case
-        faults.refuse(_ENOUGH)
-    faults.refuse()
-    validate(path.graph, values)
     for name, table in document.get("choices", {}).items():
         faults.attempt(f"choices.{name}", _offer, path, name, table)
     faults.refuse()
@@ -133,49 +127,36 @@ def _parameters(sections: Mapping[str, Table], faults: Faults) -> dict[str, Para
 def _parameter(name: str, table: Any, of_light: bool) -> Parameter:  # noqa: FBT001
     """Return the parameter that a table declares, of the light's wavelength or of another."""
     checked_table(table, schema.PARAMETER)
-    checked_name(name)
     unit = table.get("unit", WAVELENGTH.unit if of_light else "")
-    dimension = dimension_of(unit)
-    of_light = of_light and dimension == "length"
-    domain = WAVELENGTH if of_light else Domain("value", dimension, own_unit=unit)
-    kind = Wavelength if of_light else Parameter
+    kind = Wavelength if of_light and dimension_of(unit) == "length" else Parameter
     faults = Faults()
-    words = {
-        word: faults.attempt(f".words.{word}", decode, raw, domain, {})
+    keys: Table = {"help": ""} | {k: table[k] for k in ("help", "optional", "bound") if k in table}
+    keys["words"] = {
+        word: faults.attempt(f".words.{word}", text_or_number, raw, unit)
         for word, raw in table.get("words", {}).items()
     }
-    limits = faults.attempt(".range", _limits, table["range"], domain) if "range" in table else {}
+    if "range" in table:
+        ends = faults.attempt(".range", _limits, table["range"], unit)
+        keys |= zip(("minimum", "maximum"), ends or (), strict=False)
+    default = table.get("default")
+    if isinstance(default, (list, dict)):
+        bare = kind(name, None, unit, **keys)
+        default = faults.attempt(".default", decode_argument, default, bare)
+    elif default is not None:
+        default = faults.attempt(".default", text_or_number, default, unit)
     faults.refuse()
-    words = {word: _as_text(number, dimension) for word, number in words.items()}
-    keys: Table = {"unit": unit, "words": words, "help": table.get("help", "")}
-    keys |= {end: _as_text(limit, dimension) for end, limit in (limits or {}).items()}
-    keys["optional"] = table.get("optional", False)
-    default = None
-    if "default" in table:
-        bare = kind(name, None, **keys)
-        default = faults.attempt(".default", decode_argument, table["default"], bare)
-    faults.refuse()
-    return kind(name, _as_text(default, dimension), bound=table.get("bound", False), **keys)
+    result = kind(name, default, unit, **keys)
+    if result.unit != unit:
+        wrong = f"parameter '{name}' has values in {result.unit}, but no unit"
+        raise PresetError(Fault(wrong, f'write unit = "{result.unit}"'))
+    return result
 
 
-def _as_text(value: Any, dimension: str) -> Any:
-    """Return an angle that has been read as a text again: a plain number might be one of degrees.
-
-    >>> _as_text(0.5, "angle"), _as_text(0.5, "length")
-    ('0.5 rad', 0.5)
-    """
-    is_angle = dimension == "angle" and type(value) is float and math.isfinite(value)
-    return f"{value} rad" if is_angle else value
-
-
-def _limits(raw: list[Any], domain: Domain) -> Table:
-    """Return the limits of a parameter, the lower one first where photon energies rise."""
+def _limits(raw: list[Any], unit: str) -> list[Any]:
+    """Return the limits of a parameter."""
     if len(raw) != 2:
         raise PresetError(f"'range' must have two ends, not {len(raw)}")
-    ends = [decode(end, domain, {}) for end in raw]
-    if domain is WAVELENGTH and all(map(falls_with_wavelength, raw)):
-        ends.sort()
-    return dict(zip(("minimum", "maximum"), ends, strict=True))
+    return [text_or_number(end, unit) for end in raw]
 
 
 def _add(path: PathGraph, name: str, table: Any, parameters: Mapping[str, Parameter]) -> None:
@@ -232,41 +213,57 @@ def _offer(path: PathGraph, name: str, table: Any) -> None:
     path.offer(name, table["element"], table["behind"], table.get("help", ""))
 
 
-def _case(path: PathGraph, table: Any, values: Values, parameters: Mapping[str, Parameter]) -> Case:
-    """Return the case that a table describes."""
-    checked_table(table, schema.CASE)
-    faults, known = Faults(), {**values.parameters, **parameters}
-    results = {}
-    for name, raw in table.get("values", {}).items():
-        if name not in known:
-            faults.append(Fault(f"parameter '{name}' is unknown{did_you_mean(name, known)}"))
-            continue
-        value = faults.attempt(f".{name}", decode_argument, raw, known[name], values.uses)
-        if value is not None:
-            faults.attempt(f".{name}", known[name].resolve, value)
-            faults += [
-                Fault.of(doubt).under(f".{name}")
-                for use in values.uses
-                if isinstance(use.value, Parameter) and use.value.name == name
-                if (doubt := use.doubt(value))
-            ]
-            results[name] = value
-    published = table.get("published", {})
+def _read_cases(
+    path: PathGraph, tables: Table, known: Mapping[str, Parameter], values: Values, faults: Faults
+) -> None:
+    """Add the cases that tables describe; what several of them give is decoded once."""
     ends = [name for name in path if not path.element(name).outputs]
-    for name, stokes in published.items():
-        if name not in ends:
-            cure = did_you_mean(name, ends)
-            faults.append(Fault(f"'{name}' is no detector{cure}", place=".published"))
-        elif not _is_stokes(stokes):
-            reason = f"{shown(stokes)} must be four finite numbers"
-            faults.append(Fault(reason, place=f".published.{name}"))
-    faults.refuse()
-    return Case(results, published, table.get("note", ""))
+    uses: dict[str, list[Use]] = {name: [] for name in known}
+    for use in values.uses:
+        if isinstance(use.value, Parameter):
+            uses.setdefault(use.value.name, []).append(use)
+    decoded: dict[tuple[str, str], Any] = {}
+    for case, table in tables.items():
+        faults += name_faults(case)
+        place, before = f"cases.{case}", len(faults)
+        if faults.attempt(place, checked_table, table, schema.CASE) is None:
+            continue
+        arguments = table.get("values", {})
+        for name, raw in arguments.items():
+            if name not in known:
+                unknown = f"parameter '{name}' is unknown{did_you_mean(name, known)}"
+                faults.append(Fault(unknown, place=place))
+            elif (name, repr(raw)) not in decoded:
+                at = f"{place}.{name}"
+                read = faults.attempt(at, _argument, raw, known[name], uses[name])
+                decoded[name, repr(raw)] = read
+        published = table.get("published", {})
+        for name, stokes in published.items():
+            if name not in ends:
+                wrong = f"'{name}' is no detector{did_you_mean(name, ends)}"
+                faults.append(Fault(wrong, place=f"{place}.published"))
+            elif not _is_stokes(stokes):
+                wrong = f"{shown(stokes)} must be four finite numbers"
+                faults.append(Fault(wrong, place=f"{place}.published.{name}"))
+        if len(faults) == before:
+            given = {name: decoded[name, repr(raw)] for name, raw in arguments.items()}
+            path.cases[case] = Case(given, published, table.get("note", ""))
+        faults.refuse(_ENOUGH)
+
+
+def _argument(raw: Any, parameter: Parameter, uses: list[Use]) -> Any:
+    """Return what a case gives for a parameter, which is allowed wherever that stands."""
+    value = decode_argument(raw, parameter, uses)
+    parameter.resolve(value)
+    if doubts := [doubt for use in uses if isinstance(value, list) and (doubt := use.doubt(value))]:
+        raise PresetError(*doubts)
+    return value
 
 
 def _is_stokes(stokes: Any) -> bool:
     return (
         isinstance(stokes, list)
         and len(stokes) == 4
-        and all(type(part) in (int, float) and abs(part) < 1e308 for part in stokes)
+        and {*map(type, stokes)} <= {int, float}
+        and all(map((1e308).__gt__, map(abs, stokes)))
     )

@@ -127,6 +127,11 @@ def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) ->
     return _number(raw, parameter.unit)
 
 
+def text_or_number(raw: Any, unit: str) -> Any:
+    """Return a text as it is, which a `Parameter` reads, or a number, which has no unit."""
+    return raw if isinstance(raw, str) else _number(raw, unit)
+
+
 def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex_parts) -> Any:
     """Write a value so that decoding gives it back."""
     if isinstance(value, np.generic):

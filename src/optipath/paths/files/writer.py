@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.path_values import parameters_of
+from optipath.composer.path_values import Values
 from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean
 from optipath.materials.index_domains import INDEX
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
     """Return the text of a preset file."""
     faults = Faults()
-    parameters = parameters_of(graph)
+    parameters = Values(graph).parameters
     top: dict[str, Any] = {"format": FORMAT, "description": description}
     if graph.graph["loops"] != LOOPS[0]:
         top["loops"] = graph.graph["loops"]
