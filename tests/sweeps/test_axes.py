@@ -157,7 +157,7 @@ def test_the_axis_of_an_array_with_units_has_the_very_numbers_of_its_texts(data)
         (labelled([10.0, 48.0]), "is a DataArray without a unit; write one of deg, rad"),
         (labelled([10.0, 48.0], "degrees"), "did you mean 'deg'?"),
         (labelled([10.0, 48.0], "nm"), "'1 nm' is no angle"),
-        (labelled([10.0, 48.0], 3), "the unit of parameter 'delta' is 3"),
+        (labelled([10.0, 48.0], 3), "is a DataArray of unit 3; write one of deg"),
         (labelled([10 + 1j], "deg"), "'(10+1j) deg' is not a quantity"),
         (labelled([True], "deg"), "must be a number"),
         (np.zeros((2, 3)), "has the shape (2, 3), and an axis has one dimension"),
@@ -385,12 +385,14 @@ def test_tables_are_no_axes_and_no_coords_and_what_to_give_is_told():
     df = pandas.DataFrame(TWO)
     for table, told in (
         ({"delta": df["delta"]}, "give its numbers alone, as .to_numpy()"),
-        ({"delta": df}, "is a DataFrame; give one of its columns, such as df['delta'].to_numpy()"),
-        ({"delta": xr.Dataset(coords=TWO)}, "is a Dataset; give one of its coo"),
+        ({"delta": df}, "is a DataFrame; give the numbers of one of its columns"),
+        (
+            {"delta": xr.Dataset(coords=TWO)},
+            "is a Dataset; give the numbers of one of its col",
+        ),
     ):
         (fault,) = refused(table)
         assert told in fault
     (fault,) = refused(coords=df)
-    assert fault.startswith("coords is a DataFrame; give a CSV file, a Dataset, or columns by name")
-    assert "{'delta': df['delta'].to_numpy()}, and zip=" in fault
+    assert fault.startswith("coords is a DataFrame; give the name of a CSV file, a Data")
     assert grid(coords={"delta": df["delta"].to_numpy()}).sizes == {"delta": 2}

@@ -15,11 +15,11 @@ from optipath.plan.inputs import LargeAngles
 from optipath.sweeps.coords import (
     CoordinateArgument,
     coords_axes,
-    cure_of_table,
     has_coordinates,
+    in_base_units,
     is_labelled,
     read_column,
-    read_labelled,
+    unit_of_array,
 )
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from optipath.plan.inputs import Inputs
-    from optipath.values.use import Use
 
 
 _SHORT = 16
@@ -83,9 +82,11 @@ def grid_of(
     grid = SweepGrid(tuple(axes), fixed, labels)
     is_short = max(_LARGE, _SHORT * sum(map(len, axes))) < grid.points
     ranges = ranges or bool(faults) or is_short
-    faults += axis_faults(inputs, grid, ranges=ranges)
-    if not faults and ranges:
-        faults = computed_faults(inputs, grid)
+    faults += _axis_faults(inputs, grid, ranges=ranges)
+    if not faults and ranges and inputs.computed:
+        with collecting(faults):
+            # Along the dimensions of what it follows from, and nothing is laid out.
+            replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
     LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
@@ -96,18 +97,18 @@ def _read(
     inputs: Inputs, several: Mapping[str, CoordinateArgument], faults: list[str]
 ) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
+    idle = {name for name, each in several.items() if isinstance(each.value, IdleValues)}
+    faults += unknown_names(inputs, {n: g.value for n, g in several.items() if n not in idle})
     results = {}
-    messages = {n: g.value for n, g in several.items() if not isinstance(g.value, IdleValues)}
-    faults += unknown_names(inputs, messages)
     for name, (value, _) in several.items():
-        if name not in inputs.open and not isinstance(value, IdleValues):
-            continue
-        with collecting(faults):
-            if isinstance(value, TextColumn):
-                results[name] = read_column(inputs, value)
-            else:
-                is_read = isinstance(value, AxisValues)
-                results[name] = value if is_read else read_values(inputs, name, value)
+        if name in inputs.open or name in idle:
+            with collecting(faults):
+                if isinstance(value, AxisValues):
+                    results[name] = value
+                elif isinstance(value, TextColumn):
+                    results[name] = read_column(inputs, value)
+                else:
+                    results[name] = read_values(inputs, name, value)
     return results
 
 
@@ -142,34 +143,36 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         raise ParameterError(
             f"parameter '{name}' is a cosine and a sine, which no axis shows; give the angle"
         )
-    if cure := cure_of_table(name, value):
+    if hasattr(value, "data_vars") or hasattr(value, "columns"):
         raise ParameterError(
-            f"parameter '{name}' is a {type(value).__name__}; give {cure}, or all by coords="
+            f"parameter '{name}' is a {type(value).__name__}; give the numbers of one of its "
+            f"columns or coordinates, or all by coords="
         )
     check_known(f"parameter '{name}' of a sweep", value)
-    parameter = inputs.open[name]
-    if is_labelled(value):
-        return _of_one_dimension(name, read_labelled(parameter, value, inputs.uses))
+    parameter, labelled = inputs.open[name], is_labelled(value)
     if isinstance(value, str):
         several = read_axis_text(value, parameter, "", inputs.uses)
         if several is not None:
             return several
-    inputs.ask_in_doubt(name, value)
-    array = as_argument(f"parameter '{name}'", known(value), ParameterError)
+    if not labelled:
+        inputs.ask_in_doubt(name, value)
+    numbers = value.values if labelled else known(value)
+    array = as_argument(f"parameter '{name}'", numbers, ParameterError)
+    _check_one_dimension(name, array.shape)
     if array.dtype.kind in "UO":
-        _of_one_dimension(name, AxisValues(array, "", array))
-        return read_entries(array.ravel().tolist(), parameter, "", inputs.uses).reshaped(
-            array.shape
-        )
+        texts = read_entries(array.ravel().tolist(), parameter, "", inputs.uses)
+        return texts.reshaped(array.shape)
     if array.dtype.kind not in "iufc":
-        parameter.resolve(value)  # Which says what is wrong with it.
-    array = locked(array.astype(np.float64) if array.dtype.kind in "iu" else array.copy())
-    base = BASE_UNITS.get(dimension_of(parameter.unit), "")
-    return _of_one_dimension(name, AxisValues(array, base, array))
+        parameter.resolve(numbers)  # Which says what is wrong with it.
+    array = array.astype(np.float64) if array.dtype.kind in "iu" else array.copy()
+    if labelled:
+        unit = unit_of_array(parameter, value.attrs.get("units", ""))
+        return AxisValues(array, unit, in_base_units(parameter, array, unit))
+    array = locked(array)
+    return AxisValues(array, BASE_UNITS.get(dimension_of(parameter.unit), ""), array)
 
 
-def _of_one_dimension(name: str, result: AxisValues) -> AxisValues:
-    shape = result.shown.shape
+def _check_one_dimension(name: str, shape: tuple[int, ...]) -> None:
     if len(shape) > 1:
         raise ParameterError(
             f"parameter '{name}' has the shape {shape}, and an axis has one dimension; give its "
@@ -177,7 +180,6 @@ def _of_one_dimension(name: str, result: AxisValues) -> AxisValues:
         )
     if 0 in shape:
         raise ParameterError(f"parameter '{name}' has no values; give one at least")
-    return result
 
 
 _AS = "zip=('a', 'b'), zip=[('a', 'b'), ('c', 'd')] or zip={'point': ('a', 'b')}"
@@ -205,29 +207,26 @@ def zipped_dimensions(
             faults.append(f"zip is {shown(zipped)}, and a group is two names or more; write {_AS}")
             return {}
         dimension = given or "_".join(names)
-        messages = [
+        wrong = [
             f"zip names '{name}', which has no axis of its own{did_you_mean(name, lengths)}"
             for name in names
             if name not in lengths
         ]
-        messages += [
+        wrong += [
             f"zip names '{name}' twice; write it in one group, once"
             for name in dict.fromkeys(names)
             if name in results or names.count(name) > 1
         ]
         if dimension in parameters or dimension in results.values():
-            messages.append(
+            wrong.append(
                 f"zip calls a dimension '{dimension}', which is the name of a parameter or of "
                 f"another; give it another, such as zip={{'point': {(*names,)}}}"
             )
-        if not messages and len({lengths[name] for name in names}) > 1:
+        if not wrong and len({lengths[name] for name in names}) > 1:
             counted = listed([f"{lengths[name]} of '{name}'" for name in names])
-            messages.append(
-                f"zip pairs values one by one, but there are {counted}; give as many each"
-            )
-        faults += messages
-        if not messages:
-            results |= dict.fromkeys(names, dimension)
+            wrong.append(f"zip pairs values one by one, but there are {counted}; give as many each")
+        faults += wrong
+        results |= {} if wrong else dict.fromkeys(names, dimension)
     return results
 
 
@@ -253,7 +252,7 @@ KEYWORDS = frozenset(PathGraph.sweep.__kwdefaults__ or ())
 """What `PathGraph.sweep` takes by name beside parameters."""
 
 
-def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list[str]:
+def _axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list[str]:
     """Return what is wrong with values of a grid, each axis by itself."""
     faults = broadcast_fault({"a sweep": grid.shape})
     arguments = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
@@ -263,18 +262,18 @@ def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list
             if any(use.domain.takes_any for use in uses):
                 inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
             if ranges:
-                _alone(inputs, name, uses).resolve({name: value})
-    return faults
-
-
-def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
-    """Return what is wrong with what follows from values of a grid, each of which is well."""
-    if not inputs.computed:
-        return []
-    faults: list[str] = []
-    with collecting(faults):
-        # Along the dimensions of what it follows from, and nothing is laid out.
-        replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
+                # As if there were no other parameters.
+                alone = replace(
+                    inputs,
+                    open={name: inputs.open[name]},
+                    uses=uses,
+                    shapes={},
+                    known=(),
+                    agreements=(),
+                    for_complex=(),
+                    computed=(),
+                )
+                alone.resolve({name: value})
     return faults
 
 
@@ -302,20 +301,6 @@ def unnamed_arrays(inputs: Inputs, arguments: Collection[str]) -> list[str]:
                 f"default, which is no axis; give it, {name}=..., or one value"
             )
     return faults
-
-
-def _alone(inputs: Inputs, name: str, uses: tuple[Use, ...]) -> Inputs:
-    """Return what may be given for one parameter, as if there were no others."""
-    return replace(
-        inputs,
-        open={name: inputs.open[name]},
-        uses=uses,
-        shapes={},
-        known=(),
-        agreements=(),
-        for_complex=(),
-        computed=(),
-    )
 
 
 _OPTIONS = frozenset(each.name for each in fields(Composer)) - {"keep"}

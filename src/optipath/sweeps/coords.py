@@ -12,21 +12,18 @@ import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.labels import DETECTOR, is_variable
-from optipath.values.arrays import as_argument
 from optipath.values.columns import NO_UNIT, columns_of, first_of, missing_unit
 from optipath.values.text import AxisValues, read_entries
 from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     import numpy.typing as npt
-    import xarray as xr
 
     from optipath.plan.inputs import Inputs
     from optipath.values.columns import TextColumn
     from optipath.values.parameters import Parameter
-    from optipath.values.use import Use
 
 
 _ROWS = "point"
@@ -62,16 +59,10 @@ def coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Coo
         return {}
     if isinstance(coords, Mapping):
         return {str(name): CoordinateArgument(value) for name, value in coords.items()}
-    name = next(iter(inputs.open), "delta")
-    if cure_of_table(name, coords):
-        faults.append(
-            f"coords is a {type(coords).__name__}; give a CSV file, a Dataset, or columns by name: "
-            f"{{'{name}': df['{name}'].to_numpy()}}, and zip= where they vary together"
-        )
-        return {}
+    what = f"a {type(coords).__name__}" if hasattr(coords, "columns") else shown(coords)
     faults.append(
-        f"coords is {shown(coords)}; give the name of a CSV file, a Dataset, or a mapping such as "
-        f"{{'delta': [...]}}"
+        f"coords is {what}; give the name of a CSV file, a Dataset, or columns by name, such as "
+        f"{{'delta': [...]}}, and zip= where they vary together"
     )
     return {}
 
@@ -118,11 +109,8 @@ def _of_dataset(inputs: Inputs, argument: Any, faults: list[str]) -> dict[str, C
 
 def _order_of_dimensions(argument: Any) -> list[Any]:
     """Return the dimensions, as data have them, and then as coordinates do."""
-    data = [*argument.data_vars.values()] if hasattr(argument, "data_vars") else [argument]
-    data = sorted(
-        (each for each in data if hasattr(each, "dims")), key=lambda each: -len(each.dims)
-    )
-    several = [*data, *getattr(argument, "coords", argument).values()]
+    data = sorted(getattr(argument, "data_vars", {}).values(), key=lambda each: -each.ndim)
+    several = [*data, argument, *getattr(argument, "coords", argument).values()]
     return list(dict.fromkeys(dimension for each in several for dimension in each.dims))
 
 
@@ -159,52 +147,24 @@ def has_coordinates(value: Any) -> bool:
     )
 
 
-def cure_of_table(name: str, value: Any) -> str:
-    """Return what of a table is an axis; ``""`` for what is no table of several.
-
-    >>> cure_of_table("delta", [0.5])
-    ''
-    """
-    if has_coordinates(value) and not is_labelled(value):
-        return f"one of its coordinates, such as ds['{name}']"
-    if hasattr(value, "columns") and hasattr(value, "to_numpy"):
-        return f"one of its columns, such as df['{name}'].to_numpy()"
-    return ""
-
-
-def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:
-    """Return the values of an array with a unit. Units: the result in degrees."""
-    numbers = as_argument(f"parameter '{parameter.name}'", array.values, ParameterError)
-    if numbers.dtype.kind in "UO":
-        return read_entries(numbers.ravel().tolist(), parameter, "", uses).reshaped(numbers.shape)
-    if numbers.dtype.kind not in "iufc":
-        parameter.resolve(numbers)  # Which says what is wrong with it.
-    numbers = numbers.astype(np.float64) if numbers.dtype.kind in "iu" else numbers.copy()
-    unit = _unit_of(parameter, array.attrs.get("units", ""))
-    return AxisValues(numbers, unit, _in_base_units(parameter, numbers, unit))
-
-
-def _unit_of(parameter: Parameter, unit: Any) -> str:
+def unit_of_array(parameter: Parameter, unit: Any) -> str:
     """Return the unit that an attribute says."""
-    if not isinstance(unit, str):
-        raise ParameterError(
-            f"the unit of parameter '{parameter.name}' is {shown(unit)}; write a text into "
-            f".attrs['units']"
-        )
+    unit = unit.strip() if isinstance(unit, str) else unit
     dimension = dimension_of(parameter.unit)
-    if unit.strip() in _NO_UNIT:
-        if dimension:
-            known = ", ".join(units_of(dimension))
-            raise ParameterError(
-                f"parameter '{parameter.name}' is a DataArray without a unit; write one of {known} "
-                f"into .attrs['units']"
-            )
+    if not isinstance(unit, str) or (dimension and unit in _NO_UNIT):
+        why = f"is a DataArray of unit {shown(unit)}" if unit else "is a DataArray without a unit"
+        known = ", ".join(units_of(dimension)) if dimension else NO_UNIT
+        raise ParameterError(
+            f"parameter '{parameter.name}' {why}; write one of {known} into .attrs['units']"
+        )
+    if unit in _NO_UNIT:
         return ""
-    parameter.parse(f"1 {unit.strip()}")
-    return unit.strip()
+    parameter.parse(f"1 {unit}")
+    return unit
 
 
-def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -> npt.NDArray[Any]:
+def in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -> npt.NDArray[Any]:
+    """Return numbers of a unit as the parameter has them."""
     if unit in ("", BASE_UNITS.get(dimension_of(parameter.unit))):
         return numbers.copy()
     known, is_real = UNITS.get(unit), numbers.dtype.kind == "f"
@@ -220,24 +180,25 @@ def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -
 
 
 def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
-    """Return the values of a column."""
-    name = column.name
-    if lacking := missing_unit(column, inputs.open[name]):
+    """Return the values of a column; faults are told by the lines of their cells."""
+    parameter = inputs.open[column.name]
+    if lacking := missing_unit(column, parameter):
         raise ParameterError(f"{column.file}: {lacking}")
+
+    def read(texts: Sequence[str]) -> AxisValues:
+        result = read_entries(texts, parameter, "", inputs.uses)
+        # Its range.
+        inputs.numbers_for(column.name, result.given if len(texts) > 1 else result.given[0])
+        return result
+
     try:
-        return _read(inputs, name, column.texts)
+        return read(column.texts)
     except OptipathError as fault:
         message: list[str] = []
         for line, text in zip(column.lines, column.texts, strict=True):
             of_one: list[str] = []
             with collecting(of_one):
-                _read(inputs, name, [text])
+                read([text])
             message += [f"line {line}: {sentence}" for sentence in of_one]
         message = message or [*fault.faults]
     raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(message)])
-
-
-def _read(inputs: Inputs, name: str, texts: Sequence[str]) -> AxisValues:
-    result = read_entries(texts, inputs.open[name], "", inputs.uses)
-    inputs.numbers_for(name, result.given if len(texts) > 1 else result.given[0])  # Its range.
-    return result
