@@ -269,7 +269,6 @@ def test_what_says_it_is_not_physical_is_taken_and_other_values_are_not_looked_a
         ("tan", "xp.sin(x) / xp.cos(x)"),
         ("abs", "xp.absolute(x)"),
         ("arctan2", "xp.atan2(y, x)"),
-        ("frexp", "xp.scaling(x) for"),
     ],
 )
 def test_what_xp_lacks_is_written_by_what_it_has(name, written):

@@ -80,10 +80,10 @@ def evaluated(kernel, count, zeros=()):
 
 @rows("kernel, count", kernels())
 def test_what_a_kernel_declares_is_what_it_computes(kernel, count):
-    for entry in kernel.known:
-        _, several = evaluated(kernel, count, entry.zeros)
-        for number, found in zip(entry.numbers, several.T, strict=True):
-            assert number is None or np.all(found == number), entry
+    for signs, *zeros in kernel.known:
+        _, several = evaluated(kernel, count, zeros)
+        for sign, found in zip(signs.replace(" ", ""), several.T, strict=True):
+            assert sign == "." or np.all(found == float(sign)), (signs, zeros)
 
 
 @rows("kernel, count", kernels())

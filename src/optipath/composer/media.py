@@ -48,12 +48,12 @@ class Media:
         known = [agreement for agreement in self._all if not agreement.is_open]
         return [*first_faults(known), *map(_wedge_fault, self.meetings.wedges)]
 
-    @property
+    @cached_property
     def _all(self) -> tuple[Agreement, ...]:
         between = *self._media, *self._planes, *self._angles, *self._rounds, *self._arriving
         return *between, *self._within
 
-    @cached_property
+    @property
     def _media(self) -> tuple[SameMedium, ...]:
         results = []
         for meeting in _once(self.meetings.all):
@@ -71,7 +71,7 @@ class Media:
                 results.append(SameMedium(operands, *ports, field, measures, follows))
         return tuple(results)
 
-    @cached_property
+    @property
     def _angles(self) -> tuple[SnellsLaw, ...]:
         results: dict[Any, SnellsLaw] = {}
         for meeting in self.meetings.in_layers:
@@ -94,7 +94,7 @@ class Media:
                     results.setdefault((meeting.sides, keys_of(turns)), law)
         return tuple(results.values())
 
-    @cached_property
+    @property
     def _planes(self) -> tuple[OnePlane, ...]:
         results: dict[Any, OnePlane] = {}
         for meeting in self.meetings.in_layers:
@@ -108,7 +108,7 @@ class Media:
                     results.setdefault((leaves, enters, keys_of(meeting.turns)), plane)
         return tuple(results.values())
 
-    @cached_property
+    @property
     def _rounds(self) -> tuple[SameTurn, ...]:
         first: dict[Any, Meeting] = {}
         both = self.meetings.to_and_fro

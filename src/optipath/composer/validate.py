@@ -105,19 +105,21 @@ def _reach_faults(wiring: Wiring) -> Iterator[str]:
         name: [(name, port) for port in (*element.inputs, *element.outputs)]
         for name, element in wiring.elements.items()
     }
-    dark = [name for name, each in ports.items() if not wiring.lit.intersection(each)]
-    missing = [name for name, each in ports.items() if not wiring.useful.intersection(each)]
+    dark = {name for name, each in ports.items() if wiring.lit.isdisjoint(each)}
+    missing = {name for name, each in ports.items() if wiring.useful.isdisjoint(each)}
     for name in _firsts(wiring.graph.subgraph(dark)):
         entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
         yield f"node '{name}' is reached by no source; link one to {entries}"
-    for name in _firsts(wiring.graph.subgraph({*missing} - {*dark}).reverse()):
+    for name in _firsts(wiring.graph.subgraph(missing - dark), backwards=True):
         exits = " or ".join(f"'{name}.{port}'" for port in wiring.elements[name].outputs)
         yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
 
 
-def _firsts(graph: nx.MultiDiGraph) -> list[str]:
+def _firsts(graph: nx.MultiDiGraph, *, backwards: bool = False) -> list[str]:
     """Return the nodes that no other leads to; of nodes in a circle, one."""
-    parts = nx.condensation(graph)
+    if not graph:
+        return []
+    parts = nx.condensation(graph.reverse() if backwards else graph)
     return [min(parts.nodes[n]["members"]) for n, degree in parts.in_degree if not degree]
 
 

@@ -157,9 +157,11 @@ def is_own(element_class: type[Any]) -> bool:
 
 def couplings_of(element: Any) -> tuple[Coupling, ...]:
     """Return the ways through an element."""
+    if not is_own(type(element)):
+        return tuple(element.couplings())
     what = f"couplings() of element class {type(element).__name__}"
     results: tuple[Coupling, ...] = called(what, lambda: tuple(element.couplings()))
-    if is_own(type(element)) and (faults := list(_faults(what, element, results))):
+    if faults := list(_faults(what, element, results)):
         raise PathError(*faults)
     return results
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from optipath.kernels import filters, medium, vertex_chain
 from optipath.kernels.carriers.structures import (
@@ -17,7 +17,7 @@ from optipath.kernels.fresnel import absorbing, boundary, stable, textbook, vari
 from optipath.kernels.fresnel.boundary import Refracting
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.variants import AtAngle, AtEvent, Compensated
-from optipath.kernels.kernel import Entry, Kernel, KernelFamily, Known, Sloped
+from optipath.kernels.kernel import Kernel, KernelFamily, Known, Sloped
 from optipath.kernels.primitives import Factory, WithZero
 from optipath.kernels.vertex_chain import (
     AxesAtVertex,
@@ -29,59 +29,41 @@ from optipath.kernels.vertex_chain import (
 Factories: TypeAlias = tuple[Factory, ...]
 """One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
 
-_NO_B: tuple[Entry, ...] = (None, None, 0.0, None, None)
-_NO_S: tuple[Entry, ...] = (None, None, None, None, 0.0)
-_NO_B_NO_S: tuple[Entry, ...] = (None, None, 0.0, None, 0.0)
-_NO_C_NO_S: tuple[Entry, ...] = (None, None, None, 0.0, 0.0)
-_LOSSLESS: tuple[Entry, ...] = (1.0, 1.0, 0.0, None, None)
-"""What may be known of (Fs, Fp, B, C, S)."""
-
 _COS, _SIN = -2, -1
-_NORMAL = (Known(_NO_B_NO_S, (_SIN,)),)
-_NORMAL_OR_GRAZING = (*_NORMAL, Known(_NO_B_NO_S, (_COS,)))
-"""Of an angle of incidence of which the sine, or the cosine, is 0."""
+_NORMAL = (("..0.0", _SIN),)
+_NORMAL_OR_GRAZING = (*_NORMAL, ("..0.0", _COS))
+_LETS_THROUGH = (*_NORMAL, ("..0..", _COS))
+_NO_S = (("....0",),)
+_NO_S_IF_LOSSLESS = ("....0", 2, _SIN)
+"""What is known of (Fs, Fp, B, C, S), also where the sine or the cosine of the angle is 0."""
 
-_LETS_THROUGH = (*_NORMAL, Known(_NO_B, (_COS,)))
-_KEEPS_PHASE = (*_LETS_THROUGH, Known(_NO_S))
-
-
-def _matrix(*zeros: int, ones: tuple[int, ...] = ()) -> tuple[Entry, ...]:
-    """Return sixteen numbers of which some are known."""
-    known = dict.fromkeys(zeros, 0.0) | dict.fromkeys(ones, 1.0)
-    return tuple(known.get(place) for place in range(16))
+_IDENTITY = "1000 0100 0010 0001"
 
 
-_DIAGONAL = (0, 5, 10, 15)
-_OFF_DIAGONAL = tuple(place for place in range(16) if place not in _DIAGONAL)
-_IDENTITY = _matrix(*_OFF_DIAGONAL, ones=_DIAGONAL)
+def _if_any_is_zero(numbers: str, *places: int) -> tuple[Known, ...]:
+    return tuple([(numbers, place) for place in places])
 
 
-def _where_any_is_zero(numbers: tuple[Entry, ...], *places: int) -> tuple[Known, ...]:
-    return tuple(Known(numbers, (place,)) for place in places)
-
-
-def _arguments(count: int) -> tuple[Known, ...]:
-    """Return that numbers are 0 where the arguments at their places are."""
-    return tuple(
-        Known(tuple(0.0 if i == place else None for i in range(count)), (place,))
-        for place in range(count)
-    )
+def _given(count: int, first: int = 0) -> tuple[Known, ...]:
+    """Return that numbers are 0 where the arguments are, the first of them at a place."""
+    return tuple([("." * i + "0" + "." * (count - i - 1), first + i) for i in range(count)])
 
 
 def _fresnel(
     what: str,
-    of_stable: Factories,
-    intensities: Factories,
     known: dict[str, tuple[tuple[Known, ...], ...]],
-    **others: Factories,
+    intensities: Factories = (),
+    **methods: Factories,
 ) -> KernelFamily:
     """Return the kernels of all methods; each has the slopes of the stable one."""
-    declared = known["stable"]
-    methods = {"stable": _cheaper_within(f"{what} (stable", of_stable, declared, intensities)}
-    for method, factories in others.items():
-        sloped, declared = tuple(map(Sloped, factories, of_stable)), known.get(method, ((), ()))
-        methods[method] = _cheaper_within(f"{what} ({method}", sloped, declared)
-    return KernelFamily(what, methods)
+    exact, results = methods["stable"], {}
+    for method, factories in methods.items():
+        name, declared = f"{what} ({method}", known.get(method, ((), ()))
+        if method == "stable":
+            results[method] = _cheaper_within(name, factories, declared, intensities)
+        else:
+            results[method] = _cheaper_within(name, tuple(map(Sloped, factories, exact)), declared)
+    return KernelFamily(what, results)
 
 
 def _cheaper_within(
@@ -91,48 +73,43 @@ def _cheaper_within(
     intensities: Factories = (),
 ) -> Kernel:
     """Return the kernel of the first factory, which knows the cheaper ones of the others."""
-    result: Kernel | None = None
+    result: Any = None
+    powers: Kernel | None = None
     words = (")", ", lossless)", ", lossless, from the rarer side)")
-    for place, made_by in reversed(list(enumerate(factories))):
+    for place in reversed(range(len(factories))):
         # Of (n1, n, k, cos, sin), k is the third; of (n1, n, cos, sin), n is to be n1 or more.
         without = (2, result) if place == 0 and result else None
         denser = (1, 0, result) if place == 1 and result else None
-        alone = None
+        own = name + words[place]
         if intensities:
-            cheap = (2, result.powers) if place == 0 and result and result.powers else None
-            alone = Kernel(f"{name}{words[place]}, powers", POWERS, intensities[place], cheap)
-        result = Kernel(
-            name + words[place], BLOCK, made_by, without, denser, alone, known=known[place]
-        )
-    assert result is not None  # noqa: S101 - there is one factory at least
-    return result
+            cheaper = (2, powers) if place == 0 and powers else None
+            powers = Kernel(f"{own}, powers", POWERS, intensities[place], cheaper)
+        made_by = factories[place]
+        result = Kernel(own, BLOCK, made_by, without, denser, powers, known=known[place])
+    kernel: Kernel = result
+    return kernel
 
 
 REFLECTION = _fresnel(
     "Fresnel reflection",
-    (stable.stable_reflection, stable.lossless_reflection, stable.denser_reflection),
-    (variants.reflected_powers, variants.lossless_powers, variants.denser_powers),
     {
-        "stable": (
-            _NORMAL_OR_GRAZING,
-            _NORMAL_OR_GRAZING,
-            (*_NORMAL_OR_GRAZING, Known(_NO_S)),
-        ),
-        "amplitude": ((Known(_NO_S, (2, _SIN)),),),
+        "stable": (_NORMAL_OR_GRAZING, _NORMAL_OR_GRAZING, (*_NORMAL_OR_GRAZING, *_NO_S)),
+        "amplitude": ((_NO_S_IF_LOSSLESS,),),
     },
+    (variants.reflected_powers, variants.lossless_powers, variants.denser_powers),
+    stable=(stable.stable_reflection, stable.lossless_reflection, stable.denser_reflection),
     compensated=(Compensated(stable.stable_reflection), Compensated(stable.lossless_reflection)),
     amplitude=(Refracting(textbook.amplitude_reflection),),
     textbook=(Refracting(textbook.textbook_reflection),),
 )
 TRANSMISSION = _fresnel(
     "Fresnel transmission",
-    (stable.stable_transmission, stable.lossless_transmission),
-    (),
     {
-        "stable": (_LETS_THROUGH, _KEEPS_PHASE),
-        "compensated": ((), (Known(_NO_S),)),
-        "amplitude": ((Known((0.0,) * 5, (_COS,)), Known(_NO_S, (2, _SIN))),),
+        "stable": (_LETS_THROUGH, (*_LETS_THROUGH, *_NO_S)),
+        "compensated": ((), _NO_S),
+        "amplitude": ((("00000", _COS), _NO_S_IF_LOSSLESS),),
     },
+    stable=(stable.stable_transmission, stable.lossless_transmission),
     compensated=(
         Compensated(stable.stable_transmission),
         Compensated(stable.lossless_transmission),
@@ -176,27 +153,24 @@ AT_EVENT = KernelFamily(
 )
 
 
-def _from_absorbing(stable: Factory, amplitude: Factory) -> dict[str, Factory]:
-    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)``; textbook ones are of amplitudes."""
-    by_amplitudes = Sloped(amplitude, stable)
-    return {
-        "stable": stable,
-        "compensated": Sloped(Compensated(stable), stable),
-        "amplitude": by_amplitudes,
-        "textbook": by_amplitudes,
-    }
+def _from_absorbing(
+    method: str, stable: Factory, amplitude: Factory
+) -> tuple[Factory, tuple[Known, ...]]:
+    """Return what makes ``(n1, k1, n, k, [n0,] cos, sin)``; textbook ones are of amplitudes."""
+    if method == "stable":
+        return stable, _NORMAL
+    return Sloped(Compensated(stable) if method == "compensated" else amplitude, stable), ()
 
 
 def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
     """Return a family for a medium in front that absorbs, and where it does not, the other."""
     what, methods = f"{family.name} out of an absorbing medium", {}
-    for method, factory in _from_absorbing(stable, amplitude).items():
-        usual, name = family.methods[method], f"{what} ({method})"
-        alone = None
+    for method, usual in family.methods.items():
+        factory, known = _from_absorbing(method, stable, amplitude)
+        name, alone = f"{what} ({method})", None
         if usual.powers:
             intensities = variants.inhomogeneous_powers
             alone = Kernel(f"{name}, powers", POWERS, intensities, (1, usual.powers))
-        known = _NORMAL if method == "stable" else ()
         methods[method] = Kernel(name, BLOCK, factory, (1, usual), powers=alone, known=known)
     return KernelFamily(what, methods)
 
@@ -204,16 +178,14 @@ def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> Ke
 def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
     """Return a family for light from behind; where nothing absorbs, it is the other."""
     what, methods = f"{family.name} from behind", {}
-    for method, factory in _from_absorbing(stable, amplitude).items():
-        usual = family.methods[method]
-        name = f"{what} ({method}, lossless)"
-        lossless = (
-            usual.without[1] if usual.without else Kernel(name, BLOCK, WithZero(usual.factory, 2))
-        )
-        name = f"{what} ({method}, lossless in front)"
-        known = _NORMAL if method == "stable" else ()
-        rarer = Kernel(name, BLOCK, WithZero(factory, 1), (2, lossless), known=known)
-        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, rarer), known=known)
+    for method, usual in family.methods.items():
+        factory, known = _from_absorbing(method, stable, amplitude)
+        name = f"{what} ({method}"
+        lossless = Kernel(f"{name}, lossless)", BLOCK, WithZero(usual.factory, 2))
+        cheaper = 2, usual.without[1] if usual.without else lossless
+        in_front = f"{name}, lossless in front)"
+        rarer = Kernel(in_front, BLOCK, WithZero(factory, 1), cheaper, known=known)
+        methods[method] = Kernel(f"{name})", BLOCK, factory, (1, rarer), known=known)
     return KernelFamily(what, methods)
 
 
@@ -258,7 +230,9 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
             absorbing,
         )
         name, grey = f"{what} ({method}{lossy})", replace(made_by, unpolarising=True)
-        known = (Known(_NO_S, (_SIN,)),) if structure and method == "stable" else ()
+        known: tuple[Known, ...] = ()
+        if structure and method == "stable":
+            known = (("....0", _SIN),)
         by_means = Kernel(f"{name} by means", structure, grey, known=known)
         methods[method] = Kernel(name, structure, made_by, unpolarising=by_means, known=known)
     return KernelFamily(what, methods)
@@ -266,7 +240,7 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
 
 TURN = Kernel("turn", ROTATION, filters.turn)
 TURN_BACK = Kernel("turn back", ROTATION, filters.turn_back)
-PLAIN_TURN = Kernel("turn between world frames", ROTATION, filters.given, known=_arguments(2))
+PLAIN_TURN = Kernel("turn between world frames", ROTATION, filters.given, known=_given(2))
 ALIGN = Kernel("align", ROTATION, filters.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
 TURN_AT_REFRACTION = Kernel(
@@ -280,147 +254,114 @@ REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
 """What the points of a chain say: angles of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel(
-    "polarizer",
-    BLOCK,
-    filters.polarizer,
-    known=(Known(_NO_S), *_where_any_is_zero(_NO_C_NO_S, 0, 1)),
+    "polarizer", BLOCK, filters.polarizer, known=(*_NO_S, *_if_any_is_zero("...00", 0, 1))
 )
-RETARDER = Kernel("retarder", BLOCK, filters.retarder, known=(Known(_LOSSLESS),))
+RETARDER = Kernel("retarder", BLOCK, filters.retarder, known=(("110..",),))
 ELLIPTICAL_RETARDER = Kernel(
     "elliptical retarder",
     FULL,
     medium.retardance,
     known=(
-        Known(_matrix(ones=(0,))),
-        Known(_matrix(1, 4), (0,)),
-        Known(_matrix(2, 8), (1,)),
-        Known(_matrix(3, 12), (2,)),
-        Known(_matrix(7, 11, 13, 14), (0, 1)),
-        Known(_matrix(6, 9, 11, 14), (0, 2)),
-        Known(_matrix(6, 7, 9, 13), (1, 2)),
+        ("1... .... .... ....",),
+        (".0.. 0... .... ....", 0),
+        ("..0. .... 0... ....", 1),
+        ("...0 .... .... 0...", 2),
+        (".... ...0 ...0 .00.", 0, 1),
+        (".... ..0. .0.0 ..0.", 0, 2),
+        (".... ..00 .0.. .0..", 1, 2),
     ),
 )
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 RESPONSE = Kernel("response", SCALE, filters.given)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
-_DEPOLARIZES = Known(_matrix(*_OFF_DIAGONAL, ones=(0,)))
+_DEPOLARIZES = ("1000 0.00 00.0 000.",)
 DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer, known=(_DEPOLARIZES,))
-MIRROR = Kernel("mirror", BLOCK, filters.mirror, known=(Known(_NO_B_NO_S),))
+MIRROR = Kernel("mirror", BLOCK, filters.mirror, known=(("..0.0",),))
 PLAIN_AMPLITUDES = Kernel(
     "mirror of given amplitudes",
     BLOCK,
     textbook.plain_amplitudes,
-    known=(
-        Known(_NO_C_NO_S, (0, 1)),
-        Known(_NO_C_NO_S, (2, 3)),
-        Known(_NO_S, (0, 2)),
-        Known(_NO_S, (1, 3)),
-    ),
+    known=(("...00", 0, 1), ("...00", 2, 3), ("....0", 0, 2), ("....0", 1, 3)),
 )
-_KEEPS = (1.0,), (1.0, 0.0)
-"""The numbers of a scale and of a rotation that change nothing."""
 
+_LOSSLESS = _if_any_is_zero("1", 0, 1)
 ABSORPTION_ALONG = Kernel(
-    "absorption along the way",
-    SCALE,
-    medium.absorption_along,
-    known=_where_any_is_zero(_KEEPS[0], 0, 1),
+    "absorption along the way", SCALE, medium.absorption_along, known=_LOSSLESS
 )
 THIRD_OF_ABSORPTION = Kernel(
-    "a third of absorption",
-    SCALE,
-    medium.third_of_absorption,
-    known=_where_any_is_zero(_KEEPS[0], 0, 1),
+    "a third of absorption", SCALE, medium.third_of_absorption, known=_LOSSLESS
 )
-ROTATION_ALONG = Kernel(
-    "rotation along the way",
-    ROTATION,
-    medium.rotation_along,
-    known=_where_any_is_zero(_KEEPS[1], 0, 1),
-)
+_UNTURNED = _if_any_is_zero("10", 0, 1)
+ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along, known=_UNTURNED)
 DEXTROROTATION_ALONG = Kernel(
-    "dextrorotation along the way",
-    ROTATION,
-    medium.dextrorotation_along,
-    known=_where_any_is_zero(_KEEPS[1], 0, 1),
+    "dextrorotation along the way", ROTATION, medium.dextrorotation_along, known=_UNTURNED
 )
 RETARDANCE_ALONG = Kernel(
     "retardance along the way",
     BLOCK,
     medium.retardance_along,
-    known=(Known(_LOSSLESS), *_where_any_is_zero(BLOCK.identity, 0, 1)),
+    known=(("110..",), *_if_any_is_zero("11010", 0, 1)),
 )
 FARADAY_ROTATION = Kernel(
     "Faraday rotation",
     ROTATION,
     filters.faraday_rotation,
-    known=_where_any_is_zero(_KEEPS[1], 0, 1, 2),
+    known=_if_any_is_zero("10", 0, 1, 2),
 )
-WAVEPLATE = Kernel("wave plate", BLOCK, filters.waveplate, known=(Known(_LOSSLESS),))
+WAVEPLATE = Kernel("wave plate", BLOCK, filters.waveplate, known=(("110..",),))
 POLARIZING_REFLECTION = Kernel(
-    "polarising reflection", BLOCK, filters.polarizing_reflection, known=(Known(_NO_S),)
+    "polarising reflection", BLOCK, filters.polarizing_reflection, known=_NO_S
 )
 POLARIZING_TRANSMISSION = Kernel(
-    "polarising transmission", BLOCK, filters.polarizing_transmission, known=(Known(_NO_S),)
+    "polarising transmission", BLOCK, filters.polarizing_transmission, known=_NO_S
 )
 ABSORPTION_WITH_DICHROISM = Kernel(
-    "absorption beside dichroism",
-    SCALE,
-    medium.absorption_with_dichroism,
-    known=(Known(_KEEPS[0], (3,)),),
+    "absorption beside dichroism", SCALE, medium.absorption_with_dichroism, known=(("1", 3),)
 )
 THIRD_WITH_DICHROISM = Kernel(
     "a third of absorption beside dichroism",
     SCALE,
     medium.third_of_absorption_with_dichroism,
-    known=(Known(_KEEPS[0], (3,)),),
+    known=(("1", 3),),
 )
 DICHROISM_ALONG = Kernel(
     "dichroism along the way",
     BLOCK,
     medium.dichroism_along,
-    known=(Known(_LOSSLESS, (0,)), Known(_NO_S, (1,)), Known(BLOCK.identity, (2,))),
+    known=(("110..", 0), ("....0", 1), ("11010", 2)),
 )
 DEPOLARIZATION_ALONG = Kernel(
     "depolarisation along the way",
     FULL,
     medium.depolarization_along,
-    known=(_DEPOLARIZES, *_where_any_is_zero(_IDENTITY, 0, 1)),
+    known=(_DEPOLARIZES, *_if_any_is_zero(_IDENTITY, 0, 1)),
 )
 DICHROISM_AND_RETARDANCE_ALONG = Kernel(
     "dichroism and retardance along the way",
     FULL,
     medium.dichroism_and_retardance_along,
     known=(
-        Known(_matrix(2, 8), (0, 1)),
-        Known(_matrix(7, 13), (0, 3)),
-        Known(_matrix(7, 13), (1, 2, 4, 5)),
-        Known(_matrix(2, 6, 8, 9, 11, 14), (2, 3, 4, 5)),
-        Known(_IDENTITY, (6,)),
+        ("..0. .... 0... ....", 0, 1),
+        (".... ...0 .... .0..", 0, 3),
+        (".... ...0 .... .0..", 1, 2, 4, 5),
+        ("..0. ..0. 00.0 ..0.", 2, 3, 4, 5),
+        (_IDENTITY, 6),
     ),
 )
 DEPOLARIZING_DICHROISM_ALONG = Kernel(
     "dichroism and depolarisation along the way",
     FULL,
     medium.depolarizing_dichroism_along,
-    known=(Known(_IDENTITY, (7,)),),
+    known=((_IDENTITY, 7),),
 )
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
-MATRIX = Kernel("matrix", FULL, filters.given, known=_arguments(16))
+MATRIX = Kernel("matrix", FULL, filters.given, known=_given(16))
 
 PRODUCT = Kernel(
-    "intensity at a wavelength", None, filters.product, known=_where_any_is_zero((0.0,), 0, 1)
+    "intensity at a wavelength", None, filters.product, known=_if_any_is_zero("0", 0, 1)
 )
-UNPOLARIZED = Kernel(
-    "unpolarized light", None, filters.unpolarized, known=(Known((None, 0.0, 0.0, 0.0)),)
-)
+UNPOLARIZED = Kernel("unpolarized light", None, filters.unpolarized, known=((".000",),))
 POLARIZED = Kernel(
-    "polarized light",
-    None,
-    filters.polarized,
-    known=(
-        Known((0.0,) * 4, (0,)),
-        *(Known(entry.numbers, (place,)) for place, entry in enumerate(_arguments(4), 1)),
-    ),
+    "polarized light", None, filters.polarized, known=(("0000", 0), *_given(4, first=1))
 )

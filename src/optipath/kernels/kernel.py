@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -20,15 +20,11 @@ if TYPE_CHECKING:
 Entry: TypeAlias = float | None
 """A number that is known before a path runs; None where it depends on arguments."""
 
+Known: TypeAlias = tuple[str, *tuple[int, ...]]
+"""A sign for each number, 0, 1 or a dot for what is open, and the places of the arguments that must
+be 0 for that, counted from the end if negative: ``("11010", 0)``."""
 
-class Known(NamedTuple):
-    """Numbers that are the same for all arguments, or for all of which some are 0.
-
-    The places are those of the arguments that must be 0, counted from the end if negative.
-    """
-
-    numbers: tuple[Entry, ...]
-    zeros: tuple[int, ...] = ()
+_SIGNS: dict[str, Entry] = {"0": 0.0, "1": 1.0, ".": None}
 
 
 @dataclass(frozen=True)
@@ -85,13 +81,13 @@ class Kernel:
 
     def known_numbers(self, zeros: Collection[int], count: int) -> tuple[Entry, ...]:
         """Return the declared numbers, for the places of those of so many arguments that are 0."""
-        results: list[Entry] = []
-        for numbers, places in self.known:
+        results: tuple[Entry, ...] = ()
+        for signs, *places in self.known:
             if all(place % count in zeros for place in places):
-                results = results or [None] * len(numbers)
-                pairs = zip(results, numbers, strict=True)
-                results = [old if new is None else new for old, new in pairs]
-        return tuple(results)
+                numbers = [_SIGNS[sign] for sign in signs.replace(" ", "")]
+                pairs = zip(results or numbers, numbers, strict=True)
+                results = tuple([old if new is None else new for old, new in pairs])
+        return results
 
     def by_method(self, method: str) -> Kernel:
         """Return the kernel itself: it has one method only."""
@@ -134,46 +130,30 @@ _LONGEST = 200
 
 _OTHERWISE = {
     "abs": "xp.absolute(x)",
-    "fabs": "xp.absolute(x)",
     "arctan2": "xp.atan2(y, x)",
-    "arctan": "xp.atan2(x, 1.0)",
-    "atan": "xp.atan2(x, 1.0)",
     "arcsin": "xp.atan2(x, xp.sqrt(1.0 - x * x))",
-    "asin": "xp.atan2(x, xp.sqrt(1.0 - x * x))",
     "arccos": "xp.atan2(xp.sqrt(1.0 - x * x), x)",
-    "acos": "xp.atan2(xp.sqrt(1.0 - x * x), x)",
     "tan": "xp.sin(x) / xp.cos(x)",
-    "sinh": "(xp.exp(x) - xp.exp(-x)) / 2",
-    "cosh": "(xp.exp(x) + xp.exp(-x)) / 2",
-    "tanh": "1.0 - 2.0 / (xp.exp(2.0 * x) + 1.0)",
-    "hypot": "xp.sqrt(x * x + y * y)",
-    "square": "x * x",
     "power": "x**y",
-    "pow": "x**y",
-    "max": "xp.maximum(x, y)",
-    "min": "xp.minimum(x, y)",
     "pi": "math.pi",
-    "frexp": "xp.scaling(x) for numbers that are scaled by xp.ldexp and scaled back",
     "array": "the rows as tuples of four entries each",
 }
 """How what other libraries have is written by what ``xp`` has."""
 
+_CHOOSE = "choose by xp.where(condition, yes, no) in place of 'if', 'and', 'min', 'max'"
+_CALL = "call xp.cos, xp.sqrt, ... in place of the functions of numpy and math"
 _CURES = (
-    ("truth value", "choose by xp.where(condition, yes, no) in place of 'if', 'and', 'min', 'max'"),
-    ("boolean conversion of traced", "choose by xp.where(condition, yes, no) in place of 'if'"),
-    ("true nor false", "choose by xp.where(condition, yes, no) in place of 'if'"),
-    ("only length-1 arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
-    ("only 0-dimensional arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
-    ("only scalar arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
-    ("must be real number, not", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
-    ("unhashable", "choose by xp.where(condition, yes, no) in place of a look-up of the value"),
-    ("no attribute 'conj'", "write z.conjugate(), which numbers and arrays have"),
-    ("tracer", "call the functions of xp in place of those of numpy and math"),
+    ("truth value", _CHOOSE),
+    ("boolean conversion of traced", _CHOOSE),
+    ("true nor false", _CHOOSE),
+    ("arrays can be converted", _CALL),
+    ("must be real number, not", _CALL),
+    ("tracer", _CALL),
     ("inhomogeneous", "return four rows, tuples of four entries each, and no array of them"),
-    ("could not be broadcast", "compute each entry by itself: numbers may be arrays over paths"),
     ("read-only", "make a new number, a = a + 1, in place of a += 1: arguments are the caller's"),
     ("division by zero", "let xp.where choose another divisor there"),
 )
+"""Cures by words of the message of Python, NumPy or JAX."""
 
 
 def in_words(what: str, error: BaseException) -> OptipathError:
