@@ -69,8 +69,8 @@ def after_events(record, base):
         cos, sin, x, *turn = plane_at_facet(FLOAT)(k, x, normal)
         assert [cos, sin, *turn] == event[layout.COS : layout.COS + 4]
         numbers, k, share = met(n1, n2, base, cos, sin, k, normal, event)
-        light = ROTATION.made_for(FLOAT)(turn, light, 4)
-        light = BLOCK.made_for(FLOAT)([1.0 / share * each for each in numbers], light, 4)
+        light = ROTATION.action(FLOAT, turn, light, 4)
+        light = BLOCK.action(FLOAT, [1.0 / share * each for each in numbers], light, 4)
     return light, k, x
 
 

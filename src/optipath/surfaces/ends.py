@@ -108,7 +108,7 @@ def _ends_of(beam: PhotonBeam, results: Numbers) -> PhotonEnds:
     lights = results[:, END_LIGHTS:].reshape(len(results), -1, CARRIED)
     carried = tuple(lights[..., place] for place in range(4))
     rotation = [each[:, np.newaxis] for each in turns.T]
-    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
+    stokes = stokes_of(NUMPY, ROTATION.action(NUMPY, rotation, carried, 4))
     return PhotonEnds(
         ends=np.array(OUTCOME_NAMES)[results[:, OUTCOME].astype(int)],
         events=results[:, EVENTS].astype(int),

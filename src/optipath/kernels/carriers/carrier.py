@@ -78,7 +78,7 @@ class StokesCarrier(Carrier):
     def act(
         self, structure: Structure, numbers: Numbers, state: Carried, count: int = 4
     ) -> Carried:
-        return structure.made_for(self.xp)(numbers, state, count)
+        return structure.action(self.xp, numbers, state, count)
 
     def add(self, first: Carried, second: Carried) -> Carried:
         return add(self.xp, first, second)
@@ -169,7 +169,8 @@ class JonesCarrier(Carrier):
     ) -> JonesState:
         del count
         columns, exponent = state
-        return self._resolved(structure.jones_for(self.xp)(numbers, columns), exponent)
+        assert structure.jones is not None  # noqa: S101 - the composer refuses what may depolarise
+        return self._resolved(structure.jones(self.xp, numbers, columns), exponent)
 
     def add(self, first: JonesState, second: JonesState) -> JonesState:
         carried, exponent = self._incoherent.add(self._carried(first), self._carried(second))
@@ -256,7 +257,7 @@ class ScaledCarrier(Carrier):
         self, structure: Structure, numbers: Numbers, state: ScaledState, count: int = 4
     ) -> ScaledState:
         carried, exponent = state
-        return self._resolved(structure.made_for(self.xp)(numbers, carried, count), exponent)
+        return self._resolved(structure.action(self.xp, numbers, carried, count), exponent)
 
     def add(self, first: ScaledState, second: ScaledState) -> ScaledState:
         (light, exponent), (other, of_other) = first, second

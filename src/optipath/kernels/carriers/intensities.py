@@ -52,7 +52,7 @@ class IntensityCarrier(Carrier):
     def act(
         self, structure: Structure, numbers: Numbers, state: Intensities, count: int = 2
     ) -> Intensities:
-        return structure.powers_for(self.xp)(numbers, state, count)
+        return structure.powers(self.xp, numbers, state, count)
 
     def add(self, first: Intensities, second: Intensities) -> Intensities:
         if len(first) == len(second) == 2:

@@ -41,67 +41,82 @@ Column: TypeAlias = tuple[Any, Any, Any, Any]
 """(Re Ex, Im Ex, Re Ey, Im Ey)."""
 
 Columns: TypeAlias = tuple[Column, Column]
-JonesAction: TypeAlias = Callable[[Sequence[Any], Columns], Columns]
-
-
-def scale_jones(xp: Primitives) -> JonesAction:
-    """Make the action of (t,): the fields are scaled by the root."""
-    sqrt = xp.sqrt
-
-    def act(numbers: Sequence[Any], columns: Columns) -> Columns:
-        r = sqrt(numbers[0])
-        first, second = (tuple(r * part for part in column) for column in columns)
-        return first, second
-
-    return act
-
-
-def rotation_jones(xp: Primitives) -> JonesAction:
-    """Make the action of (cos 2a, sin 2a), by the half of the angle."""
-    sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
-
-    def act(numbers: Sequence[Any], columns: Columns) -> Columns:
-        twice_c, twice_s = numbers
-        larger = sqrt(0.5 * (1.0 + absolute(twice_c)))
-        smaller = 0.5 * twice_s / larger
-        c = where(twice_c >= 0.0, larger, smaller)
-        s = where(twice_c >= 0.0, smaller, larger)
-
-        def turned(column: Column) -> Column:
-            a, b, d, e = column
-            return c * a + s * d, c * b + s * e, c * d - s * a, c * e - s * b
-
-        return turned(columns[0]), turned(columns[1])
-
-    return act
-
-
-def block_jones(xp: Primitives) -> JonesAction:
-    """Make the action of (Fs, Fp, B, C, S): diag(r_s, r_p) with r_s real."""
-    sqrt, where, absolute, length = xp.sqrt, xp.where, xp.absolute, hypotenuse(xp)
-
-    def act(numbers: Sequence[Any], columns: Columns) -> Columns:
-        Fs, Fp, _, C, S = numbers
-        size = length(absolute(C), absolute(S))
-        there = size > 0.0
-        size = where(there, size, 1.0)
-        rs, rp = sqrt(Fs), sqrt(Fp)
-        # r_p has the phase of conj(C + iS).
-        re, im = where(there, rp * (C / size), rp), rp * (S / size)
-
-        def passed(column: Column) -> Column:
-            a, b, d, e = column
-            return rs * a, rs * b, re * d + im * e, re * e - im * d
-
-        return passed(columns[0]), passed(columns[1])
-
-    return act
-
-
+Numbers: TypeAlias = Sequence[Any]
+Row: TypeAlias = tuple[Any, Any, Any, Any]
 Intensities: TypeAlias = tuple[Any, ...]
 """(x, y, over), or (total, over)."""
 
-PowersAction: TypeAlias = Callable[[Sequence[Any], Intensities, int], Intensities]
+Action: TypeAlias = "Callable[[Primitives, Numbers, Carried, int], Carried]"
+PowersAction: TypeAlias = "Callable[[Primitives, Numbers, Intensities, int], Intensities]"
+JonesAction: TypeAlias = "Callable[[Primitives, Numbers, Columns], Columns]"
+
+
+@dataclass(frozen=True)
+class Structure:
+    """One shape of Mueller matrix: how its numbers act on Stokes components, intensities, fields.
+
+    `unpolarising` makes of its numbers those of an element that dims light alike along all axes.
+    """
+
+    name: str
+    identity: tuple[float, ...]
+    action: Action
+    rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
+    powers: PowersAction
+    jones: JonesAction | None = None
+    unpolarising: Callable[[Numbers], Numbers] | None = None
+
+    def known_rows(self, numbers: Sequence[float | None]) -> tuple[tuple[float | None, ...], ...]:
+        """Return what is known of a matrix, for what is known of its numbers.
+
+        >>> BLOCK.known_rows((None, None, None, None, 0.0))[3]
+        (0.0, 0.0, 0.0, None)
+        """
+        several = numbers or (None,) * len(self.identity)
+        # What depends on a number that is not known comes to NaN.
+        rows = self.rows(NUMPY, [math.nan if number is None else number for number in several])
+        return tuple(
+            tuple(float(entry) + 0.0 if math.isfinite(entry) else None for entry in row)
+            for row in rows
+        )
+
+
+def _scale_jones(xp: Primitives, numbers: Numbers, columns: Columns) -> Columns:
+    r = xp.sqrt(numbers[0])
+    first, second = (tuple(r * part for part in column) for column in columns)
+    return first, second
+
+
+def _rotation_jones(xp: Primitives, numbers: Numbers, columns: Columns) -> Columns:
+    """Turn fields by the half of the angle."""
+    twice_c, twice_s = numbers
+    larger = xp.sqrt(0.5 * (1.0 + xp.absolute(twice_c)))
+    smaller = 0.5 * twice_s / larger
+    c = xp.where(twice_c >= 0.0, larger, smaller)
+    s = xp.where(twice_c >= 0.0, smaller, larger)
+
+    def turned(column: Column) -> Column:
+        a, b, d, e = column
+        return c * a + s * d, c * b + s * e, c * d - s * a, c * e - s * b
+
+    return turned(columns[0]), turned(columns[1])
+
+
+def _block_jones(xp: Primitives, numbers: Numbers, columns: Columns) -> Columns:
+    """Multiply by diag(r_s, r_p) with r_s real."""
+    Fs, Fp, _, C, S = numbers
+    size = made(hypotenuse, xp)(xp.absolute(C), xp.absolute(S))
+    there = size > 0.0
+    size = xp.where(there, size, 1.0)
+    rs, rp = xp.sqrt(Fs), xp.sqrt(Fp)
+    # r_p has the phase of conj(C + iS).
+    re, im = xp.where(there, rp * (C / size), rp), rp * (S / size)
+
+    def passed(column: Column) -> Column:
+        a, b, d, e = column
+        return rs * a, rs * b, re * d + im * e, re * e - im * d
+
+    return passed(columns[0]), passed(columns[1])
 
 
 def in_all(powers: Intensities) -> Intensities:
@@ -125,121 +140,49 @@ def along_x_and_y(powers: Intensities) -> tuple[Any, Any, Any]:
     return half, half, powers[1]
 
 
-def scale_powers(xp: Primitives) -> PowersAction:
-    """Make the action of (t,)."""
-    del xp
-
-    def act(numbers: Sequence[Any], powers: Intensities, count: int) -> Intensities:
-        (t,) = numbers
-        *parts, over = in_all(powers) if count == 1 else powers
-        return *(t * part for part in parts), over
-
-    return act
+def _scale_powers(_: Primitives, numbers: Numbers, powers: Intensities, count: int) -> Intensities:
+    (t,) = numbers
+    *parts, over = in_all(powers) if count == 1 else powers
+    return *(t * part for part in parts), over
 
 
-def rotation_powers(xp: Primitives) -> PowersAction:
-    """Make the action of (cos 2a, sin 2a): shares of cos^2 a and sin^2 a, not divided."""
-    where, absolute = xp.where, xp.absolute
-
-    def act(numbers: Sequence[Any], powers: Intensities, count: int) -> Intensities:
-        if count == 1 or len(powers) == 2:
-            return in_all(powers)
-        c, s = numbers
-        x, y, over = powers
-        # cos^2 a = (1 + cos 2a) / 2, and sin^2 a = (sin 2a)^2 / (2 (1 + cos 2a)).
-        larger = 1.0 + absolute(c)
-        most, least = larger * larger, s * s
-        forward = c >= 0.0
-        stored, crossed = where(forward, most, least), where(forward, least, most)
-        return stored * x + crossed * y, crossed * x + stored * y, 2.0 * larger * over
-
-    return act
+def _rotation_powers(
+    xp: Primitives, numbers: Numbers, powers: Intensities, count: int
+) -> Intensities:
+    """Mix intensities by the shares cos^2 a and sin^2 a, not divided."""
+    if count == 1 or len(powers) == 2:
+        return in_all(powers)
+    c, s = numbers
+    x, y, over = powers
+    # cos^2 a = (1 + cos 2a) / 2, and sin^2 a = (sin 2a)^2 / (2 (1 + cos 2a)).
+    larger = 1.0 + xp.absolute(c)
+    most, least = larger * larger, s * s
+    forward = c >= 0.0
+    stored, crossed = xp.where(forward, most, least), xp.where(forward, least, most)
+    return stored * x + crossed * y, crossed * x + stored * y, 2.0 * larger * over
 
 
-def block_powers(xp: Primitives) -> PowersAction:
-    """Make the action of (Fs, Fp, ...), of which only these two are looked at."""
-    del xp
-    return lambda numbers, powers, count: _passed(numbers[0], numbers[1], powers, count)
-
-
-def fraction_powers(xp: Primitives) -> PowersAction:
-    """Make the action of (Fs d, Fp d, d)."""
-    del xp
-
-    def act(numbers: Sequence[Any], powers: Intensities, count: int) -> Intensities:
-        Fs, Fp, divisor = numbers
-        *parts, over = _passed(Fs, Fp, powers, count)
-        return *parts, divisor * over
-
-    return act
-
-
-def full_powers(xp: Primitives) -> PowersAction:
-    """Make the action of sixteen numbers, of which S0 and S1 see four."""
-    del xp
-
-    def act(m: Sequence[Any], powers: Intensities, count: int) -> Intensities:
-        if count == 1 and len(powers) == 2:
-            return m[0] * powers[0], powers[1]
-        x, y, over = along_x_and_y(powers)
-        s0, s1 = (m[i] * (x + y) + m[i + 1] * (x - y) for i in (0, 4))
-        return (s0, over) if count == 1 else (0.5 * (s0 + s1), 0.5 * (s0 - s1), over)
-
-    return act
-
-
-def _passed(Fs: Any, Fp: Any, powers: Intensities, count: int) -> Intensities:
+def _block_powers(_: Primitives, numbers: Numbers, powers: Intensities, count: int) -> Intensities:
+    Fs, Fp = numbers[:2]
     if count == 1 and len(powers) == 2:
         return 0.5 * (Fs + Fp) * powers[0], powers[1]
     x, y, over = along_x_and_y(powers)
     return in_all((Fs * x, Fp * y, over)) if count == 1 else (Fs * x, Fp * y, over)
 
 
-Numbers: TypeAlias = Sequence[Any]
-Action: TypeAlias = Callable[[Numbers, Carried, int], Carried]
-Row: TypeAlias = tuple[Any, Any, Any, Any]
+def _fraction_powers(
+    xp: Primitives, numbers: Numbers, powers: Intensities, count: int
+) -> Intensities:
+    *parts, over = _block_powers(xp, numbers, powers, count)
+    return *parts, numbers[2] * over
 
 
-@dataclass(frozen=True)
-class Structure:
-    """One shape of Mueller matrix."""
-
-    name: str
-    identity: tuple[float, ...]
-    action: Callable[[Primitives], Action]
-    rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
-    powers: Callable[[Primitives], PowersAction]
-    jones: Callable[[Primitives], JonesAction] | None = None
-    unpolarising: Callable[[Numbers], Numbers] | None = None
-
-    def made_for(self, primitives: Primitives) -> Action:
-        """Return the action in terms of these primitives, made once and kept."""
-        action: Action = made(self.action, primitives)
-        return action
-
-    def jones_for(self, primitives: Primitives) -> JonesAction:
-        """Return the action on Jones columns, made once and kept."""
-        assert self.jones is not None  # noqa: S101 - the composer refuses what may depolarise
-        action: JonesAction = made(self.jones, primitives)
-        return action
-
-    def known_rows(self, numbers: Sequence[float | None]) -> tuple[tuple[float | None, ...], ...]:
-        """Return what is known of a matrix, for what is known of its numbers.
-
-        >>> BLOCK.known_rows((None, None, None, None, 0.0))[3]
-        (0.0, 0.0, 0.0, None)
-        """
-        several = numbers or (None,) * len(self.identity)
-        # What depends on a number that is not known comes to NaN.
-        rows = self.rows(NUMPY, [math.nan if number is None else number for number in several])
-        return tuple(
-            tuple(float(entry) if math.isfinite(entry) else None for entry in row) for row in rows
-        )
-
-    def powers_for(self, primitives: Primitives) -> PowersAction:
-        """Return the action on intensities along x and y, made once and kept."""
-        action: PowersAction = made(self.powers, primitives)
-        return action
+def _full_powers(_: Primitives, m: Numbers, powers: Intensities, count: int) -> Intensities:
+    if count == 1 and len(powers) == 2:
+        return m[0] * powers[0], powers[1]
+    x, y, over = along_x_and_y(powers)
+    s0, s1 = (m[i] * (x + y) + m[i + 1] * (x - y) for i in (0, 4))
+    return (s0, over) if count == 1 else (0.5 * (s0 + s1), 0.5 * (s0 - s1), over)
 
 
 def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
@@ -248,50 +191,37 @@ def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
     return c * s1 + s * s2, c * s2 - s * s1
 
 
-def _scale(xp: Primitives) -> Action:
-    def act(numbers: Numbers, carried: Carried, count: int) -> Carried:
-        (t,) = numbers
-        return tuple(t * component for component in leaving(xp, carried, count))
-
-    return act
+def _scale(xp: Primitives, numbers: Numbers, carried: Carried, count: int) -> Carried:
+    (t,) = numbers
+    return tuple(t * component for component in leaving(xp, carried, count))
 
 
-def _rotation(xp: Primitives) -> Action:
-    absolute, where = xp.absolute, xp.where
-
-    def act(numbers: Numbers, carried: Carried, count: int) -> Carried:
-        if count == 1:
-            return leaving(xp, carried, 1)
-        c, s = numbers
-        weak, s1, s2, s3 = all_four(carried)
-        t1, t2 = turn_linear(numbers, s1, s2)
-        # |s1| - |t1| without a difference: 1 - |cos| is sin^2 / (1 + |cos|).
-        forward = t1 >= 0.0
-        larger = 1.0 + absolute(c)
-        share = where(forward == (c * s1 >= 0.0), s * s / larger, larger)
-        turned = weak + 0.5 * (absolute(s1) * share - where(forward, s * s2, -s * s2))
-        weak = not_below_rounding(xp, turned, absolute(s1) + absolute(s2))
-        return (weak, t1, t2, s3)[:count]
-
-    return act
+def _rotation(xp: Primitives, numbers: Numbers, carried: Carried, count: int) -> Carried:
+    if count == 1:
+        return leaving(xp, carried, 1)
+    c, s = numbers
+    weak, s1, s2, s3 = all_four(carried)
+    t1, t2 = turn_linear(numbers, s1, s2)
+    # |s1| - |t1| without a difference: 1 - |cos| is sin^2 / (1 + |cos|).
+    forward = t1 >= 0.0
+    larger = 1.0 + xp.absolute(c)
+    share = xp.where(forward == (c * s1 >= 0.0), s * s / larger, larger)
+    turned = weak + 0.5 * (xp.absolute(s1) * share - xp.where(forward, s * s2, -s * s2))
+    weak = not_below_rounding(xp, turned, xp.absolute(s1) + xp.absolute(s2))
+    return (weak, t1, t2, s3)[:count]
 
 
-def _block(xp: Primitives) -> Action:
-    where, minimum = xp.where, xp.minimum
-
-    def act(numbers: Numbers, carried: Carried, count: int) -> Carried:
-        Fs, Fp, B, C, S = numbers
-        x, y = along_axes(xp, carried)
-        if count == 1:
-            return (0.5 * (Fs * x + Fp * y),)
-        weak, s1, s2, s3 = all_four(carried)
-        behind = minimum(Fs * x, Fp * y), 2.0 * B * weak + where(s1 >= 0.0, Fs, Fp) * s1
-        if count == 2:
-            return behind
-        across = products((C, s2), (S, s3))
-        return *behind, across, *([products((C, s3), (-S, s2))] if count == 4 else [])
-
-    return act
+def _block(xp: Primitives, numbers: Numbers, carried: Carried, count: int) -> Carried:
+    Fs, Fp, B, C, S = numbers
+    x, y = along_axes(xp, carried)
+    if count == 1:
+        return (0.5 * (Fs * x + Fp * y),)
+    weak, s1, s2, s3 = all_four(carried)
+    behind = xp.minimum(Fs * x, Fp * y), 2.0 * B * weak + xp.where(s1 >= 0.0, Fs, Fp) * s1
+    if count == 2:
+        return behind
+    across = products((C, s2), (S, s3))
+    return *behind, across, *([products((C, s3), (-S, s2))] if count == 4 else [])
 
 
 def grey_block(numbers: Numbers) -> Numbers:
@@ -306,9 +236,8 @@ def _grey_full(m: Numbers) -> Numbers:
     return tuple(entry for row in rows for entry in row)
 
 
-def _block_of_powers(xp: Primitives) -> Action:
-    block = _block(xp)
-    return lambda numbers, carried, count: block(_block_numbers(numbers), carried, min(count, 2))
+def _block_of_powers(xp: Primitives, numbers: Numbers, carried: Carried, count: int) -> Carried:
+    return _block(xp, _block_numbers(numbers), carried, min(count, 2))
 
 
 def _block_numbers(numbers: Numbers) -> Numbers:
@@ -317,24 +246,19 @@ def _block_numbers(numbers: Numbers) -> Numbers:
     return Fs, Fp, 0.5 * (Fs - Fp), 0.0, 0.0
 
 
-def _full(xp: Primitives) -> Action:
-    def act(m: Numbers, carried: Carried, count: int) -> Carried:
-        stokes = stokes_of(xp, carried)
-        rows = [products(*zip(m[i : i + 4], stokes, strict=True)) for i in range(0, 4 * count, 4)]
-        s0, s1, s2, s3 = (*rows, 0.0, 0.0, 0.0)[:4]
-        return carry(xp, (s0, s1, s2, s3), count)
-
-    return act
+def _full(xp: Primitives, m: Numbers, carried: Carried, count: int) -> Carried:
+    stokes = stokes_of(xp, carried)
+    rows = [products(*zip(m[i : i + 4], stokes, strict=True)) for i in range(0, 4 * count, 4)]
+    s0, s1, s2, s3 = (*rows, 0.0, 0.0, 0.0)[:4]
+    return carry(xp, (s0, s1, s2, s3), count)
 
 
-def _scale_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
-    del xp
+def _scale_rows(_: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     (t,) = numbers
     return (t, 0.0, 0.0, 0.0), (0.0, t, 0.0, 0.0), (0.0, 0.0, t, 0.0), (0.0, 0.0, 0.0, t)
 
 
-def _rotation_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
-    del xp
+def _rotation_rows(_: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     c, s = numbers
     return (1.0, 0.0, 0.0, 0.0), (0.0, c, s, 0.0), (0.0, -s, c, 0.0), (0.0, 0.0, 0.0, 1.0)
 
@@ -350,32 +274,27 @@ def _powers_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     return _block_rows(xp, _block_numbers(numbers))
 
 
-def _full_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
-    del xp
+def _full_rows(_: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     m = tuple(numbers)
     return m[0:4], m[4:8], m[8:12], m[12:16]
 
 
-SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_powers, scale_jones)
+SCALE = Structure("scale", (1.0,), _scale, _scale_rows, _scale_powers, _scale_jones)
 """One number t: t times the unit matrix."""
 
 ROTATION = Structure(
-    "rotation",
-    (1.0, 0.0),
-    _rotation,
-    _rotation_rows,
-    rotation_powers,
-    rotation_jones,
+    "rotation", (1.0, 0.0), _rotation, _rotation_rows, _rotation_powers, _rotation_jones
 )
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
+_NO_CHANGE = 1.0, 1.0, 0.0, 1.0, 0.0
 BLOCK = Structure(
     "retarding diattenuator",
-    (1.0, 1.0, 0.0, 1.0, 0.0),
+    _NO_CHANGE,
     _block,
     _block_rows,
-    block_powers,
-    block_jones,
+    _block_powers,
+    _block_jones,
     grey_block,
 )
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]]; A + B acts along x, A - B on y."""
@@ -383,17 +302,11 @@ BLOCK = Structure(
 DEPOLARIZING_BLOCK = replace(BLOCK, name="depolarising diattenuator", jones=None)
 """The same with C and S of any size that light allows: incoherent sums of such matrices."""
 
-POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, fraction_powers)
+POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, _fraction_powers)
 """(Fs d, Fp d, d): what acts along x and y over one denominator, and nothing of the phase."""
 
-FULL = Structure(
-    "full",
-    tuple(float(i % 5 == 0) for i in range(16)),
-    _full,
-    _full_rows,
-    full_powers,
-    unpolarising=_grey_full,
-)
+_UNIT_MATRIX = tuple(float(i % 5 == 0) for i in range(16))
+FULL = Structure("full", _UNIT_MATRIX, _full, _full_rows, _full_powers, unpolarising=_grey_full)
 """Sixteen numbers, row by row."""
 
 

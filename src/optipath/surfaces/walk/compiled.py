@@ -245,10 +245,9 @@ def put(record: Any, at: int, vector: Any) -> None:
 
 def _turned(xp: Primitives) -> KernelFunction:
     """Make ``(carried, cos 2a, sin 2a) -> Stokes vector``."""
-    turn = ROTATION.made_for(xp)
 
     def turned(*numbers: Any) -> tuple[Any, ...]:
-        return tuple(stokes_of(xp, turn(numbers[4:], numbers[:4], 4)))
+        return tuple(stokes_of(xp, ROTATION.action(xp, numbers[4:], numbers[:4], 4)))
 
     return turned
 

@@ -219,11 +219,10 @@ def _boundary(xp: Primitives) -> KernelFunction:
 
 def _acted(xp: Primitives) -> KernelFunction:
     """Make ``(carried, cos 2a, sin 2a, Fs, Fp, B, C, S) -> carried``: turned, then met."""
-    turn, act = ROTATION.made_for(xp), BLOCK.made_for(xp)
 
     def acted(*numbers: Any) -> tuple[Any, ...]:
         carried, rotation, block = numbers[:4], numbers[4:6], numbers[6:]
-        return act(block, turn(rotation, carried, 4), 4)
+        return BLOCK.action(xp, block, ROTATION.action(xp, rotation, carried, 4), 4)
 
     return acted
 
