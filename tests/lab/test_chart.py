@@ -28,7 +28,7 @@ from optipath.lab.chart import (
     path_chart,
 )
 from optipath.lab.chart_file import KINDS, chart_text, contenders, read_chart
-from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors, trials
+from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors, trial
 from optipath.lab.peer_times import peer_times
 from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
@@ -167,14 +167,14 @@ def test_presets_can_be_charted(name, effort):
 
 def test_what_is_not_read_has_no_error_and_what_cannot_be_measured_is_lost_left_out_or_refused():
     path = chain([op.Interface(1.5, 0.9)], STATE, reads="intensity")
-    (trial,) = trials(path, (), "float64", 1)
-    assert max(kind.max() for kind in path_errors(op.Composer(), trial, "float64")) <= 10
+    as_given = trial(path, None, "float64", 1)
+    assert max(kind.max() for kind in path_errors(op.Composer(), as_given, "float64")) <= 10
     for size in (1e-60, 1e60):
         path = op.Source(size) >> op.Detector()
-        (trial,) = trials(path, (), "float64", 1)
-        single = path_errors(op.Composer(dtype="float32"), trial, "float32")
+        as_given = trial(path, None, "float64", 1)
+        single = path_errors(op.Composer(dtype="float32"), as_given, "float32")
         assert np.isinf(single.normwise).all()
-        assert path_errors(op.Composer(), trial, "float64").normwise.max() == 0.0
+        assert path_errors(op.Composer(), as_given, "float64").normwise.max() == 0.0
     dtypes = {c["dtype"] for c in path_chart(path, "bright", LITTLE)["contenders"]}
     assert "float64" in dtypes
     assert "float32" not in dtypes

@@ -242,7 +242,7 @@ OF_TABLES = [
     ({"values": [1.0, 2.0j]}, "is complex; give a real number"),
     ({"wavelengths": np.array([5e-7, 6e-7], complex)}, "is complex; give a wavelength above 0"),
     ({"values": [[1.0], [1.0, 2.0]]}, "has rows of unequal lengths"),
-    ({"values": [1, 10**400], "unit": "deg"}, "must be real numbers, not"),
+    ({"values": [1, 10**400], "unit": "deg"}, "must be a real number, not"),
     ({"unit": np.eye(3)}, "unit '.*' is unknown"),
     ({"label": 5}, "the name of a table is 5; give a text"),
     ({"values": [1.0, math.nan]}, "value of the table is nan at 1; give a finite number"),
@@ -250,7 +250,7 @@ OF_TABLES = [
     *(({"values": [1.0, "x"], "unit": unit}, "'x' is not a quantity") for unit in ("", "deg/mm")),
     ({"values": [1.0]}, "has 2 wavelengths and 1 of value"),
     ({"values": [1.0, 2.0, 3.0]}, "has 2 wavelengths and 3 of value"),
-    ({"values": None, "unit": "deg/mm"}, "values of the table must be real numbers, not None"),
+    ({"values": None, "unit": "deg/mm"}, "value of the table must be a real number, not None"),
 ]
 OF_ROTATIONS = [
     ({"strengths": 1.0}, "strengths of the rotation must be a row of one coefficient or more"),

@@ -11,14 +11,14 @@ import optipath as op
 from optipath.errors import MaterialError, MissingExtraError
 from optipath.materials import database as page_entries
 from optipath.materials import database_names as installed
-from optipath.materials.database import curve_of, pages_with
+from optipath.materials.database import curve_of, known_spans, pages_with
 from optipath.materials.database_names import (
     CURATED,
+    NamedPage,
     catalog_pages,
     curated_names,
     named_page,
     of_curated,
-    of_page,
 )
 from tables import rows
 
@@ -232,7 +232,7 @@ def test_materials_are_known_as_far_as_their_pages_and_runs_up_to_microwaves():
 
 def test_a_search_reads_the_wavelengths_of_tables_and_nothing_else(monkeypatch):
     (found,) = [one for one in pages_with(["ice"]) if one.page.place == "3d/crystals/ice"]
-    assert {high for _, high in found.spans().values()} == {2.0}
+    assert {high for _, high in known_spans(found).values()} == {2.0}
     monkeypatch.setattr(page_entries, "_table", None)
     table = {"type": "tabulated k", "data": "0.5 0.1\n0.25 0.2\n 1e1 0\n"}
     formula = {"type": "formula 1", "wavelength_range": "0.3 2", "coefficients": "0 1 0.1"}
@@ -269,7 +269,7 @@ def test_slopes_of_formulas_and_of_tables_are_right(jax, jacobian):
 
 def curve_or_refusal(page):
     """The curve of a page with n, k or both, or the sentence that refuses it."""
-    found = of_page(page)
+    found = NamedPage(page.place, page)
     for own in ({}, {"k": 0.0}, {"n": 1.0}):
         try:
             return curve_of(found, own=own)

@@ -22,7 +22,7 @@ from optipath.cli.console import (
 from optipath.cli.options import StrictCommand
 from optipath.elements.fresnel import effective_index, fresnel_reflection
 from optipath.errors import MaterialError, OptipathError, collecting, did_you_mean
-from optipath.materials.database import PageMatch, pages_with
+from optipath.materials.database import described, known_spans, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
 from optipath.materials.quantities import INCIDENCE as INCIDENCE_DOMAIN
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from click.shell_completion import CompletionItem
 
+    from optipath.materials.database_names import NamedPage
     from optipath.materials.tables import PageCurve
 
 
@@ -114,10 +115,10 @@ materials = click.command(
 )(_materials)
 
 
-def _print(results: list[PageMatch], *, vacuum: bool, everything: bool) -> None:
+def _print(results: list[NamedPage], *, vacuum: bool, everything: bool) -> None:
     table = headed("material", "range", "source", box=None)
     for one in results:
-        table.add_row(*map(cell, (one.name, _range_text(one), one.described)))
+        table.add_row(*map(cell, (one.name, _range_text(one), described(one))))
     if vacuum:
         table.add_row(*map(cell, (VACUUM, "any wavelength", _NOTHING)))
     PlainConsole().print(table)
@@ -125,9 +126,9 @@ def _print(results: list[PageMatch], *, vacuum: bool, everything: bool) -> None:
         say(f"\n{len(catalog_pages())} pages of refractiveindex.info: optipath materials WORD")
 
 
-def _range_text(one: PageMatch) -> str:
+def _range_text(one: NamedPage) -> str:
     """Return what is known and where, with as many digits as a list needs."""
-    spans = one.spans()
+    spans = known_spans(one)
     low, high = (f([s[at] for s in spans.values()], default=0.0) for at, f in ((0, max), (1, min)))
     each = {",".join(spans): (low, high)} if low < high else spans
     unit = "nm" if high < _LONGEST else "um"
@@ -135,14 +136,16 @@ def _range_text(one: PageMatch) -> str:
     return "; ".join([f"{part} {' .. '.join(span)} {unit}" for part, span in ends.items()])
 
 
-def _as_json(one: PageMatch) -> dict[str, Any]:
+def _as_json(one: NamedPage) -> dict[str, Any]:
     return {
         "name": one.name,
         "names": list(one.curated.names) if one.curated else [one.name],
         "page": one.page.place,
-        "range": {part: [in_unit(e, _UNIT) for e in span] for part, span in one.spans().items()},
+        "range": {
+            part: [in_unit(e, _UNIT) for e in span] for part, span in known_spans(one).items()
+        },
         "source": one.page.about_page,
-        "about": one.described,
+        "about": described(one),
     }
 
 

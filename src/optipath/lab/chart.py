@@ -5,7 +5,7 @@ from __future__ import annotations
 import platform
 from collections import Counter
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -19,13 +19,13 @@ from optipath.kernels.catalog import METHODS, REFLECTION
 from optipath.lab.bench import limits, processor, seconds_of, software
 from optipath.lab.chart_file import CRITICAL, FORMAT, KINDS, WORDS, contenders
 from optipath.lab.errors import (
+    AS_PASSED,
     LIMIT,
     Errors,
     interface_errors,
     matrix_numbers,
     path_errors,
     trial,
-    trials,
     worst_and_median,
 )
 from optipath.lab.regions import REGIONS, in_region, interfaces, places_called
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.kernels.kernel import Kernel
-    from optipath.lab.regions import CriticalPlace
+    from optipath.lab.regions import CriticalPlace, Region
     from optipath.paths.path_graph import PathGraph
 
     Progress: TypeAlias = Callable[[str, float], object]
@@ -121,19 +121,13 @@ def path_chart(
     made = {"parameters": words, **_chart(title, results, least, effort)}
     # Longdouble is given the numbers of float64, and so has its references.
     rounded = {"float64": "float64", "float32": "float32", "longdouble": "float64"}
-    dtypes = dict.fromkeys(rounded[runner.dtype] for runner in runners)
-    count = 1 + len(REGIONS) * bool(interfaces(path))
-    drawn = [trials(path, REGIONS, dtype, effort.samples) for dtype in dtypes]
-    for number in range(count):
-        name = "the path as given" if number == 0 else REGIONS[number - 1].name
-        progress(f"errors, {name}", _TIMED + (1 - _TIMED) * number / count)
-        tests = dict(zip(dtypes, map(next, drawn), strict=True))
-        for runner, entry in zip(runners, results, strict=True):
-            trial = tests[rounded[runner.dtype]]
-            _add(entry, trial.region, path_errors(runner, trial, runner.dtype))
-        made["regions"] = {"measured": number + 1, "of": count}
-        keep(made)
-    return made
+    of_region = lru_cache(maxsize=len(rounded))(partial(trial, path, count=effort.samples))
+
+    def off(runner: Composer, region: Region | None) -> Errors:
+        return path_errors(runner, of_region(region, rounded[runner.dtype]), runner.dtype)
+
+    regions = {AS_PASSED: None, **{r.name: r for r in REGIONS if interfaces(path)}}
+    return _with_errors(made, runners, regions, off, progress, keep)
 
 
 def interface_chart(
@@ -148,13 +142,29 @@ def interface_chart(
     _time(result, actions, effort, progress)
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
     made = _chart("one interface", result, least, effort)
-    count = len(REGIONS)
-    for number, region in enumerate(REGIONS):
-        progress(f"errors, {region.name}", _TIMED + (1 - _TIMED) * number / count)
-        for runner, entry in zip(runners, result, strict=True):
-            off = interface_errors(runner.method, region, runner.dtype, effort.samples)
-            _add(entry, region.name, off)
-        made["regions"] = {"measured": number + 1, "of": count}
+
+    def off(runner: Composer, region: Region) -> Errors:
+        return interface_errors(runner.method, region, runner.dtype, effort.samples)
+
+    return _with_errors(made, runners, {r.name: r for r in REGIONS}, off, progress, keep)
+
+
+def _with_errors(
+    made: dict[str, Any],
+    runners: Sequence[Composer],
+    regions: Mapping[str, Any],
+    off: Callable[[Composer, Any], Errors],
+    progress: Progress,
+    keep: Keep,
+) -> dict[str, Any]:
+    """Return a chart with the errors of all contenders, kept region after region."""
+    for number, (name, region) in enumerate(regions.items()):
+        progress(f"errors, {name}", _TIMED + (1 - _TIMED) * number / len(regions))
+        for runner, entry in zip(runners, made["contenders"], strict=True):
+            errors = off(runner, region)
+            for kind in KINDS:
+                entry["errors"][kind][name] = worst_and_median(getattr(errors, kind))
+        made["regions"] = {"measured": number + 1, "of": len(regions)}
         keep(made)
     return made
 
@@ -181,11 +191,6 @@ def _entry(runner: Composer) -> dict[str, Any]:
         "eps": float(np.finfo(runner.dtype).eps),
         "errors": {kind: {} for kind in KINDS},
     }
-
-
-def _add(entry: dict[str, Any], region: str, off: Errors) -> None:
-    for kind in KINDS:
-        entry["errors"][kind][region] = worst_and_median(getattr(off, kind))
 
 
 def _time(

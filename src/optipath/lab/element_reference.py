@@ -145,22 +145,14 @@ def _(element: Waveplate, _: Coupling, read: Reader) -> Jones:
 
 @jones.register
 def _(element: CircularPolarizer, _: Coupling, read: Reader) -> Jones:
-    stored, missing = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
-    # The field (1, i) has S3 > 0.
-    i = mpmath.mpc(0, 1 if element.handedness == "right" else -1)
-    both, apart = (stored + missing) / 2, i * (stored - missing) / 2
-    return (both, -apart), (apart, both)
+    shares = read.real(element.transmittance), read.real(element.leakage)
+    return passing_circular(*shares, 1 if element.handedness == "right" else -1)
 
 
 @jones.register
 def _(element: PolarizingBeamSplitter, way: Coupling, read: Reader) -> Jones:
-    ratios = element.extinction_transmitted, element.extinction_reflected
-    u, v = (1 / read.real(ratio) for ratio in ratios)
-    if way.reflects:
-        s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
-        return diagonal(mpmath.sqrt(s), -mpmath.sqrt(p))
-    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
-    return diagonal(mpmath.sqrt(s), mpmath.sqrt(p))
+    ratios = read.real(element.extinction_transmitted), read.real(element.extinction_reflected)
+    return splitting(*ratios, reflects=way.reflects)
 
 
 @jones.register
@@ -171,10 +163,7 @@ def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
 
 @jones.register
 def _(element: CircularDiattenuator, _: Coupling, read: Reader) -> Jones:
-    right, left = (mpmath.sqrt(read.real(share)) for share in (element.right, element.left))
-    # The field of S3 > 0 is (1, i).
-    even, odd = (right + left) / 2, 1j * (left - right) / 2
-    return (even, odd), (-odd, even)
+    return passing_circular(read.real(element.right), read.real(element.left), 1)
 
 
 @jones.register
@@ -307,14 +296,36 @@ def turn(angle: Any) -> Jones:
 def filtering(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
     """Return what a filter does."""
     roots = (mpmath.sqrt(read.real(transmittance)) for transmittance in (along, across))
-    return _turned(diagonal(*roots), read.angle(angle, 2))
+    return turned(diagonal(*roots), read.angle(angle, 2))
 
 
 def retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
     """Return what a retarder does. Units: retardance in radians."""
+    return turned(delaying(retardance), read.angle(angle, 2))
+
+
+def delaying(retardance: Any) -> Jones:
+    """Return what a retarder with its fast axis along x does. Units: retardance in radians."""
     # The field is exp(-iwt): what falls behind gains a positive phase.
-    slow = mpmath.mpc(*cos_sin(retardance))
-    return _turned(diagonal(1, slow), read.angle(angle, 2))
+    return diagonal(1, mpmath.mpc(*cos_sin(retardance)))
+
+
+def passing_circular(transmittance: Any, leakage: Any, sign: Any) -> Jones:
+    """Return what lets through circular light, that whose S3 has a sign and the other."""
+    stored, missing = mpmath.sqrt(transmittance), mpmath.sqrt(leakage)
+    # The field (1, i) has S3 > 0.
+    both, apart = (stored + missing) / 2, mpmath.mpc(0, sign) * (stored - missing) / 2
+    return (both, -apart), (apart, both)
+
+
+def splitting(of_transmitted: Any, of_reflected: Any, *, reflects: bool) -> Jones:
+    """Return what a splitter without loss does, by its extinction ratios."""
+    u, v = 1 / of_transmitted, 1 / of_reflected
+    if reflects:
+        s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
+        return diagonal(mpmath.sqrt(s), -mpmath.sqrt(p))
+    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
+    return diagonal(mpmath.sqrt(s), mpmath.sqrt(p))
 
 
 def diagonal(x: Any, y: Any) -> Jones:
@@ -322,7 +333,8 @@ def diagonal(x: Any, y: Any) -> Jones:
     return (x, 0), (0, y)
 
 
-def _turned(matrix: Jones, angle: Any) -> Jones:
+def turned(matrix: Jones, angle: Any) -> Jones:
+    """Return the matrix of an element that is turned by an angle from x towards y."""
     return times(turn(-angle), times(matrix, turn(angle)))
 
 

@@ -14,10 +14,10 @@ from optipath.kernels.primitives import NUMPY
 from optipath.lab import boundary_reference
 from optipath.lab.many_digits import WORKING_DIGITS, exactly, mpmath
 from optipath.lab.path_reference import exact_batch
-from optipath.lab.regions import in_region, interfaces
+from optipath.lab.regions import in_region
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     import networkx as nx
     import numpy.typing as npt
@@ -132,28 +132,14 @@ AS_PASSED = "as given"
 class Trial(NamedTuple):
     """A path in one region, and what exactly comes of it."""
 
-    region: str
     graph: nx.MultiDiGraph
     lights: tuple[dict[str, ExactLight], ...]
 
 
-def trials(
-    path: PathGraph,
-    regions: tuple[Region, ...],
-    dtype: str,
-    count: int,
-) -> Iterator[Trial]:
-    """Yield the path as given, and in every region if it has interfaces."""
-    argument = path.graph.copy()
-    yield Trial(AS_PASSED, argument, tuple(exact_batch(argument)))
-    for region in regions if interfaces(path) else ():
-        yield trial(path, region, dtype, count)
-
-
-def trial(path: PathGraph, region: Region, dtype: str, count: int) -> Trial:
-    """Return the path with its interfaces in one region."""
-    graph = in_region(path, region, count, dtype)
-    return Trial(region.name, graph, tuple(exact_batch(graph)))
+def trial(path: PathGraph, region: Region | None, dtype: str, count: int) -> Trial:
+    """Return the path with its interfaces in one region, or as it is given."""
+    graph = path.graph.copy() if region is None else in_region(path, region, count, dtype)
+    return Trial(graph, tuple(exact_batch(graph)))
 
 
 def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:

@@ -11,17 +11,23 @@ from __future__ import annotations
 import json
 import re
 import sys
-from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.lab.boundary_reference import boundary, stack
-from optipath.lab.element_reference import times, turn
+from optipath.lab.element_reference import (
+    delaying,
+    diagonal,
+    passing_circular,
+    splitting,
+    turn,
+    turned,
+)
 from optipath.lab.many_digits import DIGITS, WORKING_DIGITS, cos_sin, mpmath
 from optipath.lab.path_reference import coherency, passed, stokes_of
 from optipath.light.conventions import CONVENTIONS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping
 
     from optipath.lab.boundary_reference import Jones
 
@@ -39,91 +45,48 @@ def mueller_of(steps: Iterable[Step]) -> list[list[Any]]:
     with mpmath.workdps(WORKING_DIGITS):
         total = mpmath.eye(4)
         for does, values in steps:
-            total = mpmath.matrix(STEPS[does](values)) * total
+            total = mpmath.matrix(_matrix(does, values)) * total
         least = mpmath.mpf(10) ** -DIGITS * (total[0, 0] or 1)
         rows = total.tolist()
         return [[x if abs(x) > least else mpmath.mpf(0) for x in row] for row in rows]
 
 
-def _boundary(values: Values, way: str) -> list[list[Any]]:
-    return _of_jones(getattr(boundary(_index(values), *_incidence(values)), way))
+def _matrix(step: str, values: Values) -> list[list[Any]]:
+    """Return the rows of the Mueller matrix of a step."""
+    if step.endswith(" by layers"):
+        indices = [mpmath.mpc(*map(mpmath.mpf, pair)) for pair in values["indices"]]
+        return stack(indices, *_incidence(values), way=step.startswith("reflection"))
+    matrix = _jones(step, {name: mpmath.mpf(text) for name, text in values.items()})
+    columns = [stokes_of(passed(matrix, coherency(unit))) for unit in mpmath.eye(4).tolist()]
+    return [list(row) for row in zip(*columns, strict=True)]
 
 
-def _layers(values: Values, *, reflected: bool) -> list[list[Any]]:
-    indices = [mpmath.mpc(*map(mpmath.mpf, pair)) for pair in values["indices"]]
-    return stack(indices, *_incidence(values), way=reflected)
-
-
-def _polarizer(values: Values) -> list[list[Any]]:
-    through = values.get("transmittance", "1"), values.get("leakage", "0")
-    x, y = (mpmath.sqrt(mpmath.mpf(part)) for part in through)
-    return _at_angle(((x, 0), (0, y)), values)
-
-
-def _retarder(values: Values) -> list[list[Any]]:
-    # The field is exp(-iwt): the slow component gains a positive phase.
-    slow = mpmath.mpc(*cos_sin(_degrees(values["retardance"])))
-    return _at_angle(((1, 0), (0, slow)), values)
-
-
-def _rotator(values: Values) -> list[list[Any]]:
-    return _of_jones(turn(-_degrees(values["angle"])))
-
-
-def _faraday_rotator(values: Values) -> list[list[Any]]:
-    factors = (mpmath.mpf(values[name]) for name in ("verdet", "field", "length"))
-    return _of_jones(turn(-mpmath.fprod(factors)))
-
-
-def _waveplate(values: Values) -> list[list[Any]]:
-    names = "thickness", "birefringence", "wavelength"
-    thickness, birefringence, wavelength = (mpmath.mpf(values[name]) for name in names)
-    retardance = 360 * thickness * birefringence / wavelength
-    return _retarder({**values, "retardance": retardance})
-
-
-def _circular_polarizer(values: Values) -> list[list[Any]]:
-    through = values.get("transmittance", "1"), values.get("leakage", "0")
-    t, leakage = (mpmath.mpf(part) for part in through)
-    sign = mpmath.mpf(values["handedness"])
-    mean, half, across = (t + leakage) / 2, sign * (t - leakage) / 2, mpmath.sqrt(t * leakage)
-    return [[mean, 0, 0, half], [0, across, 0, 0], [0, 0, across, 0], [half, 0, 0, mean]]
-
-
-def _splitter(values: Values, *, reflected: bool) -> list[list[Any]]:
-    names = "extinction_transmitted", "extinction_reflected"
-    u, v = (1 / mpmath.mpf(values[name]) for name in names)
-    if reflected:
-        s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
-        return _of_jones(((mpmath.sqrt(s), 0), (0, -mpmath.sqrt(p))))
-    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
-    return _of_jones(((mpmath.sqrt(s), 0), (0, mpmath.sqrt(p))))
-
-
-def _turned_frame(values: Values) -> list[list[Any]]:
-    return _of_jones(turn(_degrees(values["angle"])))
-
-
-STEPS: dict[str, Callable[[Values], list[list[Any]]]] = {
-    "reflection": partial(_boundary, way="reflected"),
-    "transmission": partial(_boundary, way="transmitted"),
-    "reflection by layers": partial(_layers, reflected=True),
-    "transmission by layers": partial(_layers, reflected=False),
-    "polarizer": _polarizer,
-    "retarder": _retarder,
-    "rotator": _rotator,
-    "turned frame": _turned_frame,
-    "faraday rotator": _faraday_rotator,
-    "waveplate": _waveplate,
-    "circular polarizer": _circular_polarizer,
-    "reflection by a polarizing beam splitter": partial(_splitter, reflected=True),
-    "transmission by a polarizing beam splitter": partial(_splitter, reflected=False),
-}
-"""What there is by its word: a function of the values, which returns the rows of a matrix."""
-
-
-def _degrees(text: str) -> Any:
-    return mpmath.radians(mpmath.mpf(text))
+def _jones(step: str, values: Values) -> Jones:
+    """Return the Jones matrix of a step."""
+    angle = mpmath.radians(values.get("angle", 0))
+    shares = values.get("transmittance", mpmath.mpf(1)), values.get("leakage", mpmath.mpf(0))
+    match step:
+        case "reflection":
+            return boundary(_index(values), *_incidence(values)).reflected
+        case "transmission":
+            return boundary(_index(values), *_incidence(values)).transmitted
+        case "polarizer":
+            return turned(diagonal(*map(mpmath.sqrt, shares)), angle)
+        case "retarder":
+            return turned(delaying(mpmath.radians(values["retardance"])), angle)
+        case "waveplate":
+            path = values["thickness"] * values["birefringence"]
+            return turned(delaying(2 * mpmath.pi * path / values["wavelength"]), angle)
+        case "rotator":
+            return turn(-angle)
+        case "faraday rotator":
+            return turn(-values["verdet"] * values["field"] * values["length"])
+        case "circular polarizer":
+            return passing_circular(*shares, values["handedness"])
+        case "turned frame":
+            return turn(angle)
+    ratios = values["extinction_transmitted"], values["extinction_reflected"]
+    return splitting(*ratios, reflects=step.startswith("reflection"))
 
 
 def _incidence(values: Values) -> tuple[Any, Any]:
@@ -131,23 +94,11 @@ def _incidence(values: Values) -> tuple[Any, Any]:
         tangent = mpmath.mpf(values["tan_incidence"])
         cosine = 1 / mpmath.sqrt(1 + tangent * tangent)
         return cosine, tangent * cosine
-    return cos_sin(_degrees(values["incidence"]))
+    return cos_sin(mpmath.radians(mpmath.mpf(values["incidence"])))
 
 
 def _index(values: Values) -> Any:
-    behind = mpmath.mpc(mpmath.mpf(values["n"]), mpmath.mpf(values.get("k", "0")))
-    return behind / mpmath.mpf(values.get("outside", "1"))
-
-
-def _at_angle(matrix: Jones, values: Values) -> list[list[Any]]:
-    angle = _degrees(values["angle"])
-    return _of_jones(times(turn(-angle), times(matrix, turn(angle))))
-
-
-def _of_jones(matrix: Jones) -> list[list[Any]]:
-    units: Sequence[Any] = mpmath.eye(4).tolist()
-    columns = [stokes_of(passed(matrix, coherency(unit))) for unit in units]
-    return [list(row) for row in zip(*columns, strict=True)]
+    return mpmath.mpc(values["n"], values.get("k", 0)) / values.get("outside", 1)
 
 
 TABLE_DIGITS = 20

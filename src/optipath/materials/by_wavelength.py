@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, shown
 from optipath.materials.formulas import EVERYWHERE, DrudeRotation, several
 from optipath.materials.tables import Tabulated
 from optipath.values.arrays import as_argument, numbers_for
@@ -74,12 +74,11 @@ def tabulated(
     if not dimension_of(unit):
         unit = next(map(unit_of, texts), "")
     dimension = dimension_of(unit)
-    numbers = numbers_for(
-        f"values of {label}", values, lambda text: parse_quantity(text, dimension, unit)
-    )
-    if unit and not texts:
-        numbers = [_in_base_units(label, one, unit) for one in samples.ravel().tolist()]
-        numbers = np.reshape(numbers, samples.shape)
+    parse = partial(parse_quantity, dimension=dimension, default_unit=unit)
+    numbers = numbers_for(f"values of {label}", values, parse)
+    row = np.asarray(numbers)
+    if unit and not texts and row.dtype.kind in "iuf":
+        numbers = np.reshape([parse(f"{one} {unit}").real for one in row.flat], row.shape)
     curve = Tabulated(
         label,
         ("value",),
@@ -154,10 +153,3 @@ def drude_rotation(
         span,
     )
     return curve_at(curve, wavelength)[0]
-
-
-def _in_base_units(label: str, number: Any, unit: str) -> float:
-    try:
-        return float(parse_quantity(f"{float(number)} {unit}", dimension_of(unit)).real)
-    except (OverflowError, TypeError, ValueError):
-        raise ValueFault(f"values of {label} must be real numbers, not {shown(number)}") from None

@@ -53,11 +53,11 @@ def parts_by_name(
     if isinstance(name, str) and alike(name) == VACUUM and not page:
         return {"n": 1.0, "k": 0.0, **arguments}
     result = named_page(name, page)
-    if result.clear and "k" not in arguments:
+    clear = result.curated.clear if result.curated and "k" not in arguments else None
+    if clear:
         arguments["k"] = 0.0
-    else:
-        result = result._replace(clear=None)
-    curve = curve_of(result, own=arguments, interpolation=interpolation, extrapolate=extrapolate)
+    how = {"interpolation": interpolation, "extrapolate": extrapolate}
+    curve = curve_of(result, own=arguments, within=clear, **how)
     return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **arguments}
 
 
@@ -87,6 +87,7 @@ def curve_of(
     result: NamedPage,
     *,
     own: Mapping[str, Any],
+    within: tuple[float, float] | None = None,
     interpolation: str = "linear",
     extrapolate: str = "",
 ) -> PageCurve:
@@ -99,7 +100,7 @@ def curve_of(
         result.label,
         about,
         wanted=_wanted(result.name, own),
-        within=result.clear,
+        within=within,
         requests={"name": result.name, **{k: v for k, v in how.items() if v != usual[k]}},
         remedy=f"name another page, or mend a copy of {result.page.file} for Material.from_yaml",
         **how,
@@ -308,43 +309,37 @@ _RANGE = re.compile(
 """The range in the title of a page: "n,k 0.188-1.937 um", with a dash."""
 
 
-class PageMatch(NamedTuple):
-    """A page that a search has found."""
-
-    name: str
-    page: CatalogPage
-    curated: CuratedName | None = None
-
-    @property
-    def described(self) -> str:
-        """Where its numbers are from: the page of a short name and why, else what it is of."""
-        if self.curated:
-            return "; ".join([self.page.place, self.curated.reference, self.curated.why])
-        messages = (self.page.about_book, _RANGE.sub("", self.page.about_page), self.page.divider)
-        return "; ".join(filter(None, messages))
-
-    def spans(self) -> dict[str, tuple[float, float]]:
-        """Return the wavelengths of n and of k, in metres; nothing if a page cannot be read."""
-        try:
-            result = spans_of(read_yaml(self.page.file, self.page.place, installed=True))
-        except (OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
-            return {}
-        if self.curated and self.curated.clear:
-            low, high = self.curated.clear
-            result["n"] = max(low, result["n"][0]), min(high, result["n"][1])
-        return {part: result[part] for part in ("n", "k") if part in result}
+def described(one: NamedPage) -> str:
+    """Say where numbers are from: the page of a short name and why, else what it is of."""
+    page, curated = one.page, one.curated
+    if curated:
+        return "; ".join([page.place, curated.reference, curated.why])
+    messages = (page.about_book, _RANGE.sub("", page.about_page), page.divider)
+    return "; ".join(filter(None, messages))
 
 
-def pages_with(words: Sequence[str]) -> list[PageMatch]:
+def known_spans(one: NamedPage) -> dict[str, tuple[float, float]]:
+    """Return the wavelengths of n and of k, in metres; nothing if a page cannot be read."""
+    try:
+        result = spans_of(read_yaml(one.page.file, one.page.place, installed=True))
+    except (OptipathError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
+        return {}
+    if one.curated and one.curated.clear:
+        low, high = one.curated.clear
+        result["n"] = max(low, result["n"][0]), min(high, result["n"][1])
+    return {part: result[part] for part in ("n", "k") if part in result}
+
+
+def pages_with(words: Sequence[str]) -> list[NamedPage]:
     """Return the pages in which all of some words occur; those with short names for none."""
     pages = {page.place: page for page in catalog_pages()}
-    short = [PageMatch(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
+    short = [NamedPage(c.names[0], pages[c.place], c) for c in CURATED if c.place in pages]
     if not words:
         return short
     requests = [word.casefold() for word in words]
     first = [one for one in short if _has(_text(one.page, one.curated), requests)]
     others = [
-        PageMatch(page.place, page)
+        NamedPage(page.place, page)
         for place, page in pages.items()
         if place not in {one.page.place for one in first} and _has(_text(page), requests)
     ]

@@ -24,12 +24,20 @@ _MOST = 8
 
 
 class NamedPage(NamedTuple):
-    """A page, and what sentences call the material."""
+    """A page by one of its names, which may be a short one."""
 
     name: str
-    label: str
     page: CatalogPage
-    clear: tuple[float, float] | None = None
+    curated: CuratedName | None = None
+
+    @property
+    def label(self) -> str:
+        """What sentences call the material."""
+        for one in CURATED:
+            if one.place == self.page.place:
+                return one.label
+        reference = self.page.reference
+        return f"{self.page.place} ({reference})" if reference else self.page.place
 
 
 def named_page(name: str, page: str = "") -> NamedPage:
@@ -52,7 +60,7 @@ def named_page(name: str, page: str = "") -> NamedPage:
         raise MaterialError(_unknown(_underscored(whole)))
     if len(result) > 1:
         raise MaterialError(_ambiguous(whole, result))
-    return of_page(result[0])
+    return NamedPage(result[0].place, result[0])
 
 
 def of_curated(curated: CuratedName) -> NamedPage:
@@ -60,16 +68,7 @@ def of_curated(curated: CuratedName) -> NamedPage:
     shelf, book, page = curated.place.split("/")
     data = curated.data or f"{shelf}/{book}/nk/{page}.yml"
     known = CatalogPage(shelf, book, page, data=data)
-    return NamedPage(curated.names[0], curated.label, known, curated.clear)
-
-
-def of_page(page: CatalogPage) -> NamedPage:
-    """Return a page of the catalogue, which is called by its short name where it has one."""
-    curated = next((one for one in CURATED if one.place == page.place), None)
-    if curated is not None:
-        return NamedPage(page.place, curated.label, page)
-    label = f"{page.place} ({page.reference})" if page.reference else page.place
-    return NamedPage(page.place, label, page)
+    return NamedPage(curated.names[0], known, curated)
 
 
 def _matching(name: str) -> list[CatalogPage]:
