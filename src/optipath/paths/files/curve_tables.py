@@ -18,7 +18,7 @@ from optipath.materials.material import PARTS, K, Material
 from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.spectrum import Spectrum
 from optipath.materials.tables import PageCurve, Tabulated
-from optipath.paths.files.schema import Faults, checked_table
+from optipath.paths.files.schema import checked_table, each_entry, each_key
 from optipath.paths.files.spectrum_tables import sampled_curve, spectrum_table, written_wavelengths
 from optipath.values.curve import CurveSum, WavelengthRange
 from optipath.values.curve_value import CurveValue, curve_values
@@ -92,17 +92,11 @@ def formula_of(raw: Mapping[str, Any], form: str, decode: Decode) -> Curve:
     """Return the curve of a table with a formula."""
     known = _coefficients_of(form)
     table = raw[form]
-    faults = Faults()
     needed = [name for name, usual in known.items() if usual is Argument.empty]
-    faults.attempt(f".{form}", checked_table, table, known.keys(), needed)
-    faults.refuse()
-    arguments = {
-        name: faults.attempt(f".{form}.{name}", _nested, value, REAL, decode)
-        for name, value in table.items()
-    }
-    if "span" in raw:
-        arguments["span"] = faults.attempt(".span", _nested, raw["span"], WAVELENGTH, decode)
-    faults.refuse()
+    each_key({form: table}, lambda _, raw: checked_table(raw, known.keys(), needed))
+    arguments = each_key(table, lambda _, raw: _nested(raw, REAL, decode), f".{form}")
+    span = {key: raw[key] for key in ("span",) if key in raw}
+    arguments |= each_key(span, lambda _, ends: _nested(ends, WAVELENGTH, decode))
     return FORMULAS[form](raw.get("name", f"the formula '{form}'"), **arguments)
 
 
@@ -129,13 +123,7 @@ def _nested(raw: Any, domain: Domain, decode: Decode) -> Any:
     """Return a number, or a list of such, or of lists of them."""
     if not isinstance(raw, list):
         return decode(raw, domain)
-    faults = Faults()
-    results = [
-        faults.attempt(f"[{place}]", _nested, entry, domain, decode)
-        for place, entry in enumerate(raw)
-    ]
-    faults.refuse()
-    return results
+    return each_entry(raw, lambda entry: _nested(entry, domain, decode))
 
 
 NAMED = "material"
@@ -150,13 +138,8 @@ def material_by_name(
     raw: Mapping[str, Any], wavelength: Any, decode: Callable[[Any, Domain], Any]
 ) -> dict[str, Any]:
     """Return n and k of a material of the database."""
-    faults = Faults()
-    numbers: dict[str, Any] = {
-        key: faults.attempt(f".{key}", decode, raw[key], of)
-        for key, of in PARTS.items()
-        if key in raw
-    }
-    faults.refuse()
+    parts = {key: raw[key] for key in PARTS if key in raw}
+    numbers: dict[str, Any] = each_key(parts, lambda key, part: decode(part, PARTS[key]))
     texts: dict[str, Any] = {key: raw[key] for key in _TEXTS if key in raw}
     result = Material.named(raw[NAMED], wavelength=wavelength, **texts, **numbers)
     return {"n": result.n, "k": result.k}
@@ -235,7 +218,7 @@ def decode_curve(
     if _has_own_k(raw, form):
         if "k" in result:
             raise PresetError(f"'{form}' gives k as well; leave k out")
-        result["k"] = _at_place(".k", decode, raw["k"], K)
+        result["k"] = _at_key("k", decode, raw["k"], K)
     return Material(**result)
 
 
@@ -260,7 +243,7 @@ def _parts(
     checked_table(raw, _typed(form, *keys, WHEN), needed)
     when: Any = parameters.get(WHEN) or Wavelength()
     if WHEN in raw:
-        when = _at_place(f".{WHEN}", decode, raw[WHEN], WAVELENGTH)
+        when = _at_key(WHEN, decode, raw[WHEN], WAVELENGTH)
     if form == NAMED:
         return material_by_name(raw, when, decode)
     if form == CRYSTAL:
@@ -279,12 +262,9 @@ def _has_own_k(raw: Mapping[str, Any], form: str) -> bool:
     return form in (SAMPLES, *FORMULAS) and "k" in raw and not sampled
 
 
-def _at_place(where: str, decode: Decode, raw: Any, domain: Domain) -> Any:
-    """Return a value of a table, or raise with its place."""
-    faults = Faults()
-    result = faults.attempt(where, decode, raw, domain)
-    faults.refuse()
-    return result
+def _at_key(key: str, decode: Decode, raw: Any, domain: Domain) -> Any:
+    """Return the value of a key of a table, or raise with its place."""
+    return each_key({key: raw}, lambda _, value: decode(value, domain))[key]
 
 
 def _at(curve: Curve, when: Any) -> dict[str, Any]:
@@ -309,20 +289,16 @@ def _together(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode)
     if not isinstance(terms, list) or len(terms) < 2 or (form == DIFFERENCE and len(terms) > 2):
         many = "two tables" if form == DIFFERENCE else "two tables or more"
         raise PresetError(f"'{form}' must be a list of {many}, not {shown(terms)}")
-    faults = Faults()
-    results = [
-        faults.attempt(f".{form}[{i}]", decode, term, domain) for i, term in enumerate(terms)
-    ]
-    faults.refuse()
+    results = each_entry(terms, lambda term: decode(term, domain), f".{form}")
     return _placed(reduce(sub if form == DIFFERENCE else add, results), raw, domain, decode)
 
 
 def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, decode: Decode) -> Any:
     """Return a multiple of a value with an offset, where the table says so."""
     if "scale" in raw:
-        value = _at_place(".scale", decode, raw["scale"], Domain("scale")) * value
+        value = _at_key("scale", decode, raw["scale"], Domain("scale")) * value
     if "offset" in raw:
-        value = value + _at_place(".offset", decode, raw["offset"], domain)
+        value = value + _at_key("offset", decode, raw["offset"], domain)
     return value
 
 

@@ -13,7 +13,7 @@ from optipath.kernels.kernel import called
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
 from optipath.paths.files import schema
-from optipath.paths.files.schema import FORMAT, Faults, checked_table
+from optipath.paths.files.schema import FORMAT, Faults, checked_table, each_key
 from optipath.paths.files.toml import parsed
 from optipath.paths.files.values import decode, decode_argument, text_or_number, wavelength_names
 from optipath.paths.path_graph import PathGraph
@@ -175,21 +175,14 @@ def read_element(
     domains = of_kind.domains()
     known = {"kind": str, "frames": dict} | dict.fromkeys(domains, object)
     checked_table(table, known, filter(of_kind.needs, domains))
-    faults = Faults()
-    values = {
-        name: faults.attempt(f".{name}", decode, table[name], domain, parameters)
-        for name, domain in domains.items()
-        if name in table
-    }
-    frames = {
-        port: faults.attempt(f".frames.{port}", _frame, axes)
-        for port, axes in table.get("frames", {}).items()
-    }
-    faults.refuse()
-    return called(f"element class {of_kind.__name__}", lambda: of_kind(**values)), frames  # type: ignore[return-value] # no None without faults
+    given = {name: table[name] for name in domains if name in table}
+    values = each_key(given, lambda name, raw: decode(raw, domains[name], parameters))
+    frames = each_key(table.get("frames", {}), _frame, ".frames")
+    return called(f"element class {of_kind.__name__}", lambda: of_kind(**values)), frames
 
 
-def _frame(axes: Any) -> Frame:
+def _frame(port: str, axes: Any) -> Frame:
+    del port
     return Frame(**checked_table(axes, ("x", "y", "z", "rounding"), "xyz"))
 
 

@@ -11,7 +11,6 @@ from optipath.errors import (
     OptipathError,
     PresetError,
     UnitError,
-    closest,
     did_you_mean,
     listed,
     shown,
@@ -75,30 +74,6 @@ def checked_table(raw: Any, known: Collection[str], needed: Iterable[str] = ()) 
     return raw
 
 
-def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
-    """Return a table with misspelled keys under the meant names, for none to be missing too.
-
-    >>> as_meant({"knd": "source", "frames": {}, "colour": 3}, ["kind", "frames"])
-    {'frames': {}, 'kind': 'source'}
-    """
-    names = list(known)
-    results = {key: value for key, value in table.items() if key in names}
-    for key, value in table.items():
-        name = key if key in names else closest(key, names)
-        if name is None or name == key:
-            continue
-        here = results.setdefault(name, value)
-        if here is not value and isinstance(here, dict) and isinstance(value, dict):
-            results[name] = {**value, **here}
-    return results
-
-
-def readable(table: Mapping[str, Any], schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a table has by keys that are known or meant, where it is of the right type."""
-    meant = as_meant(table, schema)
-    return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}
-
-
 def number_of(raw: Any, unit: str) -> float | complex:
     """Return a number in base units, which is written with its unit where it has one.
 
@@ -153,6 +128,30 @@ class Faults(list[str]):
         """Raise where there are more faults than so many."""
         if len(self) > most:
             raise PresetError(*joined(self))
+
+
+def each_entry(entries: Iterable[Any], action: Callable[[Any], T], where: str = "") -> list[T]:
+    """Return what an action makes of each entry of a list, or raise with all faults."""
+    faults = Faults()
+    results = [faults.attempt(f"{where}[{i}]", action, entry) for i, entry in enumerate(entries)]
+    faults.refuse()
+    return results  # type: ignore[return-value] # none without faults
+
+
+def each_key(
+    table: Mapping[str, Any], action: Callable[[str, Any], T], where: str = ""
+) -> dict[str, T]:
+    """Return what an action makes of each key of a table and its value, or raise with all faults.
+
+    >>> each_key({"n": "1.5", "k": 2}, lambda key, raw: number_of(raw, ""))
+    {'n': 1.5, 'k': 2.0}
+    """
+    faults = Faults()
+    results = {
+        key: faults.attempt(f"{where}.{key}", action, key, raw) for key, raw in table.items()
+    }
+    faults.refuse()
+    return results  # type: ignore[return-value] # none without faults
 
 
 def joined(faults: Iterable[str]) -> list[Fault]:

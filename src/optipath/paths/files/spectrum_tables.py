@@ -23,7 +23,7 @@ from optipath.materials.spectrum_kinds import (
     SumOfKinds,
 )
 from optipath.materials.tables import Tabulated
-from optipath.paths.files.schema import Faults, checked_table, number_of
+from optipath.paths.files.schema import Faults, checked_table, each_entry, number_of
 from optipath.values.columns import unit_doubted
 from optipath.values.units import format_quantity
 from optipath.values.wavelength import WAVELENGTH, Wavelength
@@ -103,11 +103,7 @@ def _known() -> str:
 
 
 def _terms(raw: Mapping[str, Any]) -> Spectrum:
-    terms = raw["sum"] or [None]
-    faults = Faults()
-    results = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
-    faults.refuse()
-    return reduce(add, results)  # type: ignore[return-value]
+    return reduce(add, each_entry(raw["sum"] or [None], spectrum_of, ".sum"))
 
 
 def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
@@ -231,10 +227,7 @@ def _each(raw: Any, read: Callable[[Any, Any], float], unit: Any) -> list[float]
     """Return the numbers of a list, with the place of each fault."""
     if not isinstance(raw, list) or not raw:
         raise PresetError(f"{shown(raw)} must be a list of one number or more")
-    faults = Faults()
-    results = [faults.attempt(f"[{place}]", read, entry, unit) for place, entry in enumerate(raw)]
-    faults.refuse()
-    return results  # type: ignore[return-value] # none without faults
+    return each_entry(raw, lambda entry: read(entry, unit))
 
 
 def written_wavelengths(metres: Any) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import chain, repeat
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,7 +31,7 @@ from optipath.paths.files.curve_tables import (
     material_table,
     number_table,
 )
-from optipath.paths.files.schema import Faults, checked_table, number_of
+from optipath.paths.files.schema import Faults, checked_table, each_entry, each_key, number_of
 from optipath.paths.files.spectrum_tables import decode_spectrum
 from optipath.values.arrays import array_of
 from optipath.values.curve_value import CurveValue
@@ -208,14 +209,8 @@ def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dic
     of_index = names == INDEX.complex_parts
     checked_table(raw, (*names, *FORMS) if of_index else names, names[:1])
     domains = dict.fromkeys(names, Domain(domain.name)) | ({"k": K} if of_index else {})
-    faults = Faults()
-    parts = {
-        key: faults.attempt(f".{key}", decode, raw[key], of, parameters)
-        for key, of in domains.items()
-        if key in raw
-    }
-    faults.refuse()
-    return parts
+    parts = {key: raw[key] for key in domains if key in raw}
+    return each_key(parts, lambda key, part: decode(part, domains[key], parameters))
 
 
 def _complex(parts: Mapping[str, Any]) -> Any:
@@ -260,19 +255,9 @@ def _list(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> list
     if not isinstance(raw, list):
         example = "[1, 1.5, { n = 0.6, k = 2 }]" if of_indices else '["2 mm", "0.1 mm"]'
         raise PresetError(f"{shown(raw)} is no list; write one such as {example}")
-    faults = Faults()
-    result = [
-        faults.attempt(
-            f"[{place}]",
-            decode,
-            entry,
-            FOLLOWED_OUTSIDE if of_indices and place == 0 else each,
-            parameters,
-        )
-        for place, entry in enumerate(raw)
-    ]
-    faults.refuse()
-    return result
+    domains = chain([FOLLOWED_OUTSIDE if of_indices else each], repeat(each))
+    pairs = zip(raw, domains, strict=False)
+    return each_entry(pairs, lambda pair: decode(pair[0], pair[1], parameters))
 
 
 def references_in(raw: Any) -> set[str]:
@@ -331,15 +316,7 @@ def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> Ve
     """
     schema = {**dict.fromkeys(_ANGLES, list), _BACKWARDS: bool}
     checked_table(raw, schema)
-    faults = Faults()
-    incidences, turns = (
-        tuple(
-            faults.attempt(f".{key}[{place}]", decoded, angle)
-            for place, angle in enumerate(raw.get(key, []))
-        )
-        for key in _ANGLES
-    )
-    faults.refuse()
+    incidences, turns = (tuple(each_entry(raw.get(key, []), decoded, f".{key}")) for key in _ANGLES)
     return VerticesByAngles(incidences, turns, raw.get(_BACKWARDS, False))
 
 
