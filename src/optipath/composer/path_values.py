@@ -22,7 +22,7 @@ from optipath.values.use import Use
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     import networkx as nx
 
@@ -58,7 +58,8 @@ class Values:
 
     def _is_taken_over(self, use: Use) -> bool:
         """Tell whether a value stands elsewhere, where what is wrong with it is told."""
-        following = self.graph.graph.get(FOLLOWING, {})
+        if not (following := self.graph.graph.get(FOLLOWING)):
+            return False
         name, _, field = use.owner.partition(".")
         return name in following and field.partition(".")[0] in following[name]
 
@@ -80,16 +81,21 @@ class Values:
         ]
 
     @cached_property
-    def parameters(self) -> dict[str, Parameter]:
-        """The parameters by name: in declared order, then as they are met."""
+    def _placed(self) -> dict[str, Parameter]:
+        """The parameters by name, where they are met first: with their scale and offset there."""
         results: dict[str, Parameter] = {}
         for use in self._known_uses:
             known = results.get(use.value.name)
             taken_over = known is not None and known is not use.value and _yields(known)
             if known is None or (taken_over and not _yields(use.value)):
-                results[use.value.name] = use.value.alone()
+                results[use.value.name] = use.value
         declared = [name for name in self.graph.graph.get("declared", ()) if name in results]
         return {name: results[name] for name in dict.fromkeys([*declared, *results])}
+
+    @cached_property
+    def parameters(self) -> dict[str, Parameter]:
+        """The parameters by name: in declared order, then as they are met."""
+        return {name: parameter.alone() for name, parameter in self._placed.items()}
 
     @cached_property
     def known_shapes(self) -> dict[str, tuple[int, ...]]:
@@ -150,7 +156,10 @@ class Values:
         faulty: set[str] = set()
         looked_at = set()
         out_of = set()
-        for use in sorted(self.uses, key=self._is_taken_over):
+        uses: Iterable[Use] = self.uses
+        if FOLLOWING in self.graph.graph:
+            uses = sorted(uses, key=self._is_taken_over)
+        for use in uses:
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
             another = isinstance(use.domain, WavelengthRange) and use.domain not in out_of
             again = bool(results) and self._is_taken_over(use)
@@ -182,7 +191,7 @@ class Values:
         for use in self._known_uses:
             name = use.value.name
             known = self.parameters[name]
-            alike = use.value is known or use.value.same_specification(known)
+            alike = use.value is self._placed[name] or use.value.same_specification(known)
             yields = _yields(use.value) and not known.bound
             if not alike and not (yields and dimension_of(known.unit) == "length"):
                 yield self._difference(use, known)

@@ -87,9 +87,7 @@ class Interpreter:
             self._carrying = carrying(program, carrier, self.xp, dtype.name)
         self._known: list[Any] | None = None
 
-    def lights(
-        self, arguments: Batch, shared: Shared | None = None
-    ) -> list[np.ndarray[Any, Any]]:
+    def lights(self, arguments: Batch, shared: Shared | None = None) -> list[np.ndarray[Any, Any]]:
         """Return Stokes vectors (..., 4) at every end; for parts, see `shared`."""
         batch, arguments = arguments.shape, self._as_batch(arguments)
         own = {
@@ -119,9 +117,7 @@ class Interpreter:
                     left -= size
         return result
 
-    def matrix(
-        self, arguments: Batch, source: str, reading: Reading
-    ) -> np.ndarray[Any, Any]:
+    def matrix(self, arguments: Batch, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
         none, shape = self.dtype.type(0.0), (*arguments.shape, 4, 4)
         arguments = self._as_batch(arguments)

@@ -134,9 +134,7 @@ class Recipe:
                 self.ranges.append((key.name, *reader.inputs.limits[key.name]))
 
     @staticmethod
-    def holds(
-        reader: InputReader, arguments: Batch, parameters: Mapping[str, Any]
-    ) -> bool:
+    def holds(reader: InputReader, arguments: Batch, parameters: Mapping[str, Any]) -> bool:
         """Tell whether what was read says as much of the next batch of the same shapes."""
         if not parameters.keys() <= {key.name for key in arguments.numbers}:
             return False  # What nothing needs is looked at each time.
