@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import networkx as nx
 
 from optipath.composer.followed_values import with_followed
-from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
+from optipath.composer.lower import lower, refuse_no_jones
 from optipath.composer.media import Media
 from optipath.composer.path_values import Values
 from optipath.composer.reduce import by_name, reduced, tolerated
@@ -177,8 +177,7 @@ class Composer:
         refuse_faults(values, wiring, media, unfollowed)
         whole = lower(wiring, self.method)
         if self.composing == "jones":
-            refuse_depolarizers(whole)
-            refuse_loops(whole)
+            refuse_no_jones(whole)
         reduction, instead = self._reduced(whole)
         return Plan(
             whole=whole,

@@ -35,7 +35,7 @@ def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
     ]
     if not names:
         return graph, []
-    taking = _Taking(elements, Meetings(Wiring(graph)))
+    taking = _Taking(elements, names, Meetings(Wiring(graph)))
     faults = {name: [*taking.faults(name)] for name in names}
     result = graph.copy()
     following = {name: elements[name].followed() for name in names}
@@ -60,7 +60,7 @@ def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
 class _Taking:
     """Gives values on from boundary to boundary, as soon as they are there."""
 
-    def __init__(self, elements: dict[str, Any], meetings: Meetings) -> None:
+    def __init__(self, elements: dict[str, Any], names: list[str], meetings: Meetings) -> None:
         self.given, self.elements = elements, dict(elements)
         self.fronts = _by_end(m for m in meetings.all if m.enters[1] == "in")
         self.layers = _by_end(meetings.in_layers)
@@ -70,9 +70,7 @@ class _Taking:
             for name, several in into.items():
                 for meeting in several:
                     behind.setdefault(meeting.leaves[0], set()).add(name)
-        waiting = [
-            name for name, e in elements.items() if isinstance(e, MediaOfBoundary) and e.followed()
-        ][::-1]
+        waiting = names[::-1]
         while waiting:
             name = waiting.pop()
             if self._take(name):

@@ -38,31 +38,24 @@ def lower(wiring: Wiring, method: str) -> Program:
     return lowering.program()
 
 
-def refuse_depolarizers(program: Program) -> None:
-    """Refuse elements that Jones columns cannot pass."""
-    whole = {
-        place
-        for place, evaluation in enumerate(program.evaluations)
-        if evaluation.kernel.structure and not evaluation.kernel.structure.jones
-    }
+def refuse_no_jones(program: Program) -> None:
+    """Refuse what Jones columns cannot pass: elements that may depolarise, and loops."""
+    cure = "compose with composing='stokes'"
     faults = [
         f"'{step.label}' has a whole Mueller matrix, which may depolarise, and no Jones matrix; "
-        f"compose with composing='stokes'"
+        f"{cure}"
         for step in program.steps
-        if step.evaluation in whole
+        if step.evaluation is not None
+        and (structure := program.evaluations[step.evaluation].kernel.structure)
+        and not structure.jones
     ]
+    if program.loops and not faults:
+        places = listed([f"'{program.steps[loop.start].label}'" for loop in program.loops[:_FEW]])
+        faults.append(
+            f"light goes round at {places}, and what adds up there has no Jones vector; {cure}"
+        )
     if faults:
         raise ComposerError(*faults)
-
-
-def refuse_loops(program: Program) -> None:
-    """Refuse light that goes round, which Jones columns cannot be solved for."""
-    if program.loops:
-        places = listed([f"'{program.steps[loop.start].label}'" for loop in program.loops[:_FEW]])
-        raise ComposerError(
-            f"light goes round at {places}, and what adds up there has no Jones vector; compose "
-            f"with composing='stokes'"
-        )
 
 
 class _Lowering:

@@ -167,11 +167,15 @@ def couplings_of(element: Any) -> tuple[Coupling, ...]:
 
 
 def _faults(what: str, element: Any, results: tuple[Any, ...]) -> Iterator[str]:
+    if odd := [thing for coupling in results for thing in _misfits(coupling)]:
+        yield (
+            f"{what} gives {shown(odd[0])}; return a tuple of op.Coupling, each with a tuple of "
+            f"op.Operation(kernel, (value, ...))"
+        )
+        return
     known = list[tuple[Any, Any]]()
+    names = {parameter.name for parameter in element.parameters()}
     for coupling in results:
-        if not isinstance(coupling, Coupling):
-            yield f"{what} gives {shown(coupling)}; return a tuple of op.Coupling"
-            continue
         way = enters, leaves = coupling.enters, coupling.leaves
         if enters is not None and enters not in element.inputs:
             yield f"{what} lead from {shown(enters)}; its inputs are {_ports(element.inputs)}"
@@ -180,13 +184,23 @@ def _faults(what: str, element: Any, results: tuple[Any, ...]) -> Iterator[str]:
         if way in known:
             yield f"{what} lead from {shown(enters)} to {shown(leaves)} more than once"
         known.append(way)
-        several: Any = coupling.operations
-        if not isinstance(several, (tuple, list)):
-            yield f"{what} give the operations {shown(several)}; give a tuple of op.Operation"
-            continue
-        names = {parameter.name for parameter in element.parameters()}
-        for operation in several:
+        for operation in coupling.operations:
             yield from _operation_faults(what, operation, names)
+
+
+def _misfits(coupling: Any) -> Iterator[Any]:
+    """Yield what is no coupling, operation or kernel, and stands where one must."""
+    operations = coupling.operations if isinstance(coupling, Coupling) else None
+    if not isinstance(operations, (tuple, list)):
+        yield coupling if operations is None else operations
+        return
+    for operation in operations:
+        if not isinstance(operation, Operation):
+            yield operation
+        elif not isinstance(operation.kernel, (Kernel, KernelFamily)):
+            yield operation.kernel
+        elif not isinstance(operation.arguments, (tuple, list)):
+            yield operation.arguments
 
 
 def _ports(ports: tuple[str, ...]) -> str:
@@ -194,22 +208,10 @@ def _ports(ports: tuple[str, ...]) -> str:
     return f"{named}, and mueller_rows lead from 'in' to 'out'; name one of these"
 
 
-def _operation_faults(what: str, operation: Any, names: set[str]) -> Iterator[str]:
-    """Say whether an operation has a kernel, and values that this takes."""
-    if not isinstance(operation, Operation):
-        yield f"{what} give the operations {shown(operation)}; give a tuple of op.Operation"
-        return
+def _operation_faults(what: str, operation: Operation, names: set[str]) -> Iterator[str]:
+    """Say whether an operation has values that its kernel takes."""
     kernel, values = operation.kernel, operation.arguments
-    if not isinstance(kernel, (Kernel, KernelFamily)):
-        yield (
-            f"{what} give op.Operation the kernel {shown(kernel)}; give an "
-            f"optipath.kernels.kernel.Kernel"
-        )
-        return
     to = f"{what} give kernel '{kernel.name}'"
-    if not isinstance(values, (tuple, list)):
-        yield f"{to} the values {shown(values)}; give a tuple"
-        return
     inner = {id(value.operation): value.operation for value in values if type(value) is ResultOf}
     for behind in inner.values():
         yield from _operation_faults(what, behind, names)

@@ -101,10 +101,22 @@ def amplitude_reflection(xp: Primitives) -> KernelFunction:
         second = (m2[0] * c, m2[1] * c)
         rs = ratio(xp, (c - g[0], -g[1]), (c + g[0], g[1]))
         rp = ratio(xp, (second[0] - g[0], second[1] - g[1]), (second[0] + g[0], second[1] + g[1]))
-        Fs, Fp = power(rs), power(rp)
-        return Fs, Fp, 0.5 * (Fs - Fp), *times_conjugate(rs, rp)
+        return _reflected(rs, rp)
 
     return reflect
+
+
+def _reflected(rs: Complex, rp: Complex) -> tuple[Any, ...]:
+    Fs, Fp = power(rs), power(rp)
+    return Fs, Fp, 0.5 * (Fs - Fp), *times_conjugate(rs, rp)
+
+
+def _let_through(xp: Primitives, Ts: Any, Tp: Any, positive: Any, both: Complex) -> tuple[Any, ...]:
+    """Return five numbers with the phase of t_s conj(t_p); one Tp has no rounding below 0."""
+    re, im = both
+    length = xp.sqrt(re * re + im * im)
+    share = xp.sqrt(Ts) * xp.sqrt(positive) / xp.where(length > 0.0, length, 1.0)
+    return Ts, Tp, 0.5 * (Ts - Tp), share * re, share * im
 
 
 def plain_amplitudes(xp: Primitives) -> KernelFunction:
@@ -128,7 +140,7 @@ def amplitude_transmission(xp: Primitives) -> KernelFunction:
     t_s = 2 cos / (cos + g), t_p = 2 m cos / (m^2 cos + g), T_s = |t_s|^2 Re g / cos,
     T_p = |t_p|^2 Re(g conj(m^2)) / (|m|^2 cos), and C + iS has the phase of t_s conj(t_p).
     """
-    waves, sqrt, where = _waves(xp), xp.sqrt, xp.where
+    waves, where = _waves(xp), xp.where
 
     def transmit(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         m, m2, g = waves(n1, n, k, s)
@@ -138,10 +150,7 @@ def amplitude_transmission(xp: Primitives) -> KernelFunction:
         Ts = power(ts) * c * g[0]
         through = times_conjugate(g, m2)[0] / where(size > 0.0, size, 1.0)
         Tp = power(tp) * c * through
-        re, im = times_conjugate(ts, tp)
-        length = sqrt(re * re + im * im)
-        share = sqrt(Ts) * sqrt(xp.maximum(Tp, 0.0)) / where(length > 0.0, length, 1.0)
-        return Ts, Tp, 0.5 * (Ts - Tp), share * re, share * im
+        return _let_through(xp, Ts, Tp, xp.maximum(Tp, 0.0), times_conjugate(ts, tp))
 
     return transmit
 
@@ -197,8 +206,7 @@ def amplitude_inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
         g1, g2, first, second = _absorbing_waves(at)
         rs = ratio(xp, _less(g1, g2), _plus(g1, g2))
         rp = ratio(xp, _less(first, second), _plus(first, second))
-        Fs, Fp = power(rs), power(rp)
-        return Fs, Fp, 0.5 * (Fs - Fp), *times_conjugate(rs, rp)
+        return _reflected(rs, rp)
 
     return reflect
 
@@ -220,7 +228,7 @@ def amplitude_transmission_from_behind(xp: Primitives) -> KernelFunction:
 
 
 def _transmitted(xp: Primitives) -> Any:
-    where, sqrt, maximum = xp.where, xp.sqrt, xp.maximum
+    where, maximum = xp.where, xp.maximum
 
     def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
         g1, g2, first, second = _absorbing_waves(at)
@@ -234,10 +242,7 @@ def _transmitted(xp: Primitives) -> Any:
         there = (g1[0] > 0.0) & (arriving > 0.0)
         Ts = where(there, power(ts) * g2[0] / where(there, g1[0], 1.0), 0.0)
         Tp = where(there, power(tp) * carried / where(there, arriving, 1.0), 0.0)
-        re, im = times_conjugate(ts, tp)
-        length = sqrt(re * re + im * im)
-        share = sqrt(Ts) * sqrt(Tp) / where(length > 0.0, length, 1.0)
-        return Ts, Tp, 0.5 * (Ts - Tp), share * re, share * im
+        return _let_through(xp, Ts, Tp, Tp, times_conjugate(ts, tp))
 
     return transmitted
 
@@ -311,9 +316,9 @@ def _along_p(xp: Primitives) -> Callable[..., tuple[Complex, Complex]]:
         # It vanishes next to a medium of index 0 only: next to the normal, or at grazing incidence.
         sign = where(at.c > at.s, -1.0, 1.0)
         Z = where(there, Z[0], sign), where(there, Z[1], 0.0)
-        return times(rs, Z), times(ts, _let_through(at, u, w, q))
+        return times(rs, Z), times(ts, _share_of_p(at, u, w, q))
 
-    def _let_through(at: InhomogeneousBoundary, u: Any, w: Any, q: Any) -> Complex:
+    def _share_of_p(at: InhomogeneousBoundary, u: Any, w: Any, q: Any) -> Complex:
         """Return m1 m2 / (y^2 + g1 g2)."""
         size = length(at.n, at.k)
         safe = where(size > 0.0, size, 1.0)
