@@ -109,6 +109,8 @@ def values_at(kind: SpectrumKind, wavelengths: Array) -> Array:
 def check_known_at(kind: SpectrumKind | Curve, wavelengths: Array) -> None:
     """Raise where a spectrum is not known. Units: wavelengths in metres."""
     low, high = kind.span
+    if ((wavelengths >= low) & (wavelengths <= high)).all():
+        return
     known = WavelengthRange("wavelength", "length", low, high, label=kind.label, beyond=kind.beyond)
     known.check("a wavelength", wavelengths)
 

@@ -64,6 +64,9 @@ class Tabulated(Curve):
             raise ValueFault(*faults)
         if places[0] > places[-1]:
             places, values = places[::-1].copy(), [column[::-1].copy() for column in values]
+        steps = np.diff(places)
+        edges = np.repeat(places, 2)[:-1]  # Pieces meet at each sample, and halfway to the next.
+        edges[1::2] += 0.5 * steps
         vars(self).update(
             label=label,
             parts=tuple(parts),
@@ -76,8 +79,8 @@ class Tabulated(Curve):
             beyond='ask for extrapolate="nearest" or "linear"',
             unreal="beyond its samples a straight line goes on" * (extrapolate == "linear"),
             _nodes=locked(np.repeat(places, 2)),
-            _edges=locked(_edges(places)),
-            _cubics=tuple([_cubics(places, v, interpolation, extrapolate) for v in values]),
+            _edges=locked(edges),
+            _cubics=tuple([_cubics(places, steps, v, interpolation, extrapolate) for v in values]),
         )
 
     wavelengths: np.ndarray[Any, Any]
@@ -136,30 +139,20 @@ def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
     steps = np.diff(places)
     if (least := float(places.min())) > LONGEST_FIRST:
         return f"the least wavelength of {label} is {too_long(least)}"
+    if (steps > 0.0).all() or (steps < 0.0).all():
+        return ""
     if np.any(same := steps == 0.0):
         twice = float(places[:-1][same][0]) * 1e9
         return f"{label} has the wavelength {twice:.10g} nm twice; give each once"
-    if np.all(steps > 0.0) or np.all(steps < 0.0):
-        return ""
     return (
         f"the wavelengths of {label} neither rise nor fall throughout; sort them, with all that "
         f"belongs to each"
     )
 
 
-def _edges(places: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Return where the pieces meet: at each sample, and halfway to the next one."""
-    edges = np.empty(2 * len(places) - 1)
-    edges[::2] = places
-    edges[1::2] = places[:-1] + 0.5 * np.diff(places)
-    return edges
-
-
-def _cubics(
-    places: np.ndarray[Any, Any], values: np.ndarray[Any, Any], by: str, beyond: str
-) -> tuple[np.ndarray[Any, Any], ...]:
+def _cubics(places: Array, steps: Array, values: Array, by: str, beyond: str) -> tuple[Array, ...]:
     """Return the coefficients of each piece, in steps from its sample: one before, one behind."""
-    steps, count = np.diff(places), len(places)
+    count = len(places)
     slopes, second, third = np.zeros((3, 2 * count))
     before, behind = slice(2, None, 2), slice(1, -1, 2)
     if count > 1:
