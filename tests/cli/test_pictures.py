@@ -32,7 +32,7 @@ def pictures_of(preset):
 def request(preset, kind, case=None, *, x=(), y=None, reads=None, along=None, **values):
     about = Chosen(preset, op.load_preset(preset), case, values, along or {})
     given = {"x": x, "y": y, "detector": None, "reads": reads}
-    return request_of(about, kind, KINDS[kind].counts, **given)
+    return request_of(about, kind, **given)
 
 
 def picture(*given, **values):

@@ -88,7 +88,7 @@ PLOTS = [
     ("--kind poincare --x delta --x rho", "one parameter at most"),
     ("--kind curve --filter none,0,20", "--filter has the word 'none', and an axis"),
     ("--kind bench --rho 30", "the picture 'geometry', which has this path in space"),
-    ("--kind ellipse --delta 0:90:4", "--delta is given several values"),
+    ("--kind ellipse --delta 0:90:4", "--kind ellipse is along no parameter, and --delta varies"),
 ]
 REFUSED += [
     (f"plot npgr026 {line} {'' if '--out' in line else '--out a.png'}", *parts)

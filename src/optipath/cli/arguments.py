@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
+from optipath.cli.options import flag
 from optipath.errors import OptipathError, ParameterError, collecting, shown
 from optipath.sweeps.grid import SweepGrid, sweep_axis
 from optipath.values.files import bytes_of, message_of, write_file
@@ -67,7 +68,7 @@ def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
 def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:
     """Raise where a command is given several values for a parameter, of which it takes one."""
     faults = [
-        f"--{name.replace('_', '-')} is given several values, {shown(texts[name][-1])}, of which "
+        f"{flag(name)} is given several values, {shown(texts[name][-1])}, of which "
         f"{command} takes one; give one, or write 'optipath run' or 'optipath sweep'"
         for name in axes
     ]
@@ -78,8 +79,7 @@ def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable
 def refuse_arrays(path: PathGraph, axes: Collection[str]) -> None:
     """Raise where a path has arrays of its own, whose values would each go with one of an axis."""
     faults = [
-        f"parameter '{name}' has several values in the file; give one by "
-        f"--{name.replace('_', '-')}, or a range"
+        f"parameter '{name}' has several values in the file; give one by {flag(name)}, or a range"
         for name, parameter in (path.parameters.items() if axes else ())
         if name not in axes and isinstance(parameter.default, np.ndarray)
     ]
@@ -105,18 +105,18 @@ def read_text(file: Path) -> str:
     try:
         return bytes_of(file).decode("utf-8")
     except OSError as error:
-        raise click.ClickException(f"'{file}' cannot be read: {error.strerror}") from None
+        raise OptipathError(f"'{file}' cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise click.ClickException(f"'{file}' is no text in UTF-8") from None
+        raise OptipathError(f"'{file}' is no text in UTF-8") from None
 
 
 def check_place(file: Path) -> None:
     """Refuse a file that cannot be written, before the work for it is done."""
     folder = file.absolute().parent
     if not folder.is_dir():
-        raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
+        raise OptipathError(f"'{file}' cannot be written: there is no such folder")
     if not all(os.access(place, os.W_OK) for place in (folder, file) if place.exists()):
-        raise click.ClickException(f"'{file}' cannot be written: permission denied")
+        raise OptipathError(f"'{file}' cannot be written: permission denied")
 
 
 def write(file: Path, content: bytes) -> None:

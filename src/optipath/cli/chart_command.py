@@ -70,23 +70,25 @@ REDRAW = click.Option(
 )
 
 
-def places_near(near: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the places that are asked for."""
-    return NEAR if EVERYWHERE in near else near
-
-
-def option_faults(
-    *, near: tuple[str, ...], engines: tuple[str, ...] = (), quick: bool, peers: Path | None
+def _faults(
+    *,
+    near: tuple[str, ...],
+    quick: bool,
+    peers: Path | None,
+    engines: tuple[str, ...] = (),
+    **_others: Any,
 ) -> list[str]:
     """Return what does not go with ``--near``, a sentence each."""
-    if not near:
-        return []
     arguments = {"--engine": bool(engines), "--quick": quick, "--peers": peers is not None}
     return [
         f"{name} is for times, and --near measures none; leave one of them out"
         for name, is_given in arguments.items()
-        if is_given
+        if is_given and near
     ]
+
+
+def _places(near: tuple[str, ...]) -> tuple[str, ...]:
+    return NEAR if EVERYWHERE in near else near
 
 
 _DOTS = 120.0
@@ -107,24 +109,19 @@ def _chart(
 
     def measure(tell: Tell, keep: Keep) -> Chart:
         # The extra 'chart'.
-        from optipath.lab.chart import FULL, critical_chart, expected, path_chart  # noqa: PLC0415
-        from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab import chart as lab  # noqa: PLC0415
         from optipath.lab.peer_times import check_race  # noqa: PLC0415
 
         if near:
-            return critical_chart(path, title, places_near(near), progress=tell, keep=keep)
+            return lab.critical_chart(path, title, _places(near), progress=tell, keep=keep)
         if peers is not None:
             check_race(read_text(peers), str(peers))
-        effort = LITTLE if quick else FULL
+        effort = lab.QUICK if quick else lab.FULL
         effort = effort._replace(engines=engines) if engines else effort
-        click.echo(expected(effort), err=True)
-        return path_chart(path, title, effort, tell, keep)
+        click.echo(lab.expected(effort), err=True)
+        return lab.path_chart(path, title, effort, tell, keep)
 
     _measure_and_draw(measure, out, data, peers)
-
-
-def _faults(**options: Any) -> list[str]:
-    return option_faults(**{name: options[name] for name in ("near", "engines", "quick", "peers")})
 
 
 def _without_preset(
@@ -156,7 +153,7 @@ def _without_preset(
         raise click.UsageError("--quick and --near say what is measured; leave them out of --from")
     if interface and peers:
         raise click.UsageError("--peers stand beside a path; leave them out of --interface")
-    if faults := option_faults(near=near, quick=quick, peers=peers):
+    if faults := _faults(near=near, quick=quick, peers=peers):
         raise click.UsageError("; ".join(faults))
 
     def measure(tell: Tell, keep: Keep) -> Chart:
@@ -164,14 +161,12 @@ def _without_preset(
             from optipath.lab.chart_file import read_chart  # noqa: PLC0415
 
             return read_chart(read_text(source), str(source))
-        from optipath.lab.chart import FULL, critical_chart, interface_chart  # noqa: PLC0415
-        from optipath.lab.chart import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab import chart as lab  # noqa: PLC0415
 
         if near:
-            return critical_chart(
-                None, "one interface", places_near(near), progress=tell, keep=keep
-            )
-        return interface_chart(LITTLE if quick else FULL, tell, keep)
+            places = _places(near)
+            return lab.critical_chart(None, "one interface", places, progress=tell, keep=keep)
+        return lab.interface_chart(lab.QUICK if quick else lab.FULL, tell, keep)
 
     _measure_and_draw(measure, out, data, peers)
 

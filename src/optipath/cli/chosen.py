@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from optipath.cli.arguments import axis_argument, axis_faults
+from optipath.cli.options import flag
 from optipath.composer.path_values import Values
 from optipath.errors import (
     OptipathError,
@@ -144,7 +145,7 @@ def one_case(command: str, path: PathGraph, cases: Sequence[str]) -> str | None:
 def _once(name: str, several: Sequence[str], faults: list[str]) -> str:
     """Return what is given for a parameter, which is given once."""
     if len(several) > 1:
-        faults.append(f"--{_flag(name)} is given {len(several)} times; give it once")
+        faults.append(f"{flag(name)} is given {len(several)} times; give it once")
     return several[-1]
 
 
@@ -161,7 +162,7 @@ def _value(
         words = path.choices[name].behind
         if text not in words and any(each in text for each in ",:@"):
             faults.append(
-                f"--{_flag(name)} takes one word of {listed([*words])}, and {shown(text)} is "
+                f"{flag(name)} takes one word of {listed([*words])}, and {shown(text)} is "
                 f"several; give one, and write a command for each"
             )
             return None
@@ -171,22 +172,18 @@ def _value(
         if is_material(parameter, text, uses):
             other = extinction_with(uses, name)
             k = _value(path, other, arguments, uses, faults) if other in arguments else None
-            option = f"--{_flag(other)}" if other else ""
+            option = flag(other) if other else ""
             if isinstance(k, AxisValues):
-                faults.append(f"{option} takes one value beside --{_flag(name)} {text}; give one")
+                faults.append(f"{option} takes one value beside {flag(name)} {text}; give one")
             elif k is not None:
                 path.parameters[other].resolve(k)
-            return None if faults else material_named(f"--{_flag(name)}", text, k)
+            return None if faults else material_named(flag(name), text, k)
         if several := axis_argument(parameter, text, uses):
             return several
         # A bare number may be nanometres, micrometres or electronvolts.
         unit = "" if isinstance(parameter, Wavelength) else parameter.unit
-        return single_value(parameter, text, uses, unit, lambda word: f"--{_flag(word)}")
+        return single_value(parameter, text, uses, unit, flag)
     return None
-
-
-def _flag(name: str) -> str:
-    return name.replace("_", "-")
 
 
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:

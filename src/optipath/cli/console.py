@@ -75,11 +75,12 @@ def title(name: str, description: str) -> Text:
     return result.append_text(cell(f": {description}")) if description else result
 
 
-def headed(*headers: str, **keywords: Any) -> Table:
-    """Return a table whose columns have these headers."""
-    made = Table(header_style="bold", **keywords)
-    for header in headers:
-        made.add_column(cell(header))
+def headed(*headers: str, right: int | None = None, **keywords: Any) -> Table:
+    """Return a table whose columns have these headers, flush right from a number of them on."""
+    made = Table(header_style="bold", title_justify="left", title_style="", **keywords)
+    for number, header in enumerate(headers):
+        is_right = right is not None and number >= right
+        made.add_column(cell(header), justify="right" if is_right else "left")
     return made
 
 

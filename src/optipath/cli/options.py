@@ -13,6 +13,20 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 
+def flag(name: str) -> str:
+    """Return the option of a parameter.
+
+    >>> flag("sky_angle"), parameter_name(" --sky-angle")
+    ('--sky-angle', 'sky_angle')
+    """
+    return f"--{name.replace('_', '-')}"
+
+
+def parameter_name(option: str) -> str:
+    """Return the parameter of an option, with hyphens before and within it or without."""
+    return option.strip().lstrip("-").replace("-", "_")
+
+
 class StrictCommand(click.Command):
     """A command that says what was meant by options and words for which there is no place."""
 

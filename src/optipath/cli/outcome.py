@@ -350,9 +350,7 @@ def point_table(
     """Return a table with a row for each point of a grid."""
     columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
     columns += [heading(each.printed, each.shown_unit) for each in quantities]
-    table = headed(*columns, box=None, title=cell(title), title_justify="left", title_style="")
-    for column in table.columns:
-        column.justify = "right"
+    table = headed(*columns, right=0, box=None, title=cell(title))
     more = [each.shown_of(light) for each in quantities]
     for index in islice(np.ndindex(grid.shape), MOST_ROWS):
         values = _values_at(grid, index, numbers.digits)
@@ -368,11 +366,7 @@ def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> 
     down, across = grid.axes
     heads = [printed_value(value, numbers.digits) for value in across.shown.tolist()]
     corner = f"{heading(down.name, down.unit)} \\ {heading(across.name, across.unit)}"
-    table = headed(
-        corner, *heads, box=None, title=cell(title), title_justify="left", title_style=""
-    )
-    for column in table.columns:
-        column.justify = "right"
+    table = headed(corner, *heads, right=0, box=None, title=cell(title))
     for row, value in enumerate(down.shown.tolist()):
         texts = [numbers.stokes(light, (row, place))[0] for place in range(len(across))]
         table.add_row(*map(cell, (printed_value(value, numbers.digits), *texts)))

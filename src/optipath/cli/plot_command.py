@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
-from optipath.cli.arguments import NewFile, check_place, refuse_arrays
+from optipath.cli.arguments import NewFile, check_place
 from optipath.cli.console import say
+from optipath.cli.options import flag, parameter_name
 from optipath.cli.preset_command import READS, PresetGroup
-from optipath.errors import OptipathError, ParameterError, listed, shown, unknown
+from optipath.errors import ParameterError, collecting, listed, shown, unknown
 from optipath.materials.named_materials import WAVELENGTH, materials_among
 from optipath.paths.files.presets import preset_of_case
 from optipath.values.files import check_form
@@ -55,7 +56,6 @@ class PlotRequest:
 def request_of(
     chosen: Chosen,
     kind: str,
-    counts: range,
     *,
     x: Sequence[str],
     y: str | None,
@@ -63,16 +63,20 @@ def request_of(
     reads: str | None,
 ) -> PlotRequest:
     """Return what a command line asks for."""
-    names = [name.strip().lstrip("-").replace("-", "_") for name in x]
+    names = [parameter_name(name) for name in x]
     axes = {name: chosen.axes.get(name) for name in [*names, *chosen.axes]}
     quantities = tuple(["S0"] if y is None else [name.strip() for name in y.split(",")])
-    path = _opened(chosen, reads)
-    refuse_arrays(path, axes)
+    opened = chosen.opened
+    if chosen.case is not None:
+        opened = preset_of_case(opened, chosen.preset, chosen.case)
+    # All that nobody has given stays open.
+    path = replace(chosen, opened=opened, case=None).path(reads)
     plan = path.compose()
-    ends, faults = _ends(plan, detector)
+    known, (detectors, dumps) = [*plan.inputs.open], (plan.program.detectors, plan.program.dumps)
+    faults = [] if detector is None else unknown("detector", detector, [*detectors, *dumps])
     faults += _array_faults(plan)
-    faults += _name_faults(chosen, names, [*plan.inputs.open])
-    faults += _count_faults(kind, counts, axes, [*plan.inputs.open])
+    faults += _axis_faults(chosen, names, known)
+    faults += _count_faults(kind, axes, known)
     if len(axes) > 1 and len(quantities) > 1:
         faults.append(f"a map is of one quantity, and --y names {len(quantities)}; give one")
     if detector is not None and kind == "poincare" and not axes:
@@ -82,25 +86,11 @@ def request_of(
         )
     if faults:
         raise ParameterError(*faults)
+    ends = (*(detectors or dumps),) if detector is None else (detector,)
     changed = bool(chosen.values or chosen.axes or reads)
     published = {} if changed or chosen.case is None else path.cases[chosen.case].published
     title = title_of(chosen, reads=reads, at=detector)
     return PlotRequest(kind, title, path, axes, quantities, ends, published)
-
-
-def _opened(chosen: Chosen, reads: str | None) -> PathGraph:
-    """Return the path, in which all that nobody has given stays open."""
-    opened = chosen.opened
-    if chosen.case is not None:
-        opened = preset_of_case(opened, chosen.preset, chosen.case)
-    return replace(chosen, opened=opened, case=None).path(reads)
-
-
-def _ends(plan: Plan, detector: str | None) -> tuple[tuple[str, ...], list[str]]:
-    detectors, dumps = ([*names] for names in (plan.program.detectors, plan.program.dumps))
-    if detector is None:
-        return (*(detectors or dumps),), []
-    return (detector,), unknown("detector", detector, [*detectors, *dumps])
 
 
 def _array_faults(plan: Plan) -> list[str]:
@@ -108,65 +98,56 @@ def _array_faults(plan: Plan) -> list[str]:
     inputs = plan.inputs
     return [
         f"parameter '{name}' has several values in the file, and a picture is of one; give one by "
-        f"--{name.replace('_', '-')}"
+        f"{flag(name)}"
         for name, parameter in {**inputs.open, **inputs.bound}.items()
         if isinstance(parameter.default, np.ndarray)
         and parameter.default.ndim > len(inputs.tails.get(name, ()))
     ]
 
 
-def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
-    """Return what is wrong with the names of what varies, a sentence each."""
+def _axis_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
+    """Return what is wrong with what varies, a sentence each."""
     faults = []
     for name in dict.fromkeys(names):
-        flag = f"--{name.replace('_', '-')}"
         if names.count(name) > 1:
             faults.append(f"--x {name} is given {names.count(name)} times; give it once")
         if name in chosen.opened.choices:
-            faults.append(f"--x {name} is a place, of which no axis has several; give {flag} WORD")
+            faults.append(
+                f"--x {name} is a place, of which no axis has several; give {flag(name)} WORD"
+            )
         elif name in chosen.values:
-            faults.append(f"--x {name} varies what {flag} gives one value; leave one of them out")
+            faults.append(
+                f"--x {name} varies what {flag(name)} gives one value; leave one of them out"
+            )
         else:
             faults += unknown("--x", name, known)
     for name, values in chosen.axes.items():
-        flag = f"--{name.replace('_', '-')}"
         if values.shown.dtype.kind == "U":
             word = next(one for one in values.shown.tolist() if one[:1].isalpha())
             faults.append(
-                f"{flag} has the word {shown(word)}, and an axis is of numbers; leave it out"
+                f"{flag(name)} has the word {shown(word)}, and an axis is of numbers; leave it out"
             )
         if name not in known:
             faults.append(
-                f"{flag} is given several values, and nothing depends on it; leave it out"
+                f"{flag(name)} is given several values, and nothing depends on it; leave it out"
             )
     return faults
 
 
-def _count_faults(
-    kind: str, counts: range, axes: Collection[str], known: Sequence[str]
-) -> list[str]:
+_AT_MOST = "no parameter", "one parameter at most", "two parameters at most"
+
+
+def _count_faults(kind: str, axes: Collection[str], known: Sequence[str]) -> list[str]:
     """Return what is wrong with how many parameters vary, a sentence each."""
-    faults = []
-    flags = [f"--{name.replace('_', '-')}" for name in axes]
+    counts = KINDS[kind].counts
     if len(axes) > counts[-1]:
-        if not counts[-1]:
-            faults.append(
-                f"{listed(flags)} {'is' if len(flags) == 1 else 'are'} given several values, and "
-                f"--kind {kind} is of one; give one, or write --kind curve or poincare"
-            )
-            return faults
-        most = "two parameters" if counts[-1] > 1 else "one parameter"
-        faults.append(
-            f"--kind {kind} is along {most} at most, and {listed(flags)} vary; give one value of "
-            f"the others"
-        )
-    if len(axes) < counts[0]:
-        example = next(iter(known), "NAME").replace("_", "-")
-        faults.append(
-            f"--kind {kind} is along a parameter; name it, --x {example}, or give it several "
-            f"values, --{example} START:STOP:COUNT"
-        )
-    return faults
+        vary = f"{listed([flag(name) for name in axes])} var{'ies' if len(axes) == 1 else 'y'}"
+        return [f"--kind {kind} is along {_AT_MOST[counts[-1]]}, and {vary}; give one value"]
+    if len(axes) >= counts[0]:
+        return []
+    example = flag(next(iter(known), "NAME"))
+    ways = f"name it, --x {example[2:]}, or give it several values, {example} START:STOP:COUNT"
+    return [f"--kind {kind} is along a parameter; {ways}"]
 
 
 class PlotKind(NamedTuple):
@@ -264,26 +245,22 @@ def _texts(values: AxisValues | None) -> Any:
     return [f"{number} {values.unit}" for number in values.shown.tolist()]
 
 
-def _of_path(kind: str) -> Callable[[PlotRequest], Any]:
-    """Return what draws a picture of the path alone."""
+def _of_path(request: PlotRequest) -> Any:
+    """Draw a picture of the path alone."""
+    from optipath import plots  # noqa: PLC0415 - an extra
 
-    def draw(request: PlotRequest) -> Any:
-        from optipath import plots  # noqa: PLC0415 - an extra
-
-        return getattr(plots, kind)(request.path)
-
-    return draw
+    return getattr(plots, request.kind)(request.path)
 
 
 KINDS = {
     "ellipse": PlotKind(_ellipse, ("detector",)),
     "poincare": PlotKind(_poincare, ("x", "detector"), range(2)),
     "stokes": PlotKind(_stokes, ("detector",)),
-    "geometry": PlotKind(_of_path("geometry")),
-    "bench": PlotKind(_of_path("bench")),
+    "geometry": PlotKind(_of_path),
+    "bench": PlotKind(_of_path),
     "curve": PlotKind(_curve, ("x", "y", "detector"), range(1, 3)),
     "mueller": PlotKind(_mueller, ("detector",)),
-    "energy": PlotKind(_of_path("energy")),
+    "energy": PlotKind(_of_path),
 }
 
 
@@ -318,33 +295,27 @@ def _plot(chosen: Chosen, *, kind: str, out: Path, **requests: Any) -> None:
     # Before anything is computed: it tells whether what draws is there.
     from optipath.plots import save  # noqa: PLC0415 - an extra
 
-    save(drawn(request_of(chosen, kind, KINDS[kind].counts, **requests)), out)
+    save(drawn(request_of(chosen, kind, **requests)), out)
     say(f"wrote {out}")
 
 
 def _faults(*, kind: str | None, out: Path | None, **requests: Any) -> list[str]:
-    faults = _kind_faults(kind, requests)
+    faults = []
+    if kind is None:
+        faults.append(f"--kind is missing; say what is drawn, one of {', '.join(KINDS)}")
+    else:
+        for option in sorted({"x", "y", "detector"}.difference(KINDS[kind].takes)):
+            if requests[option] not in (None, ()):
+                takers = " or ".join([name for name, one in KINDS.items() if option in one.takes])
+                faults.append(
+                    f"--{option} is of {takers}, and --kind {kind} has none; leave it out"
+                )
     if out is None:
         return [*faults, "--out is missing, and a picture is drawn into a file; add --out plot.png"]
-    try:
+    with collecting(faults):
         check_form(out)
         check_place(out)
-    except OptipathError as error:
-        faults += error.faults
-    except click.ClickException as error:
-        faults.append(error.format_message())
     return faults
-
-
-def _kind_faults(kind: str | None, requests: Mapping[str, Any]) -> list[str]:
-    if kind is None:
-        return [f"--kind is missing; say what is drawn, one of {', '.join(KINDS)}"]
-    return [
-        f"--{option} is of {' or '.join(takers)}, and --kind {kind} has none; leave it out"
-        for option in ("x", "y", "detector")
-        if requests[option] not in (None, ()) and option not in KINDS[kind].takes
-        for takers in [[name for name, one in KINDS.items() if option in one.takes]]
-    ]
 
 
 plot = PresetGroup("plot", _plot, (KIND, X, Y, DETECTOR, READS, OUT), ranges=True, faults=_faults)
@@ -376,14 +347,14 @@ def title_of(chosen: Chosen, **others: str | None) -> str:
     'npgr026, case 8, delta 30 deg, reads intensity'
     """
     labels = {name: label for name, label, _ in materials_among(chosen.values)}
-    messages = [chosen.title]
+    texts: dict[str, Any] = {}
     for name, value in chosen.values.items():
         parameter = chosen.opened.parameters.get(name, WAVELENGTH)
         if isinstance(value, float):
-            text = displayed(value, parameter.unit)
+            texts[name] = displayed(value, parameter.unit)
         elif name in labels or isinstance(value, str):
-            text = labels.get(name, value)
+            texts[name] = labels.get(name, value)
         else:
-            text = parameter.text(value)
-        messages.append(f"{name} {text}")
-    return ", ".join([*messages, *(f"{name} {text}" for name, text in others.items() if text)])
+            texts[name] = parameter.text(value)
+    named = [f"{name} {text}" for name, text in {**texts, **others}.items() if text]
+    return ", ".join([chosen.title, *named])

@@ -9,7 +9,7 @@ import click
 from optipath.cli.arguments import RANGES, refuse_axes
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
-from optipath.cli.options import StrictCommand, WholeHelp
+from optipath.cli.options import StrictCommand, WholeHelp, flag
 from optipath.composer.composer import CHOICES
 from optipath.errors import PresetError, printable
 from optipath.kernels.catalog import METHODS
@@ -88,7 +88,7 @@ class PresetGroup(WholeHelp):
         path = load_preset(cmd_name)
         parameters = path.parameters
         names = {option.name or "" for option in self.options}
-        flags = {flag.lstrip("-") for option in self.options for flag in option.opts}
+        flags = {each.lstrip("-") for option in self.options for each in option.opts}
         if taken := sorted({*parameters, *path.choices} & {*names, *flags, "case", "help", "h"}):
             raise PresetError(
                 f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
@@ -152,10 +152,9 @@ def _refuse_none() -> None:
 def _option(parameter: Parameter) -> click.Option:
     words = f"words: {', '.join(parameter.all_words)}" if parameter.all_words else ""
     hints = [parameter.help, words, f"[{parameter.default_text()}]"]
-    flag = "--" + parameter.name.replace("_", "-")
     of_light = isinstance(parameter, Wavelength)  # In one of several kinds of units.
     return click.Option(
-        [flag, parameter.name],
+        [flag(parameter.name), parameter.name],
         multiple=True,
         metavar="'516 nm'" if of_light else (parameter.unit or "number").upper(),
         help=printable("; ".join(h for h in hints if h)),
@@ -164,6 +163,5 @@ def _option(parameter: Parameter) -> click.Option:
 
 def _place(name: str, choice: PlaceChoice, path: PathGraph) -> click.Option:
     hints = [choice.help, f"words: {', '.join(choice.behind)}", f"[{choice.place(path.graph)}]"]
-    flag = "--" + name.replace("_", "-")
     described = printable("; ".join(hint for hint in hints if hint))
-    return click.Option([flag, name], multiple=True, metavar="WORD", help=described)
+    return click.Option([flag(name), name], multiple=True, metavar="WORD", help=described)

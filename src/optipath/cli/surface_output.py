@@ -171,9 +171,7 @@ def _tables(models: Sequence[EnergyShares], place: tuple[int, ...]) -> Iterator[
 
 
 def _table(corner: str, labels: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
-    table = headed(corner, *_MODELS, box=None)
-    for column in table.columns[1:]:
-        column.justify = "right"
+    table = headed(corner, *_MODELS, right=1, box=None)
     for label, row in zip(labels, rows, strict=True):
         table.add_row(*map(cell, (label, *row)))
     return table

@@ -13,6 +13,7 @@ import numpy as np
 
 from optipath.cli.arguments import refuse_arrays, write
 from optipath.cli.console import DIGITS, PlainConsole, cell, headed, progress_bar, say, say_json
+from optipath.cli.options import flag, parameter_name
 from optipath.cli.outcome import (
     MOST_ROWS,
     outcome_as_json,
@@ -34,7 +35,7 @@ from optipath.values.columns import columns_of
 from optipath.values.files import message_of, written_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from rich.table import Table
 
@@ -72,53 +73,22 @@ OUT = click.Option(
 )
 SWEEPING = (ZIP, COORDS, CHUNKS, SCHEDULER, OUT)
 
-TEXTS, BLOCKS = (".csv", ".json"), (".nc", ".zarr")
+_TEXTS, _BLOCKS = (".csv", ".json"), (".nc", ".zarr")
 """Endings of what the command writes itself, and of what is computed and written by blocks."""
-
-_SCHEDULERS = ("threads", "processes", "synchronous")
-
-
-def ending_of(out: str) -> str:
-    """Return the ending of a file, which says in which form it is written.
-
-    >>> ending_of("result.csv"), ending_of("result.zarr/")
-    ('.csv', '.zarr')
-    """
-    return Path(out).suffix
-
-
-def is_of_blocks(out: str | None) -> bool:
-    """Tell whether a file is written block by block, by its ending."""
-    return out is not None and ending_of(out) in BLOCKS
-
-
-def chunks_of(chunks: str | None) -> int | str | None:
-    """Return what ``chunks=`` of a sweep is given for what stands behind the option."""
-    return int(chunks) if chunks and chunks.isdecimal() else chunks
 
 
 def zip_groups(
     zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
-) -> dict[str, tuple[str, ...]]:
+) -> list[tuple[str, ...]]:
     """Return the parameters of each group that varies together, by what was written.
 
-    >>> zip_groups(["sky-angle, theta"])
-    {'sky-angle, theta': ('sky_angle', 'theta')}
+    >>> zip_groups(["sky-angle, --theta"])
+    [('sky_angle', 'theta')]
     """
-    return {names: tuple(filter(None, map(_parameter, names.split(",")))) for names in zip}
+    return [tuple(filter(None, map(parameter_name, names.split(",")))) for names in zip]
 
 
-def _parameter(option: str) -> str:
-    """Return the parameter of an option, with hyphens before and within it or without."""
-    return option.strip().lstrip("-").replace("-", "_")
-
-
-def coords_names(coords: str | None) -> list[str]:
-    """Return the parameters that a file has columns of."""
-    return [column.name for column in columns_of(coords)] if coords is not None else []
-
-
-def option_faults(
+def _faults(
     *,
     as_json: bool,
     out: str | None,
@@ -133,23 +103,13 @@ def option_faults(
         faults.append("--json prints what --out writes into a file; give one of them")
     faults += [
         f"--zip {shown(names)} names fewer than two parameters; write --zip NAME,NAME"
-        for names, group in zip_groups(zip).items()
-        if len(group) < 2
+        for names in zip
+        if len(zip_groups([names])[0]) < 2
     ]
-    if chunks is not None and chunks != "auto" and not (chunks.isdecimal() and int(chunks)):
+    idle = [name for name, value in (("--chunks", chunks), ("--scheduler", scheduler)) if value]
+    if idle and (out is None or Path(out).suffix not in _BLOCKS):
         faults.append(
-            f"--chunks {shown(chunks)} is no size of a block; write 'auto', or how many values "
-            f"along each axis, such as 1000"
-        )
-    if scheduler is not None and scheduler not in _SCHEDULERS and "://" not in scheduler:
-        faults.append(
-            f"--scheduler {shown(scheduler)} is unknown; write {', '.join(_SCHEDULERS)}, or the "
-            f"address of a cluster, such as tcp://127.0.0.1:8786"
-        )
-    idle = {"--chunks": chunks, "--scheduler": scheduler}
-    if not is_of_blocks(out) and (argument := [name for name, value in idle.items() if value]):
-        faults.append(
-            f"{listed(argument)} belong{'s' * (len(argument) == 1)} to a sweep that is written by "
+            f"{listed(idle)} belong{'s' * (len(idle) == 1)} to a sweep that is written by "
             f"blocks; add --out FILE.zarr or FILE.nc, or leave it out"
         )
     return faults
@@ -161,20 +121,17 @@ def out_faults(out: str) -> list[str]:
     >>> out_faults("result.txt")
     ["--out 'result.txt' has no ending of a sweep; write 'result.csv', .json, .nc or .zarr"]
     """
-    file = Path(out)
-    if not out or "\0" in out:
-        return [f"--out {shown(out)} is no name of a file; write one such as 'result.csv'"]
-    suffix = ending_of(out)
-    if suffix not in (*TEXTS, *BLOCKS):
-        meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
-        return [f"--out {shown(out)} has no ending of a sweep; write {meant}, .json, .nc or .zarr"]
+    file, name = Path(out), f"--out {shown(out)}"
     folder = file.absolute().parent
+    if "\0" in out or file.suffix not in (*_TEXTS, *_BLOCKS):
+        meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
+        return [f"{name} has no ending of a sweep; write {meant}, .json, .nc or .zarr"]
     if not folder.is_dir():
-        return [f"--out {shown(out)} cannot be written: there is no folder {shown(str(folder))}"]
-    if suffix in TEXTS and (file.exists() or file.is_symlink()):
-        return [f"--out {shown(out)} is there already, and stays; name another file, or remove it"]
+        return [f"{name} cannot be written: there is no folder {shown(str(folder))}"]
+    if file.suffix in _TEXTS and (file.exists() or file.is_symlink()):
+        return [f"{name} is there already, and stays; name another file, or remove it"]
     if not os.access(folder, os.W_OK):
-        return [f"--out {shown(out)} cannot be written: permission denied"]
+        return [f"{name} cannot be written: permission denied"]
     return []
 
 
@@ -192,36 +149,41 @@ def _sweep(
     **options: Any,
 ) -> None:
     """Trace the light of a preset, or of a TOML file, for every combination of some values."""
-    other = coords_names(coords)
+    other = [] if coords is None else [column.name for column in columns_of(coords)]
     if twice := [name for name in other if name in chosen.values]:
-        flags = listed([f"--{name.replace('_', '-')}" for name in twice])
+        flags = listed([flag(name) for name in twice])
         raise ParameterError(f"{flags} and --coords both give values; leave one of them out")
     path = chosen.path(reads, other)
     refuse_arrays(path, [*chosen.axes, *other])
     composer = Composer(**options)
     plan = composer.compose(path)
-    together = [*zip_groups(zip).values()]
+    together = zip_groups(zip)
     grid = grid_of(plan.inputs, chosen.axes, together, coords)
     if not grid.axes:
-        raise ParameterError(_no_axis(plan.inputs.open))
-    if out is not None and is_of_blocks(out):
+        ways = [f"{flag(name)} START:STOP:COUNT" for name in plan.inputs.open][:1]
+        raise ParameterError(
+            f"a sweep has an axis at least; give {' or '.join([*ways, '--coords FILE.csv'])}, or "
+            f"write 'optipath run' for single values"
+        )
+    ending = "" if out is None else Path(out).suffix
+    if out is not None and ending in _BLOCKS:
         with block_bar(out) as progress:
             path.sweep(
                 zip=together,
                 coords=coords,
-                chunks=chunks_of(chunks),
+                chunks=int(chunks) if chunks and chunks.isdecimal() else chunks,
                 store=out,
                 scheduler=scheduler,
                 progress=progress,
                 composer=composer,
                 **chosen.axes,
             )
-    elif out is not None and ending_of(out) == ".csv":
+    elif out is not None and ending == ".csv":
         write_csv(Path(out), plan, grid)
     else:
         outcome = outcome_of(chosen, path, plan, grid)
         if out is not None:
-            write_json(Path(out), outcome)
+            write(Path(out), json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
         elif as_json:
             say_json(outcome_as_json(outcome))
         else:
@@ -230,22 +192,7 @@ def _sweep(
         say(f"wrote {out}: {sizes_text(grid)}")
 
 
-def _no_axis(known: Iterable[str]) -> str:
-    flags = [f"--{name.replace('_', '-')} START:STOP:COUNT" for name in known][:1]
-    argument = " or ".join([*flags, "--coords FILE.csv"])
-    return (
-        f"a sweep has an axis at least; give {argument}, or write 'optipath run' for single values"
-    )
-
-
-sweep = PresetGroup(
-    "sweep", _sweep, (*COMPOSING, DIGITS, *SWEEPING), ranges=True, faults=option_faults
-)
-
-
-def write_json(file: Path, outcome: Outcome) -> None:
-    """Write all that a run has found as one JSON object."""
-    write(file, json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
+sweep = PresetGroup("sweep", _sweep, (*COMPOSING, DIGITS, *SWEEPING), ranges=True, faults=_faults)
 
 
 def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
@@ -268,12 +215,11 @@ def print_sweep(outcome: Outcome, digits: int) -> None:
     """Print the light of a sweep, as far as it fits; the rest is for a file."""
     console, numbers = PlainConsole(), Numbers(digits)
     print_arguments(console, outcome, numbers)
-    grid = outcome.grid
+    grid, lights = outcome.grid, outcome.lights.items()
     is_line = len(grid.shape) == 1
     is_plane = len(grid.axes) == len(grid.shape) == 2
     if is_plane and grid.shape[0] <= MOST_ROWS and grid.shape[1] <= _MOST_COLUMNS:
-        titles = {f"S0 at {name}": light for name, light in outcome.lights.items()}
-        tables = [plane_table(title, light, grid, numbers) for title, light in titles.items()]
+        tables = [plane_table(f"S0 at {name}", light, grid, numbers) for name, light in lights]
     elif is_line or grid.points <= MOST_ROWS:
         tables = [_point_table(console, outcome, name, numbers) for name in outcome.lights]
     else:
@@ -306,9 +252,7 @@ def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Nu
 def _summary(outcome: Outcome, numbers: Numbers) -> Table:
     """Return how many points there are, and between which values S0 lies."""
     about = cell(sizes_text(outcome.grid))
-    table = headed("", "least S0", "largest S0", box=None, title=about, title_justify="left")
-    for column in table.columns[1:]:
-        column.justify = "right"
+    table = headed("", "least S0", "largest S0", box=None, title=about, right=1)
     for name, light in outcome.lights.items():
         known = light.intensity[np.isfinite(light.intensity)]
         ends = [float(find(known)) if known.size else np.nan for find in (np.min, np.max)]
